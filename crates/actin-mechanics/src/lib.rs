@@ -1,0 +1,47 @@
+//! Points, frames, loads and rotations: the mechanics that monomers, rods and junctions share.
+//!
+//! Two kinds of degree of freedom cover everything that moves. A **point** has a position, a
+//! velocity and an inverse mass. A **frame** has an orientation (body to lab), a body angular
+//! momentum and an inverse inertia; every frame is a symmetric top. A [`State`] holds both as
+//! structures of arrays. An [`Interaction`] adds its [`Loads`]: forces in the lab frame, torques
+//! in the body frame. A [`System`] is a state with its interactions, and offers itself to
+//! integrators as a [`Split`] into drift and kick.
+//!
+//! This crate knows nothing of what the points and frames stand for.
+//!
+//! Units are whatever the caller keeps consistent; the crates above use nm, pN and ns.
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+mod frames;
+mod inertia;
+mod interaction;
+mod load;
+mod loads;
+mod points;
+mod quaternions;
+pub mod rotation;
+mod state;
+mod system;
+pub mod testing;
+mod vectors;
+
+pub use frames::{Frame, Frames};
+pub use inertia::{Axis, Inertia, InertiaError};
+pub use interaction::Interaction;
+pub use load::PointLoad;
+pub use loads::Loads;
+pub use points::{Point, Points};
+pub use quaternions::Quaternions;
+pub use state::State;
+pub use system::{Split, System};
+pub use vectors::Vectors;
+
+/// A vector of three components.
+pub type Vector3 = nalgebra::Vector3<f64>;
+/// A matrix of three rows and columns.
+pub type Matrix3 = nalgebra::Matrix3<f64>;
+/// A rotation, body to lab, as a unit quaternion.
+pub type UnitQuaternion = nalgebra::UnitQuaternion<f64>;

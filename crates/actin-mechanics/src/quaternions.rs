@@ -1,0 +1,57 @@
+//! Many unit quaternions, stored component by component.
+
+use crate::UnitQuaternion;
+use nalgebra::{Quaternion, Unit};
+
+/// `n` unit quaternions (body to lab) as four arrays, scalar part first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Quaternions {
+    /// Scalar parts.
+    pub w: Vec<f64>,
+    /// First imaginary parts.
+    pub x: Vec<f64>,
+    /// Second imaginary parts.
+    pub y: Vec<f64>,
+    /// Third imaginary parts.
+    pub z: Vec<f64>,
+}
+
+impl Quaternions {
+    /// Number of quaternions.
+    pub fn len(&self) -> usize {
+        self.w.len()
+    }
+
+    /// Whether there is no quaternion at all.
+    pub fn is_empty(&self) -> bool {
+        self.w.is_empty()
+    }
+
+    /// Quaternion `i`, taken as it is stored (unit length to round-off).
+    #[inline]
+    pub fn get(&self, i: usize) -> UnitQuaternion {
+        Unit::new_unchecked(Quaternion::new(self.w[i], self.x[i], self.y[i], self.z[i]))
+    }
+
+    /// Replaces quaternion `i`.
+    #[inline]
+    pub fn set(&mut self, i: usize, q: UnitQuaternion) {
+        self.w[i] = q.w;
+        self.x[i] = q.i;
+        self.y[i] = q.j;
+        self.z[i] = q.k;
+    }
+
+    /// Appends a quaternion.
+    pub fn push(&mut self, q: UnitQuaternion) {
+        self.w.push(q.w);
+        self.x.push(q.i);
+        self.y.push(q.j);
+        self.z.push(q.k);
+    }
+
+    /// The quaternions in order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = UnitQuaternion> + '_ {
+        (0..self.len()).map(|i| self.get(i))
+    }
+}

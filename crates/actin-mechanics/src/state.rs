@@ -1,0 +1,53 @@
+//! The state of everything that moves.
+
+use crate::{Frames, Points};
+
+/// Points, frames and controls.
+///
+/// Points and frames stand in filament order, each kind in arrays of its own.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct State {
+    /// Positions with masses.
+    pub points: Points,
+    /// Orientations with inertias.
+    pub frames: Frames,
+    /// What is set from outside: load factors, by the index that a load was built with.
+    pub controls: Vec<f64>,
+}
+
+impl State {
+    /// Kinetic energy of the free bodies.
+    pub fn kinetic_energy(&self) -> f64 {
+        self.points.kinetic_energy() + self.frames.kinetic_energy()
+    }
+
+    /// Whether every position, velocity, orientation and angular momentum is finite.
+    pub fn is_finite(&self) -> bool {
+        let q = &self.frames.orientation;
+        let vectors = [
+            &self.points.position,
+            &self.points.velocity,
+            &self.frames.angular_momentum,
+        ];
+        vectors
+            .iter()
+            .flat_map(|v| [&v.x, &v.y, &v.z])
+            .chain([&q.w, &q.x, &q.y, &q.z])
+            .flatten()
+            .all(|c| c.is_finite())
+    }
+
+    /// Stops every free body; held bodies keep their prescribed motion.
+    pub fn stop(&mut self) {
+        for i in 0..self.points.len() {
+            if self.points.is_free(i) {
+                self.points.velocity.set(i, crate::Vector3::zeros());
+            }
+        }
+        for i in 0..self.frames.len() {
+            if self.frames.is_free(i) {
+                self.frames.angular_momentum.set(i, crate::Vector3::zeros());
+            }
+        }
+    }
+}

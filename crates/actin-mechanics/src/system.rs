@@ -1,0 +1,139 @@
+//! A state with its interactions, split into drift and kick.
+
+use crate::{Interaction, Loads, State};
+
+/// What an integrator may do to a system: nothing else is visible to it.
+pub trait Split {
+    /// Moves everything freely for a time `h` (which may be negative).
+    fn drift(&mut self, h: f64);
+
+    /// Applies the loads at the present positions for a time `h` (which may be negative).
+    fn kick(&mut self, h: f64);
+
+    /// Multiplies velocities by `translational` and angular momenta by `rotational`.
+    fn damp(&mut self, translational: f64, rotational: f64);
+
+    /// How often the loads have been evaluated so far.
+    fn force_evaluations(&self) -> u64;
+}
+
+/// A state, the interactions that act on it, and their loads.
+///
+/// Loads are evaluated when first needed after the positions have changed, so that two kicks
+/// with no drift between them cost one evaluation.
+#[derive(Debug)]
+pub struct System {
+    state: State,
+    interactions: Vec<Box<dyn Interaction>>,
+    loads: Loads,
+    loads_are_current: bool,
+    force_evaluations: u64,
+}
+
+impl System {
+    /// A system; nothing is evaluated yet.
+    pub fn new(state: State, interactions: Vec<Box<dyn Interaction>>) -> Self {
+        let loads = Loads::zeros(&state);
+        Self {
+            state,
+            interactions,
+            loads,
+            loads_are_current: false,
+            force_evaluations: 0,
+        }
+    }
+
+    /// The present state.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The present state, to be changed from outside.
+    pub fn state_mut(&mut self) -> &mut State {
+        self.loads_are_current = false;
+        &mut self.state
+    }
+
+    /// The interactions.
+    pub fn interactions(&self) -> &[Box<dyn Interaction>] {
+        &self.interactions
+    }
+
+    /// The loads at the present positions.
+    pub fn loads(&mut self) -> &Loads {
+        if !self.loads_are_current {
+            self.loads.clear();
+            for interaction in &self.interactions {
+                interaction.add_loads(&self.state, &mut self.loads);
+            }
+            self.force_evaluations += 1;
+            self.loads_are_current = true;
+        }
+        &self.loads
+    }
+
+    /// Largest norm of a force on a free point and of a torque on a free frame.
+    pub fn residual(&mut self) -> (f64, f64) {
+        self.loads();
+        self.loads.residual(&self.state)
+    }
+
+    /// Energy of each interaction, in order.
+    pub fn energies(&self) -> Vec<f64> {
+        self.interactions
+            .iter()
+            .map(|interaction| interaction.energy(&self.state))
+            .collect()
+    }
+
+    /// Sum of the energies of all interactions.
+    pub fn potential_energy(&self) -> f64 {
+        self.energies().iter().sum()
+    }
+
+    /// Potential and kinetic energy.
+    pub fn total_energy(&self) -> f64 {
+        self.potential_energy() + self.state.kinetic_energy()
+    }
+}
+
+impl Split for System {
+    fn drift(&mut self, h: f64) {
+        self.loads_are_current = false;
+        self.state.points.drift(h);
+        self.state.frames.drift(h);
+    }
+
+    fn kick(&mut self, h: f64) {
+        self.loads();
+        self.state.points.kick(&self.loads.force, h);
+        self.state.frames.kick(&self.loads.torque, h);
+    }
+
+    fn damp(&mut self, translational: f64, rotational: f64) {
+        // Prescribed motion of held bodies is not damped: it is zero or driven.
+        damp_free(&mut self.state, translational, rotational);
+    }
+
+    fn force_evaluations(&self) -> u64 {
+        self.force_evaluations
+    }
+}
+
+/// Scales the motion of the free bodies.
+fn damp_free(state: &mut State, translational: f64, rotational: f64) {
+    let points = &mut state.points;
+    for i in 0..points.len() {
+        if points.is_free(i) {
+            let v = points.velocity.get(i);
+            points.velocity.set(i, v * translational);
+        }
+    }
+    let frames = &mut state.frames;
+    for i in 0..frames.len() {
+        if frames.is_free(i) {
+            let l = frames.angular_momentum.get(i);
+            frames.angular_momentum.set(i, l * rotational);
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! Arguments that every interaction's tests use: gradient, balance, invariance.
+//!
+//! These are public so that the crates above, and users with interactions of their own, can make
+//! the same arguments.
+
+use crate::{Interaction, Loads, State, Vector3, rotation};
+
+/// A cheap, portable source of numbers in [-1, 1) for tests.
+#[derive(Clone, Debug)]
+pub struct Noise(u64);
+
+impl Noise {
+    /// A source that always gives the same numbers for the same seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0xD1B5_4A32_D192_ED03)
+    }
+
+    /// The next number (xorshift64*).
+    pub fn sample(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        let bits = self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11;
+        bits as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// A vector of three such numbers.
+    pub fn vector(&mut self) -> Vector3 {
+        Vector3::new(self.sample(), self.sample(), self.sample())
+    }
+}
+
+/// Displaces every point by up to `length` and turns every frame by up to `angle` per axis.
+pub fn perturb(state: &mut State, noise: &mut Noise, length: f64, angle: f64) {
+    for i in 0..state.points.len() {
+        state.points.position.add(i, noise.vector() * length);
+    }
+    for i in 0..state.frames.len() {
+        let q = state.frames.orientation.get(i) * rotation::exp(noise.vector() * angle);
+        state.frames.orientation.set(i, q);
+    }
+}
+
+/// Gives every free body a random motion of up to `velocity` and `angular_velocity` per axis.
+pub fn set_in_motion(state: &mut State, noise: &mut Noise, velocity: f64, angular_velocity: f64) {
+    for i in 0..state.points.len() {
+        if state.points.is_free(i) {
+            state.points.velocity.set(i, noise.vector() * velocity);
+        }
+    }
+    for i in 0..state.frames.len() {
+        if state.frames.is_free(i) {
+            let omega = noise.vector() * angular_velocity;
+            let l = omega.component_div(&state.frames.inverse_moments(i));
+            state.frames.angular_momentum.set(i, l);
+        }
+    }
+}
+
+/// Moves the whole state rigidly: first turned about the origin by `turn`, then shifted.
+pub fn move_rigidly(state: &mut State, turn: Vector3, shift: Vector3) {
+    let turn = rotation::exp(turn);
+    for i in 0..state.points.len() {
+        let x = turn * state.points.position.get(i) + shift;
+        state.points.position.set(i, x);
+        let v = turn * state.points.velocity.get(i);
+        state.points.velocity.set(i, v);
+    }
+    for i in 0..state.frames.len() {
+        let q = turn * state.frames.orientation.get(i);
+        state.frames.orientation.set(i, q);
+    }
+}
+
+/// Total force and total torque about the origin (lab frame).
+pub fn resultant(state: &State, loads: &Loads) -> (Vector3, Vector3) {
+    let force: Vector3 = loads.force.iter().sum();
+    let moments: Vector3 = (0..state.points.len())
+        .map(|i| state.points.position.get(i).cross(&loads.force.get(i)))
+        .sum();
+    let couples: Vector3 = (0..state.frames.len())
+        .map(|i| state.frames.orientation.get(i) * loads.torque.get(i))
+        .sum();
+    (force, moments + couples)
+}
+
+/// Total momentum and total angular momentum about the origin (lab frame), free bodies only.
+pub fn momenta(state: &State) -> (Vector3, Vector3) {
+    let mut linear = Vector3::zeros();
+    let mut angular = Vector3::zeros();
+    for i in (0..state.points.len()).filter(|&i| state.points.is_free(i)) {
+        let p = state.points.velocity.get(i) / state.points.inverse_mass()[i];
+        linear += p;
+        angular += state.points.position.get(i).cross(&p);
+    }
+    for i in (0..state.frames.len()).filter(|&i| state.frames.is_free(i)) {
+        angular += state.frames.orientation.get(i) * state.frames.angular_momentum.get(i);
+    }
+    (linear, angular)
+}
+
+/// Loads of one interaction alone.
+pub fn loads_of(interaction: &dyn Interaction, state: &State) -> Loads {
+    let mut loads = Loads::zeros(state);
+    interaction.add_loads(state, &mut loads);
+    loads
+}
+
+/// Asserts that the loads are minus the gradient of the energy.
+///
+/// The derivative along each coordinate is taken with the eight-point central difference of step
+/// `h`; its error of order `h^8` and the round-off of the energy, about `1e-16 E / h`, are both
+/// far below `relative` times the largest load for a well chosen `h` (1e-2 to 1e-3 of the length
+/// over which the energy varies).
+///
+/// # Panics
+/// If a load differs by more than `relative` times the largest load of its kind.
+pub fn assert_is_gradient(interaction: &dyn Interaction, state: &State, h: f64, relative: f64) {
+    let loads = loads_of(interaction, state);
+    let largest = |v: &crate::Vectors| v.iter().map(|f| f.norm()).fold(0.0, f64::max);
+    let force_scale = largest(&loads.force);
+    let torque_scale = largest(&loads.torque);
+    for i in 0..state.points.len() {
+        for k in 0..3 {
+            let slope = derivative(h, |step| {
+                let mut moved = state.clone();
+                let mut shift = Vector3::zeros();
+                shift[k] = step;
+                moved.points.position.add(i, shift);
+                interaction.energy(&moved)
+            });
+            let error = (loads.force.get(i)[k] + slope).abs();
+            assert!(
+                error <= relative * force_scale,
+                "force {k} on point {i}: {} against {} from the energy",
+                loads.force.get(i)[k],
+                -slope
+            );
+        }
+    }
+    for i in 0..state.frames.len() {
+        for k in 0..3 {
+            let slope = derivative(h, |step| {
+                let mut moved = state.clone();
+                let mut turn = Vector3::zeros();
+                turn[k] = step;
+                let q = moved.frames.orientation.get(i) * rotation::exp(turn);
+                moved.frames.orientation.set(i, q);
+                interaction.energy(&moved)
+            });
+            let error = (loads.torque.get(i)[k] + slope).abs();
+            assert!(
+                error <= relative * torque_scale,
+                "torque {k} on frame {i}: {} against {} from the energy",
+                loads.torque.get(i)[k],
+                -slope
+            );
+        }
+    }
+}
+
+/// Eight-point central difference of `f` at zero (Fornberg 1988, table 1), error of order `h^8`.
+pub fn derivative(h: f64, f: impl Fn(f64) -> f64) -> f64 {
+    const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+    WEIGHTS
+        .iter()
+        .zip(1..)
+        .map(|(weight, k)| {
+            let step = f64::from(k) * h;
+            weight * (f(step) - f(-step))
+        })
+        .sum::<f64>()
+        / h
+}
+
+/// Asserts that internal loads have no resultant force or torque, to `relative` times the sum of
+/// the norms of what is added up.
+///
+/// # Panics
+/// If they have one.
+pub fn assert_is_balanced(interaction: &dyn Interaction, state: &State, relative: f64) {
+    let loads = loads_of(interaction, state);
+    let (force, torque) = resultant(state, &loads);
+    let forces: f64 = loads.force.iter().map(|f| f.norm()).sum();
+    let torques: f64 = loads.torque.iter().map(|t| t.norm()).sum();
+    let moments: f64 = (0..state.points.len())
+        .map(|i| state.points.position.get(i).norm() * loads.force.get(i).norm())
+        .sum();
+    assert!(force.norm() <= relative * forces, "resultant force {force}");
+    assert!(
+        torque.norm() <= relative * (torques + moments),
+        "resultant torque {torque}"
+    );
+}
+
+/// Asserts that the energy does not change when the whole state is moved rigidly.
+///
+/// # Panics
+/// If it changes by more than `relative`.
+pub fn assert_is_invariant(interaction: &dyn Interaction, state: &State, relative: f64) {
+    let mut moved = state.clone();
+    move_rigidly(
+        &mut moved,
+        Vector3::new(0.7, -1.9, 0.4),
+        Vector3::new(3.0, -5.0, 2.0),
+    );
+    let (before, after) = (interaction.energy(state), interaction.energy(&moved));
+    assert!(
+        (after - before).abs() <= relative * before.abs(),
+        "energy {before} became {after}"
+    );
+}
