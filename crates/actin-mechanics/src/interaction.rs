@@ -1,6 +1,6 @@
 //! What acts on bodies.
 
-use crate::{Loads, State};
+use crate::{Loads, SecondOrder, State};
 use std::fmt::Debug;
 
 /// A term of the model: some elements of one kind (bonds, segments, loads).
@@ -28,6 +28,11 @@ pub trait Interaction: Debug + Send + Sync {
     /// Whether the loads are minus the gradient of the energy.
     fn is_conservative(&self) -> bool {
         true
+    }
+
+    /// The second derivatives of the energy, where the interaction knows them.
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        None
     }
 
     /// Energy of all elements.

@@ -24,6 +24,7 @@ mod points;
 mod quaternions;
 pub mod rotation;
 mod state;
+mod stiffness;
 mod system;
 pub mod testing;
 mod vectors;
@@ -36,6 +37,7 @@ pub use loads::Loads;
 pub use points::{Point, Points};
 pub use quaternions::Quaternions;
 pub use state::State;
+pub use stiffness::{Coordinates, SecondOrder, Stiffness};
 pub use system::{Split, System};
 pub use vectors::Vectors;
 

@@ -1,6 +1,6 @@
 //! A dead load: a constant force on some points.
 
-use crate::{Interaction, Loads, State, Vector3};
+use crate::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
 
 /// A force that keeps its direction, shared among points and scaled by a control.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +43,10 @@ impl Interaction for PointLoad {
         }
     }
 
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        Some(self)
+    }
+
     fn elements(&self) -> usize {
         self.shares.len()
     }
@@ -56,4 +60,9 @@ impl Interaction for PointLoad {
             *energy = -factor * share * self.force.dot(&displacement);
         }
     }
+}
+
+impl SecondOrder for PointLoad {
+    /// A dead load has no stiffness.
+    fn add_stiffness(&self, _state: &State, _stiffness: &mut Stiffness) {}
 }

@@ -1,0 +1,196 @@
+//! Whether a state is sound, and what to blame if it is not.
+
+use crate::{Body, Problem};
+use actin_mechanics::{Interaction, Loads, Split, State, System, Vector3};
+use std::f64::consts::PI;
+
+/// Kinetic energy may not grow beyond that of all earlier checks by more than this factor.
+///
+/// From rest it grows fourfold while the time doubles under constant loads, sixteenfold under
+/// loads that rise steadily, and less after that; above the stability limit it grows by a factor
+/// in every step.
+const LARGEST_GROWTH: f64 = 1e8;
+
+/// Watches over the states of one run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Watch {
+    /// Time step (ns), without sign.
+    pub(crate) h: f64,
+    /// Kinetic energy (pN nm) that no sound state has.
+    pub(crate) kinetic_limit: f64,
+    /// Largest kinetic energy seen so far.
+    largest_kinetic: f64,
+}
+
+impl Watch {
+    /// A watch that has seen nothing yet.
+    pub(crate) fn new(h: f64, kinetic_limit: f64) -> Self {
+        Self {
+            h: h.abs(),
+            kinetic_limit,
+            largest_kinetic: 0.0,
+        }
+    }
+
+    /// What is wrong with `state`, if anything. Changes nothing.
+    pub(crate) fn inspect(&self, state: &State) -> Option<Problem> {
+        if !state.is_finite() {
+            return Some(Problem::NotFinite);
+        }
+        let turn = self.h * largest_angular_velocity(state);
+        if turn > PI {
+            return Some(Problem::TurnsTooFar(turn));
+        }
+        let kinetic = state.kinetic_energy();
+        let grown = self.largest_kinetic > 0.0 && kinetic > LARGEST_GROWTH * self.largest_kinetic;
+        // Written so that an overflow to infinity or NaN is found.
+        let sound = kinetic <= self.kinetic_limit && kinetic.is_finite() && !grown;
+        (!sound).then_some(Problem::TooFast(kinetic))
+    }
+
+    /// Remembers the kinetic energy of a sound state.
+    pub(crate) fn remember(&mut self, state: &State) {
+        self.largest_kinetic = self.largest_kinetic.max(state.kinetic_energy());
+    }
+}
+
+/// Largest angular velocity of a free frame (rad/ns).
+fn largest_angular_velocity(state: &State) -> f64 {
+    let frames = &state.frames;
+    (0..frames.len())
+        .filter(|&i| frames.is_free(i))
+        .map(|i| {
+            frames
+                .angular_velocity(i, frames.angular_momentum.get(i))
+                .norm_squared()
+        })
+        .fold(0.0, f64::max)
+        .sqrt()
+}
+
+/// The body and the term to blame for the state `broken`, whose state one step before is given.
+pub(crate) fn blame(
+    interactions: &[Box<dyn Interaction>],
+    broken: &State,
+    before: &State,
+) -> (Body, &'static str) {
+    let body =
+        first_body(broken, |body| !body_is_finite(broken, body)).unwrap_or_else(|| fastest(broken));
+    // Loads at positions that are not finite say nothing: those before still do.
+    let sighted = if broken.is_finite() { broken } else { before };
+    let strongest = interactions
+        .iter()
+        .map(|interaction| {
+            let loads = loads_of(interaction.as_ref(), sighted);
+            (interaction.term(), load_on(&loads, body).norm())
+        })
+        .filter(|(_, size)| *size > 0.0)
+        .max_by(|a, b| a.1.total_cmp(&b.1));
+    (body, strongest.map_or("none", |(term, _)| term))
+}
+
+/// A system that looks at the loads of each term before each kick, to catch the first that is not
+/// finite while the state still is.
+///
+/// Loads often break down within a step, at positions that neither of its ends shows.
+#[derive(Debug)]
+pub(crate) struct Probe<'a> {
+    pub(crate) system: &'a mut System,
+    pub(crate) culprit: Option<(Body, &'static str)>,
+}
+
+impl Split for Probe<'_> {
+    fn drift(&mut self, h: f64) {
+        self.system.drift(h);
+    }
+
+    fn kick(&mut self, h: f64) {
+        if self.culprit.is_none() && self.system.state().is_finite() {
+            self.culprit = broken_load(self.system);
+        }
+        self.system.kick(h);
+    }
+
+    fn damp(&mut self, translational: f64, rotational: f64) {
+        self.system.damp(translational, rotational);
+    }
+
+    fn force_evaluations(&self) -> u64 {
+        self.system.force_evaluations()
+    }
+}
+
+/// The first load that is not finite: on which body, and of which term.
+fn broken_load(system: &System) -> Option<(Body, &'static str)> {
+    let state = system.state();
+    system.interactions().iter().find_map(|interaction| {
+        let loads = loads_of(interaction.as_ref(), state);
+        let body = first_body(state, |body| !is_finite(&load_on(&loads, body)))?;
+        Some((body, interaction.term()))
+    })
+}
+
+/// Loads of one interaction alone.
+fn loads_of(interaction: &dyn Interaction, state: &State) -> Loads {
+    let mut loads = Loads::zeros(state);
+    interaction.add_loads(state, &mut loads);
+    loads
+}
+
+/// Points, then frames.
+fn bodies(state: &State) -> impl Iterator<Item = Body> + use<> {
+    let points = (0..state.points.len()).map(Body::Point);
+    points.chain((0..state.frames.len()).map(Body::Frame))
+}
+
+/// The first body for which `test` holds.
+fn first_body(state: &State, test: impl Fn(Body) -> bool) -> Option<Body> {
+    bodies(state).find(|&body| test(body))
+}
+
+/// The force or torque on a body.
+fn load_on(loads: &Loads, body: Body) -> Vector3 {
+    match body {
+        Body::Point(i) => loads.force.get(i),
+        Body::Frame(i) => loads.torque.get(i),
+    }
+}
+
+fn is_finite(v: &Vector3) -> bool {
+    v.iter().all(|c| c.is_finite())
+}
+
+/// Whether place and motion of one body are finite.
+fn body_is_finite(state: &State, body: Body) -> bool {
+    match body {
+        Body::Point(i) => {
+            is_finite(&state.points.position.get(i)) && is_finite(&state.points.velocity.get(i))
+        }
+        Body::Frame(i) => {
+            let q = state.frames.orientation.get(i);
+            q.coords.iter().all(|c| c.is_finite())
+                && is_finite(&state.frames.angular_momentum.get(i))
+        }
+    }
+}
+
+/// Kinetic energy of one body; zero if it is held.
+fn kinetic_energy(state: &State, body: Body) -> f64 {
+    match body {
+        Body::Point(i) if state.points.is_free(i) => {
+            0.5 * state.points.velocity.get(i).norm_squared() / state.points.inverse_mass()[i]
+        }
+        Body::Frame(i) if state.frames.is_free(i) => {
+            let l = state.frames.angular_momentum.get(i);
+            0.5 * l.dot(&state.frames.angular_velocity(i, l))
+        }
+        _ => 0.0,
+    }
+}
+
+/// The body with the largest kinetic energy.
+fn fastest(state: &State) -> Body {
+    bodies(state)
+        .max_by(|&a, &b| kinetic_energy(state, a).total_cmp(&kinetic_energy(state, b)))
+        .unwrap_or(Body::Point(0))
+}

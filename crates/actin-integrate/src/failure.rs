@@ -1,0 +1,63 @@
+//! What a run says when it breaks.
+
+use std::fmt;
+use thiserror::Error;
+
+/// A body, by its kind and its index among those of its kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    /// A point.
+    Point(usize),
+    /// A frame.
+    Frame(usize),
+}
+
+impl fmt::Display for Body {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Point(i) => write!(f, "point {i}"),
+            Self::Frame(i) => write!(f, "frame {i}"),
+        }
+    }
+}
+
+/// What is wrong with a state.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum Problem {
+    /// A position, velocity, orientation or angular momentum is not a finite number.
+    #[error("the state is no longer finite")]
+    NotFinite,
+    /// A frame turns by more than half a turn in one step, so that its motion has no meaning.
+    #[error("a frame turns by {0:.3e} rad in one step")]
+    TurnsTooFar(f64),
+    /// The kinetic energy (pN nm) has grown too far since the last check, or above its limit.
+    #[error("the kinetic energy has reached {0:.3e} pN nm")]
+    TooFast(f64),
+}
+
+/// A run that broke: where, when, and which term of the model is to be suspected.
+///
+/// The system has been put back to the last observed state that was good.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error(
+    "{problem} at step {step} ({time} ns): {body}, on which {term:?} acts most strongly; the last \
+     good state, of step {last_good_step}, was kept; a smaller time step may help"
+)]
+pub struct RunFailure {
+    /// What went wrong.
+    pub problem: Problem,
+    /// The step after which it was found.
+    pub step: u64,
+    /// The time of that step (ns).
+    pub time: f64,
+    /// The body where it went wrong: the first with a number that is not finite, or else the
+    /// fastest (largest kinetic energy).
+    pub body: Body,
+    /// Name of the term with a load on that body that is not finite, or else the largest; "none"
+    /// if no term acts on it.
+    pub term: &'static str,
+    /// Step of the state that the system was put back to.
+    pub last_good_step: u64,
+    /// Time of that state (ns).
+    pub last_good_time: f64,
+}

@@ -1,0 +1,138 @@
+//! The largest eigenvalue of an operator that is known only by what it does to vectors.
+
+use nalgebra::DMatrix;
+
+/// Below this share of the operator's size, a remainder is the noise of differenced loads.
+const NOISE: f64 = 1e-6;
+
+/// Largest eigenvalue of the symmetric part of an operator on `n` coordinates, within the space
+/// spanned by `b, A b, ... A^(vectors-1) b` from a random but fixed `b`.
+///
+/// `apply` writes `A v` into its second argument. Every new vector is made orthogonal to all
+/// earlier ones (Arnoldi; for a symmetric operator this is Lanczos without loss of
+/// orthogonality), so that an operator that is not symmetric does no harm. Returns 0 for `n = 0`.
+///
+/// # Errors
+/// Those of `apply`.
+pub(crate) fn largest_eigenvalue<E>(
+    n: usize,
+    vectors: usize,
+    mut apply: impl FnMut(&[f64], &mut [f64]) -> Result<(), E>,
+) -> Result<f64, E> {
+    let size = vectors.min(n);
+    if size == 0 {
+        return Ok(0.0);
+    }
+    let mut projected = DMatrix::zeros(size, size);
+    let mut basis = vec![start_vector(n)];
+    let mut scale: f64 = 0.0;
+    for j in 0..size {
+        let mut next = vec![0.0; n];
+        apply(&basis[j], &mut next)?;
+        scale = scale.max(norm(&next));
+        orthogonalise(&basis, &mut next, |k, overlap| projected[(k, j)] += overlap);
+        let remainder = norm(&next);
+        if j + 1 == size || remainder <= NOISE * scale {
+            // The space closes here: it holds every eigenvector that the start has a share of.
+            projected = projected.resize(j + 1, j + 1, 0.0);
+            break;
+        }
+        projected[(j + 1, j)] = remainder;
+        divide(&mut next, remainder);
+        basis.push(next);
+    }
+    let symmetric = 0.5 * (&projected + projected.transpose());
+    Ok(symmetric.symmetric_eigenvalues().max())
+}
+
+/// Takes the shares of all `basis` vectors out of `v`, twice, because once loses digits where the
+/// remainder is small; reports each share by its index.
+fn orthogonalise(basis: &[Vec<f64>], v: &mut [f64], mut report: impl FnMut(usize, f64)) {
+    for _ in 0..2 {
+        for (k, b) in basis.iter().enumerate() {
+            let overlap: f64 = b.iter().zip(v.iter()).map(|(b, v)| b * v).sum();
+            report(k, overlap);
+            v.iter_mut().zip(b).for_each(|(v, b)| *v -= overlap * b);
+        }
+    }
+}
+
+/// Euclidean length.
+fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|c| c * c).sum::<f64>().sqrt()
+}
+
+/// Divides every component.
+fn divide(v: &mut [f64], divisor: f64) {
+    for c in v {
+        *c /= divisor;
+    }
+}
+
+/// A unit vector in a direction that is random, nearly uniform, and always the same.
+///
+/// The components are sums of four uniform numbers, close enough to normal ones for the direction
+/// to favour no axis. The numbers come from the splitmix64 sequence (Steele, Lea and Flood 2014).
+fn start_vector(n: usize) -> Vec<f64> {
+    let mut state = 0_u64;
+    let mut uniform = || {
+        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let mut v: Vec<f64> = (0..n)
+        .map(|_| uniform() + uniform() + uniform() + uniform())
+        .collect();
+    let length = norm(&v);
+    divide(&mut v, length);
+    v
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::convert::Infallible;
+
+    fn largest(n: usize, vectors: usize, a: impl Fn(usize, usize) -> f64) -> f64 {
+        largest_eigenvalue(n, vectors, |v, w| {
+            for (i, w) in w.iter_mut().enumerate() {
+                *w = v.iter().enumerate().map(|(j, v)| a(i, j) * v).sum();
+            }
+            Ok::<(), Infallible>(())
+        })
+        .unwrap_or_else(|never| match never {})
+    }
+
+    /// As many vectors as coordinates leave nothing to estimate: eigenvalues 1, 2, ... 12.
+    #[test]
+    fn full_space_is_exact() {
+        let diagonal = |i, j| if i == j { (i + 1) as f64 } else { 0.0 };
+        assert!((largest(12, 60, diagonal) - 12.0).abs() < 1e-12);
+    }
+
+    /// Twelve coordinates but two eigenvalues: the space closes after two vectors. Going on would
+    /// divide by a remainder that is pure round-off.
+    #[test]
+    fn repeated_eigenvalues_close_the_space() {
+        let diagonal = |i, j| match (i == j, i < 6) {
+            (false, _) => 0.0,
+            (true, true) => 1.0,
+            (true, false) => 5.0,
+        };
+        assert!((largest(12, 60, diagonal) - 5.0).abs() < 1e-12);
+    }
+
+    /// [[3, 4], [0, 3]] has the symmetric part [[3, 2], [2, 3]], eigenvalues 1 and 5.
+    #[test]
+    fn of_an_unsymmetric_operator_the_symmetric_part_counts() {
+        let a = [[3.0, 4.0], [0.0, 3.0]];
+        assert!((largest(2, 60, |i, j| a[i][j]) - 5.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn nothing_and_zero_have_eigenvalue_zero() {
+        assert!(largest(0, 60, |_, _| 1.0) == 0.0);
+        assert!(largest(5, 60, |_, _| 0.0) == 0.0);
+    }
+}

@@ -1,0 +1,69 @@
+//! Those who look on: what they are shown and when.
+
+use crate::Residual;
+use actin_mechanics::{Interaction, State, System};
+use std::ops::ControlFlow;
+
+/// A synchronised state of a run: positions and momenta belong to the same time.
+///
+/// Energies and loads are evaluated when asked for, and only then.
+#[derive(Debug)]
+pub struct Moment<'a> {
+    /// Steps since step 0.
+    pub step: u64,
+    /// Time since step 0 (ns).
+    pub time: f64,
+    system: &'a mut System,
+}
+
+impl<'a> Moment<'a> {
+    /// The present state of `system` as a moment of a run.
+    pub fn new(step: u64, time: f64, system: &'a mut System) -> Self {
+        Self { step, time, system }
+    }
+
+    /// The state.
+    pub fn state(&self) -> &State {
+        self.system.state()
+    }
+
+    /// The interactions, in the order of [`energies`](Self::energies).
+    pub fn interactions(&self) -> &[Box<dyn Interaction>] {
+        self.system.interactions()
+    }
+
+    /// Energy of each interaction (pN nm).
+    pub fn energies(&self) -> Vec<f64> {
+        self.system.energies()
+    }
+
+    /// Energy of all interactions (pN nm).
+    pub fn potential_energy(&self) -> f64 {
+        self.system.potential_energy()
+    }
+
+    /// Kinetic energy of the free bodies (pN nm).
+    pub fn kinetic_energy(&self) -> f64 {
+        self.system.state().kinetic_energy()
+    }
+
+    /// Largest loads on free bodies; evaluates the loads if they are not current.
+    pub fn residual(&mut self) -> Residual {
+        let (force, torque) = self.system.residual();
+        Residual { force, torque }
+    }
+}
+
+/// Someone who looks on and may ask for the end of the run.
+///
+/// Implemented by every closure of that shape.
+pub trait Observer {
+    /// Looks at a moment; [`ControlFlow::Break`] ends the run there.
+    fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()>;
+}
+
+impl<F: FnMut(&mut Moment<'_>) -> ControlFlow<()>> Observer for F {
+    fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()> {
+        self(moment)
+    }
+}

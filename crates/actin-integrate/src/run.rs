@@ -1,0 +1,201 @@
+//! A run: which method, which step, how long. Carrying it out is in `execution`.
+
+use crate::execution::Execution;
+use crate::{Composition, Drag, Observer, Outcome, RunFailure, StopRule};
+use actin_mechanics::System;
+use thiserror::Error;
+
+/// Steps between two moments shown to observers, unless the caller says otherwise.
+pub const DEFAULT_OBSERVE_EVERY: u64 = 1000;
+
+/// Steps between two checks of the state: often enough to catch an explosion early, seldom
+/// enough to cost less than a hundredth of the run.
+pub const DEFAULT_CHECK_EVERY: u64 = 100;
+
+/// How a system is to be advanced. The system and the observers come with
+/// [`execute`](Self::execute).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run {
+    pub(crate) scheme: &'static Composition,
+    pub(crate) h: f64,
+    pub(crate) steps: u64,
+    pub(crate) first_step: u64,
+    pub(crate) drag: Drag,
+    pub(crate) observe_every: u64,
+    pub(crate) check_every: u64,
+    pub(crate) kinetic_limit: f64,
+    pub(crate) stop: Option<StopRule>,
+}
+
+/// A setting of a run that was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum RunError {
+    /// The time step is not positive and finite.
+    #[error("the time step must be positive and finite, got {0} ns")]
+    Step(f64),
+    /// The duration is not positive and finite, or takes more than 2^53 steps.
+    #[error("the duration must be positive and at most 2^53 steps, got {0} ns")]
+    Duration(f64),
+    /// An interval of zero steps.
+    #[error("observations and checks must be at least one step apart, got 0")]
+    Interval,
+    /// The limit of the kinetic energy is not positive.
+    #[error("the limit of the kinetic energy must be positive, got {0} pN nm")]
+    KineticLimit(f64),
+}
+
+impl Run {
+    /// A run of `steps` steps of `h` (ns), without drag and without a stop rule.
+    ///
+    /// # Errors
+    /// A step that is not positive and finite.
+    pub fn new(scheme: &'static Composition, h: f64, steps: u64) -> Result<Self, RunError> {
+        if !(h.is_finite() && h > 0.0) {
+            return Err(RunError::Step(h));
+        }
+        Ok(Self {
+            scheme,
+            h,
+            steps,
+            first_step: 0,
+            drag: Drag::NONE,
+            observe_every: DEFAULT_OBSERVE_EVERY,
+            check_every: DEFAULT_CHECK_EVERY,
+            kinetic_limit: f64::INFINITY,
+            stop: None,
+        })
+    }
+
+    /// A run over `duration` (ns), in the least number of equal steps that are no longer than
+    /// `largest_step` (ns).
+    ///
+    /// # Errors
+    /// A step or a duration that is not positive and finite, or more than 2^53 steps.
+    pub fn over(
+        scheme: &'static Composition,
+        largest_step: f64,
+        duration: f64,
+    ) -> Result<Self, RunError> {
+        Self::new(scheme, largest_step, 0)?;
+        // A quotient that is whole up to round-off shall not cost a step more.
+        let steps = (duration / largest_step * (1.0 - 1e-12)).ceil();
+        if !(duration > 0.0 && steps <= 9_007_199_254_740_992.0) {
+            return Err(RunError::Duration(duration));
+        }
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "checked above: a whole number from 1 to 2^53"
+        )]
+        Self::new(scheme, duration / steps, steps as u64)
+    }
+
+    /// The same with drag.
+    #[must_use]
+    pub fn with_drag(self, drag: Drag) -> Self {
+        Self { drag, ..self }
+    }
+
+    /// The same, ending early when `rule` is met at an observation.
+    #[must_use]
+    pub fn with_stop_rule(self, rule: StopRule) -> Self {
+        Self {
+            stop: Some(rule),
+            ..self
+        }
+    }
+
+    /// The same, shown to observers whenever the step number is a multiple of `steps`, and at
+    /// the end.
+    ///
+    /// # Errors
+    /// Zero steps.
+    pub fn observing_every(self, steps: u64) -> Result<Self, RunError> {
+        let observe_every = at_least_one(steps)?;
+        Ok(Self {
+            observe_every,
+            ..self
+        })
+    }
+
+    /// The same, with the state checked whenever the step number is a multiple of `steps`, at
+    /// powers of two, and at every observation.
+    ///
+    /// # Errors
+    /// Zero steps.
+    pub fn checking_every(self, steps: u64) -> Result<Self, RunError> {
+        let check_every = at_least_one(steps)?;
+        Ok(Self {
+            check_every,
+            ..self
+        })
+    }
+
+    /// The same, failing when the kinetic energy exceeds `limit` (pN nm).
+    ///
+    /// Without a limit, a run whose energy grows slowly fails only when a frame turns by more
+    /// than half a turn in one step, or when numbers overflow.
+    ///
+    /// # Errors
+    /// A limit that is not positive.
+    pub fn with_kinetic_limit(self, limit: f64) -> Result<Self, RunError> {
+        if limit.is_nan() || limit <= 0.0 {
+            return Err(RunError::KineticLimit(limit));
+        }
+        Ok(Self {
+            kinetic_limit: limit,
+            ..self
+        })
+    }
+
+    /// The same as the continuation of an earlier run that ended at step `first_step`.
+    ///
+    /// Step numbers and times count on from there. Observations and checks stay at the same step
+    /// numbers, so that a run broken off at an observation and continued gives the same bits as
+    /// one that was not; the starting state is not shown again.
+    #[must_use]
+    pub fn continuing_from(self, first_step: u64) -> Self {
+        Self { first_step, ..self }
+    }
+
+    /// The method.
+    pub fn scheme(&self) -> &'static Composition {
+        self.scheme
+    }
+
+    /// The time step (ns).
+    pub fn step(&self) -> f64 {
+        self.h
+    }
+
+    /// The number of steps.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Advances `system` and shows it to `observers` in their order: at step 0, at every multiple
+    /// of the observation interval, and at the end.
+    ///
+    /// # Errors
+    /// A state that is not finite or that explodes. `system` is then put back to the last state
+    /// that was observed (or to the start).
+    pub fn execute(
+        &self,
+        system: &mut System,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<Outcome, RunFailure> {
+        Execution::new(self, system, observers).run()
+    }
+
+    /// Time of a step number (ns).
+    pub(crate) fn time(&self, step: u64) -> f64 {
+        step as f64 * self.h
+    }
+}
+
+fn at_least_one(steps: u64) -> Result<u64, RunError> {
+    if steps == 0 {
+        return Err(RunError::Interval);
+    }
+    Ok(steps)
+}

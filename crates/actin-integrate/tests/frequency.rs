@@ -1,0 +1,243 @@
+//! The largest frequency against spectra that are known in closed form.
+
+mod common;
+
+use actin_integrate::{
+    Drag, FrequencyError, KRYLOV_VECTORS, POSITION_VERLET, advance, largest_frequency,
+    largest_frequency_with, stable_step,
+};
+use actin_mechanics::{
+    Frame, Inertia, Interaction, Loads, Point, Split, State, System, UnitQuaternion, Vector3,
+};
+use common::{Springs, Torsion, chain, spinning_tops};
+use std::f64::consts::PI;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// `n` free points between walls: `omega = 2 sqrt(k/m) cos(pi / (2 (n + 1)))`.
+fn chain_frequency(n: usize, stiffness: f64, mass: f64) -> f64 {
+    2.0 * (stiffness / mass).sqrt() * (0.5 * PI / (n as f64 + 1.0)).cos()
+}
+
+/// The eigenvalues of a long chain crowd at the upper end, which is the hard case.
+#[test]
+fn chain_of_springs() {
+    for n in [1, 2, 10, 200, 3000] {
+        let system = chain(n + 2, 2000.0, 0.07);
+        let ratio = largest_frequency(&system).unwrap() / chain_frequency(n, 2000.0, 0.07);
+        println!("chain of {n}: 1 - {:.2e}", 1.0 - ratio);
+        // Never above but for the error of the difference; below by less than the bound.
+        assert!(ratio < 1.0 + 1e-6, "{n}: {ratio}");
+        assert!(ratio > 0.99, "{n}: {ratio}");
+        if n <= 20 {
+            assert!(ratio > 1.0 - 1e-6, "{n}: the space is full, yet {ratio}");
+        }
+    }
+}
+
+/// One stiffer spring in a long chain binds a mode of its own above the others, in which a random
+/// start has hardly a share: omega^2 = (k/m)(2 + r + 1/r), r = k / (2 k' - k).
+#[test]
+fn local_mode_in_a_long_chain() {
+    let (n, k, m) = (3000, 2000.0, 0.07);
+    let stiffer = Springs {
+        name: "stiffer",
+        pairs: vec![(n / 2, n / 2 + 1)],
+        stiffness: 0.5 * k,
+        rest: 1.0,
+    };
+    let springs = Springs {
+        name: "springs",
+        pairs: (1..n).map(|i| (i - 1, i)).collect(),
+        stiffness: k,
+        rest: 1.0,
+    };
+    let state = chain(n, k, m).state().clone();
+    let system = System::new(state, vec![Box::new(springs), Box::new(stiffer)]);
+    let r: f64 = 1.0 / (2.0 * 1.5 - 1.0);
+    let exact = (k / m * (2.0 + r + 1.0 / r)).sqrt();
+    let ratio = largest_frequency(&system).unwrap() / exact;
+    println!("local mode: 1 - {:.2e}", 1.0 - ratio);
+    assert!((ratio - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn fewer_vectors_find_less_and_never_more() {
+    let system = chain(202, 2000.0, 0.07);
+    let exact = chain_frequency(200, 2000.0, 0.07);
+    let mut last = 0.0;
+    for vectors in [2, 5, 10, 20, 30, 45, 60, 90] {
+        let estimate = largest_frequency_with(&system, vectors).unwrap();
+        println!("{vectors} vectors: 1 - {:.2e}", 1.0 - estimate / exact);
+        assert!(estimate >= last * (1.0 - 1e-9) && estimate < exact * (1.0 + 1e-6));
+        last = estimate;
+    }
+}
+
+/// A frame on a torsion spring to a held one: sqrt(k / I) about its slackest axis. Measuring the
+/// motion in radians without the inertia, or counting the held frame, would miss by factors.
+#[test]
+fn frame_on_a_torsion_spring() {
+    let mut state = State::default();
+    for moments in [[1e-6, 1e-6, 1e-6], [0.5, 0.5, 0.2]] {
+        state.frames.push(Frame {
+            orientation: UnitQuaternion::identity(),
+            inertia: Inertia::from_moments(moments).unwrap(),
+        });
+    }
+    state.frames.hold(0);
+    let torsion = Torsion {
+        pairs: vec![(0, 1)],
+        stiffness: 1300.0,
+    };
+    let system = System::new(state, vec![Box::new(torsion)]);
+    let expected = (1300.0f64 / 0.2).sqrt();
+    let error = largest_frequency(&system).unwrap() / expected - 1.0;
+    println!("torsion: {error:.1e}");
+    assert!(error.abs() < 1e-8);
+}
+
+/// The estimate is the one that matters: position Verlet holds just below it and not above.
+#[test]
+fn verlet_is_stable_up_to_the_estimate() {
+    assert!(stays_bounded(0.99));
+    assert!(!stays_bounded(1.01));
+}
+
+/// Whether a vibrating chain keeps its motion over 2000 steps of `share` of the limit.
+fn stays_bounded(share: f64) -> bool {
+    let mut system = chain(12, 4.0, 1.0);
+    for i in 1..11 {
+        let v = Vector3::x() * 1e-6 * (i as f64).sin();
+        system.state_mut().points.velocity.set(i, v);
+    }
+    let frequency = largest_frequency(&system).unwrap();
+    let h = share * stable_step(&POSITION_VERLET, frequency, 1.0).unwrap();
+    advance(&mut system, &POSITION_VERLET, h, 2000, &Drag::NONE);
+    system.state().kinetic_energy() < 1e-6
+}
+
+/// Nothing free and nothing stiff are no reason to fail.
+#[test]
+fn nothing_resists() {
+    assert!(largest_frequency(&System::new(State::default(), Vec::new())).unwrap() == 0.0);
+    assert!(largest_frequency(&chain(2, 4.0, 1.0)).unwrap() == 0.0);
+    let (state, none) = (spinning_tops().state().clone(), Vec::new());
+    assert!(largest_frequency(&System::new(state, none)).unwrap() == 0.0);
+}
+
+/// Asking changes nothing and always gives the same answer.
+#[test]
+fn asking_is_free_of_effects() {
+    let mut system = spinning_tops();
+    system.loads();
+    let (state, count) = (system.state().clone(), system.force_evaluations());
+    let frequency = largest_frequency(&system).unwrap();
+    assert_eq!(
+        frequency.to_bits(),
+        largest_frequency(&system).unwrap().to_bits()
+    );
+    assert_eq!(*system.state(), state);
+    assert_eq!(system.force_evaluations(), count);
+}
+
+/// A force on point 0 that is linear in its place, with any matrix; counts its evaluations.
+#[derive(Debug)]
+struct Linear {
+    rows: [Vector3; 3],
+    evaluations: Arc<AtomicU64>,
+}
+
+impl Interaction for Linear {
+    fn term(&self) -> &'static str {
+        "linear"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        self.evaluations.fetch_add(1, Ordering::Relaxed);
+        for i in 0..state.points.len() {
+            let x = state.points.position.get(i);
+            let force = Vector3::from_iterator(self.rows.iter().map(|row| -row.dot(&x)));
+            loads.force.add(i, force);
+        }
+    }
+
+    fn elements(&self) -> usize {
+        1
+    }
+
+    fn write_energies(&self, _state: &State, energies: &mut [f64]) {
+        energies.fill(0.0);
+    }
+
+    fn is_conservative(&self) -> bool {
+        false
+    }
+}
+
+/// `n` points of mass 2 under a [`Linear`] force, and the count of its evaluations.
+fn linear(n: usize, rows: [[f64; 3]; 3]) -> (System, Arc<AtomicU64>) {
+    let mut state = State::default();
+    for _ in 0..n {
+        state.points.push(Point {
+            position: Vector3::new(1.0, -2.0, 0.5),
+            mass: 2.0,
+        });
+    }
+    let evaluations = Arc::new(AtomicU64::new(0));
+    let force = Linear {
+        rows: rows.map(Vector3::from),
+        evaluations: Arc::clone(&evaluations),
+    };
+    (System::new(state, vec![Box::new(force)]), evaluations)
+}
+
+/// A force that swirls about the z axis (circulatory, no energy) leaves the symmetric part alone.
+#[test]
+fn loads_without_an_energy_do_not_fail() {
+    let (system, _) = linear(1, [[8.0, 5.0, 0.0], [-5.0, 8.0, 0.0], [0.0, 0.0, 2.0]]);
+    assert!((largest_frequency(&system).unwrap() - 2.0).abs() < 1e-8);
+}
+
+/// An unstable state has growth, not frequency, in its negative direction.
+#[test]
+fn negative_stiffness_does_not_count() {
+    let (system, _) = linear(1, [[-800.0, 0.0, 0.0], [0.0, 8.0, 0.0], [0.0, 0.0, 2.0]]);
+    assert!((largest_frequency(&system).unwrap() - 2.0).abs() < 1e-8);
+    let (system, _) = linear(1, [[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]);
+    assert!(largest_frequency(&system).unwrap() == 0.0);
+}
+
+/// Two evaluations per vector, and no more vectors than the spectrum needs.
+#[test]
+fn cost_in_evaluations() {
+    let (mut system, evaluations) =
+        linear(100, [[8.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 2.0]]);
+    largest_frequency(&system).unwrap();
+    // Three eigenvalues close the space after three vectors.
+    assert_eq!(evaluations.load(Ordering::Relaxed), 6);
+    // Unequal masses open it: 300 different eigenvalues.
+    let mut state = State::default();
+    for i in 0..100_u32 {
+        state.points.push(Point {
+            position: Vector3::zeros(),
+            mass: 1.0 + f64::from(i),
+        });
+    }
+    *system.state_mut() = state;
+    evaluations.store(0, Ordering::Relaxed);
+    largest_frequency(&system).unwrap();
+    assert_eq!(
+        evaluations.load(Ordering::Relaxed),
+        2 * KRYLOV_VECTORS as u64
+    );
+}
+
+#[test]
+fn loads_that_are_not_finite_are_named() {
+    let (system, _) = linear(1, [[f64::NAN, 0.0, 0.0], [0.0; 3], [0.0; 3]]);
+    assert_eq!(
+        largest_frequency(&system),
+        Err(FrequencyError { term: "linear" })
+    );
+}

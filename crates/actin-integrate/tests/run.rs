@@ -1,0 +1,355 @@
+//! The run loop: observers, stop rule, interruption, failure, continuation.
+
+mod common;
+
+use actin_integrate::{
+    Body, Drag, Moment, Observer, PEFRL, POSITION_VERLET, Problem, Reason, Run, RunError, StopRule,
+    VEFRL, largest_frequency, stable_step,
+};
+use actin_mechanics::{Interaction, Loads, State, System, Vector3};
+use common::{Springs, Torsion, chain, distance, spinning_tops, three_tops, vibrating_tops};
+use std::ops::ControlFlow;
+
+/// A stretched chain of 8 free points.
+fn stretched_chain() -> System {
+    let mut system = chain(10, 4.0, 1.0);
+    system
+        .state_mut()
+        .points
+        .position
+        .add(9, Vector3::x() * 0.5);
+    system
+}
+
+#[test]
+fn settings_are_validated() {
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(Run::new(&PEFRL, bad, 1), Err(RunError::Step(_))));
+    }
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e30] {
+        let run = Run::over(&PEFRL, 0.1, bad);
+        assert!(matches!(run, Err(RunError::Duration(_))), "{bad}");
+    }
+    let run = Run::new(&PEFRL, 0.1, 1).unwrap();
+    assert_eq!(run.observing_every(0), Err(RunError::Interval));
+    assert_eq!(run.checking_every(0), Err(RunError::Interval));
+    assert!(run.with_kinetic_limit(f64::NAN).is_err());
+    assert!(run.with_kinetic_limit(0.0).is_err());
+}
+
+/// 1 ns in steps of at most 0.3 ns takes 4 of 0.25; 0.1 * 3 fits in 0.3 in spite of round-off.
+#[test]
+fn durations_are_met_exactly() {
+    let run = Run::over(&PEFRL, 0.3, 1.0).unwrap();
+    assert_eq!((run.steps(), run.step()), (4, 0.25));
+    assert_eq!(Run::over(&PEFRL, 0.1, 0.1 * 3.0).unwrap().steps(), 3);
+    assert_eq!(Run::over(&PEFRL, 5.0, 1.0).unwrap().steps(), 1);
+}
+
+/// Start, multiples of the interval, end; time is counted from the step number. Energy is that of
+/// a synchronised state: at a step of a hundredth of the limit it stays to 1e-4, while a velocity
+/// half a step behind would show as percents.
+#[test]
+fn observers_see_synchronised_states() {
+    let mut system = vibrating_tops(7);
+    let energy = system.total_energy();
+    let h = 0.01;
+    let mut seen = Vec::new();
+    let mut observer = |moment: &mut Moment<'_>| {
+        let now = moment.potential_energy() + moment.kinetic_energy();
+        assert!((now / energy - 1.0).abs() < 1e-4, "{now}");
+        assert!((moment.energies().iter().sum::<f64>() - moment.potential_energy()).abs() < 1e-15);
+        seen.push((moment.step, moment.time));
+        ControlFlow::Continue(())
+    };
+    let outcome = Run::new(&POSITION_VERLET, h, 25)
+        .unwrap()
+        .observing_every(10)
+        .unwrap()
+        .checking_every(3)
+        .unwrap()
+        .execute(&mut system, &mut [&mut observer])
+        .unwrap();
+    let expected = [0, 10, 20, 25].map(|s: u32| (u64::from(s), f64::from(s) * h));
+    assert_eq!(seen, expected);
+    assert_eq!(outcome.reason, Reason::Completed);
+    assert_eq!((outcome.steps, outcome.time), (25, 25.0 * h));
+}
+
+/// Observations and checks cost no evaluations; the final residual costs one where the scheme
+/// ends with a drift, none where it ends with a kick (whose first step pays one).
+#[test]
+fn work_of_a_run() {
+    for (scheme, per_step) in [(&POSITION_VERLET, 1), (&PEFRL, 4), (&VEFRL, 4)] {
+        let outcome = Run::new(scheme, 0.01, 1000)
+            .unwrap()
+            .observing_every(7)
+            .unwrap()
+            .execute(&mut three_tops(), &mut [])
+            .unwrap();
+        assert_eq!(outcome.force_evaluations, 1000 * per_step + 1, "{scheme}");
+    }
+}
+
+/// The rule holds at the state that the run ends with, and held at no earlier observation.
+#[test]
+fn stop_rule_ends_a_damped_run() {
+    let rule = StopRule::new(1e-6, 1e-6, 1e-10).unwrap();
+    let mut system = stretched_chain();
+    let mut met = Vec::new();
+    let mut observer = |moment: &mut Moment<'_>| {
+        met.push(rule.is_met(moment.residual(), moment.kinetic_energy()));
+        ControlFlow::Continue(())
+    };
+    let outcome = Run::new(&POSITION_VERLET, 0.4, 100_000)
+        .unwrap()
+        .with_drag(Drag::new(0.7, 0.7).unwrap())
+        .with_stop_rule(rule)
+        .observing_every(10)
+        .unwrap()
+        .execute(&mut system, &mut [&mut observer])
+        .unwrap();
+    assert_eq!(outcome.reason, Reason::Converged);
+    assert!(outcome.steps < 10_000 && outcome.steps > 10);
+    assert!(rule.is_met(outcome.residual, outcome.kinetic));
+    let (last, earlier) = met.split_last().unwrap();
+    assert!(*last && !earlier.contains(&true));
+    // Each of the 9 springs of stiffness 4 carries the same share of half a length.
+    let x = system.state().points.position.get(4).x;
+    assert!((x - 4.0 * 9.5 / 9.0).abs() < 1e-5);
+}
+
+/// A state at rest and in equilibrium needs no step.
+#[test]
+fn rest_is_recognised_at_once() {
+    let outcome = Run::new(&PEFRL, 0.1, 100)
+        .unwrap()
+        .with_stop_rule(StopRule::new(1e-9, 1e-9, 1e-9).unwrap())
+        .execute(&mut chain(5, 4.0, 1.0), &mut [])
+        .unwrap();
+    assert_eq!((outcome.reason, outcome.steps), (Reason::Converged, 0));
+}
+
+/// An observer that asks for the end once a step is reached.
+struct Until(u64);
+
+impl Observer for Until {
+    fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()> {
+        if moment.step >= self.0 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+}
+
+/// The run ends where it was asked to, after everyone has seen the state.
+#[test]
+fn interruption() {
+    let mut system = spinning_tops();
+    let mut last = 0;
+    let mut late = |moment: &mut Moment<'_>| {
+        last = moment.step;
+        ControlFlow::Continue(())
+    };
+    let outcome = Run::new(&PEFRL, 0.01, 1000)
+        .unwrap()
+        .observing_every(50)
+        .unwrap()
+        .execute(&mut system, &mut [&mut Until(120), &mut late])
+        .unwrap();
+    assert_eq!((outcome.reason, outcome.steps), (Reason::Interrupted, 150));
+    assert_eq!(last, 150);
+}
+
+/// An interrupted run, continued from its state alone, gives the bits of one that was not.
+#[test]
+fn continuation_is_exact_to_the_bit() {
+    for drag in [Drag::NONE, Drag::new(0.2, 0.1).unwrap()] {
+        for scheme in [&POSITION_VERLET, &PEFRL, &VEFRL] {
+            let run = |steps| {
+                Run::new(scheme, 0.01, steps)
+                    .unwrap()
+                    .with_drag(drag)
+                    .observing_every(50)
+                    .unwrap()
+                    .checking_every(30)
+                    .unwrap()
+            };
+            let mut whole = spinning_tops();
+            run(1000).execute(&mut whole, &mut []).unwrap();
+
+            let mut first = spinning_tops();
+            let part = run(1000)
+                .execute(&mut first, &mut [&mut Until(420)])
+                .unwrap();
+            assert_eq!(part.steps, 450);
+            let mut second = spinning_tops();
+            second.state_mut().clone_from(first.state());
+            let mut seen = Vec::new();
+            let mut observer = |moment: &mut Moment<'_>| {
+                seen.push(moment.step);
+                ControlFlow::Continue(())
+            };
+            let rest = run(550)
+                .continuing_from(450)
+                .execute(&mut second, &mut [&mut observer])
+                .unwrap();
+            assert_eq!(whole.state(), second.state(), "{scheme}");
+            assert_eq!((seen[0], rest.steps, rest.time), (500, 550, 1000.0 * 0.01));
+        }
+    }
+}
+
+/// A chain with one spring far too stiff for the step: the error names that spring's term and one
+/// of its two points, at the step where it shows, and the last observed state is put back.
+#[test]
+fn explosion_is_blamed_on_the_stiff_term() {
+    let soft = chain(10, 4.0, 1.0);
+    let mut state = soft.state().clone();
+    state.points.position.add(9, Vector3::x() * 0.5);
+    let springs = |name, pairs, stiffness| Springs {
+        name,
+        pairs,
+        stiffness,
+        rest: 1.0,
+    };
+    let terms: Vec<Box<dyn Interaction>> = vec![
+        Box::new(springs("soft", (1..10).map(|i| (i - 1, i)).collect(), 4.0)),
+        Box::new(springs("stiff", vec![(6, 7)], 400.0)),
+    ];
+    let mut system = System::new(state, terms);
+    let mut good: Option<(u64, State)> = None;
+    let mut keep = |moment: &mut Moment<'_>| {
+        good = Some((moment.step, moment.state().clone()));
+        ControlFlow::Continue(())
+    };
+    let failure = Run::new(&POSITION_VERLET, 0.3, 100_000)
+        .unwrap()
+        .observing_every(10)
+        .unwrap()
+        .execute(&mut system, &mut [&mut keep])
+        .unwrap_err();
+    println!("{failure}");
+    assert_eq!(failure.term, "stiff");
+    assert!(matches!(failure.body, Body::Point(6 | 7)), "{failure}");
+    assert!(failure.step > failure.last_good_step && failure.step <= failure.last_good_step + 10);
+    assert!((failure.time - 0.3 * failure.step as f64).abs() < 1e-9);
+    let (step, state) = good.unwrap();
+    assert_eq!(failure.last_good_step, step);
+    assert_eq!(*system.state(), state);
+    let message = failure.to_string();
+    assert!(message.contains("\"stiff\"") && message.contains("point"));
+}
+
+/// A frame on too stiff a torsion spring: bounded angles hide the explosion from the positions,
+/// but not from the turn per step.
+#[test]
+fn a_frame_that_spins_up_is_found() {
+    let mut system = three_tops();
+    let state = system.state_mut().clone();
+    let torsion = Torsion {
+        pairs: vec![(0, 2)],
+        stiffness: 1e4,
+    };
+    let mut system = System::new(state, vec![Box::new(torsion)]);
+    let turned = system.state().frames.orientation.get(0)
+        * actin_mechanics::rotation::exp(Vector3::new(0.1, 0.2, 0.3));
+    system.state_mut().frames.orientation.set(0, turned);
+    let failure = Run::new(&PEFRL, 0.2, 1000)
+        .unwrap()
+        .execute(&mut system, &mut [])
+        .unwrap_err();
+    println!("{failure}");
+    assert!(matches!(failure.problem, Problem::TurnsTooFar(_)));
+    assert!(matches!(failure.body, Body::Frame(0 | 2)));
+    assert_eq!((failure.term, failure.last_good_step), ("torsion", 0));
+}
+
+/// A term whose loads cease to be numbers when point 2 passes x = 2.2.
+#[derive(Debug)]
+struct Singular;
+
+impl Interaction for Singular {
+    fn term(&self) -> &'static str {
+        "singular"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        let room = 2.2 - state.points.position.get(2).x;
+        loads.force.add(2, Vector3::x() * (1e-3 * room.sqrt()));
+    }
+
+    fn elements(&self) -> usize {
+        0
+    }
+
+    fn write_energies(&self, _state: &State, _energies: &mut [f64]) {}
+}
+
+/// Not-a-number spreads to every body within a few steps; the report names where it began.
+#[test]
+fn a_load_that_is_not_a_number_is_traced_to_its_term() {
+    let springs = Springs {
+        name: "springs",
+        pairs: (1..6).map(|i| (i - 1, i)).collect(),
+        stiffness: 4.0,
+        rest: 1.0,
+    };
+    let state = chain(6, 4.0, 1.0).state().clone();
+    let mut system = System::new(state, vec![Box::new(springs), Box::new(Singular)]);
+    system.state_mut().points.velocity.set(2, Vector3::x());
+    let failure = Run::new(&POSITION_VERLET, 0.05, 100)
+        .unwrap()
+        .execute(&mut system, &mut [])
+        .unwrap_err();
+    println!("{failure}");
+    assert_eq!((failure.body, failure.term), (Body::Point(2), "singular"));
+    // 0.2 nm at 1 nm/ns, hardly slowed, takes 4 to 5 steps of 0.05 ns.
+    assert!((4..=6).contains(&failure.step), "{failure}");
+    assert!(system.state().is_finite());
+}
+
+#[test]
+fn an_unsound_start_is_refused() {
+    let mut system = chain(4, 4.0, 1.0);
+    let nowhere = Vector3::new(f64::NAN, 0.0, 0.0);
+    system.state_mut().points.position.set(2, nowhere);
+    let failure = Run::new(&PEFRL, 0.1, 10)
+        .unwrap()
+        .execute(&mut system, &mut [])
+        .unwrap_err();
+    assert_eq!((failure.step, failure.problem), (0, Problem::NotFinite));
+    assert!(matches!(failure.body, Body::Point(1..=3)));
+}
+
+/// The limit of the kinetic energy, for callers who know what is too much.
+#[test]
+fn kinetic_limit() {
+    let mut system = spinning_tops();
+    let kinetic = system.state().kinetic_energy();
+    let run = Run::new(&PEFRL, 0.01, 10).unwrap();
+    let below = run.with_kinetic_limit(0.5 * kinetic).unwrap();
+    let failure = below.execute(&mut system, &mut []).unwrap_err();
+    assert_eq!(failure.problem, Problem::TooFast(kinetic));
+    let above = run.with_kinetic_limit(100.0 * kinetic).unwrap();
+    assert!(above.execute(&mut system, &mut []).is_ok());
+}
+
+/// From rest at round-off, under a load switched on, the kinetic energy rises by twenty orders:
+/// that is no explosion.
+#[test]
+fn a_load_on_a_resting_state_is_no_explosion() {
+    let mut system = stretched_chain();
+    let faint = Vector3::y() * 1e-14;
+    system.state_mut().points.velocity.set(3, faint);
+    let h = stable_step(&PEFRL, largest_frequency(&system).unwrap(), 0.5).unwrap();
+    let run = Run::new(&PEFRL, h, 1000).unwrap();
+    for every in [1, 100] {
+        let mut system = stretched_chain();
+        system.state_mut().points.velocity.set(3, faint);
+        let run = run.checking_every(every).unwrap();
+        assert!(run.execute(&mut system, &mut []).is_ok());
+    }
+    assert!(distance(system.state(), stretched_chain().state()) < 1e-13);
+}

@@ -1,0 +1,150 @@
+//! Order, reversal, momenta and energy on free tops that spin about different axes.
+
+mod common;
+
+use actin_integrate::{
+    Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, VEFRL, VELOCITY_VERLET,
+    advance, largest_frequency, stable_step,
+};
+use actin_mechanics::testing::{assert_is_balanced, assert_is_gradient, momenta};
+use actin_mechanics::{State, System};
+use common::{distance, spinning_tops, vibrating_tops};
+
+/// The system of these tests has the properties that they rely on.
+#[test]
+fn test_interactions_are_gradients_and_balanced() {
+    let system = spinning_tops();
+    for interaction in system.interactions() {
+        // The energies vary over lengths of order 1.
+        assert_is_gradient(interaction.as_ref(), system.state(), 1e-2, 1e-9);
+        assert_is_balanced(interaction.as_ref(), system.state(), 1e-14);
+    }
+}
+
+fn state_after(scheme: &Composition, time: f64, steps: u32) -> State {
+    let mut system = spinning_tops();
+    let h = time / f64::from(steps);
+    advance(&mut system, scheme, h, steps.into(), &Drag::NONE);
+    system.state().clone()
+}
+
+/// With (I omega) x omega in the kick instead of the exact free flow in the drift, the methods of
+/// fourth order would measure 1 to 2 here.
+#[test]
+fn order_on_a_spinning_state() {
+    let time = 2.0;
+    let reference = state_after(&SUZUKI, time, 4000);
+    // Steps small enough for the leading error to rule, errors far above the round-off of 1e-14.
+    for (scheme, steps) in [
+        (POSITION_VERLET, 200),
+        (VELOCITY_VERLET, 200),
+        (PEFRL, 80),
+        (VEFRL, 80),
+        (FOREST_RUTH, 160),
+        (SUZUKI, 80),
+    ] {
+        let error = |steps| distance(&state_after(&scheme, time, steps), &reference);
+        let errors = [error(steps), error(2 * steps), error(4 * steps)];
+        let orders = [
+            (errors[0] / errors[1]).log2(),
+            (errors[1] / errors[2]).log2(),
+        ];
+        println!("{scheme}: errors {errors:?}, orders {orders:.4?}");
+        assert!(
+            (orders[1] - f64::from(scheme.order)).abs() < 0.05,
+            "{scheme}: {orders:?}"
+        );
+    }
+}
+
+/// Forward and back again: a table that is no palindrome, or a drift that is no flow, would miss
+/// the start by its truncation error (1e-3 at this step), not by round-off.
+#[test]
+fn time_reversal() {
+    for scheme in Composition::all() {
+        let mut system = spinning_tops();
+        let start = system.state().clone();
+        advance(&mut system, scheme, 0.05, 200, &Drag::NONE);
+        assert!(distance(system.state(), &start) > 1.0);
+        advance(&mut system, scheme, -0.05, 200, &Drag::NONE);
+        let missed = distance(system.state(), &start);
+        println!("{scheme}: missed by {missed:.1e}");
+        // Round-off of 1e-16 in each of 4000 stages, spread by neighbouring paths parting.
+        assert!(missed < 1e-11, "{scheme}: {missed:e}");
+    }
+}
+
+/// Internal loads at fixed positions and exact free flow change neither momentum, at any step.
+#[test]
+fn momenta_stay_to_round_off() {
+    for scheme in Composition::all() {
+        let mut system = spinning_tops();
+        let (p, l) = momenta(system.state());
+        advance(&mut system, scheme, 0.1, 10_000, &Drag::NONE);
+        let (p_end, l_end) = momenta(system.state());
+        let (dp, dl) = ((p_end - p).norm(), (l_end - l).norm());
+        println!("{scheme}: momentum {dp:.1e}, angular momentum {dl:.1e}");
+        // A random walk of 1e5 roundings of 1e-16, growing with the distance travelled.
+        assert!(dp < 1e-12 && dl < 1e-10, "{scheme}: {dp:e}, {dl:e}");
+    }
+}
+
+/// Energies after every tenth of `steps`, each as mean and largest deviation from the start.
+fn energy_record(system: &mut System, scheme: &Composition, h: f64) -> Vec<(f64, f64)> {
+    let start = system.total_energy();
+    (0..10)
+        .map(|_| {
+            let deviations: Vec<f64> = (0..1000)
+                .map(|_| {
+                    advance(system, scheme, h, 10, &Drag::NONE);
+                    system.total_energy() / start - 1.0
+                })
+                .collect();
+            let mean = deviations.iter().sum::<f64>() / 1000.0;
+            let largest = deviations.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
+            (mean, largest)
+        })
+        .collect()
+}
+
+/// Largest deviation in the first and in the last three tenths of 1e5 steps at `share` of the
+/// stability limit, and how far the mean moved from those to these.
+fn energy_trend(scheme: &Composition, share: f64, seed: u64) -> [f64; 3] {
+    let mut system = vibrating_tops(seed);
+    let frequency = largest_frequency(&system).unwrap();
+    let h = stable_step(scheme, frequency, share).unwrap();
+    let record = energy_record(&mut system, scheme, h);
+    let largest = |part: &[(f64, f64)]| part.iter().fold(0.0, |m: f64, r| m.max(r.1));
+    let mean = |part: &[(f64, f64)]| part.iter().map(|r| r.0).sum::<f64>() / 3.0;
+    let (early, late) = (&record[..3], &record[7..]);
+    let trend = [largest(early), largest(late), mean(late) - mean(early)];
+    println!("{scheme} at {share}, seed {seed}: early, late, drift {trend:?}");
+    trend
+}
+
+/// At half the stability limit the energy wavers, but its mean goes nowhere. A stage of a table
+/// out of place, or drag by mistake, would show as a trend. VEFRL is held to 0.4 of its limit,
+/// where it has none; see the next test.
+#[test]
+fn energy_is_bounded_without_a_trend() {
+    for scheme in Composition::all() {
+        let share = if *scheme == VEFRL { 0.4 } else { 0.5 };
+        for seed in 1..=4 {
+            let [early, late, drift] = energy_trend(scheme, share, seed);
+            // The error goes with the energy of the fastest modes, which comes and goes: over
+            // eight starts, the ratio reached 1.47 and the drift 0.06 of the wavering.
+            assert!(late < 2.0 * early, "{scheme}: {early:e} became {late:e}");
+            assert!(drift.abs() < 0.15 * early, "{scheme}: {drift:e}");
+        }
+    }
+}
+
+/// A known limitation: at half of its limit (1.7 rad per step of the fastest mode) VEFRL's energy
+/// diffuses, by up to 3e-3 in eight starts. It must not get worse.
+#[test]
+fn vefrl_at_half_its_limit_diffuses_slowly() {
+    for seed in 1..=4 {
+        let [_, late, drift] = energy_trend(&VEFRL, 0.5, seed);
+        assert!(drift.abs() < 1e-2 && late < 2e-2, "{drift:e}, {late:e}");
+    }
+}
