@@ -1,2 +1,48 @@
-//! Under construction.
-fn main() {}
+//! Tasks of this workspace: `cargo xtask <task>`.
+
+mod check;
+mod figures;
+mod tidy;
+
+use clap::{Parser, Subcommand};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Tasks of this workspace.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Debug, Subcommand)]
+enum Task {
+    /// Formatting, lints as errors, documentation, benches that build, tidiness.
+    Check,
+    /// Computes figures and tables of the paper and compares them with it.
+    ReproduceFigures {
+        /// Which: fig4. All that exist by default.
+        ids: Vec<String>,
+        /// Where to write pictures, tables and reports.
+        #[arg(long, default_value = "target/figures")]
+        out: PathBuf,
+        /// Fewer resolutions and shorter runs.
+        #[arg(long)]
+        quick: bool,
+    },
+}
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().task {
+        Task::Check => check::run(),
+        Task::ReproduceFigures { ids, out, quick } => figures::reproduce(&ids, &out, quick),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,1 +1,43 @@
-//! Under construction.
+//! Discrete Cosserat rods: they stretch, shear, bend and twist.
+//!
+//! A rod of `n` segments is `n + 1` points (its nodes) and `n` frames (one per segment) of a
+//! [`State`](actin_mechanics::State). [`StraightRod`] builds one and returns its [`RodLayout`];
+//! [`EnergyGradient`] and [`PaperBalance`] are the two force laws that act on it; [`RodClamp`]
+//! names the ways to hold an end. [`ShearElement`] and [`BendingElement`] are what a rod consists
+//! of, for whoever joins something else to it.
+//!
+//! Units are nm, pN, ns and rad; masses are pN ns^2/nm = 1e-21 kg. Body axis d3 of a segment's
+//! frame lies along the rod. Nothing here knows of monomers, junctions or scenes.
+//!
+//! # Source
+//! Gunaratne, Floyd, Ni, Papoian and Erban, arXiv 2203.01284, Section 2.2; Gazzola et al.,
+//! R. Soc. Open Sci. 5 (2018) 171628.
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+mod bending;
+mod build;
+mod clamp;
+pub mod constants;
+mod cross_section;
+mod energy_gradient;
+mod error;
+mod layout;
+mod material;
+mod paper_balance;
+mod rigidities;
+mod shear;
+
+pub use bending::{BendingElement, BendingLoads, BendingStiffness};
+pub use build::{StraightRod, Walls};
+pub use clamp::{Held, RodClamp};
+pub use cross_section::CrossSection;
+pub use energy_gradient::EnergyGradient;
+pub use error::{ParameterError, RodError};
+pub use layout::{RodEnd, RodLayout};
+pub use material::RodMaterial;
+pub use paper_balance::PaperBalance;
+pub use rigidities::Rigidities;
+pub use shear::{ShearElement, ShearLoads, ShearStiffness};

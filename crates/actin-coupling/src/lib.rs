@@ -1,1 +1,25 @@
-//! Under construction.
+//! The junction between a filament of monomers and a Cosserat rod.
+//!
+//! The last one or two monomers before a rod (or the first after it) are attached to the rod's
+//! end, each by one bond that shears, stretches, bends and twists as a piece of the rod does. A
+//! bond has one massive frame of its own, the junction frame. In a state these stand between the
+//! frames of the two sections: [`push_junction_frames`] puts them there while the filament is
+//! being built, [`Junction::new`] makes the interaction once all bodies stand.
+//!
+//! Nothing here knows how monomers hold together or where a scene puts a junction.
+//!
+//! # Source
+//! Gunaratne, Floyd, Ni, Papoian and Erban, arXiv 2203.01284, Section 3.
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+mod bond;
+mod build;
+mod error;
+mod junction;
+
+pub use build::push_junction_frames;
+pub use error::JunctionError;
+pub use junction::{AttachedMonomer, Junction, JunctionSide, JunctionWeight};

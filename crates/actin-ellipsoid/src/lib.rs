@@ -1,1 +1,38 @@
-//! Under construction.
+//! Actin filaments resolved monomer by monomer: rigid ellipsoids on a helix, joined by bonds.
+//!
+//! [`EllipsoidParameters`] holds the numbers, [`EllipsoidModel`] validates them once and makes
+//! everything else: the [`Helix`] on which monomers stand, the [`Monomers`] of a run of lattice
+//! indices on a state, the [`Interface`] between two neighbours with its anchors, and the
+//! [`Bonds`] of a run, which act on the state.
+//!
+//! Units are nm, pN, ns and rad; masses are pN ns^2/nm = 1e-21 kg. The body frame of a monomer is
+//! its principal frame: x radial, y tangential, z axial. Nothing here knows of rods, junctions or
+//! scenes.
+//!
+//! # Source
+//! Gunaratne, Floyd, Ni, Papoian and Erban, arXiv 2203.01284, Section 2 and Appendix A.
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+mod bonds;
+pub mod constants;
+mod ellipsoid;
+mod helix;
+mod interface;
+mod kernel;
+mod model;
+mod monomers;
+mod parameters;
+mod stream;
+mod table;
+mod wide;
+
+pub use bonds::{Bonds, Pair};
+pub use ellipsoid::Ellipsoid;
+pub use helix::{Helix, Neighbour};
+pub use interface::{Bond, Interface, InterfaceError, InterfaceKind};
+pub use model::EllipsoidModel;
+pub use monomers::{Monomers, Placement};
+pub use parameters::{Anchors, EllipsoidParameters, InterfaceParameters, ParameterError};

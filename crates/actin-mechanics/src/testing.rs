@@ -1,9 +1,14 @@
-//! Arguments that every interaction's tests use: gradient, balance, invariance.
+//! Arguments that every interaction's tests use: gradient, stiffness, balance, invariance.
 //!
 //! These are public so that the crates above, and users with interactions of their own, can make
 //! the same arguments.
 
+mod second_order;
+
+pub use second_order::{assert_is_stiffness, stiffness_matrix};
+
 use crate::{Interaction, Loads, State, Vector3, rotation};
+use std::ops::{Add, Mul, Sub};
 
 /// A cheap, portable source of numbers in [-1, 1) for tests.
 #[derive(Clone, Debug)]
@@ -160,17 +165,14 @@ pub fn assert_is_gradient(interaction: &dyn Interaction, state: &State, h: f64, 
 }
 
 /// Eight-point central difference of `f` at zero (Fornberg 1988, table 1), error of order `h^8`.
-pub fn derivative(h: f64, f: impl Fn(f64) -> f64) -> f64 {
-    const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
-    WEIGHTS
-        .iter()
-        .zip(1..)
-        .map(|(weight, k)| {
-            let step = f64::from(k) * h;
-            weight * (f(step) - f(-step))
-        })
-        .sum::<f64>()
-        / h
+///
+/// `f` may be a number, a vector or a matrix.
+pub fn derivative<T>(h: f64, f: impl Fn(f64) -> T) -> T
+where
+    T: Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
+{
+    let term = |k: f64, weight: f64| (f(k * h) - f(-k * h)) * (weight / h);
+    term(1.0, 4.0 / 5.0) + term(2.0, -1.0 / 5.0) + term(3.0, 4.0 / 105.0) + term(4.0, -1.0 / 280.0)
 }
 
 /// Asserts that internal loads have no resultant force or torque, to `relative` times the sum of

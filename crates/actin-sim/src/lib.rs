@@ -1,1 +1,32 @@
-//! Under construction.
+//! Scenes of actin filaments at two resolutions: read, assembled, run and written.
+//!
+//! A [`Scene`] says what a filament is made of, what holds and loads it, and what is asked of it.
+//! [`Assembly::build`] turns it into bodies and interactions; [`run`] integrates it; a
+//! [`RunDirectory`] keeps what came out. This is the only crate that knows all the models; the
+//! models do not know each other.
+//!
+//! The filament starts at the lab origin and runs along +z when it is built; azimuth 0 is +x.
+//! Units: nm, pN, ns, rad (degrees where a key says so); mass in ag = 1e-21 kg = pN ns^2/nm.
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+mod assembly;
+mod results;
+mod run;
+mod scene;
+
+pub use assembly::{
+    Assembly, BodyKind, Clamped, Counts, Drive, FrameInfo, Part, PointInfo, Reaction, Resolution,
+    SectionSpan, Term,
+};
+pub use results::{RunDirectory, RunDirectoryError, RunStatus, StabilitySummary, Summary};
+pub use run::{
+    EquilibriumReport, Estimate, Progress, Record, RunError, RunReport, Trajectory, estimate, run,
+};
+pub use scene::{
+    Anchors, Clamp, Drag, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Integrator,
+    JunctionModel, JunctionWeight, Load, Material, Monomers, Problem, RodModel, Scene, SceneError,
+    Section, Setting, Slides, Stage, StopRule, Task,
+};

@@ -1,0 +1,62 @@
+//! `actin check`: what a scene resolves to and what it would cost.
+
+use crate::failure::{Failure, Opened};
+use actin_sim::{Assembly, Estimate, Resolution};
+use std::path::Path;
+
+/// Validates the scene at `path` and prints it with every default, its counts and its cost.
+///
+/// What is not part of the scene is printed as comments, so that the whole is a scene again.
+pub(crate) fn check(path: &Path) -> Result<(), Failure> {
+    let mut opened = Opened::open(path)?;
+    let estimate =
+        actin_sim::estimate(&opened.assembly).map_err(|problem| opened.refuse(&problem))?;
+    if let Some(estimate) = &estimate {
+        opened.assembly.resolve(estimate);
+    }
+    println!("{}", opened.assembly.scene.to_ron());
+    print_sections(&opened.assembly);
+    print_counts(&opened.assembly);
+    match &estimate {
+        Some(estimate) => print_cost(estimate),
+        None => println!("// cost: some tens of Newton iterations for each equilibrium"),
+    }
+    Ok(())
+}
+
+fn print_sections(assembly: &Assembly) {
+    println!("// sections, as resolved on the lattice of monomers:");
+    for section in &assembly.sections {
+        let what = match section.resolution {
+            Resolution::Ellipsoids { bonds, .. } => {
+                format!("{} monomers, {bonds} bonds", section.points.len())
+            }
+            Resolution::Rod { segment_nm } => {
+                format!("{} segments of {segment_nm:.4} nm", section.frames.len())
+            }
+        };
+        println!(
+            "//   {:9.4} to {:9.4} nm: {what}",
+            section.from_nm, section.to_nm
+        );
+    }
+}
+
+fn print_counts(assembly: &Assembly) {
+    let counts = assembly.counts();
+    println!(
+        "// counts: {} monomers, {} bonds, {} segments, {} junctions, {} degrees of freedom",
+        counts.monomers, counts.bonds, counts.segments, counts.junctions, counts.dofs
+    );
+}
+
+fn print_cost(estimate: &Estimate) {
+    println!(
+        "// largest frequency {:.2} rad/ns, stability limit {:.4e} ns, time step {:.4e} ns",
+        estimate.largest_frequency_rad_per_ns, estimate.stability_limit_ns, estimate.time_step_ns
+    );
+    println!(
+        "// cost: at most {} steps, {} force evaluations",
+        estimate.steps, estimate.force_evaluations
+    );
+}

@@ -1,0 +1,65 @@
+//! Why the program ends without a result.
+
+use actin_sim::{Assembly, Scene, SceneError};
+use std::fmt;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// A failure and the exit code that goes with it.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The scene, or where it should be written to, is not usable: exit code 2.
+    Input(String),
+    /// The computation broke down: exit code 3.
+    Numerical(String),
+}
+
+impl Failure {
+    pub(crate) fn exit_code(&self) -> ExitCode {
+        match self {
+            Self::Input(_) => ExitCode::from(2),
+            Self::Numerical(_) => ExitCode::from(3),
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input(message) | Self::Numerical(message) => f.write_str(message),
+        }
+    }
+}
+
+/// A scene file, read and built, with its text to place later problems in.
+pub(crate) struct Opened {
+    pub(crate) assembly: Assembly,
+    pub(crate) text: String,
+    path: String,
+}
+
+impl Opened {
+    /// Reads and builds the scene at `path`.
+    pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| Failure::Input(format!("{name}: {error}")))?;
+        let scene = Scene::from_ron(&text).map_err(|error| input(&name, &error))?;
+        let assembly = Assembly::build(&scene)
+            .map_err(|problem| input(&name, &SceneError::locate(&problem, &text)))?;
+        Ok(Self {
+            assembly,
+            text,
+            path: name,
+        })
+    }
+
+    /// A problem that showed only when the scene was to run.
+    pub(crate) fn refuse(&self, problem: &actin_sim::Problem) -> Failure {
+        input(&self.path, &SceneError::locate(problem, &self.text))
+    }
+}
+
+fn input(name: &str, error: &SceneError) -> Failure {
+    Failure::Input(format!("{name}:{error}"))
+}

@@ -1,0 +1,113 @@
+//! `actin run`: a scene to its end, and everything it gave into a run directory.
+
+use crate::failure::{Failure, Opened};
+use crate::progress::Progress;
+use actin_sim::{RunDirectory, RunError, RunStatus, StabilitySummary, Summary};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Runs the scene at `path` into `out`.
+pub(crate) fn run(path: &Path, out: Option<PathBuf>, overwrite: bool) -> Result<(), Failure> {
+    let mut opened = Opened::open(path)?;
+    actin_sim::estimate(&opened.assembly).map_err(|problem| opened.refuse(&problem))?;
+    let out = out.unwrap_or_else(|| Path::new("runs").join(path.file_stem().unwrap_or_default()));
+    let unusable = |error: actin_sim::RunDirectoryError| Failure::Input(error.to_string());
+    let directory = RunDirectory::create(&out, overwrite).map_err(unusable)?;
+    directory
+        .write_scene(&opened.assembly.scene)
+        .map_err(unusable)?;
+
+    let progress = Progress::new();
+    let started = Instant::now();
+    let outcome = actin_sim::run(&mut opened.assembly, &mut |at| {
+        progress.show(&at, at.steps as f64 / started.elapsed().as_secs_f64());
+        ControlFlow::Continue(())
+    });
+    progress.finish();
+    let (trajectory, report) = match outcome {
+        Ok(done) => done,
+        Err(RunError::Refused(problem)) => return Err(opened.refuse(&problem)),
+        Err(RunError::Ended {
+            failure,
+            trajectory,
+            report,
+        }) => {
+            if !trajectory.records.is_empty() {
+                directory
+                    .write(&opened.assembly, &trajectory, &report)
+                    .map_err(unusable)?;
+            }
+            return Err(Failure::Numerical(format!(
+                "{failure}; the {} equilibria before it are in {}",
+                trajectory.records.len(),
+                out.display()
+            )));
+        }
+        Err(RunError::Failed {
+            failure,
+            body,
+            trajectory,
+            report,
+        }) => {
+            directory
+                .write(&opened.assembly, &trajectory, &report)
+                .map_err(unusable)?;
+            return Err(Failure::Numerical(format!(
+                "{failure}; {} is {body}; everything up to the last good state is in {}",
+                failure.body,
+                out.display()
+            )));
+        }
+    };
+    let summary = directory
+        .write(&opened.assembly, &trajectory, &report)
+        .map_err(unusable)?;
+    print(&summary, &out);
+    Ok(())
+}
+
+fn print(summary: &Summary, out: &Path) {
+    let [x, y, z] = summary.tip_displacement_nm;
+    let work = &summary.work;
+    match &summary.stability {
+        Some(stability) => println!(
+            "equilibrium after {} Newton iterations and {} evaluations of the loads, {:.3} s: {}",
+            work.newton_iterations,
+            work.force_evaluations,
+            summary.wall_s,
+            stability_in_words(stability)
+        ),
+        None => println!(
+            "{} after {:.1} ns: {} steps, {} force evaluations, {:.1} s",
+            match summary.status {
+                RunStatus::Converged => "stop rule met",
+                RunStatus::Completed => "time is up",
+            },
+            summary.time_ns,
+            work.steps,
+            work.force_evaluations,
+            summary.wall_s
+        ),
+    }
+    println!("tip displacement ({x:.4}, {y:.4}, {z:.4}) nm");
+    println!(
+        "energy {:.6} pN nm, of it elastic {:.6}; residual {:.1e} pN, {:.1e} pN nm",
+        summary.energy_pn_nm.total,
+        summary.energy_pn_nm.elastic,
+        summary.residual.force_pn,
+        summary.residual.torque_pn_nm
+    );
+    println!("written to {}", out.display());
+}
+
+fn stability_in_words(stability: &StabilitySummary) -> String {
+    match (
+        stability.negative_eigenvalues,
+        stability.unresolved_eigenvalues,
+    ) {
+        (0, 0) => "stable".into(),
+        (0, modes) => format!("stable but for {modes} neutral mode(s)"),
+        (negative, _) => format!("a SADDLE, with {negative} negative eigenvalue(s)"),
+    }
+}

@@ -1,0 +1,212 @@
+//! The built program, from its arguments to its exit code, its two streams and its files.
+
+use actin_sim::Scene;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+/// A short rod, monomers and a junction under a force; a thousand steps or so.
+const TINY: &str = "Scene(
+    title: \"tiny\",
+    filament: Filament(
+        sections: [
+            Ellipsoids(from_nm: 0.0, to_nm: 10.0),
+            Rod(from_nm: 10.0, to_nm: 30.0),
+        ],
+        monomers: Monomers(lateral_bonds: 8, longitudinal_bonds: 8),
+    ),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+    task: Dynamics(duration_ns: 1.0, record_every_ns: 0.25),
+)";
+
+/// A folder with one scene.
+struct Workplace {
+    folder: TempDir,
+}
+
+impl Workplace {
+    fn with(scene: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("scene.ron"), scene).unwrap();
+        Self { folder }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// Runs the program in the folder; neither of its streams is a terminal.
+    fn actin(&self, arguments: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_actin"))
+            .args(arguments)
+            .current_dir(self.folder.path())
+            .output()
+            .unwrap()
+    }
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().unwrap()
+}
+
+fn stdout(output: &Output) -> &str {
+    std::str::from_utf8(&output.stdout).unwrap()
+}
+
+fn stderr(output: &Output) -> &str {
+    std::str::from_utf8(&output.stderr).unwrap()
+}
+
+/// The files of a folder with their contents.
+fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut files: Vec<_> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.is_file())
+        .map(|path| (path.clone(), fs::read(path).unwrap()))
+        .collect();
+    files.sort();
+    files
+}
+
+/// Exit code 0, every file of a run directory, a report on standard output, and no progress bar
+/// where there is no terminal.
+#[test]
+fn a_scene_runs_into_its_directory() {
+    let place = Workplace::with(TINY);
+    let output = place.actin(&["run", "scene.ron", "--out", "results/a"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_eq!(stderr(&output), "");
+    assert!(stdout(&output).contains("written to results/a"));
+    for name in ["scene.ron", "summary.json", "energies.csv", "states.npz", "run.pvd"] {
+        assert!(place.path("results/a").join(name).is_file(), "{name}");
+    }
+    let energies = fs::read_to_string(place.path("results/a/energies.csv")).unwrap();
+    // A header and the records at 0, 0.25, 0.5, 0.75 and 1 ns.
+    assert_eq!(energies.lines().count(), 6, "{energies}");
+    let summary = fs::read_to_string(place.path("results/a/summary.json")).unwrap();
+    assert!(summary.contains("\"status\": \"completed\""), "{summary}");
+}
+
+/// Without `--out` results go to `runs/` and the name of the scene.
+#[test]
+fn results_have_a_place_by_default() {
+    let place = Workplace::with(TINY);
+    assert_eq!(code(&place.actin(&["run", "scene.ron"])), 0);
+    assert!(place.path("runs/scene/summary.json").is_file());
+}
+
+/// The scene that a run keeps gives the same run, bit for bit.
+#[test]
+fn a_run_can_be_repeated_from_the_scene_it_kept() {
+    let place = Workplace::with(TINY);
+    assert_eq!(code(&place.actin(&["run", "scene.ron", "--out", "a"])), 0);
+    assert_eq!(code(&place.actin(&["run", "a/scene.ron", "--out", "b"])), 0);
+    for name in ["scene.ron", "energies.csv"] {
+        let [a, b] = ["a", "b"].map(|run| fs::read(place.path(run).join(name)).unwrap());
+        assert!(a == b, "{name} differs");
+    }
+}
+
+#[test]
+fn a_bad_scene_is_refused_with_file_line_and_column() {
+    let place = Workplace::with(&TINY.replace("to_nm: 30.0", "to_nm: 5.0"));
+    for command in ["run", "check"] {
+        let output = place.actin(&[command, "scene.ron"]);
+        assert_eq!(code(&output), 2);
+        assert_eq!(stdout(&output), "");
+        assert_eq!(
+            stderr(&output),
+            "error: scene.ron:6:32: filament.sections[1].to_nm = 5.0: a section's length is \
+             positive: must be greater than from_nm = 10.0\n"
+        );
+    }
+    assert!(!place.path("runs").exists(), "nothing is left behind");
+}
+
+/// A rule that needs the largest frequency is broken: still before anything is written.
+#[test]
+fn an_unstable_step_is_refused_before_anything_is_written() {
+    let place = Workplace::with(&TINY.replace("duration_ns: 1.0", "duration_ns: 1.0, time_step_ns: 0.1"));
+    let output = place.actin(&["run", "scene.ron"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).starts_with("error: scene.ron:12:38: task.time_step_ns = 0.1: above"));
+    assert!(!place.path("runs").exists());
+}
+
+#[test]
+fn what_is_no_scene_or_no_argument_is_bad_input() {
+    let place = Workplace::with(TINY);
+    let missing = place.actin(&["run", "absent.ron"]);
+    assert_eq!(code(&missing), 2);
+    assert!(stderr(&missing).starts_with("error: absent.ron: "));
+    fs::write(place.path("binary.ron"), [0xff, 0xfe]).unwrap();
+    assert_eq!(code(&place.actin(&["check", "binary.ron"])), 2);
+    assert_eq!(code(&place.actin(&["walk", "scene.ron"])), 2);
+}
+
+/// Refused with every byte in place, also when what is there was not written by a run.
+#[test]
+fn an_earlier_run_is_not_overwritten_unless_asked() {
+    let place = Workplace::with(TINY);
+    assert_eq!(code(&place.actin(&["run", "scene.ron", "--out", "a"])), 0);
+    fs::write(place.path("a/notes.txt"), "mine").unwrap();
+    let before = contents(&place.path("a"));
+    let again = place.actin(&["run", "scene.ron", "--out", "a"]);
+    assert_eq!(code(&again), 2);
+    assert!(stderr(&again).contains("a exists and is not empty"), "{}", stderr(&again));
+    assert!(contents(&place.path("a")) == before, "nothing has changed");
+    let asked = place.actin(&["run", "scene.ron", "--out", "a", "--overwrite"]);
+    assert_eq!(code(&asked), 0, "{}", stderr(&asked));
+    assert_eq!(fs::read_to_string(place.path("a/notes.txt")).unwrap(), "mine");
+}
+
+/// Thrice the stability limit: exit code 3, the step, the body in words and the term, and the
+/// records up to the last good state on disk, all of them finite.
+#[test]
+fn an_explosion_is_reported_and_what_was_good_is_kept() {
+    let unstable = "duration_ns: 100.0, time_step_ns: 0.0105, allow_unstable_step: true";
+    let place = Workplace::with(&TINY.replace("duration_ns: 1.0", unstable));
+    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+    assert_eq!(code(&output), 3, "{}", stderr(&output));
+    let message = stderr(&output);
+    println!("{message}");
+    for part in ["at step ", " acts most strongly", " at s = ", "last good state", " is in a"] {
+        assert!(message.contains(part), "{part:?} in {message}");
+    }
+    assert!(["bonds", "rod", "junction"].iter().any(|term| message.contains(&format!("{term:?}"))));
+    let energies = fs::read_to_string(place.path("a/energies.csv")).unwrap();
+    assert!(energies.lines().count() >= 2, "{energies}");
+    for value in energies.lines().skip(1).flat_map(|line| line.split(',')) {
+        assert!(value.parse::<f64>().unwrap().is_finite());
+    }
+    assert!(place.path("a/states.npz").is_file());
+}
+
+/// What `check` prints is a scene with every default written out; it means the same, and checking
+/// it again prints the same.
+#[test]
+fn what_check_prints_is_the_scene() {
+    let place = Workplace::with(TINY);
+    let output = place.actin(&["check", "scene.ron"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let printed = stdout(&output);
+    println!("{printed}");
+    let scene = Scene::from_ron(printed).unwrap();
+    let written = Scene::from_ron(TINY).unwrap();
+    assert_eq!(scene.filament.monomers, written.filament.monomers);
+    assert_eq!((&scene.clamps, &scene.loads), (&written.clamps, &written.loads));
+    for default in ["seed: 0", "segments: 2", "integrator: Pefrl", "weight: Shared", "hold: Wall"] {
+        assert!(printed.contains(default), "{default}");
+    }
+    let open = printed.lines().filter(|line| line.contains("None"));
+    let open: Vec<&str> = open.map(str::trim).collect();
+    assert_eq!(open, ["stop: None,"], "no rule to stop; all else is resolved");
+    fs::write(place.path("resolved.ron"), printed).unwrap();
+    let again = place.actin(&["check", "resolved.ron"]);
+    assert_eq!(stdout(&again), printed);
+    let files = fs::read_dir(place.folder.path()).unwrap().count();
+    assert_eq!(files, 2, "checking writes nothing");
+}

@@ -1,0 +1,157 @@
+//! Puts a straight rod on a state.
+
+use crate::layout::check_lengths;
+use crate::{CrossSection, RodError, RodLayout};
+use actin_mechanics::{Frame, Point, State, UnitQuaternion, Vector3};
+
+/// At which ends a rod has a held wall frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Walls {
+    /// Before the first segment.
+    pub start: bool,
+    /// After the last segment.
+    pub end: bool,
+}
+
+/// A straight, unstrained rod.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StraightRod {
+    /// Position of node 0 (nm, lab frame).
+    pub start: Vector3,
+    /// Orientation of every frame, body to lab: the rod lies along d3.
+    pub orientation: UnitQuaternion,
+    /// Rest lengths of the segments (nm).
+    pub segment_lengths: Vec<f64>,
+    /// What its masses and moments of inertia follow from.
+    pub cross_section: CrossSection,
+    /// Where it has wall frames.
+    pub walls: Walls,
+}
+
+impl StraightRod {
+    /// A rod of equal segments from the origin along lab +z, of actin's cross-section, without
+    /// walls. Change what should differ.
+    pub fn uniform(segments: usize, segment_length: f64) -> Self {
+        Self {
+            start: Vector3::zeros(),
+            orientation: UnitQuaternion::identity(),
+            segment_lengths: vec![segment_length; segments],
+            cross_section: CrossSection::actin(),
+            walls: Walls::default(),
+        }
+    }
+
+    /// Appends the rod's points and frames to a state: first the wall frame at the start, then
+    /// the segments' frames, then the wall frame at the end, as far as there are walls.
+    ///
+    /// A node has half the mass of each segment that it joins. Wall frames are held; they have
+    /// the inertia of the segment beside them, in case they are driven.
+    ///
+    /// # Errors
+    /// No segment, or one whose length is not positive and finite; the state is then unchanged.
+    pub fn push(&self, state: &mut State) -> Result<RodLayout, RodError> {
+        let lengths = &self.segment_lengths;
+        check_lengths(lengths)?;
+        let first_point = state.points.len();
+        self.push_nodes(state);
+        if self.walls.start {
+            self.push_wall(lengths[0], state);
+        }
+        let first_frame = state.frames.len();
+        for &length in lengths {
+            state.frames.push(self.frame(length));
+        }
+        if self.walls.end {
+            self.push_wall(lengths[lengths.len() - 1], state);
+        }
+        RodLayout::new(first_point, first_frame, lengths.clone(), self.walls)
+    }
+
+    fn push_nodes(&self, state: &mut State) {
+        let lengths = &self.segment_lengths;
+        let axis = self.orientation * Vector3::z();
+        let mut s = 0.0;
+        for node in 0..=lengths.len() {
+            let before = if node == 0 { 0.0 } else { lengths[node - 1] };
+            let after = lengths.get(node).copied().unwrap_or(0.0);
+            s += before;
+            state.points.push(Point {
+                position: self.start + axis * s,
+                mass: self.cross_section.mass(0.5 * (before + after)),
+            });
+        }
+    }
+
+    fn push_wall(&self, length: f64, state: &mut State) {
+        let wall = state.frames.push(self.frame(length));
+        state.frames.hold(wall);
+    }
+
+    fn frame(&self, length: f64) -> Frame {
+        Frame {
+            orientation: self.orientation,
+            inertia: self.cross_section.segment_inertia(length),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::RodEnd;
+
+    /// Other bodies stand before and after; the rod's own stand as its layout says.
+    #[test]
+    fn bodies_follow_those_already_there() {
+        let mut state = State::default();
+        StraightRod::uniform(2, 1.0).push(&mut state).unwrap();
+        let rod = StraightRod {
+            start: Vector3::new(1.0, 2.0, 3.0),
+            segment_lengths: vec![1.0, 3.0],
+            walls: Walls {
+                start: true,
+                end: true,
+            },
+            ..StraightRod::uniform(0, 0.0)
+        };
+        let layout = rod.push(&mut state).unwrap();
+        StraightRod::uniform(1, 1.0).push(&mut state).unwrap();
+        assert_eq!(layout.points(), 3..6);
+        assert_eq!(layout.bending_chain(), 2..6);
+        assert_eq!(layout.wall(RodEnd::Start), Some(2));
+        assert_eq!(layout.wall(RodEnd::End), Some(5));
+        let held = (0..state.frames.len()).filter(|&i| !state.frames.is_free(i));
+        assert!(held.eq([2, 5]));
+        let tip = state.points.position.get(layout.end_point(RodEnd::End));
+        assert_eq!(tip, Vector3::new(1.0, 2.0, 7.0));
+    }
+
+    /// All mass is there, half a segment's at either end.
+    #[test]
+    fn masses_add_up() {
+        let rod = StraightRod {
+            segment_lengths: vec![1.0, 2.0, 4.0],
+            ..StraightRod::uniform(0, 0.0)
+        };
+        let mut state = State::default();
+        rod.push(&mut state).unwrap();
+        let masses = state
+            .points
+            .inverse_mass()
+            .iter()
+            .map(|inverse| 1.0 / inverse);
+        for (mass, length) in masses.zip([0.5, 1.5, 3.0, 2.0]) {
+            let expected = rod.cross_section.linear_density() * length;
+            // Two reciprocals' round-off.
+            assert!((mass - expected).abs() < 1e-14 * expected);
+        }
+    }
+
+    #[test]
+    fn a_refused_rod_leaves_the_state_alone() {
+        let mut state = State::default();
+        assert!(StraightRod::uniform(0, 1.0).push(&mut state).is_err());
+        assert!(StraightRod::uniform(2, 0.0).push(&mut state).is_err());
+        assert_eq!(state, State::default());
+    }
+}

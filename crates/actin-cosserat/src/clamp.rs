@@ -1,0 +1,127 @@
+//! Three ways to hold an end of a rod.
+
+use crate::{RodEnd, RodError, RodLayout};
+use actin_mechanics::State;
+use std::ops::Range;
+
+/// What of a rod is held at a clamped end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RodClamp {
+    /// The last node, and a wall frame that the last segment's frame is joined to by half a
+    /// segment of bending.
+    ///
+    /// The clamped cross-section lies at the node, so this converges with the square of the
+    /// segment length; holding the segment's frame delays the curvature by half a segment.
+    #[default]
+    Wall,
+    /// The last node and the last segment's frame.
+    NodeAndFrame,
+    /// The last two nodes and the last segment's frame: the segment cannot even stretch.
+    TwoNodesAndFrame,
+}
+
+/// The bodies that a clamp holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Held {
+    /// Points.
+    pub points: Range<usize>,
+    /// Frames.
+    pub frames: Range<usize>,
+}
+
+impl RodClamp {
+    /// Whether the rod has to be built with a wall frame at the clamped end.
+    pub fn needs_wall(self) -> bool {
+        self == Self::Wall
+    }
+
+    /// The bodies that are held at an end.
+    ///
+    /// # Errors
+    /// [`Wall`](Self::Wall) at an end without a wall frame.
+    pub fn held(self, layout: &RodLayout, end: RodEnd) -> Result<Held, RodError> {
+        let frame = match self {
+            Self::Wall => layout.wall(end).ok_or(RodError::NoWall(end))?,
+            Self::NodeAndFrame | Self::TwoNodesAndFrame => layout.end_frame(end),
+        };
+        let nodes = match self {
+            Self::Wall | Self::NodeAndFrame => 1,
+            Self::TwoNodesAndFrame => 2,
+        };
+        let Range { start, end: past } = layout.points();
+        let points = match end {
+            RodEnd::Start => start..start + nodes,
+            RodEnd::End => past - nodes..past,
+        };
+        Ok(Held {
+            points,
+            frames: frame..frame + 1,
+        })
+    }
+
+    /// Holds an end, and says what is held there.
+    ///
+    /// # Errors
+    /// [`Wall`](Self::Wall) at an end without a wall frame.
+    pub fn hold(
+        self,
+        layout: &RodLayout,
+        end: RodEnd,
+        state: &mut State,
+    ) -> Result<Held, RodError> {
+        let held = self.held(layout, end)?;
+        held.points.clone().for_each(|i| state.points.hold(i));
+        held.frames.clone().for_each(|i| state.frames.hold(i));
+        Ok(held)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{StraightRod, Walls};
+
+    /// Points and frames that are held on a rod of three segments, clamped at one end.
+    fn held(clamp: RodClamp, end: RodEnd) -> (Vec<usize>, Vec<usize>) {
+        let rod = StraightRod {
+            walls: Walls {
+                start: end == RodEnd::Start && clamp.needs_wall(),
+                end: end == RodEnd::End && clamp.needs_wall(),
+            },
+            ..StraightRod::uniform(3, 10.0)
+        };
+        let mut state = State::default();
+        let layout = rod.push(&mut state).unwrap();
+        let held = clamp.hold(&layout, end, &mut state).unwrap();
+        let points: Vec<_> = (0..state.points.len())
+            .filter(|&i| !state.points.is_free(i))
+            .collect();
+        let frames: Vec<_> = (0..state.frames.len())
+            .filter(|&i| !state.frames.is_free(i))
+            .collect();
+        assert!(held.points.eq(points.clone()));
+        assert!(held.frames.eq(frames.clone()));
+        (points, frames)
+    }
+
+    #[test]
+    fn each_clamp_holds_what_its_name_says() {
+        use RodClamp::{NodeAndFrame, TwoNodesAndFrame, Wall};
+        assert_eq!(held(Wall, RodEnd::Start), (vec![0], vec![0]));
+        assert_eq!(held(Wall, RodEnd::End), (vec![3], vec![3]));
+        assert_eq!(held(NodeAndFrame, RodEnd::Start), (vec![0], vec![0]));
+        assert_eq!(held(NodeAndFrame, RodEnd::End), (vec![3], vec![2]));
+        assert_eq!(held(TwoNodesAndFrame, RodEnd::Start), (vec![0, 1], vec![0]));
+        assert_eq!(held(TwoNodesAndFrame, RodEnd::End), (vec![2, 3], vec![2]));
+    }
+
+    #[test]
+    fn a_wall_clamp_needs_a_wall() {
+        let mut state = State::default();
+        let layout = StraightRod::uniform(1, 1.0).push(&mut state).unwrap();
+        for end in [RodEnd::Start, RodEnd::End] {
+            let error = RodClamp::Wall.hold(&layout, end, &mut state).unwrap_err();
+            assert_eq!(error, RodError::NoWall(end));
+        }
+    }
+}

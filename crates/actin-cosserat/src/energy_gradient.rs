@@ -1,0 +1,120 @@
+//! The force law that is the gradient of an energy.
+
+use crate::{BendingElement, RodLayout, RodMaterial, ShearElement};
+use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness};
+
+/// A rod whose loads are minus the gradient of its energy: term `rod`.
+///
+/// `E = sum W(sigma_i) |lhat_i| + sum U(kappa_j) Dhat_j` with the material's energies per length;
+/// elements are the `n` shear elements, then the bending elements along the chain of frames,
+/// walls included. Loads are those of [`ShearElement`] and [`BendingElement`].
+///
+/// # Source
+/// The energy is that of arXiv 2203.01284, Section 2.2, discretised with rest lengths; the loads
+/// are its exact gradient, which the printed balance is not.
+#[derive(Clone, Debug)]
+pub struct EnergyGradient {
+    layout: RodLayout,
+    material: RodMaterial,
+}
+
+impl EnergyGradient {
+    /// The law on a rod.
+    pub fn new(layout: RodLayout, material: RodMaterial) -> Self {
+        Self { layout, material }
+    }
+
+    /// The rod.
+    pub fn layout(&self) -> &RodLayout {
+        &self.layout
+    }
+
+    /// Its material.
+    pub fn material(&self) -> &RodMaterial {
+        &self.material
+    }
+}
+
+/// Energies of the elements of a rod, the same for both force laws.
+pub(crate) fn write_energies(
+    layout: &RodLayout,
+    material: &RodMaterial,
+    state: &State,
+    energies: &mut [f64],
+) {
+    assert_eq!(energies.len(), layout.elements(), "one energy per element");
+    let (shear, bending) = energies.split_at_mut(layout.segments());
+    let lengths = layout.segment_lengths().iter();
+    let bodies = layout.points().zip(layout.frames());
+    for ((energy, &length), (i, frame)) in shear.iter_mut().zip(lengths).zip(bodies) {
+        let l = state.points.position.get(i + 1) - state.points.position.get(i);
+        let q = state.frames.orientation.get(frame);
+        *energy = ShearElement::segment(length).energy(material, q, l);
+    }
+    let distances = layout.voronoi_lengths().iter();
+    let chain = layout.bending_chain();
+    for ((energy, &rest_distance), a) in bending.iter_mut().zip(distances).zip(chain) {
+        let q = &state.frames.orientation;
+        *energy = BendingElement { rest_distance }.energy(material, q.get(a), q.get(a + 1));
+    }
+}
+
+impl Interaction for EnergyGradient {
+    fn term(&self) -> &'static str {
+        "rod"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        let lengths = self.layout.segment_lengths().iter();
+        let bodies = self.layout.points().zip(self.layout.frames());
+        for (&length, (i, frame)) in lengths.zip(bodies) {
+            let l = state.points.position.get(i + 1) - state.points.position.get(i);
+            let q = state.frames.orientation.get(frame);
+            let shear = ShearElement::segment(length).loads(&self.material, q, l);
+            loads.force.add(i, shear.force);
+            loads.force.add(i + 1, -shear.force);
+            loads.torque.add(frame, shear.torque);
+        }
+        let distances = self.layout.voronoi_lengths().iter();
+        for (&rest_distance, a) in distances.zip(self.layout.bending_chain()) {
+            let q = &state.frames.orientation;
+            let element = BendingElement { rest_distance };
+            let bending = element.loads(&self.material, q.get(a), q.get(a + 1));
+            loads.torque.add(a, bending.first);
+            loads.torque.add(a + 1, bending.second);
+        }
+    }
+
+    fn elements(&self) -> usize {
+        self.layout.elements()
+    }
+
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        write_energies(&self.layout, &self.material, state, energies);
+    }
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        Some(self)
+    }
+}
+
+impl SecondOrder for EnergyGradient {
+    /// Pushes those of [`ShearElement::stiffness`], then those of [`BendingElement::stiffness`]:
+    /// a body's diagonal block once per element that it belongs to.
+    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        let lengths = self.layout.segment_lengths().iter();
+        let bodies = self.layout.points().zip(self.layout.frames());
+        for (&length, (i, frame)) in lengths.zip(bodies) {
+            let l = state.points.position.get(i + 1) - state.points.position.get(i);
+            let q = state.frames.orientation.get(frame);
+            let shear = ShearElement::segment(length).stiffness(&self.material, q, l);
+            shear.push([i, i + 1], frame, stiffness);
+        }
+        let distances = self.layout.voronoi_lengths().iter();
+        for (&rest_distance, a) in distances.zip(self.layout.bending_chain()) {
+            let q = &state.frames.orientation;
+            let element = BendingElement { rest_distance };
+            let bending = element.stiffness(&self.material, q.get(a), q.get(a + 1));
+            bending.push([a, a + 1], stiffness);
+        }
+    }
+}

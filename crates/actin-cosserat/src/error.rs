@@ -1,0 +1,53 @@
+//! Why parameters or a rod were refused.
+
+use crate::RodEnd;
+use thiserror::Error;
+
+/// A number that breaks the rule of its key.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("{key} = {value}: must be {rule}")]
+pub struct ParameterError {
+    /// Name of the parameter.
+    pub key: &'static str,
+    /// What it was.
+    pub value: f64,
+    /// What it must be.
+    pub rule: &'static str,
+}
+
+/// Why a rod was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum RodError {
+    /// A parameter is out of range.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// A rod without segments.
+    #[error("segments = 0: a rod has at least one")]
+    NoSegments,
+    /// A segment without length.
+    #[error("rest length of segment {segment} = {value} nm: must be positive and finite")]
+    SegmentLength {
+        /// Which segment, counted from 0.
+        segment: usize,
+        /// Its rest length (nm).
+        value: f64,
+    },
+    /// A wall clamp at an end that was built without a wall frame.
+    #[error("the {0} of the rod has no wall frame to be clamped to: build it with one")]
+    NoWall(RodEnd),
+}
+
+impl ParameterError {
+    /// Refuses what is not a positive finite number.
+    ///
+    /// # Errors
+    /// Zero, negative numbers, infinities and NaN.
+    pub fn unless_positive(key: &'static str, value: f64) -> Result<(), Self> {
+        if value.is_finite() && value > 0.0 {
+            Ok(())
+        } else {
+            let rule = "positive and finite";
+            Err(Self { key, value, rule })
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! Which bodies of a state make up a rod, and its rest lengths. Building it is in `build.rs`.
+
+use crate::{RodError, Walls};
+use std::fmt;
+use std::ops::Range;
+
+/// An end of a rod.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RodEnd {
+    /// The end with node 0.
+    Start,
+    /// The end with the last node.
+    End,
+}
+
+impl fmt::Display for RodEnd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Start => "start",
+            Self::End => "end",
+        })
+    }
+}
+
+/// Where the bodies of a rod stand in a state, and its rest lengths.
+///
+/// `n` segments join `n + 1` consecutive points and have `n` consecutive frames. A wall frame
+/// stands directly before the first or after the last of these, so that all frames of the
+/// rod's bending elements, the walls included, are consecutive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RodLayout {
+    first_point: usize,
+    first_frame: usize,
+    walls: Walls,
+    segment_lengths: Vec<f64>,
+    voronoi_lengths: Vec<f64>,
+}
+
+impl RodLayout {
+    /// A rod whose node 0 is `first_point` and whose first segment has the frame `first_frame`,
+    /// with the given rest lengths (nm).
+    ///
+    /// # Errors
+    /// No segment, or one whose length is not positive and finite.
+    ///
+    /// # Panics
+    /// If there is a wall at the start but no frame before `first_frame` that could be it.
+    pub fn new(
+        first_point: usize,
+        first_frame: usize,
+        segment_lengths: Vec<f64>,
+        walls: Walls,
+    ) -> Result<Self, RodError> {
+        check_lengths(&segment_lengths)?;
+        assert!(
+            first_frame > 0 || !walls.start,
+            "the wall frame stands before the first segment's frame"
+        );
+        let voronoi_lengths = voronoi(&segment_lengths, walls);
+        Ok(Self {
+            first_point,
+            first_frame,
+            walls,
+            segment_lengths,
+            voronoi_lengths,
+        })
+    }
+
+    /// Number of segments.
+    pub fn segments(&self) -> usize {
+        self.segment_lengths.len()
+    }
+
+    /// The rod's points, in order.
+    pub fn points(&self) -> Range<usize> {
+        self.first_point..self.first_point + self.segments() + 1
+    }
+
+    /// The segments' frames, in order, without walls.
+    pub fn frames(&self) -> Range<usize> {
+        self.first_frame..self.first_frame + self.segments()
+    }
+
+    /// All frames that bending elements join, in order: the segments' and those of the walls.
+    pub fn bending_chain(&self) -> Range<usize> {
+        let Range { start, end } = self.frames();
+        start - usize::from(self.walls.start)..end + usize::from(self.walls.end)
+    }
+
+    /// The point at an end.
+    pub fn end_point(&self, end: RodEnd) -> usize {
+        match end {
+            RodEnd::Start => self.first_point,
+            RodEnd::End => self.first_point + self.segments(),
+        }
+    }
+
+    /// The frame of the segment at an end.
+    pub fn end_frame(&self, end: RodEnd) -> usize {
+        match end {
+            RodEnd::Start => self.first_frame,
+            RodEnd::End => self.first_frame + self.segments() - 1,
+        }
+    }
+
+    /// Rest length of the segment at an end (nm).
+    pub fn end_length(&self, end: RodEnd) -> f64 {
+        match end {
+            RodEnd::Start => self.segment_lengths[0],
+            RodEnd::End => self.segment_lengths[self.segments() - 1],
+        }
+    }
+
+    /// The wall frame at an end, if there is one.
+    pub fn wall(&self, end: RodEnd) -> Option<usize> {
+        let frames = self.frames();
+        match end {
+            RodEnd::Start => self.walls.start.then(|| frames.start - 1),
+            RodEnd::End => self.walls.end.then_some(frames.end),
+        }
+    }
+
+    /// Rest lengths of the segments (nm).
+    pub fn segment_lengths(&self) -> &[f64] {
+        &self.segment_lengths
+    }
+
+    /// Rest distances `Dhat` of the frames that each bending element joins (nm): the mean of the
+    /// two segments' lengths, and half a segment's length at a wall.
+    pub fn voronoi_lengths(&self) -> &[f64] {
+        &self.voronoi_lengths
+    }
+
+    /// Rest length of the rod (nm).
+    pub fn length(&self) -> f64 {
+        self.segment_lengths.iter().sum()
+    }
+
+    /// Number of elements of a rod interaction: a shear element per segment, then the bending
+    /// elements (`n - 1`, and one per wall).
+    pub fn elements(&self) -> usize {
+        self.segment_lengths.len() + self.voronoi_lengths.len()
+    }
+
+    /// Rest arc length of each element from node 0 on (nm), in the order of the elements: the
+    /// middle of its segment for a shear element, the node between its frames for a bending
+    /// element.
+    pub fn element_positions(&self) -> Vec<f64> {
+        let mut nodes = vec![0.0];
+        for length in &self.segment_lengths {
+            nodes.push(nodes[nodes.len() - 1] + length);
+        }
+        let middles = nodes.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+        let first = usize::from(!self.walls.start);
+        let past = nodes.len() - usize::from(!self.walls.end);
+        middles.chain(nodes[first..past].iter().copied()).collect()
+    }
+}
+
+/// Refuses a rod of no segments and segments of no length.
+pub(crate) fn check_lengths(lengths: &[f64]) -> Result<(), RodError> {
+    if lengths.is_empty() {
+        return Err(RodError::NoSegments);
+    }
+    match lengths.iter().position(|l| !(l.is_finite() && *l > 0.0)) {
+        Some(segment) => Err(RodError::SegmentLength {
+            segment,
+            value: lengths[segment],
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Rest distances of the frames that bending elements join.
+fn voronoi(lengths: &[f64], walls: Walls) -> Vec<f64> {
+    let half = |length: &f64| 0.5 * length;
+    let first = lengths.first().filter(|_| walls.start).map(half);
+    let last = lengths.last().filter(|_| walls.end).map(half);
+    let inside = lengths.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+    first.into_iter().chain(inside).chain(last).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOTH: Walls = Walls {
+        start: true,
+        end: true,
+    };
+
+    /// Bending elements cover the rod exactly where both ends have walls; without walls the two
+    /// outer half segments do not bend.
+    #[test]
+    fn voronoi_lengths_cover_the_rod() {
+        let lengths = vec![1.0, 2.0, 4.0];
+        let both = RodLayout::new(0, 1, lengths.clone(), BOTH).unwrap();
+        assert_eq!(both.voronoi_lengths(), [0.5, 1.5, 3.0, 2.0]);
+        assert!((both.voronoi_lengths().iter().sum::<f64>() - both.length()).abs() < 1e-15);
+        let free = RodLayout::new(0, 0, lengths, Walls::default()).unwrap();
+        assert_eq!(free.voronoi_lengths(), [1.5, 3.0]);
+    }
+
+    #[test]
+    fn elements_stand_at_middles_and_nodes() {
+        let lengths = vec![1.0, 2.0, 4.0];
+        let both = RodLayout::new(0, 1, lengths.clone(), BOTH).unwrap();
+        assert_eq!(
+            both.element_positions(),
+            [0.5, 2.0, 5.0, 0.0, 1.0, 3.0, 7.0]
+        );
+        let free = RodLayout::new(0, 0, lengths, Walls::default()).unwrap();
+        assert_eq!(free.element_positions(), [0.5, 2.0, 5.0, 1.0, 3.0]);
+        assert_eq!(free.elements(), 5);
+    }
+
+    /// One segment: no interior bending, but a wall on either side still bends against it.
+    #[test]
+    fn one_segment_is_a_rod() {
+        let free = RodLayout::new(3, 7, vec![2.0], Walls::default()).unwrap();
+        assert_eq!(free.elements(), 1);
+        assert_eq!(free.bending_chain(), 7..8);
+        let both = RodLayout::new(3, 7, vec![2.0], BOTH).unwrap();
+        assert_eq!(both.bending_chain(), 6..9);
+        assert_eq!(both.wall(RodEnd::Start), Some(6));
+        assert_eq!(both.wall(RodEnd::End), Some(8));
+        assert_eq!(both.voronoi_lengths(), [1.0, 1.0]);
+    }
+
+    #[test]
+    fn rods_without_segments_or_lengths_are_refused() {
+        let rod = |lengths| RodLayout::new(0, 0, lengths, Walls::default());
+        assert_eq!(rod(vec![]), Err(RodError::NoSegments));
+        for value in [0.0, -1.0, f64::INFINITY] {
+            let segment = 1;
+            let expected = RodError::SegmentLength { segment, value };
+            assert_eq!(rod(vec![1.0, value]), Err(expected));
+        }
+        assert!(rod(vec![f64::NAN]).is_err());
+    }
+}

@@ -1,0 +1,128 @@
+//! The force law as the paper prints it. It has no potential.
+
+use crate::{BendingElement, RodEnd, RodLayout, RodMaterial, ShearElement};
+use actin_mechanics::{Interaction, Loads, State, UnitQuaternion, Vector3};
+
+/// A rod with the balance equations as printed: term `rod`, not conservative.
+///
+/// With `e = |l|/|lhat|`, `t = l/|l|`, `n = S sigma` and `m = B kappa`, a segment exerts
+/// `Q n / e` on its first node, minus that on its second, and the torque `|lhat| Q^T t x n` on
+/// its frame; a bending element exerts `(m + Dhat kappa x m / 2) / E^3` on its first frame and
+/// `(-m + Dhat kappa x m / 2) / E^3` on its second, where `E = D/Dhat` and `D` is the mean of the
+/// present lengths of the two segments, or half a segment's at a wall.
+///
+/// Differences from the print: `kappa = log(Qi^T Qj)/Dhat`, the sign of the paper's continuous
+/// curvature (with the sign of its discrete one the printed couples would drive a bend further);
+/// constant inertia, since `I/e` and its rate cannot be split into drift and kick.
+///
+/// Forces balance exactly and so do the moments of the shear elements; the couples of a bending
+/// element leave `theta^3 m / 12` where `m` is not parallel to the angle `theta`. The energy
+/// written is that of [`EnergyGradient`](crate::EnergyGradient), which this law does not keep:
+/// loads differ from its gradient by the order of the strain.
+///
+/// # Source
+/// arXiv 2203.01284, Section 2.2, after Gazzola et al. (2018).
+#[derive(Clone, Debug)]
+pub struct PaperBalance {
+    layout: RodLayout,
+    material: RodMaterial,
+}
+
+impl PaperBalance {
+    /// The law on a rod.
+    pub fn new(layout: RodLayout, material: RodMaterial) -> Self {
+        Self { layout, material }
+    }
+
+    /// The rod.
+    pub fn layout(&self) -> &RodLayout {
+        &self.layout
+    }
+
+    /// Its material.
+    pub fn material(&self) -> &RodMaterial {
+        &self.material
+    }
+
+    /// Adds the loads of segment `k`.
+    #[inline]
+    fn add_segment(&self, k: usize, state: &State, loads: &mut Loads) {
+        let (i, frame) = (
+            self.layout.points().start + k,
+            self.layout.frames().start + k,
+        );
+        let rest_length = self.layout.segment_lengths()[k];
+        let l = state.points.position.get(i + 1) - state.points.position.get(i);
+        let q = state.frames.orientation.get(frame);
+        let inverse_extension = rest_length / l.norm();
+        // Both printed loads are those of the energy divided by e.
+        let shear = ShearElement::segment(rest_length).loads(&self.material, q, l);
+        loads.force.add(i, shear.force * inverse_extension);
+        loads.force.add(i + 1, -shear.force * inverse_extension);
+        loads.torque.add(frame, shear.torque * inverse_extension);
+    }
+
+    /// Present over rest length of the part of the rod that bending element `j` stands for.
+    #[inline]
+    fn voronoi_extension(&self, j: usize, state: &State) -> f64 {
+        let walls = usize::from(self.layout.wall(RodEnd::Start).is_some());
+        let first = self.layout.points().start;
+        let half_length = |segment: usize| {
+            let i = first + segment;
+            0.5 * (state.points.position.get(i + 1) - state.points.position.get(i)).norm()
+        };
+        // Element j joins these segments' frames; at a wall one of the two is missing.
+        let before = j.checked_sub(walls);
+        let after = Some(j + 1 - walls).filter(|&segment| segment < self.layout.segments());
+        let present = before.map_or(0.0, half_length) + after.map_or(0.0, half_length);
+        present / self.layout.voronoi_lengths()[j]
+    }
+}
+
+/// The printed couples of a bending element on its two frames, at `E = 1`.
+#[inline]
+fn printed_couples(
+    element: BendingElement,
+    material: &RodMaterial,
+    (qa, qb): (UnitQuaternion, UnitQuaternion),
+) -> (Vector3, Vector3) {
+    let kappa = element.curvature(qa, qb);
+    let m = material.bending_couple(kappa);
+    let half = 0.5 * element.rest_distance * kappa.cross(&m);
+    (half + m, half - m)
+}
+
+impl Interaction for PaperBalance {
+    fn term(&self) -> &'static str {
+        "rod"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        for k in 0..self.layout.segments() {
+            self.add_segment(k, state, loads);
+        }
+        let distances = self.layout.voronoi_lengths().iter();
+        let chain = self.layout.bending_chain();
+        for (j, (&rest_distance, a)) in distances.zip(chain).enumerate() {
+            let q = &state.frames.orientation;
+            let element = BendingElement { rest_distance };
+            let frames = (q.get(a), q.get(a + 1));
+            let (first, second) = printed_couples(element, &self.material, frames);
+            let factor = self.voronoi_extension(j, state).powi(-3);
+            loads.torque.add(a, first * factor);
+            loads.torque.add(a + 1, second * factor);
+        }
+    }
+
+    fn elements(&self) -> usize {
+        self.layout.elements()
+    }
+
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        crate::energy_gradient::write_energies(&self.layout, &self.material, state, energies);
+    }
+
+    fn is_conservative(&self) -> bool {
+        false
+    }
+}

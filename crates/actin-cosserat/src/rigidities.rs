@@ -1,0 +1,120 @@
+//! Rigidities of a rod: what resists its strains. What follows from them is in `material.rs`.
+
+use crate::{ParameterError, constants};
+use actin_mechanics::Vector3;
+use std::f64::consts::PI;
+
+/// Rigidities against shear strains and curvatures, in body axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rigidities {
+    /// Shearing, shearing, stretching: S1, S2, S3 (pN).
+    pub shear: Vector3,
+    /// Bending, bending, twisting: B1, B2, B3 (pN nm^2).
+    pub bend: Vector3,
+}
+
+impl Rigidities {
+    /// The rigidities of the multi-resolution model.
+    ///
+    /// # Source
+    /// arXiv 2203.01284, Table 4.
+    ///
+    /// ```
+    /// let rigidities = actin_cosserat::Rigidities::table4();
+    /// assert_eq!((rigidities.shear.z, rigidities.bend.z), (3.4e4, 1.3e4));
+    /// ```
+    pub fn table4() -> Self {
+        Self {
+            shear: constants::TABLE_4_SHEAR.into(),
+            bend: constants::TABLE_4_BEND.into(),
+        }
+    }
+
+    /// The rigidities of the preceding paper, for a section of 38.5 nm^2.
+    ///
+    /// # Source
+    /// arXiv 2203.01284, Table 2, and Appendix B for the area.
+    ///
+    /// ```
+    /// // E A = 2000 x 38.5
+    /// assert_eq!(actin_cosserat::Rigidities::preceding_paper().shear.z, 7.7e4);
+    /// ```
+    pub fn preceding_paper() -> Self {
+        Self::isotropic_cylinder(
+            constants::PRECEDING_PAPER_YOUNG_MODULUS,
+            constants::PRECEDING_PAPER_POISSON_RATIO,
+            constants::CROSS_SECTION_AREA,
+        )
+    }
+
+    /// Rigidities of a cylinder of an isotropic material.
+    ///
+    /// `S1 = S2 = 4 G A / 3`, `S3 = E A`, `B1 = B2 = E A^2 / 4 pi`, `B3 = G A^2 / 2 pi` with
+    /// `G = E / (2 (1 + nu))`; `E` Young's modulus (pN/nm^2), `nu` Poisson's ratio, `A` the area
+    /// of the cross-section (nm^2).
+    ///
+    /// # Source
+    /// arXiv 2203.01284, Table 2.
+    pub fn isotropic_cylinder(young_modulus: f64, poisson_ratio: f64, area: f64) -> Self {
+        let shear_modulus = young_modulus / (2.0 * (1.0 + poisson_ratio));
+        let s1 = 4.0 / 3.0 * shear_modulus * area;
+        let b1 = young_modulus * area * area / (4.0 * PI);
+        Self {
+            shear: Vector3::new(s1, s1, young_modulus * area),
+            bend: Vector3::new(b1, b1, shear_modulus * area * area / (2.0 * PI)),
+        }
+    }
+
+    /// Checks every number; [`RodMaterial::new`](crate::RodMaterial::new) does so.
+    ///
+    /// # Errors
+    /// The first rigidity that is not positive and finite.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        for (key, value) in ["S1", "S2", "S3"].into_iter().zip(&self.shear) {
+            ParameterError::unless_positive(key, *value)?;
+        }
+        for (key, value) in ["B1", "B2", "B3"].into_iter().zip(&self.bend) {
+            ParameterError::unless_positive(key, *value)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Worked out by hand: G = 2000/2.8 = 714.29, A^2 = 1482.25.
+    #[test]
+    fn preceding_paper_by_hand() {
+        let r = Rigidities::preceding_paper();
+        for (value, expected) in [
+            (r.shear.x, 36_666.67),
+            (r.shear.y, 36_666.67),
+            (r.shear.z, 77_000.0),
+            (r.bend.x, 235_907.0),
+            (r.bend.y, 235_907.0),
+            (r.bend.z, 168_505.0),
+        ] {
+            // The expected numbers are rounded to six digits.
+            assert!((value - expected).abs() < 1e-5 * expected, "{value}");
+        }
+    }
+
+    #[test]
+    fn each_rigidity_is_checked_under_its_own_key() {
+        for (k, key) in ["S1", "S2", "S3", "B1", "B2", "B3"].into_iter().enumerate() {
+            for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+                let mut rigidities = Rigidities::table4();
+                match k {
+                    0..3 => rigidities.shear[k] = value,
+                    _ => rigidities.bend[k - 3] = value,
+                }
+                let error = rigidities.validate().unwrap_err();
+                assert_eq!(error.key, key);
+                assert_eq!(error.value.to_bits(), value.to_bits());
+            }
+        }
+        assert_eq!(Rigidities::table4().validate(), Ok(()));
+    }
+}

@@ -1,0 +1,59 @@
+//! Rods that several tests use.
+#![allow(dead_code, reason = "each test file uses some of these")]
+
+use actin_cosserat::{Rigidities, RodLayout, RodMaterial, StraightRod, Walls};
+use actin_mechanics::testing::{Noise, perturb};
+use actin_mechanics::{State, Vector3};
+
+/// Every combination of walls.
+pub(crate) const ALL_WALLS: [Walls; 4] = [
+    Walls {
+        start: false,
+        end: false,
+    },
+    Walls {
+        start: true,
+        end: false,
+    },
+    Walls {
+        start: false,
+        end: true,
+    },
+    Walls {
+        start: true,
+        end: true,
+    },
+];
+
+/// Rigidities that all differ, so that no mix-up of axes goes unseen.
+pub(crate) fn material() -> RodMaterial {
+    RodMaterial::new(Rigidities {
+        shear: Vector3::new(1.6e4, 2.1e4, 3.4e4),
+        bend: Vector3::new(3.9e4, 2.7e4, 1.3e4),
+    })
+    .unwrap()
+}
+
+/// A rod of unequal segments of 6 to 14 nm, turned and shifted, with other bodies around it.
+pub(crate) fn rod(segments: usize, walls: Walls, noise: &mut Noise) -> (State, RodLayout) {
+    let mut state = State::default();
+    let neighbour = StraightRod::uniform(1, 10.0);
+    neighbour.push(&mut state).unwrap();
+    let rod = StraightRod {
+        start: Vector3::new(3.0, -2.0, 5.0),
+        orientation: actin_mechanics::rotation::exp(noise.vector()),
+        segment_lengths: (0..segments).map(|_| 10.0 + 4.0 * noise.sample()).collect(),
+        walls,
+        ..StraightRod::uniform(0, 0.0)
+    };
+    let layout = rod.push(&mut state).unwrap();
+    neighbour.push(&mut state).unwrap();
+    (state, layout)
+}
+
+/// The same, far from rest: strains up to about 0.5, angles up to about 1 rad per axis.
+pub(crate) fn strained_rod(segments: usize, walls: Walls, noise: &mut Noise) -> (State, RodLayout) {
+    let (mut state, layout) = rod(segments, walls, noise);
+    perturb(&mut state, noise, 2.5, 0.5);
+    (state, layout)
+}

@@ -1,0 +1,203 @@
+//! The gradient law: that it is one, what follows from invariance, and states known by hand.
+
+mod common;
+
+use actin_cosserat::{EnergyGradient, Rigidities, RodEnd, RodLayout, RodMaterial, StraightRod};
+use actin_mechanics::testing::{
+    Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, loads_of,
+};
+use actin_mechanics::{Interaction, State, Vector3, rotation};
+use common::{ALL_WALLS, material, rod, strained_rod};
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+/// A wrong Jacobian, or the small-angle truncation, is off by the square of the angle: percents.
+#[test]
+fn loads_are_minus_the_gradient_far_from_rest() {
+    let mut noise = Noise::new(1);
+    for walls in ALL_WALLS {
+        for segments in [1, 2, 5] {
+            let (state, layout) = strained_rod(segments, walls, &mut noise);
+            let rod = EnergyGradient::new(layout, material());
+            // h = 0.01 nm and rad: truncation and round-off are measured below 1e-12; 1e-10 is safe.
+            assert_is_gradient(&rod, &state, 0.01, 1e-10);
+        }
+    }
+}
+
+proptest! {
+    /// Invariance of the energy implies both balances; loads that are checked only one by one
+    /// may still leave a small resultant that drives a free rod.
+    #[test]
+    fn free_rods_keep_their_momenta(seed: u64, segments in 1_usize..9, walls in 0_usize..4) {
+        let mut noise = Noise::new(seed);
+        let (state, layout) = strained_rod(segments, ALL_WALLS[walls], &mut noise);
+        let rod = EnergyGradient::new(layout, material());
+        // Sums of a few dozen products: some units in the last place.
+        assert_is_balanced(&rod, &state, 1e-14);
+        assert_is_invariant(&rod, &state, 1e-13);
+    }
+}
+
+/// The built rod is the rest state, whichever way it lies. What is left is the round-off of
+/// positions (1e-15 nm) times rigidity over length.
+#[test]
+fn a_straight_rod_is_at_rest() {
+    let mut noise = Noise::new(2);
+    for walls in ALL_WALLS {
+        let (state, layout) = rod(7, walls, &mut noise);
+        let rod = EnergyGradient::new(layout, material());
+        let loads = loads_of(&rod, &state);
+        for load in loads.force.iter().chain(loads.torque.iter()) {
+            assert!(load.norm() < 1e-9, "{load}");
+        }
+        assert!(rod.energy(&state) < 1e-20);
+    }
+}
+
+/// Loads go to the rod's own bodies; an index off by one would reach a neighbour's.
+#[test]
+fn neighbours_feel_nothing() {
+    let mut noise = Noise::new(3);
+    let (state, layout) = strained_rod(3, ALL_WALLS[3], &mut noise);
+    let (points, frames) = (layout.points(), layout.bending_chain());
+    let loads = loads_of(&EnergyGradient::new(layout, material()), &state);
+    for (i, force) in loads.force.iter().enumerate() {
+        assert_eq!(force.norm() > 0.0, points.contains(&i), "point {i}");
+    }
+    for (i, torque) in loads.torque.iter().enumerate() {
+        assert_eq!(torque.norm() > 0.0, frames.contains(&i), "frame {i}");
+    }
+}
+
+/// Sixteen segments of 10 nm along z.
+fn actin_rod() -> (State, RodLayout) {
+    let mut state = State::default();
+    let layout = StraightRod::uniform(16, 10.0).push(&mut state).unwrap();
+    (state, layout)
+}
+
+/// Asserts that nothing acts but a couple on the first frame and its opposite on the last.
+fn assert_only_end_couples(state: &State, layout: &RodLayout, couple: Vector3) {
+    let law = EnergyGradient::new(
+        layout.clone(),
+        RodMaterial::new(Rigidities::table4()).unwrap(),
+    );
+    let loads = loads_of(&law, state);
+    for (i, torque) in loads.torque.iter().enumerate() {
+        let expected = if i == layout.end_frame(RodEnd::Start) {
+            couple
+        } else if i == layout.end_frame(RodEnd::End) {
+            -couple
+        } else {
+            Vector3::zeros()
+        };
+        // Differences of couples of 1e3 pN nm, and forces of round-off over 10 nm.
+        assert!((torque - expected).norm() < 1e-9, "frame {i}: {torque}");
+    }
+    for force in loads.force.iter() {
+        assert!(force.norm() < 1e-9, "{force}");
+    }
+}
+
+/// The end couple of a uniformly twisted rod is B3 times the twist per length, and right-handed
+/// twist is positive: the first frame is driven to follow.
+#[test]
+fn uniform_twist() {
+    let (mut state, layout) = actin_rod();
+    let twist = 0.02;
+    for (k, frame) in layout.frames().enumerate() {
+        let q = rotation::exp(Vector3::z() * (twist * 10.0 * k as f64));
+        state.frames.orientation.set(frame, q);
+    }
+    assert_only_end_couples(&state, &layout, Vector3::z() * (1.3e4 * twist));
+}
+
+/// An end moment 2 pi B / L closes a rod of length L to a circle.
+#[test]
+fn an_end_moment_closes_a_circle() {
+    let (mut state, layout) = actin_rod();
+    let n = layout.segments();
+    let mut position = Vector3::zeros();
+    for (k, (point, frame)) in layout.points().zip(layout.frames()).enumerate() {
+        let q = rotation::exp(Vector3::x() * (TAU * k as f64 / n as f64));
+        state.frames.orientation.set(frame, q);
+        position += q * Vector3::z() * 10.0;
+        state.points.position.set(point + 1, position);
+    }
+    assert!(position.norm() < 1e-12, "the circle closes");
+    let moment = TAU * 3.9e4 / layout.length();
+    assert_only_end_couples(&state, &layout, Vector3::x() * moment);
+}
+
+/// Stretch by 1 %: tension S3 / 100 at both ends, nothing in between, S3 e^2 / 2 per length.
+#[test]
+fn uniform_stretch() {
+    let (mut state, layout) = actin_rod();
+    state.points.position.scale(1.01);
+    let law = EnergyGradient::new(layout, RodMaterial::new(Rigidities::table4()).unwrap());
+    let loads = loads_of(&law, &state);
+    for (i, force) in loads.force.iter().enumerate() {
+        let expected = match i {
+            0 => 340.0,
+            16 => -340.0,
+            _ => 0.0,
+        };
+        // Positions of 160 nm are good to 3e-14 nm, times S3 over 10 nm.
+        assert!((force - Vector3::z() * expected).norm() < 1e-8);
+    }
+    assert!((law.energy(&state) - 0.5 * 3.4e4 * 1e-4 * 160.0).abs() < 1e-8);
+}
+
+/// Simple shear g: force S1 g, and a torque that turns the frames towards the sheared line:
+/// |l| x S sigma = S1 g |lhat| about +y at first order.
+#[test]
+fn simple_shear() {
+    let mut state = State::default();
+    let layout = StraightRod::uniform(1, 10.0).push(&mut state).unwrap();
+    state.points.position.add(1, Vector3::x() * 0.1);
+    let law = EnergyGradient::new(layout, RodMaterial::new(Rigidities::table4()).unwrap());
+    let loads = loads_of(&law, &state);
+    assert!((loads.force.get(0) - Vector3::x() * 160.0).norm() < 1e-9);
+    assert!((loads.torque.get(0) - Vector3::y() * 1600.0).norm() < 1e-9);
+}
+
+/// A half turn at a wall is over half a segment: twice the couple of one between segments.
+#[test]
+fn walls_bend_over_half_a_segment() {
+    let mut state = State::default();
+    let rod = StraightRod {
+        walls: ALL_WALLS[1],
+        ..StraightRod::uniform(2, 10.0)
+    };
+    let layout = rod.push(&mut state).unwrap();
+    let [wall, first, second] = [0, 1, 2];
+    let turn = rotation::exp(Vector3::y() * 0.01);
+    state.frames.orientation.set(first, turn);
+    let law = EnergyGradient::new(layout, RodMaterial::new(Rigidities::table4()).unwrap());
+    let loads = loads_of(&law, &state);
+    let couple = |frame: usize| loads.torque.get(frame).y;
+    assert!((couple(wall) - 3.9e4 * 0.01 / 5.0).abs() < 1e-9);
+    assert!((couple(second) - 3.9e4 * 0.01 / 10.0).abs() < 1e-9);
+}
+
+#[test]
+fn energies_stand_in_the_order_of_the_elements() {
+    let (mut state, layout) = actin_rod();
+    state.points.position.add(16, Vector3::z() * 0.01);
+    let last = layout.end_frame(RodEnd::Start);
+    let turned = rotation::exp(Vector3::z() * 0.01);
+    state.frames.orientation.set(last, turned);
+    let law = EnergyGradient::new(layout, RodMaterial::new(Rigidities::table4()).unwrap());
+    let mut energies = vec![f64::NAN; law.elements()];
+    law.write_energies(&state, &mut energies);
+    assert_eq!(energies.len(), 31);
+    for (i, energy) in energies.iter().enumerate() {
+        let expected = match i {
+            15 => 0.5 * 3.4e4 * 1e-6 * 10.0,
+            16 => 0.5 * 1.3e4 * 1e-6 * 10.0,
+            _ => 0.0,
+        };
+        assert!((energy - expected).abs() < 1e-9, "element {i}");
+    }
+}

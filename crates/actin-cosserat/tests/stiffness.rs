@@ -1,0 +1,141 @@
+//! The second derivatives of the gradient law: that they are such, and what follows at rest.
+
+mod common;
+
+use actin_cosserat::{EnergyGradient, RodLayout, StraightRod};
+use actin_mechanics::testing::{Noise, assert_is_stiffness};
+use actin_mechanics::{Coordinates, Interaction, State, Stiffness, Vector3, rotation};
+use common::{ALL_WALLS, material, rod, strained_rod};
+use nalgebra::{DMatrix, DVector};
+
+/// Without the geometric part of either element, or with it not made symmetric, the error is of
+/// the order of the strain or the angle: tenths.
+#[test]
+fn stiffness_is_the_derivative_of_the_loads_far_from_rest() {
+    let mut noise = Noise::new(11);
+    for walls in ALL_WALLS {
+        for segments in [1, 2, 5] {
+            let (state, layout) = strained_rod(segments, walls, &mut noise);
+            let rod = EnergyGradient::new(layout, material());
+            // h = 0.01 nm and rad: truncation and round-off are measured below 1e-12; 1e-10 is safe.
+            assert_is_stiffness(&rod, &state, 0.01, 1e-10);
+        }
+    }
+}
+
+/// Two segments whose second frame is turned by `theta` from the first.
+fn turned_pair(theta: Vector3) -> (State, RodLayout) {
+    let mut state = State::default();
+    let layout = StraightRod::uniform(2, 10.0).push(&mut state).unwrap();
+    let first = rotation::exp(Vector3::new(0.4, -1.0, 0.3));
+    state.frames.orientation.set(0, first);
+    let second = first * rotation::exp(theta);
+    state.frames.orientation.set(1, second);
+    (state, layout)
+}
+
+/// A truncated Jacobian passes at small angles, a cancelling coefficient at large ones; the grid
+/// holds both, and 1.5 rad, where the slope of the coefficient changes its formula.
+#[test]
+fn stiffness_is_right_from_no_angle_to_3_rad() {
+    let mut noise = Noise::new(12);
+    for angle in [0.0, 1e-9, 1e-4, 0.1, 0.5, 1.49, 1.51, 2.5, 3.0] {
+        for _ in 0..5 {
+            let (state, layout) = turned_pair(noise.vector().normalize() * angle);
+            let rod = EnergyGradient::new(layout, material());
+            // The steps of 0.04 rad do not reach pi, where the loads jump.
+            assert_is_stiffness(&rod, &state, 0.01, 1e-10);
+        }
+    }
+}
+
+/// The whole matrix: three rows per point, then three per frame.
+fn matrix(interaction: &dyn Interaction, state: &State) -> DMatrix<f64> {
+    let mut stiffness = Stiffness::default();
+    let second_order = interaction.second_order().unwrap();
+    second_order.add_stiffness(state, &mut stiffness);
+    let first = |c: Coordinates| match c {
+        Coordinates::Point(i) => 3 * i,
+        Coordinates::Frame(i) => 3 * (state.points.len() + i),
+    };
+    let n = 3 * (state.points.len() + state.frames.len());
+    let mut matrix = DMatrix::zeros(n, n);
+    for &(a, b, block) in stiffness.blocks() {
+        let mut place = matrix.fixed_view_mut::<3, 3>(first(a), first(b));
+        place += block;
+        if a != b {
+            let mut place = matrix.fixed_view_mut::<3, 3>(first(b), first(a));
+            place += block.transpose();
+        }
+    }
+    matrix
+}
+
+/// The change of all coordinates by a shift, or by a turn about the origin.
+fn rigid_motion(state: &State, shift: Vector3, turn: Vector3) -> DVector<f64> {
+    let points = state.points.position.iter().map(|x| shift + turn.cross(&x));
+    let frames = &state.frames.orientation;
+    let frames = (0..state.frames.len()).map(|i| frames.get(i).inverse() * turn);
+    let rows: Vec<f64> = points.chain(frames).flat_map(|v| [v.x, v.y, v.z]).collect();
+    DVector::from_vec(rows)
+}
+
+/// At rest a rigid motion meets no resistance, and nothing else does so: six zeros and otherwise
+/// positive eigenvalues. A sign error between blocks breaks one or the other.
+#[test]
+fn only_rigid_motions_are_free_at_rest() {
+    let mut noise = Noise::new(13);
+    let mut state = State::default();
+    let built = StraightRod {
+        orientation: rotation::exp(noise.vector()),
+        segment_lengths: vec![8.0, 12.0, 10.0, 9.0],
+        walls: ALL_WALLS[3],
+        ..StraightRod::uniform(0, 0.0)
+    };
+    let layout = built.push(&mut state).unwrap();
+    let matrix = matrix(&EnergyGradient::new(layout, material()), &state);
+    let scale = matrix.amax();
+    for k in 0..3 {
+        let e = Vector3::ith(k, 1.0);
+        for motion in [
+            rigid_motion(&state, e, Vector3::zeros()),
+            rigid_motion(&state, Vector3::zeros(), e),
+        ] {
+            // Round-off of a dozen products, each at most the largest entry times 39 nm.
+            let residual = (&matrix * &motion).amax() / (scale * motion.amax());
+            assert!(residual < 1e-14, "{residual:e}");
+        }
+    }
+    let mut eigenvalues: Vec<f64> = matrix.symmetric_eigenvalues().iter().copied().collect();
+    eigenvalues.sort_unstable_by(f64::total_cmp);
+    let (zeros, others) = eigenvalues.split_at(6);
+    assert!(zeros.iter().all(|z| z.abs() < 1e-13 * scale), "{zeros:?}");
+    // The softest bending mode of 39 nm is far above round-off.
+    assert!(others[0] > 1e-6 * scale, "{}", others[0]);
+}
+
+/// A shifted rod has the same energy at any strain, so that shifts meet no resistance there either.
+#[test]
+fn shifts_are_free_in_every_state() {
+    let mut noise = Noise::new(14);
+    let (state, layout) = strained_rod(4, ALL_WALLS[0], &mut noise);
+    let matrix = matrix(&EnergyGradient::new(layout, material()), &state);
+    let shift = rigid_motion(&state, noise.vector(), Vector3::zeros());
+    assert!((&matrix * shift).amax() < 1e-14 * matrix.amax());
+}
+
+/// Held bodies have blocks too (whoever assembles leaves them out), neighbours have none.
+#[test]
+fn blocks_stand_on_the_rods_own_bodies() {
+    let mut noise = Noise::new(15);
+    let (state, layout) = rod(3, ALL_WALLS[3], &mut noise);
+    let (points, frames) = (layout.points(), layout.bending_chain());
+    let matrix = matrix(&EnergyGradient::new(layout, material()), &state);
+    for i in 0..matrix.nrows() / 3 {
+        let own = match i.checked_sub(state.points.len()) {
+            None => points.contains(&i),
+            Some(frame) => frames.contains(&frame),
+        };
+        assert_eq!(matrix.rows(3 * i, 3).amax() > 0.0, own, "body {i}");
+    }
+}

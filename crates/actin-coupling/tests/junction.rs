@@ -1,0 +1,471 @@
+//! The junction: that its loads are a gradient that balances, what it resists and how strongly.
+
+use actin_cosserat::{
+    CrossSection, EnergyGradient, Rigidities, RodLayout, RodMaterial, StraightRod,
+};
+use actin_coupling::{
+    AttachedMonomer, Junction, JunctionError, JunctionSide, JunctionWeight, push_junction_frames,
+};
+use actin_mechanics::testing::{
+    Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness,
+    loads_of, move_rigidly, perturb,
+};
+use actin_mechanics::{
+    Frame, Inertia, Interaction, Point, State, UnitQuaternion, Vector3, rotation,
+};
+use proptest::prelude::*;
+use std::ops::Range;
+
+const RISE: f64 = 71.2 / 26.0;
+const SIDES: [JunctionSide; 2] = [JunctionSide::MonomersFirst, JunctionSide::RodFirst];
+const WEIGHTS: [JunctionWeight; 2] = [JunctionWeight::Shared, JunctionWeight::Full];
+
+/// Rigidities that all differ, so that no mix-up of axes goes unseen.
+fn material() -> RodMaterial {
+    RodMaterial::new(Rigidities {
+        shear: Vector3::new(1.6e4, 2.1e4, 3.4e4),
+        bend: Vector3::new(3.9e4, 2.7e4, 1.3e4),
+    })
+    .unwrap()
+}
+
+/// A filament at rest along z: one or two monomers on a helix and a rod of two segments of 10 nm
+/// with its end at the origin.
+struct Filament {
+    state: State,
+    monomers: Vec<AttachedMonomer>,
+    frames: Range<usize>,
+    rod: RodLayout,
+}
+
+/// Pushes monomers at the given axial coordinates (nm), on a helix of radius 1.8 nm.
+fn push_monomers(state: &mut State, heights: &[f64]) -> Vec<AttachedMonomer> {
+    let monomer = |(k, &height): (usize, &f64)| {
+        let turn = rotation::exp(Vector3::z() * (0.4 - 2.9 * k as f64));
+        AttachedMonomer {
+            point: state.points.push(Point {
+                position: turn * Vector3::x() * 1.8 + Vector3::z() * height,
+                mass: 0.0697,
+            }),
+            frame: state.frames.push(Frame {
+                orientation: turn,
+                inertia: Inertia::from_moments([0.2, 0.15, 0.15]).unwrap(),
+            }),
+        }
+    };
+    heights.iter().enumerate().map(monomer).collect()
+}
+
+fn filament(side: JunctionSide, attached: usize) -> Filament {
+    let mut state = State::default();
+    let section = CrossSection::actin();
+    let along_z = UnitQuaternion::identity();
+    let near = [0.5 * RISE, 1.5 * RISE];
+    let mut rod = StraightRod::uniform(2, 10.0);
+    let (monomers, frames, rod) = match side {
+        JunctionSide::MonomersFirst => {
+            let mut distances = near[..attached].to_vec();
+            distances.reverse();
+            let heights: Vec<f64> = distances.iter().map(|z| -z).collect();
+            let monomers = push_monomers(&mut state, &heights);
+            let frames = push_junction_frames(&mut state, along_z, &distances, &section).unwrap();
+            (monomers, frames, rod.push(&mut state).unwrap())
+        }
+        JunctionSide::RodFirst => {
+            rod.start.z = -20.0;
+            let rod = rod.push(&mut state).unwrap();
+            let distances = &near[..attached];
+            let frames = push_junction_frames(&mut state, along_z, distances, &section).unwrap();
+            (push_monomers(&mut state, distances), frames, rod)
+        }
+    };
+    Filament {
+        state,
+        monomers,
+        frames,
+        rod,
+    }
+}
+
+impl Filament {
+    fn junction(&self, side: JunctionSide, weight: JunctionWeight) -> Junction {
+        let frames = self.frames.clone();
+        let how = (side, weight);
+        Junction::new(
+            &self.state,
+            how,
+            &self.monomers,
+            frames,
+            &self.rod,
+            material(),
+        )
+        .unwrap()
+    }
+
+    /// The filament turned and shifted as a whole.
+    fn moved(mut self, noise: &mut Noise) -> Self {
+        move_rigidly(&mut self.state, noise.vector(), noise.vector() * 10.0);
+        self
+    }
+
+    /// Turns and shifts every body but the rod's about the filament's axis at rest.
+    fn move_monomers(&mut self, turn: f64, shift: f64) {
+        let turn = rotation::exp(Vector3::z() * turn);
+        for monomer in &self.monomers {
+            let x = turn * self.state.points.position.get(monomer.point) + Vector3::z() * shift;
+            self.state.points.position.set(monomer.point, x);
+            let q = turn * self.state.frames.orientation.get(monomer.frame);
+            self.state.frames.orientation.set(monomer.frame, q);
+        }
+    }
+
+    /// Turns every junction frame about the axis.
+    fn turn_junction(&mut self, turn: f64) {
+        for frame in self.frames.clone() {
+            let q = rotation::exp(Vector3::z() * turn);
+            self.state.frames.orientation.set(frame, q);
+        }
+    }
+}
+
+/// Every kind of junction.
+fn all() -> impl Iterator<Item = (JunctionSide, JunctionWeight, usize)> {
+    SIDES.into_iter().flat_map(|side| {
+        WEIGHTS
+            .into_iter()
+            .flat_map(move |weight| [1, 2].map(|attached| (side, weight, attached)))
+    })
+}
+
+/// Signs as printed, or a couple left in axes of the wrong frame, would be off by all of a load.
+#[test]
+fn loads_are_minus_the_gradient_far_from_rest() {
+    let mut noise = Noise::new(1);
+    for (side, weight, attached) in all() {
+        let mut filament = filament(side, attached).moved(&mut noise);
+        let junction = filament.junction(side, weight);
+        perturb(&mut filament.state, &mut noise, 0.7, 0.5);
+        // h = 0.01 nm and rad: truncation and round-off are measured below 1e-12; 1e-10 is safe.
+        assert_is_gradient(&junction, &filament.state, 0.01, 1e-10);
+    }
+}
+
+/// The monomer's blocks in axes of the junction instead of its own would be off by all of a block.
+#[test]
+fn stiffness_is_the_derivative_of_the_loads_far_from_rest() {
+    let mut noise = Noise::new(9);
+    for (side, weight, attached) in all() {
+        let mut filament = filament(side, attached).moved(&mut noise);
+        let junction = filament.junction(side, weight);
+        perturb(&mut filament.state, &mut noise, 0.7, 0.5);
+        // h = 0.01 nm and rad: truncation and round-off are measured below 1e-12; 1e-10 is safe.
+        assert_is_stiffness(&junction, &filament.state, 0.01, 1e-10);
+    }
+}
+
+/// Twist that grows along the filament is positive in every element, on either side of the rod,
+/// and over `D_E` beside the monomer. Constant rigidities do not see the order of the frames: the
+/// energy is even in the curvature.
+#[test]
+fn curvatures_follow_the_filament() {
+    for side in SIDES {
+        let mut filament = filament(side, 2);
+        let junction = filament.junction(side, JunctionWeight::Shared);
+        let rod = filament.rod.end_frame(side.rod_end());
+        let near = filament.monomers.iter().zip(filament.frames.clone());
+        let bonds: Vec<_> = near.map(|(&monomer, frame)| (monomer, frame)).collect();
+        let mut turn = |frame: usize, angle: f64| {
+            let q = &mut filament.state.frames.orientation;
+            q.set(frame, rotation::exp(Vector3::z() * angle) * q.get(frame));
+        };
+        // By bond: the first frame stays, the junction frame turns by 0.01, the last by 0.03.
+        let monomers_first = side == JunctionSide::MonomersFirst;
+        for &(monomer, frame) in &bonds {
+            turn(frame, 0.01);
+            if !monomers_first {
+                turn(monomer.frame, 0.03);
+            }
+        }
+        if monomers_first {
+            turn(rod, 0.03);
+        }
+        let curvatures = junction.curvatures(&filament.state);
+        assert_eq!(curvatures.len(), 2);
+        for ((monomer, _), [before, after]) in bonds.iter().zip(curvatures) {
+            let height = filament.state.points.position.get(monomer.point).z.abs();
+            let (to_monomer, to_rod) = (0.5 * height, 5.0 + 0.5 * height);
+            let expected = if monomers_first {
+                [0.01 / to_monomer, 0.02 / to_rod]
+            } else {
+                [0.01 / to_rod, 0.02 / to_monomer]
+            };
+            assert!((before - Vector3::z() * expected[0]).norm() < 1e-14);
+            assert!((after - Vector3::z() * expected[1]).norm() < 1e-14);
+        }
+    }
+}
+
+proptest! {
+    /// The printed forces leave a resultant; these must not, or a free filament accelerates.
+    #[test]
+    fn linear_and_angular_momentum_balance(seed: u64, kind in 0_usize..8) {
+        let (side, weight, attached) = all().nth(kind).unwrap();
+        let mut noise = Noise::new(seed);
+        let mut filament = filament(side, attached).moved(&mut noise);
+        let junction = filament.junction(side, weight);
+        perturb(&mut filament.state, &mut noise, 0.7, 0.5);
+        // Sums of a dozen products: some units in the last place.
+        assert_is_balanced(&junction, &filament.state, 1e-14);
+        assert_is_invariant(&junction, &filament.state, 1e-13);
+    }
+}
+
+/// Made at rest, it is at rest, however the filament lies. What is left is round-off of
+/// positions (1e-14 nm) times rigidity over length.
+#[test]
+fn the_built_filament_is_at_rest() {
+    let mut noise = Noise::new(2);
+    for (side, weight, attached) in all() {
+        let filament = filament(side, attached).moved(&mut noise);
+        let junction = filament.junction(side, weight);
+        let loads = loads_of(&junction, &filament.state);
+        for load in loads.force.iter().chain(loads.torque.iter()) {
+            assert!(load.norm() < 1e-8, "{load}");
+        }
+        assert!(junction.energy(&filament.state) < 1e-18);
+    }
+}
+
+/// Monomers that turn about the axis as one body, and their junction frames with them: nothing
+/// shears and nothing twists between those two, so all twist is over `D_C`.
+#[test]
+fn turning_the_monomers_twists_the_rods_half_segment() {
+    let turn = 0.02;
+    for (side, weight, attached) in all() {
+        let mut filament = filament(side, attached);
+        let junction = filament.junction(side, weight);
+        filament.move_monomers(turn, 0.0);
+        filament.turn_junction(turn);
+        let mut energies = vec![0.0; attached];
+        junction.write_energies(&filament.state, &mut energies);
+        for (monomer, energy) in filament.monomers.iter().zip(energies) {
+            let height = filament.state.points.position.get(monomer.point).z.abs();
+            let distance = 5.0 + 0.5 * height;
+            let expected = weight.of(attached) * 0.5 * 1.3e4 * turn * turn / distance;
+            assert!((energy / expected - 1.0).abs() < 1e-12);
+        }
+        // The couple on the rod is towards the monomers' turn, and the monomers feel none.
+        let loads = loads_of(&junction, &filament.state);
+        let rod = filament.rod.end_frame(side.rod_end());
+        assert!(loads.torque.get(rod).z > 0.0);
+        for monomer in &filament.monomers {
+            assert!(loads.torque.get(monomer.frame).norm() < 1e-9);
+            assert!(loads.force.get(monomer.point).norm() < 1e-9);
+        }
+    }
+}
+
+/// Frames that stay while the monomers turn: twist over `D_E`, in axes of each monomer.
+#[test]
+fn monomers_twist_against_their_junction_frames() {
+    for side in SIDES {
+        let mut filament = filament(side, 2);
+        let junction = filament.junction(side, JunctionWeight::Full);
+        for monomer in filament.monomers.clone() {
+            let turn = rotation::exp(Vector3::z() * 0.01);
+            let q = turn * filament.state.frames.orientation.get(monomer.frame);
+            filament.state.frames.orientation.set(monomer.frame, q);
+        }
+        let loads = loads_of(&junction, &filament.state);
+        for (monomer, frame) in filament.monomers.iter().zip(filament.frames.clone()) {
+            let height = filament.state.points.position.get(monomer.point).z.abs();
+            let couple = 1.3e4 * 0.01 / (0.5 * height);
+            // The monomers' body axis z is the filament's at rest.
+            assert!((loads.torque.get(monomer.frame).z + couple).abs() < 1e-9);
+            assert!((loads.torque.get(frame).z - couple).abs() < 1e-9);
+        }
+    }
+}
+
+/// Pulled off the rod's end along the axis, each bond pulls back along the axis with S3 times
+/// the shift over its own length, and on the rod's end towards the monomers.
+#[test]
+fn a_stretched_junction_pulls_together() {
+    let shift = 1e-3;
+    for (side, weight, attached) in all() {
+        let mut filament = filament(side, attached);
+        let junction = filament.junction(side, weight);
+        let outward = match side {
+            JunctionSide::MonomersFirst => -1.0,
+            JunctionSide::RodFirst => 1.0,
+        };
+        let lengths: Vec<f64> = filament
+            .monomers
+            .iter()
+            .map(|monomer| filament.state.points.position.get(monomer.point).norm())
+            .collect();
+        filament.move_monomers(0.0, outward * shift);
+        let loads = loads_of(&junction, &filament.state);
+        let mut total = 0.0;
+        for (monomer, length) in filament.monomers.iter().zip(lengths) {
+            let expected = weight.of(attached) * 3.4e4 * shift / length;
+            let force = loads.force.get(monomer.point);
+            assert!((force + Vector3::z() * (outward * expected)).norm() < 1e-9);
+            total += expected;
+        }
+        let end = filament.rod.end_point(side.rod_end());
+        assert!((loads.force.get(end) - Vector3::z() * (outward * total)).norm() < 1e-9);
+    }
+}
+
+/// A filament and its mirror image (rod first) store the same energy in mirrored states: the
+/// half turn about a perpendicular axis that exchanges the ends.
+#[test]
+fn both_sides_are_mirror_images() {
+    let half_turn = rotation::exp(Vector3::x() * std::f64::consts::PI);
+    let material = RodMaterial::new(Rigidities::table4()).unwrap();
+    let mut noise = Noise::new(5);
+    let mut before = filament(JunctionSide::MonomersFirst, 1);
+    let mut after = filament(JunctionSide::RodFirst, 1);
+    // The monomer that the half turn makes of the first one.
+    let (from, to) = (before.monomers[0], after.monomers[0]);
+    let x = half_turn * before.state.points.position.get(from.point);
+    after.state.points.position.set(to.point, x);
+    let make = |f: &Filament, side| {
+        let how = (side, JunctionWeight::Full);
+        Junction::new(
+            &f.state,
+            how,
+            &f.monomers,
+            f.frames.clone(),
+            &f.rod,
+            material,
+        )
+        .unwrap()
+    };
+    let junctions = [
+        make(&before, JunctionSide::MonomersFirst),
+        make(&after, JunctionSide::RodFirst),
+    ];
+    // Turn monomer, junction frame and rod, and shift the monomer; then the same, mirrored.
+    let frames = |f: &Filament, side: JunctionSide| {
+        let rod = f.rod.end_frame(side.rod_end());
+        [f.monomers[0].frame, f.frames.start, rod]
+    };
+    let pairs = frames(&before, JunctionSide::MonomersFirst)
+        .into_iter()
+        .zip(frames(&after, JunctionSide::RodFirst));
+    for (i, j) in pairs {
+        let turn = noise.vector() * 0.3;
+        let q = rotation::exp(turn) * before.state.frames.orientation.get(i);
+        before.state.frames.orientation.set(i, q);
+        let q = rotation::exp(half_turn * turn) * after.state.frames.orientation.get(j);
+        after.state.frames.orientation.set(j, q);
+    }
+    let shift = noise.vector() * 0.5;
+    before.state.points.position.add(from.point, shift);
+    after.state.points.position.add(to.point, half_turn * shift);
+    let energies = [
+        junctions[0].energy(&before.state),
+        junctions[1].energy(&after.state),
+    ];
+    // Transverse rigidities are equal, so the half turn is a symmetry of the material.
+    assert!(
+        (energies[0] / energies[1] - 1.0).abs() < 1e-12,
+        "{energies:?}"
+    );
+}
+
+/// Shared halves what full gives, element by element; one monomer alone bears everything.
+#[test]
+fn weights_scale_the_whole_junction() {
+    let mut noise = Noise::new(6);
+    for (attached, ratio) in [(1, 1.0), (2, 0.5)] {
+        let mut filament = filament(JunctionSide::MonomersFirst, attached);
+        let [shared, full] =
+            WEIGHTS.map(|weight| filament.junction(JunctionSide::MonomersFirst, weight));
+        perturb(&mut filament.state, &mut noise, 0.3, 0.3);
+        let expected = ratio * full.energy(&filament.state);
+        assert!((shared.energy(&filament.state) - expected).abs() < 1e-12 * expected);
+    }
+}
+
+/// Only the end of the rod, the attached monomers and the junction frames are touched.
+#[test]
+fn the_rest_of_the_rod_feels_nothing() {
+    let mut noise = Noise::new(7);
+    for side in SIDES {
+        let mut filament = filament(side, 2);
+        let junction = filament.junction(side, JunctionWeight::Shared);
+        perturb(&mut filament.state, &mut noise, 0.3, 0.3);
+        let loads = loads_of(&junction, &filament.state);
+        let end = side.rod_end();
+        let monomers = &filament.monomers;
+        for (i, force) in loads.force.iter().enumerate() {
+            let touched = monomers.iter().any(|m| m.point == i) || i == filament.rod.end_point(end);
+            assert_eq!(force.norm() > 0.0, touched, "point {i}");
+        }
+        for (i, torque) in loads.torque.iter().enumerate() {
+            let touched = monomers.iter().any(|m| m.frame == i)
+                || filament.frames.contains(&i)
+                || i == filament.rod.end_frame(end);
+            assert_eq!(torque.norm() > 0.0, touched, "frame {i}");
+        }
+        assert!(junction.frames().eq(filament.frames.clone()));
+    }
+}
+
+/// The rod's own terms know nothing of the junction: both together still balance.
+#[test]
+fn rod_and_junction_balance_together() {
+    let mut noise = Noise::new(8);
+    for side in SIDES {
+        let mut filament = filament(side, 2);
+        let junction = filament.junction(side, JunctionWeight::Shared);
+        let rod = EnergyGradient::new(filament.rod.clone(), material());
+        perturb(&mut filament.state, &mut noise, 0.3, 0.3);
+        assert_is_balanced(&rod, &filament.state, 1e-14);
+        assert_is_balanced(&junction, &filament.state, 1e-14);
+    }
+}
+
+#[test]
+fn junctions_that_make_no_sense_are_refused() {
+    let side = JunctionSide::MonomersFirst;
+    let how = (side, JunctionWeight::Shared);
+    let made = |f: &Filament, frames: Range<usize>| {
+        Junction::new(&f.state, how, &f.monomers, frames, &f.rod, material()).map(|_| ())
+    };
+
+    let mut good = filament(side, 2);
+    assert_eq!(made(&good, good.frames.clone()), Ok(()));
+    let first = good.frames.start;
+    let too_few = JunctionError::JunctionFrames {
+        frames: 1,
+        monomers: 2,
+    };
+    assert_eq!(made(&good, first..first + 1), Err(too_few));
+
+    let turned = rotation::exp(Vector3::y() * 0.1);
+    good.state.frames.orientation.set(first, turned);
+    assert!(matches!(
+        made(&good, good.frames.clone()),
+        Err(JunctionError::NotParallel { frame, angle })
+            if frame == first && (angle - 0.1).abs() < 1e-12
+    ));
+
+    let mut wrong_side = filament(side, 2);
+    let point = wrong_side.monomers[1].point;
+    let lift = Vector3::z() * RISE;
+    wrong_side.state.points.position.add(point, lift);
+    assert!(matches!(
+        made(&wrong_side, wrong_side.frames.clone()),
+        Err(JunctionError::AxialDistance { monomer: 1, distance })
+            if (distance + 0.5 * RISE).abs() < 1e-12
+    ));
+
+    let mut none = filament(side, 1);
+    none.monomers.clear();
+    let expected = Err(JunctionError::AttachedMonomers(0));
+    assert_eq!(made(&none, none.frames.clone()), expected);
+}

@@ -1,0 +1,191 @@
+//! Bonds on every kind of processor against their textbook form, and what is left of them at
+//! no length.
+
+use super::*;
+use crate::{EllipsoidParameters, Placement};
+use actin_mechanics::testing::{Noise, loads_of, perturb};
+use actin_mechanics::{Coordinates, Frame, Inertia, Point, Stiffness, UnitQuaternion};
+
+/// A run of monomers with other bodies before and after, displaced at random.
+fn run(count: usize, bonds: [usize; 2]) -> (State, Bonds) {
+    let mut parameters = EllipsoidParameters::default();
+    parameters.lateral.bonds = bonds[0];
+    parameters.longitudinal.bonds = bonds[1];
+    let model = EllipsoidModel::new(parameters).unwrap();
+    let mut state = State::default();
+    for _ in 0..3 {
+        push_stranger(&mut state);
+    }
+    state.points.push(Point {
+        position: Vector3::zeros(),
+        mass: 1.0,
+    });
+    let monomers = model.build(&mut state, &Placement::default(), -4, count);
+    push_stranger(&mut state);
+    let bonds = model.bonds(&monomers).unwrap();
+    perturb(&mut state, &mut Noise::new(8), 0.4, 0.3);
+    (state, bonds)
+}
+
+/// A body that has nothing to do with the bonds.
+fn push_stranger(state: &mut State) {
+    state.points.push(Point {
+        position: Vector3::zeros(),
+        mass: 1.0,
+    });
+    state.frames.push(Frame {
+        orientation: UnitQuaternion::identity(),
+        inertia: Inertia::from_moments([1.0, 1.0, 2.0]).unwrap(),
+    });
+}
+
+/// The loads, bond by bond in the lab frame: the textbook form.
+fn reference(bonds: &Bonds, state: &State) -> Loads {
+    let mut loads = Loads::zeros(state);
+    for pair in bonds.pairs() {
+        for ([from, to], bond) in bonds.ends_of(pair, state).zip(bonds.bonds_of(pair)) {
+            let d = to - from;
+            let force = d.normalize() * (pair.stiffness * (d.norm() - bond.rest_length));
+            for (k, end, force) in [(pair.lower, from, force), (pair.upper, to, -force)] {
+                let body = bonds.body(state, k);
+                let torque = (end - body.centre).cross(&force);
+                loads.force.add(bonds.monomers.point(k), force);
+                let torque = body.axes.tr_mul(&torque);
+                loads.torque.add(bonds.monomers.frame(k), torque);
+            }
+        }
+    }
+    loads
+}
+
+/// Largest difference between loads, as a share of the largest load.
+fn difference(a: &Loads, b: &Loads) -> f64 {
+    let pairs = |a: &Loads, b: &Loads| {
+        let forces = a.force.iter().zip(b.force.iter());
+        let torques = a.torque.iter().zip(b.torque.iter());
+        forces.chain(torques).collect::<Vec<_>>()
+    };
+    let largest = |pairs: Vec<(Vector3, Vector3)>| {
+        pairs
+            .iter()
+            .map(|(a, b)| (a - b).norm())
+            .fold(0.0, f64::max)
+    };
+    let zero = Loads {
+        force: (0..a.force.len()).map(|_| Vector3::zeros()).collect(),
+        torque: (0..a.torque.len()).map(|_| Vector3::zeros()).collect(),
+    };
+    largest(pairs(a, b)) / largest(pairs(b, &zero))
+}
+
+/// One body's frame per pair and one pair per lane give the textbook loads, on vectors and
+/// on plain numbers alike, for runs that fill the lanes and runs that do not, and whatever
+/// else is in the state. Sums of a hundred terms of size 1 carry round-off of 1e-14.
+#[test]
+fn loads_are_those_of_the_textbook_on_every_kind_of_processor() {
+    for count in [2, 3, 4, 5, 8, 9, 10, 11, 27] {
+        let (state, vector) = run(count, [7, 12]);
+        let scalar = Bonds {
+            arch: Arch::Scalar,
+            ..vector.clone()
+        };
+        let expected = reference(&vector, &state);
+        for bonds in [vector, scalar] {
+            let loads = loads_of(&bonds, &state);
+            assert!(difference(&loads, &expected) < 1e-13, "{count} monomers");
+        }
+    }
+}
+
+/// Runs without a pair exert nothing and do not fail.
+#[test]
+fn a_single_monomer_has_no_bonds() {
+    for count in [0, 1] {
+        let (state, bonds) = run(count, [3, 3]);
+        assert_eq!(bonds.elements(), 0);
+        assert_eq!(loads_of(&bonds, &state), Loads::zeros(&state));
+    }
+}
+
+/// Two bodies 1 nm apart with one bond of length 1 and stiffness 3 whose anchors coincide exactly.
+fn coincident() -> (State, Bonds) {
+    let mut state = State::default();
+    push_stranger(&mut state);
+    push_stranger(&mut state);
+    state.points.position.set(1, Vector3::new(1.0, 0.0, 0.0));
+    let (_, mut bonds) = run(2, [1, 1]);
+    bonds.monomers.first_point = 0;
+    bonds.monomers.first_frame = 0;
+    bonds.tables[0] = BondTable::new(1, 1, 3.0);
+    bonds.tables[0].push(&[Bond {
+        lower: Vector3::new(0.5, 0.0, 0.0),
+        upper: Vector3::new(-0.5, 0.0, 0.0),
+        rest_length: 1.0,
+    }]);
+    (state, bonds)
+}
+
+#[test]
+fn coincident_anchors_exert_no_force() {
+    let (mut state, bonds) = coincident();
+    assert_eq!(loads_of(&bonds, &state), Loads::zeros(&state));
+    assert!((bonds.energy(&state) - 1.5).abs() < 1e-15);
+    // The least displacement brings the full force, along it, so nothing is smoothed away.
+    let apart = Vector3::new(1.0 + 1e-9, 0.0, 0.0);
+    state.points.position.set(1, apart);
+    let force = loads_of(&bonds, &state).force.get(1);
+    assert!((force - Vector3::new(3.0, 0.0, 0.0)).norm() < 1e-8);
+}
+
+/// Where there is no force there is the isotropic stiffness of a spring without rest length; the
+/// least displacement brings `k` along the bond and `k (1 - L / |d|)` across it.
+#[test]
+fn coincident_anchors_have_a_finite_stiffness() {
+    let (mut state, bonds) = coincident();
+    let place = |state: &State| {
+        let stiffness = stiffness_of(&bonds, state);
+        let blocks = stiffness.blocks();
+        assert!(blocks.iter().all(|b| b.2.iter().all(|k| k.is_finite())));
+        assert_eq!(blocks[0].0, Coordinates::Point(0));
+        blocks[0].2
+    };
+    assert_eq!(place(&state), Matrix3::from_diagonal_element(3.0));
+    // A displacement that is a power of two is exact in all sums.
+    let distance = 2.0_f64.powi(-30);
+    let apart = Vector3::new(1.0 + distance, 0.0, 0.0);
+    state.points.position.set(1, apart);
+    let across = 3.0 * (1.0 - 1.0 / distance);
+    let expected = Matrix3::from_diagonal(&Vector3::new(3.0, across, across));
+    assert!((place(&state) - expected).amax() < 1e-15 * across.abs());
+}
+
+/// The blocks of second derivatives.
+fn stiffness_of(bonds: &Bonds, state: &State) -> Stiffness {
+    let mut stiffness = Stiffness::default();
+    bonds.add_stiffness(state, &mut stiffness);
+    stiffness
+}
+
+/// Plain numbers and vectors give the same blocks, for runs that fill the lanes and runs that do
+/// not. Sums of a dozen terms, and their products with a few rotations, carry round-off of 1e-14.
+#[test]
+fn stiffness_is_the_same_on_every_kind_of_processor() {
+    for count in [1, 2, 3, 5, 8, 9, 10, 11, 27] {
+        let (state, vector) = run(count, [7, 12]);
+        let scalar = Bonds {
+            arch: Arch::Scalar,
+            ..vector.clone()
+        };
+        let (vector, scalar) = (stiffness_of(&vector, &state), stiffness_of(&scalar, &state));
+        assert_eq!(vector.blocks().len(), 10 * (2 * count).saturating_sub(3));
+        let largest = vector
+            .blocks()
+            .iter()
+            .map(|b| b.2.amax())
+            .fold(0.0, f64::max);
+        for (a, b) in vector.blocks().iter().zip(scalar.blocks()) {
+            assert_eq!((a.0, a.1), (b.0, b.1));
+            assert!((a.2 - b.2).amax() < 1e-13 * largest, "{count} monomers");
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! The validated model: the one place where filaments of ellipsoids are made.
+
+use crate::{
+    Bonds, Ellipsoid, EllipsoidParameters, Helix, Interface, InterfaceError, InterfaceKind,
+    Monomers, ParameterError, Placement,
+};
+use actin_mechanics::{Inertia, State};
+
+/// Parameters that have been validated, and what follows from them.
+///
+/// ```
+/// use actin_ellipsoid::{EllipsoidModel, EllipsoidParameters, Placement};
+/// use actin_mechanics::{Interaction, State};
+/// let model = EllipsoidModel::new(EllipsoidParameters::default()).unwrap();
+/// let mut state = State::default();
+/// let monomers = model.build(&mut state, &Placement::default(), -1, 30);
+/// let bonds = model.bonds(&monomers).unwrap();
+/// assert_eq!(bonds.elements(), 29 + 28); // one per lateral and longitudinal interface
+/// assert_eq!(bonds.number_of_bonds(), (29 + 28) * 64);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct EllipsoidModel {
+    parameters: EllipsoidParameters,
+    inertia: Inertia,
+}
+
+impl EllipsoidModel {
+    /// The model of the given parameters.
+    ///
+    /// # Errors
+    /// What [`EllipsoidParameters::validate`] refuses, and semi-axes that all differ.
+    pub fn new(parameters: EllipsoidParameters) -> Result<Self, ParameterError> {
+        parameters.validate()?;
+        let inertia = Ellipsoid::new(parameters.semi_axes).inertia(parameters.mass)?;
+        Ok(Self {
+            parameters,
+            inertia,
+        })
+    }
+
+    /// The parameters.
+    pub fn parameters(&self) -> &EllipsoidParameters {
+        &self.parameters
+    }
+
+    /// The helix on which the monomers stand.
+    pub fn helix(&self) -> Helix {
+        Helix::new(&self.parameters)
+    }
+
+    /// The body of one monomer.
+    pub fn ellipsoid(&self) -> Ellipsoid {
+        Ellipsoid::new(self.parameters.semi_axes)
+    }
+
+    /// Inertia of one monomer.
+    pub fn inertia(&self) -> Inertia {
+        self.inertia
+    }
+
+    /// Pushes the `count` monomers from lattice index `first_index` on, at rest, where
+    /// `placement` puts them.
+    pub fn build(
+        &self,
+        state: &mut State,
+        placement: &Placement,
+        first_index: i64,
+        count: usize,
+    ) -> Monomers {
+        let body = (self.parameters.mass, self.inertia);
+        Monomers::push(&self.helix(), body, placement, (first_index, count), state)
+    }
+
+    /// The interface of the given kind whose lower monomer has the given lattice index.
+    ///
+    /// # Errors
+    /// [`InterfaceError::NoBonds`] if no bond is short enough.
+    pub fn interface(&self, kind: InterfaceKind, index: i64) -> Result<Interface, InterfaceError> {
+        Interface::draw(&self.parameters, kind, index)
+    }
+
+    /// All bonds within a run of monomers.
+    ///
+    /// # Errors
+    /// [`InterfaceError::NoBonds`] if no bond of a kind is short enough.
+    pub fn bonds(&self, monomers: &Monomers) -> Result<Bonds, InterfaceError> {
+        Bonds::new(self, *monomers)
+    }
+}

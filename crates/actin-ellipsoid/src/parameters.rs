@@ -1,0 +1,278 @@
+//! What a filament of ellipsoids is made of, and the rules that its numbers obey.
+
+use crate::constants;
+use actin_mechanics::InertiaError;
+use thiserror::Error;
+
+/// Parameters of the ellipsoid model. The default is Table 1 and Table 4 of the paper, with the
+/// choices named in [`constants`].
+///
+/// ```
+/// let parameters = actin_ellipsoid::EllipsoidParameters::default();
+/// assert!((parameters.rise - 2.7385).abs() < 1e-4);
+/// assert!((parameters.turn.to_degrees() + 166.154).abs() < 1e-3);
+/// assert!((parameters.lateral.rigidity - 2258.0).abs() < 1.0);
+/// assert!((parameters.longitudinal.rigidity - 3354.0).abs() < 1.0);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct EllipsoidParameters {
+    /// Distance of the monomers' centres from the axis (nm).
+    pub radius: f64,
+    /// Rise from monomer to monomer (nm).
+    pub rise: f64,
+    /// Turn about the axis from monomer to monomer (rad), right-handed if positive.
+    pub turn: f64,
+    /// Azimuth of lattice index 0 (rad).
+    pub azimuth: f64,
+    /// Semi-axes along the radial, tangential and axial direction (nm); two must be equal.
+    pub semi_axes: [f64; 3],
+    /// Interface between monomers `i` and `i + 1`.
+    pub lateral: InterfaceParameters,
+    /// Interface between monomers `i` and `i + 2`.
+    pub longitudinal: InterfaceParameters,
+    /// Whether each interface draws anchors of its own.
+    pub anchors: Anchors,
+    /// Seed of the anchors.
+    pub seed: u64,
+    /// Mass of a monomer (pN ns^2/nm = 1e-21 kg).
+    pub mass: f64,
+}
+
+/// Parameters of one kind of interface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InterfaceParameters {
+    /// Rigidity that the bonds share equally (pN/nm).
+    pub rigidity: f64,
+    /// Number of bonds.
+    pub bonds: usize,
+    /// Longest bond that is accepted (nm).
+    pub maximum_length: f64,
+}
+
+/// How bond anchors are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Anchors {
+    /// Each interface has anchors of its own.
+    #[default]
+    Independent,
+    /// All interfaces of a kind share one pattern in the body frame of their lower monomer.
+    Identical,
+}
+
+/// Why parameters were refused.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ParameterError {
+    /// A number breaks the rule of its key.
+    #[error("{key} = {value}: must be {rule}")]
+    OutOfRange {
+        /// Path of the field.
+        key: &'static str,
+        /// What it was.
+        value: f64,
+        /// What it must be.
+        rule: &'static str,
+    },
+    /// The ellipsoid is no symmetric top.
+    #[error("semi_axes = {semi_axes:?}: {reason}")]
+    NotATop {
+        /// Semi-axes (nm).
+        semi_axes: [f64; 3],
+        /// What is wrong with the moments of inertia that follow from them.
+        reason: InertiaError,
+    },
+}
+
+impl Default for EllipsoidParameters {
+    fn default() -> Self {
+        Self {
+            radius: constants::RADIUS,
+            rise: constants::RISE,
+            turn: constants::TURN,
+            azimuth: 0.0,
+            semi_axes: constants::SEMI_AXES,
+            lateral: InterfaceParameters {
+                rigidity: constants::LATERAL_RIGIDITY,
+                bonds: constants::BONDS_PER_INTERFACE,
+                maximum_length: constants::LATERAL_MAXIMUM_LENGTH,
+            },
+            longitudinal: InterfaceParameters {
+                rigidity: constants::LONGITUDINAL_RIGIDITY,
+                bonds: constants::BONDS_PER_INTERFACE,
+                maximum_length: constants::LONGITUDINAL_MAXIMUM_LENGTH,
+            },
+            anchors: Anchors::default(),
+            seed: 0,
+            mass: constants::MASS,
+        }
+    }
+}
+
+impl EllipsoidParameters {
+    /// Checks every number; [`crate::EllipsoidModel::new`] does so.
+    ///
+    /// # Errors
+    /// The first number that breaks the rule of its key, or semi-axes that all differ.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        if !(self.radius.is_finite() && self.radius >= 0.0) {
+            return Err(out_of_range(
+                "radius",
+                self.radius,
+                "finite and not negative",
+            ));
+        }
+        finite("turn", self.turn)?;
+        finite("azimuth", self.azimuth)?;
+        positive("rise", self.rise)?;
+        positive("mass", self.mass)?;
+        for semi_axis in self.semi_axes {
+            positive("semi_axes", semi_axis)?;
+        }
+        let [rigidity, bonds, length] = [
+            "lateral.rigidity",
+            "lateral.bonds",
+            "lateral.maximum_length",
+        ];
+        self.lateral.validate(rigidity, bonds, length)?;
+        let [rigidity, bonds, length] = [
+            "longitudinal.rigidity",
+            "longitudinal.bonds",
+            "longitudinal.maximum_length",
+        ];
+        self.longitudinal.validate(rigidity, bonds, length)
+    }
+}
+
+impl InterfaceParameters {
+    /// Checks the three numbers, which go by the given keys.
+    fn validate(
+        &self,
+        rigidity: &'static str,
+        bonds: &'static str,
+        length: &'static str,
+    ) -> Result<(), ParameterError> {
+        positive(rigidity, self.rigidity)?;
+        positive(length, self.maximum_length)?;
+        if self.bonds == 0 {
+            return Err(out_of_range(bonds, 0.0, "at least 1"));
+        }
+        Ok(())
+    }
+
+    /// Stiffness of one bond (pN/nm).
+    pub fn bond_stiffness(&self) -> f64 {
+        self.rigidity / self.bonds as f64
+    }
+}
+
+/// The error for a number that breaks its rule.
+fn out_of_range(key: &'static str, value: f64, rule: &'static str) -> ParameterError {
+    ParameterError::OutOfRange { key, value, rule }
+}
+
+/// Refuses what is not a positive finite number.
+fn positive(key: &'static str, value: f64) -> Result<(), ParameterError> {
+    if value.is_finite() && value > 0.0 {
+        Ok(())
+    } else {
+        Err(out_of_range(key, value, "positive and finite"))
+    }
+}
+
+/// Refuses what is not a finite number.
+fn finite(key: &'static str, value: f64) -> Result<(), ParameterError> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err(out_of_range(key, value, "finite"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::EllipsoidModel;
+
+    /// Sets one number of otherwise valid parameters.
+    type Setter = fn(&mut EllipsoidParameters, f64);
+
+    /// The key that the model of the changed parameters is refused for.
+    fn refused(set: Setter, value: f64) -> Option<&'static str> {
+        let mut parameters = EllipsoidParameters::default();
+        set(&mut parameters, value);
+        match EllipsoidModel::new(parameters) {
+            Err(ParameterError::OutOfRange { key, value: v, .. }) => {
+                assert_eq!(v.to_bits(), value.to_bits());
+                Some(key)
+            }
+            _ => None,
+        }
+    }
+
+    /// Every number is checked under its own key: a copied line would name another.
+    #[test]
+    fn numbers_that_break_their_rule_are_refused_by_name() {
+        let positive: [(&str, Setter); 9] = [
+            ("rise", |p, v| p.rise = v),
+            ("mass", |p, v| p.mass = v),
+            ("semi_axes", |p, v| p.semi_axes[0] = v),
+            ("semi_axes", |p, v| p.semi_axes[1] = v),
+            ("semi_axes", |p, v| p.semi_axes[2] = v),
+            ("lateral.rigidity", |p, v| p.lateral.rigidity = v),
+            ("lateral.maximum_length", |p, v| {
+                p.lateral.maximum_length = v;
+            }),
+            ("longitudinal.rigidity", |p, v| p.longitudinal.rigidity = v),
+            ("longitudinal.maximum_length", |p, v| {
+                p.longitudinal.maximum_length = v;
+            }),
+        ];
+        for (key, set) in positive {
+            for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+                assert_eq!(refused(set, bad), Some(key), "{key} = {bad}");
+            }
+        }
+        let finite: [(&str, Setter); 2] = [
+            ("turn", |p, v| p.turn = v),
+            ("azimuth", |p, v| p.azimuth = v),
+        ];
+        for (key, set) in finite {
+            assert_eq!(refused(set, f64::NAN), Some(key));
+            assert_eq!(refused(set, -1.0), None);
+        }
+        assert_eq!(refused(|p, v| p.radius = v, -0.1), Some("radius"));
+        assert_eq!(refused(|p, v| p.radius = v, 0.0), None);
+    }
+
+    #[test]
+    fn an_interface_needs_a_bond() {
+        for (key, set) in [
+            ("lateral.bonds", (|p, _| p.lateral.bonds = 0) as Setter),
+            ("longitudinal.bonds", |p, _| p.longitudinal.bonds = 0),
+        ] {
+            assert_eq!(refused(set, 0.0), Some(key));
+        }
+    }
+
+    /// Key, value and rule are all in the message.
+    #[test]
+    fn messages_say_what_is_wrong() {
+        let parameters = EllipsoidParameters {
+            rise: -2.0,
+            ..EllipsoidParameters::default()
+        };
+        let message = EllipsoidModel::new(parameters).unwrap_err().to_string();
+        assert_eq!(message, "rise = -2: must be positive and finite");
+    }
+
+    #[test]
+    fn three_different_semi_axes_are_refused() {
+        let parameters = EllipsoidParameters {
+            semi_axes: [1.9, 2.4, 2.7],
+            ..EllipsoidParameters::default()
+        };
+        assert!(matches!(
+            EllipsoidModel::new(parameters),
+            Err(ParameterError::NotATop { .. })
+        ));
+    }
+}

@@ -1,0 +1,31 @@
+//! Filaments for the tests of this crate.
+
+use actin_ellipsoid::{Anchors, Bonds, EllipsoidModel, EllipsoidParameters, Monomers, Placement};
+use actin_mechanics::State;
+
+/// The default model with another seed and number of bonds per interface.
+pub(crate) fn model(seed: u64, bonds: usize) -> EllipsoidModel {
+    model_with(Anchors::Independent, seed, bonds)
+}
+
+/// The same with a choice of anchors.
+pub(crate) fn model_with(anchors: Anchors, seed: u64, bonds: usize) -> EllipsoidModel {
+    let mut parameters = EllipsoidParameters {
+        anchors,
+        seed,
+        ..EllipsoidParameters::default()
+    };
+    parameters.lateral.bonds = bonds;
+    parameters.longitudinal.bonds = bonds;
+    EllipsoidModel::new(parameters).expect("the defaults are valid")
+}
+
+/// A filament of `count` monomers at rest, from lattice index 0 on.
+pub(crate) fn filament(model: &EllipsoidModel, count: usize) -> (State, Monomers, Bonds) {
+    let mut state = State::default();
+    let monomers = model.build(&mut state, &Placement::default(), 0, count);
+    let bonds = model
+        .bonds(&monomers)
+        .expect("the defaults leave room for bonds");
+    (state, monomers, bonds)
+}

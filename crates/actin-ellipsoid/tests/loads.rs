@@ -1,0 +1,116 @@
+//! Loads of bonds: gradient of the energy, balance, invariance, closed forms of one interface.
+
+mod common;
+
+use actin_mechanics::testing::{
+    Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, derivative, loads_of,
+    perturb,
+};
+use actin_mechanics::{Interaction, Vector3, rotation};
+use common::{filament, model};
+
+/// Far from rest: anchors are displaced by up to a nanometre, as much as bonds are long. The
+/// shortest bonds then measure 0.16 nm, so the eight-point difference with a step of 1e-4 nm has
+/// an error far below 1e-8, and its round-off, about 1e-16 E/h, is 1e-11 of the loads.
+#[test]
+fn loads_are_the_gradient_of_the_energy() {
+    for bonds in [8, 64] {
+        for seed in 0..4 {
+            let (mut state, _, bonds) = filament(&model(seed, bonds), 5);
+            perturb(&mut state, &mut Noise::new(seed), 0.5, 0.3);
+            assert_is_gradient(&bonds, &state, 1e-4, 1e-8);
+        }
+    }
+}
+
+/// No force and no torque on the whole; a torque on the upper monomer without `D x F` would
+/// leave one. Some thousand terms carry round-off of 1e-14.
+#[test]
+fn loads_have_no_resultant() {
+    for seed in 0..10 {
+        let (mut state, _, bonds) = filament(&model(seed, 16), 20);
+        perturb(&mut state, &mut Noise::new(seed), 0.5, 0.3);
+        assert_is_balanced(&bonds, &state, 1e-14);
+    }
+}
+
+#[test]
+fn energy_does_not_change_under_rigid_motion() {
+    for seed in 0..10 {
+        let (mut state, _, bonds) = filament(&model(seed, 16), 20);
+        perturb(&mut state, &mut Noise::new(seed), 0.5, 0.3);
+        assert_is_invariant(&bonds, &state, 1e-13);
+    }
+}
+
+/// All bonds of an interface are parallel to the line of centres, so pulling along it lengthens
+/// each by the same amount: exactly a spring of the interface's rigidity, whatever the anchors.
+#[test]
+fn an_interface_pulled_along_the_line_of_centres_is_one_spring() {
+    for pull in [-0.01, 0.1, 2.0] {
+        let model = model(3, 64);
+        let (mut state, _, bonds) = filament(&model, 2);
+        let axis = (model.helix().centre(1) - model.helix().centre(0)).normalize();
+        state.points.position.add(1, pull * axis);
+        let rigidity = model.parameters().lateral.rigidity;
+        let energy = 0.5 * rigidity * pull * pull;
+        assert!((bonds.energy(&state) - energy).abs() < 1e-12 * energy.max(1.0));
+        let force = loads_of(&bonds, &state).force.get(1);
+        assert!((force + rigidity * pull * axis).norm() < 1e-10);
+    }
+}
+
+/// Across the line of centres nothing resists at first: the energy grows with the fourth power,
+/// `K/8 s^4 <1/L^2>` for small `s`. Rest lengths other than the built ones would show here.
+#[test]
+fn an_interface_sheared_resists_with_the_cube_only() {
+    let model = model(3, 64);
+    let (rest, _, bonds) = filament(&model, 2);
+    let axis = (model.helix().centre(1) - model.helix().centre(0)).normalize();
+    let across = axis.cross(&Vector3::x()).normalize();
+    let energy = |shear: f64| {
+        let mut state = rest.clone();
+        state.points.position.add(1, shear * across);
+        bonds.energy(&state)
+    };
+    let pair = bonds.pairs()[0];
+    let mean = bonds
+        .bonds_of(&pair)
+        .map(|b| b.rest_length.powi(-2))
+        .sum::<f64>()
+        / 64.0;
+    let shear: f64 = 1e-3;
+    let expected = 0.125 * model.parameters().lateral.rigidity * shear.powi(4) * mean;
+    // The next term is smaller by s^2 / 2 L^2, below 1e-4 with the shortest bonds.
+    assert!((energy(shear) / expected - 1.0).abs() < 1e-4);
+}
+
+/// Turning the upper monomer about the line of centres meets no stiffness at rest; tilting it
+/// meets that of the bonds' second moment about its own axis.
+#[test]
+fn an_interface_resists_tilt_but_not_torsion() {
+    let model = model(3, 64);
+    let (rest, monomers, bonds) = filament(&model, 2);
+    let axis = (model.helix().centre(1) - model.helix().centre(0)).normalize();
+    let stiffness = |about: Vector3| {
+        derivative(1e-4, |angle| {
+            let mut state = rest.clone();
+            let frame = monomers.frame(1);
+            let q = rotation::exp(angle * about) * state.frames.orientation.get(frame);
+            state.frames.orientation.set(frame, q);
+            let torque = loads_of(&bonds, &state).torque.get(frame);
+            -(q * torque).dot(&about)
+        })
+    };
+    let pair = bonds.pairs()[0];
+    let tilt = axis.cross(&Vector3::x()).normalize();
+    let expected: f64 = bonds
+        .ends_of(&pair, &rest)
+        .map(|[_, end]| {
+            let arm = tilt.cross(&(end - rest.points.position.get(1)));
+            pair.stiffness * arm.dot(&axis).powi(2)
+        })
+        .sum();
+    assert!((stiffness(tilt) / expected - 1.0).abs() < 1e-8);
+    assert!(stiffness(axis).abs() < 1e-8 * expected);
+}

@@ -1,0 +1,293 @@
+//! From blocks of second derivatives to the sparse stiffness in the unknowns.
+
+use crate::group::Group;
+use crate::layout::{Layout, Node};
+use crate::pattern::{Pattern, Place};
+use crate::ties::Ties;
+use actin_mechanics::{Coordinates, Interaction, Loads, Matrix3, State, Stiffness, Vector3};
+use nalgebra::{Matrix3x6, Matrix6};
+
+/// The stiffness in the unknowns of a layout, upper triangle by columns.
+#[derive(Debug, Default)]
+pub(crate) struct Assembly {
+    blocks: Stiffness,
+    pattern: Option<Pattern>,
+    /// Values in the order of the pattern.
+    pub(crate) values: Vec<f64>,
+    ties: Ties,
+    tie_blocks: Stiffness,
+    tie_places: Vec<Place>,
+    /// Values of the matrix of the ties last asked for.
+    pub(crate) tie_values: Vec<f64>,
+    turn_length: f64,
+}
+
+impl Assembly {
+    /// Nothing yet; a turn of 1 rad counts as `turn_length` (nm) in the regularisation.
+    pub(crate) fn new(turn_length: f64) -> Self {
+        Self {
+            turn_length,
+            ..Self::default()
+        }
+    }
+
+    /// Assembles the stiffness at `state`; `loads` are those at `state`.
+    ///
+    /// Returns whether the pattern is new, in which case the unknowns may have been reordered.
+    pub(crate) fn update(
+        &mut self,
+        interactions: &[Box<dyn Interaction>],
+        state: &State,
+        loads: &Loads,
+        layout: &mut Layout,
+    ) -> bool {
+        self.blocks.clear();
+        for second_order in interactions.iter().filter_map(|i| i.second_order()) {
+            second_order.add_stiffness(state, &mut self.blocks);
+        }
+        let is_new = !self
+            .pattern
+            .as_ref()
+            .is_some_and(|pattern| pattern.fits(&self.blocks));
+        if is_new {
+            self.pattern = Some(Pattern::new(&self.blocks, layout));
+            self.ties = Ties::new(self.blocks.blocks(), self.turn_length);
+            self.tie_places.clear();
+        }
+        let pattern = self.pattern.as_ref().expect("it has just been made");
+        let mut target = Target::new(&mut self.values, pattern, layout);
+        target.add_all(state, &self.blocks, &pattern.places);
+        target.add_turning_of_groups(state, loads);
+        is_new
+    }
+
+    /// The matrix of the ties with a stiffness for each, at the state of the last update.
+    pub(crate) fn assemble_ties(&mut self, state: &State, layout: &Layout, weights: &[f64]) {
+        let pattern = self.pattern.as_ref().expect("the stiffness is assembled");
+        self.tie_blocks.clear();
+        self.ties.add_blocks(state, weights, &mut self.tie_blocks);
+        if self.tie_places.is_empty() {
+            self.tie_places = pattern.places_of(&self.tie_blocks, layout);
+        }
+        let mut target = Target::new(&mut self.tie_values, pattern, layout);
+        target.add_all(state, &self.tie_blocks, &self.tie_places);
+    }
+
+    /// The ties between coupled bodies.
+    pub(crate) fn ties(&self) -> &Ties {
+        &self.ties
+    }
+
+    /// The pattern of the last update.
+    pub(crate) fn pattern(&self) -> &Pattern {
+        self.pattern
+            .as_ref()
+            .expect("the stiffness has been assembled")
+    }
+
+    /// `K v`.
+    pub(crate) fn multiply(&self, v: &[f64], out: &mut [f64]) {
+        self.multiply_with(v, out, |value| value);
+    }
+
+    /// `|K| v`, each entry without its sign.
+    pub(crate) fn multiply_absolute(&self, v: &[f64], out: &mut [f64]) {
+        self.multiply_with(v, out, f64::abs);
+    }
+
+    fn multiply_with(&self, v: &[f64], out: &mut [f64], entry: impl Fn(f64) -> f64) {
+        let symbolic = &self.pattern().symbolic;
+        out.fill(0.0);
+        for column in 0..v.len() {
+            for at in symbolic.col_ptr()[column]..symbolic.col_ptr()[column + 1] {
+                let row = symbolic.row_idx()[at];
+                let value = entry(self.values[at]);
+                out[row] += value * v[column];
+                if row != column {
+                    out[column] += value * v[row];
+                }
+            }
+        }
+    }
+}
+
+/// The matrix while blocks are added.
+struct Target<'a> {
+    values: &'a mut [f64],
+    columns: &'a [usize],
+    layout: &'a Layout,
+    diagonal: &'a [usize],
+}
+
+impl<'a> Target<'a> {
+    /// A matrix of zeros.
+    fn new(values: &'a mut Vec<f64>, pattern: &'a Pattern, layout: &'a Layout) -> Self {
+        values.clear();
+        values.resize(pattern.symbolic.row_idx().len(), 0.0);
+        Self {
+            values,
+            columns: pattern.symbolic.col_ptr(),
+            layout,
+            diagonal: &pattern.diagonal,
+        }
+    }
+
+    fn add_all(&mut self, state: &State, blocks: &Stiffness, places: &[Place]) {
+        for (&(a, b, block), &place) in blocks.blocks().iter().zip(places) {
+            self.add(state, a, b, &block, place);
+        }
+    }
+
+    fn add(
+        &mut self,
+        state: &State,
+        a: Coordinates,
+        b: Coordinates,
+        block: &Matrix3,
+        place: Place,
+    ) {
+        match place {
+            Place::Outside => {}
+            Place::Diagonal { node, twice } => match self.layout.node(node) {
+                Node::Group(_) => {
+                    let block = self.in_unknowns(state, a, b, block);
+                    let block = if twice {
+                        block + block.transpose()
+                    } else {
+                        block
+                    };
+                    self.add_diagonal(node, |i, j| block[(i, j)]);
+                }
+                _ => self.add_diagonal(node, |i, j| block[(i, j)]),
+            },
+            Place::Above {
+                row,
+                column,
+                local,
+                transposed,
+            } => {
+                let tied = |node| matches!(self.layout.node(node), Node::Group(_));
+                if tied(row) || tied(column) {
+                    let block = self.in_unknowns(state, a, b, block);
+                    self.add_above(row, column, local, transposed, |i, j| block[(i, j)]);
+                } else {
+                    self.add_above(row, column, local, transposed, |i, j| block[(i, j)]);
+                }
+            }
+        }
+    }
+
+    fn add_diagonal(&mut self, node: usize, block: impl Fn(usize, usize) -> f64) {
+        let start = self.diagonal[node];
+        for (j, column) in self.layout.range(node).enumerate() {
+            let first = self.columns[column] + start;
+            for (i, value) in self.values[first..=first + j].iter_mut().enumerate() {
+                *value += block(i, j);
+            }
+        }
+    }
+
+    fn add_above(
+        &mut self,
+        row: usize,
+        column: usize,
+        local: usize,
+        transposed: bool,
+        block: impl Fn(usize, usize) -> f64,
+    ) {
+        let rows = self.layout.range(row).len();
+        for (j, column) in self.layout.range(column).enumerate() {
+            let first = self.columns[column] + local;
+            for (i, value) in self.values[first..first + rows].iter_mut().enumerate() {
+                *value += if transposed { block(j, i) } else { block(i, j) };
+            }
+        }
+    }
+
+    /// `A^T block B`, `A` and `B` the derivatives of the two bodies' coordinates by the unknowns
+    /// of their nodes.
+    fn in_unknowns(
+        &self,
+        state: &State,
+        a: Coordinates,
+        b: Coordinates,
+        block: &Matrix3,
+    ) -> Matrix6<f64> {
+        let a = self.derivative(state, a);
+        let b = self.derivative(state, b);
+        a.transpose() * (block * b)
+    }
+
+    /// The derivative of a body's coordinates by the unknowns of its node, filled up with zeros.
+    fn derivative(&self, state: &State, body: Coordinates) -> Matrix3x6<f64> {
+        let mut derivative = Matrix3x6::zeros();
+        let node = self.layout.node_of(body).map(|node| self.layout.node(node));
+        let Some(Node::Group(g)) = node else {
+            derivative.fixed_view_mut::<3, 3>(0, 0).fill_diagonal(1.0);
+            return derivative;
+        };
+        let group = &self.layout.groups()[g];
+        for (k, column) in columns_of(group, state, body).enumerate() {
+            derivative.set_column(k, &column);
+        }
+        derivative
+    }
+
+    /// The second derivative of a turned point, `x = p + exp(theta) r`, times its force.
+    ///
+    /// `d^2 x . g = (theta . g)(theta . r) - theta^2 (g . r)` with `g = -force`. A frame has no
+    /// such term: `exp(theta) Q = Q exp(Q^T theta)` holds exactly.
+    fn add_turning_of_groups(&mut self, state: &State, loads: &Loads) {
+        let layout = self.layout;
+        for k in 0..layout.len() {
+            let Node::Group(g) = layout.node(k) else {
+                continue;
+            };
+            let group = &layout.groups()[g];
+            if group.rotations.is_empty() {
+                continue;
+            }
+            let curvature = turning(group, state, loads);
+            let skip = group.translations.len();
+            self.add_diagonal(k, |i, j| {
+                if i < skip || j < skip {
+                    return 0.0;
+                }
+                let (a, b) = (group.rotations[i - skip], group.rotations[j - skip]);
+                a.dot(&(curvature * b))
+            });
+        }
+    }
+}
+
+/// `sum (g r^T + r g^T) / 2 - (g . r) I` over the points of a group.
+fn turning(group: &Group, state: &State, loads: &Loads) -> Matrix3 {
+    let pivot = group.pivot.position(state);
+    group
+        .points
+        .iter()
+        .map(|&i| {
+            let r = state.points.position.get(i) - pivot;
+            let g = -loads.force.get(i);
+            0.5 * (g * r.transpose() + r * g.transpose()) - Matrix3::identity() * g.dot(&r)
+        })
+        .sum()
+}
+
+/// How each unknown of a group moves one of its bodies.
+fn columns_of<'a>(
+    group: &'a Group,
+    state: &'a State,
+    body: Coordinates,
+) -> impl Iterator<Item = Vector3> + 'a {
+    let pivot = group.pivot.position(state);
+    let along = group.translations.iter().map(move |&d| match body {
+        Coordinates::Point(_) => d,
+        Coordinates::Frame(_) => Vector3::zeros(),
+    });
+    let about = group.rotations.iter().map(move |axis| match body {
+        Coordinates::Point(i) => axis.cross(&(state.points.position.get(i) - pivot)),
+        Coordinates::Frame(i) => state.frames.orientation.get(i).inverse() * axis,
+    });
+    along.chain(about)
+}

@@ -1,0 +1,180 @@
+//! What the stiffness at an equilibrium says about it.
+//!
+//! Eigenvalues `lambda` are those of `K v = lambda M v` with `M` one for displacements (nm) and
+//! `l^2` for turns (rad), `l` the turn length of the options. Their signs are counted by
+//! Sylvester's law from the pivots of `K + s M` and `K - s M`, where `s`, the resolution, is the
+//! error that factorisation and coordinates may have made: eigenvalues below `-s` are negative
+//! beyond doubt. Those within `[-s, s]` are looked at more closely, since `s` is a bound for the
+//! worst case, which long filaments, whose lowest eigenvalues fall with the fourth power of the
+//! length, do not meet: the count is repeated with the coordinates and the matrix changed at
+//! random by some roundings. If it never changes it is taken; else they cannot be told from zero.
+
+use crate::direction::Solver;
+use crate::evaluation::Evaluation;
+use actin_mechanics::testing::Noise;
+use actin_mechanics::{Interaction, State};
+
+/// Counts of eigenvalues of the unregularised stiffness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Certificate {
+    /// Number of eigenvalues below `-resolution`.
+    pub negative: usize,
+    /// Number of eigenvalues that cannot be told from zero.
+    pub unresolved: usize,
+    /// The resolution (pN/nm), divided by the metric's smallest weight: the larger of eight times
+    /// the unit round-off times the largest diagonal entry of `|L| |D| |L^T|`, and of the change
+    /// of the stiffness when each coordinate changes by its rounding error.
+    pub resolution: f64,
+    /// Number of negative pivots of the stiffness itself.
+    pub negative_pivots: usize,
+}
+
+/// What an equilibrium is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stability {
+    /// All eigenvalues are positive: a minimum of the energy.
+    Stable,
+    /// No eigenvalue is negative, but some cannot be told from zero: floppy modes at rest, rigid
+    /// motions of something that floats, or a critical point.
+    Neutral {
+        /// How many.
+        modes: usize,
+    },
+    /// Some eigenvalues are negative: an equilibrium that the slightest push leaves.
+    Saddle {
+        /// How many.
+        negative: usize,
+    },
+}
+
+impl Certificate {
+    /// What the counts mean.
+    pub fn stability(&self) -> Stability {
+        match (self.negative, self.unresolved) {
+            (0, 0) => Stability::Stable,
+            (0, modes) => Stability::Neutral { modes },
+            (negative, _) => Stability::Saddle { negative },
+        }
+    }
+}
+
+/// Counts the eigenvalues of the stiffness of the last assembly, made at `state`.
+pub(crate) fn certify(
+    solver: &mut Solver,
+    state: &State,
+    interactions: &[Box<dyn Interaction>],
+) -> Certificate {
+    let changes = change(solver, state, interactions, &mut Noise::new(0), 1.0);
+    let uncertainty = largest_row_sum(solver, changes);
+    let mut certificate = count(solver, uncertainty);
+    if certificate.unresolved > 0 {
+        resolve(solver, state, interactions, &mut certificate);
+    }
+    certificate
+}
+
+/// Counts with a stiffness that is known up to `uncertainty` (largest sum of a row); three
+/// factorisations, rarely more.
+fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
+    let lightest = solver.metric.iter().copied().fold(f64::INFINITY, f64::min);
+    let negative_pivots = solver.factorize(0.0).negative;
+    let rounding = ROUNDINGS * f64::EPSILON;
+    let mut resolution = uncertainty.max(rounding * solver.largest_diagonal()) / lightest;
+    let mut attempt = 1;
+    loop {
+        let above = solver.factorize(resolution);
+        let mut growth = solver.growth();
+        let below = solver.factorize(-resolution);
+        growth = growth.max(solver.growth());
+        let error = rounding * growth / lightest;
+        // An error above the resolution means that an indefinite matrix met a small pivot.
+        if error > GROWTH_ALLOWED * resolution && attempt < ATTEMPTS {
+            resolution = error;
+            attempt += 1;
+            continue;
+        }
+        return Certificate {
+            negative: above.negative,
+            unresolved: below.negative.saturating_sub(above.negative),
+            resolution: resolution.max(error),
+            negative_pivots,
+        };
+    }
+}
+
+/// Takes the count of negative pivots where it is the same for all realisations of rounding.
+fn resolve(
+    solver: &mut Solver,
+    state: &State,
+    interactions: &[Box<dyn Interaction>],
+    certificate: &mut Certificate,
+) {
+    let mut noise = Noise::new(1);
+    let bounds = certificate.negative..=certificate.negative + certificate.unresolved;
+    for _ in 0..REALIZATIONS {
+        let mut changed = change(solver, state, interactions, &mut noise, AMPLITUDE);
+        for (changed, value) in changed.iter_mut().zip(&solver.assembly.values) {
+            *changed += value * (1.0 + AMPLITUDE * f64::EPSILON * noise.sample());
+        }
+        std::mem::swap(&mut solver.assembly.values, &mut changed);
+        let negative = solver.factorize(0.0).negative;
+        std::mem::swap(&mut solver.assembly.values, &mut changed);
+        if negative != certificate.negative_pivots || !bounds.contains(&negative) {
+            return;
+        }
+    }
+    certificate.negative = certificate.negative_pivots;
+    certificate.unresolved = 0;
+}
+
+/// How the stiffness changes when each coordinate changes by `amplitude` roundings.
+///
+/// A bond of length `l` turns rounding of its ends into a geometric stiffness of that times its
+/// stiffness over `l`: with short bonds far more than the rounding of the matrix.
+fn change(
+    solver: &mut Solver,
+    state: &State,
+    interactions: &[Box<dyn Interaction>],
+    noise: &mut Noise,
+    amplitude: f64,
+) -> Vec<f64> {
+    let mut step = vec![0.0; solver.layout.unknowns()];
+    solver.layout.magnitudes(state, &mut step);
+    for step in &mut step {
+        *step *= amplitude * f64::EPSILON * noise.sample().signum();
+    }
+    let mut moved = state.clone();
+    solver.layout.apply(&mut moved, &step, 1.0);
+    let evaluation = Evaluation::new(interactions, &moved);
+    solver.work.evaluations += 1;
+    solver.work.assemblies += 1;
+    let before = solver.assembly.values.clone();
+    let (assembly, layout) = (&mut solver.assembly, &mut solver.layout);
+    assembly.update(interactions, &moved, &evaluation.loads, layout);
+    let changes = assembly.values.iter().zip(&before).map(|(a, b)| a - b);
+    let changes = changes.collect();
+    assembly.values = before;
+    changes
+}
+
+/// The largest sum of absolute values in a row of a matrix of the present pattern.
+fn largest_row_sum(solver: &mut Solver, mut matrix: Vec<f64>) -> f64 {
+    let n = solver.layout.unknowns();
+    let mut sums = vec![0.0; n];
+    std::mem::swap(&mut solver.assembly.values, &mut matrix);
+    solver.assembly.multiply_absolute(&vec![1.0; n], &mut sums);
+    std::mem::swap(&mut solver.assembly.values, &mut matrix);
+    sums.into_iter().fold(0.0, f64::max)
+}
+
+/// Roundings of the largest entry that assembly and factorisation may have made.
+const ROUNDINGS: f64 = 8.0;
+/// Growth over the largest diagonal entry that is taken for accurate.
+const GROWTH_ALLOWED: f64 = 16.0;
+/// How often the interval of unresolved eigenvalues is widened.
+const ATTEMPTS: u32 = 4;
+/// How often a count is repeated with changed roundings. An eigenvalue of zero passes all of
+/// them by chance once in some hundred times.
+const REALIZATIONS: usize = 8;
+/// Roundings by which coordinates and entries are changed then.
+const AMPLITUDE: f64 = 4.0;

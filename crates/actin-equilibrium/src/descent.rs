@@ -1,0 +1,360 @@
+//! How far to go along a direction, and whether to accept where it leads.
+
+use crate::direction::{Direction, Solver};
+use crate::evaluation::Evaluation;
+use crate::history::Verdict;
+use crate::motion::Extent;
+use crate::options::NewtonOptions;
+use crate::outcome::Trouble;
+use actin_mechanics::{Interaction, State};
+
+/// Part of the predicted decrease that is enough (Armijo).
+const ENOUGH: f64 = 1e-4;
+/// Changes of energy below this part of the sum of absolute energies are judged by the work of
+/// the loads instead. An element's energy is a square of a small strain, so that its relative
+/// round-off is that of the strain: much larger than one rounding.
+const ROUND_OFF: f64 = 1e-8;
+/// Bounds of the factor by which a refused step is shortened.
+const SHORTEN: [f64; 2] = [0.05, 0.5];
+/// Steps shortened by more than this are useless.
+const SHORTEST: f64 = 1e-12;
+/// Part of the predicted decrease that makes a step a good one.
+const GOOD: f64 = 0.5;
+/// Largest displacement in a step, in sizes of the whole: what nothing holds must not fly so
+/// far that its coordinates lose all digits.
+const FARTHEST: f64 = 1e6;
+/// Below this part of the predicted decrease a step is a poor one.
+const POOR: f64 = 0.25;
+/// Stiffening below this part of the first guess is dropped.
+const NEGLIGIBLE: f64 = 1e-2;
+/// Factor by which the stiffening of ties is raised and lowered.
+const STIFFER: f64 = 4.0;
+/// Growth of the reach after a step that was accepted at once.
+const REACH_GROWTH: f64 = 2.0;
+
+/// A step that was taken.
+pub(crate) struct Taken {
+    pub(crate) fraction: f64,
+    pub(crate) extent: Extent,
+    pub(crate) verdict: Verdict,
+}
+
+/// Where an excursion began.
+#[derive(Debug)]
+struct Anchor {
+    state: State,
+    evaluation: Evaluation,
+    direction: Direction,
+    fraction: f64,
+    steps_left: usize,
+}
+
+/// The present state and the search for a lower one.
+#[derive(Debug)]
+pub(crate) struct Descent {
+    pub(crate) state: State,
+    pub(crate) here: Evaluation,
+    trial: State,
+    there: Evaluation,
+    anchor: Option<Anchor>,
+    /// Largest displacement in a step (nm).
+    farthest: f64,
+    /// Part of the step limits that is used at present.
+    reach: f64,
+    /// Steps during which no excursion is begun, since the last one did not pay.
+    rest: usize,
+    /// How much ties are stiffened per motion (pN/nm^2).
+    cubic: f64,
+    options: NewtonOptions,
+}
+
+impl Descent {
+    pub(crate) fn new(
+        interactions: &[Box<dyn Interaction>],
+        state: &State,
+        options: &NewtonOptions,
+    ) -> Self {
+        let here = Evaluation::new(interactions, state);
+        Self {
+            state: state.clone(),
+            there: here.clone(),
+            here,
+            trial: state.clone(),
+            anchor: None,
+            farthest: options
+                .largest_displacement
+                .min(FARTHEST * size(state).max(options.turn_length)),
+            reach: 1.0,
+            rest: 0,
+            cubic: 0.0,
+            options: *options,
+        }
+    }
+
+    pub(crate) fn is_on_excursion(&self) -> bool {
+        self.anchor.is_some()
+    }
+
+    /// Whether this is an excursion that is above where it began; if so, its next step goes back.
+    pub(crate) fn gives_up_excursion(&mut self) -> bool {
+        let Some(anchor) = &mut self.anchor else {
+            return false;
+        };
+        let above = self.here.energy_above(&anchor.evaluation);
+        let is_lost = above > ROUND_OFF * anchor.evaluation.magnitude.max(self.here.magnitude);
+        if is_lost {
+            anchor.steps_left = 0;
+        }
+        is_lost
+    }
+
+    /// Goes back to where an excursion began, if there is one.
+    pub(crate) fn end_excursion(&mut self) -> bool {
+        self.anchor.take().is_some_and(|anchor| {
+            self.state = anchor.state;
+            self.here = anchor.evaluation;
+            true
+        })
+    }
+
+    /// Takes a step from the present state, whose stiffness is assembled; `None` if none helps.
+    ///
+    /// # Errors
+    /// If the stiffness cannot be factorised.
+    pub(crate) fn advance(
+        &mut self,
+        solver: &mut Solver,
+        interactions: &[Box<dyn Interaction>],
+    ) -> Result<Option<(Direction, Taken)>, Trouble> {
+        let direction = self.direction(solver, self.cubic)?;
+        if let Some(taken) = self.attempt(solver, interactions, &direction) {
+            return Ok(Some((direction, taken)));
+        }
+        if let Some(anchor) = &mut self.anchor {
+            anchor.steps_left = anchor.steps_left.saturating_sub(1);
+            if self.there.is_finite() && anchor.steps_left > 0 {
+                self.accept();
+                let taken = self.taken(&direction, Verdict::Excursion);
+                return Ok(Some((direction, taken)));
+            }
+            return Ok(self.go_back(solver, interactions));
+        }
+        let fraction = self.fraction(&direction.extent);
+        if self.there.is_finite() && self.options.patience > 0 && self.rest == 0 {
+            self.begin_excursion(&direction, fraction);
+            let taken = self.taken(&direction, Verdict::Excursion);
+            return Ok(Some((direction, taken)));
+        }
+        self.cubic = (STIFFER * self.cubic).max(solver.least_cubic(&self.state));
+        let taken = self.shorten(solver, interactions, &direction, fraction);
+        Ok(taken.map(|taken| (direction, taken)))
+    }
+
+    fn direction(&self, solver: &mut Solver, cubic: f64) -> Result<Direction, Trouble> {
+        solver.direction(&self.state, self.options.largest_strain, cubic)
+    }
+
+    /// The step along `direction`, within the limits, if it is good enough.
+    fn attempt(
+        &mut self,
+        solver: &mut Solver,
+        interactions: &[Box<dyn Interaction>],
+        direction: &Direction,
+    ) -> Option<Taken> {
+        let fraction = self.fraction(&direction.extent);
+        self.try_step(solver, interactions, direction, fraction);
+        let verdict = self.judge(solver, direction, fraction)?;
+        let (reference, promised) = self.reference(direction, fraction);
+        let gain = -self.there.energy_above(reference) / promised;
+        self.adapt(solver, direction, gain);
+        self.accept();
+        self.anchor = None;
+        self.reach = (self.reach * REACH_GROWTH).min(1.0);
+        Some(taken(direction, fraction, verdict))
+    }
+
+    /// The part of a step within the limits.
+    fn fraction(&self, extent: &Extent) -> f64 {
+        let part = self.part_of_limits(extent);
+        if part > self.reach {
+            self.reach / part
+        } else {
+            1.0
+        }
+    }
+
+    /// The extent of a step relative to the limits.
+    fn part_of_limits(&self, extent: &Extent) -> f64 {
+        (extent.rotation / self.options.largest_rotation)
+            .max(extent.strain / self.options.largest_strain)
+            .max(extent.displacement / self.farthest)
+    }
+
+    fn taken(&self, direction: &Direction, verdict: Verdict) -> Taken {
+        taken(direction, self.fraction(&direction.extent), verdict)
+    }
+
+    /// Evaluates the state at `fraction` of the step.
+    fn try_step(
+        &mut self,
+        solver: &mut Solver,
+        interactions: &[Box<dyn Interaction>],
+        direction: &Direction,
+        fraction: f64,
+    ) {
+        self.trial.clone_from(&self.state);
+        solver
+            .layout
+            .apply(&mut self.trial, &direction.step, fraction);
+        self.there.update(interactions, &self.trial);
+        solver.work.evaluations += 1;
+    }
+
+    /// Whether the trial state is good enough, and why.
+    fn judge(&self, solver: &Solver, direction: &Direction, fraction: f64) -> Option<Verdict> {
+        if !self.there.is_finite() {
+            return None;
+        }
+        let predicted = predicted_decrease(direction, fraction);
+        let (reference, promised) = self.reference(direction, fraction);
+        let change = self.there.energy_above(reference);
+        if change <= -ENOUGH * promised && change < 0.0 {
+            return Some(Verdict::Decrease);
+        }
+        let magnitude = self.there.magnitude.max(reference.magnitude);
+        let hidden = self.anchor.is_none()
+            && predicted <= ROUND_OFF * magnitude
+            && change.abs() <= ROUND_OFF * magnitude;
+        (hidden && self.is_better_in_loads(solver, direction, fraction))
+            .then_some(Verdict::RoundOff)
+    }
+
+    /// What a step is compared with: where it began, or where the excursion did, and the decrease
+    /// that was promised there.
+    fn reference(&self, direction: &Direction, fraction: f64) -> (&Evaluation, f64) {
+        match &self.anchor {
+            Some(anchor) => (
+                &anchor.evaluation,
+                predicted_decrease(&anchor.direction, anchor.fraction),
+            ),
+            None => (&self.here, predicted_decrease(direction, fraction)),
+        }
+    }
+
+    /// Raises or lowers the stiffening of ties by what part of the promised decrease was gained.
+    fn adapt(&mut self, solver: &Solver, direction: &Direction, gain: f64) {
+        let least = solver.least_cubic(&self.state);
+        let present = direction.cubic.max(self.cubic);
+        self.cubic = if gain < POOR {
+            (STIFFER * present).max(least)
+        } else if gain < GOOD {
+            present
+        } else if present > NEGLIGIBLE * least {
+            present / STIFFER
+        } else {
+            0.0
+        };
+    }
+
+    /// Whether the loads do work along the step, by the trapezoidal rule, and push less at its
+    /// end than at its beginning.
+    fn is_better_in_loads(&self, solver: &Solver, direction: &Direction, fraction: f64) -> bool {
+        let there = solver.work_along(&self.trial, &self.there.loads, &direction.step);
+        let work = 0.5 * fraction * (direction.slope + there);
+        there.abs() <= direction.slope && work >= ENOUGH * predicted_decrease(direction, fraction)
+    }
+
+    fn accept(&mut self) {
+        let decreased = self.there.energy_above(&self.here) <= 0.0;
+        std::mem::swap(&mut self.state, &mut self.trial);
+        std::mem::swap(&mut self.here, &mut self.there);
+        self.rest = self.rest.saturating_sub(usize::from(decreased));
+    }
+
+    fn begin_excursion(&mut self, direction: &Direction, fraction: f64) {
+        self.anchor = Some(Anchor {
+            state: self.state.clone(),
+            evaluation: self.here.clone(),
+            direction: direction.clone(),
+            fraction,
+            steps_left: self.options.patience,
+        });
+        self.accept();
+    }
+
+    /// Returns to where the excursion began and takes a shorter step there.
+    fn go_back(
+        &mut self,
+        solver: &mut Solver,
+        interactions: &[Box<dyn Interaction>],
+    ) -> Option<(Direction, Taken)> {
+        let anchor = self.anchor.take()?;
+        self.state = anchor.state;
+        self.here = anchor.evaluation;
+        self.rest = self.options.patience;
+        let mut taken = self.shorten(solver, interactions, &anchor.direction, anchor.fraction)?;
+        taken.verdict = Verdict::Return;
+        Some((anchor.direction, taken))
+    }
+
+    /// Shortens a refused step until it is accepted; `None` if it never is.
+    fn shorten(
+        &mut self,
+        solver: &mut Solver,
+        interactions: &[Box<dyn Interaction>],
+        direction: &Direction,
+        refused: f64,
+    ) -> Option<Taken> {
+        let mut fraction = refused;
+        let mut factor = SHORTEN[1];
+        loop {
+            fraction *= factor;
+            if fraction < SHORTEST * refused.min(1.0) {
+                return None;
+            }
+            self.try_step(solver, interactions, direction, fraction);
+            if let Some(verdict) = self.judge(solver, direction, fraction) {
+                self.accept();
+                let taken = taken(direction, fraction, verdict);
+                let part = self.part_of_limits(&taken.extent);
+                self.reach = (REACH_GROWTH * part).clamp(SHORTEST, 1.0);
+                return Some(taken);
+            }
+            factor = self.next_factor(direction, fraction);
+        }
+    }
+
+    /// The minimum of the parabola through energy and slope here and energy there, in bounds.
+    fn next_factor(&self, direction: &Direction, fraction: f64) -> f64 {
+        let change = self.there.energy_above(&self.here);
+        let descent = fraction * direction.slope;
+        let factor = 0.5 * descent / (change + descent);
+        if factor.is_finite() {
+            factor.clamp(SHORTEN[0], SHORTEN[1])
+        } else {
+            SHORTEN[0]
+        }
+    }
+}
+
+/// Decrease of the quadratic model over `fraction` of a step.
+fn predicted_decrease(direction: &Direction, fraction: f64) -> f64 {
+    fraction * (direction.slope - 0.5 * fraction * direction.curvature)
+}
+
+/// The largest distance of a point from the first one.
+fn size(state: &State) -> f64 {
+    let mut positions = state.points.position.iter();
+    let Some(first) = positions.next() else {
+        return 0.0;
+    };
+    positions.map(|x| (x - first).norm()).fold(0.0, f64::max)
+}
+
+fn taken(direction: &Direction, fraction: f64, verdict: Verdict) -> Taken {
+    Taken {
+        fraction,
+        extent: direction.extent.scaled(fraction),
+        verdict,
+    }
+}

@@ -1,0 +1,315 @@
+//! Stiffness, factor and the direction of a Newton step.
+
+use crate::assemble::Assembly;
+use crate::evaluation::Evaluation;
+use crate::factor::{Factor, Inertia};
+use crate::history::Work;
+use crate::layout::Layout;
+use crate::motion::Extent;
+use crate::outcome::Trouble;
+use crate::residual::Residual;
+use actin_mechanics::{Interaction, Loads, State};
+
+/// Factor by which a regularisation that was too small grows.
+const GROW: f64 = 8.0;
+/// How far the first regularisation goes beyond the negative curvature that was found.
+const BEYOND: f64 = 2.0;
+/// A regularisation above this multiple of the largest diagonal entry is never needed.
+const LIMIT: f64 = 1e3;
+/// A step this many times longer than wanted calls for more regularisation.
+const TOO_LONG: f64 = 4.0;
+/// A step that strains less than this needs no stiffening of ties.
+const SHORT: f64 = 1e-6;
+/// Rounds in which stiffening and motion of ties are made to agree.
+const ROUNDS: usize = 2;
+/// Part of the largest stiffness by which that of a tie is first guessed to change when the tie
+/// moves by its own length.
+const STIFFNESS_CHANGE: f64 = 0.3;
+/// The least regularisation, in roundings of the largest diagonal entry.
+const LEAST_ROUNDINGS: f64 = 4.0;
+
+/// The linear algebra of one layout.
+#[derive(Debug)]
+pub(crate) struct Solver {
+    pub(crate) layout: Layout,
+    pub(crate) assembly: Assembly,
+    factor: Option<Factor>,
+    /// 1 for displacements, squared turn length for turns.
+    pub(crate) metric: Vec<f64>,
+    turn_length: f64,
+    /// Generalised loads at the state of the last assembly.
+    reduced: Vec<f64>,
+    pub(crate) work: Work,
+}
+
+/// A direction along which the energy falls.
+#[derive(Clone, Debug)]
+pub(crate) struct Direction {
+    pub(crate) step: Vec<f64>,
+    pub(crate) extent: Extent,
+    /// `f . p`: how fast the energy falls at first.
+    pub(crate) slope: f64,
+    /// `p . K p` with the unregularised stiffness.
+    pub(crate) curvature: f64,
+    pub(crate) negative_pivots: usize,
+    pub(crate) regularization: f64,
+    /// Motion (nm) of each tie.
+    motions: Vec<f64>,
+    /// How much ties were stiffened per motion (pN/nm^2).
+    pub(crate) cubic: f64,
+}
+
+impl Solver {
+    pub(crate) fn new(layout: Layout, turn_length: f64) -> Self {
+        Self {
+            layout,
+            assembly: Assembly::new(turn_length),
+            factor: None,
+            metric: Vec::new(),
+            turn_length,
+            reduced: Vec::new(),
+            work: Work::default(),
+        }
+    }
+
+    /// Refuses interactions that Newton's method cannot use.
+    pub(crate) fn check(interactions: &[Box<dyn Interaction>]) -> Result<(), Trouble> {
+        for interaction in interactions {
+            if !interaction.is_conservative() {
+                return Err(Trouble::NotConservative(interaction.term()));
+            }
+            if interaction.second_order().is_none() {
+                return Err(Trouble::NoStiffness(interaction.term()));
+            }
+        }
+        Ok(())
+    }
+
+    /// Evaluates loads and stiffness at a state.
+    pub(crate) fn prepare(
+        &mut self,
+        state: &State,
+        interactions: &[Box<dyn Interaction>],
+    ) -> Result<(), Trouble> {
+        Self::check(interactions)?;
+        let evaluation = Evaluation::new(interactions, state);
+        self.work.evaluations += 1;
+        if !evaluation.is_finite() {
+            return Err(Trouble::NotFinite);
+        }
+        self.assemble(interactions, state, &evaluation.loads);
+        Ok(())
+    }
+
+    /// Assembles stiffness and generalised loads at a state with these loads.
+    pub(crate) fn assemble(
+        &mut self,
+        interactions: &[Box<dyn Interaction>],
+        state: &State,
+        loads: &Loads,
+    ) {
+        let is_new = self
+            .assembly
+            .update(interactions, state, loads, &mut self.layout);
+        self.work.assemblies += 1;
+        if is_new {
+            let factor = Factor::new(self.assembly.pattern());
+            self.work.symbolic_factorizations += 1;
+            self.work.factor_entries = factor.entries() as u64;
+            self.factor = Some(factor);
+            self.metric = vec![0.0; self.layout.unknowns()];
+            self.layout.metric(self.turn_length, &mut self.metric);
+        }
+        self.reduced.resize(self.layout.unknowns(), 0.0);
+        self.layout.reduce(state, loads, &mut self.reduced);
+    }
+
+    /// Residual at the last assembly, and what rounding of coordinates leaves of it:
+    /// `eps |K| |u|`, `u` the components of positions or one for a turn.
+    pub(crate) fn residual_and_floor(&self, state: &State) -> (Residual, Residual) {
+        let n = self.layout.unknowns();
+        let (mut magnitudes, mut rounding) = (vec![0.0; n], vec![0.0; n]);
+        self.layout.magnitudes(state, &mut magnitudes);
+        self.assembly.multiply_absolute(&magnitudes, &mut rounding);
+        let floor = self.layout.largest(&rounding).scaled(f64::EPSILON);
+        (self.layout.largest(&self.reduced), floor)
+    }
+
+    /// Factorises the stiffness of the last assembly with a shift of the metric.
+    pub(crate) fn factorize(&mut self, shift: f64) -> Inertia {
+        let factor = self.factor.as_mut().expect("the stiffness is assembled");
+        self.work.factorizations += 1;
+        factor.factorize(
+            self.assembly.pattern().symbolic.as_ref(),
+            &self.assembly.values,
+            &self.metric,
+            shift,
+        )
+    }
+
+    /// Solves with the last factor, in place.
+    pub(crate) fn solve(&mut self, b: &mut [f64]) {
+        let factor = self.factor.as_mut().expect("the stiffness is assembled");
+        factor.solve(b);
+    }
+
+    /// Factorises the stiffness with the least multiple of the metric, from `shift` on, that
+    /// makes it positive definite; `inertia` is that of the present factor.
+    pub(crate) fn make_positive(
+        &mut self,
+        mut inertia: Inertia,
+        with_ties: bool,
+    ) -> Result<f64, Trouble> {
+        let largest = self.largest_diagonal();
+        let lightest = self.metric.iter().copied().fold(f64::INFINITY, f64::min);
+        let least = LEAST_ROUNDINGS * f64::EPSILON * largest / lightest;
+        let mut shift = 0.0;
+        while !inertia.is_positive() {
+            shift = (GROW * shift)
+                .max(shift + self.beyond_curvature())
+                .max(least);
+            // A shift that is not a number fails, too.
+            if shift.is_nan() || shift > LIMIT * largest / lightest {
+                return Err(Trouble::NotFactorizable(shift));
+            }
+            inertia = if with_ties {
+                self.factorize_with_ties(shift)
+            } else {
+                self.factorize(shift)
+            };
+        }
+        Ok(shift)
+    }
+
+    /// A shift that removes the negative curvature seen in the last factor; zero if none is.
+    fn beyond_curvature(&self) -> f64 {
+        let factor = self.factor.as_ref().expect("the stiffness is assembled");
+        -BEYOND * factor.negative_curvature(&self.metric).unwrap_or(0.0)
+    }
+
+    /// An upper estimate of the largest eigenvalue in the metric.
+    pub(crate) fn largest_in_metric(&self) -> f64 {
+        self.largest_diagonal() / self.metric.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// The growth of the last factor.
+    pub(crate) fn growth(&self) -> f64 {
+        let factor = self.factor.as_ref().expect("the stiffness is assembled");
+        factor.growth()
+    }
+
+    /// The largest diagonal entry of the matrix last factorised.
+    pub(crate) fn largest_diagonal(&self) -> f64 {
+        let factor = self.factor.as_ref().expect("the stiffness is assembled");
+        factor.largest_diagonal()
+    }
+
+    fn factorize_with_ties(&mut self, shift: f64) -> Inertia {
+        let factor = self.factor.as_mut().expect("the stiffness is assembled");
+        self.work.factorizations += 1;
+        factor.factorize_sum(
+            self.assembly.pattern().symbolic.as_ref(),
+            (&self.assembly.values, &self.assembly.tie_values),
+            &self.metric,
+            shift,
+        )
+    }
+
+    /// The Newton direction at the last assembly, which was made at `state`.
+    ///
+    /// The stiffness is made positive definite. Where that leaves a step that strains
+    /// neighbours by much more than `strain`, or where `cubic` asks for it, ties are stiffened
+    /// in proportion to their motion; see [`crate::ties`].
+    pub(crate) fn direction(
+        &mut self,
+        state: &State,
+        strain: f64,
+        cubic: f64,
+    ) -> Result<Direction, Trouble> {
+        let plain = self.factorize(0.0);
+        let shift = self.make_positive(plain, false)?;
+        let mut direction = self.solve_direction(state, plain, shift, &[]);
+        let too_long = direction.extent.strain > TOO_LONG * strain;
+        let cubic = if too_long {
+            cubic.max(self.least_cubic(state))
+        } else {
+            cubic
+        };
+        if cubic == 0.0 || direction.extent.strain < SHORT {
+            return Ok(direction);
+        }
+        let lengths = self.assembly.ties().lengths(state);
+        let mut motions: Vec<f64> = direction
+            .motions
+            .iter()
+            .zip(&lengths)
+            .map(|(motion, length)| motion.min(strain * length))
+            .collect();
+        for _ in 0..ROUNDS {
+            let weights: Vec<f64> = motions.iter().map(|motion| cubic * motion).collect();
+            self.assembly.assemble_ties(state, &self.layout, &weights);
+            let inertia = self.factorize_with_ties(0.0);
+            let shift = self.make_positive(inertia, true)?;
+            direction = self.solve_direction(state, plain, shift, &weights);
+            for (motion, new) in motions.iter_mut().zip(&direction.motions) {
+                // The geometric mean solves w = cubic r, w r = f in one round.
+                *motion = (*motion * new).sqrt();
+            }
+        }
+        direction.cubic = cubic;
+        Ok(direction)
+    }
+
+    /// A first guess of how fast the stiffness of a tie changes with its motion.
+    pub(crate) fn least_cubic(&self, state: &State) -> f64 {
+        let lengths = self.assembly.ties().lengths(state);
+        let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
+        STIFFNESS_CHANGE * self.largest_diagonal() / mean
+    }
+
+    /// Solves with the present factor, which has `shift` and `weights` of ties.
+    fn solve_direction(
+        &mut self,
+        state: &State,
+        plain: Inertia,
+        shift: f64,
+        weights: &[f64],
+    ) -> Direction {
+        let mut step = self.reduced.clone();
+        self.solve(&mut step);
+        let motions = self.assembly.ties().motions(&self.layout, state, &step);
+        let slope = dot(&self.reduced, &step);
+        // (K + T + mu M) p = f.
+        let of_metric: f64 = step.iter().zip(&self.metric).map(|(p, m)| m * p * p).sum();
+        let of_ties: f64 = weights.iter().zip(&motions).map(|(w, r)| w * r * r).sum();
+        let strain = motions
+            .iter()
+            .zip(self.assembly.ties().lengths(state))
+            .map(|(motion, length)| motion / length)
+            .fold(0.0, f64::max);
+        Direction {
+            slope,
+            curvature: slope - shift * of_metric - of_ties,
+            extent: Extent {
+                strain,
+                ..self.layout.step_extent(&step)
+            },
+            step,
+            motions,
+            negative_pivots: plain.negative,
+            regularization: shift,
+            cubic: 0.0,
+        }
+    }
+
+    /// The work per unit of `step` that loads do along it.
+    pub(crate) fn work_along(&self, state: &State, loads: &Loads, step: &[f64]) -> f64 {
+        let mut reduced = vec![0.0; step.len()];
+        self.layout.reduce(state, loads, &mut reduced);
+        dot(&reduced, step)
+    }
+}
+
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,220 @@
+//! `K + shift M = L D L^T` without pivoting, and what its pivots say.
+//!
+//! The order of elimination is that of the unknowns, so that the factor keeps the band. Without
+//! pivoting the factor of an indefinite matrix can lose accuracy; how much is seen afterwards:
+//! the computed factors are exact for a matrix that differs from `K` by about
+//! `eps (|L| |D| |L^T|)_ij`, which by Cauchy and Schwarz is at most `eps` times the largest
+//! [`growth`](Factor::growth). For a positive definite matrix the growth is its diagonal.
+//!
+//! # Source
+//! N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), theorems 10.3
+//! and 11.4; faer, `sparse::linalg::cholesky::simplicial`.
+
+use crate::pattern::Pattern;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
+use faer::sparse::linalg::cholesky::simplicial;
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par};
+
+/// A pivot below this many roundings of its diagonal entry does not count as positive.
+const PIVOT_ROUNDINGS: f64 = 8.0;
+
+/// What the pivots say about the shifted matrix.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Inertia {
+    /// Number of negative pivots: by Sylvester's law that of negative eigenvalues.
+    pub(crate) negative: usize,
+    /// Number of pivots that are zero to round-off; negative ones are counted above as well.
+    pub(crate) doubtful: usize,
+}
+
+impl Inertia {
+    /// Whether the matrix is positive definite beyond doubt.
+    pub(crate) fn is_positive(&self) -> bool {
+        self.negative == 0 && self.doubtful == 0
+    }
+}
+
+/// The factors of one pattern, with the memory they need.
+pub(crate) struct Factor {
+    symbolic: simplicial::SymbolicSimplicialCholesky<usize>,
+    values: Vec<f64>,
+    shifted: Vec<f64>,
+    diagonal: Vec<f64>,
+    memory: MemBuffer,
+}
+
+impl std::fmt::Debug for Factor {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Factor")
+            .field("unknowns", &self.symbolic.nrows())
+            .field("entries", &self.entries())
+            .finish_non_exhaustive()
+    }
+}
+
+impl Factor {
+    /// Finds the places of the factor's entries.
+    pub(crate) fn new(pattern: &Pattern) -> Self {
+        let upper = pattern.symbolic.as_ref();
+        let n = upper.ncols();
+        let (mut tree, mut counts) = (vec![0isize; n], vec![0usize; n]);
+        let mut memory = MemBuffer::new(
+            simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(n, upper.row_idx().len())
+                .or(simplicial::factorize_simplicial_symbolic_cholesky_scratch::<usize>(n)),
+        );
+        let stack = MemStack::new(&mut memory);
+        let tree = simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, upper, stack);
+        let symbolic =
+            simplicial::factorize_simplicial_symbolic_cholesky(upper, tree, &counts, stack)
+                .expect("the factor of a filament fits into memory");
+        Self {
+            values: vec![0.0; symbolic.len_val()],
+            symbolic,
+            shifted: Vec::new(),
+            diagonal: Vec::new(),
+            memory: MemBuffer::new(simplicial::factorize_simplicial_numeric_ldlt_scratch::<
+                usize,
+                f64,
+            >(n)),
+        }
+    }
+
+    /// Number of entries of the factor.
+    pub(crate) fn entries(&self) -> usize {
+        self.symbolic.len_val()
+    }
+
+    /// Factorises `K + shift M`, `M` the diagonal `metric`.
+    pub(crate) fn factorize(
+        &mut self,
+        upper: SymbolicSparseColMatRef<'_, usize>,
+        values: &[f64],
+        metric: &[f64],
+        shift: f64,
+    ) -> Inertia {
+        self.shifted.clear();
+        self.shifted.extend_from_slice(values);
+        self.factorize_shifted(upper, metric, shift)
+    }
+
+    /// Factorises `K + T + shift M`, `T` another matrix of the same pattern.
+    pub(crate) fn factorize_sum(
+        &mut self,
+        upper: SymbolicSparseColMatRef<'_, usize>,
+        (values, other): (&[f64], &[f64]),
+        metric: &[f64],
+        shift: f64,
+    ) -> Inertia {
+        self.shifted.clear();
+        self.shifted
+            .extend(values.iter().zip(other).map(|(k, t)| k + t));
+        self.factorize_shifted(upper, metric, shift)
+    }
+
+    /// A pivot that is exactly zero, as those of floppy modes at rest are, is replaced by one
+    /// rounding of the largest diagonal entry and counted as doubtful.
+    fn factorize_shifted(
+        &mut self,
+        upper: SymbolicSparseColMatRef<'_, usize>,
+        metric: &[f64],
+        shift: f64,
+    ) -> Inertia {
+        for (&end, weight) in upper.col_ptr()[1..].iter().zip(metric) {
+            // The diagonal entry is the last of its column.
+            self.shifted[end - 1] += shift * weight;
+        }
+        self.diagonal.clear();
+        let ends = &upper.col_ptr()[1..];
+        self.diagonal
+            .extend(ends.iter().map(|&end| self.shifted[end - 1].abs()));
+        let largest = self.largest_diagonal();
+        let regularization = LdltRegularization {
+            dynamic_regularization_signs: None,
+            dynamic_regularization_delta: (f64::EPSILON * largest).max(f64::MIN_POSITIVE),
+            dynamic_regularization_epsilon: 0.0,
+        };
+        let done = simplicial::factorize_simplicial_numeric_ldlt(
+            &mut self.values,
+            SparseColMatRef::new(upper, &self.shifted),
+            regularization,
+            &self.symbolic,
+            MemStack::new(&mut self.memory),
+        );
+        let mut inertia = Inertia::default();
+        for column in 0..upper.ncols() {
+            let pivot = self.pivot(column);
+            let rounding = PIVOT_ROUNDINGS * f64::EPSILON * self.diagonal[column];
+            inertia.negative += usize::from(pivot < 0.0);
+            inertia.doubtful += usize::from(pivot.is_nan() || pivot.abs() <= rounding);
+        }
+        if done.is_err() {
+            // Zero pivots are replaced, so this is a pivot that is not finite.
+            inertia.doubtful += 1;
+        }
+        inertia
+    }
+
+    fn pivot(&self, column: usize) -> f64 {
+        self.values[self.symbolic.col_ptr()[column]]
+    }
+
+    /// Solves `L D L^T x = b` in place.
+    pub(crate) fn solve(&mut self, b: &mut [f64]) {
+        let rows = b.len();
+        simplicial::SimplicialLdltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(b, rows, 1),
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+        );
+    }
+
+    /// The largest diagonal entry, without its sign, of the matrix last factorised.
+    pub(crate) fn largest_diagonal(&self) -> f64 {
+        self.diagonal.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The largest diagonal entry of `|L| |D| |L^T|`.
+    pub(crate) fn growth(&self) -> f64 {
+        let mut growth = vec![0.0; self.symbolic.nrows()];
+        for column in 0..growth.len() {
+            let pivot = self.pivot(column).abs();
+            growth[column] += pivot;
+            for (row, value) in self.below(column) {
+                growth[row] += value * value * pivot;
+            }
+        }
+        growth.into_iter().fold(0.0, f64::max)
+    }
+
+    /// Entries of `L` below the diagonal in one column.
+    fn below(&self, column: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let range = self.symbolic.col_ptr()[column] + 1..self.symbolic.col_ptr()[column + 1];
+        let rows = &self.symbolic.row_idx()[range.clone()];
+        rows.iter().copied().zip(self.values[range].iter().copied())
+    }
+
+    /// An upper bound of the smallest eigenvalue in the metric, if there is a negative pivot.
+    ///
+    /// With `L^T z = e_k` one has `z . K z = d_k`, so the smallest eigenvalue is at most
+    /// `d_k / z . M z`; `k` is the most negative pivot.
+    pub(crate) fn negative_curvature(&self, metric: &[f64]) -> Option<f64> {
+        let n = self.symbolic.nrows();
+        let last = (0..n).min_by(|&a, &b| self.pivot(a).total_cmp(&self.pivot(b)))?;
+        if self.pivot(last) >= 0.0 {
+            return None;
+        }
+        let mut z = vec![0.0; n];
+        z[last] = 1.0;
+        for column in (0..last).rev() {
+            z[column] = -self
+                .below(column)
+                .map(|(row, value)| value * z[row])
+                .sum::<f64>();
+        }
+        let norm: f64 = z.iter().zip(metric).map(|(z, m)| m * z * z).sum();
+        Some(self.pivot(last) / norm)
+    }
+}

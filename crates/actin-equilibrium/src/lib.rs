@@ -1,0 +1,45 @@
+//! Equilibria of points and frames: Newton on a sparse stiffness, certified.
+//!
+//! A [`Layout`] says what may move and in what order unknowns stand. [`Newton`] minimises the
+//! potential energy of interactions over it, and certifies what it finds. [`Path`] does so
+//! along a path of controls.
+//!
+//! This crate knows nothing of what the points and frames stand for. Units are nm, pN and rad.
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+mod assemble;
+mod certificate;
+mod descent;
+mod direction;
+mod evaluation;
+mod factor;
+mod group;
+mod history;
+mod layout;
+mod mode;
+mod motion;
+mod newton;
+mod options;
+mod outcome;
+mod path;
+mod path_options;
+mod pattern;
+mod residual;
+mod saddle;
+mod ties;
+
+pub use certificate::{Certificate, Stability};
+pub use group::{Group, Pivot};
+pub use history::{Iteration, Verdict, Work};
+pub use layout::{BodyOrder, Layout, LayoutError};
+pub use mode::Mode;
+pub use motion::Extent;
+pub use newton::Newton;
+pub use options::{NewtonOptions, OptionsError};
+pub use outcome::{Ending, Equilibrium, NewtonFailure, Trouble};
+pub use path::{Path, PathEnd, PathFailure, PathPoint, PathTrouble};
+pub use path_options::{Jumps, PathOptions, Saddles};
+pub use residual::Residual;

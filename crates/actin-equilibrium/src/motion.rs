@@ -1,0 +1,274 @@
+//! How unknowns move bodies and how loads act on unknowns.
+
+use crate::group::Group;
+use crate::layout::{Layout, Node};
+use crate::residual::Residual;
+use actin_mechanics::{Loads, State, UnitQuaternion, Vector3, Vectors, rotation};
+
+/// How far a step goes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Extent {
+    /// Largest displacement of a body or group (nm).
+    pub displacement: f64,
+    /// Largest turn of a body or group (rad).
+    pub rotation: f64,
+    /// Largest relative motion of coupled bodies: turn between two frames (rad), or relative
+    /// displacement of two points over their distance.
+    pub strain: f64,
+}
+
+impl Extent {
+    /// The extent of `factor` times the step.
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        Self {
+            displacement: self.displacement * factor,
+            rotation: self.rotation * factor,
+            strain: self.strain * factor,
+        }
+    }
+}
+
+impl Layout {
+    /// Moves the bodies of `state` by `scale` times `step`; exact on SO(3).
+    ///
+    /// # Panics
+    /// If `step` has not one number per unknown.
+    pub fn apply(&self, state: &mut State, step: &[f64], scale: f64) {
+        assert_eq!(step.len(), self.unknowns(), "one number per unknown");
+        for (node, range) in self.nodes() {
+            let step = &step[range];
+            match node {
+                Node::Point(i) => state.points.position.add(i, three(step) * scale),
+                Node::Frame(i) => {
+                    let q = state.frames.orientation.get(i) * rotation::exp(three(step) * scale);
+                    state.frames.orientation.set(i, with_unit_length(q));
+                }
+                Node::Group(g) => move_group(&self.groups()[g], state, step, scale),
+            }
+        }
+    }
+
+    /// Writes the generalised loads: minus the derivative of the energy by each unknown.
+    pub(crate) fn reduce(&self, state: &State, loads: &Loads, reduced: &mut [f64]) {
+        for (node, range) in self.nodes() {
+            let out = &mut reduced[range];
+            match node {
+                Node::Point(i) => out.copy_from_slice(loads.force.get(i).as_slice()),
+                Node::Frame(i) => out.copy_from_slice(loads.torque.get(i).as_slice()),
+                Node::Group(g) => {
+                    let group = &self.groups()[g];
+                    let (force, couple) = resultant(group, state, loads);
+                    let (along, about) = out.split_at_mut(group.translations.len());
+                    project(along, &group.translations, force);
+                    project(about, &group.rotations, couple);
+                }
+            }
+        }
+    }
+
+    /// The largest norms, over nodes, of numbers that are laid out as generalised loads.
+    pub(crate) fn largest(&self, reduced: &[f64]) -> Residual {
+        let mut largest = Residual::default();
+        for (node, range) in self.nodes() {
+            let values = &reduced[range];
+            let of_node = match node {
+                Node::Point(_) => Residual {
+                    force: norm(values),
+                    torque: 0.0,
+                },
+                Node::Frame(_) => Residual {
+                    force: 0.0,
+                    torque: norm(values),
+                },
+                Node::Group(g) => {
+                    let (along, about) = values.split_at(self.groups()[g].translations.len());
+                    Residual {
+                        force: norm(along),
+                        torque: norm(about),
+                    }
+                }
+            };
+            largest = largest.max(&of_node);
+        }
+        largest
+    }
+
+    /// The residual of `state` under `loads`.
+    pub fn residual(&self, state: &State, loads: &Loads) -> Residual {
+        let mut reduced = vec![0.0; self.unknowns()];
+        self.reduce(state, loads, &mut reduced);
+        self.largest(&reduced)
+    }
+
+    /// The largest displacement and turn of a step; its strain is not looked at.
+    pub(crate) fn step_extent(&self, step: &[f64]) -> Extent {
+        let largest = self.largest(step);
+        Extent {
+            displacement: largest.force,
+            rotation: largest.torque,
+            strain: 0.0,
+        }
+    }
+
+    /// How all points move and all frames turn, lab frame, at first order in a step.
+    pub(crate) fn velocities(&self, state: &State, step: &[f64]) -> (Vectors, Vectors) {
+        let mut moved = Vectors::zeros(state.points.len());
+        let mut turned = Vectors::zeros(state.frames.len());
+        for (node, range) in self.nodes() {
+            let step = &step[range];
+            match node {
+                Node::Point(i) => moved.set(i, three(step)),
+                Node::Frame(i) => turned.set(i, state.frames.orientation.get(i) * three(step)),
+                Node::Group(g) => {
+                    let group = &self.groups()[g];
+                    let (shift, turn) = (group.displacement(step), group.rotation(step));
+                    let pivot = group.pivot.position(state);
+                    for &i in &group.points {
+                        let arm = state.points.position.get(i) - pivot;
+                        moved.set(i, shift + turn.cross(&arm));
+                    }
+                    group.frames.iter().for_each(|&i| turned.set(i, turn));
+                }
+            }
+        }
+        (moved, turned)
+    }
+
+    /// The step that leads from one state to another: the inverse of [`apply`](Layout::apply).
+    ///
+    /// Of a group only what its directions can do is seen; its turn is read off its first frame.
+    pub fn difference(&self, from: &State, to: &State) -> Vec<f64> {
+        let mut step = vec![0.0; self.unknowns()];
+        for (node, range) in self.nodes() {
+            let out = &mut step[range];
+            match node {
+                Node::Point(i) => out.copy_from_slice(displacement(from, to, i).as_slice()),
+                Node::Frame(i) => {
+                    let q = from.frames.orientation.get(i).inverse() * to.frames.orientation.get(i);
+                    out.copy_from_slice(rotation::log(q).as_slice());
+                }
+                Node::Group(g) => {
+                    let group = &self.groups()[g];
+                    let (moved, turned) = group_difference(group, from, to);
+                    let (along, about) = out.split_at_mut(group.translations.len());
+                    project(along, &group.translations, moved);
+                    project(about, &group.rotations, turned);
+                }
+            }
+        }
+        step
+    }
+
+    /// Writes the size of each coordinate, which its rounding error is proportional to: that of
+    /// a position's component, or one for a turn.
+    pub(crate) fn magnitudes(&self, state: &State, magnitudes: &mut [f64]) {
+        for (node, range) in self.nodes() {
+            let out = &mut magnitudes[range];
+            match node {
+                Node::Point(i) => {
+                    out.copy_from_slice(state.points.position.get(i).abs().as_slice());
+                }
+                Node::Frame(_) => out.fill(1.0),
+                Node::Group(g) => {
+                    let group = &self.groups()[g];
+                    let (along, about) = out.split_at_mut(group.translations.len());
+                    let largest = largest_component(&state.points.position, &group.points);
+                    along.fill(largest);
+                    about.fill(1.0);
+                }
+            }
+        }
+    }
+
+    /// Writes the metric: 1 for displacements, `length^2` for turns.
+    pub(crate) fn metric(&self, length: f64, metric: &mut [f64]) {
+        for (node, range) in self.nodes() {
+            let translations = match node {
+                Node::Point(_) => 3,
+                Node::Frame(_) => 0,
+                Node::Group(g) => self.groups()[g].translations.len(),
+            };
+            let (along, about) = metric[range].split_at_mut(translations);
+            along.fill(1.0);
+            about.fill(length * length);
+        }
+    }
+}
+
+fn three(step: &[f64]) -> Vector3 {
+    Vector3::new(step[0], step[1], step[2])
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+fn project(out: &mut [f64], directions: &[Vector3], v: Vector3) {
+    for (out, direction) in out.iter_mut().zip(directions) {
+        *out = direction.dot(&v);
+    }
+}
+
+/// Brought back to unit length, which products leave at the rate of round-off.
+fn with_unit_length(q: UnitQuaternion) -> UnitQuaternion {
+    UnitQuaternion::new_normalize(q.into_inner())
+}
+
+fn move_group(group: &Group, state: &mut State, step: &[f64], scale: f64) {
+    let shift = group.displacement(step) * scale;
+    let turn = rotation::exp(group.rotation(step) * scale);
+    let pivot = group.pivot.position(state);
+    let turns = !group.rotations.is_empty();
+    for &i in &group.points {
+        let x = state.points.position.get(i);
+        // Without rotations the detour over the pivot would only add round-off.
+        let moved = if turns { pivot + turn * (x - pivot) } else { x };
+        state.points.position.set(i, moved + shift);
+    }
+    if turns {
+        for &i in &group.frames {
+            let q = turn * state.frames.orientation.get(i);
+            state.frames.orientation.set(i, with_unit_length(q));
+        }
+    }
+}
+
+/// Total force on a group and total couple about its pivot, lab frame.
+fn resultant(group: &Group, state: &State, loads: &Loads) -> (Vector3, Vector3) {
+    let pivot = group.pivot.position(state);
+    let mut force = Vector3::zeros();
+    let mut couple = Vector3::zeros();
+    for &i in &group.points {
+        let f = loads.force.get(i);
+        force += f;
+        couple += (state.points.position.get(i) - pivot).cross(&f);
+    }
+    for &i in &group.frames {
+        couple += state.frames.orientation.get(i) * loads.torque.get(i);
+    }
+    (force, couple)
+}
+
+fn displacement(from: &State, to: &State, i: usize) -> Vector3 {
+    to.points.position.get(i) - from.points.position.get(i)
+}
+
+/// Displacement of the pivot's material point and turn of a group between two states.
+fn group_difference(group: &Group, from: &State, to: &State) -> (Vector3, Vector3) {
+    let turned = group.frames.first().map_or(Vector3::zeros(), |&i| {
+        rotation::log(to.frames.orientation.get(i) * from.frames.orientation.get(i).inverse())
+    });
+    let moved = group.points.first().map_or(Vector3::zeros(), |&i| {
+        let pivot = group.pivot.position(from);
+        let x = from.points.position.get(i);
+        to.points.position.get(i) - (pivot + rotation::exp(turned) * (x - pivot))
+    });
+    (moved, turned)
+}
+
+fn largest_component(positions: &Vectors, points: &[usize]) -> f64 {
+    points
+        .iter()
+        .map(|&i| positions.get(i).amax())
+        .fold(0.0, f64::max)
+}

@@ -1,0 +1,310 @@
+//! Newton's method for minima of the potential energy.
+//!
+//! Each step solves `(K + mu M) p = f` with the full stiffness `K`; `mu` is zero where `K` is
+//! positive definite and else just large enough to make it so. Where the stiffness changes a lot
+//! within the step, as that of floppy filaments does, coupled neighbours are stiffened in
+//! proportion to their relative motion (see `ties`). The step is shortened to the limits of the
+//! options and judged by the energy. An excursion, a few steps above the energy
+//! where it began, is allowed: a filament that is to bend far is first stretched by the straight
+//! step and relaxes in the next ones, which is far quicker than to follow the bend in small
+//! steps (the watchdog technique). An excursion that does not pay is taken back.
+//!
+//! The direction of a step is found in `direction`, its acceptance in `descent`.
+//!
+//! # Source
+//! J. Nocedal and S. J. Wright, Numerical Optimization, 2nd ed. (2006), sections 3.4 (modified
+//! Cholesky) and 15.6 (watchdog).
+
+use crate::certificate::{Certificate, certify};
+use crate::descent::Descent;
+use crate::direction::Solver;
+use crate::history::{Iteration, Work};
+use crate::layout::Layout;
+use crate::options::{NewtonOptions, OptionsError};
+use crate::outcome::{Ending, Equilibrium, NewtonFailure, Trouble};
+use crate::residual::Residual;
+use actin_mechanics::{Interaction, Loads, State};
+use std::ops::ControlFlow;
+
+/// The residual counts as being at its floor below this multiple of the estimate.
+const AT_FLOOR: f64 = 8.0;
+/// Where no step helps any more, the same with more room, since the estimate is rough.
+const NEAR_FLOOR: f64 = 100.0;
+/// A residual that falls less than by this factor in a step does not fall any more.
+const STILL_FALLING: f64 = 0.5;
+
+/// A solver for equilibria of one model: layout, options, and the memory of earlier solves.
+///
+/// Symbolic factorisation and places of blocks are kept from solve to solve.
+#[derive(Debug)]
+pub struct Newton {
+    pub(crate) solver: Solver,
+    options: NewtonOptions,
+}
+
+impl Newton {
+    /// A solver.
+    ///
+    /// # Errors
+    /// If an option makes no sense.
+    pub fn new(layout: Layout, options: NewtonOptions) -> Result<Self, OptionsError> {
+        options.check()?;
+        Ok(Self {
+            solver: Solver::new(layout, options.turn_length),
+            options,
+        })
+    }
+
+    /// What may move.
+    pub fn layout(&self) -> &Layout {
+        &self.solver.layout
+    }
+
+    /// What may move, to give groups new directions.
+    pub fn layout_mut(&mut self) -> &mut Layout {
+        &mut self.solver.layout
+    }
+
+    /// The options.
+    pub fn options(&self) -> &NewtonOptions {
+        &self.options
+    }
+
+    /// What all solves so far have cost.
+    pub fn work(&self) -> Work {
+        self.solver.work
+    }
+
+    /// Moves `state` to an equilibrium near it.
+    ///
+    /// Held bodies and controls stay as they are, velocities are not looked at.
+    ///
+    /// # Errors
+    /// If none is found; `state` is then the best state reached.
+    pub fn solve(
+        &mut self,
+        state: &mut State,
+        interactions: &[Box<dyn Interaction>],
+    ) -> Result<Equilibrium, Box<NewtonFailure>> {
+        self.solve_observed(state, interactions, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// The same, with a callback after every step that may break it off.
+    ///
+    /// # Errors
+    /// If no equilibrium is found or the observer breaks off; `state` is then the best state
+    /// reached.
+    pub fn solve_observed(
+        &mut self,
+        state: &mut State,
+        interactions: &[Box<dyn Interaction>],
+        observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Equilibrium, Box<NewtonFailure>> {
+        let before = self.solver.work;
+        let mut run = Run {
+            solver: &mut self.solver,
+            options: &self.options,
+            interactions,
+            history: Vec::new(),
+            residual: Residual::default(),
+            floor: Residual::default(),
+            previous: f64::INFINITY,
+        };
+        let result = run.execute(state, observe);
+        let (history, residual, floor) = (run.history, run.residual, run.floor);
+        let work = |solver: &Solver| solver.work.since(&before);
+        match result {
+            Ok((ending, energy)) => {
+                let certificate = self
+                    .options
+                    .certify
+                    .then(|| certify(&mut self.solver, state, interactions));
+                Ok(Equilibrium {
+                    ending,
+                    energy,
+                    residual,
+                    floor,
+                    certificate,
+                    saddles_left: 0,
+                    history,
+                    work: work(&self.solver),
+                })
+            }
+            Err(trouble) => Err(Box::new(NewtonFailure {
+                trouble,
+                residual,
+                floor,
+                history,
+                work: work(&self.solver),
+            })),
+        }
+    }
+
+    /// Counts the eigenvalues of the stiffness at any state, in equilibrium or not.
+    ///
+    /// # Errors
+    /// If an interaction has no potential or no second derivatives.
+    pub fn certify(
+        &mut self,
+        state: &State,
+        interactions: &[Box<dyn Interaction>],
+    ) -> Result<Certificate, Trouble> {
+        self.solver.prepare(state, interactions)?;
+        Ok(certify(&mut self.solver, state, interactions))
+    }
+
+    /// The residual of a state.
+    pub fn residual(&self, state: &State, interactions: &[Box<dyn Interaction>]) -> Residual {
+        let loads = self.generalised_loads(state, interactions);
+        self.layout().largest(&loads)
+    }
+
+    /// Minus the derivative of the energy by each unknown.
+    ///
+    /// The order of unknowns may change at the first solve if the layout was given no order.
+    pub fn generalised_loads(
+        &self,
+        state: &State,
+        interactions: &[Box<dyn Interaction>],
+    ) -> Vec<f64> {
+        let mut loads = Loads::zeros(state);
+        for interaction in interactions {
+            interaction.add_loads(state, &mut loads);
+        }
+        let mut reduced = vec![0.0; self.layout().unknowns()];
+        self.layout().reduce(state, &loads, &mut reduced);
+        reduced
+    }
+
+    /// The stiffness at `state` times `v`, one number per unknown: minus the derivative of the
+    /// generalised loads along `v`, to be compared with differences. If the layout was given no
+    /// order, certify or solve first: that settles the order of unknowns.
+    ///
+    /// # Errors
+    /// If an interaction has no potential or no second derivatives.
+    ///
+    /// # Panics
+    /// If `v` has not one number per unknown.
+    pub fn stiffness_times(
+        &mut self,
+        state: &State,
+        interactions: &[Box<dyn Interaction>],
+        v: &[f64],
+    ) -> Result<Vec<f64>, Trouble> {
+        assert_eq!(v.len(), self.layout().unknowns(), "one number per unknown");
+        self.solver.prepare(state, interactions)?;
+        let mut product = vec![0.0; v.len()];
+        self.solver.assembly.multiply(v, &mut product);
+        Ok(product)
+    }
+}
+
+/// One solve.
+struct Run<'a> {
+    solver: &'a mut Solver,
+    options: &'a NewtonOptions,
+    interactions: &'a [Box<dyn Interaction>],
+    history: Vec<Iteration>,
+    residual: Residual,
+    floor: Residual,
+    /// Residual, relative to the tolerance, before the last step.
+    previous: f64,
+}
+
+impl Run<'_> {
+    /// Steps until an end is reached; returns the ending and the energy.
+    fn execute(
+        &mut self,
+        state: &mut State,
+        observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<(Ending, f64), Trouble> {
+        Solver::check(self.interactions)?;
+        let mut descent = Descent::new(self.interactions, state, self.options);
+        self.solver.work.evaluations += 1;
+        if !descent.here.is_finite() {
+            return Err(Trouble::NotFinite);
+        }
+        let result = loop {
+            match self.step(&mut descent) {
+                Ok(None) => {}
+                Ok(Some(ending)) => break Ok((ending, descent.here.energy)),
+                Err(trouble) => break Err(trouble),
+            }
+            let last = self.history.last().expect("a step has just been made");
+            if observe(last).is_break() {
+                break Err(Trouble::Interrupted);
+            }
+        };
+        if result.is_err() && descent.end_excursion() {
+            self.solver
+                .assemble(self.interactions, &descent.state, &descent.here.loads);
+            self.measure(&descent);
+        }
+        *state = descent.state;
+        result
+    }
+
+    /// Residual and floor of the present state, whose stiffness is assembled.
+    fn measure(&mut self, descent: &Descent) {
+        let (residual, floor) = self.solver.residual_and_floor(&descent.state);
+        (self.residual, self.floor) = (residual, floor);
+    }
+
+    /// One step, or the reason why none is needed.
+    fn step(&mut self, descent: &mut Descent) -> Result<Option<Ending>, Trouble> {
+        self.solver
+            .assemble(self.interactions, &descent.state, &descent.here.loads);
+        self.measure(descent);
+        if let Some(ending) = self.ending(descent) {
+            return Ok(Some(ending));
+        }
+        if self.history.len() >= self.options.iterations {
+            return Err(Trouble::IterationLimit(self.options.iterations));
+        }
+        self.previous = self.residual.relative_to(&self.options.tolerance);
+        let before = descent.here.energy;
+        let Some((direction, taken)) = descent.advance(self.solver, self.interactions)? else {
+            self.solver
+                .assemble(self.interactions, &descent.state, &descent.here.loads);
+            self.measure(descent);
+            return self.stagnation();
+        };
+        self.solver.work.iterations += 1;
+        self.history.push(Iteration {
+            energy: before,
+            residual: self.residual,
+            negative_pivots: direction.negative_pivots,
+            regularization: direction.regularization,
+            stiffening: direction.cubic,
+            fraction: taken.fraction,
+            extent: taken.extent,
+            verdict: taken.verdict,
+        });
+        Ok(None)
+    }
+
+    /// Whether the present state is an equilibrium.
+    ///
+    /// An excursion that ends in an equilibrium above where it began has not paid: it is taken
+    /// back, so that a solve never ends above its start.
+    fn ending(&self, descent: &mut Descent) -> Option<Ending> {
+        let tolerance = &self.options.tolerance;
+        if self.residual.is_within(tolerance) {
+            return (!descent.gives_up_excursion()).then_some(Ending::Converged);
+        }
+        let reachable = tolerance.max(&self.floor.scaled(AT_FLOOR));
+        let falling = self.residual.relative_to(tolerance) < STILL_FALLING * self.previous;
+        let at_floor = self.residual.is_within(&reachable) && !falling;
+        (at_floor && !descent.is_on_excursion()).then_some(Ending::FloorReached)
+    }
+
+    /// No step helps: either the floor is reached, or something is wrong.
+    fn stagnation(&self) -> Result<Option<Ending>, Trouble> {
+        let reachable = self.options.tolerance.max(&self.floor.scaled(NEAR_FLOOR));
+        if self.residual.is_within(&reachable) {
+            Ok(Some(Ending::FloorReached))
+        } else {
+            Err(Trouble::Stagnated)
+        }
+    }
+}

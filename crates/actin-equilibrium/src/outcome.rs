@@ -1,0 +1,96 @@
+//! How a solve ends: an equilibrium, or a failure that says why.
+
+use crate::certificate::{Certificate, Stability};
+use crate::history::{Iteration, Work};
+use crate::residual::Residual;
+use thiserror::Error;
+
+/// Why a solve that ended well ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The residual is within the tolerance.
+    Converged,
+    /// The residual is above the tolerance, but at the estimated round-off floor, and does not
+    /// fall any more.
+    FloorReached,
+}
+
+/// A state without residual loads, and what is known of it.
+///
+/// Whether it is stable is in the certificate; [`is_saddle`](Equilibrium::is_saddle) asks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equilibrium {
+    /// Why the solve ended.
+    pub ending: Ending,
+    /// Potential energy (pN nm).
+    pub energy: f64,
+    /// Residual of the state.
+    pub residual: Residual,
+    /// Estimate of the residual that rounding of coordinates alone leaves.
+    pub floor: Residual,
+    /// What the stiffness says; `None` if it was not asked for.
+    pub certificate: Option<Certificate>,
+    /// Saddles that were left on the way here.
+    pub saddles_left: usize,
+    /// The steps.
+    pub history: Vec<Iteration>,
+    /// What it took.
+    pub work: Work,
+}
+
+impl Equilibrium {
+    /// Whether the stiffness is known to have a negative eigenvalue.
+    pub fn is_saddle(&self) -> bool {
+        self.certificate
+            .is_some_and(|c| matches!(c.stability(), Stability::Saddle { .. }))
+    }
+}
+
+/// Why a solve failed.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum Trouble {
+    /// An interaction has no energy to be minimised.
+    #[error("the interaction {0:?} has no potential, so there is no energy to minimise")]
+    NotConservative(&'static str),
+    /// An interaction does not know its second derivatives.
+    #[error("the interaction {0:?} has no second derivatives")]
+    NoStiffness(&'static str),
+    /// Energy or loads at the start are not finite.
+    #[error("energy or loads at the start are not finite")]
+    NotFinite,
+    /// Too many steps.
+    #[error("{0} steps were not enough")]
+    IterationLimit(usize),
+    /// No step, however short, lowers the energy or the residual.
+    #[error("no step, however short, lowers the energy or the residual")]
+    Stagnated,
+    /// The stiffness has entries that are not finite, or no regularisation makes it definite.
+    #[error("the stiffness cannot be made positive definite by adding {0:.3e} pN/nm")]
+    NotFactorizable(f64),
+    /// The observer asked for the end.
+    #[error("the observer asked for the end")]
+    Interrupted,
+}
+
+/// A solve that did not reach an equilibrium.
+///
+/// The state that was passed in has been left at the best state reached: the one of lowest energy
+/// among those that were accepted.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error(
+    "no equilibrium after {} steps: {trouble}; the residual is {:.3e} pN and {:.3e} pN nm \
+     (round-off floor {:.1e} pN and {:.1e} pN nm); the best state was kept",
+    history.len(), residual.force, residual.torque, floor.force, floor.torque
+)]
+pub struct NewtonFailure {
+    /// What went wrong.
+    pub trouble: Trouble,
+    /// Residual of the state that was kept.
+    pub residual: Residual,
+    /// Estimate of the residual that rounding alone leaves.
+    pub floor: Residual,
+    /// The steps.
+    pub history: Vec<Iteration>,
+    /// What it took.
+    pub work: Work,
+}

@@ -1,0 +1,355 @@
+//! Equilibria along a path of controls, with automatic steps.
+//!
+//! Steps shrink where Newton has trouble or the equilibrium moves too far, and grow where it has
+//! none. At a limit point, beyond which there is no equilibrium near by, the steps shrink to the
+//! smallest and the path ends with a report of the last equilibrium.
+
+use crate::evaluation::Evaluation;
+use crate::history::Work;
+use crate::motion::Extent;
+use crate::newton::Newton;
+use crate::options::OptionsError;
+use crate::outcome::{Equilibrium, NewtonFailure};
+use crate::path_options::{Jumps, PathOptions, Saddles};
+use actin_mechanics::{Interaction, State};
+use std::ops::ControlFlow;
+use thiserror::Error;
+
+/// Motion over what the last step lets expect that makes a step a jump. Before a limit point
+/// motion goes with the square root of the distance, which is less sudden.
+const SUDDEN: f64 = 4.0;
+/// Motion (rad, or strain of neighbours) below which nothing is a jump: the bend of a filament
+/// with a tiny imperfection at its critical load grows suddenly, too, but stays small in a step.
+const SMALL_MOTION: f64 = 0.1;
+
+/// A path of controls, from parameter 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Path(PathOptions);
+
+/// An equilibrium on a path.
+#[derive(Clone, Copy, Debug)]
+pub struct PathPoint<'a> {
+    /// The path parameter, from 0 to 1.
+    pub parameter: f64,
+    /// The state.
+    pub state: &'a State,
+    /// What is known of it.
+    pub equilibrium: &'a Equilibrium,
+    /// How far free bodies have gone since the last point.
+    pub moved: Extent,
+    /// Whether the point is further from the last one than the options allow.
+    pub jumped: bool,
+}
+
+/// The end of a path that was followed to parameter 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathEnd {
+    /// The last equilibrium.
+    pub equilibrium: Equilibrium,
+    /// Equilibria on the path, the first and the last included.
+    pub points: usize,
+    /// Steps that were tried and made again with a smaller one.
+    pub refused: usize,
+    /// What all of it took.
+    pub work: Work,
+}
+
+/// Why a path ended before parameter 1.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum PathTrouble {
+    /// No equilibrium was found at the next parameter.
+    #[error("{0}")]
+    NoEquilibrium(Box<NewtonFailure>),
+    /// The next equilibrium is a saddle.
+    #[error("the equilibrium loses its stability: {negative} negative eigenvalue(s)")]
+    Unstable {
+        /// Number of negative eigenvalues.
+        negative: usize,
+    },
+    /// The next equilibrium is far away: a limit point, or a branch that ends.
+    #[error(
+        "the next equilibrium is far away: a body turns by {:.2} rad, neighbours move by {:.2} \
+         of their distance", .0.rotation, .0.strain
+    )]
+    Jump(Extent),
+    /// The observer asked for the end.
+    #[error("the observer asked for the end")]
+    Interrupted,
+}
+
+/// A path that was not followed to its end.
+///
+/// The state that was passed in is the last equilibrium reached.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error(
+    "the path ends at {parameter:.6} of 1; at {attempted:.6}: {trouble}; the last equilibrium was kept"
+)]
+pub struct PathFailure {
+    /// Parameter of the last equilibrium.
+    pub parameter: f64,
+    /// Parameter that was tried in vain.
+    pub attempted: f64,
+    /// The last equilibrium; `None` if there is none even at parameter 0.
+    pub equilibrium: Option<Equilibrium>,
+    /// Why the path ended.
+    pub trouble: PathTrouble,
+    /// Equilibria on the path.
+    pub points: usize,
+    /// What all of it took.
+    pub work: Work,
+}
+
+impl Path {
+    /// A path.
+    ///
+    /// # Errors
+    /// If an option makes no sense.
+    pub fn new(options: PathOptions) -> Result<Self, OptionsError> {
+        options.check()?;
+        Ok(Self(options))
+    }
+
+    /// Follows the equilibria of `state` from parameter 0 to 1.
+    ///
+    /// `set` puts controls and held bodies where they belong at a parameter. It is given a state
+    /// near the last equilibrium and leaves free bodies alone; of a group that slides it changes
+    /// what is prescribed and keeps what is free (the component along the direction, say).
+    /// `observe` sees every equilibrium and may end the path.
+    ///
+    /// # Errors
+    /// If the path cannot be followed to its end; `state` is then the last equilibrium.
+    pub fn follow(
+        &self,
+        newton: &mut Newton,
+        state: &mut State,
+        interactions: &[Box<dyn Interaction>],
+        set: &mut dyn FnMut(&mut State, f64),
+        observe: &mut dyn FnMut(&PathPoint<'_>) -> ControlFlow<()>,
+    ) -> Result<PathEnd, Box<PathFailure>> {
+        let before = newton.work();
+        let mut walk = Walk {
+            options: &self.0,
+            newton,
+            interactions,
+            parameter: 0.0,
+            step: self.0.first_step,
+            last: None,
+            previous: None,
+            rate: None,
+            points: 0,
+            refused: 0,
+        };
+        let result = walk.finish(state, set, observe);
+        let (points, refused, parameter) = (walk.points, walk.refused, walk.parameter);
+        let last = walk.last.take();
+        let work = walk.newton.work().since(&before);
+        match (result, last) {
+            (Ok(()), Some(equilibrium)) => Ok(PathEnd {
+                equilibrium,
+                points,
+                refused,
+                work,
+            }),
+            (Err((attempted, trouble)), equilibrium) => Err(Box::new(PathFailure {
+                parameter,
+                attempted,
+                equilibrium,
+                trouble,
+                points,
+                work,
+            })),
+            (Ok(()), None) => unreachable!("a path that was followed has an equilibrium"),
+        }
+    }
+}
+
+type Set<'a> = &'a mut dyn FnMut(&mut State, f64);
+type Observe<'a> = &'a mut dyn FnMut(&PathPoint<'_>) -> ControlFlow<()>;
+
+/// A path while it is followed.
+struct Walk<'a> {
+    options: &'a PathOptions,
+    newton: &'a mut Newton,
+    interactions: &'a [Box<dyn Interaction>],
+    parameter: f64,
+    step: f64,
+    last: Option<Equilibrium>,
+    /// The equilibrium before the last, with its parameter.
+    previous: Option<(State, f64)>,
+    /// Motion per parameter in the last step.
+    rate: Option<f64>,
+    points: usize,
+    refused: usize,
+}
+
+impl Walk<'_> {
+    fn finish(
+        &mut self,
+        state: &mut State,
+        set: Set<'_>,
+        observe: Observe<'_>,
+    ) -> Result<(), (f64, PathTrouble)> {
+        let mut first = state.clone();
+        set(&mut first, 0.0);
+        let equilibrium = self.solve(&mut first).map_err(|trouble| (0.0, trouble))?;
+        self.arrive(state, first, 0.0, equilibrium, false, observe)?;
+        while self.parameter < 1.0 {
+            self.advance(state, set, observe)?;
+        }
+        Ok(())
+    }
+
+    /// One step, made smaller until it succeeds.
+    fn advance(
+        &mut self,
+        state: &mut State,
+        set: Set<'_>,
+        observe: Observe<'_>,
+    ) -> Result<(), (f64, PathTrouble)> {
+        loop {
+            let next = self.next_parameter();
+            let mut trial = self.predict(state, next, set);
+            let is_smallest = self.step <= self.options.smallest_step;
+            let trouble = match self.solve(&mut trial) {
+                Ok(equilibrium) => {
+                    let moved = self.moved(state, &trial);
+                    let far = moved.rotation > self.options.largest_turn
+                        || moved.strain > self.options.largest_strain
+                        || self.is_sudden(&equilibrium, &moved, next);
+                    let accepted = is_smallest && self.options.jumps == Jumps::Accept;
+                    if !far || accepted {
+                        self.adapt(&equilibrium);
+                        return self.arrive(state, trial, next, equilibrium, far, observe);
+                    }
+                    PathTrouble::Jump(moved)
+                }
+                Err(trouble) => trouble,
+            };
+            if is_smallest {
+                return Err((next, trouble));
+            }
+            self.refused += 1;
+            self.step = (0.5 * (next - self.parameter)).max(self.options.smallest_step);
+        }
+    }
+
+    /// Whether an equilibrium is much further than the last step lets expect: a snap through.
+    ///
+    /// Off a saddle the way is always long at first, so that says nothing.
+    fn is_sudden(&self, equilibrium: &Equilibrium, moved: &Extent, next: f64) -> bool {
+        let motion = motion(moved);
+        let expected = self.rate.map(|rate| rate * (next - self.parameter));
+        equilibrium.saddles_left == 0
+            && motion > SMALL_MOTION
+            && expected.is_some_and(|expected| motion > SUDDEN * expected)
+    }
+
+    /// The parameter of the next step; a rest shorter than the smallest step is added to it.
+    fn next_parameter(&self) -> f64 {
+        let next = self.parameter + self.step;
+        if next > 1.0 - self.options.smallest_step {
+            1.0
+        } else {
+            next
+        }
+    }
+
+    /// A state at which to begin: with controls set, and extrapolated if that is lower in energy.
+    fn predict(&self, state: &State, next: f64, set: Set<'_>) -> State {
+        let mut plain = state.clone();
+        set(&mut plain, next);
+        let Some((previous, at)) = self.previous.as_ref().filter(|_| self.options.extrapolate)
+        else {
+            return plain;
+        };
+        let layout = self.newton.layout();
+        let motion = layout.difference(previous, state);
+        let factor = (next - self.parameter) / (self.parameter - at);
+        let mut extrapolated = plain.clone();
+        layout.apply(&mut extrapolated, &motion, factor);
+        let with = Evaluation::new(self.interactions, &extrapolated);
+        let without = Evaluation::new(self.interactions, &plain);
+        if with.energy_above(&without) < 0.0 {
+            extrapolated
+        } else {
+            plain
+        }
+    }
+
+    fn solve(&mut self, state: &mut State) -> Result<Equilibrium, PathTrouble> {
+        let attempts = match self.options.saddles {
+            Saddles::Leave(attempts) => attempts,
+            Saddles::Stop | Saddles::Keep => 0,
+        };
+        let equilibrium = self
+            .newton
+            .minimize(state, self.interactions, attempts)
+            .map_err(PathTrouble::NoEquilibrium)?;
+        match equilibrium.certificate {
+            Some(certificate)
+                if equilibrium.is_saddle() && self.options.saddles != Saddles::Keep =>
+            {
+                Err(PathTrouble::Unstable {
+                    negative: certificate.negative,
+                })
+            }
+            _ => Ok(equilibrium),
+        }
+    }
+
+    fn moved(&self, from: &State, to: &State) -> Extent {
+        let layout = self.newton.layout();
+        Extent {
+            strain: self.newton.solver.assembly.ties().strain_between(from, to),
+            ..layout.step_extent(&layout.difference(from, to))
+        }
+    }
+
+    fn adapt(&mut self, equilibrium: &Equilibrium) {
+        let iterations = equilibrium.history.len();
+        if iterations <= self.options.easy {
+            self.step *= 2.0;
+        } else if iterations > self.options.hard {
+            self.step *= 0.5;
+        }
+        let (smallest, largest) = (self.options.smallest_step, self.options.largest_step);
+        self.step = self.step.clamp(smallest, largest);
+    }
+
+    fn arrive(
+        &mut self,
+        state: &mut State,
+        next_state: State,
+        next: f64,
+        equilibrium: Equilibrium,
+        jumped: bool,
+        observe: Observe<'_>,
+    ) -> Result<(), (f64, PathTrouble)> {
+        let moved = self.moved(state, &next_state);
+        let left = std::mem::replace(state, next_state);
+        self.rate = (self.points > 0 && !jumped).then(|| motion(&moved) / (next - self.parameter));
+        // Across a jump there is nothing to extrapolate.
+        self.previous = (self.points > 0 && !jumped).then_some((left, self.parameter));
+        self.parameter = next;
+        self.points += 1;
+        let point = PathPoint {
+            parameter: next,
+            state,
+            equilibrium: &equilibrium,
+            moved,
+            jumped,
+        };
+        let flow = observe(&point);
+        self.last = Some(equilibrium);
+        // At the end there is nothing left to break off.
+        if flow.is_break() && next < 1.0 {
+            return Err((next, PathTrouble::Interrupted));
+        }
+        Ok(())
+    }
+}
+
+/// The larger of the largest turn and the largest relative motion of neighbours.
+fn motion(moved: &Extent) -> f64 {
+    moved.rotation.max(moved.strain)
+}

@@ -1,0 +1,195 @@
+//! Where the blocks of a stiffness go in a sparse symmetric matrix.
+//!
+//! The matrix is kept as its upper triangle by columns, rows sorted, which is what the
+//! factorisation reads. All places are found once; values are the business of `assemble`.
+
+use crate::layout::Layout;
+use actin_mechanics::{Coordinates, Matrix3, Stiffness};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::amd;
+use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
+
+/// Where one block goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// Nowhere: one of the bodies does not move.
+    Outside,
+    /// On the diagonal of a node; `twice` if the block couples two bodies of one group, whose
+    /// transposed block goes there too.
+    Diagonal {
+        /// The node.
+        node: usize,
+        /// Whether the transposed block is added as well.
+        twice: bool,
+    },
+    /// Above the diagonal: rows of `row`, columns of `column`.
+    Above {
+        /// The node of the rows.
+        row: usize,
+        /// The node of the columns.
+        column: usize,
+        /// Where the rows begin within each of the columns.
+        local: usize,
+        /// Whether the block is to be transposed.
+        transposed: bool,
+    },
+}
+
+/// The sparsity of a stiffness and the place of each of its blocks.
+#[derive(Debug)]
+pub(crate) struct Pattern {
+    /// The upper triangle by columns.
+    pub(crate) symbolic: SymbolicSparseColMat<usize>,
+    /// Place of each block, in the order of the blocks.
+    pub(crate) places: Vec<Place>,
+    /// For each node where its own rows begin within its columns.
+    pub(crate) diagonal: Vec<usize>,
+    bodies: Vec<(Coordinates, Coordinates)>,
+    neighbours: Vec<Vec<usize>>,
+    starts: Vec<Vec<usize>>,
+}
+
+impl Pattern {
+    /// The pattern of `stiffness`. Orders the nodes of `layout` if nobody has.
+    pub(crate) fn new(stiffness: &Stiffness, layout: &mut Layout) -> Self {
+        let blocks = stiffness.blocks();
+        let mut neighbours = neighbours(blocks, layout);
+        if !layout.is_ordered() {
+            layout.reorder(&minimum_degree(&neighbours));
+            neighbours = self::neighbours(blocks, layout);
+        }
+        let starts: Vec<Vec<usize>> = neighbours
+            .iter()
+            .map(|rows| running_sum(rows.iter().map(|&row| layout.range(row).len())))
+            .collect();
+        Self {
+            symbolic: upper_triangle(&neighbours, layout),
+            places: places(blocks, layout, &neighbours, &starts),
+            diagonal: starts.iter().map(|s| s[s.len() - 1]).collect(),
+            bodies: blocks.iter().map(|&(a, b, _)| (a, b)).collect(),
+            neighbours,
+            starts,
+        }
+    }
+
+    /// Places of other blocks that couple no pair beyond those of the pattern.
+    pub(crate) fn places_of(&self, stiffness: &Stiffness, layout: &Layout) -> Vec<Place> {
+        places(stiffness.blocks(), layout, &self.neighbours, &self.starts)
+    }
+
+    /// Whether the blocks couple the same bodies in the same order as those of the pattern.
+    pub(crate) fn fits(&self, stiffness: &Stiffness) -> bool {
+        let blocks = stiffness.blocks();
+        blocks.len() == self.bodies.len()
+            && blocks
+                .iter()
+                .zip(&self.bodies)
+                .all(|(&(a, b, _), &pair)| (a, b) == pair)
+    }
+}
+
+type Block = (Coordinates, Coordinates, Matrix3);
+
+/// For each node the earlier nodes that it is coupled with, sorted.
+fn neighbours(blocks: &[Block], layout: &Layout) -> Vec<Vec<usize>> {
+    let mut neighbours = vec![Vec::new(); layout.len()];
+    for &(a, b, _) in blocks {
+        if let (Some(a), Some(b)) = (layout.node_of(a), layout.node_of(b))
+            && a != b
+        {
+            neighbours[a.max(b)].push(a.min(b));
+        }
+    }
+    for rows in &mut neighbours {
+        rows.sort_unstable();
+        rows.dedup();
+    }
+    neighbours
+}
+
+/// The order of nodes found by approximate minimum degree.
+fn minimum_degree(neighbours: &[Vec<usize>]) -> Vec<usize> {
+    let n = neighbours.len();
+    let columns = running_sum(neighbours.iter().map(Vec::len));
+    let rows = neighbours.concat();
+    let graph = SymbolicSparseColMatRef::new_checked(n, n, &columns, None, &rows);
+    let (mut forward, mut inverse) = (vec![0; n], vec![0; n]);
+    let mut memory = MemBuffer::new(amd::order_scratch::<usize>(n, rows.len()));
+    amd::order(
+        &mut forward,
+        &mut inverse,
+        graph,
+        amd::Control::default(),
+        MemStack::new(&mut memory),
+    )
+    .expect("indices of nodes are far below the largest index");
+    forward
+}
+
+fn places(
+    blocks: &[Block],
+    layout: &Layout,
+    neighbours: &[Vec<usize>],
+    starts: &[Vec<usize>],
+) -> Vec<Place> {
+    blocks
+        .iter()
+        .map(|&(a, b, _)| place(a, b, layout, neighbours, starts))
+        .collect()
+}
+
+fn place(
+    a: Coordinates,
+    b: Coordinates,
+    layout: &Layout,
+    neighbours: &[Vec<usize>],
+    starts: &[Vec<usize>],
+) -> Place {
+    let (Some(first), Some(second)) = (layout.node_of(a), layout.node_of(b)) else {
+        return Place::Outside;
+    };
+    if first == second {
+        return Place::Diagonal {
+            node: first,
+            twice: a != b,
+        };
+    }
+    let (row, column) = (first.min(second), first.max(second));
+    let at = neighbours[column]
+        .binary_search(&row)
+        .expect("the pattern was made from the same blocks");
+    Place::Above {
+        row,
+        column,
+        local: starts[column][at],
+        transposed: first > second,
+    }
+}
+
+/// The upper triangle: above each node's own triangle the full rows of its neighbours.
+fn upper_triangle(neighbours: &[Vec<usize>], layout: &Layout) -> SymbolicSparseColMat<usize> {
+    let n = layout.unknowns();
+    let mut columns = Vec::with_capacity(n + 1);
+    let mut rows = Vec::new();
+    columns.push(0);
+    for (node, above) in neighbours.iter().enumerate() {
+        let own = layout.range(node);
+        for column in own.clone() {
+            for &row in above {
+                rows.extend(layout.range(row));
+            }
+            rows.extend(own.start..=column);
+            columns.push(rows.len());
+        }
+    }
+    SymbolicSparseColMat::new_checked(n, n, columns, None, rows)
+}
+
+/// `0, a_0, a_0 + a_1, ...`
+fn running_sum(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut sums = vec![0];
+    for length in lengths {
+        sums.push(sums[sums.len() - 1] + length);
+    }
+    sums
+}

@@ -1,0 +1,116 @@
+//! The way off a saddle: along the direction of negative curvature, downhill, and on.
+
+use crate::evaluation::Evaluation;
+use crate::mode::{self, Mode};
+use crate::motion::Extent;
+use crate::newton::Newton;
+use crate::outcome::{Equilibrium, NewtonFailure, Trouble};
+use actin_mechanics::{Interaction, State};
+
+/// Extent (nm and rad) of the first displacement off a saddle.
+const FIRST: f64 = 1e-3;
+/// Largest extent (rad, or nm per turn length) to which the displacement is doubled.
+const LAST: f64 = 0.2;
+
+impl Newton {
+    /// The lowest eigenvalue of the stiffness at `state` and its shape; `None` if nothing moves.
+    ///
+    /// # Errors
+    /// If an interaction has no potential or no second derivatives.
+    pub fn lowest_mode(
+        &mut self,
+        state: &State,
+        interactions: &[Box<dyn Interaction>],
+    ) -> Result<Option<Mode>, Trouble> {
+        self.solver.prepare(state, interactions)?;
+        mode::lowest(&mut self.solver)
+    }
+
+    /// Moves `state` off a saddle: along the lowest mode to the side where the energy is lower,
+    /// as far as it keeps falling by doubling, at most to turns of 0.2 rad.
+    ///
+    /// Returns the mode, or `None`, with `state` as it was, if the lowest eigenvalue is not
+    /// negative beyond its error. The sign of a mode is arbitrary: where both sides are alike it
+    /// decides the branch, always in the same way for the same input. To choose a branch,
+    /// displace the state and solve again.
+    ///
+    /// # Errors
+    /// If an interaction has no potential or no second derivatives.
+    pub fn leave_saddle(
+        &mut self,
+        state: &mut State,
+        interactions: &[Box<dyn Interaction>],
+    ) -> Result<Option<Mode>, Trouble> {
+        let mode = self.lowest_mode(state, interactions)?;
+        let Some(mode) = mode.filter(|mode| mode.eigenvalue < -mode.error) else {
+            return Ok(None);
+        };
+        let extent = self.layout().step_extent(&mode.shape);
+        let unit = 1.0 / largest(&extent, self.options().turn_length);
+        let start = Evaluation::new(interactions, state);
+        let mut there = start.clone();
+        let mut energy_at = |solver: &mut Self, amplitude: f64| {
+            let mut moved = state.clone();
+            solver.layout().apply(&mut moved, &mode.shape, amplitude);
+            there.update(interactions, &moved);
+            solver.solver.work.evaluations += 1;
+            (there.energy_above(&start), moved)
+        };
+        let (plus, minus) = (
+            energy_at(self, FIRST * unit),
+            energy_at(self, -FIRST * unit),
+        );
+        let side = if plus.0 <= minus.0 { unit } else { -unit };
+        let (mut best, mut moved) = if plus.0 <= minus.0 { plus } else { minus };
+        let mut amplitude = 2.0 * FIRST;
+        while amplitude <= LAST {
+            let (energy, further) = energy_at(self, amplitude * side);
+            if energy.is_nan() || energy >= best {
+                break;
+            }
+            (best, moved) = (energy, further);
+            amplitude *= 2.0;
+        }
+        *state = moved;
+        Ok(Some(mode))
+    }
+
+    /// Moves `state` to a minimum: solves, and leaves saddles up to `attempts` times.
+    ///
+    /// The equilibrium says how many saddles were left and has the history of all solves. After
+    /// the last attempt it may still be a saddle, which its certificate then says.
+    ///
+    /// # Errors
+    /// If a solve fails; `state` is then the best state reached.
+    pub fn minimize(
+        &mut self,
+        state: &mut State,
+        interactions: &[Box<dyn Interaction>],
+        attempts: usize,
+    ) -> Result<Equilibrium, Box<NewtonFailure>> {
+        let before = self.work();
+        let mut equilibrium = self.solve(state, interactions)?;
+        for _ in 0..attempts {
+            if !equilibrium.is_saddle() {
+                break;
+            }
+            let left = self.leave_saddle(state, interactions);
+            // The interactions have just been used for a solve, so this cannot fail on them.
+            if !matches!(left, Ok(Some(_))) {
+                break;
+            }
+            let mut next = self.solve(state, interactions)?;
+            equilibrium.history.append(&mut next.history);
+            next.history = equilibrium.history;
+            next.saddles_left = equilibrium.saddles_left + 1;
+            equilibrium = next;
+        }
+        equilibrium.work = self.work().since(&before);
+        Ok(equilibrium)
+    }
+}
+
+/// The largest turn, or displacement over the turn length.
+fn largest(extent: &Extent, turn_length: f64) -> f64 {
+    extent.rotation.max(extent.displacement / turn_length)
+}

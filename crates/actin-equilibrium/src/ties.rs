@@ -1,0 +1,151 @@
+//! Relative motions of coupled bodies: what a step does to neighbours, and the stiffness that
+//! regularises it locally.
+//!
+//! Each coupled pair of bodies is a tie with a relative motion `r` (nm), linear in the step. The
+//! regularisation adds an element of stiffness `w` to each tie, `w` proportional to the motion
+//! of that tie itself. It bounds an energy with bounded third derivatives from above, tie by
+//! tie: stiff ties and ties that hardly move feel nothing of it, however long the filament. A
+//! multiple of the unit matrix would stop the soft modes of a long filament instead, which move
+//! everything far and neighbours hardly.
+//!
+//! # Source
+//! The bound is that of Y. Nesterov and B. T. Polyak, Math. Program. 108 (2006) 177, taken for
+//! each tie by itself.
+
+use crate::layout::Layout;
+use actin_mechanics::{Coordinates, Matrix3, State, Stiffness, Vector3, Vectors, rotation};
+use std::collections::BTreeSet;
+
+/// A pair of bodies with a relative motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tie {
+    /// Two points: `dx_j - dx_i`.
+    Points(usize, usize),
+    /// Two points seen from a frame: `dx_j - dx_i - theta x (x_j - x_i)`.
+    Seen(usize, usize, usize),
+    /// Two frames: `theta_b - theta_a`, times the turn length.
+    Frames(usize, usize),
+}
+
+/// All pairs of coupled bodies.
+#[derive(Debug, Default)]
+pub(crate) struct Ties {
+    ties: Vec<Tie>,
+    turn_length: f64,
+}
+
+impl Ties {
+    /// The ties of bodies that share a block.
+    pub(crate) fn new(blocks: &[(Coordinates, Coordinates, Matrix3)], turn_length: f64) -> Self {
+        use Coordinates::{Frame, Point};
+        let mut points = BTreeSet::new();
+        let mut frames = BTreeSet::new();
+        let mut seen = BTreeSet::new();
+        for &(a, b, _) in blocks {
+            match (a, b) {
+                (Point(i), Point(j)) if i != j => points.insert((i.min(j), i.max(j))),
+                (Frame(i), Frame(j)) if i != j => frames.insert((i.min(j), i.max(j))),
+                (Point(i), Frame(f)) | (Frame(f), Point(i)) => seen.insert((i, f)),
+                _ => false,
+            };
+        }
+        let mut ties: Vec<Tie> = frames.into_iter().map(|(a, b)| Tie::Frames(a, b)).collect();
+        for (i, j) in points {
+            let before = ties.len();
+            let frames_of_i = seen.range((i, 0)..=(i, usize::MAX)).map(|&(_, f)| f);
+            let common = frames_of_i.filter(|&f| seen.contains(&(j, f)));
+            ties.extend(common.map(|f| Tie::Seen(i, j, f)));
+            if ties.len() == before {
+                ties.push(Tie::Points(i, j));
+            }
+        }
+        Self { ties, turn_length }
+    }
+
+    /// Second derivatives of half the sum of weighted squared motions.
+    pub(crate) fn add_blocks(&self, state: &State, weights: &[f64], blocks: &mut Stiffness) {
+        use Coordinates::{Frame, Point};
+        for (&tie, &weight) in self.ties.iter().zip(weights) {
+            let unit = Matrix3::from_diagonal_element(weight);
+            match tie {
+                Tie::Points(i, j) => {
+                    blocks.push(Point(i), Point(i), unit);
+                    blocks.push(Point(j), Point(j), unit);
+                    blocks.push(Point(i), Point(j), -unit);
+                }
+                Tie::Seen(i, j, f) => {
+                    let turn = between(state, i, j).cross_matrix() * matrix(state, f);
+                    blocks.push(Point(i), Point(i), unit);
+                    blocks.push(Point(j), Point(j), unit);
+                    blocks.push(Point(i), Point(j), -unit);
+                    blocks.push(Point(j), Frame(f), turn * weight);
+                    blocks.push(Point(i), Frame(f), turn * -weight);
+                    blocks.push(Frame(f), Frame(f), turn.transpose() * turn * weight);
+                }
+                Tie::Frames(a, b) => {
+                    let unit = unit * self.turn_length.powi(2);
+                    let relative = matrix(state, a).transpose() * matrix(state, b);
+                    blocks.push(Frame(a), Frame(a), unit);
+                    blocks.push(Frame(b), Frame(b), unit);
+                    blocks.push(Frame(a), Frame(b), -unit * relative);
+                }
+            }
+        }
+    }
+
+    /// The size of the motion (nm) of each tie in a step.
+    pub(crate) fn motions(&self, layout: &Layout, state: &State, step: &[f64]) -> Vec<f64> {
+        let (moved, turned) = layout.velocities(state, step);
+        let of = |tie: &Tie| match *tie {
+            Tie::Points(i, j) => relative(&moved, i, j).norm(),
+            Tie::Seen(i, j, f) => {
+                let d = between(state, i, j);
+                (relative(&moved, i, j) - turned.get(f).cross(&d)).norm()
+            }
+            Tie::Frames(a, b) => relative(&turned, a, b).norm() * self.turn_length,
+        };
+        self.ties.iter().map(of).collect()
+    }
+
+    /// The largest relative motion between two states, all of it finite: turn between two frames
+    /// (rad), or relative displacement of two points over their distance.
+    pub(crate) fn strain_between(&self, from: &State, to: &State) -> f64 {
+        let turn =
+            |f: usize| to.frames.orientation.get(f) * from.frames.orientation.get(f).inverse();
+        let of = |tie: &Tie| match *tie {
+            Tie::Points(i, j) => {
+                let d = between(from, i, j);
+                (between(to, i, j) - d).norm() / d.norm()
+            }
+            Tie::Seen(i, j, f) => {
+                let d = between(from, i, j);
+                (between(to, i, j) - turn(f) * d).norm() / d.norm()
+            }
+            Tie::Frames(a, b) => rotation::log(turn(b) * turn(a).inverse()).norm(),
+        };
+        self.ties.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// The motion (nm) that counts as a strain of one: the distance of two points, or the turn
+    /// length.
+    pub(crate) fn lengths(&self, state: &State) -> Vec<f64> {
+        let of = |tie: &Tie| match *tie {
+            Tie::Points(i, j) | Tie::Seen(i, j, _) => between(state, i, j).norm(),
+            Tie::Frames(..) => self.turn_length,
+        };
+        self.ties.iter().map(of).collect()
+    }
+}
+
+fn between(state: &State, i: usize, j: usize) -> Vector3 {
+    relative(&state.points.position, i, j)
+}
+
+fn relative(vectors: &Vectors, i: usize, j: usize) -> Vector3 {
+    vectors.get(j) - vectors.get(i)
+}
+
+fn matrix(state: &State, frame: usize) -> Matrix3 {
+    let q = state.frames.orientation.get(frame);
+    q.to_rotation_matrix().into_inner()
+}

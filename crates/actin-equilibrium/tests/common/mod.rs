@@ -1,0 +1,78 @@
+//! Small models with analytic second derivatives, shared by the tests.
+#![allow(
+    dead_code,
+    unused_imports,
+    reason = "each test binary uses some of them"
+)]
+
+pub(crate) mod actin;
+mod bonds;
+mod rod;
+mod rod_terms;
+
+pub(crate) use bonds::{Bond, Bonds, Springs, bonded_filament};
+pub(crate) use rod::{ACTIN, Rod};
+
+use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
+use actin_mechanics::{
+    Frame, Inertia, Interaction, Matrix3, Point, State, UnitQuaternion, Vector3,
+};
+
+/// `[v]x`.
+pub(crate) fn cross(v: Vector3) -> Matrix3 {
+    v.cross_matrix()
+}
+
+pub(crate) fn point(state: &mut State, position: Vector3) -> usize {
+    let mass = 0.0697;
+    state.points.push(Point { position, mass })
+}
+
+pub(crate) fn frame(state: &mut State, orientation: UnitQuaternion) -> usize {
+    let inertia = Inertia::from_moments([1.0, 1.0, 2.0]).unwrap();
+    state.frames.push(Frame {
+        orientation,
+        inertia,
+    })
+}
+
+/// Order along a filament whose bodies stand in order.
+pub(crate) fn in_order(state: &State) -> BodyOrder {
+    BodyOrder {
+        points: (0..state.points.len()).map(|i| i as f64).collect(),
+        frames: (0..state.frames.len()).map(|i| i as f64).collect(),
+    }
+}
+
+/// Asserts that the stiffness is the derivative of the loads, in all directions of a layout.
+///
+/// Along the path `apply(step, t)` the work of the loads has the derivative `-step . K step`
+/// everywhere, since each body moves along a geodesic.
+pub(crate) fn assert_is_second_derivative(
+    interactions: &[Box<dyn Interaction>],
+    state: &State,
+    layout: Layout,
+    relative: f64,
+) {
+    use actin_mechanics::testing::{Noise, derivative};
+    let n = layout.unknowns();
+    let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
+    newton.certify(state, interactions).unwrap();
+    let mut noise = Noise::new(3);
+    for _ in 0..20 {
+        let step: Vec<f64> = (0..n).map(|_| noise.sample()).collect();
+        let work = |t: f64| {
+            let mut moved = state.clone();
+            newton.layout().apply(&mut moved, &step, t);
+            let loads = newton.generalised_loads(&moved, interactions);
+            loads.iter().zip(&step).map(|(f, p)| f * p).sum::<f64>()
+        };
+        let difference = -derivative(1e-3, work);
+        let product = newton.stiffness_times(state, interactions, &step).unwrap();
+        let analytic: f64 = product.iter().zip(&step).map(|(k, p)| k * p).sum();
+        assert!(
+            (analytic - difference).abs() <= relative * difference.abs().max(1.0),
+            "{analytic} against {difference}"
+        );
+    }
+}

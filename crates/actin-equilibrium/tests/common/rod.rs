@@ -1,0 +1,78 @@
+//! A clamped rod.
+
+use super::rod_terms::{Bending, Segments};
+use super::{frame, point};
+use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
+use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3};
+
+/// A rod along z from the origin, clamped by a held wall frame (frame 0) and point 0.
+#[derive(Debug)]
+pub(crate) struct Rod {
+    pub(crate) segments: usize,
+    pub(crate) length: f64,
+    pub(crate) shear: Vector3,
+    pub(crate) bending: Vector3,
+}
+
+/// Rigidities of actin (pN, pN nm^2).
+pub(crate) const ACTIN: Rod = Rod {
+    segments: 16,
+    length: 160.0,
+    shear: Vector3::new(1.6e4, 1.6e4, 3.4e4),
+    bending: Vector3::new(3.9e4, 3.9e4, 1.3e4),
+};
+
+impl Rod {
+    pub(crate) fn state(&self) -> State {
+        let mut state = State::default();
+        let step = self.length / self.segments as f64;
+        for i in 0..=self.segments {
+            point(&mut state, Vector3::z() * (step * i as f64));
+        }
+        for _ in 0..=self.segments {
+            frame(&mut state, UnitQuaternion::identity());
+        }
+        state.points.hold(0);
+        state.frames.hold(0);
+        state
+    }
+
+    pub(crate) fn interactions(&self) -> Vec<Box<dyn Interaction>> {
+        let step = self.length / self.segments as f64;
+        let segments = (0..self.segments)
+            .map(|i| (i, i + 1, i + 1, step))
+            .collect();
+        let elements = (0..self.segments)
+            .map(|i| (i, i + 1, if i == 0 { 0.5 * step } else { step }))
+            .collect();
+        vec![
+            Box::new(Segments {
+                elements: segments,
+                rigidity: self.shear,
+            }),
+            Box::new(Bending {
+                elements,
+                rigidity: self.bending,
+            }),
+        ]
+    }
+
+    pub(crate) fn order(&self) -> BodyOrder {
+        BodyOrder {
+            points: (0..=self.segments).map(|i| i as f64).collect(),
+            frames: (0..=self.segments).map(|i| i as f64 - 0.5).collect(),
+        }
+    }
+
+    pub(crate) fn layout(&self, state: &State) -> Layout {
+        Layout::new(state, Some(&self.order()), Vec::new()).unwrap()
+    }
+
+    pub(crate) fn newton(&self, state: &State) -> Newton {
+        Newton::new(self.layout(state), NewtonOptions::default()).unwrap()
+    }
+
+    pub(crate) fn tip(&self, state: &State) -> Vector3 {
+        state.points.position.get(self.segments)
+    }
+}

@@ -1,0 +1,45 @@
+//! Cost grows linearly with the number of bodies.
+
+mod common;
+
+use actin_equilibrium::{Layout, Newton, NewtonOptions};
+use actin_mechanics::PointLoad;
+use actin_mechanics::Vector3;
+use common::{ACTIN, Rod};
+
+fn work(segments: usize, ordered: bool) -> actin_equilibrium::Work {
+    let rod = Rod {
+        segments,
+        length: 10.0 * segments as f64,
+        ..ACTIN
+    };
+    let mut state = rod.state();
+    state.controls.push(1e-6);
+    let load = PointLoad::new(&state, vec![(segments, 1.0)], Vector3::x(), 0);
+    let mut terms = rod.interactions();
+    terms.push(Box::new(load));
+    let layout = if ordered {
+        rod.layout(&state)
+    } else {
+        Layout::free(&state)
+    };
+    let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
+    newton.solve(&mut state, &terms).unwrap().work
+}
+
+/// Along the filament the factor has a band: each segment adds the same number of entries.
+#[test]
+fn the_factor_grows_linearly() {
+    let [a, b, c] = [100, 200, 400].map(|n| work(n, true).factor_entries);
+    assert_eq!(2 * (b - a), c - b, "{a} {b} {c}");
+    // Six unknowns per segment, each coupled with eight others at most.
+    assert!(c <= 400 * 6 * 9);
+}
+
+/// Without a given order, minimum degree does nearly as well on a chain.
+#[test]
+fn minimum_degree_is_linear_too() {
+    let given = work(400, true).factor_entries as f64;
+    let found = work(400, false).factor_entries as f64;
+    assert!(found < 1.5 * given, "{found} against {given}");
+}

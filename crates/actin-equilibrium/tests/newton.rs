@@ -1,0 +1,357 @@
+//! Newton's method: speed near the solution, the right solution, and what it does when it cannot.
+
+mod common;
+
+use actin_equilibrium::{
+    Ending, Layout, Newton, NewtonOptions, Residual, Stability, Trouble, Verdict,
+};
+use actin_mechanics::testing::{Noise, perturb};
+use actin_mechanics::{Interaction, Loads, PointLoad, State, Vector3};
+use common::{ACTIN, Rod, Springs, actin, bonded_filament, in_order, point};
+
+type Terms = Vec<Box<dyn Interaction>>;
+
+/// A clamped rod with a force on its tip.
+fn cantilever(rod: &Rod, force: Vector3) -> (State, Terms) {
+    let mut state = rod.state();
+    state.controls.push(1.0);
+    let load = PointLoad::new(&state, vec![(rod.segments, 1.0)], force, 0);
+    let mut terms = rod.interactions();
+    terms.push(Box::new(load));
+    (state, terms)
+}
+
+/// Newton on the exact second derivative converges quadratically; with one wrong or missing term
+/// the residual would fall by a constant factor per step.
+#[test]
+fn convergence_is_quadratic_near_the_solution() {
+    let (mut state, terms) = cantilever(&ACTIN, Vector3::x() * 2.0);
+    let mut newton = ACTIN.newton(&state);
+    newton.solve(&mut state, &terms).unwrap();
+    perturb(&mut state, &mut Noise::new(5), 0.0, 3e-3);
+    // Held bodies have been perturbed, too; they stay where they are from here on.
+    let equilibrium = newton.solve(&mut state, &terms).unwrap();
+    let size = |r: &Residual| r.force.max(r.torque);
+    let mut residuals: Vec<f64> = equilibrium
+        .history
+        .iter()
+        .map(|step| size(&step.residual))
+        .collect();
+    residuals.push(size(&equilibrium.residual));
+    let floor = size(&equilibrium.floor);
+    let pairs: Vec<_> = residuals
+        .windows(2)
+        .map(|pair| (pair[0], pair[1]))
+        .filter(|&(before, after)| before < 1.0 && after > 10.0 * floor)
+        .collect();
+    println!("residuals {residuals:?}, floor {floor:e}");
+    assert!(!pairs.is_empty(), "no step in the quadratic range");
+    for (before, after) in pairs {
+        // The constant is the change of stiffness per unit of residual; 1 would do here.
+        assert!(after <= 10.0 * before * before, "{before:e} to {after:e}");
+    }
+    assert!(equilibrium.history.len() <= 7, "{residuals:?}");
+}
+
+/// The tip of the elastica, with second order in the length of the segments.
+///
+/// Oracle: alpha = F L^2 / B = 2 gives 0.4934574804 of the length.
+#[test]
+fn elastica_to_second_order() {
+    let (force, bending): (f64, f64) = (3.0, 3.9e4);
+    let length = (2.0 * bending / force).sqrt();
+    let error = |segments: usize| {
+        let rod = Rod {
+            segments,
+            length,
+            // Strains of 3e-7: far below the discretisation error.
+            shear: Vector3::repeat(1e7),
+            bending: Vector3::new(bending, bending, 1.3e4),
+        };
+        let (mut state, terms) = cantilever(&rod, Vector3::x() * force);
+        let equilibrium = rod.newton(&state).solve(&mut state, &terms).unwrap();
+        assert!(!equilibrium.is_saddle());
+        rod.tip(&state).x / length - 0.493_457_480_4
+    };
+    let errors = [20, 40, 80].map(error);
+    println!("errors of the elastica {errors:?}");
+    for pair in errors.windows(2) {
+        let order = (pair[0] / pair[1]).log2();
+        assert!((order - 2.0).abs() < 0.05, "order {order}");
+    }
+    assert!(errors[2].abs() < 1e-4);
+}
+
+/// The minimum of a rod under a tip force is unique: whatever the start, the same end.
+#[test]
+fn the_start_does_not_matter() {
+    let (state, terms) = cantilever(&ACTIN, Vector3::new(2.0, 0.5, 1.0));
+    let mut newton = ACTIN.newton(&state);
+    let mut straight = state.clone();
+    newton.solve(&mut straight, &terms).unwrap();
+    for seed in 0..8 {
+        let mut start = state.clone();
+        let mut noise = Noise::new(seed);
+        perturb(&mut start, &mut noise, 3.0, 0.5);
+        start.points.position.set(0, state.points.position.get(0));
+        start
+            .frames
+            .orientation
+            .set(0, state.frames.orientation.get(0));
+        let before: f64 = terms.iter().map(|term| term.energy(&start)).sum();
+        let equilibrium = newton.solve(&mut start, &terms).unwrap();
+        assert_eq!(equilibrium.ending, Ending::Converged);
+        assert!(
+            equilibrium.energy <= before,
+            "a solve never ends above its start"
+        );
+        let apart = (ACTIN.tip(&start) - ACTIN.tip(&straight)).norm();
+        // Residual over the softest stiffness, 1e-8 pN over 0.03 pN/nm.
+        assert!(apart < 1e-6, "seed {seed}: {apart:e} nm apart");
+    }
+}
+
+/// A filament of bonds has no stiffness at rest against most motions; a tip force must find the
+/// stiffness that builds up, and at rest nothing must happen.
+#[test]
+fn floppy_filaments_are_neutral_at_rest_and_solved_under_load() {
+    let n = 31;
+    let (mut state, bonds) = actin::filament(n, 32, 5);
+    state.controls.push(0.0);
+    let shares = vec![(n - 1, 0.5), (n - 2, 0.5)];
+    let load = PointLoad::new(&state, shares, Vector3::x(), 0);
+    let terms: Terms = vec![Box::new(bonds), Box::new(load)];
+    let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).unwrap();
+    let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
+    let before = state.clone();
+    let rest = newton.solve(&mut state, &terms).unwrap();
+    assert_eq!(state, before, "nothing moves without a load");
+    // N + 7 for a free filament; holding two monomers removes 9.
+    let modes = n - 2;
+    let stability = rest.certificate.unwrap().stability();
+    assert_eq!(stability, Stability::Neutral { modes });
+    for force in [0.1, 2.0, 20.0] {
+        let mut loaded = before.clone();
+        loaded.controls[0] = force;
+        let equilibrium = newton.solve(&mut loaded, &terms).unwrap();
+        println!("{force} pN: {:?}", equilibrium.work);
+        let stability = equilibrium.certificate.unwrap().stability();
+        assert_eq!(stability, Stability::Stable, "{force} pN");
+        assert!(equilibrium.history.len() < 100, "{force} pN");
+    }
+}
+
+/// A single strand that shears and twists freely hangs along the force like a chain: the extreme
+/// case of floppiness.
+#[test]
+fn a_strand_without_shear_stiffness_hangs_along_the_force() {
+    let n = 16;
+    let (mut state, bonds) = bonded_filament(n, 16);
+    state.controls.push(5.0);
+    let load = PointLoad::new(&state, vec![(n - 1, 1.0)], Vector3::x(), 0);
+    let terms: Terms = vec![Box::new(bonds), Box::new(load)];
+    let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
+    let equilibrium = newton.minimize(&mut state, &terms, 3).unwrap();
+    assert!(!equilibrium.is_saddle());
+    let last = state.points.position.get(n - 1) - state.points.position.get(n - 3);
+    assert!(last.x > 0.9 * last.norm(), "{last}");
+}
+
+/// A column beyond its Euler load with a crooked start: the stiffness is indefinite there, and
+/// the method must come out at a minimum, bent.
+///
+/// Oracle: with `P / P_cr = (2 K(k) / pi)^2`, `k = sin(alpha / 2)`, the tip angle 60 deg needs
+/// `P = 1.151730 P_cr`.
+#[test]
+fn indefinite_starts_lead_to_the_buckled_column() {
+    let bending = 3.0e4;
+    let rod = Rod {
+        segments: 80,
+        length: 160.0,
+        shear: Vector3::repeat(1e7),
+        bending: Vector3::new(3.9e4, bending, 1.3e4),
+    };
+    let critical = std::f64::consts::PI.powi(2) * bending / (4.0 * 160.0 * 160.0);
+    let (mut state, terms) = cantilever(&rod, Vector3::z() * (-1.151_730 * critical));
+    let mut newton = rod.newton(&state);
+    for i in 1..=80 {
+        let bump = Vector3::new(0.02 * (i as f64 / 10.0).sin(), 0.01, 0.0);
+        state.points.position.add(i, bump);
+    }
+    let equilibrium = newton.minimize(&mut state, &terms, 3).unwrap();
+    println!("{:?}", equilibrium.work);
+    assert!(equilibrium.history[0].negative_pivots > 0, "an easy start");
+    let stability = equilibrium.certificate.unwrap().stability();
+    assert_eq!(stability, Stability::Stable);
+    let tangent = state.frames.orientation.get(80) * Vector3::z();
+    let angle = tangent.z.acos().to_degrees();
+    // Half a segment before the tip, and discretisation: P_cr is off by 1e-4, and the angle goes
+    // with the square root of P - P_cr.
+    assert!((angle - 60.0).abs() < 0.3, "tip angle {angle}");
+}
+
+/// Work counts: a lost quadratic range or a needless refactorisation shows here.
+#[test]
+fn a_cantilever_takes_few_steps_at_every_length() {
+    for (segments, length) in [(16, 160.0), (160, 1600.0), (1600, 16000.0f64)] {
+        let rod = Rod {
+            segments,
+            length,
+            ..ACTIN
+        };
+        let force = Vector3::x() * 2.0 * (160.0 / length).powi(2);
+        let (mut state, terms) = cantilever(&rod, force);
+        let equilibrium = rod.newton(&state).solve(&mut state, &terms).unwrap();
+        println!("{length} nm: {:?}", equilibrium.work);
+        assert!(equilibrium.history.len() <= 25);
+        assert_eq!(equilibrium.work.symbolic_factorizations, 1);
+        let relative = rod.tip(&state).x / length;
+        // Elastica at alpha = 1.3128, with a little shear at 160 nm.
+        assert!((relative - 0.3735).abs() < 2e-3, "{relative}");
+    }
+}
+
+/// A tolerance below round-off ends at the floor, and says so.
+#[test]
+fn round_off_floor_is_reported() {
+    let (mut state, terms) = cantilever(&ACTIN, Vector3::x() * 2.0);
+    let options = NewtonOptions {
+        tolerance: Residual {
+            force: 1e-18,
+            torque: 1e-18,
+        },
+        ..NewtonOptions::default()
+    };
+    let mut newton = Newton::new(ACTIN.layout(&state), options).unwrap();
+    let equilibrium = newton.solve(&mut state, &terms).unwrap();
+    assert_eq!(equilibrium.ending, Ending::FloorReached);
+    assert!(equilibrium.residual.force <= 100.0 * equilibrium.floor.force);
+    assert!(equilibrium.floor.force < 1e-8);
+}
+
+/// Too few steps: the error carries history and residual, and the state is the best one, not the
+/// stretched one of an excursion.
+#[test]
+fn too_few_steps_keep_the_best_state() {
+    let (mut state, terms) = cantilever(&ACTIN, Vector3::x() * 2.0);
+    let start: f64 = terms.iter().map(|term| term.energy(&state)).sum();
+    let options = NewtonOptions {
+        iterations: 2,
+        ..NewtonOptions::default()
+    };
+    let mut newton = Newton::new(ACTIN.layout(&state), options).unwrap();
+    let failure = newton.solve(&mut state, &terms).unwrap_err();
+    assert_eq!(failure.trouble, Trouble::IterationLimit(2));
+    assert_eq!(failure.history.len(), 2);
+    assert_eq!(failure.history[0].verdict, Verdict::Excursion);
+    let end: f64 = terms.iter().map(|term| term.energy(&state)).sum();
+    assert!(end <= start);
+    assert_eq!(failure.residual, newton.residual(&state, &terms));
+    let message = failure.to_string();
+    assert!(
+        message.contains("after 2 steps: 2 steps were not enough"),
+        "{message}"
+    );
+    assert!(message.contains("2.000e0 pN"), "{message}");
+}
+
+/// A load on something that nothing holds has no equilibrium: an error, not a hang.
+#[test]
+fn a_free_body_under_a_dead_load_fails() {
+    let mut state = State::default();
+    point(&mut state, Vector3::zeros());
+    point(&mut state, Vector3::x());
+    state.controls.push(1.0);
+    let load = PointLoad::new(&state, vec![(0, 1.0)], Vector3::y(), 0);
+    let terms: Terms = vec![Box::new(Springs(vec![(0, 1, 1.0, 1.0)])), Box::new(load)];
+    let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
+    let failure = newton.solve(&mut state, &terms).unwrap_err();
+    assert_eq!(failure.trouble, Trouble::IterationLimit(300), "{failure}");
+}
+
+/// Interactions without a potential or without second derivatives are refused by name.
+#[test]
+fn unsuitable_interactions_are_refused() {
+    #[derive(Debug)]
+    struct Wind(bool);
+    impl Interaction for Wind {
+        fn term(&self) -> &'static str {
+            "wind"
+        }
+        fn add_loads(&self, _: &State, _: &mut Loads) {}
+        fn elements(&self) -> usize {
+            0
+        }
+        fn write_energies(&self, _: &State, _: &mut [f64]) {}
+        fn is_conservative(&self) -> bool {
+            self.0
+        }
+    }
+    let mut state = State::default();
+    point(&mut state, Vector3::zeros());
+    let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
+    let mut trouble = |wind| {
+        let failure = newton.solve(&mut state, &[Box::new(Wind(wind))]);
+        failure.unwrap_err().trouble
+    };
+    assert_eq!(trouble(false), Trouble::NotConservative("wind"));
+    assert_eq!(trouble(true), Trouble::NoStiffness("wind"));
+}
+
+/// A start that is not a number is refused and left alone.
+#[test]
+fn a_start_that_is_not_finite_is_refused() {
+    let (mut state, terms) = cantilever(&ACTIN, Vector3::x());
+    state.points.position.set(3, Vector3::repeat(f64::NAN));
+    let failure = ACTIN.newton(&state).solve(&mut state, &terms).unwrap_err();
+    assert_eq!(failure.trouble, Trouble::NotFinite);
+}
+
+/// Nothing to move is an equilibrium if it is asked for.
+#[test]
+fn a_state_without_unknowns_is_converged() {
+    let mut state = State::default();
+    point(&mut state, Vector3::zeros());
+    state.points.hold(0);
+    let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
+    let equilibrium = newton.solve(&mut state, &[]).unwrap();
+    assert_eq!(equilibrium.ending, Ending::Converged);
+    assert_eq!(newton.lowest_mode(&state, &[]).unwrap(), None);
+}
+
+/// Each setting that makes no sense is refused with its value.
+#[test]
+fn options_are_checked() {
+    let state = State::default();
+    let refused = |options| {
+        let error = Newton::new(Layout::free(&state), options).unwrap_err();
+        error.to_string()
+    };
+    let default = NewtonOptions::default();
+    let cases = [
+        (
+            NewtonOptions {
+                largest_rotation: 4.0,
+                ..default
+            },
+            "largest_rotation must be positive and below pi, but is 4",
+        ),
+        (
+            NewtonOptions {
+                turn_length: 0.0,
+                ..default
+            },
+            "turn_length must be positive, but is 0",
+        ),
+        (
+            NewtonOptions {
+                largest_displacement: f64::NAN,
+                ..default
+            },
+            "largest_displacement must be positive, but is NaN",
+        ),
+    ];
+    for (options, message) in cases {
+        assert_eq!(refused(options), message);
+    }
+}

@@ -1,0 +1,257 @@
+//! Paths of controls: prescribed turns, buckling, limit points, interruption.
+
+mod common;
+
+use actin_equilibrium::{
+    Group, Jumps, Layout, Newton, NewtonOptions, Path, PathOptions, PathTrouble, Saddles,
+};
+use actin_mechanics::{Interaction, PointLoad, State, Vector3, rotation};
+use common::{ACTIN, Rod, Springs, point};
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+type Terms = Vec<Box<dyn Interaction>>;
+
+/// A shallow arch of two bars, half span 10 nm and rise 2 nm, its top free to move up and down,
+/// with `force` down on it at control 1.
+fn arch(force: f64) -> (State, Terms, Newton) {
+    let mut state = State::default();
+    for x in [-10.0, 10.0] {
+        let i = point(&mut state, Vector3::x() * x);
+        state.points.hold(i);
+    }
+    point(&mut state, Vector3::y() * 2.0);
+    state.controls.push(0.0);
+    let rest = 104.0f64.sqrt();
+    let springs = Springs(vec![(0, 2, 50.0, rest), (1, 2, 50.0, rest)]);
+    let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::y() * -force, 0);
+    let top = Group::sliding(vec![2], vec![], Vector3::y());
+    let layout = Layout::new(&state, None, vec![top]).unwrap();
+    let newton = Newton::new(layout, NewtonOptions::default()).unwrap();
+    (state, vec![Box::new(springs), Box::new(load)], newton)
+}
+
+/// The force on the top at height `y`, and the largest: `L^3 = L0 a^2` there.
+fn arch_force(y: f64) -> f64 {
+    let length = (100.0 + y * y).sqrt();
+    2.0 * 50.0 * (104.0f64.sqrt() / length - 1.0) * y
+}
+
+fn arch_limit() -> (f64, f64) {
+    let length = (104.0f64.sqrt() * 100.0).cbrt();
+    let y = (length * length - 100.0).sqrt();
+    (y, arch_force(y))
+}
+
+fn proportional(state: &mut State, parameter: f64) {
+    state.controls[0] = parameter;
+}
+
+/// At a limit point the path ends just before it and reports the last equilibrium.
+#[test]
+fn a_limit_point_ends_the_path() {
+    let (y, limit) = arch_limit();
+    let (mut state, terms, mut newton) = arch(2.0 * limit);
+    let path = Path::new(PathOptions::default()).unwrap();
+    let failure = path
+        .follow(
+            &mut newton,
+            &mut state,
+            &terms,
+            &mut proportional,
+            &mut |_| ControlFlow::Continue(()),
+        )
+        .unwrap_err();
+    // The limit is at one half; the last step that fits is within the smallest step of it.
+    assert!(
+        failure.parameter <= 0.5 && failure.parameter > 0.5 - 2e-4,
+        "{failure}"
+    );
+    assert!(matches!(failure.trouble, PathTrouble::Jump(_)), "{failure}");
+    let reached = state.points.position.get(2).y;
+    assert!(reached > y && reached < y + 0.05, "{reached}");
+    assert!((arch_force(reached) - failure.parameter * 2.0 * limit).abs() < 1e-7);
+    let last = failure.equilibrium.as_ref().unwrap();
+    assert!(!last.is_saddle());
+    let message = failure.to_string();
+    assert!(message.starts_with("the path ends at 0.4999"), "{message}");
+    assert!(
+        message.contains("the next equilibrium is far away"),
+        "{message}"
+    );
+}
+
+/// With jumps accepted the arch snaps through, once, to the branch beyond.
+#[test]
+fn a_jump_may_be_accepted() {
+    let (_, limit) = arch_limit();
+    let (mut state, terms, mut newton) = arch(2.0 * limit);
+    let options = PathOptions {
+        jumps: Jumps::Accept,
+        ..PathOptions::default()
+    };
+    let mut jumps = 0;
+    let end = Path::new(options)
+        .unwrap()
+        .follow(
+            &mut newton,
+            &mut state,
+            &terms,
+            &mut proportional,
+            &mut |p| {
+                jumps += usize::from(p.jumped);
+                ControlFlow::Continue(())
+            },
+        )
+        .unwrap();
+    assert_eq!(jumps, 1);
+    let y = state.points.position.get(2).y;
+    assert!(
+        y < -2.0 && (arch_force(y) - 2.0 * limit).abs() < 1e-7,
+        "{y}"
+    );
+    assert!(!end.equilibrium.is_saddle());
+}
+
+const COLUMN: Rod = Rod {
+    segments: 32,
+    bending: Vector3::new(3.9e4, 3.0e4, 1.3e4),
+    shear: Vector3::new(1e7, 1e7, 1e7),
+    ..ACTIN
+};
+
+fn compressed() -> (State, Terms) {
+    let mut state = COLUMN.state();
+    state.controls.push(0.0);
+    let load = PointLoad::new(&state, vec![(32, 1.0)], Vector3::z() * -6.0, 0);
+    let mut terms = COLUMN.interactions();
+    terms.push(Box::new(load));
+    (state, terms)
+}
+
+/// The Euler load of a clamped-free column is where the straight state turns into a saddle.
+#[test]
+fn the_euler_load_ends_a_path_that_must_be_stable() {
+    let (mut state, terms) = compressed();
+    let mut newton = COLUMN.newton(&state);
+    let options = PathOptions {
+        saddles: Saddles::Stop,
+        ..PathOptions::default()
+    };
+    let failure = Path::new(options)
+        .unwrap()
+        .follow(
+            &mut newton,
+            &mut state,
+            &terms,
+            &mut proportional,
+            &mut |_| ControlFlow::Continue(()),
+        )
+        .unwrap_err();
+    assert_eq!(failure.trouble, PathTrouble::Unstable { negative: 1 });
+    let euler = PI.powi(2) * 3.0e4 / (4.0 * 160.0 * 160.0);
+    let found = 6.0 * failure.parameter;
+    // Segments of 1/32: the discrete load is off by (pi/64)^2 / 12 = 2e-4; steps of 6e-4 pN.
+    assert!((found / euler - 1.0).abs() < 6e-4, "{found} not {euler}");
+}
+
+/// The same path, with saddles left, ends buckled; the straight branch kept ends as a saddle.
+#[test]
+fn buckling_is_followed_or_not_as_asked() {
+    for (saddles, buckled) in [(Saddles::Leave(3), true), (Saddles::Keep, false)] {
+        let (mut state, terms) = compressed();
+        let mut newton = COLUMN.newton(&state);
+        let options = PathOptions {
+            saddles,
+            ..PathOptions::default()
+        };
+        let mut left = 0;
+        let end = Path::new(options)
+            .unwrap()
+            .follow(
+                &mut newton,
+                &mut state,
+                &terms,
+                &mut proportional,
+                &mut |p| {
+                    left += p.equilibrium.saddles_left;
+                    ControlFlow::Continue(())
+                },
+            )
+            .unwrap();
+        println!("{saddles:?}: {} points, {:?}", end.points, end.work);
+        assert_eq!(end.equilibrium.is_saddle(), !buckled);
+        assert_eq!(left > 0, buckled);
+        assert_eq!(COLUMN.tip(&state).x.abs() > 50.0, buckled);
+    }
+}
+
+/// A rod turned by 720 deg at its end twists uniformly: the couple is B3 phi / L.
+#[test]
+fn a_prescribed_turn_of_720_degrees() {
+    let rod = ACTIN;
+    let mut state = rod.state();
+    state.frames.hold(16);
+    let terms = rod.interactions();
+    let mut newton = rod.newton(&state);
+    let mut turn_end = |state: &mut State, t: f64| {
+        let turn = rotation::exp(Vector3::z() * (4.0 * PI * t));
+        state.frames.orientation.set(16, turn);
+    };
+    let mut turns = Vec::new();
+    let end = Path::new(PathOptions::default())
+        .unwrap()
+        .follow(&mut newton, &mut state, &terms, &mut turn_end, &mut |p| {
+            turns.push(p.parameter);
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    assert_eq!(end.points, turns.len());
+    assert!(turns.windows(2).all(|pair| pair[0] < pair[1]));
+    let mut loads = actin_mechanics::Loads::zeros(&state);
+    for term in &terms {
+        term.add_loads(&state, &mut loads);
+    }
+    // From the wall to the middle of the last segment.
+    let couple = 1.3e4 * 4.0 * PI / 155.0;
+    assert!((loads.torque.get(0).z - couple).abs() < 1e-7 * couple);
+    println!("720 deg: {} points, {:?}", end.points, end.work);
+}
+
+/// The observer ends a path at the equilibrium that it has just seen.
+#[test]
+fn a_path_can_be_interrupted() {
+    let (_, limit) = arch_limit();
+    let (mut state, terms, mut newton) = arch(0.5 * limit);
+    let mut seen = Vec::new();
+    let failure = Path::new(PathOptions::default())
+        .unwrap()
+        .follow(
+            &mut newton,
+            &mut state,
+            &terms,
+            &mut proportional,
+            &mut |p| {
+                seen.push(p.state.clone());
+                if seen.len() == 3 {
+                    return ControlFlow::Break(());
+                }
+                ControlFlow::Continue(())
+            },
+        )
+        .unwrap_err();
+    assert_eq!(failure.trouble, PathTrouble::Interrupted);
+    assert_eq!(failure.points, 3);
+    assert_eq!(state, seen[2]);
+}
+
+/// Steps that make no sense are refused.
+#[test]
+fn options_are_checked() {
+    let options = PathOptions {
+        first_step: 1e-6,
+        ..PathOptions::default()
+    };
+    let message = "first_step must be at least the smallest step, but is 0.000001";
+    assert_eq!(Path::new(options).unwrap_err().to_string(), message);
+}

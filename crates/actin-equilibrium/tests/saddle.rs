@@ -1,0 +1,157 @@
+//! Certificates, lowest modes, and the way off a saddle.
+
+mod common;
+
+use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability};
+use actin_mechanics::testing::{Noise, perturb};
+use actin_mechanics::{Coordinates, Interaction, PointLoad, State, Vector3};
+use common::{ACTIN, Rod, Springs, point};
+use nalgebra::{DMatrix, SymmetricEigen};
+
+type Terms = Vec<Box<dyn Interaction>>;
+
+/// A column, softest about its y axis.
+const COLUMN: Rod = Rod {
+    segments: 16,
+    bending: Vector3::new(3.9e4, 3.0e4, 1.3e4),
+    ..ACTIN
+};
+
+fn compressed(force: f64) -> (State, Terms) {
+    let mut state = COLUMN.state();
+    state.controls.push(1.0);
+    let load = PointLoad::new(&state, vec![(16, 1.0)], Vector3::z() * -force, 0);
+    let mut terms = COLUMN.interactions();
+    terms.push(Box::new(load));
+    (state, terms)
+}
+
+/// Eigenvalues of the stiffness in the metric of the options, by a dense solver.
+fn dense_spectrum(newton: &mut Newton, state: &State, terms: &Terms) -> Vec<f64> {
+    let n = newton.layout().unknowns();
+    let mut matrix = DMatrix::zeros(n, n);
+    for column in 0..n {
+        let mut unit = vec![0.0; n];
+        unit[column] = 1.0;
+        let product = newton.stiffness_times(state, terms, &unit).unwrap();
+        matrix.column_mut(column).copy_from_slice(&product);
+    }
+    let length = newton.options().turn_length;
+    let mut weight = vec![1.0; n];
+    for i in 0..state.frames.len() {
+        if let Some(range) = newton.layout().unknowns_of(Coordinates::Frame(i)) {
+            weight[range].fill(1.0 / length);
+        }
+    }
+    let scaled = DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] * weight[i] * weight[j]);
+    let mut values: Vec<f64> = SymmetricEigen::new(scaled)
+        .eigenvalues
+        .iter()
+        .copied()
+        .collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// Counts and lowest eigenvalue are those of a dense eigenvalue solver, for states in and out of
+/// equilibrium, definite and not, whatever the turn length.
+#[test]
+fn certificate_and_lowest_mode_agree_with_a_dense_solver() {
+    for (force, noise, turn_length) in [(1.0, 0.0, 1.0), (8.0, 0.0, 1.0), (40.0, 0.1, 3.0)] {
+        let (mut state, terms) = compressed(force);
+        perturb(&mut state, &mut Noise::new(1), noise, noise);
+        let options = NewtonOptions {
+            turn_length,
+            ..NewtonOptions::default()
+        };
+        let mut newton = Newton::new(COLUMN.layout(&state), options).unwrap();
+        let certificate = newton.certify(&state, &terms).unwrap();
+        let spectrum = dense_spectrum(&mut newton, &state, &terms);
+        let negative = spectrum.iter().filter(|&&value| value < 0.0).count();
+        assert_eq!(certificate.negative, negative, "{force} pN");
+        assert_eq!(certificate.unresolved, 0);
+        let mode = newton.lowest_mode(&state, &terms).unwrap().unwrap();
+        // A dense solver is accurate to round-off of the largest eigenvalue.
+        let accuracy = mode.error + 1e-15 * spectrum[spectrum.len() - 1] * 100.0;
+        let error = (mode.eigenvalue - spectrum[0]).abs();
+        assert!(error <= accuracy, "{} not {}", mode.eigenvalue, spectrum[0]);
+    }
+}
+
+/// A straight column is an equilibrium at any load. Between its first and second Euler load in
+/// both planes it has two negative eigenvalues, and the solver must say so.
+///
+/// Euler: (2 n - 1)^2 pi^2 B / (4 L^2) = 2.89 pN and 3.76 pN; the next are nine times that.
+#[test]
+fn a_straight_column_beyond_the_euler_load_is_a_saddle() {
+    for (force, negative) in [(2.0, 0), (3.3, 1), (8.0, 2), (28.0, 3)] {
+        let (mut state, terms) = compressed(force);
+        let mut newton = COLUMN.newton(&state);
+        let equilibrium = newton.solve(&mut state, &terms).unwrap();
+        let tip = COLUMN.tip(&state);
+        assert!(tip.x.abs() + tip.y.abs() < 1e-9, "it stays straight");
+        assert_eq!(equilibrium.is_saddle(), negative > 0);
+        assert_eq!(equilibrium.certificate.unwrap().negative, negative);
+    }
+}
+
+/// Off the saddle the energy falls, and the end is a minimum bent about the soft axis.
+#[test]
+fn a_saddle_is_left_along_its_lowest_mode() {
+    let (mut state, terms) = compressed(8.0);
+    let energy = |state: &State| terms.iter().map(|term| term.energy(state)).sum::<f64>();
+    let mut newton = COLUMN.newton(&state);
+    newton.solve(&mut state, &terms).unwrap();
+    let saddle = energy(&state);
+    let mode = newton.leave_saddle(&mut state, &terms).unwrap().unwrap();
+    assert!(mode.eigenvalue < -mode.error);
+    assert!(energy(&state) < saddle);
+
+    let (mut state, _) = compressed(8.0);
+    let equilibrium = newton.minimize(&mut state, &terms, 3).unwrap();
+    assert!(equilibrium.saddles_left >= 1);
+    let stability = equilibrium.certificate.unwrap().stability();
+    assert_eq!(stability, Stability::Stable);
+    assert!(equilibrium.energy < saddle - 1.0);
+    let tip = COLUMN.tip(&state);
+    assert!(tip.x.abs() > 50.0 && tip.y.abs() < 1e-6, "{tip}");
+}
+
+/// A minimum is left alone.
+#[test]
+fn a_minimum_is_not_left() {
+    let (mut state, terms) = compressed(1.0);
+    let mut newton = COLUMN.newton(&state);
+    newton.solve(&mut state, &terms).unwrap();
+    let before = state.clone();
+    assert_eq!(newton.leave_saddle(&mut state, &terms).unwrap(), None);
+    assert_eq!(state, before);
+}
+
+/// Something that floats has six neutral modes, which are neither stable nor a saddle.
+#[test]
+fn rigid_motions_are_neutral() {
+    let mut state = State::default();
+    let mut springs = Vec::new();
+    let corners = [
+        [0.0, 0.0, 0.0],
+        [3.0, 0.0, 0.0],
+        [0.0, 2.0, 0.0],
+        [1.0, 1.0, 2.5],
+    ];
+    for corner in corners {
+        point(&mut state, Vector3::from(corner));
+    }
+    for i in 0..4 {
+        for j in 0..i {
+            let d = state.points.position.get(i) - state.points.position.get(j);
+            springs.push((i, j, 10.0, d.norm()));
+        }
+    }
+    let terms: Terms = vec![Box::new(Springs(springs))];
+    let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
+    perturb(&mut state, &mut Noise::new(9), 0.1, 0.0);
+    let equilibrium = newton.solve(&mut state, &terms).unwrap();
+    let stability = equilibrium.certificate.unwrap().stability();
+    assert_eq!(stability, Stability::Neutral { modes: 6 });
+}

@@ -1,0 +1,72 @@
+//! The assembled stiffness is the second derivative of the energy in the unknowns.
+
+mod common;
+
+use actin_equilibrium::{Group, Layout, Pivot};
+use actin_mechanics::testing::{Noise, assert_is_gradient, perturb};
+use actin_mechanics::{Interaction, PointLoad, Vector3};
+use common::{ACTIN, Rod, assert_is_second_derivative, bonded_filament, in_order};
+
+fn bent_rod() -> (actin_mechanics::State, Vec<Box<dyn Interaction>>) {
+    let rod = Rod {
+        segments: 5,
+        length: 50.0,
+        ..ACTIN
+    };
+    let mut state = rod.state();
+    perturb(&mut state, &mut Noise::new(1), 0.5, 0.4);
+    (state, rod.interactions())
+}
+
+/// The models of the tests are what they claim to be; otherwise nothing below means anything.
+#[test]
+fn loads_are_gradients() {
+    let (state, interactions) = bent_rod();
+    for interaction in &interactions {
+        assert_is_gradient(interaction.as_ref(), &state, 1e-2, 1e-9);
+    }
+    let (mut state, bonds) = bonded_filament(4, 3);
+    perturb(&mut state, &mut Noise::new(2), 0.2, 0.1);
+    assert_is_gradient(&bonds, &state, 1e-2, 1e-9);
+}
+
+/// A missing geometric part, a transposed block or a wrong sign shows at large strain.
+#[test]
+fn stiffness_is_the_derivative_of_the_loads_with_and_without_a_given_order() {
+    let (state, interactions) = bent_rod();
+    let rod = Rod {
+        segments: 5,
+        ..ACTIN
+    };
+    assert_is_second_derivative(&interactions, &state, Layout::free(&state), 1e-8);
+    assert_is_second_derivative(&interactions, &state, rod.layout(&state), 1e-8);
+    let (mut state, bonds) = bonded_filament(5, 4);
+    perturb(&mut state, &mut Noise::new(2), 0.2, 0.1);
+    let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).unwrap();
+    assert_is_second_derivative(&[Box::new(bonds)], &state, layout, 1e-8);
+}
+
+/// Turning a group moves its points on circles: without the second order term of the turn the
+/// stiffness of a loaded group would be wrong by the moment of the load.
+#[test]
+fn stiffness_of_groups_includes_the_second_order_of_their_turn() {
+    let (mut state, bonds) = bonded_filament(6, 4);
+    perturb(&mut state, &mut Noise::new(4), 0.2, 0.1);
+    state.controls.push(1.0);
+    let load = PointLoad::new(&state, vec![(5, 1.0)], Vector3::new(300.0, 20.0, -100.0), 0);
+    let interactions: Vec<Box<dyn Interaction>> = vec![Box::new(bonds), Box::new(load)];
+    let ends = Group::rigid(vec![4, 5], vec![4, 5]);
+    let inner = Group {
+        points: vec![2, 3],
+        frames: vec![2],
+        pivot: Pivot::Point(3),
+        translations: vec![Vector3::new(1.0, 1.0, 0.0)],
+        rotations: vec![Vector3::new(0.0, 1.0, 0.3), Vector3::x()],
+    };
+    let groups = vec![ends, inner];
+    for order in [None, Some(in_order(&state))] {
+        let layout = Layout::new(&state, order.as_ref(), groups.clone()).unwrap();
+        assert_eq!(layout.unknowns(), 6 + 3 + 3, "two groups and frame 3");
+        assert_is_second_derivative(&interactions, &state, layout, 1e-8);
+    }
+}

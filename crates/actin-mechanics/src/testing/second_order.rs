@@ -1,0 +1,240 @@
+//! The argument for second derivatives: they are the differences of the loads.
+
+use super::{Noise, derivative, loads_of, perturb};
+use crate::{Coordinates, Interaction, Matrix3, State, Stiffness, Vector3, Vectors, rotation};
+use nalgebra::{DMatrix, DVector};
+
+/// Asserts that the second derivatives of the energy are minus the derivative of the loads.
+///
+/// The whole matrix is compared, coordinate by coordinate: three per point (lab frame), then three
+/// per frame (body frame). Forces must change by `-K`, torques by `-(K - [tau]x / 2)` with their
+/// own frame's turn and by `-K` otherwise. Diagonal blocks must be symmetric, and the pairs the
+/// same at another state.
+///
+/// `h` is the step of the eight-point central difference (see [`derivative`]); `relative` is the
+/// tolerance as a share of the largest entry of the same kind: point with point, point with frame,
+/// frame with frame.
+///
+/// # Panics
+/// If one of these does not hold, or if the interaction offers no second derivatives.
+pub fn assert_is_stiffness(interaction: &dyn Interaction, state: &State, h: f64, relative: f64) {
+    assert_pairs_and_diagonal(interaction, state, relative);
+    let expected = stiffness_by_differences(interaction, state, h);
+    let actual = stiffness_matrix(interaction, state);
+    let first_frame = 3 * state.points.len();
+    let kind = |i: usize, j: usize| usize::from(i >= first_frame) + usize::from(j >= first_frame);
+    let mut scale = [0.0_f64; 3];
+    for (i, j) in entries(&expected) {
+        let largest = &mut scale[kind(i, j)];
+        *largest = largest.max(expected[(i, j)].abs());
+    }
+    for (i, j) in entries(&expected) {
+        let error = (actual[(i, j)] - expected[(i, j)]).abs();
+        assert!(
+            error <= relative * scale[kind(i, j)],
+            "row {}, column {}: {} against {} from the loads",
+            name(state, i),
+            name(state, j),
+            actual[(i, j)],
+            expected[(i, j)]
+        );
+    }
+}
+
+/// The whole matrix of second derivatives of one interaction alone: three rows per point (lab
+/// frame), then three per frame (body frame).
+///
+/// # Panics
+/// If the interaction offers no second derivatives.
+pub fn stiffness_matrix(interaction: &dyn Interaction, state: &State) -> DMatrix<f64> {
+    let first = |c: Coordinates| match c {
+        Coordinates::Point(i) => 3 * i,
+        Coordinates::Frame(i) => 3 * (state.points.len() + i),
+    };
+    let n = 3 * (state.points.len() + state.frames.len());
+    let mut matrix = DMatrix::zeros(n, n);
+    for &(a, b, block) in stiffness_of(interaction, state).blocks() {
+        let mut place = matrix.fixed_view_mut::<3, 3>(first(a), first(b));
+        place += block;
+        if a != b {
+            let mut place = matrix.fixed_view_mut::<3, 3>(first(b), first(a));
+            place += block.transpose();
+        }
+    }
+    matrix
+}
+
+/// The blocks of one interaction alone.
+fn stiffness_of(interaction: &dyn Interaction, state: &State) -> Stiffness {
+    let mut stiffness = Stiffness::default();
+    interaction
+        .second_order()
+        .expect("the interaction has second derivatives")
+        .add_stiffness(state, &mut stiffness);
+    stiffness
+}
+
+/// Whoever assembles looks up places once, and reads one triangle of the diagonal blocks.
+fn assert_pairs_and_diagonal(interaction: &dyn Interaction, state: &State, relative: f64) {
+    let here = stiffness_of(interaction, state);
+    let mut moved = state.clone();
+    perturb(&mut moved, &mut Noise::new(77), 0.1, 0.1);
+    let elsewhere = stiffness_of(interaction, &moved);
+    let pairs = |s: &Stiffness| s.blocks().iter().map(|b| (b.0, b.1)).collect::<Vec<_>>();
+    assert_eq!(pairs(&here), pairs(&elsewhere), "pairs at another state");
+    for (a, _, block) in here.blocks().iter().filter(|(a, b, _)| a == b) {
+        let asymmetry = (block - block.transpose()).amax();
+        assert!(
+            asymmetry <= relative * block.amax(),
+            "{a:?} with itself is not symmetric: {block}"
+        );
+    }
+}
+
+/// All entries of a matrix.
+fn entries(matrix: &DMatrix<f64>) -> impl Iterator<Item = (usize, usize)> + use<> {
+    let (rows, columns) = matrix.shape();
+    (0..rows).flat_map(move |i| (0..columns).map(move |j| (i, j)))
+}
+
+/// The coordinate of one row, for messages.
+fn name(state: &State, row: usize) -> String {
+    let (body, axis) = (row / 3, ["x", "y", "z"][row % 3]);
+    match body.checked_sub(state.points.len()) {
+        None => format!("{axis} of point {body}"),
+        Some(frame) => format!("turn {axis} of frame {frame}"),
+    }
+}
+
+/// The second derivatives as differences of the loads.
+fn stiffness_by_differences(interaction: &dyn Interaction, state: &State, h: f64) -> DMatrix<f64> {
+    let n = 3 * (state.points.len() + state.frames.len());
+    let mut matrix = DMatrix::zeros(n, n);
+    for (c, mut column) in matrix.column_iter_mut().enumerate() {
+        let slope = derivative(h, |step| {
+            let mut moved = state.clone();
+            move_coordinate(&mut moved, c, step);
+            all_loads(interaction, &moved)
+        });
+        column.copy_from(&-slope);
+    }
+    let torques = loads_of(interaction, state).torque;
+    for (k, torque) in torques.iter().enumerate() {
+        let first = 3 * (state.points.len() + k);
+        let mut block = matrix.fixed_view_mut::<3, 3>(first, first);
+        let half: Matrix3 = 0.5 * torque.cross_matrix();
+        block += half;
+    }
+    matrix
+}
+
+/// Moves one of the coordinates by `step`.
+fn move_coordinate(state: &mut State, coordinate: usize, step: f64) {
+    let mut vector = Vector3::zeros();
+    vector[coordinate % 3] = step;
+    let body = coordinate / 3;
+    match body.checked_sub(state.points.len()) {
+        None => state.points.position.add(body, vector),
+        Some(frame) => {
+            let q = state.frames.orientation.get(frame) * rotation::exp(vector);
+            state.frames.orientation.set(frame, q);
+        }
+    }
+}
+
+/// All loads in the order of the coordinates.
+fn all_loads(interaction: &dyn Interaction, state: &State) -> DVector<f64> {
+    let loads = loads_of(interaction, state);
+    let flat = |v: &Vectors| v.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<_>>();
+    let (forces, torques) = (flat(&loads.force), flat(&loads.torque));
+    DVector::from_vec([forces, torques].concat())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Frame, Inertia, Loads, Point, SecondOrder};
+    use Coordinates::{Frame as F, Point as P};
+
+    /// A spring of stiffness 2 from the origin to a point of a body: energy `(x + Q b)^2`.
+    #[derive(Debug)]
+    struct Spring {
+        arm: Vector3,
+        /// Factor of what there should be of the force's part of the frame's block.
+        geometric: f64,
+    }
+
+    impl Spring {
+        fn end(&self, state: &State) -> Vector3 {
+            state.points.position.get(0) + state.frames.orientation.get(0) * self.arm
+        }
+    }
+
+    impl Interaction for Spring {
+        fn term(&self) -> &'static str {
+            "spring"
+        }
+
+        fn add_loads(&self, state: &State, loads: &mut Loads) {
+            let force = -2.0 * self.end(state);
+            let q = state.frames.orientation.get(0);
+            loads.force.add(0, force);
+            loads.torque.add(0, self.arm.cross(&(q.inverse() * force)));
+        }
+
+        fn elements(&self) -> usize {
+            1
+        }
+
+        fn write_energies(&self, state: &State, energies: &mut [f64]) {
+            energies[0] = self.end(state).norm_squared();
+        }
+
+        fn second_order(&self) -> Option<&dyn SecondOrder> {
+            Some(self)
+        }
+    }
+
+    impl SecondOrder for Spring {
+        fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+            let q = state.frames.orientation.get(0).to_rotation_matrix();
+            let q = q.matrix();
+            let slope = -q * self.arm.cross_matrix();
+            let g = q.transpose() * self.end(state) * 2.0;
+            let product = g * self.arm.transpose();
+            let geometric = 0.5 * (product + product.transpose())
+                - Matrix3::from_diagonal_element(product.trace());
+            stiffness.push(P(0), P(0), Matrix3::from_diagonal_element(2.0));
+            stiffness.push(P(0), F(0), 2.0 * slope);
+            let turn = 2.0 * slope.transpose() * slope;
+            stiffness.push(F(0), F(0), turn + self.geometric * geometric);
+        }
+    }
+
+    fn check(geometric: f64) {
+        let mut state = State::default();
+        state.points.push(Point {
+            position: Vector3::new(0.3, -1.0, 0.7),
+            mass: 1.0,
+        });
+        state.frames.push(Frame {
+            orientation: rotation::exp(Vector3::new(0.4, 1.0, -0.2)),
+            inertia: Inertia::from_moments([1.0, 1.0, 2.0]).unwrap(),
+        });
+        let arm = Vector3::new(1.0, 0.5, -0.4);
+        // The energy is smooth on the scale of 1: 0.02^8 and 1e-16 / 0.02 are both below 1e-13.
+        assert_is_stiffness(&Spring { arm, geometric }, &state, 0.02, 1e-12);
+    }
+
+    /// The torque of this spring is not zero, so the sign of `[tau]x / 2` is tested, too.
+    #[test]
+    fn second_derivatives_of_a_spring_are_accepted() {
+        check(1.0);
+    }
+
+    #[test]
+    #[should_panic(expected = "of frame 0")]
+    fn a_missing_geometric_part_is_noticed() {
+        check(0.0);
+    }
+}

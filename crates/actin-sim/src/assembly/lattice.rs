@@ -1,0 +1,180 @@
+//! Where sections end, once monomers stand at lattice places.
+//!
+//! Monomer `j` stands at arc length `origin + j rise`. A clamped monomer start holds monomers -1
+//! and 0, and 0 stands at arc length 0; at a free start arc length 0 is midway between monomers 0
+//! and 1. Which of the two holds depends on the clamps alone, not on what is resolved, so that
+//! resolving more does not move a monomer.
+
+use crate::scene::{End, MOST_BODIES, MOST_BONDS, Problem, Scene, Section};
+
+/// Monomers and places of one section.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Resolved {
+    /// Arc length of the start (nm).
+    pub from_nm: f64,
+    /// Arc length of the end (nm).
+    pub to_nm: f64,
+    /// Lattice indices of the first and last monomer, held ones included; none for a rod.
+    pub monomers: Option<(i64, i64)>,
+}
+
+/// The lattice of monomers along a filament.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lattice {
+    /// Arc length of monomer 0 (nm).
+    pub origin_nm: f64,
+    /// Rise per monomer (nm).
+    pub rise_nm: f64,
+}
+
+impl Lattice {
+    /// The lattice of a scene's filament.
+    pub(super) fn of(scene: &Scene) -> Self {
+        let rise_nm = scene.filament.monomers.rise_nm;
+        let origin_nm = if scene.is_clamped(End::Start) {
+            0.0
+        } else {
+            -0.5 * rise_nm
+        };
+        Self { origin_nm, rise_nm }
+    }
+
+    /// Arc length of monomer `j` (nm).
+    pub(super) fn s_nm(&self, j: i64) -> f64 {
+        self.origin_nm + j as f64 * self.rise_nm
+    }
+
+    /// The monomer nearest to arc length `s_nm`.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "`check_reach` refuses places that i64 could not count"
+    )]
+    fn nearest(&self, s_nm: f64) -> i64 {
+        ((s_nm - self.origin_nm) / self.rise_nm).round() as i64
+    }
+
+    /// The monomer whose place plus half a rise is nearest to `s_nm`.
+    fn last_before(&self, s_nm: f64) -> i64 {
+        self.nearest(s_nm - 0.5 * self.rise_nm)
+    }
+}
+
+/// Resolves every section of a scene.
+///
+/// # Errors
+/// Places beyond those that are counted, a section that is left with fewer than two monomers, or a
+/// rod that is left with no length.
+pub(super) fn resolve(scene: &Scene) -> Result<Vec<Resolved>, Problem> {
+    let lattice = Lattice::of(scene);
+    let sections = &scene.filament.sections;
+    let last = sections.len() - 1;
+    (0..sections.len())
+        .map(|i| {
+            check_reach(scene, &lattice, i)?;
+            let resolved = match sections[i] {
+                Section::Ellipsoids { from_nm, to_nm } => {
+                    monomers(scene, &lattice, (i, last), (from_nm, to_nm))
+                }
+                Section::Rod { from_nm, to_nm, .. } => rod(&lattice, (i, last), (from_nm, to_nm)),
+            };
+            check(i, &sections[i], resolved)
+        })
+        .collect()
+}
+
+/// Refuses a boundary that more monomers reach, or a section that has more bonds, than memory
+/// would hold.
+fn check_reach(scene: &Scene, lattice: &Lattice, i: usize) -> Result<(), Problem> {
+    let sections = &scene.filament.sections;
+    let (from_nm, to_nm) = sections[i].span_nm();
+    let has_monomers = matches!(sections[i], Section::Ellipsoids { .. });
+    let refuse = |count: f64, what: &str, most: f64| {
+        Err(Problem::new(
+            format!("filament.sections[{i}].to_nm"),
+            format!("{to_nm:?}"),
+            format!("{count:.2e} {what}, at most {most:e} are allowed"),
+        ))
+    };
+    let reach = to_nm / lattice.rise_nm;
+    if reach > MOST_BODIES && (has_monomers || sections.len() > 1) {
+        return refuse(reach, "monomers reach this far", MOST_BODIES);
+    }
+    let monomers = &scene.filament.monomers;
+    let each = monomers.lateral_bonds + monomers.longitudinal_bonds;
+    let bonds = (to_nm - from_nm) / lattice.rise_nm * each as f64;
+    if has_monomers && bonds > MOST_BONDS {
+        return refuse(bonds, "bonds are in this section", MOST_BONDS);
+    }
+    Ok(())
+}
+
+fn monomers(
+    scene: &Scene,
+    lattice: &Lattice,
+    (i, last): (usize, usize),
+    span: (f64, f64),
+) -> Resolved {
+    let half = 0.5 * lattice.rise_nm;
+    let (first, from_nm) = match (i == 0, scene.is_clamped(End::Start)) {
+        (true, true) => (-1, 0.0),
+        (true, false) => (0, 0.0),
+        (false, _) => {
+            let before = lattice.last_before(span.0);
+            (before + 1, lattice.s_nm(before) + half)
+        }
+    };
+    let (end, to_nm) = match (i == last, scene.is_clamped(End::End)) {
+        (true, true) => {
+            let inner = lattice.nearest(span.1);
+            (inner + 1, lattice.s_nm(inner))
+        }
+        (true, false) => {
+            let outer = lattice.nearest(span.1 + half);
+            (outer, lattice.s_nm(outer) - half)
+        }
+        (false, _) => {
+            let end = lattice.last_before(span.1);
+            (end, lattice.s_nm(end) + half)
+        }
+    };
+    Resolved {
+        from_nm,
+        to_nm,
+        monomers: Some((first, end)),
+    }
+}
+
+fn rod(lattice: &Lattice, (i, last): (usize, usize), span: (f64, f64)) -> Resolved {
+    let half = 0.5 * lattice.rise_nm;
+    let boundary = |s_nm: f64| lattice.s_nm(lattice.last_before(s_nm)) + half;
+    Resolved {
+        from_nm: if i == 0 { span.0 } else { boundary(span.0) },
+        to_nm: if i == last { span.1 } else { boundary(span.1) },
+        monomers: None,
+    }
+}
+
+fn check(i: usize, section: &Section, resolved: Resolved) -> Result<Resolved, Problem> {
+    let key = format!("filament.sections[{i}].to_nm");
+    let (_, to_nm) = section.span_nm();
+    if let Some((first, last)) = resolved.monomers
+        && last - first < 1
+    {
+        return Err(Problem::new(
+            key,
+            format!("{to_nm:?}"),
+            format!(
+                "the section holds {} monomer(s) at this rise: it needs at least two",
+                (last - first + 1).max(0)
+            ),
+        ));
+    }
+    if resolved.to_nm <= resolved.from_nm {
+        return Err(Problem::new(
+            key,
+            format!("{to_nm:?}"),
+            "no length is left for this rod once its neighbours end at a monomer",
+        ));
+    }
+    Ok(resolved)
+}

@@ -1,0 +1,143 @@
+//! From the parameters of a scene to the models of the crates below.
+
+use crate::scene::{self, End, Hold, Monomers, Problem};
+use actin_cosserat::{RodClamp, RodEnd};
+use actin_ellipsoid::{
+    EllipsoidModel, EllipsoidParameters, InterfaceError, InterfaceKind, InterfaceParameters,
+    ParameterError,
+};
+
+impl From<scene::Anchors> for actin_ellipsoid::Anchors {
+    fn from(anchors: scene::Anchors) -> Self {
+        match anchors {
+            scene::Anchors::Independent => Self::Independent,
+            scene::Anchors::Identical => Self::Identical,
+        }
+    }
+}
+
+impl From<&Monomers> for EllipsoidParameters {
+    fn from(m: &Monomers) -> Self {
+        Self {
+            radius: m.radius_nm,
+            rise: m.rise_nm,
+            turn: m.turn_deg.to_radians(),
+            azimuth: m.azimuth_deg.to_radians(),
+            semi_axes: m.semi_axes_nm,
+            lateral: InterfaceParameters {
+                rigidity: m.lateral_rigidity_pn_per_nm,
+                bonds: m.lateral_bonds,
+                maximum_length: m.lateral_max_bond_nm,
+            },
+            longitudinal: InterfaceParameters {
+                rigidity: m.longitudinal_rigidity_pn_per_nm,
+                bonds: m.longitudinal_bonds,
+                maximum_length: m.longitudinal_max_bond_nm,
+            },
+            anchors: m.anchors.into(),
+            seed: m.seed,
+            mass: m.mass_ag,
+        }
+    }
+}
+
+impl From<&EllipsoidParameters> for Monomers {
+    fn from(p: &EllipsoidParameters) -> Self {
+        Self {
+            seed: p.seed,
+            anchors: match p.anchors {
+                actin_ellipsoid::Anchors::Independent => scene::Anchors::Independent,
+                actin_ellipsoid::Anchors::Identical => scene::Anchors::Identical,
+            },
+            lateral_bonds: p.lateral.bonds,
+            longitudinal_bonds: p.longitudinal.bonds,
+            lateral_rigidity_pn_per_nm: p.lateral.rigidity,
+            longitudinal_rigidity_pn_per_nm: p.longitudinal.rigidity,
+            lateral_max_bond_nm: p.lateral.maximum_length,
+            longitudinal_max_bond_nm: p.longitudinal.maximum_length,
+            radius_nm: p.radius,
+            semi_axes_nm: p.semi_axes,
+            rise_nm: p.rise,
+            turn_deg: p.turn.to_degrees(),
+            azimuth_deg: p.azimuth.to_degrees(),
+            mass_ag: p.mass,
+        }
+    }
+}
+
+/// The monomers' model; what it refuses is named by the scene's keys.
+pub(super) fn ellipsoids(monomers: &Monomers) -> Result<EllipsoidModel, Problem> {
+    EllipsoidModel::new(monomers.into()).map_err(|error| match error {
+        ParameterError::OutOfRange { key, value, rule } => {
+            Problem::new(scene_key(key), value, format!("must be {rule}"))
+        }
+        ParameterError::NotATop { semi_axes, reason } => Problem::new(
+            scene_key("semi_axes"),
+            format!("{semi_axes:?}"),
+            reason.to_string(),
+        ),
+    })
+}
+
+/// The scene's key for a parameter of the monomers.
+fn scene_key(parameter: &str) -> String {
+    let key = match parameter {
+        "radius" => "radius_nm",
+        "rise" => "rise_nm",
+        "turn" => "turn_deg",
+        "azimuth" => "azimuth_deg",
+        "semi_axes" => "semi_axes_nm",
+        "mass" => "mass_ag",
+        "lateral.rigidity" => "lateral_rigidity_pn_per_nm",
+        "lateral.bonds" => "lateral_bonds",
+        "lateral.maximum_length" => "lateral_max_bond_nm",
+        "longitudinal.rigidity" => "longitudinal_rigidity_pn_per_nm",
+        "longitudinal.bonds" => "longitudinal_bonds",
+        "longitudinal.maximum_length" => "longitudinal_max_bond_nm",
+        other => other,
+    };
+    format!("filament.monomers.{key}")
+}
+
+/// The problem behind an interface that could not be bonded.
+pub(super) fn unbonded(error: &InterfaceError, monomers: &Monomers) -> Problem {
+    let InterfaceError::NoBonds { kind, .. } = error;
+    let (key, value) = match kind {
+        InterfaceKind::Lateral => ("lateral_max_bond_nm", monomers.lateral_max_bond_nm),
+        InterfaceKind::Longitudinal => (
+            "longitudinal_max_bond_nm",
+            monomers.longitudinal_max_bond_nm,
+        ),
+    };
+    Problem::new(
+        format!("filament.monomers.{key}"),
+        format!("{value:?}"),
+        error.to_string(),
+    )
+}
+
+impl From<scene::JunctionWeight> for actin_coupling::JunctionWeight {
+    fn from(weight: scene::JunctionWeight) -> Self {
+        match weight {
+            scene::JunctionWeight::Shared => Self::Shared,
+            scene::JunctionWeight::Full => Self::Full,
+        }
+    }
+}
+
+/// What a scene's clamp holds at a rod's end.
+pub(super) fn rod_clamp(hold: Hold) -> RodClamp {
+    match hold {
+        Hold::Wall => RodClamp::Wall,
+        Hold::NodeAndFrame => RodClamp::NodeAndFrame,
+        Hold::TwoNodesAndFrame => RodClamp::TwoNodesAndFrame,
+    }
+}
+
+/// The rod's end that lies at an end of the filament.
+pub(super) fn rod_end(end: End) -> RodEnd {
+    match end {
+        End::Start => RodEnd::Start,
+        End::End => RodEnd::End,
+    }
+}

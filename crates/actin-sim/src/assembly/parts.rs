@@ -1,0 +1,144 @@
+//! What bodies, sections and terms are, for whoever writes or draws them.
+
+use crate::scene::End;
+use std::fmt;
+use std::ops::Range;
+
+/// What a point or a frame stands for. The numbers are those written to files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyKind {
+    /// A monomer's centre, and its principal frame (radial, tangential, axial).
+    Monomer = 0,
+    /// A node of a rod.
+    Node = 1,
+    /// The frame of a rod's segment.
+    Segment = 2,
+    /// The frame of a junction's bond.
+    Junction = 3,
+    /// A held frame that stands for a wall.
+    Wall = 4,
+}
+
+/// What a point is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointInfo {
+    /// Monomer or node.
+    pub kind: BodyKind,
+    /// Arc length at rest (nm).
+    pub s_nm: f64,
+    /// The frame of the same body; nodes have none.
+    pub frame: Option<usize>,
+}
+
+/// What a frame is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameInfo {
+    /// Monomer, segment, junction or wall.
+    pub kind: BodyKind,
+    /// Arc length at rest (nm).
+    pub s_nm: f64,
+}
+
+/// The part of the filament that a term belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// A section, by its index.
+    Section(usize),
+    /// The junction between this section and the next.
+    Junction(usize),
+    /// A load, by its index in the scene.
+    Load(usize),
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Section(i) => write!(f, "section_{i}"),
+            Self::Junction(i) => write!(f, "junction_{i}_{}", i + 1),
+            Self::Load(i) => write!(f, "load_{i}"),
+        }
+    }
+}
+
+/// One interaction of the assembled system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Term {
+    /// Kind of interaction, as the interaction itself names it.
+    pub name: &'static str,
+    /// Where it acts.
+    pub part: Part,
+}
+
+/// A section as resolved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SectionSpan {
+    /// Whether it resolves monomers or is a rod.
+    pub resolution: Resolution,
+    /// Arc length of its start (nm).
+    pub from_nm: f64,
+    /// Arc length of its end (nm).
+    pub to_nm: f64,
+    /// Its points.
+    pub points: Range<usize>,
+    /// Its own frames: of monomers or of segments.
+    pub frames: Range<usize>,
+    /// Points whose mean is the section's first tip.
+    pub(super) first_tip: Vec<usize>,
+    /// Points whose mean is the section's last tip.
+    pub(super) last_tip: Vec<usize>,
+}
+
+/// How a section is resolved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Resolution {
+    /// Monomer by monomer.
+    Ellipsoids {
+        /// Lattice index of the first monomer.
+        first_index: i64,
+        /// Number of bonds.
+        bonds: usize,
+    },
+    /// As a rod.
+    Rod {
+        /// Rest length of a segment (nm).
+        segment_nm: f64,
+    },
+}
+
+impl SectionSpan {
+    /// Number of bonds; a rod has none.
+    pub fn bonds(&self) -> usize {
+        match self.resolution {
+            Resolution::Ellipsoids { bonds, .. } => bonds,
+            Resolution::Rod { .. } => 0,
+        }
+    }
+
+    /// Whether the section resolves monomers.
+    pub fn is_ellipsoids(&self) -> bool {
+        matches!(self.resolution, Resolution::Ellipsoids { .. })
+    }
+
+    /// Points whose mean is the tip at `end`.
+    pub(super) fn tip_points(&self, end: End) -> &[usize] {
+        match end {
+            End::Start => &self.first_tip,
+            End::End => &self.last_tip,
+        }
+    }
+}
+
+/// Number of bodies and elements of each kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Counts {
+    /// Monomers, held ones included.
+    pub monomers: usize,
+    /// Bonds between monomers.
+    pub bonds: usize,
+    /// Segments of rods.
+    pub segments: usize,
+    /// Junctions between sections.
+    pub junctions: usize,
+    /// Degrees of freedom of the free bodies.
+    pub dofs: usize,
+}

@@ -1,0 +1,60 @@
+//! What a clamp has to bear.
+
+use crate::scene::{End, Slides};
+use actin_mechanics::{Loads, State, UnitQuaternion, Vector3};
+
+/// A held end: which bodies are held, and the point about which torques are taken.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clamped {
+    /// Which end.
+    pub end: End,
+    /// Held points.
+    pub points: Vec<usize>,
+    /// Held frames.
+    pub frames: Vec<usize>,
+    /// The clamped point on the axis as built (nm, lab frame).
+    pub about_nm: Vector3,
+    /// Along which directions the end slides.
+    pub slides: Slides,
+    /// Position of the first held point minus the clamped point, as built (nm, lab frame).
+    pub(super) arm_nm: Vector3,
+    /// Orientation of the first held frame as built.
+    pub(super) rest: UnitQuaternion,
+}
+
+/// Force and torque that hold an end where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reaction {
+    /// Force on the filament (pN, lab frame).
+    pub force_pn: Vector3,
+    /// Torque on the filament about the clamped point (pN nm, lab frame).
+    pub torque_pn_nm: Vector3,
+}
+
+impl Clamped {
+    /// Where the clamped point is in `state` (nm, lab frame): it moves with the held bodies.
+    pub fn point_nm(&self, state: &State) -> Vector3 {
+        let turn = state.frames.orientation.get(self.frames[0]) * self.rest.inverse();
+        state.points.position.get(self.points[0]) - turn * self.arm_nm
+    }
+
+    /// The reaction in `state` under `loads`: minus what the held bodies feel.
+    pub fn reaction(&self, state: &State, loads: &Loads) -> Reaction {
+        let about = self.point_nm(state);
+        let force: Vector3 = self.points.iter().map(|&i| loads.force.get(i)).sum();
+        let moments: Vector3 = self
+            .points
+            .iter()
+            .map(|&i| (state.points.position.get(i) - about).cross(&loads.force.get(i)))
+            .sum();
+        let couples: Vector3 = self
+            .frames
+            .iter()
+            .map(|&i| state.frames.orientation.get(i) * loads.torque.get(i))
+            .sum();
+        Reaction {
+            force_pn: -force,
+            torque_pn_nm: -(moments + couples),
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! The directory itself: refusing to overwrite, and never leaving half a file. It does not know
+//! what its files hold.
+
+use super::RunDirectoryError;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+pub(super) const SCENE: &str = "scene.ron";
+pub(super) const SUMMARY: &str = "summary.json";
+pub(super) const ENERGIES: &str = "energies.csv";
+pub(super) const STATES: &str = "states.npz";
+pub(super) const COLLECTION: &str = "run.pvd";
+const CHECKPOINT: &str = "checkpoint.bin";
+pub(super) const PICTURES: &str = "vtk";
+
+/// Everything that a run directory holds beside its pictures.
+const FILES: [&str; 6] = [SCENE, SUMMARY, ENERGIES, STATES, COLLECTION, CHECKPOINT];
+
+/// Appended to the name of a file that is not whole yet.
+const UNFINISHED: &str = ".part";
+
+/// A directory that holds the results of one run.
+///
+/// Each file is written under another name and renamed when it is whole, so that a run that is
+/// interrupted, or a disk that is full, leaves no half file under a final name. (A loss of power
+/// is not guarded against.) `summary.json` comes last: where it is, the rest is complete.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RunDirectory {
+    pub(super) path: PathBuf,
+}
+
+impl RunDirectory {
+    /// Creates the directory, and those above it, if need be.
+    ///
+    /// With `overwrite`, an earlier run's files are removed at once, so that results of two runs
+    /// never stand side by side; files that no run writes are left alone.
+    ///
+    /// # Errors
+    /// A path that is no directory, a directory that is not empty (unless `overwrite`), or a
+    /// refusal of the file system.
+    pub fn create(path: impl AsRef<Path>, overwrite: bool) -> Result<Self, RunDirectoryError> {
+        let path = path.as_ref();
+        if path.exists() && !path.is_dir() {
+            return Err(RunDirectoryError::NotADirectory {
+                path: path.to_owned(),
+            });
+        }
+        fs::create_dir_all(path).map_err(RunDirectoryError::io(path))?;
+        let mut entries = fs::read_dir(path).map_err(RunDirectoryError::io(path))?;
+        let is_empty = entries.next().is_none();
+        if !is_empty && !overwrite {
+            return Err(RunDirectoryError::NotEmpty {
+                path: path.to_owned(),
+            });
+        }
+        let directory = Self {
+            path: path.to_owned(),
+        };
+        directory.remove_results()?;
+        Ok(directory)
+    }
+
+    /// Where the directory is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Writes the file `name` under another name and renames it when it is whole.
+    pub(super) fn write_file(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    ) -> Result<(), RunDirectoryError> {
+        let path = self.path.join(name);
+        let unfinished = self.path.join(format!("{name}{UNFINISHED}"));
+        let written = File::create(&unfinished)
+            .map(BufWriter::new)
+            .and_then(|mut out| {
+                fill(&mut out)?;
+                out.flush()
+            })
+            .and_then(|()| fs::rename(&unfinished, &path));
+        if written.is_err() {
+            // The error that led here says more than one about the removal could.
+            let _ = fs::remove_file(&unfinished);
+        }
+        written.map_err(RunDirectoryError::io(&path))
+    }
+
+    /// Removes what an earlier run has left.
+    fn remove_results(&self) -> Result<(), RunDirectoryError> {
+        for name in FILES {
+            remove_if_there(&self.path.join(name))?;
+            remove_if_there(&self.path.join(format!("{name}{UNFINISHED}")))?;
+        }
+        self.remove_pictures()
+    }
+
+    pub(super) fn remove_pictures(&self) -> Result<(), RunDirectoryError> {
+        let folder = self.path.join(PICTURES);
+        if !folder.is_dir() {
+            return Ok(());
+        }
+        for entry in fs::read_dir(&folder).map_err(RunDirectoryError::io(&folder))? {
+            let entry = entry.map_err(RunDirectoryError::io(&folder))?;
+            if entry.file_name().to_str().is_some_and(is_picture) {
+                remove_if_there(&entry.path())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Removes a file that need not exist.
+pub(super) fn remove_if_there(path: &Path) -> Result<(), RunDirectoryError> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(RunDirectoryError::io(path)(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether a file of this name is a picture that a run writes, whole or not.
+fn is_picture(name: &str) -> bool {
+    let name = name.strip_suffix(UNFINISHED).unwrap_or(name);
+    name.strip_suffix(".vtp")
+        .is_some_and(|stem| stem.len() >= 4 && stem.bytes().all(|b| b.is_ascii_digit()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(path: &Path) -> Vec<String> {
+        let entries = fs::read_dir(path).unwrap();
+        let mut names: Vec<_> = entries
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_new_or_empty_directory_is_taken() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("runs/one");
+        assert_eq!(RunDirectory::create(&path, false).unwrap().path(), path);
+        assert!(RunDirectory::create(&path, false).is_ok());
+    }
+
+    /// The message names the directory and what to do; nothing in it is touched.
+    #[test]
+    fn a_directory_with_anything_in_it_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join(SUMMARY), "{}").unwrap();
+        let error = RunDirectory::create(folder.path(), false).unwrap_err();
+        assert!(matches!(error, RunDirectoryError::NotEmpty { .. }));
+        let message = error.to_string();
+        assert!(message.contains(&folder.path().display().to_string()));
+        assert!(message.contains("never overwritten"));
+        assert_eq!(fs::read(folder.path().join(SUMMARY)).unwrap(), b"{}");
+    }
+
+    #[test]
+    fn a_file_is_no_directory() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        fs::write(&path, "text").unwrap();
+        for overwrite in [false, true] {
+            let error = RunDirectory::create(&path, overwrite).unwrap_err();
+            assert!(matches!(error, RunDirectoryError::NotADirectory { .. }));
+        }
+        assert_eq!(fs::read(&path).unwrap(), b"text");
+    }
+
+    /// Overwriting takes away what a run has written, and nothing else.
+    #[test]
+    fn overwriting_leaves_foreign_files_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let pictures = folder.path().join(PICTURES);
+        fs::create_dir(&pictures).unwrap();
+        for name in FILES {
+            fs::write(folder.path().join(name), "old").unwrap();
+        }
+        fs::write(folder.path().join("states.npz.part"), "old").unwrap();
+        fs::write(folder.path().join("notes.txt"), "mine").unwrap();
+        for name in [
+            "0000.vtp",
+            "12345.vtp",
+            "0001.vtp.part",
+            "mine.vtp",
+            "12.vtp",
+        ] {
+            fs::write(pictures.join(name), "old").unwrap();
+        }
+        RunDirectory::create(folder.path(), true).unwrap();
+        assert_eq!(names(folder.path()), ["notes.txt", PICTURES]);
+        assert_eq!(names(&pictures), ["12.vtp", "mine.vtp"]);
+    }
+
+    /// What was there before stays whole, and the unfinished file is gone.
+    #[test]
+    fn a_file_that_fails_half_way_is_not_seen() {
+        let folder = tempfile::tempdir().unwrap();
+        let directory = RunDirectory::create(folder.path(), false).unwrap();
+        directory
+            .write_file(ENERGIES, |out| out.write_all(b"whole"))
+            .unwrap();
+        let error = directory
+            .write_file(ENERGIES, |out| {
+                out.write_all(b"half")?;
+                Err(io::Error::other("no space left"))
+            })
+            .unwrap_err();
+        let path = folder.path().join(ENERGIES);
+        assert_eq!(
+            error.to_string(),
+            format!("{}: no space left", path.display())
+        );
+        assert_eq!(fs::read(path).unwrap(), b"whole");
+        assert_eq!(names(folder.path()), [ENERGIES]);
+    }
+}

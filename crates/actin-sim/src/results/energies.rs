@@ -1,0 +1,249 @@
+//! `energies.csv`: energies and residuals of every record, per term and per part.
+
+use super::{RunDirectoryError, finite::ensure_finite};
+use crate::{Assembly, Part, Record, Term};
+use std::io::{self, Write};
+
+/// Energies of one record, in pN nm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Totals {
+    /// Potential and kinetic energy.
+    pub total: f64,
+    /// Energy of all interactions.
+    pub potential: f64,
+    /// Energy of all interactions but loads.
+    pub elastic: f64,
+    /// Kinetic energy of the free bodies.
+    pub kinetic: f64,
+}
+
+impl Totals {
+    /// The totals of a record whose energies belong to `terms`.
+    pub(super) fn new(terms: &[Term], record: &Record) -> Self {
+        let potential = sum_where(terms, record, |_| true);
+        let elastic = sum_where(terms, record, |term| !matches!(term.part, Part::Load(_)));
+        Self {
+            total: potential + record.kinetic_pn_nm,
+            potential,
+            elastic,
+            kinetic: record.kinetic_pn_nm,
+        }
+    }
+}
+
+/// Energy of those terms of a record that `belongs` accepts (pN nm).
+pub(super) fn sum_where(terms: &[Term], record: &Record, belongs: impl Fn(&Term) -> bool) -> f64 {
+    let energies = terms.iter().zip(&record.energies_pn_nm);
+    energies
+        .filter(|(term, _)| belongs(term))
+        .map(|(_, energy)| energy)
+        .sum()
+}
+
+/// The different values of `of`, in the order in which the terms bring them.
+pub(super) fn distinct<T: PartialEq>(terms: &[Term], of: impl Fn(&Term) -> T) -> Vec<T> {
+    let mut values = Vec::new();
+    for value in terms.iter().map(of) {
+        if !values.contains(&value) {
+            values.push(value);
+        }
+    }
+    values
+}
+
+/// The table: a header and one row for each record.
+#[derive(Debug)]
+pub(super) struct EnergyTable {
+    header: Vec<String>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl EnergyTable {
+    /// The table of `records`, whose energies belong to the terms of `assembly`.
+    pub(super) fn new(assembly: &Assembly, records: &[Record]) -> Self {
+        let terms = &assembly.terms;
+        let names = distinct(terms, |term| term.name);
+        let parts = distinct(terms, |term| term.part);
+        Self {
+            header: header(&names, &parts),
+            rows: records
+                .iter()
+                .map(|record| row(terms, &names, &parts, record))
+                .collect(),
+        }
+    }
+
+    /// Refuses numbers that are not finite.
+    ///
+    /// # Errors
+    /// The first such number, with its column and the index of its row.
+    pub(super) fn ensure_finite(&self, file: &str) -> Result<(), RunDirectoryError> {
+        for (column, name) in self.header.iter().enumerate() {
+            let values = self.rows.iter().map(|row| row[column]);
+            ensure_finite(file, name, &[self.rows.len()], values)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the table. Numbers have as many digits as bring them back exactly.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let mut writer = csv::Writer::from_writer(out);
+        writer.write_record(&self.header)?;
+        for row in &self.rows {
+            writer.write_record(row.iter().map(|value| format!("{value:?}")))?;
+        }
+        writer.flush()
+    }
+}
+
+fn header(names: &[&str], parts: &[Part]) -> Vec<String> {
+    let energies = ["total", "potential", "elastic", "kinetic"]
+        .into_iter()
+        .map(str::to_owned)
+        .chain(names.iter().map(ToString::to_string))
+        .chain(parts.iter().map(ToString::to_string))
+        .map(|name| format!("{name}_pn_nm"));
+    let residuals = ["residual_force_pn", "residual_torque_pn_nm"].map(str::to_owned);
+    std::iter::once("time_ns".to_owned())
+        .chain(energies)
+        .chain(residuals)
+        .collect()
+}
+
+fn row(terms: &[Term], names: &[&str], parts: &[Part], record: &Record) -> Vec<f64> {
+    let totals = Totals::new(terms, record);
+    let by_name = names
+        .iter()
+        .map(|&name| sum_where(terms, record, |term| term.name == name));
+    let by_part = parts
+        .iter()
+        .map(|&part| sum_where(terms, record, |term| term.part == part));
+    [
+        record.time_ns,
+        totals.total,
+        totals.potential,
+        totals.elastic,
+        totals.kinetic,
+    ]
+    .into_iter()
+    .chain(by_name)
+    .chain(by_part)
+    .chain([record.residual_force_pn, record.residual_torque_pn_nm])
+    .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::fixture;
+
+    fn table_of(assembly: &Assembly, records: &[Record]) -> (Vec<String>, Vec<Vec<f64>>) {
+        let mut bytes = Vec::new();
+        EnergyTable::new(assembly, records)
+            .write(&mut bytes)
+            .unwrap();
+        let mut reader = csv::Reader::from_reader(bytes.as_slice());
+        let header = reader
+            .headers()
+            .unwrap()
+            .iter()
+            .map(str::to_owned)
+            .collect();
+        let rows = reader
+            .records()
+            .map(|row| row.unwrap().iter().map(|v| v.parse().unwrap()).collect())
+            .collect();
+        (header, rows)
+    }
+
+    fn column<'a>(header: &[String], row: &'a [f64], name: &str) -> &'a f64 {
+        &row[header.iter().position(|h| h == name).unwrap()]
+    }
+
+    /// Every name of the fixed layout is there, once, and every unit with it.
+    #[test]
+    fn columns_are_named_with_their_units() {
+        let assembly = fixture::clamped_start();
+        let (header, _) = table_of(&assembly, &fixture::trajectory(&assembly).records);
+        assert_eq!(
+            header[..5],
+            [
+                "time_ns",
+                "total_pn_nm",
+                "potential_pn_nm",
+                "elastic_pn_nm",
+                "kinetic_pn_nm"
+            ]
+        );
+        let last = header.len() - 2;
+        assert_eq!(
+            header[last..],
+            ["residual_force_pn", "residual_torque_pn_nm"]
+        );
+        let names = ["bonds", "rod", "junction", "load"];
+        let parts = ["section_0", "section_1", "junction_0_1", "load_0"];
+        for name in names.into_iter().chain(parts) {
+            let name = format!("{name}_pn_nm");
+            let count = header.iter().filter(|h| **h == name).count();
+            assert_eq!(count, 1, "{name} in {header:?}");
+        }
+    }
+
+    /// Single numbers come back bit for bit: fewer digits would be enough for a plot, but not for
+    /// an energy error of 1e-8.
+    #[test]
+    fn numbers_come_back_exactly() {
+        let assembly = fixture::clamped_start();
+        let trajectory = fixture::trajectory(&assembly);
+        let (header, rows) = table_of(&assembly, &trajectory.records);
+        assert_eq!(rows.len(), trajectory.records.len());
+        for (row, record) in rows.iter().zip(&trajectory.records) {
+            let load = assembly
+                .terms
+                .iter()
+                .position(|t| t.name == "load")
+                .unwrap();
+            for (name, expected) in [
+                ("time_ns", record.time_ns),
+                ("kinetic_pn_nm", record.kinetic_pn_nm),
+                ("load_pn_nm", record.energies_pn_nm[load]),
+                ("load_0_pn_nm", record.energies_pn_nm[load]),
+                ("residual_force_pn", record.residual_force_pn),
+                ("residual_torque_pn_nm", record.residual_torque_pn_nm),
+            ] {
+                assert_eq!(
+                    column(&header, row, name).to_bits(),
+                    expected.to_bits(),
+                    "{name}"
+                );
+            }
+        }
+    }
+
+    /// Names and parts are two ways to cut the same potential: a term counted twice or left out
+    /// shows in one of the sums.
+    #[test]
+    fn names_and_parts_each_add_up_to_the_potential() {
+        let assembly = fixture::clamped_start();
+        let (header, rows) = table_of(&assembly, &fixture::trajectory(&assembly).records);
+        let names = distinct(&assembly.terms, |term| term.name.to_owned());
+        let parts = distinct(&assembly.terms, |term| term.part);
+        let parts: Vec<String> = parts.iter().map(ToString::to_string).collect();
+        for row in &rows {
+            let of = |name: &str| *column(&header, row, &format!("{name}_pn_nm"));
+            let sum = |names: &[String]| names.iter().map(|name| of(name)).sum::<f64>();
+            let scale: f64 = parts.iter().map(|part| of(part).abs()).sum();
+            // A few additions in another order: some units of round-off.
+            let same = |a: f64, b: f64| (a - b).abs() <= 1e-14 * scale;
+            assert!(same(sum(&names), of("potential")));
+            assert!(same(sum(&parts), of("potential")));
+            assert!(same(of("elastic") + of("load"), of("potential")));
+            assert!(of("load") != 0.0 && of("kinetic") > 0.0);
+            let total = of("potential") + of("kinetic");
+            assert_eq!(of("total").to_bits(), total.to_bits());
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Why a run directory was refused or could not be written.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why a run directory was refused or could not be written.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RunDirectoryError {
+    /// There is something in the directory already.
+    #[error(
+        "{} exists and is not empty: results are never overwritten unless that is asked for; \
+         name another directory, or ask to overwrite", .path.display()
+    )]
+    NotEmpty {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// The path names something that is no directory.
+    #[error("{} is not a directory: a run writes several files into one directory", .path.display())]
+    NotADirectory {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The file system refused.
+    #[error("{}: {source}", .path.display())]
+    Io {
+        /// The file or directory.
+        path: PathBuf,
+        /// What the file system says.
+        source: io::Error,
+    },
+    /// A number that is not finite.
+    #[error("{file}: {quantity}{} is {value}: only finite numbers are written", place(.index))]
+    NotFinite {
+        /// The file that would have held it.
+        file: String,
+        /// Name of the quantity in that file.
+        quantity: String,
+        /// Index in the quantity's array; empty for a single number.
+        index: Vec<usize>,
+        /// The number.
+        value: f64,
+    },
+    /// There is nothing to write.
+    #[error("the trajectory holds no record: a run directory needs at least one")]
+    NoRecord,
+    /// A record that does not belong to the assembly.
+    #[error("record {record} holds {found} {quantity} where the assembly has {expected}")]
+    Mismatch {
+        /// Index of the record.
+        record: usize,
+        /// What was counted.
+        quantity: &'static str,
+        /// Number in the record.
+        found: usize,
+        /// Number in the assembly.
+        expected: usize,
+    },
+}
+
+impl RunDirectoryError {
+    /// The error of an operation on `path`.
+    pub(super) fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |source| Self::Io {
+            path: path.to_owned(),
+            source,
+        }
+    }
+}
+
+/// The index in brackets; nothing for a single number.
+fn place(index: &[usize]) -> String {
+    if index.is_empty() {
+        String::new()
+    } else {
+        format!("{index:?}")
+    }
+}

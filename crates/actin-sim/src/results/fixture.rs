@@ -1,0 +1,90 @@
+//! A small mixed filament and a made-up run of it, for the tests of this module.
+
+use crate::{Assembly, Record, RunReport, Scene, Trajectory};
+use actin_mechanics::testing::{Noise, perturb, set_in_motion};
+use actin_mechanics::{Loads, State};
+
+/// Monomers at a clamped start, then a rod; the title has everything that XML escapes.
+const CLAMPED_START: &str = r#"Scene(
+    title: "A tip <force> & \"two\" models",
+    filament: Filament(sections: [
+        Ellipsoids(from_nm: 0.0, to_nm: 12.0),
+        Rod(from_nm: 12.0, to_nm: 42.0, segments: 3),
+    ], monomers: Monomers(seed: 18446744073709551615)),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (2.0, -1.0, 0.5))],
+    task: Dynamics(duration_ns: 1.0),
+)"#;
+
+/// A rod clamped at its end and loaded at its start.
+const CLAMPED_END: &str = r"Scene(
+    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0, segments: 3)]),
+    clamps: [Clamp(end: End)],
+    loads: [EndForce(end: Start, force_pn: (2.0, -1.0, 0.5))],
+    task: Dynamics(duration_ns: 1.0),
+)";
+
+fn build(text: &str) -> Assembly {
+    let scene = Scene::from_ron(text).unwrap();
+    Assembly::build(&scene).unwrap()
+}
+
+/// Monomers at a clamped start, then a rod with a force at its end.
+pub(super) fn clamped_start() -> Assembly {
+    build(CLAMPED_START)
+}
+
+/// A rod clamped at its end, with a force at its start.
+pub(super) fn clamped_end() -> Assembly {
+    build(CLAMPED_END)
+}
+
+/// Three records of random states near rest; all numbers differ, held bodies excepted.
+pub(super) fn trajectory(assembly: &Assembly) -> Trajectory {
+    let mut noise = Noise::new(7);
+    let records = [0.0, 0.1, 1.0 / 3.0].map(|time_ns| {
+        let mut state = assembly.rest.clone();
+        perturb(&mut state, &mut noise, 0.1, 0.05);
+        set_in_motion(&mut state, &mut noise, 2.0, 1.5);
+        record(assembly, time_ns, state)
+    });
+    Trajectory {
+        records: records.into(),
+    }
+}
+
+/// The record of one state.
+pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record {
+    let (residual_force_pn, residual_torque_pn_nm) = loads(assembly, &state).residual(&state);
+    let interactions = assembly.system.interactions();
+    Record {
+        time_ns,
+        energies_pn_nm: interactions.iter().map(|i| i.energy(&state)).collect(),
+        kinetic_pn_nm: state.kinetic_energy(),
+        residual_force_pn,
+        residual_torque_pn_nm,
+        state,
+    }
+}
+
+/// All loads of an assembly in `state`.
+pub(super) fn loads(assembly: &Assembly, state: &State) -> Loads {
+    let mut loads = Loads::zeros(state);
+    for interaction in assembly.system.interactions() {
+        interaction.add_loads(state, &mut loads);
+    }
+    loads
+}
+
+/// A report with numbers that all differ.
+pub(super) fn report() -> RunReport {
+    RunReport {
+        converged: false,
+        steps: 12,
+        force_evaluations: 48,
+        time_step_ns: Some(3.5e-3),
+        largest_frequency_rad_per_ns: Some(569.25),
+        equilibrium: None,
+        wall_s: 0.1,
+    }
+}

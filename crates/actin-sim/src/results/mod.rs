@@ -1,0 +1,27 @@
+//! What a run leaves behind: a directory of files that other programs open.
+//!
+//! | file | holds | opens with |
+//! |---|---|---|
+//! | `scene.ron` | the scene, every default written out | `actin run` |
+//! | `energies.csv` | energies and residuals of every record | anything |
+//! | `states.npz` | every record's state | numpy |
+//! | `vtk/NNNN.vtp`, `run.pvd` | every record as a picture | `ParaView`, pyvista |
+//! | `summary.json` | the last record in numbers | anything |
+//!
+//! Only this module knows file formats; nothing here computes physics beyond sums. Nothing that
+//! is not finite is ever written.
+
+mod directory;
+mod energies;
+mod error;
+mod finite;
+#[cfg(test)]
+mod fixture;
+mod states;
+mod summary;
+mod vtk;
+mod write;
+
+pub use directory::RunDirectory;
+pub use error::RunDirectoryError;
+pub use summary::{RunStatus, StabilitySummary, Summary};

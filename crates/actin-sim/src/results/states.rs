@@ -1,0 +1,273 @@
+//! `states.npz`: the state of every record as numpy arrays.
+//!
+//! | array | shape | holds |
+//! |---|---|---|
+//! | `time_ns` | [T] | time |
+//! | `position_nm`, `velocity_nm_per_ns` | [T, points, 3] | lab frame |
+//! | `quaternion` | [T, frames, 4] | orientation, body to lab, in order w, x, y, z |
+//! | `angular_momentum` | [T, frames, 3] | body frame, pN nm ns |
+//! | `s_nm`, `kind` | [points] | arc length at rest, code of [`BodyKind`](crate::BodyKind) |
+//! | `frame_s_nm`, `frame_kind` | [frames] | the same for frames |
+//!
+//! Entries are deflated, which numpy undoes by itself. One array holds at most 4 GiB (the
+//! archive's 32-bit sizes); beyond that writing fails with an error that says so.
+
+use super::{RunDirectoryError, finite::ensure_finite};
+use crate::{Assembly, Record};
+use actin_mechanics::State;
+use npyz::WriterBuilder;
+use std::io::{self, Seek, Write};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
+
+/// One array of a state's components.
+type Component = fn(&State) -> &[f64];
+
+/// A quantity of every record and body.
+struct Field {
+    name: &'static str,
+    bodies: usize,
+    components: &'static [Component],
+}
+
+impl Field {
+    fn shape(&self, records: &[Record]) -> [usize; 3] {
+        [records.len(), self.bodies, self.components.len()]
+    }
+
+    /// Values in the order of the file: record, body, component.
+    fn values<'a>(&'a self, records: &'a [Record]) -> impl Iterator<Item = f64> + 'a {
+        records.iter().flat_map(move |record| {
+            (0..self.bodies).flat_map(move |i| {
+                self.components
+                    .iter()
+                    .map(move |component| component(&record.state)[i])
+            })
+        })
+    }
+}
+
+/// The arrays of a run.
+pub(super) struct States<'a> {
+    assembly: &'a Assembly,
+    records: &'a [Record],
+}
+
+impl<'a> States<'a> {
+    /// The states of `records`, which belong to `assembly`.
+    pub(super) fn new(assembly: &'a Assembly, records: &'a [Record]) -> Self {
+        Self { assembly, records }
+    }
+
+    fn fields(&self) -> [Field; 4] {
+        let points = self.assembly.points.len();
+        let frames = self.assembly.frames.len();
+        let field = |name, bodies, components| Field {
+            name,
+            bodies,
+            components,
+        };
+        [
+            field("position_nm", points, &POSITION),
+            field("velocity_nm_per_ns", points, &VELOCITY),
+            field("quaternion", frames, &QUATERNION),
+            field("angular_momentum", frames, &ANGULAR_MOMENTUM),
+        ]
+    }
+
+    /// One number for each record or body.
+    fn columns(&self) -> [(&'static str, Vec<f64>); 3] {
+        let Assembly { points, frames, .. } = self.assembly;
+        [
+            ("time_ns", self.records.iter().map(|r| r.time_ns).collect()),
+            ("s_nm", points.iter().map(|p| p.s_nm).collect()),
+            ("frame_s_nm", frames.iter().map(|f| f.s_nm).collect()),
+        ]
+    }
+
+    /// Codes of the kinds of bodies.
+    fn kinds(&self) -> [(&'static str, Vec<u8>); 2] {
+        let Assembly { points, frames, .. } = self.assembly;
+        [
+            ("kind", points.iter().map(|p| p.kind as u8).collect()),
+            ("frame_kind", frames.iter().map(|f| f.kind as u8).collect()),
+        ]
+    }
+
+    /// Refuses numbers that are not finite.
+    ///
+    /// # Errors
+    /// The first such number, with its index in the array.
+    pub(super) fn ensure_finite(&self, file: &str) -> Result<(), RunDirectoryError> {
+        for (name, values) in self.columns() {
+            ensure_finite(file, name, &[values.len()], values)?;
+        }
+        for field in self.fields() {
+            let shape = field.shape(self.records);
+            ensure_finite(file, field.name, &shape, field.values(self.records))?;
+        }
+        Ok(())
+    }
+
+    /// Writes the archive.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub(super) fn write(&self, out: &mut (impl Write + Seek)) -> io::Result<()> {
+        let mut archive = ZipWriter::new(out);
+        for (name, values) in self.columns() {
+            write_array(&mut archive, name, &[values.len()], values)?;
+        }
+        for (name, values) in self.kinds() {
+            write_array(&mut archive, name, &[values.len()], values)?;
+        }
+        for field in self.fields() {
+            let shape = field.shape(self.records);
+            write_array(&mut archive, field.name, &shape, field.values(self.records))?;
+        }
+        archive.finish()?;
+        Ok(())
+    }
+}
+
+/// Adds an array as numpy does: a stored entry that may exceed 4 GiB. Numbers of a trajectory
+/// hardly compress (4 % where it was tried), and a fixed time keeps equal runs equal to the byte.
+fn write_array<W: Write + Seek, T: npyz::AutoSerialize>(
+    archive: &mut ZipWriter<W>,
+    name: &str,
+    shape: &[usize],
+    values: impl IntoIterator<Item = T>,
+) -> io::Result<()> {
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Stored)
+        .last_modified_time(DateTime::default())
+        .large_file(true);
+    archive.start_file(format!("{name}.npy"), options)?;
+    let shape: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
+    let builder = npyz::WriteOptions::new().default_dtype().shape(&shape);
+    let mut writer = builder.writer(archive).begin_nd()?;
+    writer.extend(values)?;
+    writer.finish()
+}
+
+const POSITION: [Component; 3] = [
+    |s| &s.points.position.x,
+    |s| &s.points.position.y,
+    |s| &s.points.position.z,
+];
+
+const VELOCITY: [Component; 3] = [
+    |s| &s.points.velocity.x,
+    |s| &s.points.velocity.y,
+    |s| &s.points.velocity.z,
+];
+
+const QUATERNION: [Component; 4] = [
+    |s| &s.frames.orientation.w,
+    |s| &s.frames.orientation.x,
+    |s| &s.frames.orientation.y,
+    |s| &s.frames.orientation.z,
+];
+
+const ANGULAR_MOMENTUM: [Component; 3] = [
+    |s| &s.frames.angular_momentum.x,
+    |s| &s.frames.angular_momentum.y,
+    |s| &s.frames.angular_momentum.z,
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Trajectory;
+    use crate::results::fixture;
+    use actin_mechanics::Vectors;
+    use std::io::{Cursor, Read};
+    use zip::ZipArchive;
+
+    /// A quantity of the state.
+    type Quantity = fn(&State) -> &Vectors;
+
+    fn archive(assembly: &Assembly, trajectory: &Trajectory) -> ZipArchive<Cursor<Vec<u8>>> {
+        let mut file = Cursor::new(Vec::new());
+        States::new(assembly, &trajectory.records)
+            .write(&mut file)
+            .unwrap();
+        ZipArchive::new(file).unwrap()
+    }
+
+    fn read<T: npyz::Deserialize>(
+        archive: &mut ZipArchive<Cursor<Vec<u8>>>,
+        name: &str,
+    ) -> (Vec<u64>, Vec<T>) {
+        let mut bytes = Vec::new();
+        let mut entry = archive.by_name(&format!("{name}.npy")).unwrap();
+        entry.read_to_end(&mut bytes).unwrap();
+        let array = npyz::NpyFile::new(&bytes[..]).unwrap();
+        (array.shape().to_vec(), array.into_vec().unwrap())
+    }
+
+    /// Indices run record, body, component; a transposed write would keep the numbers but not
+    /// their places. Comparisons are exact: the file holds the same 64 bits.
+    #[test]
+    fn vectors_stand_in_their_places() {
+        let assembly = fixture::clamped_start();
+        let trajectory = fixture::trajectory(&assembly);
+        let mut archive = archive(&assembly, &trajectory);
+        let count = trajectory.records.len();
+        let quantities: [(&str, Quantity); 3] = [
+            ("position_nm", |s| &s.points.position),
+            ("velocity_nm_per_ns", |s| &s.points.velocity),
+            ("angular_momentum", |s| &s.frames.angular_momentum),
+        ];
+        for (name, of) in quantities {
+            let (shape, values) = read::<f64>(&mut archive, name);
+            let bodies = of(&assembly.rest).len();
+            assert_eq!(shape, [count as u64, bodies as u64, 3], "{name}");
+            for (t, record) in trajectory.records.iter().enumerate() {
+                for i in 0..bodies {
+                    let at = 3 * (t * bodies + i);
+                    let expected = of(&record.state).get(i);
+                    assert_eq!(values[at..at + 3], *expected.as_slice(), "{name} {t} {i}");
+                }
+            }
+        }
+    }
+
+    /// The scalar part comes first, where nalgebra's own storage has it last.
+    #[test]
+    fn quaternions_are_w_x_y_z() {
+        let assembly = fixture::clamped_start();
+        let trajectory = fixture::trajectory(&assembly);
+        let (shape, values) = read::<f64>(&mut archive(&assembly, &trajectory), "quaternion");
+        let frames = assembly.frames.len();
+        assert_eq!(shape, [3, frames as u64, 4]);
+        let last = trajectory.records[2]
+            .state
+            .frames
+            .orientation
+            .get(frames - 1);
+        let expected = [last.w, last.i, last.j, last.k];
+        assert_eq!(values[values.len() - 4..], expected);
+    }
+
+    #[test]
+    fn bodies_are_described() {
+        let assembly = fixture::clamped_start();
+        let trajectory = fixture::trajectory(&assembly);
+        let mut archive = archive(&assembly, &trajectory);
+        let (shape, times) = read::<f64>(&mut archive, "time_ns");
+        assert_eq!(shape, [3]);
+        assert_eq!(times, [0.0, 0.1, 1.0 / 3.0]);
+        let s_nm: Vec<f64> = assembly.points.iter().map(|p| p.s_nm).collect();
+        assert_eq!(read::<f64>(&mut archive, "s_nm").1, s_nm);
+        let frame_s_nm: Vec<f64> = assembly.frames.iter().map(|f| f.s_nm).collect();
+        assert_eq!(read::<f64>(&mut archive, "frame_s_nm").1, frame_s_nm);
+        let (_, kinds) = read::<u8>(&mut archive, "kind");
+        // The filament begins with monomers (0) and ends with a rod's nodes (1).
+        assert_eq!((kinds[0], kinds[kinds.len() - 1]), (0, 1));
+        assert_eq!(kinds.len(), assembly.points.len());
+        let (_, frame_kinds) = read::<u8>(&mut archive, "frame_kind");
+        assert!(frame_kinds.contains(&0) && frame_kinds.contains(&2) && frame_kinds.contains(&3));
+        assert_eq!(archive.len(), 9);
+    }
+}

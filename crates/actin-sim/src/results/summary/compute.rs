@@ -1,0 +1,218 @@
+//! The numbers of a summary, from the last record of a run.
+
+use super::{
+    EndReaction, EndReactions, EnergySummary, ResidualSummary, RunStatus, StabilitySummary,
+    Summary, WorkSummary,
+};
+use crate::results::energies::{Totals, distinct, sum_where};
+use crate::{Assembly, End, Reaction, Record, RunReport};
+use actin_equilibrium::Certificate;
+use actin_mechanics::{Loads, State, Vector3};
+
+impl Summary {
+    /// The summary of a run of `assembly` that ended with the record `last`.
+    pub fn new(assembly: &Assembly, last: &Record, report: &RunReport) -> Self {
+        let tip = reported_tip(assembly);
+        let equilibrium = report.equilibrium.as_ref();
+        let tip_nm = assembly.tip_nm(&last.state, tip);
+        let tip_at_rest_nm = assembly.tip_nm(&assembly.rest, tip);
+        Self {
+            scene: assembly.scene.title.clone(),
+            status: if report.converged {
+                RunStatus::Converged
+            } else {
+                RunStatus::Completed
+            },
+            counts: assembly.counts(),
+            time_ns: last.time_ns,
+            time_step_ns: report.time_step_ns,
+            largest_frequency_rad_per_ns: report.largest_frequency_rad_per_ns,
+            stability: equilibrium.map(|e| StabilitySummary::new(&e.certificate)),
+            energy_pn_nm: EnergySummary::new(assembly, last),
+            tip_nm: tip_nm.into(),
+            tip_displacement_nm: (tip_nm - tip_at_rest_nm).into(),
+            end_reactions: EndReactions::new(assembly, &last.state),
+            residual: ResidualSummary {
+                force_pn: last.residual_force_pn,
+                torque_pn_nm: last.residual_torque_pn_nm,
+            },
+            lowest_stiffness_eigenvalue: equilibrium.and_then(|e| e.lowest_eigenvalue),
+            work: WorkSummary {
+                steps: report.steps,
+                force_evaluations: report.force_evaluations,
+                newton_iterations: equilibrium.map_or(0, |e| e.newton_iterations),
+            },
+            wall_s: report.wall_s,
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            seed: assembly.scene.filament.monomers.seed,
+        }
+    }
+}
+
+impl StabilitySummary {
+    fn new(certificate: &Certificate) -> Self {
+        Self {
+            stable: certificate.negative == 0,
+            negative_eigenvalues: certificate.negative,
+            unresolved_eigenvalues: certificate.unresolved,
+            resolution_pn_per_nm: certificate.resolution,
+        }
+    }
+}
+
+impl EnergySummary {
+    fn new(assembly: &Assembly, record: &Record) -> Self {
+        let terms = &assembly.terms;
+        let totals = Totals::new(terms, record);
+        let names = distinct(terms, |term| term.name);
+        let of_name = |name: &'static str| {
+            let energy = sum_where(terms, record, |term| term.name == name);
+            (name.to_owned(), energy)
+        };
+        Self {
+            total: totals.total,
+            potential: totals.potential,
+            elastic: totals.elastic,
+            kinetic: totals.kinetic,
+            terms: names.into_iter().map(of_name).collect(),
+        }
+    }
+}
+
+impl EndReactions {
+    fn new(assembly: &Assembly, state: &State) -> Self {
+        // The system's own loads belong to its present state, which need not be the record's.
+        let mut loads = Loads::zeros(state);
+        for interaction in assembly.system.interactions() {
+            interaction.add_loads(state, &mut loads);
+        }
+        let at = |end| {
+            let clamp = assembly.clamps.iter().find(|clamp| clamp.end == end)?;
+            Some(clamp.reaction(state, &loads).into())
+        };
+        Self {
+            start: at(End::Start),
+            end: at(End::End),
+        }
+    }
+}
+
+impl From<Reaction> for EndReaction {
+    fn from(reaction: Reaction) -> Self {
+        let array = |v: Vector3| [v.x, v.y, v.z];
+        Self {
+            force_pn: array(reaction.force_pn),
+            torque_pn_nm: array(reaction.torque_pn_nm),
+        }
+    }
+}
+
+/// The end whose tip is reported: the last, unless it is clamped and the first is free.
+fn reported_tip(assembly: &Assembly) -> End {
+    let is_clamped = |end| assembly.clamps.iter().any(|clamp| clamp.end == end);
+    if is_clamped(End::End) && !is_clamped(End::Start) {
+        End::Start
+    } else {
+        End::End
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::fixture;
+    use actin_mechanics::testing::resultant;
+
+    fn last_summary(assembly: &Assembly) -> (Record, Summary) {
+        let last = fixture::trajectory(assembly).records.pop().unwrap();
+        let summary = Summary::new(assembly, &last, &fixture::report());
+        (last, summary)
+    }
+
+    /// Internal forces cancel, so what the clamp does, plus the end force, is the sum of forces
+    /// on the free points. Loads taken from the system, which is still at rest, would give no
+    /// reaction at all; a missing sign would give the opposite one.
+    #[test]
+    fn reaction_balances_the_end_force_and_what_is_not_at_rest() {
+        for assembly in [fixture::clamped_start(), fixture::clamped_end()] {
+            let (last, summary) = last_summary(&assembly);
+            let loads = fixture::loads(&assembly, &last.state);
+            let points = &last.state.points;
+            let free: Vector3 = (0..points.len())
+                .filter(|&i| points.is_free(i))
+                .map(|i| loads.force.get(i))
+                .sum();
+            let scale: f64 = loads.force.iter().map(|f| f.norm()).sum();
+            let reactions = summary.end_reactions;
+            let reaction = reactions.start.or(reactions.end).unwrap();
+            let end_force = Vector3::new(2.0, -1.0, 0.5);
+            let rest = Vector3::from(reaction.force_pn) + end_force - free;
+            // Round-off of a sum of forces that cancel.
+            assert!(rest.norm() <= 1e-12 * scale, "{rest} of {scale}");
+            assert!(Vector3::from(reaction.force_pn).norm() > 1e-3);
+        }
+    }
+
+    /// The same for torques about the clamped point, couples included.
+    #[test]
+    fn reaction_torque_is_about_the_clamped_point() {
+        let assembly = fixture::clamped_start();
+        let (mut last, summary) = last_summary(&assembly);
+        // The random state moves held bodies too, and the clamped point with them.
+        let about = assembly.clamps[0].point_nm(&last.state);
+        for i in 0..last.state.points.len() {
+            last.state.points.position.add(i, -about);
+        }
+        let mut loads = fixture::loads(&assembly, &last.state);
+        for &i in &assembly.clamps[0].points {
+            loads.force.set(i, Vector3::zeros());
+        }
+        for &i in &assembly.clamps[0].frames {
+            loads.torque.set(i, Vector3::zeros());
+        }
+        let (_, free) = resultant(&last.state, &loads);
+        let tip = assembly.tip_nm(&last.state, End::End);
+        let end_torque = tip.cross(&Vector3::new(2.0, -1.0, 0.5));
+        let reaction = summary.end_reactions.start.unwrap();
+        let rest = Vector3::from(reaction.torque_pn_nm) + end_torque - free;
+        let scale: f64 = (0..last.state.points.len())
+            .map(|i| last.state.points.position.get(i).norm() * loads.force.get(i).norm())
+            .sum();
+        // Round-off of moments that cancel.
+        assert!(rest.norm() <= 1e-12 * scale, "{rest} of {scale}");
+    }
+
+    /// A force on a free start moves the start: reporting the held end would report zero.
+    #[test]
+    fn the_tip_is_the_free_end() {
+        let at_end = fixture::clamped_start();
+        let (last, summary) = last_summary(&at_end);
+        let tip = last.state.points.position.get(at_end.points.len() - 1);
+        assert_eq!(Vector3::from(summary.tip_nm), tip);
+        let built = at_end.rest.points.position.get(at_end.points.len() - 1);
+        let moved = Vector3::from(summary.tip_displacement_nm);
+        assert_eq!(moved, tip - built);
+
+        let at_start = fixture::clamped_end();
+        let (last, summary) = last_summary(&at_start);
+        let tip = last.state.points.position.get(0);
+        assert_eq!(Vector3::from(summary.tip_nm), tip);
+        assert!(summary.end_reactions.start.is_none() && summary.end_reactions.end.is_some());
+    }
+
+    #[test]
+    fn energies_are_those_of_the_last_record() {
+        let assembly = fixture::clamped_start();
+        let (last, summary) = last_summary(&assembly);
+        let energy = &summary.energy_pn_nm;
+        let potential: f64 = last.energies_pn_nm.iter().sum();
+        assert_eq!(energy.potential.to_bits(), potential.to_bits());
+        let total = potential + last.state.kinetic_energy();
+        assert_eq!(energy.total.to_bits(), total.to_bits());
+        let terms: f64 = energy.terms.values().sum();
+        let scale: f64 = energy.terms.values().map(|e| e.abs()).sum();
+        // A few additions in another order: some units of round-off.
+        assert!((terms - potential).abs() <= 1e-14 * scale);
+        assert!((energy.elastic + energy.terms["load"] - potential).abs() <= 1e-14 * scale);
+    }
+}

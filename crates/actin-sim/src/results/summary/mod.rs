@@ -1,0 +1,320 @@
+//! `summary.json`: the last record of a run in numbers.
+
+mod compute;
+
+use super::{RunDirectoryError, finite::ensure_finite};
+use crate::Counts;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// What a run ended with. Field names are the keys of `summary.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Title of the scene.
+    pub scene: String,
+    /// How the run ended.
+    pub status: RunStatus,
+    /// Number of bodies and elements.
+    #[serde(with = "CountKeys")]
+    pub counts: Counts,
+    /// Simulated time (ns); of an equilibrium the path parameter, which counts stages.
+    pub time_ns: f64,
+    /// Time step (ns); none of an equilibrium.
+    pub time_step_ns: Option<f64>,
+    /// Largest frequency found at the start (rad/ns); none of an equilibrium.
+    pub largest_frequency_rad_per_ns: Option<f64>,
+    /// Whether the equilibrium is stable; none of a motion in time.
+    pub stability: Option<StabilitySummary>,
+    /// Energies.
+    pub energy_pn_nm: EnergySummary,
+    /// Position of the tip (nm, lab frame): that of the filament's end, or that of its start if
+    /// the end is clamped and the start is free.
+    pub tip_nm: [f64; 3],
+    /// Displacement of the tip from the state as built (nm, lab frame).
+    pub tip_displacement_nm: [f64; 3],
+    /// What holds the clamped ends.
+    pub end_reactions: EndReactions,
+    /// How far from an equilibrium the last record is.
+    pub residual: ResidualSummary,
+    /// Lowest eigenvalue of the stiffness; none unless an equilibrium was asked for it.
+    pub lowest_stiffness_eigenvalue: Option<f64>,
+    /// What the run cost in work.
+    pub work: WorkSummary,
+    /// What the run cost in time (s).
+    pub wall_s: f64,
+    /// Version of this crate.
+    pub version: String,
+    /// Seed of the bond anchors.
+    pub seed: u64,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RunStatus {
+    /// The stop rule was met.
+    Converged,
+    /// The time that was asked for has passed.
+    Completed,
+}
+
+/// What the eigenvalues of the stiffness say of an equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StabilitySummary {
+    /// Whether it is a minimum of the energy, if need be with neutral modes.
+    pub stable: bool,
+    /// Number of negative eigenvalues: more than none is a saddle.
+    pub negative_eigenvalues: usize,
+    /// Number of eigenvalues that cannot be told from zero.
+    pub unresolved_eigenvalues: usize,
+    /// Below this magnitude eigenvalues cannot be told from zero (pN/nm).
+    pub resolution_pn_per_nm: f64,
+}
+
+/// Energies of one record (pN nm).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EnergySummary {
+    /// Potential and kinetic energy.
+    pub total: f64,
+    /// Energy of all interactions.
+    pub potential: f64,
+    /// Energy of all interactions but loads.
+    pub elastic: f64,
+    /// Kinetic energy of the free bodies.
+    pub kinetic: f64,
+    /// Energy of each kind of interaction, under its name.
+    #[serde(flatten)]
+    pub terms: BTreeMap<String, f64>,
+}
+
+/// Reactions at the clamped ends; a free end has none and no key.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EndReactions {
+    /// At the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<EndReaction>,
+    /// At the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub end: Option<EndReaction>,
+}
+
+/// What a clamp does to the filament.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EndReaction {
+    /// Force on the filament (pN, lab frame).
+    pub force_pn: [f64; 3],
+    /// Torque on the filament about the clamped point (pN nm, lab frame).
+    pub torque_pn_nm: [f64; 3],
+}
+
+/// Largest loads on free bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ResidualSummary {
+    /// Largest force on a free point (pN).
+    pub force_pn: f64,
+    /// Largest torque on a free frame (pN nm).
+    pub torque_pn_nm: f64,
+}
+
+/// Work that a run took.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct WorkSummary {
+    /// Time steps.
+    pub steps: u64,
+    /// Evaluations of all loads.
+    pub force_evaluations: u64,
+    /// Newton iterations; none in dynamics.
+    pub newton_iterations: u64,
+}
+
+/// The keys of [`Counts`] in the file.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Counts")]
+struct CountKeys {
+    monomers: usize,
+    bonds: usize,
+    segments: usize,
+    junctions: usize,
+    dofs: usize,
+}
+
+impl Summary {
+    /// Refuses numbers that are not finite: JSON has no way to write them.
+    ///
+    /// # Errors
+    /// The first such number, with its key.
+    pub(super) fn ensure_finite(&self, file: &str) -> Result<(), RunDirectoryError> {
+        for (key, value) in self.scalars() {
+            ensure_finite(file, &key, &[], [value])?;
+        }
+        for (key, vector) in self.vectors() {
+            ensure_finite(file, key, &[3], vector)?;
+        }
+        Ok(())
+    }
+
+    fn scalars(&self) -> Vec<(String, f64)> {
+        let energy = &self.energy_pn_nm;
+        let mut scalars: Vec<_> = [
+            ("time_ns", self.time_ns),
+            ("wall_s", self.wall_s),
+            ("residual.force_pn", self.residual.force_pn),
+            ("residual.torque_pn_nm", self.residual.torque_pn_nm),
+            ("energy_pn_nm.total", energy.total),
+            ("energy_pn_nm.potential", energy.potential),
+            ("energy_pn_nm.elastic", energy.elastic),
+            ("energy_pn_nm.kinetic", energy.kinetic),
+        ]
+        .map(|(key, value)| (key.to_owned(), value))
+        .into();
+        let terms = energy.terms.iter();
+        scalars.extend(terms.map(|(name, value)| (format!("energy_pn_nm.{name}"), *value)));
+        let steps = [
+            ("time_step_ns", self.time_step_ns),
+            (
+                "largest_frequency_rad_per_ns",
+                self.largest_frequency_rad_per_ns,
+            ),
+        ];
+        scalars.extend(
+            steps
+                .into_iter()
+                .filter_map(|(k, v)| Some((k.to_owned(), v?))),
+        );
+        let eigenvalue = self.lowest_stiffness_eigenvalue.into_iter();
+        scalars.extend(eigenvalue.map(|value| ("lowest_stiffness_eigenvalue".to_owned(), value)));
+        scalars
+    }
+
+    fn vectors(&self) -> Vec<(&'static str, [f64; 3])> {
+        let mut vectors = vec![
+            ("tip_nm", self.tip_nm),
+            ("tip_displacement_nm", self.tip_displacement_nm),
+        ];
+        if let Some(start) = self.end_reactions.start {
+            vectors.push(("end_reactions.start.force_pn", start.force_pn));
+            vectors.push(("end_reactions.start.torque_pn_nm", start.torque_pn_nm));
+        }
+        if let Some(end) = self.end_reactions.end {
+            vectors.push(("end_reactions.end.force_pn", end.force_pn));
+            vectors.push(("end_reactions.end.torque_pn_nm", end.torque_pn_nm));
+        }
+        vectors
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::fixture;
+    use serde_json::Value;
+
+    fn summary() -> Summary {
+        let assembly = fixture::clamped_start();
+        let last = fixture::trajectory(&assembly).records.pop().unwrap();
+        Summary::new(&assembly, &last, &fixture::report())
+    }
+
+    /// The keys that other programs rely on, nested ones included.
+    #[test]
+    fn keys_are_the_fixed_ones() {
+        let json = serde_json::to_value(summary()).unwrap();
+        for path in [
+            "/scene",
+            "/status",
+            "/counts/monomers",
+            "/counts/bonds",
+            "/counts/segments",
+            "/counts/junctions",
+            "/counts/dofs",
+            "/energy_pn_nm/total",
+            "/energy_pn_nm/potential",
+            "/energy_pn_nm/kinetic",
+            "/energy_pn_nm/elastic",
+            "/energy_pn_nm/bonds",
+            "/energy_pn_nm/rod",
+            "/energy_pn_nm/junction",
+            "/energy_pn_nm/load",
+            "/tip_nm/2",
+            "/tip_displacement_nm/2",
+            "/end_reactions/start/force_pn/2",
+            "/end_reactions/start/torque_pn_nm/2",
+            "/residual/force_pn",
+            "/residual/torque_pn_nm",
+            "/lowest_stiffness_eigenvalue",
+            "/work/steps",
+            "/work/force_evaluations",
+            "/work/newton_iterations",
+            "/wall_s",
+            "/version",
+            "/seed",
+            "/time_ns",
+            "/time_step_ns",
+            "/largest_frequency_rad_per_ns",
+        ] {
+            assert!(json.pointer(path).is_some(), "{path} in {json:#}");
+        }
+        assert_eq!(json["status"], "completed");
+        assert_eq!(json["lowest_stiffness_eigenvalue"], Value::Null);
+        assert_eq!(json["version"], env!("CARGO_PKG_VERSION"));
+        assert!(json["end_reactions"].get("end").is_none());
+        // Beyond 2^53: a seed that went through a float would come back as another.
+        assert_eq!(json["seed"], u64::MAX);
+    }
+
+    #[test]
+    fn a_met_stop_rule_is_converged() {
+        let json = serde_json::to_value(RunStatus::Converged).unwrap();
+        assert_eq!(json, "converged");
+    }
+
+    /// The text holds enough digits for every bit: a parser that rounds correctly, as `str::parse`
+    /// does, finds the number that was written. (`serde_json` itself rounds to within one unit
+    /// unless it is built with `float_roundtrip`.)
+    #[test]
+    fn the_text_is_exact_and_reads_back() {
+        let summary = summary();
+        let text = serde_json::to_string_pretty(&summary).unwrap();
+        for (key, value) in summary.scalars() {
+            let leaf = format!("\"{}\": ", key.rsplit('.').next().unwrap());
+            let mut found = text.split(&leaf).skip(1).map(|after| {
+                let end = after.find([',', '\n']).unwrap();
+                after[..end].parse::<f64>()
+            });
+            assert!(found.any(|v| v == Ok(value)), "{key} = {value:?} in {text}");
+        }
+        let back: Summary = serde_json::from_str(&text).unwrap();
+        for ((key, a), (_, b)) in summary.scalars().iter().zip(back.scalars()) {
+            assert!(
+                (a - b).abs() <= f64::EPSILON * a.abs(),
+                "{key}: {a} and {b}"
+            );
+        }
+        assert_eq!(back.counts, summary.counts);
+        assert_eq!(back.work, summary.work);
+        assert_eq!((back.scene, back.seed), (summary.scene, summary.seed));
+    }
+
+    #[test]
+    fn a_number_that_json_cannot_hold_is_refused_with_its_key() {
+        let mut summary = summary();
+        summary.tip_displacement_nm[1] = f64::NAN;
+        let error = summary.ensure_finite("summary.json").unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .starts_with("summary.json: tip_displacement_nm[1] is NaN:")
+        );
+        summary.tip_displacement_nm[1] = 0.0;
+        summary
+            .energy_pn_nm
+            .terms
+            .insert("rod".into(), f64::INFINITY);
+        let error = summary.ensure_finite("summary.json").unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .starts_with("summary.json: energy_pn_nm.rod is inf:")
+        );
+    }
+}

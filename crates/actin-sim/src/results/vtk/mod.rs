@@ -1,0 +1,207 @@
+//! Records as pictures: rods as lines, monomers as vertices, each point with its frame.
+//!
+//! In `ParaView`, a glyph "3D Glyphs" of a sphere of radius 1 with orientation mode Quaternion,
+//! orientation array `orientation` and scale array `semi_axes_nm` (by vector components) draws
+//! the monomers as the ellipsoids that they are.
+
+mod base64;
+mod poly_data;
+mod xml;
+
+use super::{RunDirectoryError, finite::ensure_finite};
+use crate::{Assembly, BodyKind};
+use actin_mechanics::{State, UnitQuaternion, Vector3};
+use poly_data::{Array, PolyData, Values};
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+/// What does not change between the pictures of one run.
+#[derive(Debug)]
+pub(super) struct Drawing<'a> {
+    assembly: &'a Assembly,
+    /// For each point the index of its section, if it has one.
+    section: Vec<Option<usize>>,
+    /// For each point the frame that is drawn at it: a monomer's own, a node's neighbouring
+    /// segment.
+    frame: Vec<Option<usize>>,
+}
+
+impl<'a> Drawing<'a> {
+    /// Prepares the pictures of a run.
+    pub(super) fn new(assembly: &'a Assembly) -> Self {
+        let section: Vec<_> = (0..assembly.points.len())
+            .map(|i| assembly.sections.iter().position(|s| s.points.contains(&i)))
+            .collect();
+        let frame = (0..assembly.points.len())
+            .map(|i| {
+                let own = assembly.points[i].frame;
+                own.or_else(|| section[i].and_then(|s| segment_at(assembly, s, i)))
+            })
+            .collect();
+        Self {
+            assembly,
+            section,
+            frame,
+        }
+    }
+
+    /// The picture of one state.
+    pub(super) fn picture(&self, time_ns: f64, state: &State) -> Picture {
+        let turns: Vec<UnitQuaternion> = self
+            .frame
+            .iter()
+            .map(|frame| {
+                frame.map_or_else(UnitQuaternion::identity, |f| {
+                    state.frames.orientation.get(f)
+                })
+            })
+            .collect();
+        let arrays = self.fixed_arrays().into_iter().chain(frame_arrays(&turns));
+        Picture(PolyData {
+            time: time_ns,
+            points: flat(state.points.position.iter()),
+            arrays: arrays.collect(),
+            vertices: self.vertices(),
+            lines: self.lines(),
+        })
+    }
+
+    fn fixed_arrays(&self) -> [Array; 4] {
+        let points = &self.assembly.points;
+        let section = |i: &Option<usize>| i.map_or(-1, poly_data::to_i64);
+        [
+            array(
+                "kind",
+                1,
+                Values::UInt8(points.iter().map(|p| p.kind as u8).collect()),
+            ),
+            array(
+                "section",
+                1,
+                Values::Int64(self.section.iter().map(section).collect()),
+            ),
+            array(
+                "s_nm",
+                1,
+                Values::Float64(points.iter().map(|p| p.s_nm).collect()),
+            ),
+            array("semi_axes_nm", 3, Values::Float64(self.semi_axes_nm())),
+        ]
+    }
+
+    /// Semi-axes along d1, d2 and d3; zero for nodes.
+    fn semi_axes_nm(&self) -> Vec<f64> {
+        let monomer = self.assembly.scene.filament.monomers.semi_axes_nm;
+        let semi_axes = |kind| match kind {
+            BodyKind::Monomer => monomer,
+            _ => [0.0; 3],
+        };
+        let points = self.assembly.points.iter();
+        points.flat_map(|point| semi_axes(point.kind)).collect()
+    }
+
+    fn vertices(&self) -> Vec<usize> {
+        let is_monomer = |i: &usize| self.assembly.points[*i].kind == BodyKind::Monomer;
+        (0..self.assembly.points.len()).filter(is_monomer).collect()
+    }
+
+    fn lines(&self) -> Vec<std::ops::Range<usize>> {
+        let rods = self.assembly.sections.iter().filter(|s| !s.is_ellipsoids());
+        rods.map(|section| section.points.clone()).collect()
+    }
+}
+
+/// One picture, ready to be written.
+#[derive(Debug)]
+pub(super) struct Picture(PolyData);
+
+impl Picture {
+    /// Refuses coordinates and data that are not finite.
+    ///
+    /// # Errors
+    /// The first such number, with point and component.
+    pub(super) fn ensure_finite(&self, file: &str) -> Result<(), RunDirectoryError> {
+        let PolyData {
+            time,
+            points,
+            arrays,
+            ..
+        } = &self.0;
+        let count = points.len() / 3;
+        ensure_finite(file, "TimeValue", &[], [*time])?;
+        ensure_finite(file, "Points", &[count, 3], points.iter().copied())?;
+        for array in arrays {
+            if let Values::Float64(values) = &array.values {
+                let shape = [count, array.components];
+                ensure_finite(file, array.name, &shape, values.iter().copied())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the picture as a `.vtp` file.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        self.0.write(out)
+    }
+}
+
+/// The segment at node `point` of rod `section`: the one that begins there, or the last.
+fn segment_at(assembly: &Assembly, section: usize, point: usize) -> Option<usize> {
+    let span = &assembly.sections[section];
+    let last = span.frames.end.checked_sub(1)?;
+    let begins_there = span.frames.start + (point - span.points.start);
+    (!span.frames.is_empty()).then(|| begins_there.min(last))
+}
+
+/// Orientation as a quaternion (w, x, y, z; body to lab) and as the body axes in the lab frame.
+fn frame_arrays(turns: &[UnitQuaternion]) -> [Array; 4] {
+    let quaternions = turns.iter().flat_map(|q| [q.w, q.i, q.j, q.k]).collect();
+    let axis = |e: Vector3| Values::Float64(flat(turns.iter().map(move |q| q * e)));
+    [
+        array("orientation", 4, Values::Float64(quaternions)),
+        array("d1", 3, axis(Vector3::x())),
+        array("d2", 3, axis(Vector3::y())),
+        array("d3", 3, axis(Vector3::z())),
+    ]
+}
+
+fn array(name: &'static str, components: usize, values: Values) -> Array {
+    Array {
+        name,
+        components,
+        values,
+    }
+}
+
+fn flat(vectors: impl Iterator<Item = Vector3>) -> Vec<f64> {
+    vectors.flat_map(|v| [v.x, v.y, v.z]).collect()
+}
+
+/// The collection file that gives each picture its time; `pictures` are times (ns) and paths
+/// relative to the collection.
+pub(super) fn collection<'a>(
+    title: &str,
+    pictures: impl Iterator<Item = (f64, &'a str)>,
+) -> String {
+    let title = xml::escape(title);
+    let mut text = String::from(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",
+    );
+    for (time_ns, file) in pictures {
+        let file = xml::escape(file);
+        writeln!(
+            text,
+            r#"<DataSet timestep="{time_ns:?}" group="" part="0" name="{title}" file="{file}"/>"#
+        )
+        .expect("a String takes any text");
+    }
+    text.push_str("</Collection>\n</VTKFile>\n");
+    text
+}
+
+#[cfg(test)]
+mod tests;

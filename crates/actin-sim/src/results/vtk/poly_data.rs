@@ -1,0 +1,278 @@
+//! A writer of VTK `PolyData` files: points with data, vertices and lines. It knows no actin.
+//!
+//! Data stand in the file as base64 of their little-endian bytes, after their length in bytes as
+//! a 64-bit number. So every bit arrives, whatever decimal parser the reader has; the file is half
+//! as long as with decimals, and one `DataArray` stays one line.
+
+use super::base64;
+use std::io::{self, Write};
+use std::ops::Range;
+
+/// Numbers of one array.
+#[derive(Debug)]
+pub(super) enum Values {
+    /// Floating-point numbers.
+    Float64(Vec<f64>),
+    /// Signed integers.
+    Int64(Vec<i64>),
+    /// Small codes.
+    UInt8(Vec<u8>),
+}
+
+impl Values {
+    fn type_name(&self) -> &'static str {
+        match self {
+            Self::Float64(_) => "Float64",
+            Self::Int64(_) => "Int64",
+            Self::UInt8(_) => "UInt8",
+        }
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        match self {
+            Self::Float64(values) => values.iter().flat_map(|v| v.to_le_bytes()).collect(),
+            Self::Int64(values) => values.iter().flat_map(|v| v.to_le_bytes()).collect(),
+            Self::UInt8(values) => values.clone(),
+        }
+    }
+}
+
+/// A named array, `components` numbers for each point.
+#[derive(Debug)]
+pub(super) struct Array {
+    /// Name.
+    pub name: &'static str,
+    /// Numbers per point.
+    pub components: usize,
+    /// All numbers, point after point.
+    pub values: Values,
+}
+
+/// A picture: points with data, some of them drawn as vertices, some joined to lines.
+#[derive(Debug)]
+pub(super) struct PolyData {
+    /// Time that the picture shows, in the unit of the caller.
+    pub time: f64,
+    /// Coordinates, three for each point.
+    pub points: Vec<f64>,
+    /// Data of the points.
+    pub arrays: Vec<Array>,
+    /// Points that are vertices.
+    pub vertices: Vec<usize>,
+    /// Runs of points that are lines.
+    pub lines: Vec<Range<usize>>,
+}
+
+impl PolyData {
+    /// Writes the file (VTK XML format 1.0).
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        writeln!(out, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
+        writeln!(
+            out,
+            r#"<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">"#
+        )?;
+        writeln!(out, "<PolyData>")?;
+        self.write_time(out)?;
+        writeln!(
+            out,
+            r#"<Piece NumberOfPoints="{}" NumberOfVerts="{}" NumberOfLines="{}" NumberOfStrips="0" NumberOfPolys="0">"#,
+            self.points.len() / 3,
+            self.vertices.len(),
+            self.lines.len()
+        )?;
+        self.write_points(out)?;
+        self.write_cells(out)?;
+        writeln!(out, "</Piece>\n</PolyData>\n</VTKFile>")
+    }
+
+    /// The time under the name by which VTK's readers find it.
+    fn write_time(&self, out: &mut impl Write) -> io::Result<()> {
+        writeln!(out, "<FieldData>")?;
+        writeln!(
+            out,
+            r#"<DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="binary">{}</DataArray>"#,
+            block(&self.time.to_le_bytes())
+        )?;
+        writeln!(out, "</FieldData>")
+    }
+
+    fn write_points(&self, out: &mut impl Write) -> io::Result<()> {
+        writeln!(out, "<PointData>")?;
+        for array in &self.arrays {
+            write_array(out, array.name, array.components, &array.values)?;
+        }
+        writeln!(out, "</PointData>\n<Points>")?;
+        // Cloning keeps one code path for all arrays; the copy is small beside the encoded text.
+        write_array(out, "Points", 3, &Values::Float64(self.points.clone()))?;
+        writeln!(out, "</Points>")
+    }
+
+    fn write_cells(&self, out: &mut impl Write) -> io::Result<()> {
+        let single = self.vertices.iter().map(|&i| i..i + 1);
+        write_kind(out, "Verts", single)?;
+        write_kind(out, "Lines", self.lines.iter().cloned())
+    }
+}
+
+/// Cells of one kind: the points of all cells, then where each cell ends among them.
+fn write_kind(
+    out: &mut impl Write,
+    kind: &str,
+    cells: impl Iterator<Item = Range<usize>> + Clone,
+) -> io::Result<()> {
+    let connectivity = cells.clone().flatten().map(to_i64).collect();
+    let offsets = cells
+        .scan(0, |end, cell| {
+            *end += cell.len();
+            Some(to_i64(*end))
+        })
+        .collect();
+    writeln!(out, "<{kind}>")?;
+    write_array(out, "connectivity", 1, &Values::Int64(connectivity))?;
+    write_array(out, "offsets", 1, &Values::Int64(offsets))?;
+    writeln!(out, "</{kind}>")
+}
+
+fn write_array(
+    out: &mut impl Write,
+    name: &str,
+    components: usize,
+    values: &Values,
+) -> io::Result<()> {
+    writeln!(
+        out,
+        r#"<DataArray type="{}" Name="{name}" NumberOfComponents="{components}" format="binary">{}</DataArray>"#,
+        values.type_name(),
+        block(&values.bytes())
+    )
+}
+
+/// Length and bytes, encoded as one run.
+fn block(bytes: &[u8]) -> String {
+    let mut run = Vec::with_capacity(8 + bytes.len());
+    run.extend((bytes.len() as u64).to_le_bytes());
+    run.extend(bytes);
+    base64::encode(&run)
+}
+
+/// An index as VTK stores it.
+pub(super) fn to_i64(index: usize) -> i64 {
+    i64::try_from(index).expect("an index into memory is below 2^63")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fmt::Debug;
+    use vtkio::model::{Attribute, DataSet, IOBuffer, PolyDataPiece, VertexNumbers, Vtk};
+
+    fn picture() -> PolyData {
+        PolyData {
+            time: 0.3,
+            points: (0..15).map(|i| 1.0 / f64::from(i + 1)).collect(),
+            arrays: vec![
+                Array {
+                    name: "kind",
+                    components: 1,
+                    values: Values::UInt8(vec![0, 0, 1, 1, 255]),
+                },
+                Array {
+                    name: "section",
+                    components: 1,
+                    values: Values::Int64(vec![0, 0, 1, 1, -1]),
+                },
+                Array {
+                    name: "pair",
+                    components: 2,
+                    values: Values::Float64(vec![
+                        0.1, -0.0, 5e-324, 1e300, 1e-300, -2.5, 7.0, 8.0, 9.0, 10.0,
+                    ]),
+                },
+            ],
+            vertices: vec![0, 1],
+            lines: std::iter::once(2..5).collect(),
+        }
+    }
+
+    fn parse(picture: &PolyData) -> Box<PolyDataPiece> {
+        let mut bytes = Vec::new();
+        picture.write(&mut bytes).unwrap();
+        let vtk = Vtk::parse_xml(bytes.as_slice()).unwrap();
+        let DataSet::PolyData { mut pieces, .. } = vtk.data else {
+            panic!("not PolyData");
+        };
+        let vtkio::model::Piece::Inline(piece) = pieces.remove(0) else {
+            panic!("not inline");
+        };
+        piece
+    }
+
+    fn floats(values: &[f64]) -> IOBuffer {
+        IOBuffer::F64(values.to_vec())
+    }
+
+    fn assert_same(found: &impl Debug, expected: &impl Debug) {
+        // Debug tells -0.0 from 0.0, which == does not.
+        assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+    }
+
+    /// A reader that shares no code with the writer finds every bit; a wrong header length or
+    /// byte order shows up as an error or as other numbers.
+    #[test]
+    fn vtkio_reads_back_what_was_written() {
+        let picture = picture();
+        let piece = parse(&picture);
+        assert_same(&piece.points, &floats(&picture.points));
+        let arrays: Vec<_> = piece
+            .data
+            .point
+            .iter()
+            .map(|attribute| match attribute {
+                Attribute::DataArray(array) => (array.name.as_str(), &array.data),
+                Attribute::Field { .. } => panic!("a field among the point data"),
+            })
+            .collect();
+        let Values::Float64(pair) = &picture.arrays[2].values else {
+            panic!();
+        };
+        let expected = [
+            ("kind", &IOBuffer::U8(vec![0, 0, 1, 1, 255])),
+            ("section", &IOBuffer::I64(vec![0, 0, 1, 1, -1])),
+            ("pair", &floats(pair)),
+        ];
+        assert_same(&arrays, &expected);
+    }
+
+    /// Offsets are ends, not starts: the first vertex ends at 1.
+    #[test]
+    fn vtkio_finds_vertices_and_lines() {
+        let piece = parse(&picture());
+        let cells = |connectivity: &[u64], offsets: &[u64]| {
+            Some(VertexNumbers::XML {
+                connectivity: connectivity.to_vec(),
+                offsets: offsets.to_vec(),
+            })
+        };
+        assert_eq!(piece.verts, cells(&[0, 1], &[1, 2]));
+        assert_eq!(piece.lines, cells(&[2, 3, 4], &[3]));
+    }
+
+    /// A filament of one kind has no cells of the other: empty arrays are still arrays.
+    #[test]
+    fn a_picture_without_lines_is_read() {
+        let picture = PolyData {
+            lines: Vec::new(),
+            ..picture()
+        };
+        let piece = parse(&picture);
+        assert_same(&piece.points, &floats(&picture.points));
+        let lines = piece.lines.map_or(0, |lines| match lines {
+            VertexNumbers::XML { connectivity, .. } => connectivity.len(),
+            VertexNumbers::Legacy { num_cells, .. } => num_cells as usize,
+        });
+        assert_eq!(lines, 0);
+    }
+}

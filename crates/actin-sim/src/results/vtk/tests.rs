@@ -1,0 +1,169 @@
+//! Pictures, parsed back with vtkio.
+
+use super::*;
+use crate::results::fixture;
+use actin_mechanics::Matrix3;
+use vtkio::model::{Attribute, DataSet, IOBuffer, Piece, PolyDataPiece, VertexNumbers, Vtk};
+
+/// The second record of the mixed filament, drawn and parsed.
+fn drawn() -> (Assembly, State, Box<PolyDataPiece>) {
+    let assembly = fixture::clamped_start();
+    let record = fixture::trajectory(&assembly).records.remove(1);
+    let picture = Drawing::new(&assembly).picture(record.time_ns, &record.state);
+    picture.ensure_finite("0001.vtp").unwrap();
+    let mut bytes = Vec::new();
+    picture.write(&mut bytes).unwrap();
+    let DataSet::PolyData { mut pieces, .. } = Vtk::parse_xml(bytes.as_slice()).unwrap().data
+    else {
+        panic!("not PolyData");
+    };
+    let Piece::Inline(piece) = pieces.remove(0) else {
+        panic!("not inline");
+    };
+    (assembly, record.state, piece)
+}
+
+fn data<'a>(piece: &'a PolyDataPiece, name: &str) -> &'a IOBuffer {
+    let named = |attribute: &'a Attribute| match attribute {
+        Attribute::DataArray(array) if array.name == name => Some(&array.data),
+        _ => None,
+    };
+    piece.data.point.iter().find_map(named).unwrap()
+}
+
+fn floats(buffer: &IOBuffer) -> &[f64] {
+    let IOBuffer::F64(values) = buffer else {
+        panic!("not 64-bit floats");
+    };
+    values
+}
+
+/// Comparisons are exact: the file holds the same 64 bits.
+#[test]
+fn points_are_positions() {
+    let (assembly, state, piece) = drawn();
+    let points = floats(&piece.points);
+    assert_eq!(points.len(), 3 * assembly.points.len());
+    for (i, expected) in state.points.position.iter().enumerate() {
+        assert_eq!(points[3 * i..3 * i + 3], *expected.as_slice());
+    }
+    let s_nm: Vec<f64> = assembly.points.iter().map(|p| p.s_nm).collect();
+    assert_eq!(floats(data(&piece, "s_nm")), s_nm);
+}
+
+/// Monomers are vertices, the rod is one line through all its nodes.
+#[test]
+fn monomers_are_vertices_and_rods_are_lines() {
+    let (assembly, _, piece) = drawn();
+    let indices = |range: std::ops::Range<usize>| range.map(|i| i as u64).collect::<Vec<_>>();
+    let [monomers, rod] = assembly.sections.as_slice() else {
+        panic!("two sections");
+    };
+    let Some(VertexNumbers::XML { connectivity, .. }) = &piece.verts else {
+        panic!("no vertices");
+    };
+    assert_eq!(*connectivity, indices(monomers.points.clone()));
+    let Some(VertexNumbers::XML {
+        connectivity,
+        offsets,
+    }) = &piece.lines
+    else {
+        panic!("no lines");
+    };
+    assert_eq!(*connectivity, indices(rod.points.clone()));
+    assert_eq!(*offsets, [rod.points.len() as u64]);
+    let IOBuffer::I64(section) = data(&piece, "section") else {
+        panic!("not integers");
+    };
+    assert!(monomers.points.clone().all(|i| section[i] == 0));
+    assert!(rod.points.clone().all(|i| section[i] == 1));
+}
+
+/// A monomer carries its own frame; of a rod of n segments node i < n carries frame i and the
+/// last node frame n - 1. A junction's frame stands between the two in the state: counting
+/// frames along the points would give nodes the frames of their predecessors.
+#[test]
+fn points_carry_the_frames_next_to_them() {
+    let (assembly, state, piece) = drawn();
+    let quaternions = floats(data(&piece, "orientation"));
+    let at = |i: usize| &quaternions[4 * i..4 * i + 4];
+    let expected = |f: usize| {
+        let q = state.frames.orientation.get(f);
+        [q.w, q.i, q.j, q.k]
+    };
+    let [monomers, rod] = assembly.sections.as_slice() else {
+        panic!("two sections");
+    };
+    for (i, f) in monomers.points.clone().zip(monomers.frames.clone()) {
+        assert_eq!(at(i), expected(f));
+    }
+    for (i, f) in rod.points.clone().zip(rod.frames.clone()) {
+        assert_eq!(at(i), expected(f));
+    }
+    assert_eq!(at(rod.points.end - 1), expected(rod.frames.end - 1));
+}
+
+/// d1, d2, d3 are the columns of the rotation body to lab, not its rows.
+#[test]
+fn axes_are_the_columns_of_the_orientation() {
+    let (assembly, state, piece) = drawn();
+    let frame = assembly.points[0].frame.unwrap();
+    let q: Matrix3 = state
+        .frames
+        .orientation
+        .get(frame)
+        .to_rotation_matrix()
+        .into();
+    for (name, column) in [("d1", 0), ("d2", 1), ("d3", 2)] {
+        let axis = Vector3::from_column_slice(&floats(data(&piece, name))[..3]);
+        // The quaternion turns vectors in another order of operations than the matrix.
+        assert!((axis - q.column(column)).norm() < 1e-15, "{name}");
+    }
+}
+
+#[test]
+fn only_monomers_have_an_extent() {
+    let (assembly, _, piece) = drawn();
+    let semi_axes = floats(data(&piece, "semi_axes_nm"));
+    let IOBuffer::U8(kinds) = data(&piece, "kind") else {
+        panic!("not bytes");
+    };
+    for (i, point) in assembly.points.iter().enumerate() {
+        let (kind, expected) = match point.kind {
+            BodyKind::Monomer => (0, assembly.scene.filament.monomers.semi_axes_nm),
+            _ => (1, [0.0; 3]),
+        };
+        assert_eq!(semi_axes[3 * i..3 * i + 3], expected);
+        assert_eq!(kinds[i], kind);
+    }
+}
+
+/// Names the quantity, the point and the component.
+#[test]
+fn a_picture_that_is_not_finite_is_refused() {
+    let assembly = fixture::clamped_start();
+    let mut state = assembly.rest.clone();
+    state.points.position.y[3] = f64::NAN;
+    let picture = Drawing::new(&assembly).picture(0.0, &state);
+    let error = picture.ensure_finite("vtk/0000.vtp").unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .starts_with("vtk/0000.vtp: Points[3, 1] is NaN:")
+    );
+}
+
+/// Each picture has its own time with every digit; the title cannot break the file.
+#[test]
+fn the_collection_lists_pictures_and_times() {
+    let pictures = [(0.0, "vtk/0000.vtp"), (1.0 / 3.0, "vtk/0001.vtp")];
+    let text = collection("a \"b\" <c>", pictures.into_iter());
+    let sets: Vec<&str> = text.lines().filter(|l| l.starts_with("<DataSet")).collect();
+    assert_eq!(
+        sets,
+        [
+            r#"<DataSet timestep="0.0" group="" part="0" name="a &quot;b&quot; &lt;c&gt;" file="vtk/0000.vtp"/>"#,
+            r#"<DataSet timestep="0.3333333333333333" group="" part="0" name="a &quot;b&quot; &lt;c&gt;" file="vtk/0001.vtp"/>"#,
+        ]
+    );
+}

@@ -1,0 +1,31 @@
+//! The kinetic energy beyond which a motion is not one: more than its loads can have given it.
+
+use crate::Assembly;
+use crate::scene::{Load, Slides};
+use actin_mechanics::Vector3;
+
+/// By how much the limit exceeds the bound: room for errors of the integrator near its stability
+/// limit and for loads that are not the gradient of an energy.
+const ROOM: f64 = 10.0;
+
+/// Added to the limit (pN nm), so that round-off in a filament without loads, 1e-20, is no motion.
+const LEAST: f64 = 1.0;
+
+/// Limit of the kinetic energy (pN nm); infinite where no bound is known.
+///
+/// A filament that is held fast at one end, and whose controls stay, has at most the energy that
+/// it begins with and the work of its loads, `|F| 2 L` each: nothing on it is ever further from
+/// where it was than twice its length.
+pub(super) fn kinetic_limit(assembly: &Assembly) -> f64 {
+    let scene = &assembly.scene;
+    let is_fast = |clamp: &crate::Clamped| clamp.slides == Slides::Nowhere;
+    if !scene.path.is_empty() || !assembly.clamps.iter().any(is_fast) {
+        return f64::INFINITY;
+    }
+    let forces = scene.loads.iter().map(|load| match load {
+        Load::EndForce { force_pn, .. } => Vector3::from(*force_pn).norm(),
+    });
+    let work = forces.sum::<f64>() * 2.0 * assembly.length_nm();
+    let limit = ROOM * (assembly.system.total_energy() + work) + LEAST;
+    if limit > LEAST { limit } else { f64::INFINITY }
+}

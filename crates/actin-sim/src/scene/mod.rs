@@ -1,0 +1,19 @@
+//! The scene file: its types, how it is read, and what it refuses.
+//!
+//! Reading happens in two steps. RON gives the types below and refuses unknown or missing keys;
+//! [`validate`] then checks what numbers may be. Both report line and column.
+
+mod locate;
+mod model;
+mod problem;
+mod read;
+mod types;
+mod validate;
+
+pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
+pub use problem::{Problem, SceneError};
+pub use types::{
+    Clamp, Drag, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Load, Scene, Section,
+    Setting, Slides, Stage, StopRule, Task,
+};
+pub(crate) use validate::{MOST_BODIES, MOST_BONDS};

@@ -1,0 +1,301 @@
+//! What a scene says: filament, clamps, loads and task.
+
+use super::model::{JunctionModel, Monomers, RodModel};
+use serde::{Deserialize, Serialize};
+
+/// A scene: one filament, what holds it, what loads it, and what is asked of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// What the scene shows, in words.
+    #[serde(default)]
+    pub title: String,
+    /// The filament.
+    pub filament: Filament,
+    /// What holds its ends. Ends that are not named are free.
+    #[serde(default)]
+    pub clamps: Vec<Clamp>,
+    /// What loads it.
+    #[serde(default)]
+    pub loads: Vec<Load>,
+    /// How controls are moved, stage by stage: loads, shifts and turns of held ends.
+    #[serde(default)]
+    pub path: Vec<Stage>,
+    /// What is asked.
+    pub task: Task,
+}
+
+/// One stage of a path: controls that move together from where they are to where they are set.
+///
+/// Shifts and turns begin at zero. A load that some stage sets begins at factor 0, any other acts
+/// in full throughout.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stage {
+    /// What is set.
+    pub set: Vec<Setting>,
+    /// Time that the stage takes in dynamics (ns), where controls move by a smooth ramp; statics
+    /// needs none.
+    #[serde(default)]
+    pub duration_ns: Option<f64>,
+}
+
+/// The value of a control at the end of a stage.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Setting {
+    /// The factor of a load, by its index in `loads`.
+    LoadFactor {
+        /// Which load.
+        load: usize,
+        /// Its factor.
+        factor: f64,
+    },
+    /// Displacement of a clamped end from where it was built.
+    Shift {
+        /// Which end.
+        end: End,
+        /// Displacement in the lab frame (nm); components along which the clamp slides are
+        /// without effect.
+        shift_nm: [f64; 3],
+    },
+    /// Turn of a clamped end from how it was built, about the clamped point.
+    Turn {
+        /// Which end.
+        end: End,
+        /// Rotation vector in the lab frame (deg), of any length; z is the filament's axis.
+        turn_deg: [f64; 3],
+    },
+}
+
+/// A filament: sections in order of arc length, and the models that resolve them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Filament {
+    /// Sections in order; each starts where the one before it ends.
+    pub sections: Vec<Section>,
+    /// Parameters of the monomers, the same for all sections that resolve them.
+    #[serde(default)]
+    pub monomers: Monomers,
+    /// Parameters of the rod, the same for all rod sections.
+    #[serde(default)]
+    pub rod: RodModel,
+    /// Parameters of the junctions between monomers and rod.
+    #[serde(default)]
+    pub junction: JunctionModel,
+}
+
+/// A stretch of filament resolved in one way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Section {
+    /// Every monomer as a rigid ellipsoid. Boundaries move to the nearest place half a rise
+    /// beyond a monomer.
+    Ellipsoids {
+        /// Arc length at which the section starts (nm).
+        from_nm: f64,
+        /// Arc length at which it ends (nm).
+        to_nm: f64,
+    },
+    /// A Cosserat rod.
+    Rod {
+        /// Arc length at which the section starts (nm).
+        from_nm: f64,
+        /// Arc length at which it ends (nm).
+        to_nm: f64,
+        /// Number of segments; by default segments as near to 10 nm as fits.
+        #[serde(default)]
+        segments: Option<usize>,
+    },
+}
+
+impl Section {
+    /// Arc lengths of start and end as written (nm).
+    pub fn span_nm(&self) -> (f64, f64) {
+        match *self {
+            Self::Ellipsoids { from_nm, to_nm } | Self::Rod { from_nm, to_nm, .. } => {
+                (from_nm, to_nm)
+            }
+        }
+    }
+}
+
+/// One of the two ends of a filament.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum End {
+    /// Where arc length begins.
+    Start,
+    /// Where arc length is largest.
+    End,
+}
+
+/// An end that is held fast.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Clamp {
+    /// Which end.
+    pub end: End,
+    /// What is held there.
+    #[serde(default)]
+    pub hold: Hold,
+    /// Along which directions the end is free to slide as one rigid body.
+    #[serde(default)]
+    pub slides: Slides,
+}
+
+/// Directions along which a clamped end slides as one rigid body; it never turns by itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Slides {
+    /// Not at all.
+    #[default]
+    Nowhere,
+    /// Along lab z, the axis of the filament as built.
+    AlongAxis,
+    /// Along all three axes: the end is held in orientation only.
+    Freely,
+}
+
+/// What a clamp holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Hold {
+    /// Rod: the last node, and a wall frame joined to the last segment by half a segment of
+    /// bending. Monomers: the last two.
+    #[default]
+    Wall,
+    /// Rod only: the last node and the last segment's frame.
+    NodeAndFrame,
+    /// Rod only: the last two nodes and the last segment's frame.
+    TwoNodesAndFrame,
+}
+
+/// A load on the filament.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Load {
+    /// A constant force on a free end: on the last node of a rod, or half on each of the last two
+    /// monomers.
+    EndForce {
+        /// Which end.
+        end: End,
+        /// Force in the lab frame (pN).
+        force_pn: [f64; 3],
+    },
+}
+
+/// What is asked of a scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Task {
+    /// Motion in time.
+    Dynamics(Dynamics),
+    /// A state without residual loads, along the path if there is one.
+    Equilibrium(Equilibrium),
+}
+
+/// An equilibrium, or equilibria along the path of the scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Equilibrium {
+    /// Largest force on a free body (pN).
+    pub force_pn: f64,
+    /// Largest torque on a free body (pN nm).
+    pub torque_pn_nm: f64,
+    /// Most Newton iterations for one equilibrium.
+    pub iterations: usize,
+    /// Largest step along a stage of the path, as a share of the stage.
+    pub largest_step: f64,
+    /// Smallest step, below which the path ends with what it has.
+    pub smallest_step: f64,
+    /// How often a saddle is left along its lowest mode, for one equilibrium; a saddle that is not
+    /// left is reported as one.
+    pub leave_saddles: usize,
+    /// Whether the path goes on from where a sudden jump leads; it ends there if not.
+    pub accept_jumps: bool,
+    /// Whether the lowest eigenvalue of the stiffness is computed at the end.
+    pub lowest_eigenvalue: bool,
+}
+
+impl Default for Equilibrium {
+    fn default() -> Self {
+        Self {
+            force_pn: 1e-7,
+            torque_pn_nm: 1e-7,
+            iterations: 300,
+            largest_step: 0.25,
+            smallest_step: 1e-4,
+            leave_saddles: 3,
+            accept_jumps: false,
+            lowest_eigenvalue: false,
+        }
+    }
+}
+
+/// Motion in time, with drag if asked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Dynamics {
+    /// Simulated time (ns); less if the stop rule is met before.
+    pub duration_ns: f64,
+    /// Integrator.
+    #[serde(default)]
+    pub integrator: Integrator,
+    /// Time step (ns); by default the stability limit times `step_safety`.
+    #[serde(default)]
+    pub time_step_ns: Option<f64>,
+    /// Share of the estimated stability limit that the default time step takes.
+    #[serde(default = "default_step_safety")]
+    pub step_safety: f64,
+    /// Whether a time step above the estimated stability limit may be run all the same.
+    #[serde(default)]
+    pub allow_unstable_step: bool,
+    /// Drag rates; none by default.
+    #[serde(default)]
+    pub drag: Drag,
+    /// When to stop early; never by default.
+    #[serde(default)]
+    pub stop: Option<StopRule>,
+    /// Time between recorded states (ns); by default a hundredth of the duration.
+    #[serde(default)]
+    pub record_every_ns: Option<f64>,
+}
+
+fn default_step_safety() -> f64 {
+    actin_integrate::SAFETY
+}
+
+/// Integrators by name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Integrator {
+    /// Position Verlet: order 2, one force evaluation a step.
+    PositionVerlet,
+    /// Position-extended Forest-Ruth-like: order 4, four evaluations.
+    #[default]
+    Pefrl,
+    /// Velocity-extended Forest-Ruth-like: order 4, four evaluations.
+    Vefrl,
+    /// Forest and Ruth: order 4, three evaluations.
+    ForestRuth,
+    /// Suzuki's five-fold composition of position Verlet: order 4, five evaluations.
+    Suzuki,
+}
+
+/// Mass-proportional drag: velocities decay as `exp(-rate t)`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Drag {
+    /// Rate for velocities (1/ns).
+    pub translational_per_ns: f64,
+    /// Rate for angular momenta (1/ns).
+    pub rotational_per_ns: f64,
+}
+
+/// An equilibrium is reached when all three are below their tolerance.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StopRule {
+    /// Largest force on a free point (pN).
+    pub force_pn: f64,
+    /// Largest torque on a free frame (pN nm).
+    pub torque_pn_nm: f64,
+    /// Kinetic energy of the free bodies (pN nm).
+    pub kinetic_pn_nm: f64,
+}

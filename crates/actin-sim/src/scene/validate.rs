@@ -1,0 +1,380 @@
+//! The rules that numbers of a scene have to satisfy.
+
+use super::{
+    Clamp, Dynamics, End, Equilibrium, Filament, Hold, Load, Problem, Scene, Section, Setting,
+    Slides, Stage, StopRule, Task,
+};
+use std::fmt::Debug;
+
+/// Sections are contiguous if their boundaries agree to this length (nm).
+const BOUNDARY_TOLERANCE_NM: f64 = 1e-9;
+
+/// Most bodies that a scene may ask for: beyond it memory, not time, is what runs out.
+pub(crate) const MOST_BODIES: f64 = 2e7;
+
+/// Most bonds of one interface: with a hundredth of them the anchors' sampling noise is gone.
+const MOST_BONDS_PER_INTERFACE: usize = 10_000;
+
+/// Most bonds of a section, for the same reason as the limit on bodies.
+pub(crate) const MOST_BONDS: f64 = 1e8;
+
+/// Checks every rule that does not need the filament to be built.
+///
+/// # Errors
+/// The first rule that is broken.
+pub(super) fn validate(scene: &Scene) -> Result<(), Problem> {
+    filament(&scene.filament)?;
+    for (i, clamp) in scene.clamps.iter().enumerate() {
+        check_clamp(scene, i, clamp)?;
+    }
+    for (i, load) in scene.loads.iter().enumerate() {
+        check_load(scene, i, load)?;
+    }
+    for (i, stage) in scene.path.iter().enumerate() {
+        check_stage(scene, i, stage)?;
+    }
+    match &scene.task {
+        Task::Dynamics(dynamics) => {
+            check_no_path(scene)?;
+            check_dynamics(dynamics)
+        }
+        Task::Equilibrium(equilibrium) => check_equilibrium(equilibrium),
+    }
+}
+
+fn filament(filament: &Filament) -> Result<(), Problem> {
+    let sections = &filament.sections;
+    if sections.is_empty() {
+        return Err(Problem::new(
+            "filament.sections",
+            "[]",
+            "a filament has at least one section",
+        ));
+    }
+    for (i, section) in sections.iter().enumerate() {
+        check_span(i, section)?;
+        let previous = i.checked_sub(1).map(|p| &sections[p]);
+        check_boundary(i, section, previous)?;
+    }
+    check_model(filament)
+}
+
+fn check_span(i: usize, section: &Section) -> Result<(), Problem> {
+    let (from, to) = section.span_nm();
+    let key = |name: &str| format!("filament.sections[{i}].{name}");
+    non_negative(&key("from_nm"), from)?;
+    finite(&key("to_nm"), to)?;
+    if to <= from {
+        return Err(Problem::new(
+            key("to_nm"),
+            show(to),
+            format!("a section's length is positive: must be greater than from_nm = {from:?}"),
+        ));
+    }
+    if let Section::Rod {
+        segments: Some(0), ..
+    } = section
+    {
+        return Err(Problem::new(
+            key("segments"),
+            0,
+            "a rod has at least one segment",
+        ));
+    }
+    Ok(())
+}
+
+fn check_boundary(i: usize, section: &Section, previous: Option<&Section>) -> Result<(), Problem> {
+    let (from, _) = section.span_nm();
+    let before = previous.map_or(0.0, |p| p.span_nm().1);
+    let rule = match previous {
+        None => "the first section starts at 0".to_owned(),
+        Some(_) if from < before => {
+            format!("overlaps the section before it, which ends at {before:?}")
+        }
+        Some(_) => format!("leaves a gap behind the section before it, which ends at {before:?}"),
+    };
+    let key = format!("filament.sections[{i}]");
+    if (from - before).abs() > BOUNDARY_TOLERANCE_NM {
+        return Err(Problem::new(format!("{key}.from_nm"), show(from), rule));
+    }
+    let same =
+        previous.is_some_and(|p| std::mem::discriminant(p) == std::mem::discriminant(section));
+    if same {
+        return Err(Problem::new(
+            format!("{key}.from_nm"),
+            show(from),
+            "neighbouring sections of the same kind are one section: write them as one",
+        ));
+    }
+    Ok(())
+}
+
+fn check_model(filament: &Filament) -> Result<(), Problem> {
+    let attached = filament.junction.attached_monomers;
+    if !(1..=2).contains(&attached) {
+        return Err(Problem::new(
+            "filament.junction.attached_monomers",
+            attached,
+            "a junction attaches 1 or 2 monomers",
+        ));
+    }
+    let m = &filament.monomers;
+    for (key, value) in [
+        ("rise_nm", m.rise_nm),
+        ("radius_nm", m.radius_nm),
+        ("mass_ag", m.mass_ag),
+        ("lateral_rigidity_pn_per_nm", m.lateral_rigidity_pn_per_nm),
+        (
+            "longitudinal_rigidity_pn_per_nm",
+            m.longitudinal_rigidity_pn_per_nm,
+        ),
+        ("lateral_max_bond_nm", m.lateral_max_bond_nm),
+        ("longitudinal_max_bond_nm", m.longitudinal_max_bond_nm),
+    ] {
+        positive(&format!("filament.monomers.{key}"), value)?;
+    }
+    for (key, value) in [("turn_deg", m.turn_deg), ("azimuth_deg", m.azimuth_deg)] {
+        finite(&format!("filament.monomers.{key}"), value)?;
+    }
+    each_positive("filament.monomers.semi_axes_nm", m.semi_axes_nm)?;
+    check_bonds("lateral_bonds", m.lateral_bonds)?;
+    check_bonds("longitudinal_bonds", m.longitudinal_bonds)?;
+    if let super::Material::Rigidities {
+        shear_pn,
+        bend_pn_nm2,
+    } = filament.rod.material
+    {
+        each_positive("filament.rod.material.shear_pn", shear_pn)?;
+        each_positive("filament.rod.material.bend_pn_nm2", bend_pn_nm2)?;
+    }
+    Ok(())
+}
+
+fn check_bonds(key: &str, bonds: usize) -> Result<(), Problem> {
+    if (1..=MOST_BONDS_PER_INTERFACE).contains(&bonds) {
+        return Ok(());
+    }
+    Err(Problem::new(
+        format!("filament.monomers.{key}"),
+        bonds,
+        format!("an interface has 1 to {MOST_BONDS_PER_INTERFACE} bonds"),
+    ))
+}
+
+fn check_clamp(scene: &Scene, i: usize, clamp: &Clamp) -> Result<(), Problem> {
+    let key = format!("clamps[{i}]");
+    if scene.clamps[..i].iter().any(|c| c.end == clamp.end) {
+        return Err(Problem::new(
+            format!("{key}.end"),
+            show(clamp.end),
+            "this end is clamped already",
+        ));
+    }
+    let is_rod = matches!(
+        scene.filament.sections[scene.filament.end_index(clamp.end)],
+        Section::Rod { .. }
+    );
+    if !is_rod && clamp.hold != Hold::Wall {
+        return Err(Problem::new(
+            format!("{key}.hold"),
+            show(clamp.hold),
+            "nodes and frames are held at a rod's end, but monomers end the filament here: \
+             write Wall, which holds the last two",
+        ));
+    }
+    Ok(())
+}
+
+fn check_load(scene: &Scene, i: usize, load: &Load) -> Result<(), Problem> {
+    let Load::EndForce { end, force_pn } = load;
+    let key = format!("loads[{i}]");
+    if force_pn.iter().any(|f| !f.is_finite()) {
+        return Err(Problem::new(
+            format!("{key}.force_pn"),
+            show(force_pn),
+            "must be finite",
+        ));
+    }
+    if scene
+        .clamps
+        .iter()
+        .any(|c| c.end == *end && c.slides == Slides::Nowhere)
+    {
+        return Err(Problem::new(
+            format!("{key}.end"),
+            show(end),
+            "this end is clamped: a force on it moves nothing",
+        ));
+    }
+    Ok(())
+}
+
+/// Dynamics holds ends where they are; equilibria follow paths and let ends slide.
+fn check_no_path(scene: &Scene) -> Result<(), Problem> {
+    if !scene.path.is_empty() {
+        return Err(Problem::new(
+            "path",
+            format!("{} stage(s)", scene.path.len()),
+            "a path of controls is followed by Equilibrium; Dynamics holds them as built",
+        ));
+    }
+    match scene
+        .clamps
+        .iter()
+        .position(|c| c.slides != Slides::Nowhere)
+    {
+        None => Ok(()),
+        Some(i) => Err(Problem::new(
+            format!("clamps[{i}].slides"),
+            show(scene.clamps[i].slides),
+            "ends slide in Equilibrium; in Dynamics they are held",
+        )),
+    }
+}
+
+fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), Problem> {
+    positive("task.force_pn", equilibrium.force_pn)?;
+    positive("task.torque_pn_nm", equilibrium.torque_pn_nm)?;
+    positive("task.largest_step", equilibrium.largest_step)?;
+    positive("task.smallest_step", equilibrium.smallest_step)?;
+    if equilibrium.largest_step > 1.0 || equilibrium.smallest_step > equilibrium.largest_step {
+        return Err(Problem::new(
+            "task.largest_step",
+            show(equilibrium.largest_step),
+            "must be at most 1 and at least smallest_step",
+        ));
+    }
+    if equilibrium.iterations == 0 {
+        return Err(Problem::new("task.iterations", 0, "must be at least 1"));
+    }
+    Ok(())
+}
+
+fn check_stage(scene: &Scene, i: usize, stage: &Stage) -> Result<(), Problem> {
+    for (k, setting) in stage.set.iter().enumerate() {
+        let key = |name: &str| format!("path[{i}].set[{k}].{name}");
+        let (end, name, value) = match *setting {
+            Setting::LoadFactor { load, factor } => {
+                if load >= scene.loads.len() {
+                    let rule = format!("there are {} loads, counted from 0", scene.loads.len());
+                    return Err(Problem::new(key("load"), load, rule));
+                }
+                finite(&key("factor"), factor)?;
+                continue;
+            }
+            Setting::Shift { end, shift_nm } => (end, "shift_nm", shift_nm),
+            Setting::Turn { end, turn_deg } => (end, "turn_deg", turn_deg),
+        };
+        if value.iter().any(|v| !v.is_finite()) {
+            return Err(Problem::new(key(name), show(value), "must be finite"));
+        }
+        if !scene.is_clamped(end) {
+            let rule = "this end is free: only a clamped end is moved from outside";
+            return Err(Problem::new(key("end"), show(end), rule));
+        }
+    }
+    Ok(())
+}
+
+fn check_dynamics(dynamics: &Dynamics) -> Result<(), Problem> {
+    let key = |name: &str| format!("task.{name}");
+    positive(&key("duration_ns"), dynamics.duration_ns)?;
+    if let Some(step) = dynamics.time_step_ns {
+        positive(&key("time_step_ns"), step)?;
+    }
+    if let Some(every) = dynamics.record_every_ns {
+        positive(&key("record_every_ns"), every)?;
+    }
+    let safety = dynamics.step_safety;
+    positive(&key("step_safety"), safety)?;
+    if safety >= 1.0 {
+        return Err(Problem::new(
+            key("step_safety"),
+            show(safety),
+            "must be below 1, the stability limit",
+        ));
+    }
+    non_negative(
+        &key("drag.translational_per_ns"),
+        dynamics.drag.translational_per_ns,
+    )?;
+    non_negative(
+        &key("drag.rotational_per_ns"),
+        dynamics.drag.rotational_per_ns,
+    )?;
+    dynamics.stop.as_ref().map_or(Ok(()), check_stop)
+}
+
+fn check_stop(stop: &StopRule) -> Result<(), Problem> {
+    positive("task.stop.force_pn", stop.force_pn)?;
+    positive("task.stop.torque_pn_nm", stop.torque_pn_nm)?;
+    positive("task.stop.kinetic_pn_nm", stop.kinetic_pn_nm)
+}
+
+fn show(value: impl Debug) -> String {
+    format!("{value:?}")
+}
+
+fn finite(key: &str, value: f64) -> Result<(), Problem> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(Problem::new(key, show(value), "must be finite"))
+}
+
+fn positive(key: &str, value: f64) -> Result<(), Problem> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(Problem::new(
+        key,
+        show(value),
+        "must be finite and greater than 0",
+    ))
+}
+
+fn non_negative(key: &str, value: f64) -> Result<(), Problem> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(());
+    }
+    Err(Problem::new(
+        key,
+        show(value),
+        "must be finite and not negative",
+    ))
+}
+
+fn each_positive(key: &str, values: [f64; 3]) -> Result<(), Problem> {
+    if values.iter().all(|v| v.is_finite() && *v > 0.0) {
+        return Ok(());
+    }
+    Err(Problem::new(
+        key,
+        show(values),
+        "each must be finite and greater than 0",
+    ))
+}
+
+impl Filament {
+    /// Index of the section at one end.
+    pub(crate) fn end_index(&self, end: End) -> usize {
+        match end {
+            End::Start => 0,
+            End::End => self.sections.len() - 1,
+        }
+    }
+}
+
+impl Scene {
+    /// What is held at one end; nothing if it is free.
+    pub(crate) fn hold(&self, end: End) -> Option<Hold> {
+        let clamp = self.clamps.iter().find(|clamp| clamp.end == end);
+        clamp.map(|clamp| clamp.hold)
+    }
+
+    /// Whether an end is held.
+    pub(crate) fn is_clamped(&self, end: End) -> bool {
+        self.hold(end).is_some()
+    }
+}

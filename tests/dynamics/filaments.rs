@@ -1,0 +1,158 @@
+//! The free filaments of these tests, and how they are set in motion.
+
+use actin_mechanics::testing::{Noise, perturb, set_in_motion};
+use actin_mechanics::{State, System, Vector3, rotation};
+use actin_sim::{Assembly, ForceLaw, Scene};
+
+/// kBT at 298 K (pN nm).
+pub(crate) const KBT: f64 = 4.114;
+
+/// Name of a filament, and its sections as a scene writes them.
+pub(crate) type Filament = (&'static str, &'static str);
+
+/// 15 monomers.
+pub(crate) const ELLIPSOIDS: Filament = ("ellipsoids", "Ellipsoids(from_nm: 0.0, to_nm: 35.6)");
+
+/// 8 segments of 10 nm.
+pub(crate) const ROD: Filament = ("rod", "Rod(from_nm: 0.0, to_nm: 80.0, segments: 8)");
+
+/// 9 monomers, then 4 segments of about 10 nm.
+pub(crate) const MIXED: Filament = (
+    "monomers + rod",
+    "Ellipsoids(from_nm: 0.0, to_nm: 22.0), Rod(from_nm: 22.0, to_nm: 62.0, segments: 4)",
+);
+
+/// 3 segments, 8 monomers, 3 segments.
+pub(crate) const ROD_AT_BOTH_ENDS: Filament = (
+    "rod + monomers + rod",
+    "Rod(from_nm: 0.0, to_nm: 30.0, segments: 3), Ellipsoids(from_nm: 30.0, to_nm: 52.0), \
+     Rod(from_nm: 52.0, to_nm: 82.0, segments: 3)",
+);
+
+/// All of them.
+pub(crate) const FILAMENTS: [Filament; 4] = [ELLIPSOIDS, ROD, MIXED, ROD_AT_BOTH_ENDS];
+
+/// The filament as built, free, with 16 bonds per interface.
+pub(crate) fn assemble((_, sections): Filament, law: ForceLaw) -> Assembly {
+    let text = format!(
+        "Scene(
+            filament: Filament(
+                sections: [{sections}],
+                monomers: (seed: 1, lateral_bonds: 16, longitudinal_bonds: 16),
+                rod: (force_law: {law:?}),
+            ),
+            task: Dynamics(duration_ns: 1.0),
+        )"
+    );
+    let scene = Scene::from_ron(&text).expect("the sections above are valid");
+    Assembly::build(&scene).expect("the filaments above can be built")
+}
+
+/// The filament flying at 37 nm/ns and turning at 6 rad/ns, bent to 7e-3 and twisted to 1e-2
+/// rad/nm (as much as in the scenes), and shaken: every kind of strain is at work, about half of
+/// kBT of energy for each degree of freedom (printed by the test of the order).
+pub(crate) fn in_flight(filament: Filament) -> System {
+    let mut assembly = assemble(filament, ForceLaw::EnergyGradient);
+    let mut noise = Noise::new(5);
+    set_in_motion(assembly.system.state_mut(), &mut noise, 1.0, 1.0);
+    bend(&mut assembly, Vector3::new(6e-3, -3e-3, 1e-2));
+    let state = assembly.system.state_mut();
+    perturb(state, &mut noise, 2e-3, 1e-3);
+    let (velocity, omega) = (Vector3::new(20.0, -10.0, 30.0), Vector3::new(3.0, -2.0, 5.0));
+    fly(state, velocity, omega);
+    assembly.system
+}
+
+/// Bends and twists the filament as built to the uniform curvature `kappa` (rad/nm).
+///
+/// Cross-sections move rigidly: the one at arc length s goes to `s J_l(kappa s) e3` and turns by
+/// `exp(kappa s)`.
+fn bend(assembly: &mut Assembly, kappa: Vector3) {
+    let (points, frames) = (&assembly.points, &assembly.frames);
+    let state = assembly.system.state_mut();
+    for (i, info) in points.iter().enumerate() {
+        let theta = kappa * info.s_nm;
+        let offset = state.points.position.get(i) - Vector3::z() * info.s_nm;
+        let centre = info.s_nm * mean_of_turned(theta, Vector3::z());
+        let x = centre + rotation::exp(theta) * offset;
+        state.points.position.set(i, x);
+    }
+    for (i, info) in frames.iter().enumerate() {
+        let q = rotation::exp(kappa * info.s_nm) * state.frames.orientation.get(i);
+        state.frames.orientation.set(i, q);
+    }
+}
+
+/// `J_l(theta) v`, the mean of `exp(t theta) v` over t from 0 to 1, by Simpson's rule in 64 parts:
+/// to 1e-12 at angles of 1.
+fn mean_of_turned(theta: Vector3, v: Vector3) -> Vector3 {
+    const PARTS: u32 = 64;
+    let sum: Vector3 = (0..=PARTS)
+        .map(|k| {
+            let weight = match k {
+                0 | PARTS => 1.0,
+                _ if k % 2 == 1 => 4.0,
+                _ => 2.0,
+            };
+            weight * (rotation::exp(theta * (f64::from(k) / f64::from(PARTS))) * v)
+        })
+        .sum();
+    sum / (3.0 * f64::from(PARTS))
+}
+
+/// Adds rigid motion: flight with `velocity` (nm/ns) and a turn about the origin with `omega`
+/// (rad/ns), both in the lab frame.
+fn fly(state: &mut State, velocity: Vector3, omega: Vector3) {
+    for i in 0..state.points.len() {
+        let v = velocity + omega.cross(&state.points.position.get(i));
+        state.points.velocity.add(i, v);
+    }
+    for i in 0..state.frames.len() {
+        let body = state.frames.orientation.get(i).inverse() * omega;
+        let l = body.component_div(&state.frames.inverse_moments(i));
+        state.frames.angular_momentum.add(i, l);
+    }
+}
+
+/// Number of degrees of freedom of a free filament.
+pub(crate) fn degrees_of_freedom(state: &State) -> usize {
+    3 * (state.points.len() + state.frames.len())
+}
+
+/// Gives a filament at rest random velocities worth `level` kBT of kinetic energy per degree of
+/// freedom on average: half of it turns into potential energy, so 1 is the temperature of a room.
+pub(crate) fn heat(state: &mut State, level: f64, seed: u64) {
+    let mut noise = Noise::new(seed);
+    let mut momentum = |mass: f64| (2.0 * level * KBT * mass).sqrt() * normal(&mut noise);
+    for i in 0..state.points.len() {
+        let mass = 1.0 / state.points.inverse_mass()[i];
+        let p = Vector3::from_fn(|_, _| momentum(mass));
+        state.points.velocity.set(i, p / mass);
+    }
+    for i in 0..state.frames.len() {
+        let l = state.frames.inverse_moments(i).map(|m| momentum(1.0 / m));
+        state.frames.angular_momentum.set(i, l);
+    }
+}
+
+/// A nearly normal number of variance 1: the sum of 12 even ones between -1/2 and 1/2.
+pub(crate) fn normal(noise: &mut Noise) -> f64 {
+    (0..12).map(|_| 0.5 * noise.sample()).sum()
+}
+
+/// Largest distances of two states: places (nm), velocities (nm/ns), turns (rad), angular momenta
+/// (pN nm ns).
+pub(crate) fn distances(a: &State, b: &State) -> [f64; 4] {
+    let largest = |differences: &mut dyn Iterator<Item = f64>| differences.fold(0.0, f64::max);
+    let of = |a: &actin_mechanics::Vectors, b: &actin_mechanics::Vectors| {
+        largest(&mut a.iter().zip(b.iter()).map(|(a, b)| (a - b).norm()))
+    };
+    let (p, q) = (&a.frames.orientation, &b.frames.orientation);
+    let turn = |i: usize| rotation::log(p.get(i).inverse() * q.get(i)).norm();
+    [
+        of(&a.points.position, &b.points.position),
+        of(&a.points.velocity, &b.points.velocity),
+        largest(&mut (0..a.frames.len()).map(turn)),
+        of(&a.frames.angular_momentum, &b.frames.angular_momentum),
+    ]
+}

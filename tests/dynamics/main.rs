@@ -1,0 +1,11 @@
+//! Motion of assembled free filaments: order, reversal, momenta, energy.
+//!
+//! The tables of `docs/numerics.md` are what these tests print with `--nocapture`.
+
+mod energy;
+mod filaments;
+mod invariants;
+mod modes;
+mod order;
+mod paper_balance;
+mod record;

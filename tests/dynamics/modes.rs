@@ -1,0 +1,145 @@
+//! Modes of a filament at rest, and motion in the slow ones only.
+
+use crate::filaments::{KBT, degrees_of_freedom, normal};
+use actin_mechanics::testing::Noise;
+use actin_mechanics::{Loads, State, System, Vector3, rotation};
+use nalgebra::{DMatrix, DVector};
+
+/// Vibrations about a state at rest: frequencies (rad/ns) and mass-weighted shapes.
+pub(crate) struct Modes {
+    /// Frequencies, ascending.
+    pub(crate) frequencies: Vec<f64>,
+    /// Shapes in mass-weighted coordinates, in the same order, as columns.
+    shapes: DMatrix<f64>,
+    /// Inverse square roots of masses and moments, three per body, points first.
+    weights: DVector<f64>,
+    /// The six rigid motions, mass-weighted and orthonormal.
+    rigid: Vec<DVector<f64>>,
+}
+
+impl Modes {
+    /// The modes of `system` at its present state, which is at rest without loads.
+    pub(crate) fn of(system: &System) -> Self {
+        let weights = weights(system.state());
+        let n = weights.len();
+        let mut dynamical = DMatrix::zeros(n, n);
+        for c in 0..n {
+            let column = -slope(system, c).component_mul(&weights) * weights[c];
+            dynamical.set_column(c, &column);
+        }
+        let eigen = (0.5 * (&dynamical + dynamical.transpose())).symmetric_eigen();
+        let squares = eigen.eigenvalues.map(f64::abs);
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by(|a, b| squares[*a].total_cmp(&squares[*b]));
+        Self {
+            frequencies: order.iter().map(|i| squares[*i].sqrt()).collect(),
+            shapes: eigen.eigenvectors.select_columns(&order),
+            rigid: rigid_motions(system.state(), &weights),
+            weights,
+        }
+    }
+
+    /// The largest frequency (rad/ns).
+    pub(crate) fn largest(&self) -> f64 {
+        self.frequencies[self.frequencies.len() - 1]
+    }
+
+    /// Number of modes below a hundredth of the largest frequency, rigid motions left out.
+    pub(crate) fn slow(&self) -> usize {
+        self.below(0.01 * self.largest()) - 6
+    }
+
+    /// Number of modes below a frequency (rad/ns).
+    pub(crate) fn below(&self, frequency: f64) -> usize {
+        self.frequencies.partition_point(|f| *f < frequency)
+    }
+
+    /// Sets the filament in motion along a random mixture of its slow modes, with `level` kBT for
+    /// each of them on average, and without rigid motion.
+    pub(crate) fn set_slow_motion(&self, state: &mut State, level: f64, seed: u64) {
+        let mut noise = Noise::new(seed);
+        let mut motion = DVector::zeros(self.weights.len());
+        for c in 0..self.slow() + 6 {
+            motion += self.shapes.column(c) * normal(&mut noise);
+        }
+        for rigid in &self.rigid {
+            motion -= rigid * rigid.dot(&motion);
+        }
+        motion *= (2.0 * KBT * level * self.slow() as f64).sqrt() / motion.norm();
+        let vector = |v: &DVector<f64>, b: usize| Vector3::new(v[3 * b], v[3 * b + 1], v[3 * b + 2]);
+        let velocities = motion.component_mul(&self.weights);
+        let momenta = motion.component_div(&self.weights);
+        let points = state.points.len();
+        for i in 0..points {
+            state.points.velocity.set(i, vector(&velocities, i));
+        }
+        for i in 0..state.frames.len() {
+            let l = vector(&momenta, points + i);
+            state.frames.angular_momentum.set(i, l);
+        }
+    }
+}
+
+/// Inverse square roots of masses and moments.
+fn weights(state: &State) -> DVector<f64> {
+    let points = state.points.inverse_mass().iter().flat_map(|m| [*m; 3]);
+    let frames = (0..state.frames.len()).flat_map(|i| {
+        let inverse: [f64; 3] = state.frames.inverse_moments(i).into();
+        inverse
+    });
+    DVector::from_vec(points.chain(frames).map(f64::sqrt).collect())
+}
+
+/// The derivative of all loads with respect to coordinate `c`: eight-point differences of 1e-3 nm
+/// or rad, whose error is about 1e-12 of the largest derivative.
+fn slope(system: &System, c: usize) -> DVector<f64> {
+    const STEP: f64 = 1e-3;
+    let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+    let mut slope = DVector::zeros(degrees_of_freedom(system.state()));
+    for (weight, k) in weights.into_iter().zip(1..) {
+        let step = f64::from(k) * STEP;
+        slope += (loads_at(system, c, step) - loads_at(system, c, -step)) * (weight / STEP);
+    }
+    slope
+}
+
+/// All loads with coordinate `c` moved by `step`.
+fn loads_at(system: &System, c: usize, step: f64) -> DVector<f64> {
+    let mut state = system.state().clone();
+    let mut vector = Vector3::zeros();
+    vector[c % 3] = step;
+    let (body, points) = (c / 3, state.points.len());
+    if body < points {
+        state.points.position.add(body, vector);
+    } else {
+        let q = state.frames.orientation.get(body - points) * rotation::exp(vector);
+        state.frames.orientation.set(body - points, q);
+    }
+    let mut loads = Loads::zeros(&state);
+    for interaction in system.interactions() {
+        interaction.add_loads(&state, &mut loads);
+    }
+    let both = loads.force.iter().chain(loads.torque.iter());
+    DVector::from_vec(both.flat_map(|v| [v.x, v.y, v.z]).collect())
+}
+
+/// Translations and turns about the origin, mass-weighted, made orthonormal one after another.
+fn rigid_motions(state: &State, weights: &DVector<f64>) -> Vec<DVector<f64>> {
+    let mut all: Vec<DVector<f64>> = Vec::new();
+    for k in 0..6 {
+        let mut e = Vector3::zeros();
+        e[k % 3] = 1.0;
+        let of_point = |x: Vector3| if k < 3 { e } else { e.cross(&x) };
+        let turn = if k < 3 { Vector3::zeros() } else { e };
+        let points = state.points.position.iter().map(of_point);
+        let frames =
+            (0..state.frames.len()).map(|i| state.frames.orientation.get(i).inverse() * turn);
+        let flat = points.chain(frames).flat_map(|v| [v.x, v.y, v.z]).collect();
+        let mut motion = DVector::from_vec(flat).component_div(weights);
+        for earlier in &all {
+            motion -= earlier * earlier.dot(&motion);
+        }
+        all.push(motion.normalize());
+    }
+    all
+}

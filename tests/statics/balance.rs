@@ -1,0 +1,117 @@
+//! What the clamp bears, and how the energies of an equilibrium add up.
+
+use crate::common::{Settled, free_bodies, settle};
+use actin_mechanics::{Loads, Vector3};
+use actin_sim::{End, RunDirectory};
+use std::collections::BTreeMap;
+
+const FORCE: [f64; 3] = [3.0, -1.0, 4.0];
+/// Tolerance of the residual, in pN and in pN nm.
+const TOLERANCE: f64 = 1e-5;
+
+fn settled(sections: &str, clamped: &str, loaded: &str) -> Settled {
+    let [x, y, z] = FORCE;
+    settle(&format!(
+        "Scene(
+            filament: Filament(
+                sections: [{sections}],
+                monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+            ),
+            clamps: [Clamp(end: {clamped})],
+            loads: [EndForce(end: {loaded}, force_pn: ({x:?}, {y:?}, {z:?}))],
+            task: Dynamics(
+                duration_ns: 1000.0,
+                integrator: PositionVerlet,
+                step_safety: 0.8,
+                drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0),
+                stop: (force_pn: {TOLERANCE:?}, torque_pn_nm: {TOLERANCE:?}, kinetic_pn_nm: 1e-9),
+                record_every_ns: 2.0,
+            ),
+        )"
+    ))
+}
+
+const MONOMERS_THEN_ROD: &str =
+    "Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0)";
+const ROD_THEN_MONOMERS: &str =
+    "Rod(from_nm: 0.0, to_nm: 30.0), Ellipsoids(from_nm: 30.0, to_nm: 60.0)";
+
+/// Whichever model is clamped and whichever end is loaded, the reaction and the load cancel, in
+/// force and in torque about the clamped point, to what the residual of each free body leaves
+/// open. A wall frame or an outer held monomer left out of the sum, a body torque not turned to the
+/// lab, or a load not shared between the last two monomers shows here.
+#[test]
+fn the_reaction_balances_the_load() {
+    for (sections, clamped, loaded) in [
+        (MONOMERS_THEN_ROD, "Start", End::End),
+        (ROD_THEN_MONOMERS, "Start", End::End),
+        (MONOMERS_THEN_ROD, "End", End::Start),
+        (ROD_THEN_MONOMERS, "End", End::Start),
+    ] {
+        let settled = settled(sections, clamped, &format!("{loaded:?}"));
+        let (assembly, state) = (&settled.assembly, &settled.last().state);
+        let mut loads = Loads::zeros(state);
+        for interaction in assembly.system.interactions() {
+            interaction.add_loads(state, &mut loads);
+        }
+        let clamp = &assembly.clamps[0];
+        let reaction = clamp.reaction(state, &loads);
+        let force = Vector3::from(FORCE);
+        let arm = assembly.tip_nm(state, loaded) - clamp.about_nm;
+        let (points, frames) = free_bodies(state);
+        let open_force = points as f64 * TOLERANCE;
+        let open_torque = open_force * 60.0 + frames as f64 * TOLERANCE;
+        let force_left = (reaction.force_pn + force).norm();
+        let torque_left = (reaction.torque_pn_nm + arm.cross(&force)).norm();
+        println!("{clamped} {loaded:?}: {force_left:e} pN, {torque_left:e} pN nm left");
+        assert!(force_left < open_force, "{force_left} pN");
+        assert!(torque_left < open_torque, "{torque_left} pN nm");
+        assert!(reaction.torque_pn_nm.norm() > 10.0, "the torque is no zero");
+    }
+}
+
+/// The rows of `energies.csv`, each by the names of its columns.
+fn rows(text: &str) -> Vec<BTreeMap<String, f64>> {
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    lines
+        .map(|line| {
+            let values = line.split(',').map(|value| value.parse().unwrap());
+            names.iter().map(ToString::to_string).zip(values).collect()
+        })
+        .collect()
+}
+
+/// Terms and parts are two ways to cut one energy, in every row of the file that a run leaves;
+/// at rest the work of the load, linear in the displacement, is the force times it.
+#[test]
+fn the_columns_of_the_energies_add_up() {
+    let settled = settled(MONOMERS_THEN_ROD, "Start", "End");
+    let (assembly, trajectory) = (&settled.assembly, &settled.trajectory);
+    let folder = tempfile::tempdir().unwrap();
+    let directory = RunDirectory::create(folder.path().join("run"), false).unwrap();
+    directory
+        .write(assembly, trajectory, &settled.report)
+        .unwrap();
+    let text = std::fs::read_to_string(directory.path().join("energies.csv")).unwrap();
+    let rows = rows(&text);
+    assert_eq!(rows.len(), trajectory.records.len());
+    for row in &rows {
+        let sum = |names: &[&str]| -> f64 {
+            names.iter().map(|name| row[&format!("{name}_pn_nm")]).sum()
+        };
+        let same = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * (1.0 + a.abs()), "{row:?}");
+        let potential = sum(&["potential"]);
+        same(sum(&["bonds", "junction", "rod", "load"]), potential);
+        same(
+            sum(&["section_0", "junction_0_1", "section_1", "load_0"]),
+            potential,
+        );
+        same(sum(&["elastic", "load"]), potential);
+        same(sum(&["potential", "kinetic"]), sum(&["total"]));
+        same(sum(&["bonds"]), sum(&["section_0"]));
+    }
+    let work = Vector3::from(FORCE).dot(&settled.tip_displacement_nm(End::End));
+    let load = rows[rows.len() - 1]["load_pn_nm"];
+    assert!((load + work).abs() < 1e-12 * work, "{load} and {work}");
+}

@@ -1,0 +1,146 @@
+//! Scenes as text, and their way to rest.
+
+use actin_mechanics::{State, Vector3};
+use actin_sim::{Assembly, End, Record, RunReport, Scene, Trajectory};
+use std::ops::ControlFlow;
+
+/// A cantilever of one rod: damped dynamics to rest.
+#[derive(Clone, Debug)]
+pub(crate) struct Rod {
+    pub(crate) length_nm: f64,
+    pub(crate) segments: usize,
+    pub(crate) shear_pn: [f64; 3],
+    pub(crate) bend_pn_nm2: [f64; 3],
+    pub(crate) hold: &'static str,
+    pub(crate) force_law: &'static str,
+    /// Force across the tip, along x (pN).
+    pub(crate) force_pn: f64,
+    /// Both drag rates (1/ns).
+    pub(crate) drag_per_ns: f64,
+    /// Tolerance of the residual, in pN and in pN nm.
+    pub(crate) tolerance: f64,
+}
+
+impl Rod {
+    /// 160 nm of actin under no force, drag twice the first flexural frequency.
+    pub(crate) fn actin(segments: usize) -> Self {
+        Self {
+            length_nm: 160.0,
+            segments,
+            shear_pn: [1.6e4, 1.6e4, 3.4e4],
+            bend_pn_nm2: [3.9e4, 3.9e4, 1.3e4],
+            hold: "Wall",
+            force_law: "EnergyGradient",
+            force_pn: 0.0,
+            drag_per_ns: 0.34,
+            tolerance: 1e-6,
+        }
+    }
+
+    fn scene(&self) -> String {
+        let Self {
+            length_nm,
+            segments,
+            shear_pn: [s1, s2, s3],
+            bend_pn_nm2: [b1, b2, b3],
+            hold,
+            force_law,
+            force_pn,
+            drag_per_ns,
+            tolerance,
+        } = self;
+        let duration = 400.0 / drag_per_ns;
+        let every = 2.0 / drag_per_ns;
+        format!(
+            "Scene(
+                filament: Filament(
+                    sections: [Rod(from_nm: 0.0, to_nm: {length_nm:?}, segments: {segments})],
+                    rod: RodModel(force_law: {force_law}, material: Rigidities(
+                        shear_pn: ({s1:?}, {s2:?}, {s3:?}),
+                        bend_pn_nm2: ({b1:?}, {b2:?}, {b3:?}),
+                    )),
+                ),
+                clamps: [Clamp(end: Start, hold: {hold})],
+                loads: [EndForce(end: End, force_pn: ({force_pn:?}, 0.0, 0.0))],
+                task: Dynamics(
+                    duration_ns: {duration:?},
+                    integrator: PositionVerlet,
+                    step_safety: 0.8,
+                    drag: (translational_per_ns: {drag_per_ns:?}, rotational_per_ns: {drag_per_ns:?}),
+                    stop: (force_pn: {tolerance:?}, torque_pn_nm: {tolerance:?}, kinetic_pn_nm: 1e-10),
+                    record_every_ns: {every:?},
+                ),
+            )"
+        )
+    }
+
+    /// Displacement of the tip along x at rest (nm).
+    pub(crate) fn deflection_nm(&self) -> f64 {
+        let settled = settle(&self.scene());
+        settled.tip_displacement_nm(End::End).x
+    }
+}
+
+/// An assembly at rest under its loads.
+pub(crate) struct Settled {
+    pub(crate) assembly: Assembly,
+    pub(crate) trajectory: Trajectory,
+    pub(crate) report: RunReport,
+}
+
+impl Settled {
+    /// The state at rest.
+    pub(crate) fn last(&self) -> &Record {
+        self.trajectory.records.last().unwrap()
+    }
+
+    /// Displacement of a tip from where it was built (nm).
+    pub(crate) fn tip_displacement_nm(&self, end: End) -> Vector3 {
+        let assembly = &self.assembly;
+        assembly.tip_nm(&self.last().state, end) - assembly.tip_nm(&assembly.rest, end)
+    }
+}
+
+/// The assembly of a scene.
+pub(crate) fn build(text: &str) -> Assembly {
+    let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    Assembly::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
+}
+
+/// Runs an assembly as its scene asks.
+pub(crate) fn run(assembly: &mut Assembly) -> (Trajectory, RunReport) {
+    actin_sim::run(assembly, &mut |_| ControlFlow::Continue(())).unwrap()
+}
+
+/// Runs a scene until its stop rule is met.
+pub(crate) fn settle(text: &str) -> Settled {
+    let mut assembly = build(text);
+    let (trajectory, report) = run(&mut assembly);
+    let settled = Settled {
+        assembly,
+        trajectory,
+        report,
+    };
+    let last = settled.last();
+    assert!(
+        settled.report.converged,
+        "still {} pN and {} pN nm from rest at {} ns",
+        last.residual_force_pn, last.residual_torque_pn_nm, last.time_ns
+    );
+    settled
+}
+
+/// Number of free points and free frames.
+pub(crate) fn free_bodies(state: &State) -> (usize, usize) {
+    let points = (0..state.points.len()).filter(|&i| state.points.is_free(i));
+    let frames = (0..state.frames.len()).filter(|&i| state.frames.is_free(i));
+    (points.count(), frames.count())
+}
+
+/// Slopes of `ln |error|` against `ln h` between successive meshes, each twice as fine.
+pub(crate) fn orders<const N: usize>(errors: [f64; N]) -> Vec<f64> {
+    errors
+        .windows(2)
+        .map(|pair| (pair[0] / pair[1]).abs().log2())
+        .collect()
+}

@@ -1,0 +1,92 @@
+//! Every scene of the repository: good ones build, bad ones say what is wrong, where.
+
+use actin_sim::{Assembly, Estimate, Problem, Scene, SceneError};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn scenarios() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios")
+}
+
+/// All scenes below `folder`, those in a folder `bad` left out.
+fn scenes(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let mut all: Vec<PathBuf> = entries
+        .flat_map(|path| match path.is_dir() {
+            true if path.ends_with("bad") => Vec::new(),
+            true => scenes(&path),
+            false => vec![path],
+        })
+        .filter(|path| path.extension().is_some_and(|extension| extension == "ron"))
+        .collect();
+    all.sort();
+    all
+}
+
+/// Reads, builds and estimates, as `actin check` does.
+fn check(text: &str) -> Result<(Assembly, Option<Estimate>), SceneError> {
+    let scene = Scene::from_ron(text)?;
+    let build = || -> Result<_, Problem> {
+        let assembly = Assembly::build(&scene)?;
+        let estimate = actin_sim::estimate(&assembly)?;
+        Ok((assembly, estimate))
+    };
+    build().map_err(|problem| SceneError::locate(&problem, text))
+}
+
+#[test]
+fn good_scenes_read_build_and_have_a_stable_step() {
+    let all = scenes(&scenarios());
+    assert!(all.len() >= 10, "{all:?}");
+    for path in all {
+        let (assembly, estimate) = check(&fs::read_to_string(&path).unwrap())
+            .unwrap_or_else(|error| panic!("{}:{error}", path.display()));
+        // An equilibrium has no time step.
+        if let Some(estimate) = estimate {
+            assert!(estimate.time_step_ns <= estimate.stability_limit_ns);
+        }
+        // The resolved scene, every default written out, is a scene that means the same.
+        let again = Scene::from_ron(&assembly.scene.to_ron()).unwrap();
+        assert_eq!(again, assembly.scene, "{}", path.display());
+    }
+}
+
+/// Each bad scene begins with a line that holds its message: place, key, value and rule. The
+/// place is that of the culprit; the comment line counts.
+#[test]
+fn bad_scenes_say_what_is_wrong_and_where() {
+    let folder = scenarios().join("bad");
+    let all = scenes(&folder);
+    assert!(all.len() >= 12);
+    for path in all {
+        let text = fs::read_to_string(&path).unwrap();
+        let first = text.lines().next().unwrap();
+        let expected = first.strip_prefix("// expect: ").unwrap();
+        let found = check(&text).err().map(|error| error.to_string());
+        assert_eq!(found.as_deref(), Some(expected), "{}", path.display());
+    }
+}
+
+/// The mistakes that have to be there, by file name.
+#[test]
+fn no_mistake_is_missing() {
+    for name in [
+        "unknown-key",
+        "missing-key",
+        "negative-length",
+        "zero-segments",
+        "one-monomer-section",
+        "non-finite-number",
+        "clamp-on-a-missing-end",
+        "overlapping-sections",
+        "interface-without-bonds",
+        "time-step-above-stability-limit",
+        "unknown-unit-suffix",
+        "empty",
+    ] {
+        let path = scenarios().join("bad").join(name).with_extension("ron");
+        assert!(path.exists(), "{}", path.display());
+    }
+}

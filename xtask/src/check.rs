@@ -1,0 +1,82 @@
+//! `cargo xtask check`: everything that must hold before a commit, short of the tests.
+
+use crate::tidy;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A step that cargo carries out.
+struct Step {
+    purpose: &'static str,
+    arguments: &'static [&'static str],
+    /// An environment variable and its value.
+    variable: Option<(&'static str, &'static str)>,
+}
+
+const STEPS: [Step; 4] = [
+    Step {
+        purpose: "formatting",
+        arguments: &["fmt", "--all", "--check"],
+        variable: None,
+    },
+    Step {
+        purpose: "lints",
+        arguments: &[
+            "clippy",
+            "--workspace",
+            "--all-targets",
+            "--",
+            "--deny",
+            "warnings",
+        ],
+        variable: None,
+    },
+    Step {
+        purpose: "documentation",
+        arguments: &["doc", "--workspace", "--no-deps"],
+        variable: Some(("RUSTDOCFLAGS", "--deny warnings")),
+    },
+    Step {
+        purpose: "benches build",
+        arguments: &["bench", "--workspace", "--no-run"],
+        variable: None,
+    },
+];
+
+/// Runs all steps; the first that fails ends it.
+pub(crate) fn run() -> Result<(), String> {
+    let root = workspace_root();
+    for step in STEPS {
+        let Step {
+            purpose,
+            arguments,
+            variable,
+        } = step;
+        println!("check: {purpose}: cargo {}", arguments.join(" "));
+        let mut command = Command::new("cargo");
+        command.args(arguments).current_dir(&root);
+        if let Some((name, value)) = variable {
+            command.env(name, value);
+        }
+        let status = command
+            .status()
+            .map_err(|error| format!("{purpose}: cargo did not start: {error}"))?;
+        if !status.success() {
+            return Err(format!("{purpose}: cargo {} failed", arguments.join(" ")));
+        }
+    }
+    println!("check: tidy");
+    let findings = tidy::findings(&root)?;
+    if findings.is_empty() {
+        println!("check: all steps passed");
+        return Ok(());
+    }
+    Err(format!("tidy:\n  {}", findings.join("\n  ")))
+}
+
+/// The folder of the workspace's manifest.
+pub(crate) fn workspace_root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .expect("xtask lies one folder below the workspace")
+        .to_path_buf()
+}

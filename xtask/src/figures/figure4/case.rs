@@ -1,0 +1,249 @@
+//! One cantilever: which scene, what is changed in it, and what came out.
+
+use super::ringdown::{self, RingDown};
+use crate::check::workspace_root;
+use actin_sim::{
+    Assembly, Drag, End, JunctionWeight, Load, Material, Record, Scene, Section, Task,
+};
+use std::ops::ControlFlow;
+
+/// What is varied besides the resolution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Variant {
+    /// 2 pN, the bonds of a junction share the rod's rigidity.
+    Shared,
+    /// 2 pN, every bond of a junction has the rod's full rigidity.
+    Full,
+    /// 0.5 pN, shared.
+    HalfPiconewton,
+    /// 2 pN, the preceding paper's rod.
+    PrecedingPaper,
+}
+
+/// Which scene of `scenarios/figure-4` a case starts from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Resolved {
+    /// The last so many nm as a rod.
+    Mixed(u32),
+    /// All of it a rod of so many segments.
+    Rod(usize),
+    /// All monomers, with this seed of the bonds.
+    Ellipsoids(u64),
+}
+
+/// One cantilever.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Case {
+    pub variant: Variant,
+    pub resolved: Resolved,
+}
+
+/// What came out of a case.
+#[derive(Clone, Debug)]
+pub(super) struct Result4 {
+    pub case: Case,
+    /// Distance by which the tip went along the force (nm).
+    pub tip_drop_nm: f64,
+    /// Time (ns), elastic plus kinetic energy (pN nm).
+    pub energy: Vec<(f64, f64)>,
+    /// Centre line at the end (nm).
+    pub centre_line: Vec<[f64; 3]>,
+    /// Monomer centres at the end (nm).
+    pub monomers: Vec<[f64; 3]>,
+    /// First flexural mode.
+    pub ring_down: Option<RingDown>,
+    /// Residual force (pN) and torque (pN nm) at the end.
+    pub residual: (f64, f64),
+    pub converged: bool,
+    pub time_ns: f64,
+    pub force_evaluations: u64,
+    pub wall_s: f64,
+}
+
+/// Drag rates while a filament swings (1/ns): the amplitude decays at half this rate.
+pub(super) const SWING_DRAG_PER_NS: f64 = 0.04;
+/// Time for which it swings (ns): about four periods.
+const SWING_NS: f64 = 150.0;
+
+/// Segments of the pure rod at the resolution of the paper, 10 nm each.
+pub(super) const ROD_SEGMENTS: usize = 16;
+
+impl Case {
+    pub(super) fn mixed(variant: Variant, rod: u32) -> Self {
+        let resolved = Resolved::Mixed(rod);
+        Self { variant, resolved }
+    }
+
+    pub(super) fn rod(variant: Variant) -> Self {
+        let resolved = Resolved::Rod(ROD_SEGMENTS);
+        Self { variant, resolved }
+    }
+
+    pub(super) fn refined_rod(segments: usize) -> Self {
+        let (variant, resolved) = (Variant::Shared, Resolved::Rod(segments));
+        Self { variant, resolved }
+    }
+
+    pub(super) fn ellipsoids(variant: Variant, seed: u64) -> Self {
+        let resolved = Resolved::Ellipsoids(seed);
+        Self { variant, resolved }
+    }
+
+    /// Share of rod, for the colour.
+    pub(super) fn rod_share(&self) -> f64 {
+        match self.resolved {
+            Resolved::Mixed(rod) => f64::from(rod) / 160.0,
+            Resolved::Rod(_) => 1.0,
+            Resolved::Ellipsoids(_) => 0.0,
+        }
+    }
+
+    /// Name in tables, legends and quantities.
+    pub(super) fn name(&self) -> String {
+        match self.resolved {
+            Resolved::Mixed(rod) => format!("rod-{rod}"),
+            Resolved::Rod(ROD_SEGMENTS) => "rod".into(),
+            Resolved::Rod(segments) => format!("rod-of-{segments}-segments"),
+            Resolved::Ellipsoids(0) => "ellipsoids".into(),
+            Resolved::Ellipsoids(seed) => format!("ellipsoids/seed-{seed}"),
+        }
+    }
+
+    fn scene(&self) -> Result<Scene, String> {
+        let file = match self.resolved {
+            Resolved::Mixed(rod) => format!("rod-{rod:03}.ron"),
+            Resolved::Rod(_) => "rod.ron".into(),
+            Resolved::Ellipsoids(_) => "ellipsoids.ron".into(),
+        };
+        let path = workspace_root().join("scenarios/figure-4").join(file);
+        let text = std::fs::read_to_string(&path)
+            .map_err(|error| format!("{}: {error}", path.display()))?;
+        let mut scene =
+            Scene::from_ron(&text).map_err(|error| format!("{}:{error}", path.display()))?;
+        self.apply(&mut scene);
+        Ok(scene)
+    }
+
+    fn apply(&self, scene: &mut Scene) {
+        match self.variant {
+            Variant::Shared => {}
+            Variant::Full => scene.filament.junction.weight = JunctionWeight::Full,
+            Variant::HalfPiconewton => {
+                for Load::EndForce { force_pn, .. } in &mut scene.loads {
+                    *force_pn = force_pn.map(|f| f * 0.25);
+                }
+            }
+            Variant::PrecedingPaper => scene.filament.rod.material = Material::PrecedingPaper,
+        }
+        match (self.resolved, &mut scene.filament.sections[0]) {
+            (Resolved::Rod(n), Section::Rod { segments, .. }) => *segments = Some(n),
+            (Resolved::Ellipsoids(seed), _) => scene.filament.monomers.seed = seed,
+            _ => {}
+        }
+    }
+
+    /// Runs the case to its end.
+    pub(super) fn run(&self) -> Result<Result4, String> {
+        let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", self.name());
+        let mut assembly = Assembly::build(&self.scene()?).map_err(|e| fail(&e))?;
+        let watch = &mut |_| ControlFlow::Continue(());
+        let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
+        let last = trajectory
+            .records
+            .last()
+            .ok_or_else(|| fail(&"no record"))?;
+        let drop = |record: &Record| -displacement(&assembly, record);
+        let positions = |keep: &dyn Fn(usize) -> Option<[f64; 3]>| -> Vec<[f64; 3]> {
+            (0..assembly.points.len()).filter_map(keep).collect()
+        };
+        Ok(Result4 {
+            case: *self,
+            tip_drop_nm: drop(last),
+            energy: trajectory
+                .records
+                .iter()
+                .map(|record| (record.time_ns, internal_energy(&assembly, record)))
+                .collect(),
+            centre_line: positions(&|i| Some(assembly.centre_line_nm(&last.state, i).into())),
+            monomers: positions(&|i| {
+                let monomer = assembly.points[i].frame.is_some();
+                monomer.then(|| last.state.points.position.get(i).into())
+            }),
+            ring_down: self.ring_down(drop(last))?,
+            residual: (last.residual_force_pn, last.residual_torque_pn_nm),
+            converged: report.converged,
+            time_ns: last.time_ns,
+            force_evaluations: report.force_evaluations,
+            wall_s: report.wall_s,
+        })
+    }
+}
+
+impl Case {
+    /// Lets the filament swing about its equilibrium with little drag, the same for all cases.
+    fn ring_down(&self, equilibrium_nm: f64) -> Result<Option<RingDown>, String> {
+        if !self.swings() {
+            return Ok(None);
+        }
+        let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", self.name());
+        let mut scene = self.scene()?;
+        let Task::Dynamics(dynamics) = &mut scene.task else {
+            return Err(fail(&"the scene asks for no dynamics"));
+        };
+        dynamics.drag = Drag {
+            translational_per_ns: SWING_DRAG_PER_NS,
+            rotational_per_ns: SWING_DRAG_PER_NS,
+        };
+        dynamics.duration_ns = SWING_NS;
+        dynamics.stop = None;
+        let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
+        let watch = &mut |_| ControlFlow::Continue(());
+        let (trajectory, _) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
+        let approach: Vec<(f64, f64)> = trajectory
+            .records
+            .iter()
+            .map(|record| (record.time_ns, -displacement(&assembly, record)))
+            .collect();
+        Ok(ringdown::fit(&approach, equilibrium_nm))
+    }
+
+    /// Whether the case is one of those whose frequencies are compared.
+    fn swings(&self) -> bool {
+        let drawn = matches!(
+            self.resolved,
+            Resolved::Mixed(_) | Resolved::Rod(ROD_SEGMENTS) | Resolved::Ellipsoids(0)
+        );
+        drawn && self.variant == Variant::Shared
+    }
+}
+
+/// Displacement of the tip along lab x (nm).
+fn displacement(assembly: &Assembly, record: &Record) -> f64 {
+    (assembly.tip_nm(&record.state, End::End) - assembly.tip_nm(&assembly.rest, End::End)).x
+}
+
+/// Energy without the potential of the load (pN nm).
+fn internal_energy(assembly: &Assembly, record: &Record) -> f64 {
+    let elastic: f64 = assembly
+        .terms
+        .iter()
+        .zip(&record.energies_pn_nm)
+        .filter(|(term, _)| !matches!(term.part, actin_sim::Part::Load(_)))
+        .map(|(_, energy)| energy)
+        .sum();
+    elastic + record.kinetic_pn_nm
+}
+
+/// How the cases were run, in words.
+pub(super) fn settings(results: &[Result4]) -> String {
+    let worst = |pick: fn(&Result4) -> f64| results.iter().map(pick).fold(0.0, f64::max);
+    let unfinished = results.iter().filter(|r| !r.converged).count();
+    format!(
+        "Scenes scenarios/figure-4/*.ron, {} cases, damped dynamics; at the end every force is \
+         below {:.1e} pN and every torque below {:.1e} pN nm; {unfinished} case(s) ended by time. \
+         Seed 0 unless named.",
+        results.len(),
+        worst(|r| r.residual.0),
+        worst(|r| r.residual.1),
+    )
+}

@@ -1,0 +1,115 @@
+//! The panels of Figure 4: side view, end view, energy against time.
+
+use super::case::{Resolved, Result4, Variant};
+use crate::figures::plot::{Chart, Series, draw as draw_chart, resolution_colour};
+use crate::figures::report::Picture;
+use std::path::Path;
+
+/// Draws all panels.
+pub(super) fn draw(results: &[Result4], out: &Path) -> Result<Vec<Picture>, String> {
+    let mut pictures = Vec::new();
+    for (variant, weight, force) in [
+        (Variant::Shared, "shared", "2 pN"),
+        (Variant::Full, "full", "2 pN"),
+        (Variant::HalfPiconewton, "shared", "0.5 pN"),
+    ] {
+        let mut chosen: Vec<&Result4> = results
+            .iter()
+            .filter(|r| r.case.variant == variant && is_drawn(r.case.resolved))
+            .collect();
+        chosen.sort_by(|a, b| a.case.rod_share().total_cmp(&b.case.rod_share()));
+        pictures.extend(panels(&chosen, weight, force, out)?);
+    }
+    Ok(pictures)
+}
+
+/// Refined rods and further seeds are numbers, not lines.
+fn is_drawn(resolved: Resolved) -> bool {
+    matches!(
+        resolved,
+        Resolved::Mixed(_) | Resolved::Rod(super::case::ROD_SEGMENTS) | Resolved::Ellipsoids(0)
+    )
+}
+
+fn panels(
+    results: &[&Result4],
+    weight: &str,
+    force: &str,
+    out: &Path,
+) -> Result<Vec<Picture>, String> {
+    let what = format!("{force}, junction weight {weight}");
+    let file = |panel: &str| format!("fig4_{}_{weight}_{panel}.svg", force.replace(' ', "_"));
+    let save = |chart: Chart<'_>, panel: &str, caption: String| {
+        let name = file(panel);
+        draw_chart(&chart, &out.join(&name))?;
+        let file = name;
+        Ok::<_, String>(Picture { file, caption })
+    };
+    Ok(vec![
+        save(
+            Chart {
+                title: &format!("Side view, {what}"),
+                x_label: "z along the unloaded filament (nm)",
+                y_label: "x (nm); the force pulls towards -x",
+                series: view(results, |p| (p[2], p[0])),
+                equal_axes: true,
+            },
+            "side",
+            format!(
+                "Equilibria under {what}. Lines: nodes of the rod, and the centre line of the \
+                 monomers; dots: monomer centres. Red is all monomers, blue all rod."
+            ),
+        )?,
+        save(
+            Chart {
+                title: &format!("End view, {what}"),
+                x_label: "y (nm)",
+                y_label: "x (nm); the force pulls towards -x",
+                series: view(results, |p| (p[1], p[0])),
+                equal_axes: true,
+            },
+            "end",
+            "The same states seen along the unloaded filament.".into(),
+        )?,
+        save(
+            Chart {
+                title: &format!("Energy, {what}"),
+                x_label: "time (ns)",
+                y_label: "elastic and kinetic energy (pN nm)",
+                series: energies(results),
+                equal_axes: false,
+            },
+            "energy",
+            "Elastic and kinetic energy while the damped motion comes to rest.".into(),
+        )?,
+    ])
+}
+
+/// Monomer centres as dots under the centre lines, projected by `project`.
+fn view(results: &[&Result4], project: fn(&[f64; 3]) -> (f64, f64)) -> Vec<Series> {
+    let dots = results.iter().map(|r| Series {
+        label: None,
+        colour: resolution_colour(r.case.rod_share()),
+        points: r.monomers.iter().map(project).collect(),
+        dots: true,
+    });
+    let lines = results.iter().map(|r| Series {
+        label: Some(r.case.name()),
+        colour: resolution_colour(r.case.rod_share()),
+        points: r.centre_line.iter().map(project).collect(),
+        dots: false,
+    });
+    dots.chain(lines).collect()
+}
+
+fn energies(results: &[&Result4]) -> Vec<Series> {
+    results
+        .iter()
+        .map(|r| Series {
+            label: Some(r.case.name()),
+            colour: resolution_colour(r.case.rod_share()),
+            points: r.energy.clone(),
+            dots: false,
+        })
+        .collect()
+}

@@ -1,0 +1,69 @@
+//! Frequency and decay of the slowest mode from the approach to equilibrium.
+
+/// A damped oscillation.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RingDown {
+    /// Angular frequency of the damped oscillation (rad/ns).
+    pub frequency_rad_per_ns: f64,
+    /// Decay rate of its amplitude (1/ns).
+    pub decay_per_ns: f64,
+}
+
+/// Most extrema that are used.
+const MOST_EXTREMA: usize = 8;
+
+/// Fits the extrema of `approach`, pairs of time and value, about the equilibrium `end`.
+///
+/// Extrema of a damped oscillation are half a period apart and shrink by `exp(-decay T/2)`; both
+/// follow from the first and the last extremum used. `None` if there are fewer than three.
+pub(super) fn fit(approach: &[(f64, f64)], end: f64) -> Option<RingDown> {
+    let extrema: Vec<(f64, f64)> = approach
+        .windows(3)
+        .filter(|w| (w[1].1 - w[0].1) * (w[2].1 - w[1].1) < 0.0)
+        .map(vertex)
+        .take(MOST_EXTREMA)
+        .collect();
+    let (first, last) = (extrema.first()?, extrema.last()?);
+    let halves = extrema.len().checked_sub(1).filter(|n| *n >= 2)? as f64;
+    let time = last.0 - first.0;
+    let shrinkage = ((first.1 - end) / (last.1 - end)).abs().ln();
+    Some(RingDown {
+        frequency_rad_per_ns: std::f64::consts::PI * halves / time,
+        decay_per_ns: shrinkage / time,
+    })
+}
+
+/// Vertex of the parabola through three equidistant points.
+fn vertex(w: &[(f64, f64)]) -> (f64, f64) {
+    let h = w[1].0 - w[0].0;
+    let slope = 0.5 * (w[2].1 - w[0].1);
+    let bend = w[2].1 - 2.0 * w[1].1 + w[0].1;
+    let t = -slope / bend;
+    (w[1].0 + t * h, w[1].1 + 0.5 * t * slope)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fit;
+
+    /// A known oscillation, sampled 30 times a period, gives its numbers back.
+    #[test]
+    fn a_damped_oscillation_is_recovered() {
+        let (omega, decay) = (0.17, 0.025);
+        let approach: Vec<(f64, f64)> = (0..2000)
+            .map(|k| 1.2 * f64::from(k))
+            .map(|t| (t, 60.0 * (1.0 - (-decay * t).exp() * (omega * t).cos())))
+            .collect();
+        let ring = fit(&approach, 60.0).unwrap();
+        assert!((ring.frequency_rad_per_ns - omega).abs() < 1e-3 * omega);
+        assert!((ring.decay_per_ns - decay).abs() < 5e-3 * decay);
+    }
+
+    #[test]
+    fn a_monotone_approach_has_no_oscillation() {
+        let approach: Vec<(f64, f64)> = (0..50)
+            .map(|k| (f64::from(k), 1.0 - (-0.1 * f64::from(k)).exp()))
+            .collect();
+        assert!(fit(&approach, 1.0).is_none());
+    }
+}

@@ -1,0 +1,42 @@
+//! `cargo xtask reproduce-figures`: artefacts of the paper, computed and compared.
+//!
+//! Each artefact is a function that runs simulations, writes its pictures and tables into a
+//! folder and returns rows that set our number beside the paper's. Nothing here is drawn from
+//! anything but a simulation of that run.
+
+mod figure4;
+mod html;
+mod plot;
+mod report;
+
+use report::Artefact;
+use std::fs;
+use std::path::Path;
+
+/// An artefact: its name, and what computes it into a folder.
+type Recipe = (&'static str, fn(&Path, bool) -> Result<Artefact, String>);
+
+/// The artefacts that exist.
+const RECIPES: [Recipe; 1] = [("fig4", figure4::reproduce)];
+
+/// Computes the artefacts named `ids` (all if none is named) into `out`.
+pub(crate) fn reproduce(ids: &[String], out: &Path, quick: bool) -> Result<(), String> {
+    let known: Vec<&str> = RECIPES.iter().map(|(id, _)| *id).collect();
+    if let Some(unknown) = ids.iter().find(|id| !known.contains(&id.as_str())) {
+        return Err(format!(
+            "no artefact `{unknown}`: there is {}",
+            known.join(", ")
+        ));
+    }
+    fs::create_dir_all(out).map_err(|e| format!("{}: {e}", out.display()))?;
+    let chosen = |id: &str| ids.is_empty() || ids.iter().any(|wanted| wanted == id);
+    let mut artefacts = Vec::new();
+    for (id, recipe) in RECIPES.into_iter().filter(|(id, _)| chosen(id)) {
+        println!("{id}:");
+        artefacts.push(recipe(out, quick)?);
+    }
+    report::write(&artefacts, out)?;
+    html::write(&artefacts, out)?;
+    println!("written: {}", out.join("report.html").display());
+    Ok(())
+}

@@ -1,0 +1,140 @@
+//! Line charts as SVG, in one style for all figures.
+
+use plotters::prelude::*;
+use std::path::Path;
+
+/// One line of a chart.
+#[derive(Clone, Debug)]
+pub(super) struct Series {
+    /// Name in the legend; series without a name are drawn only.
+    pub label: Option<String>,
+    /// Colour.
+    pub colour: RGBColor,
+    /// Points in data coordinates.
+    pub points: Vec<(f64, f64)>,
+    /// Whether the points are drawn as dots instead of a line.
+    pub dots: bool,
+}
+
+/// A chart.
+#[derive(Clone, Debug)]
+pub(super) struct Chart<'a> {
+    pub title: &'a str,
+    pub x_label: &'a str,
+    pub y_label: &'a str,
+    pub series: Vec<Series>,
+    /// Whether both axes have the same scale.
+    pub equal_axes: bool,
+}
+
+/// Size of a chart in pixels.
+const SIZE: (u32, u32) = (900, 560);
+/// Pixels of the plane inside labels and margins, used to make scales equal.
+const PLANE: (f64, f64) = (800.0, 450.0);
+
+/// The colour of a share of rod between 0 (all monomers, red) and 1 (all rod, blue), through
+/// yellow as in the paper.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a place between the first and the last stop, and a mean of two bytes"
+)]
+pub(super) fn resolution_colour(share: f64) -> RGBColor {
+    const STOPS: [[f64; 3]; 5] = [
+        [190.0, 25.0, 35.0],
+        [235.0, 110.0, 40.0],
+        [235.0, 180.0, 0.0],
+        [90.0, 165.0, 215.0],
+        [30.0, 70.0, 180.0],
+    ];
+    let place = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
+    let i = (place as usize).min(STOPS.len() - 2);
+    let t = place - i as f64;
+    let mix = |k: usize| (STOPS[i][k] + t * (STOPS[i + 1][k] - STOPS[i][k])) as u8;
+    RGBColor(mix(0), mix(1), mix(2))
+}
+
+/// Draws `chart` into the SVG file `path`.
+///
+/// # Errors
+/// A chart without points, or a file that cannot be written.
+pub(super) fn draw(chart: &Chart<'_>, path: &Path) -> Result<(), String> {
+    let (x, y) = ranges(chart).ok_or_else(|| format!("{}: nothing to draw", chart.title))?;
+    let root = SVGBackend::new(path, SIZE).into_drawing_area();
+    render(chart, &root, x, y).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+type Drawing<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+fn render(
+    chart: &Chart<'_>,
+    root: &Drawing<'_>,
+    x: std::ops::Range<f64>,
+    y: std::ops::Range<f64>,
+) -> Outcome {
+    root.fill(&WHITE)?;
+    let mut plane = ChartBuilder::on(root)
+        .caption(chart.title, ("sans-serif", 20))
+        .margin(14)
+        .x_label_area_size(46)
+        .y_label_area_size(66)
+        .build_cartesian_2d(x, y)?;
+    plane
+        .configure_mesh()
+        .x_desc(chart.x_label)
+        .y_desc(chart.y_label)
+        .label_style(("sans-serif", 15))
+        .axis_desc_style(("sans-serif", 16))
+        .light_line_style(TRANSPARENT)
+        .draw()?;
+    for series in &chart.series {
+        let colour = series.colour;
+        let drawn = if series.dots {
+            let dots = series.points.iter();
+            plane.draw_series(dots.map(|&p| Circle::new(p, 2, colour.filled())))?
+        } else {
+            let line = LineSeries::new(series.points.iter().copied(), colour.stroke_width(2));
+            plane.draw_series(line)?
+        };
+        if let Some(label) = &series.label {
+            drawn.label(label).legend(move |(x, y)| {
+                PathElement::new([(x, y), (x + 22, y)], colour.stroke_width(3))
+            });
+        }
+    }
+    plane
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperRight)
+        .background_style(WHITE.mix(0.85))
+        .border_style(BLACK.mix(0.3))
+        .label_font(("sans-serif", 14))
+        .draw()?;
+    root.present()?;
+    Ok(())
+}
+
+/// Data ranges with a margin, made to have equal scales where the chart asks for it.
+fn ranges(chart: &Chart<'_>) -> Option<(std::ops::Range<f64>, std::ops::Range<f64>)> {
+    let points = || chart.series.iter().flat_map(|s| &s.points);
+    points().next()?;
+    let span = |pick: fn(&(f64, f64)) -> f64| {
+        let low = points().map(pick).fold(f64::INFINITY, f64::min);
+        let high = points().map(pick).fold(f64::NEG_INFINITY, f64::max);
+        let margin = (0.05 * (high - low)).max(1e-9 * high.abs()).max(1e-12);
+        (low - margin, high + margin)
+    };
+    let (mut x, mut y) = (span(|p| p.0), span(|p| p.1));
+    if chart.equal_axes {
+        let scale = ((x.1 - x.0) / PLANE.0).max((y.1 - y.0) / PLANE.1);
+        x = widen(x, scale * PLANE.0);
+        y = widen(y, scale * PLANE.1);
+    }
+    Some((x.0..x.1, y.0..y.1))
+}
+
+/// The range of the given width about the same middle.
+fn widen((low, high): (f64, f64), width: f64) -> (f64, f64) {
+    let middle = 0.5 * (low + high);
+    (middle - 0.5 * width, middle + 0.5 * width)
+}

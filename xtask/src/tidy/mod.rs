@@ -1,0 +1,66 @@
+//! What neither compiler nor lints check: the invariants of `docs/architecture.md`.
+
+mod dependencies;
+mod paths;
+mod sizes;
+mod words;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Everything that is not tidy, one line each.
+///
+/// # Errors
+/// A file that cannot be read.
+pub(crate) fn findings(root: &Path) -> Result<Vec<String>, String> {
+    let sources = files(root, "rs")?;
+    let mut all = dependencies::findings(root)?;
+    all.extend(paths::findings(root)?);
+    for (path, text) in &sources {
+        let name = path
+            .strip_prefix(root)
+            .unwrap_or(path)
+            .display()
+            .to_string();
+        all.extend(sizes::findings(&name, text));
+        all.extend(words::findings(&name, text));
+    }
+    Ok(all)
+}
+
+/// All files below `root` with this extension and their texts, build output left out.
+fn files(root: &Path, extension: &str) -> Result<Vec<(PathBuf, String)>, String> {
+    let mut found = Vec::new();
+    let mut folders = vec![root.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        let entries = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+        for entry in entries {
+            let path = entry.map_err(|e| e.to_string())?.path();
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            if path.is_dir() {
+                if name != "target" && !name.starts_with('.') {
+                    folders.push(path);
+                }
+            } else if path.extension().is_some_and(|e| e == extension) {
+                found.push((path.clone(), read(&path)?));
+            }
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    /// The workspace keeps its own rules.
+    #[test]
+    fn the_workspace_is_tidy() {
+        let root = crate::check::workspace_root();
+        let findings = super::findings(&root).expect("the workspace can be read");
+        assert!(findings.is_empty(), "{}", findings.join("\n"));
+    }
+}

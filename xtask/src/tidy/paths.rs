@@ -1,0 +1,27 @@
+//! Paths that the documentation names.
+
+use super::files;
+use std::path::Path;
+
+/// Beginnings by which a word in backticks is taken for a path of this workspace.
+const FOLDERS: [&str; 5] = ["crates/", "docs/", "scenarios/", "xtask/", "tests/"];
+
+/// Paths in backticks that do not exist.
+pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
+    let mut all = Vec::new();
+    for (file, text) in files(root, "md")? {
+        let name = file
+            .strip_prefix(root)
+            .unwrap_or(&file)
+            .display()
+            .to_string();
+        for path in text.split('`').skip(1).step_by(2) {
+            let named = FOLDERS.iter().any(|folder| path.starts_with(folder));
+            let plain = !path.contains(['*', ' ', '<', '{', '\n']);
+            if named && plain && !root.join(path).exists() {
+                all.push(format!("{name}: names {path}, which does not exist"));
+            }
+        }
+    }
+    Ok(all)
+}

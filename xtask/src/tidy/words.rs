@@ -1,0 +1,30 @@
+//! Words that a crate must not know.
+
+/// Crates, and words that none of their lines may hold.
+const FORBIDDEN: [(&str, &[&str]); 2] = [
+    (
+        "crates/actin-mechanics/src",
+        &["monomer", "filament", "cosserat", "helix", "bond"],
+    ),
+    (
+        "crates/actin-integrate/src",
+        &["monomer", "filament", "cosserat", "helix"],
+    ),
+];
+
+/// Lines with a word that their crate must not know.
+pub(super) fn findings(name: &str, text: &str) -> Vec<String> {
+    let forbidden: Vec<&str> = FORBIDDEN
+        .iter()
+        .filter(|(folder, _)| name.starts_with(folder))
+        .flat_map(|(_, words)| words.iter().copied())
+        .collect();
+    let mut all = Vec::new();
+    for (i, line) in text.lines().enumerate() {
+        let line = line.to_lowercase();
+        for word in forbidden.iter().filter(|word| line.contains(**word)) {
+            all.push(format!("{name}:{}: must not know of a {word}", i + 1));
+        }
+    }
+    all
+}
