@@ -25,7 +25,11 @@ fn heated(filament: Filament, level: f64, share: f64) -> EnergyRecord {
     heat(system.state_mut(), level, 1);
     let h = stable_step(&PEFRL, frequency, share).unwrap();
     let record = EnergyRecord::of(&mut system, h, STEPS, |_| ());
-    println!("{}, level {level}, {share} of the limit: {}", filament.0, record.line());
+    println!(
+        "{}, level {level:.0e}, {share} of the limit: {}",
+        filament.0,
+        record.line()
+    );
     record
 }
 
@@ -44,17 +48,38 @@ fn energy_is_bounded_without_a_trend_at_half_the_limit() {
         let record = heated(filament, level, 0.5);
         let (early, wander, trend) = (record.early(), record.wander(), record.trend());
         // The energy of the fastest modes comes and goes.
-        assert!(wander < 1.5 * early, "{}: {early:e} became {wander:e}", filament.0);
+        assert!(
+            wander < 1.5 * early,
+            "{}: {early:e} became {wander:e}",
+            filament.0
+        );
         assert!(trend.abs() < 0.1 * early, "{}: {trend:e}", filament.0);
         // (omega h)^4 of the fastest modes, as far as they take part: measured 3e-4 to 6e-3.
         assert!(wander < 1e-2, "{}: {wander:e}", filament.0);
     }
 }
 
-/// A known limitation, which must not get worse: at room temperature the shortest bonds (0.15 nm
-/// at rest) come within a few hundredths of a nm of zero length, where their direction turns
-/// within a step. The energy then takes small jumps at any step, and at half the limit grows by
-/// some percent. Junctions raise the largest frequency, so mixed filaments take smaller steps.
+/// Nor does it go anywhere nearer to the limit, while amplitudes are small enough for the limit to
+/// mean what it says: that of the rod hardly depends on its strains, that of monomers does (at a
+/// level of 0.01, 0.9 of the limit explodes a mixed filament).
+#[test]
+fn energy_is_bounded_without_a_trend_up_to_the_limit() {
+    for (filament, level, share) in [(ROD, 1.0, 0.9), (ELLIPSOIDS, 1e-4, 0.8), (MIXED, 1e-4, 0.8)] {
+        let record = heated(filament, level, share);
+        let (early, wander, trend) = (record.early(), record.wander(), record.trend());
+        assert!(
+            wander < 1.5 * early,
+            "{}: {early:e} became {wander:e}",
+            filament.0
+        );
+        assert!(trend.abs() < 0.1 * early, "{}: {trend:e}", filament.0);
+    }
+}
+
+/// A known limitation, which must not get worse: at room temperature the shortest bonds come close
+/// to zero length (see `short_bonds.rs`). The energy then takes small jumps at any step, and at
+/// half the limit grows by some percent. Junctions raise the largest frequency, so mixed filaments
+/// take smaller steps.
 #[test]
 fn room_temperature_costs_monomers_some_energy() {
     for (filament, at_half, at_quarter) in [
@@ -80,11 +105,15 @@ fn slow(filament: Filament, level: f64, share: f64, steps: u64) -> EnergyRecord 
     let h = stable_step(&PEFRL, modes.largest(), share).unwrap();
     let mut farthest: f64 = 0.0;
     let record = EnergyRecord::of(&mut system, h, steps, |state| {
-        let places = state.points.position.iter().zip(start.points.position.iter());
+        let places = state
+            .points
+            .position
+            .iter()
+            .zip(start.points.position.iter());
         farthest = places.map(|(a, b)| (a - b).norm()).fold(farthest, f64::max);
     });
     println!(
-        "{}, level {level:e}, {share} of the limit: {} slow modes, up to {farthest:.2e} nm, {}",
+        "{}, level {level:.0e}, {share} of the limit: {} slow modes, up to {farthest:.2e} nm, {}",
         filament.0,
         modes.slow(),
         record.line()
@@ -96,19 +125,21 @@ fn slow(filament: Filament, level: f64, share: f64, steps: u64) -> EnergyRecord 
 /// 1e-8, relative to the energy of the motion, at half the stability limit and over 1e5 steps.
 ///
 /// For the rod this holds at 30 kBT a mode (7 nm of deflection in 80 nm). A filament with monomers
-/// has, apart from one or two, slow modes without any stiffness; they stop at fourth powers of
+/// has, apart from one to three, slow modes without any stiffness; they stop at fourth powers of
 /// their amplitude, through which they heat the fast modes, and from then on the start is not what
-/// counts. So there it holds for motions of a hundredth of a nm only.
+/// counts. So there it holds for motions of a few hundredths of a nm only. What ten times the
+/// level gives is printed beside it.
 #[test]
 fn slow_motion_keeps_its_energy() {
     for (filament, level) in [
         (ROD, 30.0),
         (ELLIPSOIDS, 1e-6),
-        (MIXED, 1e-6),
-        (ROD_AT_BOTH_ENDS, 1e-6),
+        (MIXED, 1e-5),
+        (ROD_AT_BOTH_ENDS, 1e-4),
     ] {
         let wander = slow(filament, level, 0.5, STEPS).wander();
         assert!(wander < 1e-8, "{}: {wander:e}", filament.0);
+        slow(filament, 10.0 * level, 0.5, STEPS);
     }
 }
 
@@ -117,7 +148,7 @@ fn slow_motion_keeps_its_energy() {
 /// gradient would leave an error that does not depend on the step.
 #[test]
 fn what_slow_monomers_lose_is_the_error_of_the_step() {
-    for filament in [ELLIPSOIDS, MIXED, ROD_AT_BOTH_ENDS] {
+    for filament in [ELLIPSOIDS, MIXED] {
         let coarse = slow(filament, 0.1, 0.5, STEPS);
         let fine = slow(filament, 0.1, 0.25, 2 * STEPS);
         let ratio = coarse.rms() / fine.rms();
@@ -146,22 +177,14 @@ fn slow_modes_are_the_floppy_and_the_flexural_ones() {
         );
         let estimate = largest_frequency(&system).unwrap();
         // The estimate is never high, and low by far less than a percent on small systems.
-        assert!((estimate / modes.largest() - 1.0).abs() < 1e-4, "{estimate}");
+        assert!(
+            (estimate / modes.largest() - 1.0).abs() < 1e-4,
+            "{estimate}"
+        );
     }
     let monomers = Modes::of(&at_rest(ELLIPSOIDS));
     assert_eq!((monomers.below(1e-2), monomers.slow()), (15 + 7, 16));
     let rod = Modes::of(&at_rest(ROD));
     assert_eq!((rod.below(1e-2), rod.slow()), (6, 2));
     assert!((rod.frequencies[6] - 4.02).abs() < 0.01);
-}
-
-#[test]
-fn tmp_near_limit() {
-    for share in [0.6,0.7,0.8,0.9,0.95] { for (f,l) in [(ROD,1.0),(ROD,0.01),(ELLIPSOIDS,0.01),(ELLIPSOIDS,1e-4),(MIXED,0.01),(MIXED,1e-4)] { heated(f,l,share); } }
-}
-#[test]
-fn tmp_ratio() {
-    for f in [ELLIPSOIDS, MIXED, ROD_AT_BOTH_ENDS] { for l in [0.03,0.1,0.3] {
-        let c = slow(f,l,0.5,STEPS); let d=slow(f,l,0.25,2*STEPS); println!("RATIO {} {l} rms {:.1} wander {:.1}", f.0, c.rms()/d.rms(), c.wander()/d.wander());
-    }}
 }

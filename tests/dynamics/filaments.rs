@@ -49,8 +49,8 @@ pub(crate) fn assemble((_, sections): Filament, law: ForceLaw) -> Assembly {
 }
 
 /// The filament flying at 37 nm/ns and turning at 6 rad/ns, bent to 7e-3 and twisted to 1e-2
-/// rad/nm (as much as in the scenes), and shaken: every kind of strain is at work, about half of
-/// kBT of energy for each degree of freedom (printed by the test of the order).
+/// rad/nm (as much as in the scenes), and shaken: every kind of strain is at work, with a third to
+/// a half of kBT of strain energy for each degree of freedom (the test of the order prints it).
 pub(crate) fn in_flight(filament: Filament) -> System {
     let mut assembly = assemble(filament, ForceLaw::EnergyGradient);
     let mut noise = Noise::new(5);
@@ -58,7 +58,10 @@ pub(crate) fn in_flight(filament: Filament) -> System {
     bend(&mut assembly, Vector3::new(6e-3, -3e-3, 1e-2));
     let state = assembly.system.state_mut();
     perturb(state, &mut noise, 2e-3, 1e-3);
-    let (velocity, omega) = (Vector3::new(20.0, -10.0, 30.0), Vector3::new(3.0, -2.0, 5.0));
+    let (velocity, omega) = (
+        Vector3::new(20.0, -10.0, 30.0),
+        Vector3::new(3.0, -2.0, 5.0),
+    );
     fly(state, velocity, omega);
     assembly.system
 }

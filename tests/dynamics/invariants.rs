@@ -25,7 +25,11 @@ fn time_reversal() {
             let gone = distances(system.state(), &start);
             advance(&mut system, scheme, -h, 300, &Drag::NONE);
             let missed = distances(system.state(), &start);
-            println!("{}, {scheme}: missed by {}", filament.0, scientific(&missed));
+            println!(
+                "{}, {scheme}: missed by {}",
+                filament.0,
+                scientific(&missed)
+            );
             assert!(gone[0] > 1.0 && gone[2] > 0.3, "{gone:?}");
             // Places of 30 nm carry 4e-15 of round-off, which up to 6600 stages and neighbouring
             // paths that part multiply, by less than a hundred as measured. Velocities are as much
@@ -65,6 +69,10 @@ fn momentum_and_angular_momentum_stay() {
         let changes = [(p_end - p).norm() / momentum, (l_end - l).norm() / moment];
         println!("{}: relative changes {}", filament.0, scientific(&changes));
         // A random walk of 4e4 kicks of relative round-off 1e-16: 2e-14.
-        assert!(changes.iter().all(|c| *c < 1e-13), "{}: {changes:?}", filament.0);
+        assert!(
+            changes.iter().all(|c| *c < 1e-13),
+            "{}: {changes:?}",
+            filament.0
+        );
     }
 }

@@ -9,3 +9,4 @@ mod modes;
 mod order;
 mod paper_balance;
 mod record;
+mod short_bonds;

@@ -66,7 +66,8 @@ impl Modes {
             motion -= rigid * rigid.dot(&motion);
         }
         motion *= (2.0 * KBT * level * self.slow() as f64).sqrt() / motion.norm();
-        let vector = |v: &DVector<f64>, b: usize| Vector3::new(v[3 * b], v[3 * b + 1], v[3 * b + 2]);
+        let vector =
+            |v: &DVector<f64>, b: usize| Vector3::new(v[3 * b], v[3 * b + 1], v[3 * b + 2]);
         let velocities = motion.component_mul(&self.weights);
         let momenta = motion.component_div(&self.weights);
         let points = state.points.len();

@@ -34,6 +34,12 @@ impl EnergyRecord {
             for _ in 0..200 {
                 advance(system, &PEFRL, h, steps / 2000, &Drag::NONE);
                 let deviation = system.total_energy() / start - 1.0;
+                // A state that has exploded must not pass as one that is not compared.
+                let deviation = if deviation.is_nan() {
+                    f64::INFINITY
+                } else {
+                    deviation
+                };
                 *mean += deviation / 200.0;
                 *largest = largest.max(deviation.abs());
                 record.squares += deviation * deviation;

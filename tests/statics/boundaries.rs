@@ -14,13 +14,14 @@ const RISE: f64 = 71.2 / 26.0;
 /// A filament whose sections end at `ends`, with or without clamps.
 fn filament(ends: &[f64], monomers_first: bool, clamps: &str) -> Assembly {
     let mut from = 0.0;
-    let mut sections = String::new();
-    for (i, &to) in ends.iter().enumerate() {
+    let mut section = |(i, &to): (usize, &f64)| {
         let is_monomers = i.is_multiple_of(2) == monomers_first;
         let kind = if is_monomers { "Ellipsoids" } else { "Rod" };
-        sections += &format!("{kind}(from_nm: {from:?}, to_nm: {to:?}), ");
+        let text = format!("{kind}(from_nm: {from:?}, to_nm: {to:?}), ");
         from = to;
-    }
+        text
+    };
+    let sections: String = ends.iter().enumerate().map(&mut section).collect();
     build(&format!(
         "Scene(
             filament: Filament(
@@ -112,22 +113,32 @@ fn check_bodies(assembly: &Assembly, i: usize, what: &str) {
     for pair in s.windows(2) {
         assert!((pair[1] - pair[0] - step).abs() < 1e-12, "{what}");
     }
-    let clamped = |end| assembly.clamps.iter().any(|clamp| clamp.end == end);
-    let overhang = |is_end_of_filament: bool, end| match section.resolution {
-        Resolution::Rod { .. } => 0.0,
-        // The outer held monomer lies outside the length.
-        Resolution::Ellipsoids { .. } if is_end_of_filament && clamped(end) => RISE,
-        // The tip is midway between the last two.
-        Resolution::Ellipsoids { .. } if is_end_of_filament => 0.5 * RISE,
-        Resolution::Ellipsoids { .. } => -0.5 * RISE,
-    };
-    let before = overhang(i == 0, End::Start);
-    let after = overhang(i + 1 == assembly.sections.len(), End::End);
+    let [before, after] = [End::Start, End::End].map(|end| overhang(assembly, i, end));
     assert!((section.from_nm - s[0] - before).abs() < 1e-12, "{what}");
     assert!(
         (s[s.len() - 1] - section.to_nm - after).abs() < 1e-12,
         "{what}"
     );
+}
+
+/// How far the outermost point of section `i` lies beyond its end (nm).
+fn overhang(assembly: &Assembly, i: usize, end: End) -> f64 {
+    let outermost = match end {
+        End::Start => 0,
+        End::End => assembly.sections.len() - 1,
+    };
+    let clamped = assembly.clamps.iter().any(|clamp| clamp.end == end);
+    if !assembly.sections[i].is_ellipsoids() {
+        0.0
+    } else if i != outermost {
+        -0.5 * RISE
+    } else if clamped {
+        // The outer held monomer lies outside the length.
+        RISE
+    } else {
+        // The tip is midway between the last two.
+        0.5 * RISE
+    }
 }
 
 /// Lattice indices of the monomers of section `i`.

@@ -40,7 +40,7 @@ const MONOMERS_IN_THE_MIDDLE: &str = "Rod(from_nm: 0.0, to_nm: 30.0, segments: 7
 fn nothing_pulls_on_a_filament_as_built() {
     // Round-off: 64 bonds of 50 pN/nm, or a segment of 3.4e4 pN, times 1e-16 of places of 90 nm,
     // a few times over; torques with an arm of 10 nm.
-    let (force_limit, torque_limit) = (1e-9, 1e-8);
+    let (force_limit, torque_limit) = (5e-10, 5e-9);
     let orders = [
         MONOMERS_FIRST,
         ROD_FIRST,

@@ -25,46 +25,43 @@ pub(crate) fn run(path: &Path, out: Option<PathBuf>, overwrite: bool) -> Result<
         ControlFlow::Continue(())
     });
     progress.finish();
-    let (trajectory, report) = match outcome {
-        Ok(done) => done,
-        Err(RunError::Refused(problem)) => return Err(opened.refuse(&problem)),
-        Err(RunError::Ended {
-            failure,
-            trajectory,
-            report,
-        }) => {
-            if !trajectory.records.is_empty() {
-                directory
-                    .write(&opened.assembly, &trajectory, &report)
-                    .map_err(unusable)?;
-            }
-            return Err(Failure::Numerical(format!(
-                "{failure}; the {} equilibria before it are in {}",
-                trajectory.records.len(),
-                out.display()
-            )));
-        }
-        Err(RunError::Failed {
-            failure,
-            body,
-            trajectory,
-            report,
-        }) => {
-            directory
-                .write(&opened.assembly, &trajectory, &report)
-                .map_err(unusable)?;
-            return Err(Failure::Numerical(format!(
-                "{failure}; {} is {body}; everything up to the last good state is in {}",
-                failure.body,
-                out.display()
-            )));
-        }
-    };
+    let (trajectory, report) = outcome.map_err(|error| broken(&opened, &directory, error))?;
     let summary = directory
         .write(&opened.assembly, &trajectory, &report)
         .map_err(unusable)?;
     print(&summary, &out);
     Ok(())
+}
+
+/// Keeps what a broken run has recorded, and says why it broke.
+fn broken(opened: &Opened, directory: &RunDirectory, error: RunError) -> Failure {
+    let (why, trajectory, report) = match error {
+        RunError::Refused(problem) => return opened.refuse(&problem),
+        RunError::Ended {
+            failure,
+            trajectory,
+            report,
+        } => (failure.to_string(), trajectory, report),
+        RunError::Failed {
+            failure,
+            body,
+            trajectory,
+            report,
+        } => {
+            let why = format!("{failure}; {} is {body}", failure.body);
+            (why, trajectory, report)
+        }
+    };
+    if trajectory.records.is_empty() {
+        return Failure::Numerical(why);
+    }
+    match directory.write(&opened.assembly, &trajectory, &report) {
+        Ok(_) => Failure::Numerical(format!(
+            "{why}; everything up to the last good state is in {}",
+            directory.path().display()
+        )),
+        Err(unwritten) => Failure::Numerical(format!("{why}; and {unwritten}")),
+    }
 }
 
 fn print(summary: &Summary, out: &Path) {

@@ -176,12 +176,11 @@ fn bond_at_rest(
             2,
         ),
     };
-    let l = state.points.position.get(points[1]) - state.points.position.get(points[0]);
-    let l = q.get(junction).inverse() * l;
+    let x = &state.points.position;
+    let l = q.get(junction).inverse() * (x.get(points[1]) - x.get(points[0]));
     check_distance(k, l.z)?;
-    let to_monomer = 0.5 * l.z;
-    let to_rod = 0.5 * (layout.end_length(end) + l.z);
-    let mut bending = [to_monomer, to_rod].map(|rest_distance| BendingElement { rest_distance });
+    let distances = [0.5 * l.z, 0.5 * (layout.end_length(end) + l.z)];
+    let mut bending = distances.map(|rest_distance| BendingElement { rest_distance });
     if side == JunctionSide::RodFirst {
         bending.reverse();
     }

@@ -318,6 +318,12 @@ fn a_stretched_junction_pulls_together() {
     }
 }
 
+/// Frames of the first bond, from the monomer to the rod.
+fn bond_frames(f: &Filament, side: JunctionSide) -> [usize; 3] {
+    let rod = f.rod.end_frame(side.rod_end());
+    [f.monomers[0].frame, f.frames.start, rod]
+}
+
 /// A filament and its mirror image (rod first) store the same energy in mirrored states: the
 /// half turn about a perpendicular axis that exchanges the ends.
 #[test]
@@ -332,29 +338,17 @@ fn both_sides_are_mirror_images() {
     let x = half_turn * before.state.points.position.get(from.point);
     after.state.points.position.set(to.point, x);
     let make = |f: &Filament, side| {
-        let how = (side, JunctionWeight::Full);
-        Junction::new(
-            &f.state,
-            how,
-            &f.monomers,
-            f.frames.clone(),
-            &f.rod,
-            material,
-        )
-        .unwrap()
+        let (how, frames) = ((side, JunctionWeight::Full), f.frames.clone());
+        Junction::new(&f.state, how, &f.monomers, frames, &f.rod, material).unwrap()
     };
     let junctions = [
         make(&before, JunctionSide::MonomersFirst),
         make(&after, JunctionSide::RodFirst),
     ];
     // Turn monomer, junction frame and rod, and shift the monomer; then the same, mirrored.
-    let frames = |f: &Filament, side: JunctionSide| {
-        let rod = f.rod.end_frame(side.rod_end());
-        [f.monomers[0].frame, f.frames.start, rod]
-    };
-    let pairs = frames(&before, JunctionSide::MonomersFirst)
+    let pairs = bond_frames(&before, JunctionSide::MonomersFirst)
         .into_iter()
-        .zip(frames(&after, JunctionSide::RodFirst));
+        .zip(bond_frames(&after, JunctionSide::RodFirst));
     for (i, j) in pairs {
         let turn = noise.vector() * 0.3;
         let q = rotation::exp(turn) * before.state.frames.orientation.get(i);

@@ -1,6 +1,6 @@
 //! Bodies that are tied together and move as one.
 
-use actin_mechanics::{State, Vector3};
+use actin_mechanics::{Slider, State, Vector3};
 
 /// The point about which a group turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +62,14 @@ impl Group {
             pivot: Pivot::Lab(Vector3::zeros()),
             translations: vec![direction],
             rotations: Vec::new(),
+        }
+    }
+
+    /// The group of a sliding body.
+    pub(crate) fn from_slider(slider: &Slider) -> Self {
+        Self {
+            translations: slider.directions.clone(),
+            ..Self::sliding(slider.points.clone(), Vec::new(), Vector3::zeros())
         }
     }
 

@@ -109,25 +109,27 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Every free body on its own, in an order that the solver finds by minimum degree when it
-    /// first sees the stiffness.
+    /// Every free body on its own, with the sliding bodies of the state, in an order that the
+    /// solver finds by minimum degree when it first sees the stiffness.
+    ///
+    /// # Panics
+    /// If two sliding bodies of the state share a point, or one has dependent directions.
     pub fn free(state: &State) -> Self {
-        let ties = Ties {
-            points: vec![None; state.points.len()],
-            frames: vec![None; state.frames.len()],
-        };
-        Self::with_nodes(state, nodes_of(state, &ties, &[]), Vec::new(), false)
+        Self::new(state, None, Vec::new()).expect("sliding bodies of a state are consistent")
     }
 
     /// Free bodies and groups, in the order given, or in one found by minimum degree.
+    ///
+    /// The sliding bodies of the state are groups as well; they stand after those given here.
     ///
     /// # Errors
     /// If a group or the order does not fit the state.
     pub fn new(
         state: &State,
         order: Option<&BodyOrder>,
-        groups: Vec<Group>,
+        mut groups: Vec<Group>,
     ) -> Result<Self, LayoutError> {
+        groups.extend(state.sliders.iter().map(Group::from_slider));
         let ties = Ties::new(state, &groups)?;
         let groups = with_orthonormal_directions(groups)?;
         let mut nodes = nodes_of(state, &ties, &groups);
@@ -135,20 +137,16 @@ impl Layout {
             check_order(state, order)?;
             nodes.sort_by(|a, b| key(*a, order, &groups).total_cmp(&key(*b, order, &groups)));
         }
-        Ok(Self::with_nodes(state, nodes, groups, order.is_some()))
-    }
-
-    fn with_nodes(state: &State, nodes: Vec<Node>, groups: Vec<Group>, ordered: bool) -> Self {
         let mut layout = Self {
             nodes,
             offsets: Vec::new(),
             point_node: vec![None; state.points.len()],
             frame_node: vec![None; state.frames.len()],
             groups,
-            ordered,
+            ordered: order.is_some(),
         };
         layout.number();
-        layout
+        Ok(layout)
     }
 
     /// Number of unknowns.

@@ -112,30 +112,27 @@ impl Newton {
         };
         let result = run.execute(state, observe);
         let (history, residual, floor) = (run.history, run.residual, run.floor);
-        let work = |solver: &Solver| solver.work.since(&before);
+        let solver = &mut self.solver;
+        let certificate =
+            (result.is_ok() && self.options.certify).then(|| certify(solver, state, interactions));
+        let work = solver.work.since(&before);
         match result {
-            Ok((ending, energy)) => {
-                let certificate = self
-                    .options
-                    .certify
-                    .then(|| certify(&mut self.solver, state, interactions));
-                Ok(Equilibrium {
-                    ending,
-                    energy,
-                    residual,
-                    floor,
-                    certificate,
-                    saddles_left: 0,
-                    history,
-                    work: work(&self.solver),
-                })
-            }
+            Ok((ending, energy)) => Ok(Equilibrium {
+                ending,
+                energy,
+                residual,
+                floor,
+                certificate,
+                saddles_left: 0,
+                history,
+                work,
+            }),
             Err(trouble) => Err(Box::new(NewtonFailure {
                 trouble,
                 residual,
                 floor,
                 history,
-                work: work(&self.solver),
+                work,
             })),
         }
     }

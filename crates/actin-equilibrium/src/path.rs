@@ -127,18 +127,7 @@ impl Path {
         observe: &mut dyn FnMut(&PathPoint<'_>) -> ControlFlow<()>,
     ) -> Result<PathEnd, Box<PathFailure>> {
         let before = newton.work();
-        let mut walk = Walk {
-            options: &self.0,
-            newton,
-            interactions,
-            parameter: 0.0,
-            step: self.0.first_step,
-            last: None,
-            previous: None,
-            rate: None,
-            points: 0,
-            refused: 0,
-        };
+        let mut walk = Walk::new(&self.0, newton, interactions);
         let result = walk.finish(state, set, observe);
         let (points, refused, parameter) = (walk.points, walk.refused, walk.parameter);
         let last = walk.last.take();
@@ -182,7 +171,26 @@ struct Walk<'a> {
     refused: usize,
 }
 
-impl Walk<'_> {
+impl<'a> Walk<'a> {
+    fn new(
+        options: &'a PathOptions,
+        newton: &'a mut Newton,
+        interactions: &'a [Box<dyn Interaction>],
+    ) -> Self {
+        Self {
+            options,
+            newton,
+            interactions,
+            parameter: 0.0,
+            step: options.first_step,
+            last: None,
+            previous: None,
+            rate: None,
+            points: 0,
+            refused: 0,
+        }
+    }
+
     fn finish(
         &mut self,
         state: &mut State,

@@ -3,7 +3,7 @@
 mod common;
 
 use actin_equilibrium::{Group, Layout, LayoutError, Newton, NewtonOptions, Pivot, Stability};
-use actin_mechanics::{Coordinates, Interaction, PointLoad, State, Vector3, rotation};
+use actin_mechanics::{Coordinates, Interaction, PointLoad, Slider, State, Vector3, rotation};
 use common::{Springs, actin, frame, in_order, point};
 
 type Terms = Vec<Box<dyn Interaction>>;
@@ -58,6 +58,31 @@ fn a_sliding_pair_finds_the_place_of_least_energy() {
     assert!(curvature > 0.0);
     // The least energy is at -slope / curvature from there; third derivatives shift it by h^2.
     assert!((slope / curvature).abs() < 1e-5, "{slope} {curvature}");
+}
+
+/// A sliding body of the state is a group without being named.
+#[test]
+fn sliding_bodies_of_the_state_are_groups() {
+    let mut state = State::default();
+    for x in [0.0, 1.0, 2.0] {
+        let i = point(&mut state, Vector3::x() * x);
+        state.points.hold(i);
+    }
+    state.sliders.push(Slider {
+        points: vec![1, 2],
+        directions: vec![Vector3::x()],
+        mass: 0.1394,
+    });
+    state.controls.push(1.0);
+    let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::new(3.0, 9.0, 0.0), 0);
+    let springs = Springs(vec![(0, 1, 6.0, 1.0)]);
+    let terms: Terms = vec![Box::new(springs), Box::new(load)];
+    let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
+    newton.solve(&mut state, &terms).unwrap();
+    for (i, x) in [(1, 1.5), (2, 2.5)] {
+        let expected = Vector3::new(x, 0.0, 0.0);
+        assert!((state.points.position.get(i) - expected).norm() < 1e-9);
+    }
 }
 
 /// A rigid bar on a spring, pulled from a wrong direction, turns into the force: it needs large

@@ -92,6 +92,7 @@ impl<'a, 'o> Execution<'a, 'o> {
         let at_rest = self
             .run
             .stop
+            .filter(|_| moment.time >= self.run.stop_from)
             .is_some_and(|rule| rule.is_met(moment.residual(), moment.kinetic_energy()));
         if at_rest {
             Some(Reason::Converged)

@@ -25,6 +25,7 @@ pub struct Run {
     pub(crate) check_every: u64,
     pub(crate) kinetic_limit: f64,
     pub(crate) stop: Option<StopRule>,
+    pub(crate) stop_from: f64,
 }
 
 /// A setting of a run that was refused.
@@ -63,6 +64,7 @@ impl Run {
             check_every: DEFAULT_CHECK_EVERY,
             kinetic_limit: f64::INFINITY,
             stop: None,
+            stop_from: 0.0,
         })
     }
 
@@ -101,6 +103,16 @@ impl Run {
     pub fn with_stop_rule(self, rule: StopRule) -> Self {
         Self {
             stop: Some(rule),
+            ..self
+        }
+    }
+
+    /// The same, with the stop rule asleep before `time` (ns): while something is still being driven,
+    /// a system at rest has not arrived.
+    #[must_use]
+    pub fn stopping_from(self, time: f64) -> Self {
+        Self {
+            stop_from: time,
             ..self
         }
     }

@@ -3,7 +3,7 @@
 use crate::{Loads, SecondOrder, State};
 use std::fmt::Debug;
 
-/// A term of the model: some elements of one kind (bonds, segments, loads).
+/// A term of the model: some elements of one kind (springs, joints, loads).
 ///
 /// An interaction holds parameters and index ranges only; whatever changes is in the state.
 /// Unless [`is_conservative`](Interaction::is_conservative) says otherwise, its loads are minus

@@ -1,4 +1,4 @@
-//! Points, frames, loads and rotations: the mechanics that monomers, rods and junctions share.
+//! Points, frames, loads and rotations: the mechanics that all models share.
 //!
 //! Two kinds of degree of freedom cover everything that moves. A **point** has a position, a
 //! velocity and an inverse mass. A **frame** has an orientation (body to lab), a body angular
@@ -23,6 +23,7 @@ mod loads;
 mod points;
 mod quaternions;
 pub mod rotation;
+mod slider;
 mod state;
 mod stiffness;
 mod system;
@@ -36,9 +37,10 @@ pub use load::PointLoad;
 pub use loads::Loads;
 pub use points::{Point, Points};
 pub use quaternions::Quaternions;
+pub use slider::Slider;
 pub use state::State;
 pub use stiffness::{Coordinates, SecondOrder, Stiffness};
-pub use system::{Split, System};
+pub use system::{Drive, Split, System};
 pub use vectors::Vectors;
 
 /// A vector of three components.

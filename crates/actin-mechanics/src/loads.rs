@@ -26,16 +26,26 @@ impl Loads {
         self.torque.clear_to_zero();
     }
 
-    /// Largest norm of a force on a free point and of a torque on a free frame.
+    /// Largest norm of a force on a free point and of a torque on a free frame; of sliding bodies
+    /// the force along which they slide counts.
     pub fn residual(&self, state: &State) -> (f64, f64) {
         let force = (0..self.force.len())
             .filter(|&i| state.points.is_free(i))
             .map(|i| self.force.get(i).norm())
+            .chain(self.sliding_forces(state))
             .fold(0.0, f64::max);
         let torque = (0..self.torque.len())
             .filter(|&i| state.frames.is_free(i))
             .map(|i| self.torque.get(i).norm())
             .fold(0.0, f64::max);
         (force, torque)
+    }
+
+    /// Magnitude of the total force on each sliding body along which it slides.
+    fn sliding_forces<'a>(&'a self, state: &'a State) -> impl Iterator<Item = f64> + 'a {
+        state.sliders.iter().map(|slider| {
+            let squares = slider.forces(&self.force).map(|f| f * f);
+            squares.sum::<f64>().sqrt()
+        })
     }
 }

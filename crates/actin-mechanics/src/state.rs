@@ -1,10 +1,10 @@
 //! The state of everything that moves.
 
-use crate::{Frames, Points};
+use crate::{Frames, Points, Slider};
 
 /// Points, frames and controls.
 ///
-/// Points and frames stand in filament order, each kind in arrays of its own.
+/// Points and frames stand in the order of the structure, each kind in arrays of its own.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
     /// Positions with masses.
@@ -13,12 +13,15 @@ pub struct State {
     pub frames: Frames,
     /// What is set from outside: load factors, by the index that a load was built with.
     pub controls: Vec<f64>,
+    /// Held bodies that slide together.
+    pub sliders: Vec<Slider>,
 }
 
 impl State {
-    /// Kinetic energy of the free bodies.
+    /// Kinetic energy of the free bodies, sliding ones included.
     pub fn kinetic_energy(&self) -> f64 {
-        self.points.kinetic_energy() + self.frames.kinetic_energy()
+        let sliding: f64 = self.sliders.iter().map(|s| s.kinetic_energy(self)).sum();
+        self.points.kinetic_energy() + self.frames.kinetic_energy() + sliding
     }
 
     /// Whether every position, velocity, orientation and angular momentum is finite.
@@ -43,6 +46,9 @@ impl State {
             if self.points.is_free(i) {
                 self.points.velocity.set(i, crate::Vector3::zeros());
             }
+        }
+        for slider in &self.sliders {
+            slider.damp(&mut self.points.velocity, 0.0);
         }
         for i in 0..self.frames.len() {
             if self.frames.is_free(i) {

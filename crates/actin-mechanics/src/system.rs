@@ -17,6 +17,15 @@ pub trait Split {
     fn force_evaluations(&self) -> u64;
 }
 
+/// What moves held bodies and controls as time goes.
+pub trait Drive: std::fmt::Debug + Send + Sync {
+    /// Puts them where they belong at `time` and gives held bodies their velocities.
+    ///
+    /// Called after every drift, so that loads are evaluated at the exact places: the order of a
+    /// method is not lost to the drive. What slides keeps its place along which it slides.
+    fn place(&self, state: &mut State, time: f64);
+}
+
 /// A state, the interactions that act on it, and their loads.
 ///
 /// Loads are evaluated when first needed after the positions have changed, so that two kicks
@@ -28,6 +37,8 @@ pub struct System {
     loads: Loads,
     loads_are_current: bool,
     force_evaluations: u64,
+    drive: Option<Box<dyn Drive>>,
+    time: f64,
 }
 
 impl System {
@@ -40,7 +51,17 @@ impl System {
             loads,
             loads_are_current: false,
             force_evaluations: 0,
+            drive: None,
+            time: 0.0,
         }
+    }
+
+    /// Lets `drive` move held bodies and controls from now on, its time beginning at zero.
+    pub fn set_drive(&mut self, drive: Box<dyn Drive>) {
+        drive.place(&mut self.state, 0.0);
+        self.loads_are_current = false;
+        self.time = 0.0;
+        self.drive = Some(drive);
     }
 
     /// The present state.
@@ -102,12 +123,19 @@ impl Split for System {
         self.loads_are_current = false;
         self.state.points.drift(h);
         self.state.frames.drift(h);
+        self.time += h;
+        if let Some(drive) = &self.drive {
+            drive.place(&mut self.state, self.time);
+        }
     }
 
     fn kick(&mut self, h: f64) {
         self.loads();
         self.state.points.kick(&self.loads.force, h);
         self.state.frames.kick(&self.loads.torque, h);
+        for slider in &self.state.sliders {
+            slider.kick(&mut self.state.points.velocity, &self.loads.force, h);
+        }
     }
 
     fn damp(&mut self, translational: f64, rotational: f64) {
@@ -128,6 +156,9 @@ fn damp_free(state: &mut State, translational: f64, rotational: f64) {
             let v = points.velocity.get(i);
             points.velocity.set(i, v * translational);
         }
+    }
+    for slider in &state.sliders {
+        slider.damp(&mut points.velocity, translational);
     }
     let frames = &mut state.frames;
     for i in 0..frames.len() {

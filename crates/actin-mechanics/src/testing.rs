@@ -122,46 +122,45 @@ pub fn loads_of(interaction: &dyn Interaction, state: &State) -> Loads {
 /// If a load differs by more than `relative` times the largest load of its kind.
 pub fn assert_is_gradient(interaction: &dyn Interaction, state: &State, h: f64, relative: f64) {
     let loads = loads_of(interaction, state);
-    let largest = |v: &crate::Vectors| v.iter().map(|f| f.norm()).fold(0.0, f64::max);
-    let force_scale = largest(&loads.force);
-    let torque_scale = largest(&loads.torque);
+    let unit = |k: usize| Vector3::from_fn(|i, _| f64::from(u8::from(i == k)));
+    let slope = |displace: &dyn Fn(&mut State, f64)| {
+        derivative(h, |step| {
+            let mut moved = state.clone();
+            displace(&mut moved, step);
+            interaction.energy(&moved)
+        })
+    };
     for i in 0..state.points.len() {
-        for k in 0..3 {
-            let slope = derivative(h, |step| {
-                let mut moved = state.clone();
-                let mut shift = Vector3::zeros();
-                shift[k] = step;
-                moved.points.position.add(i, shift);
-                interaction.energy(&moved)
-            });
-            let error = (loads.force.get(i)[k] + slope).abs();
-            assert!(
-                error <= relative * force_scale,
-                "force {k} on point {i}: {} against {} from the energy",
-                loads.force.get(i)[k],
-                -slope
-            );
-        }
+        let gradient = Vector3::from_fn(|k, _| {
+            slope(&|state, step| state.points.position.add(i, unit(k) * step))
+        });
+        assert_close("force on point", i, loads.force.get(i), -gradient, {
+            relative * largest(&loads.force)
+        });
     }
     for i in 0..state.frames.len() {
-        for k in 0..3 {
-            let slope = derivative(h, |step| {
-                let mut moved = state.clone();
-                let mut turn = Vector3::zeros();
-                turn[k] = step;
-                let q = moved.frames.orientation.get(i) * rotation::exp(turn);
-                moved.frames.orientation.set(i, q);
-                interaction.energy(&moved)
-            });
-            let error = (loads.torque.get(i)[k] + slope).abs();
-            assert!(
-                error <= relative * torque_scale,
-                "torque {k} on frame {i}: {} against {} from the energy",
-                loads.torque.get(i)[k],
-                -slope
-            );
-        }
+        let gradient = Vector3::from_fn(|k, _| {
+            slope(&|state, step| {
+                let q = state.frames.orientation.get(i) * rotation::exp(unit(k) * step);
+                state.frames.orientation.set(i, q);
+            })
+        });
+        assert_close("torque on frame", i, loads.torque.get(i), -gradient, {
+            relative * largest(&loads.torque)
+        });
     }
+}
+
+fn largest(vectors: &crate::Vectors) -> f64 {
+    vectors.iter().map(|v| v.norm()).fold(0.0, f64::max)
+}
+
+fn assert_close(what: &str, i: usize, load: Vector3, from_energy: Vector3, tolerance: f64) {
+    let error = (load - from_energy).amax();
+    assert!(
+        error <= tolerance,
+        "{what} {i}: {load} against {from_energy} from the energy"
+    );
 }
 
 /// Eight-point central difference of `f` at zero (Fornberg 1988, table 1), error of order `h^8`.

@@ -13,6 +13,7 @@
 struct Readme;
 
 mod assembly;
+pub mod measure;
 mod results;
 mod run;
 mod scene;

@@ -97,10 +97,13 @@ pub(super) fn significant(value: f64) -> String {
     if magnitude == 0.0 {
         "0".to_owned()
     } else if (1e-3..1e6).contains(&magnitude) {
-        let digits = (1..=8)
-            .find(|&d| magnitude >= 10f64.powi(4 - d))
-            .unwrap_or(8);
-        format!("{value:.*}", usize::try_from(digits - 1).unwrap_or(0))
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between 0 and 7: the magnitude lies between 1e-3 and 1e6"
+        )]
+        let decimals = (4.0 - magnitude.log10().floor()).max(0.0) as usize;
+        format!("{value:.decimals$}")
     } else {
         format!("{value:.4e}")
     }

@@ -8,6 +8,7 @@ mod figure4;
 mod html;
 mod plot;
 mod report;
+mod tables;
 
 use report::Artefact;
 use std::fs;
@@ -17,7 +18,11 @@ use std::path::Path;
 type Recipe = (&'static str, fn(&Path, bool) -> Result<Artefact, String>);
 
 /// The artefacts that exist.
-const RECIPES: [Recipe; 1] = [("fig4", figure4::reproduce)];
+const RECIPES: [Recipe; 3] = [
+    ("fig4", figure4::reproduce),
+    ("table3", tables::table3),
+    ("table5", tables::table5),
+];
 
 /// Computes the artefacts named `ids` (all if none is named) into `out`.
 pub(crate) fn reproduce(ids: &[String], out: &Path, quick: bool) -> Result<(), String> {

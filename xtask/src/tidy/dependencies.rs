@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 /// Each crate and the crates of ours that it may depend on.
-const ALLOWED: [(&str, &[&str]); 8] = [
+const ALLOWED: [(&str, &[&str]); 9] = [
     ("crates/actin-mechanics", &[]),
     ("crates/actin-ellipsoid", &["actin-mechanics"]),
     ("crates/actin-cosserat", &["actin-mechanics"]),
@@ -14,6 +14,7 @@ const ALLOWED: [(&str, &[&str]); 8] = [
         &["actin-mechanics", "actin-cosserat"],
     ),
     ("crates/actin-integrate", &["actin-mechanics"]),
+    ("crates/actin-equilibrium", &["actin-mechanics"]),
     (
         "crates/actin-sim",
         &[
@@ -22,6 +23,7 @@ const ALLOWED: [(&str, &[&str]); 8] = [
             "actin-cosserat",
             "actin-coupling",
             "actin-integrate",
+            "actin-equilibrium",
         ],
     ),
     ("crates/actin-cli", &["actin-sim"]),

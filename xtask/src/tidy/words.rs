@@ -1,7 +1,7 @@
 //! Words that a crate must not know.
 
 /// Crates, and words that none of their lines may hold.
-const FORBIDDEN: [(&str, &[&str]); 2] = [
+const FORBIDDEN: [(&str, &[&str]); 3] = [
     (
         "crates/actin-mechanics/src",
         &["monomer", "filament", "cosserat", "helix", "bond"],
@@ -9,6 +9,10 @@ const FORBIDDEN: [(&str, &[&str]); 2] = [
     (
         "crates/actin-integrate/src",
         &["monomer", "filament", "cosserat", "helix"],
+    ),
+    (
+        "crates/actin-equilibrium/src",
+        &["monomer", "actin ", "cosserat", "helix"],
     ),
 ];
 

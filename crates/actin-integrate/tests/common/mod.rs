@@ -140,6 +140,13 @@ impl Interaction for Torsion {
     }
 }
 
+/// Bodies and places on them that bonds join.
+const BOND_ENDS: [(usize, [f64; 3], usize, [f64; 3]); 3] = [
+    (0, [0.5, 0.3, -0.2], 1, [-0.4, 0.2, 0.3]),
+    (1, [0.5, -0.3, 0.2], 2, [-0.5, 0.1, -0.3]),
+    (0, [0.1, -0.6, 0.4], 2, [-0.2, -0.5, 0.1]),
+];
+
 /// Three free tops with different axes of symmetry, bonded off their centres, coupled in torsion.
 pub(crate) fn three_tops() -> System {
     let mut state = State::default();
@@ -157,26 +164,9 @@ pub(crate) fn three_tops() -> System {
         });
     }
     let bonds = Bonds {
-        pairs: vec![
-            (
-                0,
-                Vector3::new(0.5, 0.3, -0.2),
-                1,
-                Vector3::new(-0.4, 0.2, 0.3),
-            ),
-            (
-                1,
-                Vector3::new(0.5, -0.3, 0.2),
-                2,
-                Vector3::new(-0.5, 0.1, -0.3),
-            ),
-            (
-                0,
-                Vector3::new(0.1, -0.6, 0.4),
-                2,
-                Vector3::new(-0.2, -0.5, 0.1),
-            ),
-        ],
+        pairs: BOND_ENDS
+            .map(|(i, a, j, b)| (i, a.into(), j, b.into()))
+            .into(),
         stiffness: 3.0,
         rest: 1.2,
     };

@@ -3,13 +3,13 @@
 use super::lattice::{Lattice, Resolved, resolve};
 use super::{Assembly, Clamped, Drive, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term};
 use super::{BodyKind, models};
-use crate::scene::{End, ForceLaw, Hold, Load, MOST_BODIES, Problem, Scene, Section};
+use crate::scene::{Clamp, End, ForceLaw, Hold, Load, MOST_BODIES, Problem, Scene, Section};
 use actin_cosserat::{
     CrossSection, EnergyGradient, PaperBalance, RodLayout, RodMaterial, StraightRod, Walls,
 };
 use actin_coupling::{AttachedMonomer, Junction, JunctionSide, push_junction_frames};
 use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
-use actin_mechanics::{Interaction, PointLoad, State, System, UnitQuaternion, Vector3};
+use actin_mechanics::{Interaction, PointLoad, Slider, State, System, UnitQuaternion, Vector3};
 use std::ops::Range;
 
 /// Length of a rod's segments where the scene does not say how many there are (nm).
@@ -95,12 +95,15 @@ impl<'a> Builder<'a> {
             self.push_junction_frames(i - 1)?;
         }
         match self.resolved[i].monomers {
-            Some((first, last)) => self.push_monomers(i, first, last),
+            Some((first, last)) => {
+                self.push_monomers(i, first, last);
+                Ok(())
+            }
             None => self.push_rod(i),
         }
     }
 
-    fn push_monomers(&mut self, i: usize, first: i64, last: i64) -> Result<(), Problem> {
+    fn push_monomers(&mut self, i: usize, first: i64, last: i64) {
         let placement = Placement {
             rotation: UnitQuaternion::identity(),
             translation: Vector3::z() * self.lattice.origin_nm,
@@ -131,7 +134,6 @@ impl<'a> Builder<'a> {
         let last_tip = tips(End::End, to - 2, [to - 2, to - 1]);
         self.push_span(i, resolution, (from..to, frames), (first_tip, last_tip));
         self.bodies.push(Body::Monomers(monomers));
-        Ok(())
     }
 
     fn push_rod(&mut self, i: usize) -> Result<(), Problem> {
@@ -169,15 +171,15 @@ impl<'a> Builder<'a> {
     )]
     fn segments(&self, i: usize) -> Result<usize, Problem> {
         let Resolved { from_nm, to_nm, .. } = self.resolved[i];
-        let (key, value, count) = match self.scene.filament.sections[i] {
-            Section::Rod {
-                segments: Some(segments),
-                ..
-            } => ("segments", segments.to_string(), segments as f64),
-            _ => {
-                let count = ((to_nm - from_nm) / DEFAULT_SEGMENT_NM).round().max(1.0);
-                ("to_nm", format!("{to_nm:?}"), count)
-            }
+        let written = match self.scene.filament.sections[i] {
+            Section::Rod { segments, .. } => segments,
+            Section::Ellipsoids { .. } => None,
+        };
+        let (key, value, count) = if let Some(segments) = written {
+            ("segments", segments.to_string(), segments as f64)
+        } else {
+            let count = ((to_nm - from_nm) / DEFAULT_SEGMENT_NM).round().max(1.0);
+            ("to_nm", format!("{to_nm:?}"), count)
         };
         if count <= MOST_BODIES {
             return Ok(count as usize);
@@ -352,36 +354,24 @@ impl<'a> Builder<'a> {
 
     fn hold_ends(&mut self) -> Result<(), Problem> {
         for (i, clamp) in self.scene.clamps.iter().enumerate() {
-            let end = clamp.end;
-            let section = self.scene.filament.end_index(end);
-            let (points, frames) = match &self.bodies[section] {
-                Body::Monomers(m) => {
-                    let k = match end {
-                        End::Start => 0,
-                        End::End => m.count - 2,
-                    };
-                    let bodies = (m.point(k)..m.point(k) + 2, m.frame(k)..m.frame(k) + 2);
-                    bodies.0.clone().for_each(|p| self.state.points.hold(p));
-                    bodies.1.clone().for_each(|f| self.state.frames.hold(f));
-                    bodies
-                }
-                Body::Rod(layout) => {
-                    let held = models::rod_clamp(clamp.hold)
-                        .hold(layout, models::rod_end(end), &mut self.state)
-                        .map_err(|error| {
-                            let key = format!("clamps[{i}].hold");
-                            Problem::new(key, format!("{:?}", clamp.hold), error.to_string())
-                        })?;
-                    (held.points, held.frames)
-                }
-            };
-            let s_nm = match end {
+            let section = self.scene.filament.end_index(clamp.end);
+            let masses: Vec<f64> = self.state.points.inverse_mass().to_vec();
+            let (points, frames) = self.hold(i, clamp, section)?;
+            let directions = clamp.slides.directions();
+            if !directions.is_empty() {
+                self.state.sliders.push(Slider {
+                    points: points.clone().collect(),
+                    directions,
+                    mass: points.clone().map(|i| 1.0 / masses[i]).sum(),
+                });
+            }
+            let s_nm = match clamp.end {
                 End::Start => self.resolved[section].from_nm,
                 End::End => self.resolved[section].to_nm,
             };
             let about_nm = Vector3::z() * s_nm;
             self.clamps.push(Clamped {
-                end,
+                end: clamp.end,
                 arm_nm: self.state.points.position.get(points.start) - about_nm,
                 rest: self.state.frames.orientation.get(frames.start),
                 points: points.collect(),
@@ -391,6 +381,36 @@ impl<'a> Builder<'a> {
             });
         }
         Ok(())
+    }
+
+    /// Holds the bodies of clamp `i` at the end that `section` has; returns points and frames.
+    fn hold(
+        &mut self,
+        i: usize,
+        clamp: &Clamp,
+        section: usize,
+    ) -> Result<(Range<usize>, Range<usize>), Problem> {
+        match &self.bodies[section] {
+            Body::Monomers(m) => {
+                let k = match clamp.end {
+                    End::Start => 0,
+                    End::End => m.count - 2,
+                };
+                let bodies = (m.point(k)..m.point(k) + 2, m.frame(k)..m.frame(k) + 2);
+                bodies.0.clone().for_each(|p| self.state.points.hold(p));
+                bodies.1.clone().for_each(|f| self.state.frames.hold(f));
+                Ok(bodies)
+            }
+            Body::Rod(layout) => {
+                let held = models::rod_clamp(clamp.hold)
+                    .hold(layout, models::rod_end(clamp.end), &mut self.state)
+                    .map_err(|error| {
+                        let key = format!("clamps[{i}].hold");
+                        Problem::new(key, format!("{:?}", clamp.hold), error.to_string())
+                    })?;
+                Ok((held.points, held.frames))
+            }
+        }
     }
 
     fn push_loads(&mut self) {

@@ -1,19 +1,23 @@
 //! What a scene moves from outside: held ends and load factors, along its path.
 
 use super::Clamped;
-use crate::scene::{End, Scene, Setting, Slides};
+use crate::scene::{Scene, Setting, Slides};
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 
-/// A control and its values at the ends of the stages, the first of them before the path.
+/// A control, by the index of its load or clamp, and its values at the ends of the stages, the first of them before the path.
 #[derive(Clone, Debug, PartialEq)]
-struct Track<K> {
-    what: K,
+struct Track {
+    what: usize,
     values: Vec<Vector3>,
 }
 
-impl<K> Track<K> {
-    /// The value at path parameter `u`: linear within a stage.
-    fn at(&self, u: f64) -> Vector3 {
+impl Track {
+    fn new(what: usize, values: Vec<Vector3>) -> Self {
+        Self { what, values }
+    }
+
+    /// Value at path parameter `u`, linear within a stage, and its slope there.
+    fn at(&self, u: f64) -> (Vector3, Vector3) {
         let last = self.values.len() - 1;
         let u = u.clamp(0.0, last as f64);
         #[expect(
@@ -22,8 +26,8 @@ impl<K> Track<K> {
             reason = "clamped to the number of stages"
         )]
         let stage = (u.floor() as usize).min(last.saturating_sub(1));
-        let (from, to) = (self.values[stage], self.values[(stage + 1).min(last)]);
-        from + (to - from) * (u - stage as f64)
+        let slope = self.values[(stage + 1).min(last)] - self.values[stage];
+        (self.values[stage] + slope * (u - stage as f64), slope)
     }
 }
 
@@ -33,9 +37,9 @@ impl<K> Track<K> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drive {
     stages: usize,
-    loads: Vec<Track<usize>>,
-    shifts: Vec<Track<usize>>,
-    turns: Vec<Track<usize>>,
+    loads: Vec<Track>,
+    shifts: Vec<Track>,
+    turns: Vec<Track>,
     ends: Vec<HeldEnd>,
 }
 
@@ -51,54 +55,38 @@ struct HeldEnd {
 impl Drive {
     /// The drive of a scene whose clamps hold these bodies of `rest`.
     pub(super) fn new(scene: &Scene, clamps: &[Clamped], rest: &State) -> Self {
-        let stages = scene.path.len();
-        let clamp_of = |end: End| clamps.iter().position(|clamp| clamp.end == end);
-        let track = |find: &dyn Fn(&Setting) -> Option<Vector3>, start: Vector3| {
-            let mut values = vec![start];
-            for stage in &scene.path {
-                let set = stage.set.iter().rev().find_map(find);
-                values.push(set.unwrap_or(values[values.len() - 1]));
-            }
-            let is_set = scene
-                .path
-                .iter()
-                .any(|s| s.set.iter().any(|s| find(s).is_some()));
-            is_set.then_some(values)
-        };
-        let of_load = |load: usize| {
-            let find = move |setting: &Setting| match *setting {
-                Setting::LoadFactor { load: l, factor } if l == load => {
+        let load = |index: usize| {
+            let values = values(scene, &|setting| match *setting {
+                Setting::LoadFactor { load, factor } if load == index => {
                     Some(Vector3::from_element(factor))
                 }
                 _ => None,
-            };
-            track(&find, Vector3::zeros()).map(|values| Track { what: load, values })
+            });
+            Some(Track::new(index, values?))
         };
-        let of_clamp = |clamp: usize, turn: bool| {
-            let find = move |setting: &Setting| match *setting {
-                Setting::Shift { end, shift_nm } if !turn && clamp_of(end) == Some(clamp) => {
+        let shift = |clamp: usize| {
+            let values = values(scene, &|setting| match *setting {
+                Setting::Shift { end, shift_nm } if end == clamps[clamp].end => {
                     Some(shift_nm.into())
                 }
-                Setting::Turn { end, turn_deg } if turn && clamp_of(end) == Some(clamp) => {
+                _ => None,
+            });
+            Some(Track::new(clamp, values?))
+        };
+        let turn = |clamp: usize| {
+            let values = values(scene, &|setting| match *setting {
+                Setting::Turn { end, turn_deg } if end == clamps[clamp].end => {
                     Some(turn_deg.map(f64::to_radians).into())
                 }
                 _ => None,
-            };
-            let values = track(&find, Vector3::zeros());
-            values.map(|values| Track {
-                what: clamp,
-                values,
-            })
+            });
+            Some(Track::new(clamp, values?))
         };
         Self {
-            stages,
-            loads: (0..scene.loads.len()).filter_map(of_load).collect(),
-            shifts: (0..clamps.len())
-                .filter_map(|c| of_clamp(c, false))
-                .collect(),
-            turns: (0..clamps.len())
-                .filter_map(|c| of_clamp(c, true))
-                .collect(),
+            stages: scene.path.len(),
+            loads: (0..scene.loads.len()).filter_map(load).collect(),
+            shifts: (0..clamps.len()).filter_map(shift).collect(),
+            turns: (0..clamps.len()).filter_map(turn).collect(),
             ends: clamps.iter().map(|c| HeldEnd::new(c, rest)).collect(),
         }
     }
@@ -116,17 +104,39 @@ impl Drive {
     /// Puts controls and held bodies where they belong at path parameter `u`. Of an end that
     /// slides, the component along which it slides stays as it is in `state`.
     pub fn place(&self, state: &mut State, u: f64) {
+        self.place_moving(state, u, 0.0);
+    }
+
+    /// The same while the path parameter grows at `rate` (1/ns): held points and frames get the
+    /// velocities that go with it.
+    pub(super) fn place_moving(&self, state: &mut State, u: f64, rate: f64) {
         for track in &self.loads {
-            state.controls[track.what] = track.at(u).x;
+            state.controls[track.what] = track.at(u).0.x;
         }
-        let value = |tracks: &[Track<usize>], clamp| {
+        let motion = |tracks: &[Track], clamp| {
             let track = tracks.iter().find(|track| track.what == clamp);
-            track.map_or(Vector3::zeros(), |track| track.at(u))
+            let (value, slope) = track.map_or_else(Default::default, |track| track.at(u));
+            (value, slope * rate)
         };
         for (clamp, end) in self.ends.iter().enumerate() {
-            end.place(state, value(&self.shifts, clamp), value(&self.turns, clamp));
+            let shift = motion(&self.shifts, clamp);
+            let turn = motion(&self.turns, clamp);
+            end.place(state, shift, turn);
         }
     }
+}
+
+/// Values of a control at the ends of the stages, from zero before the path; `None` if no stage sets
+/// it.
+fn values(scene: &Scene, find: &dyn Fn(&Setting) -> Option<Vector3>) -> Option<Vec<Vector3>> {
+    let mut values = vec![Vector3::zeros()];
+    let mut is_set = false;
+    for stage in &scene.path {
+        let set = stage.set.iter().rev().find_map(find);
+        is_set |= set.is_some();
+        values.push(set.unwrap_or(values[values.len() - 1]));
+    }
+    is_set.then_some(values)
 }
 
 impl HeldEnd {
@@ -141,21 +151,84 @@ impl HeldEnd {
         }
     }
 
-    fn place(&self, state: &mut State, shift: Vector3, turn: Vector3) {
-        let turn = rotation::exp(turn);
-        let turned = |rest: Vector3| self.about + turn * (rest - self.about);
+    /// Places the bodies at a shift and a turn, each given with its rate.
+    fn place(
+        &self,
+        state: &mut State,
+        (shift, velocity): (Vector3, Vector3),
+        (theta, rate): (Vector3, Vector3),
+    ) {
+        let turn = rotation::exp(theta);
+        let omega = angular_velocity(theta, rate);
+        let arm = |rest: Vector3| turn * (rest - self.about);
         let (reference, rest) = self.points[0];
-        let present = state.points.position.get(reference) - turned(rest);
-        let shift = match self.slides {
-            Slides::Nowhere => shift,
-            Slides::AlongAxis => Vector3::new(shift.x, shift.y, present.z),
-            Slides::Freely => present,
-        };
+        let present = state.points.position.get(reference) - self.about - arm(rest);
+        let sliding = state.points.velocity.get(reference) - omega.cross(&arm(rest));
+        let shift = self.unless_sliding(shift, present);
+        let velocity = self.unless_sliding(velocity, sliding);
         for &(i, rest) in &self.points {
-            state.points.position.set(i, turned(rest) + shift);
+            let arm = arm(rest);
+            state.points.position.set(i, self.about + arm + shift);
+            state.points.velocity.set(i, velocity + omega.cross(&arm));
         }
         for &(i, rest) in &self.frames {
-            state.frames.orientation.set(i, turn * rest);
+            let q = turn * rest;
+            let body = q.inverse_transform_vector(&omega);
+            let momentum = body.component_div(&state.frames.inverse_moments(i));
+            state.frames.orientation.set(i, q);
+            state.frames.angular_momentum.set(i, momentum);
+        }
+    }
+
+    /// `prescribed`, but for the components along which the end slides, which are `present`.
+    fn unless_sliding(&self, prescribed: Vector3, present: Vector3) -> Vector3 {
+        match self.slides {
+            Slides::Nowhere => prescribed,
+            Slides::AlongAxis => Vector3::new(prescribed.x, prescribed.y, present.z),
+            Slides::Freely => present,
+        }
+    }
+}
+
+/// Angular velocity (lab frame) of `exp(theta)` when `theta` changes at `rate`: `J_l(theta) rate`.
+fn angular_velocity(theta: Vector3, rate: Vector3) -> Vector3 {
+    if rate == Vector3::zeros() {
+        return rate;
+    }
+    // Beyond a full turn J_l^-1 has poles; J_l itself is written out.
+    let angle = theta.norm();
+    if angle < 1e-8 {
+        return rate + 0.5 * theta.cross(&rate);
+    }
+    let (sin, cos) = angle.sin_cos();
+    let axis = theta / angle;
+    rate * (sin / angle)
+        + axis * (axis.dot(&rate) * (1.0 - sin / angle))
+        + axis.cross(&rate) * ((1.0 - cos) / angle)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The angular velocity moves the rotation as its definition says, small angles and several
+    /// turns alike.
+    #[test]
+    fn angular_velocity_is_that_of_the_rotation() {
+        let rate = Vector3::new(0.3, -0.2, 0.5);
+        let axis = Vector3::new(1.0, 2.0, -0.5).normalize();
+        for angle in [0.0, 1e-6, 0.7, 3.0, 12.0] {
+            let theta = axis * angle;
+            let h = 1e-5;
+            let (after, before) = (
+                rotation::exp(theta + rate * h),
+                rotation::exp(theta - rate * h),
+            );
+            let slope = rotation::log(after * before.inverse()) / (2.0 * h);
+            assert!(
+                (slope - angular_velocity(theta, rate)).norm() < 1e-9,
+                "{angle}"
+            );
         }
     }
 }

@@ -10,10 +10,12 @@ mod drive;
 mod lattice;
 mod models;
 mod parts;
+mod ramp;
 mod reaction;
 
 pub use drive::Drive;
 pub use parts::{BodyKind, Counts, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term};
+pub(crate) use ramp::Ramp;
 pub use reaction::{Clamped, Reaction};
 
 use crate::scene::{End, Scene};

@@ -3,6 +3,7 @@
 use super::bound::kinetic_limit;
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
+use crate::assembly::Ramp;
 use crate::scene::{Dynamics, Integrator, Problem, StopRule, Task};
 use actin_integrate::{Composition, Drag, Moment, Reason, Run};
 use actin_mechanics::Split;
@@ -97,48 +98,70 @@ pub(super) fn run(
 ) -> Result<(Trajectory, RunReport), RunError> {
     let estimate = estimate_of(assembly, dynamics)?;
     let plan = plan(dynamics, &estimate)?
+        .stopping_from(drive(assembly))
         .with_kinetic_limit(kinetic_limit(assembly))
         .expect("the limit is positive");
     assembly.resolve(&estimate);
     let started = Instant::now();
     let mut trajectory = Trajectory::default();
     let mut observer = |moment: &mut Moment<'_>| {
-        let record = record(moment);
-        let progress = Progress {
-            time_ns: record.time_ns,
+        trajectory.records.push(record(moment));
+        watch(Progress {
+            time_ns: moment.time,
             end_ns: dynamics.duration_ns,
             steps: moment.step,
-            residual_force_pn: record.residual_force_pn,
-        };
-        trajectory.records.push(record);
-        watch(progress)
+            residual_force_pn: moment.residual().force,
+        })
     };
     let outcome = plan.execute(&mut assembly.system, &mut [&mut observer]);
     let report = |converged, steps, force_evaluations| RunReport {
         converged,
         steps,
         force_evaluations,
-        time_step_ns: Some(estimate.time_step_ns),
-        largest_frequency_rad_per_ns: Some(estimate.largest_frequency_rad_per_ns),
-        equilibrium: None,
-        wall_s: started.elapsed().as_secs_f64(),
+        ..estimate.report(started)
     };
+    let evaluations = assembly.system.force_evaluations();
     match outcome {
         Ok(outcome) => {
             let converged = outcome.reason == Reason::Converged;
             let report = report(converged, outcome.steps, outcome.force_evaluations);
             Ok((trajectory, report))
         }
-        Err(failure) => {
-            let evaluations = assembly.system.force_evaluations();
-            Err(RunError::Failed {
-                report: Box::new(report(false, failure.last_good_step, evaluations)),
-                body: assembly.describe(failure.body),
-                failure: Box::new(failure),
-                trajectory: Box::new(trajectory),
-            })
+        Err(failure) => Err(RunError::Failed {
+            report: Box::new(report(false, failure.last_good_step, evaluations)),
+            body: assembly.describe(failure.body),
+            failure: Box::new(failure),
+            trajectory: Box::new(trajectory),
+        }),
+    }
+}
+
+impl Estimate {
+    /// The report of a run that began at `started` and has counted nothing yet.
+    fn report(&self, started: Instant) -> RunReport {
+        RunReport {
+            converged: false,
+            steps: 0,
+            force_evaluations: 0,
+            time_step_ns: Some(self.time_step_ns),
+            largest_frequency_rad_per_ns: Some(self.largest_frequency_rad_per_ns),
+            equilibrium: None,
+            wall_s: started.elapsed().as_secs_f64(),
         }
     }
+}
+
+/// Sets the path of the scene going, if there is one, and returns the time that it takes (ns).
+fn drive(assembly: &mut Assembly) -> f64 {
+    if assembly.drive.is_still() {
+        return 0.0;
+    }
+    let stages = assembly.scene.path.iter();
+    let durations: Vec<f64> = stages.filter_map(|stage| stage.duration_ns).collect();
+    let duration = durations.iter().sum();
+    let ramp = Ramp::new(assembly.drive.clone(), durations);
+    assembly.system.set_drive(Box::new(ramp));
+    duration
 }
 
 /// The run that the scene asks for. Its numbers were validated with the scene.

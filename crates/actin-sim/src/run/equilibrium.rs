@@ -2,12 +2,12 @@
 
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
-use crate::scene::{Equilibrium as Settings, Problem, Slides};
+use crate::scene::{Equilibrium as Settings, Problem};
 use actin_equilibrium::{
-    BodyOrder, Certificate, Equilibrium, Group, Jumps, Layout, Newton, NewtonOptions, Path,
-    PathFailure, PathOptions, Residual, Saddles, Work,
+    BodyOrder, Certificate, Equilibrium, Jumps, Layout, Newton, NewtonOptions, Path, PathFailure,
+    PathOptions, Residual, Saddles, Work,
 };
-use actin_mechanics::{Loads, State, System, Vector3};
+use actin_mechanics::{Loads, State, System};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -45,17 +45,10 @@ pub(super) fn run(
         points: 0,
     };
     let failure = follower.follow(&mut newton, &mut state)?;
-    let Follower {
-        trajectory,
-        last,
-        points,
-        ..
-    } = follower;
+    let (trajectory, last, points) = (follower.trajectory, follower.last, follower.points);
     *assembly.system.state_mut() = state;
-    let lowest = match (&last, settings.lowest_eigenvalue) {
-        (Some(_), true) => lowest_eigenvalue(&mut newton, &assembly.system),
-        _ => None,
-    };
+    let wanted = settings.lowest_eigenvalue && last.is_some();
+    let lowest = wanted.then(|| lowest_eigenvalue(&mut newton, &assembly.system));
     let work = newton.work();
     let report = RunReport {
         converged: failure.is_none(),
@@ -63,7 +56,7 @@ pub(super) fn run(
         force_evaluations: work.evaluations,
         time_step_ns: None,
         largest_frequency_rad_per_ns: None,
-        equilibrium: last.and_then(|last| report(&last, lowest, work, points)),
+        equilibrium: last.and_then(|last| report(&last, lowest.flatten(), work, points)),
         wall_s: started.elapsed().as_secs_f64(),
     };
     match failure {
@@ -77,25 +70,14 @@ pub(super) fn run(
 }
 
 /// What may move, in the order of arc length, and how far it is to be solved.
-fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, Problem> {
+pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, Problem> {
     let order = BodyOrder {
         points: assembly.points.iter().map(|p| p.s_nm).collect(),
         frames: assembly.frames.iter().map(|f| f.s_nm).collect(),
     };
-    let groups = assembly.clamps.iter().filter_map(|clamp| {
-        let translations = match clamp.slides {
-            Slides::Nowhere => return None,
-            Slides::AlongAxis => vec![Vector3::z()],
-            Slides::Freely => vec![Vector3::x(), Vector3::y(), Vector3::z()],
-        };
-        Some(Group {
-            translations,
-            ..Group::sliding(clamp.points.clone(), clamp.frames.clone(), Vector3::z())
-        })
-    });
     let refused =
         |key: &str, error: &dyn std::error::Error| Problem::new(key, "", error.to_string());
-    let layout = Layout::new(assembly.system.state(), Some(&order), groups.collect())
+    let layout = Layout::new(assembly.system.state(), Some(&order), Vec::new())
         .map_err(|error| refused("filament", &error))?;
     let options = NewtonOptions {
         tolerance: Residual {

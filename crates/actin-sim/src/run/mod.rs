@@ -6,6 +6,7 @@ mod equilibrium;
 
 pub use dynamics::{Estimate, estimate};
 pub use equilibrium::EquilibriumReport;
+pub(crate) use equilibrium::newton as solver;
 
 use crate::Assembly;
 use crate::scene::{Problem, Task};

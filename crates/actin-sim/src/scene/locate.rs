@@ -27,15 +27,12 @@ pub(super) fn path_at(text: &str, place: (usize, usize)) -> String {
 }
 
 fn written(path: &[Step]) -> String {
-    let mut text = String::new();
-    for step in path {
-        match step {
-            Step::Key(key) if text.is_empty() => text += key,
-            Step::Key(key) => text += &format!(".{key}"),
-            Step::Index(index) => text += &format!("[{index}]"),
-        }
-    }
-    text
+    let steps = path.iter().enumerate().map(|(i, step)| match step {
+        Step::Key(key) if i == 0 => key.clone(),
+        Step::Key(key) => format!(".{key}"),
+        Step::Index(index) => format!("[{index}]"),
+    });
+    steps.collect()
 }
 
 fn steps(path: &str) -> Vec<Step> {

@@ -16,4 +16,4 @@ pub use types::{
     Clamp, Drag, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Load, Scene, Section,
     Setting, Slides, Stage, StopRule, Task,
 };
-pub(crate) use validate::{MOST_BODIES, MOST_BONDS};
+pub(crate) use validate::{MOST_BODIES, MOST_BONDS, validate};

@@ -5,9 +5,9 @@ use ron::error::{Error as RonError, SpannedError};
 use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
 
-/// Suffixes that keys carry for their units.
+/// Suffixes that keys carry for their units; a suffix stands before those that it ends with.
 const UNIT_SUFFIXES: [&str; 8] = [
-    "_nm", "_nm2", "_pn", "_ns", "_deg", "_ag", "_per_ns", "_per_nm",
+    "_per_ns", "_per_nm", "_nm", "_nm2", "_pn", "_ns", "_deg", "_ag",
 ];
 
 impl Scene {

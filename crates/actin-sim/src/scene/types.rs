@@ -1,6 +1,7 @@
 //! What a scene says: filament, clamps, loads and task.
 
 use super::model::{JunctionModel, Monomers, RodModel};
+use actin_mechanics::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// A scene: one filament, what holds it, what loads it, and what is asked of it.
@@ -166,6 +167,17 @@ pub enum Hold {
     NodeAndFrame,
     /// Rod only: the last two nodes and the last segment's frame.
     TwoNodesAndFrame,
+}
+
+impl Slides {
+    /// The directions, orthonormal (lab frame).
+    pub fn directions(self) -> Vec<Vector3> {
+        match self {
+            Self::Nowhere => Vec::new(),
+            Self::AlongAxis => vec![Vector3::z()],
+            Self::Freely => vec![Vector3::x(), Vector3::y(), Vector3::z()],
+        }
+    }
 }
 
 /// A load on the filament.

@@ -22,7 +22,7 @@ pub(crate) const MOST_BONDS: f64 = 1e8;
 ///
 /// # Errors
 /// The first rule that is broken.
-pub(super) fn validate(scene: &Scene) -> Result<(), Problem> {
+pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
     filament(&scene.filament)?;
     for (i, clamp) in scene.clamps.iter().enumerate() {
         check_clamp(scene, i, clamp)?;
@@ -35,7 +35,7 @@ pub(super) fn validate(scene: &Scene) -> Result<(), Problem> {
     }
     match &scene.task {
         Task::Dynamics(dynamics) => {
-            check_no_path(scene)?;
+            check_durations(scene)?;
             check_dynamics(dynamics)
         }
         Task::Equilibrium(equilibrium) => check_equilibrium(equilibrium),
@@ -210,27 +210,17 @@ fn check_load(scene: &Scene, i: usize, load: &Load) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Dynamics holds ends where they are; equilibria follow paths and let ends slide.
-fn check_no_path(scene: &Scene) -> Result<(), Problem> {
-    if !scene.path.is_empty() {
-        return Err(Problem::new(
-            "path",
-            format!("{} stage(s)", scene.path.len()),
-            "a path of controls is followed by Equilibrium; Dynamics holds them as built",
-        ));
+/// In time, every stage takes some.
+fn check_durations(scene: &Scene) -> Result<(), Problem> {
+    for (i, stage) in scene.path.iter().enumerate() {
+        let key = format!("path[{i}].duration_ns");
+        let Some(duration) = stage.duration_ns else {
+            let rule = "in Dynamics every stage of the path takes a time: write duration_ns";
+            return Err(Problem::new(key, "none", rule));
+        };
+        positive(&key, duration)?;
     }
-    match scene
-        .clamps
-        .iter()
-        .position(|c| c.slides != Slides::Nowhere)
-    {
-        None => Ok(()),
-        Some(i) => Err(Problem::new(
-            format!("clamps[{i}].slides"),
-            show(scene.clamps[i].slides),
-            "ends slide in Equilibrium; in Dynamics they are held",
-        )),
-    }
+    Ok(())
 }
 
 fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), Problem> {

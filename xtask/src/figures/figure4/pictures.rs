@@ -38,51 +38,45 @@ fn panels(
     out: &Path,
 ) -> Result<Vec<Picture>, String> {
     let what = format!("{force}, junction weight {weight}");
-    let file = |panel: &str| format!("fig4_{}_{weight}_{panel}.svg", force.replace(' ', "_"));
-    let save = |chart: Chart<'_>, panel: &str, caption: String| {
-        let name = file(panel);
-        draw_chart(&chart, &out.join(&name))?;
-        let file = name;
-        Ok::<_, String>(Picture { file, caption })
+    let x_label = "x (nm); the force pulls towards -x";
+    let side = Chart {
+        title: &format!("Side view, {what}"),
+        x_label: "z along the unloaded filament (nm)",
+        y_label: x_label,
+        series: view(results, |p| (p[2], p[0])),
+        equal_axes: true,
     };
-    Ok(vec![
-        save(
-            Chart {
-                title: &format!("Side view, {what}"),
-                x_label: "z along the unloaded filament (nm)",
-                y_label: "x (nm); the force pulls towards -x",
-                series: view(results, |p| (p[2], p[0])),
-                equal_axes: true,
-            },
-            "side",
-            format!(
-                "Equilibria under {what}. Lines: nodes of the rod, and the centre line of the \
-                 monomers; dots: monomer centres. Red is all monomers, blue all rod."
-            ),
-        )?,
-        save(
-            Chart {
-                title: &format!("End view, {what}"),
-                x_label: "y (nm)",
-                y_label: "x (nm); the force pulls towards -x",
-                series: view(results, |p| (p[1], p[0])),
-                equal_axes: true,
-            },
-            "end",
-            "The same states seen along the unloaded filament.".into(),
-        )?,
-        save(
-            Chart {
-                title: &format!("Energy, {what}"),
-                x_label: "time (ns)",
-                y_label: "elastic and kinetic energy (pN nm)",
-                series: energies(results),
-                equal_axes: false,
-            },
-            "energy",
-            "Elastic and kinetic energy while the damped motion comes to rest.".into(),
-        )?,
-    ])
+    let end = Chart {
+        title: &format!("End view, {what}"),
+        x_label: "y (nm)",
+        y_label: x_label,
+        series: view(results, |p| (p[1], p[0])),
+        equal_axes: true,
+    };
+    let energy = Chart {
+        title: &format!("Energy, {what}"),
+        x_label: "time (ns)",
+        y_label: "elastic and kinetic energy (pN nm)",
+        series: energies(results),
+        equal_axes: false,
+    };
+    let captions = [
+        format!(
+            "Equilibria under {what}. Lines: nodes of the rod, and the centre line of the \
+             monomers; dots: monomer centres. Red is all monomers, blue all rod."
+        ),
+        "The same states seen along the unloaded filament.".into(),
+        "Elastic and kinetic energy while the damped motion comes to rest.".into(),
+    ];
+    let charts = [(side, "side"), (end, "end"), (energy, "energy")];
+    let drawn = charts.into_iter().zip(captions);
+    drawn
+        .map(|((chart, panel), caption)| {
+            let file = format!("fig4_{}_{weight}_{panel}.svg", force.replace(' ', "_"));
+            draw_chart(&chart, &out.join(&file))?;
+            Ok(Picture { file, caption })
+        })
+        .collect()
 }
 
 /// Monomer centres as dots under the centre lines, projected by `project`.

@@ -164,7 +164,6 @@ fn ring_down(result: &Result4) -> Vec<Row> {
 
 /// Writes the tables behind the pictures.
 pub(super) fn write_tables(results: &[Result4], out: &Path) -> Result<(), String> {
-    let number = |x: f64| format!("{x:.9e}");
     let table = |keep: fn(&Result4) -> &Vec<[f64; 3]>| -> Vec<Vec<String>> {
         let rows = results.iter().flat_map(|r| {
             let path = path_of(&r.case);
@@ -174,40 +173,42 @@ pub(super) fn write_tables(results: &[Result4], out: &Path) -> Result<(), String
             .collect()
     };
     let header = ["case", "x_nm", "y_nm", "z_nm"];
-    write_csv(
-        out,
-        "fig4_centre_lines.csv",
-        &header,
-        table(|r| &r.centre_line),
-    )?;
+    let lines = table(|r| &r.centre_line);
+    write_csv(out, "fig4_centre_lines.csv", &header, lines)?;
     write_csv(out, "fig4_monomers.csv", &header, table(|r| &r.monomers))?;
     let energies = results.iter().flat_map(|r| {
         let path = path_of(&r.case);
-        r.energy
-            .iter()
-            .map(move |(t, e)| vec![path.clone(), number(*t), number(*e)])
+        let rows = r.energy.iter();
+        rows.map(move |(t, e)| vec![path.clone(), number(*t), number(*e)])
     });
     let header = ["case", "time_ns", "energy_pn_nm"];
     write_csv(out, "fig4_energy.csv", &header, energies)?;
-    let summary = results.iter().map(|r| {
-        vec![
-            path_of(&r.case),
-            number(r.tip_drop_nm),
-            number(r.residual.0),
-            number(r.residual.1),
-            number(r.time_ns),
-            r.force_evaluations.to_string(),
-            format!("{:.2}", r.wall_s),
-        ]
-    });
-    let header = [
-        "case",
-        "tip_drop_nm",
-        "residual_pn",
-        "residual_pn_nm",
-        "time_ns",
-        "force_evaluations",
-        "wall_s",
-    ];
-    write_csv(out, "fig4.csv", &header, summary)
+    write_csv(out, "fig4.csv", &COLUMNS, results.iter().map(columns))
+}
+
+const COLUMNS: [&str; 7] = [
+    "case",
+    "tip_drop_nm",
+    "residual_pn",
+    "residual_pn_nm",
+    "time_ns",
+    "force_evaluations",
+    "wall_s",
+];
+
+/// One result under [`COLUMNS`].
+fn columns(r: &Result4) -> Vec<String> {
+    vec![
+        path_of(&r.case),
+        number(r.tip_drop_nm),
+        number(r.residual.0),
+        number(r.residual.1),
+        number(r.time_ns),
+        r.force_evaluations.to_string(),
+        format!("{:.2}", r.wall_s),
+    ]
+}
+
+fn number(x: f64) -> String {
+    format!("{x:.9e}")
 }

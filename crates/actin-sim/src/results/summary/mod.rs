@@ -215,43 +215,45 @@ mod tests {
         Summary::new(&assembly, &last, &fixture::report())
     }
 
+    const KEYS: [&str; 31] = [
+        "/scene",
+        "/status",
+        "/counts/monomers",
+        "/counts/bonds",
+        "/counts/segments",
+        "/counts/junctions",
+        "/counts/dofs",
+        "/energy_pn_nm/total",
+        "/energy_pn_nm/potential",
+        "/energy_pn_nm/kinetic",
+        "/energy_pn_nm/elastic",
+        "/energy_pn_nm/bonds",
+        "/energy_pn_nm/rod",
+        "/energy_pn_nm/junction",
+        "/energy_pn_nm/load",
+        "/tip_nm/2",
+        "/tip_displacement_nm/2",
+        "/end_reactions/start/force_pn/2",
+        "/end_reactions/start/torque_pn_nm/2",
+        "/residual/force_pn",
+        "/residual/torque_pn_nm",
+        "/lowest_stiffness_eigenvalue",
+        "/work/steps",
+        "/work/force_evaluations",
+        "/work/newton_iterations",
+        "/wall_s",
+        "/version",
+        "/seed",
+        "/time_ns",
+        "/time_step_ns",
+        "/largest_frequency_rad_per_ns",
+    ];
+
     /// The keys that other programs rely on, nested ones included.
     #[test]
     fn keys_are_the_fixed_ones() {
         let json = serde_json::to_value(summary()).unwrap();
-        for path in [
-            "/scene",
-            "/status",
-            "/counts/monomers",
-            "/counts/bonds",
-            "/counts/segments",
-            "/counts/junctions",
-            "/counts/dofs",
-            "/energy_pn_nm/total",
-            "/energy_pn_nm/potential",
-            "/energy_pn_nm/kinetic",
-            "/energy_pn_nm/elastic",
-            "/energy_pn_nm/bonds",
-            "/energy_pn_nm/rod",
-            "/energy_pn_nm/junction",
-            "/energy_pn_nm/load",
-            "/tip_nm/2",
-            "/tip_displacement_nm/2",
-            "/end_reactions/start/force_pn/2",
-            "/end_reactions/start/torque_pn_nm/2",
-            "/residual/force_pn",
-            "/residual/torque_pn_nm",
-            "/lowest_stiffness_eigenvalue",
-            "/work/steps",
-            "/work/force_evaluations",
-            "/work/newton_iterations",
-            "/wall_s",
-            "/version",
-            "/seed",
-            "/time_ns",
-            "/time_step_ns",
-            "/largest_frequency_rad_per_ns",
-        ] {
+        for path in KEYS {
             assert!(json.pointer(path).is_some(), "{path} in {json:#}");
         }
         assert_eq!(json["status"], "completed");

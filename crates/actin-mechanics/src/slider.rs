@@ -1,0 +1,98 @@
+//! Held bodies that slide together along some directions, as one rigid body.
+
+use crate::{State, Vector3, Vectors};
+
+/// Points that keep their places relative to each other and move together along `directions`.
+///
+/// The points themselves are held; what is free is their common displacement along each
+/// direction. Frames that belong to the body do not turn, so they need no mention.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slider {
+    /// The points.
+    pub points: Vec<usize>,
+    /// Orthonormal directions, lab frame.
+    pub directions: Vec<Vector3>,
+    /// Mass of the whole body.
+    pub mass: f64,
+}
+
+impl Slider {
+    /// Total force along each direction.
+    pub fn forces<'a>(&'a self, force: &'a Vectors) -> impl Iterator<Item = f64> + 'a {
+        self.directions
+            .iter()
+            .map(|d| self.points.iter().map(|&i| force.get(i).dot(d)).sum())
+    }
+
+    /// Applies the forces `force` for a time `h`.
+    pub(crate) fn kick(&self, velocity: &mut Vectors, force: &Vectors, h: f64) {
+        let gain: Vector3 = self
+            .directions
+            .iter()
+            .zip(self.forces(force))
+            .map(|(d, f)| d * (h * f / self.mass))
+            .sum();
+        for &i in &self.points {
+            velocity.add(i, gain);
+        }
+    }
+
+    /// Velocity along the free directions, lab frame.
+    pub fn sliding_velocity(&self, velocity: &Vectors) -> Vector3 {
+        let v = velocity.get(self.points[0]);
+        self.directions.iter().map(|d| d * d.dot(&v)).sum()
+    }
+
+    /// Multiplies the velocity along the free directions by `factor`.
+    pub(crate) fn damp(&self, velocity: &mut Vectors, factor: f64) {
+        let loss = self.sliding_velocity(velocity) * (factor - 1.0);
+        for &i in &self.points {
+            velocity.add(i, loss);
+        }
+    }
+
+    /// Kinetic energy of the sliding motion.
+    pub(crate) fn kinetic_energy(&self, state: &State) -> f64 {
+        let v = self.sliding_velocity(&state.points.velocity);
+        0.5 * self.mass * v.norm_squared()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Point, PointLoad, Split, System};
+
+    /// Two held points under a force on one of them slide along z as one body of twice the mass,
+    /// exactly as a free point of that mass; across z nothing moves.
+    #[test]
+    fn a_pair_slides_as_one_body() {
+        let mut state = State::default();
+        for x in [0.0, 1.0] {
+            state.points.push(Point {
+                position: Vector3::new(x, 0.0, 0.0),
+                mass: 0.5,
+            });
+        }
+        (0..2).for_each(|i| state.points.hold(i));
+        state.sliders.push(Slider {
+            points: vec![0, 1],
+            directions: vec![Vector3::z()],
+            mass: 1.0,
+        });
+        state.controls.push(1.0);
+        let force = Vector3::new(3.0, 4.0, 2.0);
+        let load = PointLoad::new(&state, vec![(1, 1.0)], force, 0);
+        let mut system = System::new(state, vec![Box::new(load)]);
+        assert!((system.residual().0 - 2.0).abs() < 1e-15);
+        system.kick(0.5);
+        system.drift(2.0);
+        for i in 0..2 {
+            let x = system.state().points.position.get(i);
+            assert_eq!((x.y, x.z), (0.0, 2.0));
+        }
+        assert!((system.state().kinetic_energy() - 0.5).abs() < 1e-15);
+        system.damp(0.5, 1.0);
+        assert!((system.state().points.velocity.get(0).z - 0.5).abs() < 1e-15);
+    }
+}

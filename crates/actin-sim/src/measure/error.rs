@@ -1,0 +1,29 @@
+//! Why nothing was measured.
+
+use crate::scene::Problem;
+use actin_equilibrium::{OptionsError, Trouble};
+use thiserror::Error;
+
+/// Why a protocol could not begin. A curve that ends early is no error: it says what is missing.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum MeasureError {
+    /// The filament, or what is asked of it, breaks a rule.
+    #[error(transparent)]
+    Refused(#[from] Problem),
+    /// A value at which nothing can be measured.
+    #[error("{name} = {value}: must be {rule}")]
+    Value {
+        /// What it stands for.
+        name: &'static str,
+        /// What it was.
+        value: f64,
+        /// What it must be.
+        rule: &'static str,
+    },
+    /// The solver refused its settings.
+    #[error(transparent)]
+    Options(#[from] OptionsError),
+    /// The solver cannot work on this model, as on the balance law without a potential.
+    #[error(transparent)]
+    Solver(#[from] Trouble),
+}

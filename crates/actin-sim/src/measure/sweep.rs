@@ -1,0 +1,116 @@
+//! Values of both signs, each sign along one path from rest.
+
+use super::MeasureError;
+use super::follow::{Stop, follow};
+use crate::scene::{End, Scene};
+use crate::{Assembly, Reaction};
+use actin_mechanics::{Loads, State, Vector3};
+
+/// What a protocol measured, in ascending order of what it prescribed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve<P> {
+    /// Length between the clamped points, or from the clamped point to the tip, at rest (nm).
+    pub length_nm: f64,
+    /// The points.
+    pub points: Vec<P>,
+    /// Values that were not reached.
+    pub unreached: Vec<Unreached>,
+}
+
+/// A value that was not reached.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unreached {
+    /// The value, in the unit in which it was asked for.
+    pub value: f64,
+    /// Why the path ended before.
+    pub reason: String,
+}
+
+/// Measures at all `values`: negative and positive ones by a path each, in order of magnitude.
+///
+/// `scene` makes the scene with one stage per value; `read` reads a point off a stop.
+pub(super) fn sweep<P>(
+    name: &'static str,
+    values: &[f64],
+    scene: impl Fn(&[f64]) -> Scene,
+    read: impl Fn(&Assembly, f64, &Stop) -> P,
+) -> Result<Curve<P>, MeasureError> {
+    check(name, values)?;
+    let sorted = |positive: bool| {
+        let mut chosen: Vec<f64> = values.to_vec();
+        chosen.retain(|value| (*value > 0.0) == positive);
+        chosen.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        chosen
+    };
+    let mut curve = Curve {
+        length_nm: 0.0,
+        points: Vec::new(),
+        unreached: Vec::new(),
+    };
+    for positive in [false, true] {
+        let values = sorted(positive);
+        if values.is_empty() {
+            continue;
+        }
+        let course = follow(&scene(&values))?;
+        curve.length_nm = course.assembly.length_nm();
+        let stops = values.iter().zip(&course.stops);
+        curve
+            .points
+            .extend(stops.map(|(&value, stop)| read(&course.assembly, value, stop)));
+        if !positive {
+            curve.points.reverse();
+        }
+        let reason = course.ended.map(|ended| ended.to_string());
+        let missing = &values[course.stops.len()..];
+        curve
+            .unreached
+            .extend(missing.iter().map(|&value| Unreached {
+                value,
+                reason: reason.clone().unwrap_or_default(),
+            }));
+    }
+    Ok(curve)
+}
+
+fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureError> {
+    let bad = values.iter().find(|v| !v.is_finite() || **v == 0.0);
+    match bad {
+        Some(&value) => Err(MeasureError::Value {
+            name,
+            value,
+            rule: "finite and not zero, where a secant means nothing",
+        }),
+        None if values.is_empty() => Err(MeasureError::Value {
+            name,
+            value: f64::NAN,
+            rule: "at least one value",
+        }),
+        None => Ok(()),
+    }
+}
+
+/// The transverse direction at an azimuth (lab frame).
+pub(super) fn across(azimuth_deg: f64) -> Vector3 {
+    let (sin, cos) = azimuth_deg.to_radians().sin_cos();
+    Vector3::new(cos, sin, 0.0)
+}
+
+/// Force and torque on the filament at a held end.
+pub(super) fn reaction(assembly: &Assembly, state: &State, end: End) -> Reaction {
+    let mut loads = Loads::zeros(state);
+    for interaction in assembly.system.interactions() {
+        interaction.add_loads(state, &mut loads);
+    }
+    let clamp = assembly.clamps.iter().find(|clamp| clamp.end == end);
+    clamp
+        .expect("protocols ask for ends that they hold")
+        .reaction(state, &loads)
+}
+
+/// How far the clamped point at the far end has moved since rest (nm, lab frame).
+pub(super) fn far_end_shift(assembly: &Assembly, state: &State) -> Vector3 {
+    let clamp = assembly.clamps.iter().find(|clamp| clamp.end == End::End);
+    let clamp = clamp.expect("protocols ask for ends that they hold");
+    clamp.point_nm(state) - clamp.point_nm(&assembly.rest)
+}

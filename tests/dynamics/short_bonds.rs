@@ -1,0 +1,57 @@
+//! Why monomers at room temperature are hard on an integrator: some bonds are very short.
+
+use crate::filaments::{ELLIPSOIDS, assemble, heat};
+use crate::record::EnergyRecord;
+use actin_ellipsoid::{Bonds, EllipsoidModel, EllipsoidParameters, Placement};
+use actin_integrate::{PEFRL, largest_frequency, stable_step};
+use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3};
+use actin_sim::{Assembly, ForceLaw};
+
+/// The bonds of the filament of ellipsoids, built a second time, since the assembly's own cannot
+/// be asked for their ends.
+fn bonds_of(assembly: &Assembly) -> Bonds {
+    let mut parameters = EllipsoidParameters {
+        seed: 1,
+        ..EllipsoidParameters::default()
+    };
+    parameters.lateral.bonds = 16;
+    parameters.longitudinal.bonds = 16;
+    let placement = Placement {
+        rotation: UnitQuaternion::identity(),
+        translation: Vector3::zeros(),
+    };
+    let model = EllipsoidModel::new(parameters).unwrap();
+    let count = assembly.counts().monomers;
+    let monomers = model.build(&mut State::default(), &placement, 0, count);
+    model.bonds(&monomers).unwrap()
+}
+
+/// Length of the shortest bond (nm).
+fn shortest(bonds: &Bonds, state: &State) -> f64 {
+    let pairs = bonds.pairs().iter();
+    let lengths = pairs.flat_map(|pair| bonds.ends_of(pair, state).map(|[a, b]| (b - a).norm()));
+    lengths.fold(f64::INFINITY, f64::min)
+}
+
+/// At a hundredth of room temperature every bond keeps most of its length; at room temperature
+/// some lose most of it, and a force of constant magnitude turns about as they pass zero.
+#[test]
+fn bonds_lose_their_length_at_room_temperature() {
+    for (level, share_left) in [(0.01, 0.7..1.0), (1.0, 0.0..0.5)] {
+        let mut assembly = assemble(ELLIPSOIDS, ForceLaw::EnergyGradient);
+        let bonds = bonds_of(&assembly);
+        let system = &mut assembly.system;
+        let at_rest = shortest(&bonds, system.state());
+        // The bonds are those of the assembly: they have no energy where it was built.
+        assert!(bonds.energy(system.state()) < 1e-20);
+        let frequency = largest_frequency(system).unwrap();
+        heat(system.state_mut(), level, 1);
+        let h = stable_step(&PEFRL, frequency, 0.25).unwrap();
+        let mut least = at_rest;
+        EnergyRecord::of(system, h, 20_000, |state| {
+            least = least.min(shortest(&bonds, state));
+        });
+        println!("level {level}: shortest bond {at_rest:.3} nm at rest, {least:.3} nm in motion");
+        assert!(share_left.contains(&(least / at_rest)), "{least}");
+    }
+}

@@ -1,0 +1,219 @@
+//! Twisted filaments of many bond samplings: what Tables 3 and 5 are made from.
+
+use super::paper::{Entry, Table, entries};
+use super::statistics::{Sample, sample};
+use actin_sim::measure::{Curve, Specimen, Stability, TwistPoint, twist};
+use actin_sim::{Anchors, Monomers};
+use rayon::prelude::*;
+use std::sync::OnceLock;
+
+/// Rises between the inner held monomers: 30 monomers, two held at each end, 73.94 nm.
+pub(super) const RISES: f64 = 27.0;
+/// Bonds per interface of the study; 64 is the default.
+const BONDS: [usize; 6] = [12, 20, 40, 64, 80, 160];
+/// Bond samplings of each kind.
+const SEEDS: u64 = 16;
+/// The same for `--quick`, of the default kind only.
+const QUICK_SEEDS: u64 = 4;
+
+/// How interfaces are bonded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Kind {
+    pub anchors: Anchors,
+    pub bonds: usize,
+}
+
+impl Kind {
+    /// 64 bonds, drawn for each interface.
+    pub(super) const DEFAULT: Self = Self {
+        anchors: Anchors::Independent,
+        bonds: 64,
+    };
+
+    /// `independent` or `identical`.
+    pub(super) fn anchors_name(&self) -> &'static str {
+        match self.anchors {
+            Anchors::Independent => "independent",
+            Anchors::Identical => "identical",
+        }
+    }
+
+    /// Name in quantities and legends.
+    pub(super) fn name(&self) -> String {
+        format!("{}-{}", self.anchors_name(), self.bonds)
+    }
+
+    pub(super) fn monomers(&self, seed: u64) -> Monomers {
+        Monomers {
+            seed,
+            anchors: self.anchors,
+            lateral_bonds: self.bonds,
+            longitudinal_bonds: self.bonds,
+            ..Monomers::default()
+        }
+    }
+}
+
+/// One filament, twisted to all angles.
+#[derive(Clone, Debug)]
+pub(super) struct Sampling {
+    pub kind: Kind,
+    pub seed: u64,
+    /// Points in the order of the paper's entries.
+    pub curve: Curve<TwistPoint>,
+}
+
+/// All of them.
+#[derive(Clone, Debug)]
+pub(super) struct Ensemble {
+    pub samplings: Vec<Sampling>,
+    pub seeds: u64,
+}
+
+/// How many of a set of equilibria are not stable beyond doubt, and how they were reached.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Doubts {
+    pub states: usize,
+    pub saddles: usize,
+    pub neutral: usize,
+    /// States on the way to which a saddle was left or a jump made.
+    pub off_the_branch: usize,
+}
+
+static ENSEMBLE: OnceLock<Result<Ensemble, String>> = OnceLock::new();
+
+/// The ensemble, computed once for the tables that share it.
+pub(super) fn ensemble(quick: bool) -> Result<&'static Ensemble, String> {
+    ENSEMBLE
+        .get_or_init(|| Ensemble::run(quick))
+        .as_ref()
+        .map_err(Clone::clone)
+}
+
+impl Ensemble {
+    fn run(quick: bool) -> Result<Self, String> {
+        let turns = turns_deg()?;
+        let seeds = if quick { QUICK_SEEDS } else { SEEDS };
+        let cases: Vec<(Kind, u64)> = kinds(quick)
+            .into_iter()
+            .flat_map(|kind| (0..seeds).map(move |seed| (kind, seed)))
+            .collect();
+        let progress = indicatif::ProgressBar::new(cases.len() as u64);
+        let samplings = cases
+            .into_par_iter()
+            .map(|(kind, seed)| {
+                let monomers = kind.monomers(seed);
+                let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
+                let curve = twist(&specimen, &turns)
+                    .map_err(|error| format!("{}, seed {seed}: {error}", kind.name()))?;
+                progress.inc(1);
+                Ok(Sampling { kind, seed, curve })
+            })
+            .collect::<Result<_, String>>()?;
+        progress.finish_and_clear();
+        Ok(Self { samplings, seeds })
+    }
+
+    /// The kinds that were sampled.
+    pub(super) fn kinds(&self) -> Vec<Kind> {
+        let mut kinds: Vec<Kind> = self.samplings.iter().map(|s| s.kind).collect();
+        kinds.dedup();
+        kinds
+    }
+
+    /// The points of one kind at the curvature of an entry, with their seeds.
+    pub(super) fn points(&self, kind: Kind, entry: &Entry) -> Vec<(u64, TwistPoint)> {
+        let of_kind = self.samplings.iter().filter(|s| s.kind == kind);
+        of_kind
+            .filter_map(|s| point_at(&s.curve, entry).map(|point| (s.seed, point)))
+            .collect()
+    }
+
+    /// Mean and scatter of what a table compares.
+    pub(super) fn sample(&self, kind: Kind, entry: &Entry, table: Table) -> Sample {
+        let points = self.points(kind, entry);
+        sample(points.iter().map(|(_, point)| value(point, table)))
+    }
+
+    /// Doubts about the states of a kind at the curvatures of some entries.
+    pub(super) fn doubts(&self, kind: Kind, entries: &[Entry]) -> Doubts {
+        let mut doubts = Doubts::default();
+        for entry in entries {
+            for (_, point) in self.points(kind, entry) {
+                doubts.add(&point);
+            }
+        }
+        doubts
+    }
+
+    /// Angles that were not reached: kind, seed, angle (deg) and reason.
+    pub(super) fn unreached(&self) -> Vec<String> {
+        let mut all = Vec::new();
+        for s in &self.samplings {
+            for missing in &s.curve.unreached {
+                let (kind, seed) = (s.kind.name(), s.seed);
+                let (turn, reason) = (missing.value, &missing.reason);
+                all.push(format!("{kind} seed {seed} at {turn:.1} deg: {reason}"));
+            }
+        }
+        all
+    }
+}
+
+impl Doubts {
+    fn add(&mut self, point: &TwistPoint) {
+        self.states += 1;
+        match point.evidence.stability() {
+            Stability::Stable => {}
+            Stability::Neutral { .. } => self.neutral += 1,
+            Stability::Saddle { .. } => self.saddles += 1,
+        }
+        let left = point.evidence.saddles_left + point.evidence.jumps;
+        self.off_the_branch += usize::from(left > 0);
+    }
+
+    /// In words.
+    pub(super) fn describe(&self) -> String {
+        format!(
+            "{} of {} states are saddles, {} neutral; in {} a saddle was left or a jump made",
+            self.saddles, self.states, self.neutral, self.off_the_branch
+        )
+    }
+}
+
+/// What a table compares.
+pub(super) fn value(point: &TwistPoint, table: Table) -> f64 {
+    match table {
+        Table::Rigidity => point.rigidity_pn_nm2,
+        Table::LengthChange => point.relative_length_change,
+    }
+}
+
+/// The turn of our filament at the curvature of an entry (deg).
+pub(super) fn turn_deg(entry: &Entry) -> f64 {
+    (entry.curvature * RISES * Monomers::default().rise_nm).to_degrees()
+}
+
+fn turns_deg() -> Result<Vec<f64>, String> {
+    Ok(entries(Table::Rigidity)?.iter().map(turn_deg).collect())
+}
+
+fn point_at(curve: &Curve<TwistPoint>, entry: &Entry) -> Option<TwistPoint> {
+    let turn = turn_deg(entry);
+    // Neighbouring angles are ten degrees apart.
+    let found = curve
+        .points
+        .iter()
+        .find(|p| (p.turn_deg - turn).abs() < 1e-6);
+    found.copied()
+}
+
+fn kinds(quick: bool) -> Vec<Kind> {
+    if quick {
+        return vec![Kind::DEFAULT];
+    }
+    [Anchors::Independent, Anchors::Identical]
+        .into_iter()
+        .flat_map(|anchors| BONDS.map(|bonds| Kind { anchors, bonds }))
+        .collect()
+}

@@ -1,0 +1,110 @@
+//! Tables 3 and 5 as the paper prints them.
+
+/// Table 3, with its source in a comment.
+const TABLE_3: &str = include_str!("../../../data/table3_twisting_rigidity.csv");
+/// Table 5, with its source in a comment.
+const TABLE_5: &str = include_str!("../../../data/table5_twist_stretch.csv");
+
+/// Angle (deg) above which the paper calls its numbers unreliable.
+const RELIABLE_DEG: f64 = 200.0;
+
+/// Half a unit of the last digit of a printed curvature (rad/nm).
+pub(super) const CURVATURE_ROUNDING: f64 = 5e-5;
+
+/// Which of the two is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Table {
+    /// Secant twisting rigidity (pN nm^2).
+    Rigidity,
+    /// Relative change of length.
+    LengthChange,
+}
+
+/// One entry of Table 3 or 5.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Entry {
+    /// Angle (deg), as printed without a sign.
+    pub phi_deg: f64,
+    /// Curvature (rad/nm), positive in over-twist.
+    pub curvature: f64,
+    /// Rigidity (pN nm^2) or relative change of length.
+    pub value: f64,
+    /// Half a unit of the last digit of the value.
+    pub rounding: f64,
+}
+
+impl Entry {
+    /// `over` or `under`.
+    pub(super) fn direction(&self) -> &'static str {
+        if self.curvature > 0.0 {
+            "over"
+        } else {
+            "under"
+        }
+    }
+
+    /// Whether the paper calls it reliable.
+    pub(super) fn is_reliable(&self) -> bool {
+        self.phi_deg <= RELIABLE_DEG
+    }
+}
+
+/// All entries, under-twist first, in ascending order of curvature.
+pub(super) fn entries(table: Table) -> Result<Vec<Entry>, String> {
+    let text = match table {
+        Table::Rigidity => TABLE_3,
+        Table::LengthChange => TABLE_5,
+    };
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes());
+    let mut all = Vec::new();
+    for row in reader.deserialize::<[f64; 4]>() {
+        let [phi_deg, curvature, under, over] = row.map_err(|e| format!("{table:?}: {e}"))?;
+        let entry = |curvature, value: f64| Entry {
+            phi_deg,
+            curvature,
+            value,
+            rounding: rounding(table, value),
+        };
+        all.push(entry(-curvature, under));
+        all.push(entry(curvature, over));
+    }
+    all.sort_by(|a, b| a.curvature.total_cmp(&b.curvature));
+    Ok(all)
+}
+
+/// Half a unit of the last digit: rigidities have two digits, changes of length four decimals.
+fn rounding(table: Table, value: f64) -> f64 {
+    match table {
+        Table::Rigidity => 0.5 * 10f64.powf(value.log10().floor() - 1.0),
+        Table::LengthChange => 5e-5,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Table, entries};
+
+    /// 13 angles in two directions; a swapped column would give the under-twisted value.
+    #[test]
+    fn tables_are_read_with_their_signs_and_rounding() {
+        for table in [Table::Rigidity, Table::LengthChange] {
+            assert_eq!(entries(table).unwrap().len(), 26);
+        }
+        let find = |table, phi: f64, direction| {
+            let all = entries(table).unwrap().into_iter();
+            all.filter(|e| e.phi_deg.total_cmp(&phi).is_eq())
+                .find(|e| e.direction() == direction)
+                .unwrap()
+        };
+        let entry = find(Table::Rigidity, 180.0, "over");
+        assert_eq!((entry.value, entry.rounding), (1.6e4, 500.0));
+        assert_eq!(find(Table::Rigidity, 40.0, "under").rounding, 50.0);
+        assert_eq!(find(Table::Rigidity, 10.0, "over").rounding, 5.0);
+        let entry = find(Table::LengthChange, 40.0, "under");
+        assert_eq!((entry.curvature, entry.value), (-0.0092, 0.0003));
+        assert!(find(Table::Rigidity, 200.0, "over").is_reliable());
+        assert!(!find(Table::Rigidity, 220.0, "over").is_reliable());
+    }
+}

@@ -1,0 +1,54 @@
+//! Mean and scatter of samples.
+
+/// What a sample says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Sample {
+    /// Number of values.
+    pub count: usize,
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation of a single value, from `count - 1` degrees of freedom; 0 for one value.
+    pub sd: f64,
+    /// Smallest value.
+    pub low: f64,
+    /// Largest value.
+    pub high: f64,
+}
+
+/// The statistics of `values`; all are not a number if there are none.
+pub(super) fn sample(values: impl IntoIterator<Item = f64>) -> Sample {
+    let values: Vec<f64> = values.into_iter().collect();
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let squares: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
+    Sample {
+        count: values.len(),
+        mean,
+        sd: (squares / (n - 1.0).max(1.0)).sqrt(),
+        low: values.iter().copied().fold(f64::NAN, f64::min),
+        high: values.iter().copied().fold(f64::NAN, f64::max),
+    }
+}
+
+/// Root mean square; not a number if there is nothing.
+pub(super) fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
+    let (count, sum) = values
+        .into_iter()
+        .fold((0.0, 0.0), |(n, sum), v| (n + 1.0, sum + v * v));
+    f64::sqrt(sum / count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{rms, sample};
+
+    /// 1, 2, 3, 6: mean 3, squares 4 + 1 + 0 + 9 = 14 over 3.
+    #[test]
+    fn by_hand() {
+        let s = sample([1.0, 2.0, 3.0, 6.0]);
+        assert_eq!((s.count, s.mean, s.low, s.high), (4, 3.0, 1.0, 6.0));
+        assert!((s.sd - f64::sqrt(14.0 / 3.0)).abs() < 1e-15);
+        assert_eq!(sample([2.0]).sd, 0.0);
+        assert_eq!(rms([3.0, -4.0]), f64::sqrt(12.5));
+    }
+}

@@ -1,0 +1,353 @@
+//! Tables 3 and 5: the paper's entries beside ours, for the default filament and for ensembles.
+
+use super::ensemble::{Ensemble, Kind, ensemble, turn_deg, value};
+use super::paper::{CURVATURE_ROUNDING, Entry, Table, entries};
+use super::pictures;
+use super::statistics::rms;
+use crate::figures::report::{Artefact, Row, write_csv};
+use std::path::Path;
+use std::time::Instant;
+
+/// Angles (deg) over which the root mean square is taken.
+const COMPARED_DEG: std::ops::RangeInclusive<f64> = 40.0..=200.0;
+/// Largest root mean square of the relative difference of B3.
+const RIGIDITY_RMS: f64 = 0.12;
+/// Largest root mean square of the difference of dL/L.
+const LENGTH_CHANGE_RMS: f64 = 0.0012;
+
+/// Computes Table 3.
+pub(in crate::figures) fn table3(out: &Path, quick: bool) -> Result<Artefact, String> {
+    reproduce(Table::Rigidity, out, quick)
+}
+
+/// Computes Table 5.
+pub(in crate::figures) fn table5(out: &Path, quick: bool) -> Result<Artefact, String> {
+    reproduce(Table::LengthChange, out, quick)
+}
+
+fn reproduce(table: Table, out: &Path, quick: bool) -> Result<Artefact, String> {
+    let started = Instant::now();
+    let ensemble = ensemble(quick)?;
+    let entries = entries(table)?;
+    write_ensemble(table, ensemble, &entries, out)?;
+    write_samplings(table, ensemble, &entries, out)?;
+    let pictures = pictures::draw(table, ensemble, &entries, out)?;
+    let mut rows = Vec::new();
+    for entry in &entries {
+        rows.push(mean_row(table, ensemble, entry));
+    }
+    rows.extend(entries.iter().filter_map(|e| seed_row(table, ensemble, e)));
+    for kind in ensemble.kinds() {
+        rows.push(rms_row(table, ensemble, kind, &entries));
+    }
+    Ok(Artefact {
+        id: table.id(),
+        title: table.title(),
+        settings: settings(ensemble, &entries),
+        rows,
+        pictures,
+        wall_s: started.elapsed().as_secs_f64(),
+    })
+}
+
+impl Table {
+    pub(super) fn id(self) -> &'static str {
+        match self {
+            Self::Rigidity => "table3",
+            Self::LengthChange => "table5",
+        }
+    }
+
+    fn title(self) -> &'static str {
+        match self {
+            Self::Rigidity => "Secant twisting rigidity of the ellipsoid filament",
+            Self::LengthChange => "Change of length of the twisted ellipsoid filament",
+        }
+    }
+
+    pub(super) fn quantity(self) -> &'static str {
+        match self {
+            Self::Rigidity => "b3",
+            Self::LengthChange => "dl_over_l",
+        }
+    }
+
+    fn unit(self) -> &'static str {
+        match self {
+            Self::Rigidity => "pN nm^2",
+            Self::LengthChange => "",
+        }
+    }
+}
+
+fn settings(ensemble: &Ensemble, entries: &[Entry]) -> String {
+    let doubts = ensemble.doubts(Kind::DEFAULT, entries);
+    let unreached = ensemble.unreached();
+    let unreached = match unreached.first() {
+        None => "Every angle was reached.".to_owned(),
+        Some(first) => format!("{} angles were not reached: {first}.", unreached.len()),
+    };
+    format!(
+        "30 monomers, two held at each end, 73.94 nm between the inner held ones; the far pair is \
+         turned about the axis and slides along it only; secants at the printed curvatures. {} \
+         samplings of the bonds of each kind; the mean is over those of the default kind, 64 \
+         independent bonds. Of the default kind {}. {unreached}",
+        ensemble.seeds,
+        doubts.describe()
+    )
+}
+
+/// One entry: the mean over samplings of the default kind.
+fn mean_row(table: Table, ensemble: &Ensemble, entry: &Entry) -> Row {
+    let sample = ensemble.sample(Kind::DEFAULT, entry, table);
+    let doubts = ensemble.doubts(Kind::DEFAULT, std::slice::from_ref(entry));
+    let along = slope(table, ensemble, entry) * CURVATURE_ROUNDING;
+    let tolerance = entry.rounding + along + 2.0 * sample.sd;
+    let note = format!(
+        "mean of {} samplings at {:.2} deg, sd {}; {}",
+        sample.count,
+        turn_deg(entry),
+        short(sample.sd),
+        doubts.describe()
+    );
+    let quantity = path(table, "", entry);
+    let row = |note| Row::measured(table.id(), quantity, table.unit(), sample.mean, note);
+    if !entry.is_reliable() {
+        let note = format!("{note}; the paper calls its value unreliable");
+        return Row {
+            paper: Some(entry.value),
+            ..row(note)
+        };
+    }
+    row(format!(
+        "{note}; tolerance: half a digit of the paper's value {} and of its curvature {}, and 2 sd \
+         of one sampling of ours (of the paper's, neither number nor pattern of bonds is known)",
+        short(entry.rounding),
+        short(along)
+    ))
+    .against(entry.value, tolerance)
+}
+
+/// The default filament itself.
+fn seed_row(table: Table, ensemble: &Ensemble, entry: &Entry) -> Option<Row> {
+    let points = ensemble.points(Kind::DEFAULT, entry);
+    let (_, point) = points.iter().find(|(seed, _)| *seed == 0)?;
+    let evidence = &point.evidence;
+    let note = format!(
+        "default filament (seed 0); couple {:.3} pN nm, residual {:.1e} pN, {:?}",
+        point.torque_pn_nm,
+        evidence.residual_force_pn,
+        evidence.stability()
+    );
+    let quantity = path(table, "seed-0/", entry);
+    Some(Row {
+        paper: Some(entry.value),
+        ..Row::measured(
+            table.id(),
+            quantity,
+            table.unit(),
+            value(point, table),
+            note,
+        )
+    })
+}
+
+/// The difference to the paper over the angles that are compared.
+fn rms_row(table: Table, ensemble: &Ensemble, kind: Kind, entries: &[Entry]) -> Row {
+    let compared: Vec<Entry> = entries.iter().copied().filter(is_compared).collect();
+    let difference = |entry: &Entry| {
+        let ours = ensemble.sample(kind, entry, table).mean;
+        match table {
+            Table::Rigidity => ours / entry.value - 1.0,
+            Table::LengthChange => ours - entry.value,
+        }
+    };
+    let ours = rms(compared.iter().map(difference));
+    let bias = compared.iter().map(difference).sum::<f64>() / compared.len() as f64;
+    let doubts = ensemble.doubts(kind, &compared);
+    let what = match table {
+        Table::Rigidity => "relative difference",
+        Table::LengthChange => "difference",
+    };
+    let note = format!(
+        "rms {what} of the mean of {} samplings from the paper, 40 to 200 deg in both directions, \
+         mean {what} {bias:+.2e}; {}",
+        ensemble.seeds,
+        doubts.describe()
+    );
+    let name = table.quantity();
+    if kind == Kind::DEFAULT {
+        let quantity = format!("{name}_rms");
+        return Row::measured(table.id(), quantity, "", ours, note).against(
+            0.0,
+            match table {
+                Table::Rigidity => RIGIDITY_RMS,
+                Table::LengthChange => LENGTH_CHANGE_RMS,
+            },
+        );
+    }
+    let quantity = format!("{name}_rms/{}", kind.name());
+    Row::measured(table.id(), quantity, "", ours, note)
+}
+
+fn is_compared(entry: &Entry) -> bool {
+    COMPARED_DEG.contains(&entry.phi_deg)
+}
+
+/// Change of our mean per curvature at an entry, from its neighbours.
+fn slope(table: Table, ensemble: &Ensemble, entry: &Entry) -> f64 {
+    // Zero twist is a point of both tables' curves as far as a slope goes.
+    let near = 0.8 * entry.curvature;
+    let at = |curvature: f64| {
+        let points: Vec<(f64, f64)> = curve(table, ensemble, entry.direction());
+        interpolate(&points, curvature)
+    };
+    ((at(entry.curvature) - at(near)) / (entry.curvature - near)).abs()
+}
+
+/// Means of the default kind in one direction against curvature.
+fn curve(table: Table, ensemble: &Ensemble, direction: &str) -> Vec<(f64, f64)> {
+    let all = entries(table).unwrap_or_default();
+    let mut points: Vec<(f64, f64)> = all
+        .iter()
+        .filter(|entry| entry.direction() == direction)
+        .map(|entry| {
+            let mean = ensemble.sample(Kind::DEFAULT, entry, table).mean;
+            (entry.curvature, mean)
+        })
+        .collect();
+    points.push((0.0, 0.0));
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    points
+}
+
+fn interpolate(points: &[(f64, f64)], x: f64) -> f64 {
+    let pair = points.windows(2).find(|w| w[0].0 <= x && x <= w[1].0);
+    pair.map_or(f64::NAN, |w| {
+        let t = (x - w[0].0) / (w[1].0 - w[0].0);
+        w[0].1 + t * (w[1].1 - w[0].1)
+    })
+}
+
+fn path(table: Table, before: &str, entry: &Entry) -> String {
+    let (name, direction) = (table.quantity(), entry.direction());
+    format!("{name}/{before}{direction}/{}", entry.phi_deg)
+}
+
+fn short(value: f64) -> String {
+    if value.abs() >= 0.1 {
+        format!("{value:.0}")
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+/// Every kind at every entry, paper beside ours.
+fn write_ensemble(
+    table: Table,
+    ensemble: &Ensemble,
+    entries: &[Entry],
+    out: &Path,
+) -> Result<(), String> {
+    let header = [
+        "anchors",
+        "bonds",
+        "direction",
+        "phi_deg",
+        "kappa3_rad_per_nm",
+        "paper_calls_it",
+        "paper",
+        "mean",
+        "sd",
+        "low",
+        "high",
+        "paper_minus_mean_over_sd",
+        "samplings",
+        "saddles",
+        "neutral",
+        "off_the_branch",
+    ];
+    let row = |kind: Kind, entry: &Entry| {
+        let s = ensemble.sample(kind, entry, table);
+        let doubts = ensemble.doubts(kind, std::slice::from_ref(entry));
+        let numbers = [entry.value, s.mean, s.sd, s.low, s.high];
+        let mut row = vec![
+            kind.anchors_name().to_owned(),
+            kind.bonds.to_string(),
+            entry.direction().to_owned(),
+            entry.phi_deg.to_string(),
+            entry.curvature.to_string(),
+            if entry.is_reliable() {
+                "reliable"
+            } else {
+                "unreliable"
+            }
+            .to_owned(),
+        ];
+        row.extend(numbers.map(|x| format!("{x:.6e}")));
+        row.push(format!("{:.2}", (entry.value - s.mean) / s.sd));
+        row.extend(
+            [
+                s.count,
+                doubts.saddles,
+                doubts.neutral,
+                doubts.off_the_branch,
+            ]
+            .map(|n| n.to_string()),
+        );
+        row
+    };
+    let kinds = ensemble.kinds();
+    let rows = kinds
+        .iter()
+        .flat_map(|kind| entries.iter().map(|entry| row(*kind, entry)));
+    write_csv(out, &format!("{}.csv", table.id()), &header, rows)
+}
+
+/// Every filament at every entry, with its evidence.
+fn write_samplings(
+    table: Table,
+    ensemble: &Ensemble,
+    entries: &[Entry],
+    out: &Path,
+) -> Result<(), String> {
+    let header = [
+        "anchors",
+        "bonds",
+        "seed",
+        "turn_deg",
+        "kappa3_rad_per_nm",
+        "torque_pn_nm",
+        table.quantity(),
+        "residual_pn",
+        "residual_pn_nm",
+        "negative_eigenvalues",
+        "unresolved_eigenvalues",
+        "saddles_left",
+        "jumps",
+    ];
+    let mut rows = Vec::new();
+    for kind in ensemble.kinds() {
+        for entry in entries {
+            for (seed, point) in ensemble.points(kind, entry) {
+                let e = &point.evidence;
+                rows.push(vec![
+                    kind.anchors_name().to_owned(),
+                    kind.bonds.to_string(),
+                    seed.to_string(),
+                    format!("{:.6}", point.turn_deg),
+                    format!("{:.6}", point.curvature_rad_per_nm),
+                    format!("{:.6e}", point.torque_pn_nm),
+                    format!("{:.6e}", value(&point, table)),
+                    format!("{:.1e}", e.residual_force_pn),
+                    format!("{:.1e}", e.residual_torque_pn_nm),
+                    e.certificate.negative.to_string(),
+                    e.certificate.unresolved.to_string(),
+                    e.saddles_left.to_string(),
+                    e.jumps.to_string(),
+                ]);
+            }
+        }
+    }
+    write_csv(out, &format!("{}_samplings.csv", table.id()), &header, rows)
+}
