@@ -60,8 +60,8 @@ fn energy_is_bounded_without_a_trend_at_half_the_limit() {
 }
 
 /// Nor does it go anywhere nearer to the limit, while amplitudes are small enough for the limit to
-/// mean what it says: that of the rod hardly depends on its strains, that of monomers does (at a
-/// level of 0.01, 0.9 of the limit explodes a mixed filament).
+/// mean what it says: that of the rod hardly depends on its strains, that of monomers does. At a
+/// hundredth of room temperature and 0.9 of the limit they gain energy or explode, as is printed.
 #[test]
 fn energy_is_bounded_without_a_trend_up_to_the_limit() {
     for (filament, level, share) in [(ROD, 1.0, 0.9), (ELLIPSOIDS, 1e-4, 0.8), (MIXED, 1e-4, 0.8)] {
@@ -74,6 +74,8 @@ fn energy_is_bounded_without_a_trend_up_to_the_limit() {
         );
         assert!(trend.abs() < 0.1 * early, "{}: {trend:e}", filament.0);
     }
+    heated(ELLIPSOIDS, 0.01, 0.9);
+    heated(MIXED, 0.01, 0.9);
 }
 
 /// A known limitation, which must not get worse: at room temperature the shortest bonds come close

@@ -80,6 +80,7 @@ fn print(summary: &Summary, out: &Path) {
             match summary.status {
                 RunStatus::Converged => "stop rule met",
                 RunStatus::Completed => "time is up",
+                RunStatus::Failed => "broken off",
             },
             summary.time_ns,
             work.steps,

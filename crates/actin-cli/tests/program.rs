@@ -207,6 +207,8 @@ fn an_explosion_is_reported_and_what_was_good_is_kept() {
         assert!(value.parse::<f64>().unwrap().is_finite());
     }
     assert!(place.path("a/states.npz").is_file());
+    let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+    assert!(summary.contains("\"status\": \"failed\""), "{summary}");
 }
 
 /// Two percent above the limit the energy grows slowly: caught when the motion has more of it than

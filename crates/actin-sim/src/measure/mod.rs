@@ -48,7 +48,7 @@ pub use shear::{ShearPoint, shear_by_force};
 pub use specimen::Specimen;
 pub use stretch::{StretchPoint, stretch_by_force, stretch_by_shift};
 pub use sweep::{Curve, Unreached};
-pub use twist::{TwistPoint, twist};
+pub use twist::{TwistPoint, twist, twist_in_order};
 
 #[cfg(test)]
 mod tests;

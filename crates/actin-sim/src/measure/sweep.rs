@@ -6,7 +6,7 @@ use crate::scene::{End, Scene};
 use crate::{Assembly, Reaction};
 use actin_mechanics::{Loads, State, Vector3};
 
-/// What a protocol measured, in ascending order of what it prescribed.
+/// What a protocol measured, in ascending order of what it prescribed, or in the order asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<P> {
     /// Length between the clamped points, or from the clamped point to the tip, at rest (nm).
@@ -42,35 +42,59 @@ pub(super) fn sweep<P>(
         chosen.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
         chosen
     };
-    let mut curve = Curve {
-        length_nm: 0.0,
-        points: Vec::new(),
-        unreached: Vec::new(),
-    };
+    let mut curve: Option<Curve<P>> = None;
     for positive in [false, true] {
         let values = sorted(positive);
         if values.is_empty() {
             continue;
         }
-        let course = follow(&scene(&values))?;
-        curve.length_nm = course.assembly.length_nm();
-        let stops = values.iter().zip(&course.stops);
-        curve
-            .points
-            .extend(stops.map(|(&value, stop)| read(&course.assembly, value, stop)));
+        let mut next = leg(&values, &scene, &read)?;
         if !positive {
-            curve.points.reverse();
+            next.points.reverse();
         }
-        let reason = course.ended.map(|ended| ended.to_string());
-        let missing = &values[course.stops.len()..];
-        curve
-            .unreached
-            .extend(missing.iter().map(|&value| Unreached {
+        match &mut curve {
+            None => curve = Some(next),
+            Some(curve) => {
+                curve.points.append(&mut next.points);
+                curve.unreached.append(&mut next.unreached);
+            }
+        }
+    }
+    Ok(curve.expect("there is a value, and it is not zero"))
+}
+
+/// Measures at `values` along one path, in the order in which they are given.
+pub(super) fn in_order<P>(
+    name: &'static str,
+    values: &[f64],
+    scene: impl Fn(&[f64]) -> Scene,
+    read: impl Fn(&Assembly, f64, &Stop) -> P,
+) -> Result<Curve<P>, MeasureError> {
+    check(name, values)?;
+    leg(values, &scene, &read)
+}
+
+fn leg<P>(
+    values: &[f64],
+    scene: &impl Fn(&[f64]) -> Scene,
+    read: &impl Fn(&Assembly, f64, &Stop) -> P,
+) -> Result<Curve<P>, MeasureError> {
+    let course = follow(&scene(values))?;
+    let stops = values.iter().zip(&course.stops);
+    let reason = course.ended.map(|ended| ended.to_string());
+    let missing = values[course.stops.len()..].iter();
+    Ok(Curve {
+        length_nm: course.assembly.length_nm(),
+        points: stops
+            .map(|(&value, stop)| read(&course.assembly, value, stop))
+            .collect(),
+        unreached: missing
+            .map(|&value| Unreached {
                 value,
                 reason: reason.clone().unwrap_or_default(),
-            }));
-    }
-    Ok(curve)
+            })
+            .collect(),
+    })
 }
 
 fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureError> {

@@ -1,7 +1,7 @@
 //! Twist: couple and change of length at held angles.
 
 use super::follow::{Evidence, Stop};
-use super::sweep::{Curve, far_end_shift, reaction, sweep};
+use super::sweep::{Curve, far_end_shift, in_order, reaction, sweep};
 use super::{MeasureError, Specimen};
 use crate::Assembly;
 use crate::scene::{End, Scene, Setting, Slides, Stage};
@@ -38,6 +38,19 @@ pub struct TwistPoint {
 pub fn twist(specimen: &Specimen, turns_deg: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
     let scene = |turns: &[f64]| scene(specimen, turns);
     sweep("turn_deg", turns_deg, scene, read)
+}
+
+/// The same along one path, in the order in which the angles are given: out and back, say, which
+/// shows where large twist has more than one equilibrium.
+///
+/// # Errors
+/// As [`twist`].
+pub fn twist_in_order(
+    specimen: &Specimen,
+    turns_deg: &[f64],
+) -> Result<Curve<TwistPoint>, MeasureError> {
+    let scene = |turns: &[f64]| scene(specimen, turns);
+    in_order("turn_deg", turns_deg, scene, read)
 }
 
 fn scene(specimen: &Specimen, turns_deg: &[f64]) -> Scene {

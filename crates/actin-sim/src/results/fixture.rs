@@ -80,6 +80,7 @@ pub(super) fn loads(assembly: &Assembly, state: &State) -> Loads {
 pub(super) fn report() -> RunReport {
     RunReport {
         converged: false,
+        failed: false,
         steps: 12,
         force_evaluations: 48,
         time_step_ns: Some(3.5e-3),

@@ -128,7 +128,10 @@ pub(super) fn run(
             Ok((trajectory, report))
         }
         Err(failure) => Err(RunError::Failed {
-            report: Box::new(report(false, failure.last_good_step, evaluations)),
+            report: Box::new(RunReport {
+                failed: true,
+                ..report(false, failure.last_good_step, evaluations)
+            }),
             body: assembly.describe(failure.body),
             failure: Box::new(failure),
             trajectory: Box::new(trajectory),
@@ -141,6 +144,7 @@ impl Estimate {
     fn report(&self, started: Instant) -> RunReport {
         RunReport {
             converged: false,
+            failed: false,
             steps: 0,
             force_evaluations: 0,
             time_step_ns: Some(self.time_step_ns),

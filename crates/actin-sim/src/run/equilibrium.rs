@@ -52,6 +52,7 @@ pub(super) fn run(
     let work = newton.work();
     let report = RunReport {
         converged: failure.is_none(),
+        failed: failure.is_some(),
         steps: 0,
         force_evaluations: work.evaluations,
         time_step_ns: None,

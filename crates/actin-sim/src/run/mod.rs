@@ -52,6 +52,8 @@ pub struct Trajectory {
 pub struct RunReport {
     /// Whether the stop rule was met.
     pub converged: bool,
+    /// Whether the run broke off: a state exploded or a path ended early.
+    pub failed: bool,
     /// Steps taken.
     pub steps: u64,
     /// Load evaluations.

@@ -18,10 +18,10 @@ impl Summary {
         let tip_at_rest_nm = assembly.tip_nm(&assembly.rest, tip);
         Self {
             scene: assembly.scene.title.clone(),
-            status: if report.converged {
-                RunStatus::Converged
-            } else {
-                RunStatus::Completed
+            status: match (report.failed, report.converged) {
+                (true, _) => RunStatus::Failed,
+                (false, true) => RunStatus::Converged,
+                (false, false) => RunStatus::Completed,
             },
             counts: assembly.counts(),
             time_ns: last.time_ns,

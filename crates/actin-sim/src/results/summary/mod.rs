@@ -56,6 +56,8 @@ pub enum RunStatus {
     Converged,
     /// The time that was asked for has passed.
     Completed,
+    /// The run broke off; the record is the last good one.
+    Failed,
 }
 
 /// What the eigenvalues of the stiffness say of an equilibrium.
