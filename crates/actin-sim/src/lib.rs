@@ -18,6 +18,8 @@ mod results;
 mod run;
 mod scene;
 
+pub use actin_cosserat::constants as rod_constants;
+pub use actin_ellipsoid::constants as ellipsoid_constants;
 pub use assembly::{
     Assembly, BodyKind, Clamped, Counts, Drive, FrameInfo, Part, PointInfo, Reaction, Resolution,
     SectionSpan, Term,

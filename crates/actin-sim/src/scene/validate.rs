@@ -1,8 +1,8 @@
 //! The rules that numbers of a scene have to satisfy.
 
 use super::{
-    Clamp, Dynamics, End, Equilibrium, Filament, Hold, Load, Problem, Scene, Section, Setting,
-    Slides, Stage, StopRule, Task,
+    Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Load, Problem, Scene, Section,
+    Setting, Slides, Stage, StopRule, Task,
 };
 use std::fmt::Debug;
 
@@ -38,7 +38,10 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
             check_durations(scene)?;
             check_dynamics(dynamics)
         }
-        Task::Equilibrium(equilibrium) => check_equilibrium(equilibrium),
+        Task::Equilibrium(equilibrium) => {
+            check_potential(&scene.filament)?;
+            check_equilibrium(equilibrium)
+        }
     }
 }
 
@@ -219,6 +222,22 @@ fn check_durations(scene: &Scene) -> Result<(), Problem> {
             return Err(Problem::new(key, "none", rule));
         };
         positive(&key, duration)?;
+    }
+    Ok(())
+}
+
+/// An equilibrium is a minimum of the energy, which the printed balance does not have.
+fn check_potential(filament: &Filament) -> Result<(), Problem> {
+    let has_rod = filament
+        .sections
+        .iter()
+        .any(|s| matches!(s, Section::Rod { .. }));
+    if has_rod && filament.rod.force_law == ForceLaw::PaperBalance {
+        return Err(Problem::new(
+            "filament.rod.force_law",
+            "PaperBalance",
+            "has no potential: Equilibrium needs EnergyGradient; damped Dynamics takes either",
+        ));
     }
     Ok(())
 }
