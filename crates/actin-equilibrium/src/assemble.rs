@@ -1,5 +1,6 @@
 //! From blocks of second derivatives to the sparse stiffness in the unknowns.
 
+use crate::chain::Chain;
 use crate::group::Group;
 use crate::layout::{Layout, Node};
 use crate::pattern::{Pattern, Place};
@@ -15,6 +16,7 @@ pub(crate) struct Assembly {
     /// Values in the order of the pattern.
     pub(crate) values: Vec<f64>,
     ties: Ties,
+    chain: Chain,
     tie_blocks: Stiffness,
     tie_places: Vec<Place>,
     /// Values of the matrix of the ties last asked for.
@@ -52,6 +54,8 @@ impl Assembly {
         if is_new {
             self.pattern = Some(Pattern::new(&self.blocks, layout));
             self.ties = Ties::new(self.blocks.blocks(), self.turn_length);
+            let (points, frames) = (state.points.len(), state.frames.len());
+            self.chain = Chain::new(layout, &self.ties, points, frames);
             self.tie_places.clear();
         }
         let pattern = self.pattern.as_ref().expect("it has just been made");
@@ -76,6 +80,11 @@ impl Assembly {
     /// The ties between coupled bodies.
     pub(crate) fn ties(&self) -> &Ties {
         &self.ties
+    }
+
+    /// The order in which bodies follow one another.
+    pub(crate) fn chain(&self) -> &Chain {
+        &self.chain
     }
 
     /// The pattern of the last update.

@@ -56,6 +56,9 @@ pub(crate) struct Descent {
     pub(crate) here: Evaluation,
     trial: State,
     there: Evaluation,
+    /// The trial state in which bodies carry one another along.
+    carried: State,
+    beyond: Evaluation,
     anchor: Option<Anchor>,
     /// Largest displacement in a step (nm).
     farthest: f64,
@@ -78,6 +81,8 @@ impl Descent {
         Self {
             state: state.clone(),
             there: here.clone(),
+            carried: state.clone(),
+            beyond: here.clone(),
             here,
             trial: state.clone(),
             anchor: None,
@@ -194,7 +199,8 @@ impl Descent {
         taken(direction, self.fraction(&direction.extent), verdict)
     }
 
-    /// Evaluates the state at `fraction` of the step.
+    /// Evaluates the state at `fraction` of the step: the lower one of that in which each body
+    /// goes straight and that in which it is carried along by the one before it.
     fn try_step(
         &mut self,
         solver: &mut Solver,
@@ -202,12 +208,20 @@ impl Descent {
         direction: &Direction,
         fraction: f64,
     ) {
+        let layout = &solver.layout;
         self.trial.clone_from(&self.state);
-        solver
-            .layout
-            .apply(&mut self.trial, &direction.step, fraction);
+        layout.apply(&mut self.trial, &direction.step, fraction);
         self.there.update(interactions, &self.trial);
-        solver.work.evaluations += 1;
+        let velocities = layout.velocities(&self.state, &direction.step);
+        self.carried.clone_from(&self.trial);
+        let chain = solver.assembly.chain();
+        chain.carry(&self.state, &velocities, fraction, &mut self.carried);
+        self.beyond.update(interactions, &self.carried);
+        solver.work.evaluations += 2;
+        if self.beyond.is_finite() && is_lower(&self.beyond, &self.there) {
+            std::mem::swap(&mut self.trial, &mut self.carried);
+            std::mem::swap(&mut self.there, &mut self.beyond);
+        }
     }
 
     /// Whether the trial state is good enough, and why.
@@ -335,6 +349,12 @@ impl Descent {
             SHORTEN[0]
         }
     }
+}
+
+/// Whether the energy of `a` is below that of `b`; anything is below what is not a number.
+fn is_lower(a: &Evaluation, b: &Evaluation) -> bool {
+    let difference = a.energy_above(b);
+    difference.is_nan() || difference < 0.0
 }
 
 /// Decrease of the quadratic model over `fraction` of a step.

@@ -12,6 +12,7 @@ struct Readme;
 
 mod assemble;
 mod certificate;
+mod chain;
 mod descent;
 mod direction;
 mod evaluation;

@@ -4,10 +4,11 @@
 //! positive definite and else just large enough to make it so. Where the stiffness changes a lot
 //! within the step, as that of floppy filaments does, coupled neighbours are stiffened in
 //! proportion to their relative motion (see `ties`). The step is shortened to the limits of the
-//! options and judged by the energy. An excursion, a few steps above the energy
-//! where it began, is allowed: a filament that is to bend far is first stretched by the straight
-//! step and relaxes in the next ones, which is far quicker than to follow the bend in small
-//! steps (the watchdog technique). An excursion that does not pay is taken back.
+//! options and judged by the energy. Bodies follow it straight or, where that is lower in energy,
+//! each carried along by the one before it, which bends a filament without stretching it (see
+//! `chain`). An excursion, a few steps above the energy where it began, is allowed: what is
+//! stretched by the straight step relaxes in the next ones, which is far quicker than to follow
+//! a bend in small steps (the watchdog technique). An excursion that does not pay is taken back.
 //!
 //! The direction of a step is found in `direction`, its acceptance in `descent`.
 //!

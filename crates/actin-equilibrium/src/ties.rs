@@ -62,6 +62,23 @@ impl Ties {
         Self { ties, turn_length }
     }
 
+    /// Pairs of tied frames, both ways round.
+    pub(crate) fn frames(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let of = |tie: &Tie| match *tie {
+            Tie::Frames(a, b) => vec![(a, b), (b, a)],
+            Tie::Points(..) | Tie::Seen(..) => vec![],
+        };
+        self.ties.iter().flat_map(of)
+    }
+
+    /// Pairs of tied points with a frame from which they are seen.
+    pub(crate) fn seen(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
+        self.ties.iter().filter_map(|tie| match *tie {
+            Tie::Seen(i, j, f) => Some((i, j, f)),
+            Tie::Points(..) | Tie::Frames(..) => None,
+        })
+    }
+
     /// Second derivatives of half the sum of weighted squared motions.
     pub(crate) fn add_blocks(&self, state: &State, weights: &[f64], blocks: &mut Stiffness) {
         use Coordinates::{Frame, Point};

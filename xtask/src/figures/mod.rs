@@ -18,9 +18,12 @@ use std::path::Path;
 type Recipe = (&'static str, fn(&Path, bool) -> Result<Artefact, String>);
 
 /// The artefacts that exist.
-const RECIPES: [Recipe; 3] = [
+const RECIPES: [Recipe; 6] = [
     ("fig4", figure4::reproduce),
+    ("table1", tables::table1),
+    ("table2", tables::table2),
     ("table3", tables::table3),
+    ("table4", tables::table4),
     ("table5", tables::table5),
 ];
 

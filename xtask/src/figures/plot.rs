@@ -105,7 +105,7 @@ fn render(
     }
     plane
         .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
+        .position(emptiest_corner(chart))
         .background_style(WHITE.mix(0.85))
         .border_style(BLACK.mix(0.3))
         .label_font(("sans-serif", 14))
@@ -113,6 +113,37 @@ fn render(
     root.present()?;
     Ok(())
 }
+
+/// The corner where the legend hides the fewest points.
+fn emptiest_corner(chart: &Chart<'_>) -> SeriesLabelPosition {
+    let Some((x, y)) = ranges(chart) else {
+        return SeriesLabelPosition::UpperRight;
+    };
+    let share = |value: f64, range: &std::ops::Range<f64>| {
+        (value - range.start) / (range.end - range.start)
+    };
+    let points = chart.series.iter().flat_map(|s| &s.points);
+    let places: Vec<(f64, f64)> = points.map(|p| (share(p.0, &x), share(p.1, &y))).collect();
+    let hidden = |right: bool, upper: bool| {
+        let is_hidden = |p: &&(f64, f64)| {
+            let horizontal = if right { 1.0 - p.0 } else { p.0 };
+            let vertical = if upper { 1.0 - p.1 } else { p.1 };
+            horizontal < LEGEND.0 && vertical < LEGEND.1
+        };
+        places.iter().filter(is_hidden).count()
+    };
+    let corners = [
+        (hidden(true, true), SeriesLabelPosition::UpperRight),
+        (hidden(true, false), SeriesLabelPosition::LowerRight),
+        (hidden(false, true), SeriesLabelPosition::UpperLeft),
+        (hidden(false, false), SeriesLabelPosition::LowerLeft),
+    ];
+    let emptiest = corners.into_iter().min_by_key(|(count, _)| *count);
+    emptiest.map_or(SeriesLabelPosition::UpperRight, |(_, corner)| corner)
+}
+
+/// Share of the plane, across and up, that a legend takes.
+const LEGEND: (f64, f64) = (0.25, 0.45);
 
 /// Data ranges with a margin, made to have equal scales where the chart asks for it.
 fn ranges(chart: &Chart<'_>) -> Option<(std::ops::Range<f64>, std::ops::Range<f64>)> {

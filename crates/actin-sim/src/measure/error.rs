@@ -1,7 +1,7 @@
 //! Why nothing was measured.
 
 use crate::scene::Problem;
-use actin_equilibrium::{OptionsError, Trouble};
+use actin_equilibrium::OptionsError;
 use thiserror::Error;
 
 /// Why a protocol could not begin. A curve that ends early is no error: it says what is missing.
@@ -23,7 +23,4 @@ pub enum MeasureError {
     /// The solver refused its settings.
     #[error(transparent)]
     Options(#[from] OptionsError),
-    /// The solver cannot work on this model, as on the balance law without a potential.
-    #[error(transparent)]
-    Solver(#[from] Trouble),
 }

@@ -53,7 +53,7 @@ pub(super) struct Course {
 /// Follows the path of `scene` from stage to stage.
 ///
 /// # Errors
-/// A scene or settings that are refused, or a model on which the solver cannot work.
+/// A scene or settings that are refused.
 pub(super) fn follow(scene: &Scene) -> Result<Course, MeasureError> {
     validate(scene)?;
     let assembly = Assembly::build(scene)?;
@@ -66,7 +66,7 @@ pub(super) fn follow(scene: &Scene) -> Result<Course, MeasureError> {
     let mut stops = Vec::new();
     let mut ended = None;
     for stage in 0..assembly.drive.stages() {
-        match advance(&assembly, &path, &mut newton, &mut state, stage)? {
+        match advance(&assembly, &path, &mut newton, &mut state, stage) {
             Ok(evidence) => stops.push(Stop {
                 state: state.clone(),
                 evidence,
@@ -104,8 +104,6 @@ fn path(settings: &Settings) -> Result<Path, MeasureError> {
     Ok(Path::new(options)?)
 }
 
-type Reached = Result<Evidence, Box<PathFailure>>;
-
 /// Follows one stage; `state` ends in its last equilibrium.
 fn advance(
     assembly: &Assembly,
@@ -113,7 +111,7 @@ fn advance(
     newton: &mut Newton,
     state: &mut State,
     stage: usize,
-) -> Result<Reached, MeasureError> {
+) -> Result<Evidence, Box<PathFailure>> {
     let (mut saddles_left, mut jumps) = (0, 0);
     let end = path.follow(
         newton,
@@ -126,17 +124,7 @@ fn advance(
             ControlFlow::Continue(())
         },
     );
-    match end {
-        Ok(end) => Ok(Ok(evidence(&end, saddles_left, jumps))),
-        Err(failure) => match failure.trouble {
-            actin_equilibrium::PathTrouble::NoEquilibrium(ref newton)
-                if failure.equilibrium.is_none() && stage == 0 =>
-            {
-                Err(newton.trouble.clone().into())
-            }
-            _ => Ok(Err(failure)),
-        },
-    }
+    Ok(evidence(&end?, saddles_left, jumps))
 }
 
 fn evidence(end: &PathEnd, saddles_left: usize, jumps: usize) -> Evidence {

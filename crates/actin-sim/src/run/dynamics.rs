@@ -122,10 +122,12 @@ pub(super) fn run(
     };
     let evaluations = assembly.system.force_evaluations();
     match outcome {
-        Ok(outcome) => {
-            let converged = outcome.reason == Reason::Converged;
-            let report = report(converged, outcome.steps, outcome.force_evaluations);
-            Ok((trajectory, report))
+        Ok(end) => {
+            let converged = end.reason == Reason::Converged;
+            Ok((
+                trajectory,
+                report(converged, end.steps, end.force_evaluations),
+            ))
         }
         Err(failure) => Err(RunError::Failed {
             report: Box::new(RunReport {

@@ -3,7 +3,7 @@
 use super::ringdown::{self, RingDown};
 use crate::check::workspace_root;
 use actin_sim::{
-    Assembly, Drag, End, JunctionWeight, Load, Material, Record, Scene, Section, Task,
+    Assembly, Drag, End, Equilibrium, JunctionWeight, Load, Material, Record, Scene, Section, Task,
 };
 use std::ops::ControlFlow;
 
@@ -52,6 +52,9 @@ pub(super) struct Result4 {
     pub monomers: Vec<[f64; 3]>,
     /// First flexural mode.
     pub ring_down: Option<RingDown>,
+    /// The same distance in the equilibrium that Newton's method finds (nm), and whether it is
+    /// certified as stable.
+    pub newton: (f64, bool),
     /// Residual force (pN) and torque (pN nm) at the end.
     pub residual: (f64, f64),
     pub converged: bool,
@@ -170,6 +173,7 @@ impl Case {
                 monomer.then(|| last.state.points.position.get(i).into())
             }),
             ring_down: self.ring_down(drop(last))?,
+            newton: self.newton()?,
             residual: (last.residual_force_pn, last.residual_torque_pn_nm),
             converged: report.converged,
             time_ns: last.time_ns,
@@ -180,6 +184,25 @@ impl Case {
 }
 
 impl Case {
+    /// Solves for the equilibrium directly, from the straight state.
+    fn newton(&self) -> Result<(f64, bool), String> {
+        let fail = |error: &dyn std::fmt::Display| format!("{}: Newton: {error}", self.name());
+        let mut scene = self.scene()?;
+        scene.task = Task::Equilibrium(Equilibrium::default());
+        let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
+        let watch = &mut |_| ControlFlow::Continue(());
+        let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
+        let last = trajectory
+            .records
+            .last()
+            .ok_or_else(|| fail(&"no record"))?;
+        let certified = report.equilibrium.is_some_and(|e| {
+            let counts = e.certificate;
+            counts.negative == 0 && counts.unresolved == 0
+        });
+        Ok((-displacement(&assembly, last), certified))
+    }
+
     /// Lets the filament swing about its equilibrium with little drag, the same for all cases.
     fn ring_down(&self, equilibrium_nm: f64) -> Result<Option<RingDown>, String> {
         if !self.swings() {

@@ -22,6 +22,7 @@ pub(super) fn rows(results: &[Result4]) -> Vec<Row> {
         all.push(tip_spread(results, variant, name));
     }
     all.push(mesh_error(results));
+    all.extend(newton_rows(results));
     all.extend(sampling(results));
     all.extend(results.iter().flat_map(ring_down));
     all
@@ -83,6 +84,29 @@ fn tip_spread(results: &[Result4], variant: Variant, name: &str) -> Row {
             drops.len()
         ),
     )
+}
+
+/// Damped dynamics against Newton's method, and the certificates of the latter.
+fn newton_rows(results: &[Result4]) -> [Row; 2] {
+    let differences = results.iter().map(|r| (r.tip_drop_nm - r.newton.0).abs());
+    let unstable = results.iter().filter(|r| !r.newton.1).count();
+    [
+        Row::measured(
+            "fig4",
+            "newton_difference/largest",
+            "nm",
+            differences.fold(0.0, f64::max),
+            "largest difference of the tip between the end of damped dynamics and Newton's method \
+             over all cases; what is left is the residual at which the dynamics stopped",
+        ),
+        Row::measured(
+            "fig4",
+            "not_certified_stable",
+            "",
+            unstable as f64,
+            "equilibria found by Newton's method whose stiffness is not positive definite",
+        ),
+    ]
 }
 
 /// How far 10 nm segments are from the limit of fine ones.

@@ -2,7 +2,9 @@
 
 use super::paper::{Entry, Table, entries};
 use super::statistics::{Sample, sample};
-use actin_sim::measure::{Curve, Specimen, Stability, TwistPoint, twist};
+use actin_sim::measure::{
+    Curve, MeasureError, Specimen, Stability, TwistPoint, twist, twist_in_order,
+};
 use actin_sim::{Anchors, Monomers};
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -16,11 +18,13 @@ const SEEDS: u64 = 16;
 /// The same for `--quick`, of the default kind only.
 const QUICK_SEEDS: u64 = 4;
 
-/// How interfaces are bonded.
+/// How interfaces are bonded, and on which way the filament is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Kind {
     pub anchors: Anchors,
     pub bonds: usize,
+    /// Whether points are those on the way back from the largest angle.
+    pub returning: bool,
 }
 
 impl Kind {
@@ -28,6 +32,12 @@ impl Kind {
     pub(super) const DEFAULT: Self = Self {
         anchors: Anchors::Independent,
         bonds: 64,
+        returning: false,
+    };
+    /// The same on the way back.
+    pub(super) const RETURNING: Self = Self {
+        returning: true,
+        ..Self::DEFAULT
     };
 
     /// `independent` or `identical`.
@@ -40,7 +50,24 @@ impl Kind {
 
     /// Name in quantities and legends.
     pub(super) fn name(&self) -> String {
-        format!("{}-{}", self.anchors_name(), self.bonds)
+        let way = if self.returning { "-returning" } else { "" };
+        format!("{}-{}{way}", self.anchors_name(), self.bonds)
+    }
+
+    /// `out` or `back`.
+    pub(super) fn way(&self) -> &'static str {
+        if self.returning { "back" } else { "out" }
+    }
+
+    /// Twists a filament of this kind to all angles.
+    fn twist(&self, seed: u64, turns: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
+        let monomers = self.monomers(seed);
+        let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
+        if self.returning {
+            out_and_back(&specimen, turns)
+        } else {
+            twist(&specimen, turns)
+        }
     }
 
     pub(super) fn monomers(&self, seed: u64) -> Monomers {
@@ -102,9 +129,8 @@ impl Ensemble {
         let samplings = cases
             .into_par_iter()
             .map(|(kind, seed)| {
-                let monomers = kind.monomers(seed);
-                let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
-                let curve = twist(&specimen, &turns)
+                let curve = kind
+                    .twist(seed, &turns)
                     .map_err(|error| format!("{}, seed {seed}: {error}", kind.name()))?;
                 progress.inc(1);
                 Ok(Sampling { kind, seed, curve })
@@ -121,10 +147,14 @@ impl Ensemble {
         kinds
     }
 
+    /// The samplings of one kind.
+    pub(super) fn of_kind(&self, kind: Kind) -> impl Iterator<Item = &Sampling> {
+        self.samplings.iter().filter(move |s| s.kind == kind)
+    }
+
     /// The points of one kind at the curvature of an entry, with their seeds.
     pub(super) fn points(&self, kind: Kind, entry: &Entry) -> Vec<(u64, TwistPoint)> {
-        let of_kind = self.samplings.iter().filter(|s| s.kind == kind);
-        of_kind
+        self.of_kind(kind)
             .filter_map(|s| point_at(&s.curve, entry).map(|point| (s.seed, point)))
             .collect()
     }
@@ -157,6 +187,13 @@ impl Ensemble {
             }
         }
         all
+    }
+}
+
+impl Sampling {
+    /// What a table compares, at an entry that was reached.
+    pub(super) fn value(&self, entry: &Entry, table: Table) -> Option<f64> {
+        point_at(&self.curve, entry).map(|point| value(&point, table))
     }
 }
 
@@ -208,12 +245,35 @@ fn point_at(curve: &Curve<TwistPoint>, entry: &Entry) -> Option<TwistPoint> {
     found.copied()
 }
 
+/// Twists out to the largest angle and back, in both directions; the points of the way back.
+fn out_and_back(specimen: &Specimen, turns: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
+    let leg = |sign: f64| -> Result<Curve<TwistPoint>, MeasureError> {
+        let mut way: Vec<f64> = turns.iter().copied().filter(|t| t * sign > 0.0).collect();
+        way.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let back = way.len() - 1;
+        way.extend(way.clone().into_iter().rev().skip(1));
+        let mut curve = twist_in_order(specimen, &way)?;
+        curve.points.drain(..back.min(curve.points.len()));
+        Ok(curve)
+    };
+    let (mut curve, mut under) = (leg(1.0)?, leg(-1.0)?);
+    curve.points.append(&mut under.points);
+    curve.unreached.append(&mut under.unreached);
+    Ok(curve)
+}
+
 fn kinds(quick: bool) -> Vec<Kind> {
     if quick {
-        return vec![Kind::DEFAULT];
+        return vec![Kind::DEFAULT, Kind::RETURNING];
     }
+    let kind = |anchors, bonds| Kind {
+        anchors,
+        bonds,
+        returning: false,
+    };
     [Anchors::Independent, Anchors::Identical]
         .into_iter()
-        .flat_map(|anchors| BONDS.map(|bonds| Kind { anchors, bonds }))
+        .flat_map(|anchors| BONDS.map(|bonds| kind(anchors, bonds)))
+        .chain([Kind::RETURNING])
         .collect()
 }

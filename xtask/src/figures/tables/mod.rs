@@ -1,9 +1,16 @@
 //! Tables 1 to 5: parameters and what was measured on the ellipsoid model, paper beside ours.
 
 mod ensemble;
+mod lengths;
+mod listings;
+mod loads;
 mod paper;
+mod parameters;
 mod pictures;
+mod rigidities;
 mod statistics;
 mod twisted;
 
+pub(super) use parameters::{table1, table2};
+pub(super) use rigidities::table4;
 pub(super) use twisted::{table3, table5};

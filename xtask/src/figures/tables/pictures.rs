@@ -19,49 +19,60 @@ pub(super) fn draw(
     entries: &[Entry],
     out: &Path,
 ) -> Result<Vec<Picture>, String> {
-    let (symbol, unit) = match table {
-        Table::Rigidity => ("B3", "pN nm^2"),
-        Table::LengthChange => ("dL/L", ""),
+    let symbol = match table {
+        Table::Rigidity => "B3",
+        Table::LengthChange => "dL/L",
     };
-    let y_label = match table {
-        Table::Rigidity => "secant twisting rigidity B3 (pN nm^2)",
-        Table::LengthChange => "relative change of length dL/L",
-    };
-    let mut pictures = Vec::new();
-    let mut save = |file: String, title: &str, series, caption: String| {
-        let chart = Chart {
-            title,
-            x_label: "curvature phi/L (rad/nm); over-twist is positive",
-            y_label,
-            series,
-            equal_axes: false,
-        };
-        draw_chart(&chart, &out.join(&file))?;
-        pictures.push(Picture { file, caption });
-        Ok::<_, String>(())
-    };
-    save(
-        format!("{}.svg", table.id()),
-        &format!("{symbol} at held twist, {} bond samplings", ensemble.seeds),
+    let seeds = ensemble.seeds;
+    let mut pictures = vec![save(
+        table,
+        &out.join(format!("{}.svg", table.id())),
+        &format!("{symbol} at held twist, {seeds} bond samplings"),
         of_default(table, ensemble, entries),
         format!(
-            "{symbol} {unit} of 64 independent bonds per interface: mean and 2 sd over {} \
-             samplings, and the default filament (seed 0). Dots: the paper; its entries above 200 \
-             deg, which it calls unreliable, are grey.",
-            ensemble.seeds
+            "{symbol} of 64 independent bonds per interface: mean and 2 sd over {seeds} samplings, \
+             the mean on the way back from the largest angle, and the default filament (seed 0). \
+             Dots: the paper; its entries above 200 deg, which it calls unreliable, are grey."
         ),
-    )?;
-    if ensemble.kinds().len() > 1 {
-        save(
-            format!("{}_bonds.svg", table.id()),
+    )?];
+    if ensemble.kinds().len() > 2 {
+        pictures.push(save(
+            table,
+            &out.join(format!("{}_bonds.svg", table.id())),
             &format!("{symbol} for other numbers and patterns of bonds"),
             of_kinds(table, ensemble, entries),
             "Means for 12 (red) to 160 (blue) independent bonds, and mean with 2 sd for one \
              pattern of 40 bonds on all interfaces (grey)."
                 .into(),
-        )?;
+        )?);
     }
     Ok(pictures)
+}
+
+fn save(
+    table: Table,
+    path: &Path,
+    title: &str,
+    series: Vec<Series>,
+    caption: String,
+) -> Result<Picture, String> {
+    let y_label = match table {
+        Table::Rigidity => "secant twisting rigidity B3 (1000 pN nm^2)",
+        Table::LengthChange => "relative change of length dL/L",
+    };
+    let chart = Chart {
+        title,
+        x_label: "curvature phi/L (rad/nm); over-twist is positive",
+        y_label,
+        series: series.into_iter().map(|s| scaled(s, table)).collect(),
+        equal_axes: false,
+    };
+    draw_chart(&chart, path)?;
+    let name = path.file_name().unwrap_or_default();
+    Ok(Picture {
+        file: name.to_string_lossy().into_owned(),
+        caption,
+    })
 }
 
 fn of_default(table: Table, ensemble: &Ensemble, entries: &[Entry]) -> Vec<Series> {
@@ -69,6 +80,8 @@ fn of_default(table: Table, ensemble: &Ensemble, entries: &[Entry]) -> Vec<Serie
     let mut series = bars(table, ensemble, Kind::DEFAULT, entries, blue);
     let mean = means(table, ensemble, Kind::DEFAULT, entries);
     series.push(line("mean, 2 sd", blue, mean));
+    let back = means(table, ensemble, Kind::RETURNING, entries);
+    series.push(line("mean, on the way back", resolution_colour(0.75), back));
     let seed_0 = entries.iter().filter_map(|entry| {
         let points = ensemble.points(Kind::DEFAULT, entry);
         let (_, point) = points.into_iter().find(|(seed, _)| *seed == 0)?;
@@ -83,6 +96,7 @@ fn of_kinds(table: Table, ensemble: &Ensemble, entries: &[Entry]) -> Vec<Series>
     let pattern = Kind {
         anchors: Anchors::Identical,
         bonds: 40,
+        returning: false,
     };
     let grey = RGBColor(130, 130, 130);
     let mut series = bars(table, ensemble, pattern, entries, grey);
@@ -91,7 +105,7 @@ fn of_kinds(table: Table, ensemble: &Ensemble, entries: &[Entry]) -> Vec<Series>
     let independent: Vec<Kind> = ensemble.kinds();
     let independent: Vec<Kind> = independent
         .into_iter()
-        .filter(|kind| kind.anchors == Anchors::Independent)
+        .filter(|kind| kind.anchors == Anchors::Independent && !kind.returning)
         .collect();
     for (i, kind) in independent.iter().enumerate() {
         let colour = resolution_colour(i as f64 / (independent.len() - 1).max(1) as f64);
@@ -146,6 +160,19 @@ fn line(label: &str, colour: RGBColor, points: Vec<(f64, f64)>) -> Series {
         colour,
         points,
         dots: false,
+    }
+}
+
+/// Rigidities in thousands, so that the labels of the axis are short.
+fn scaled(series: Series, table: Table) -> Series {
+    let factor = match table {
+        Table::Rigidity => 1e-3,
+        Table::LengthChange => 1.0,
+    };
+    let points = series.points.into_iter().map(|(x, y)| (x, factor * y));
+    Series {
+        points: points.collect(),
+        ..series
     }
 }
 

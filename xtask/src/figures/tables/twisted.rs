@@ -2,9 +2,9 @@
 
 use super::ensemble::{Ensemble, Kind, ensemble, turn_deg, value};
 use super::paper::{CURVATURE_ROUNDING, Entry, Table, entries};
-use super::pictures;
-use super::statistics::rms;
-use crate::figures::report::{Artefact, Row, write_csv};
+use super::statistics::{rms, sample};
+use super::{lengths, listings, pictures};
+use crate::figures::report::{Artefact, Row};
 use std::path::Path;
 use std::time::Instant;
 
@@ -29,16 +29,19 @@ fn reproduce(table: Table, out: &Path, quick: bool) -> Result<Artefact, String> 
     let started = Instant::now();
     let ensemble = ensemble(quick)?;
     let entries = entries(table)?;
-    write_ensemble(table, ensemble, &entries, out)?;
-    write_samplings(table, ensemble, &entries, out)?;
+    listings::write(table, ensemble, &entries, out)?;
     let pictures = pictures::draw(table, ensemble, &entries, out)?;
     let mut rows = Vec::new();
     for entry in &entries {
         rows.push(mean_row(table, ensemble, entry));
     }
     rows.extend(entries.iter().filter_map(|e| seed_row(table, ensemble, e)));
+    rows.extend(entries.iter().map(|e| returning_row(table, ensemble, e)));
     for kind in ensemble.kinds() {
         rows.push(rms_row(table, ensemble, kind, &entries));
+    }
+    if table == Table::Rigidity && !quick {
+        rows.extend(lengths::rows(out)?);
     }
     Ok(Artefact {
         id: table.id(),
@@ -69,6 +72,14 @@ impl Table {
         match self {
             Self::Rigidity => "b3",
             Self::LengthChange => "dl_over_l",
+        }
+    }
+
+    /// How far a value is from the paper's: relative for rigidities.
+    fn difference(self, ours: f64, entry: &Entry) -> f64 {
+        match self {
+            Self::Rigidity => ours / entry.value - 1.0,
+            Self::LengthChange => ours - entry.value,
         }
     }
 
@@ -152,42 +163,60 @@ fn seed_row(table: Table, ensemble: &Ensemble, entry: &Entry) -> Option<Row> {
     })
 }
 
+/// The mean on the way back from the largest angle: where it differs there are two equilibria.
+fn returning_row(table: Table, ensemble: &Ensemble, entry: &Entry) -> Row {
+    let sample = ensemble.sample(Kind::RETURNING, entry, table);
+    let doubts = ensemble.doubts(Kind::RETURNING, std::slice::from_ref(entry));
+    let note = format!(
+        "the same filaments on the way back from 240 deg, sd {}; {}",
+        short(sample.sd),
+        doubts.describe()
+    );
+    let quantity = path(table, "returning/", entry);
+    Row {
+        paper: Some(entry.value),
+        ..Row::measured(table.id(), quantity, table.unit(), sample.mean, note)
+    }
+}
+
 /// The difference to the paper over the angles that are compared.
 fn rms_row(table: Table, ensemble: &Ensemble, kind: Kind, entries: &[Entry]) -> Row {
     let compared: Vec<Entry> = entries.iter().copied().filter(is_compared).collect();
-    let difference = |entry: &Entry| {
-        let ours = ensemble.sample(kind, entry, table).mean;
-        match table {
-            Table::Rigidity => ours / entry.value - 1.0,
-            Table::LengthChange => ours - entry.value,
-        }
+    let differences = || {
+        compared
+            .iter()
+            .map(|entry| table.difference(ensemble.sample(kind, entry, table).mean, entry))
     };
-    let ours = rms(compared.iter().map(difference));
-    let bias = compared.iter().map(difference).sum::<f64>() / compared.len() as f64;
-    let doubts = ensemble.doubts(kind, &compared);
-    let what = match table {
-        Table::Rigidity => "relative difference",
-        Table::LengthChange => "difference",
+    let ours = rms(differences());
+    let (what, limit) = match table {
+        Table::Rigidity => ("relative difference", RIGIDITY_RMS),
+        Table::LengthChange => ("difference", LENGTH_CHANGE_RMS),
     };
     let note = format!(
         "rms {what} of the mean of {} samplings from the paper, 40 to 200 deg in both directions, \
-         mean {what} {bias:+.2e}; {}",
+         mean {what} {:+.2e}; of a single sampling the rms is {}; {}",
         ensemble.seeds,
-        doubts.describe()
+        sample(differences()).mean,
+        single_rms(table, ensemble, kind, &compared),
+        ensemble.doubts(kind, &compared).describe()
     );
     let name = table.quantity();
     if kind == Kind::DEFAULT {
-        let quantity = format!("{name}_rms");
-        return Row::measured(table.id(), quantity, "", ours, note).against(
-            0.0,
-            match table {
-                Table::Rigidity => RIGIDITY_RMS,
-                Table::LengthChange => LENGTH_CHANGE_RMS,
-            },
-        );
+        let row = Row::measured(table.id(), format!("{name}_rms"), "", ours, note);
+        return row.against(0.0, limit);
     }
     let quantity = format!("{name}_rms/{}", kind.name());
     Row::measured(table.id(), quantity, "", ours, note)
+}
+
+/// The range of the root mean square over single samplings, in words.
+fn single_rms(table: Table, ensemble: &Ensemble, kind: Kind, compared: &[Entry]) -> String {
+    let single = sample(ensemble.of_kind(kind).map(|sampling| {
+        rms(compared
+            .iter()
+            .filter_map(|entry| Some(table.difference(sampling.value(entry, table)?, entry))))
+    }));
+    format!("{:.2e} to {:.2e}", single.low, single.high)
 }
 
 fn is_compared(entry: &Entry) -> bool {
@@ -240,114 +269,4 @@ fn short(value: f64) -> String {
     } else {
         format!("{value:.1e}")
     }
-}
-
-/// Every kind at every entry, paper beside ours.
-fn write_ensemble(
-    table: Table,
-    ensemble: &Ensemble,
-    entries: &[Entry],
-    out: &Path,
-) -> Result<(), String> {
-    let header = [
-        "anchors",
-        "bonds",
-        "direction",
-        "phi_deg",
-        "kappa3_rad_per_nm",
-        "paper_calls_it",
-        "paper",
-        "mean",
-        "sd",
-        "low",
-        "high",
-        "paper_minus_mean_over_sd",
-        "samplings",
-        "saddles",
-        "neutral",
-        "off_the_branch",
-    ];
-    let row = |kind: Kind, entry: &Entry| {
-        let s = ensemble.sample(kind, entry, table);
-        let doubts = ensemble.doubts(kind, std::slice::from_ref(entry));
-        let numbers = [entry.value, s.mean, s.sd, s.low, s.high];
-        let mut row = vec![
-            kind.anchors_name().to_owned(),
-            kind.bonds.to_string(),
-            entry.direction().to_owned(),
-            entry.phi_deg.to_string(),
-            entry.curvature.to_string(),
-            if entry.is_reliable() {
-                "reliable"
-            } else {
-                "unreliable"
-            }
-            .to_owned(),
-        ];
-        row.extend(numbers.map(|x| format!("{x:.6e}")));
-        row.push(format!("{:.2}", (entry.value - s.mean) / s.sd));
-        row.extend(
-            [
-                s.count,
-                doubts.saddles,
-                doubts.neutral,
-                doubts.off_the_branch,
-            ]
-            .map(|n| n.to_string()),
-        );
-        row
-    };
-    let kinds = ensemble.kinds();
-    let rows = kinds
-        .iter()
-        .flat_map(|kind| entries.iter().map(|entry| row(*kind, entry)));
-    write_csv(out, &format!("{}.csv", table.id()), &header, rows)
-}
-
-/// Every filament at every entry, with its evidence.
-fn write_samplings(
-    table: Table,
-    ensemble: &Ensemble,
-    entries: &[Entry],
-    out: &Path,
-) -> Result<(), String> {
-    let header = [
-        "anchors",
-        "bonds",
-        "seed",
-        "turn_deg",
-        "kappa3_rad_per_nm",
-        "torque_pn_nm",
-        table.quantity(),
-        "residual_pn",
-        "residual_pn_nm",
-        "negative_eigenvalues",
-        "unresolved_eigenvalues",
-        "saddles_left",
-        "jumps",
-    ];
-    let mut rows = Vec::new();
-    for kind in ensemble.kinds() {
-        for entry in entries {
-            for (seed, point) in ensemble.points(kind, entry) {
-                let e = &point.evidence;
-                rows.push(vec![
-                    kind.anchors_name().to_owned(),
-                    kind.bonds.to_string(),
-                    seed.to_string(),
-                    format!("{:.6}", point.turn_deg),
-                    format!("{:.6}", point.curvature_rad_per_nm),
-                    format!("{:.6e}", point.torque_pn_nm),
-                    format!("{:.6e}", value(&point, table)),
-                    format!("{:.1e}", e.residual_force_pn),
-                    format!("{:.1e}", e.residual_torque_pn_nm),
-                    e.certificate.negative.to_string(),
-                    e.certificate.unresolved.to_string(),
-                    e.saddles_left.to_string(),
-                    e.jumps.to_string(),
-                ]);
-            }
-        }
-    }
-    write_csv(out, &format!("{}_samplings.csv", table.id()), &header, rows)
 }
