@@ -106,12 +106,7 @@ pub(super) fn run(
     let mut trajectory = Trajectory::default();
     let mut observer = |moment: &mut Moment<'_>| {
         trajectory.records.push(record(moment));
-        watch(Progress {
-            time_ns: moment.time,
-            end_ns: dynamics.duration_ns,
-            steps: moment.step,
-            residual_force_pn: moment.residual().force,
-        })
+        watch(progress(moment, dynamics))
     };
     let outcome = plan.execute(&mut assembly.system, &mut [&mut observer]);
     let report = |converged, steps, force_evaluations| RunReport {
@@ -221,6 +216,15 @@ impl Assembly {
         let between_records = steps_between_records(dynamics, step) as f64 * step;
         dynamics.time_step_ns = Some(step);
         dynamics.record_every_ns = Some(between_records);
+    }
+}
+
+fn progress(moment: &mut Moment<'_>, dynamics: &Dynamics) -> Progress {
+    Progress {
+        time_ns: moment.time,
+        end_ns: dynamics.duration_ns,
+        steps: moment.step,
+        residual_force_pn: moment.residual().force,
     }
 }
 
