@@ -4,7 +4,7 @@
 use crate::common::{Rod, orders};
 
 /// `alpha = F L^2 / B` and the deflection over the length of the inextensible, unshearable rod.
-/// Source: `PHYSICS.md` section 8 (elliptic integrals).
+/// Source: Bisshopp and Drucker, Q. Appl. Math. 3 (1945) 272, evaluated from its elliptic integrals.
 const ELASTICA: [(f64, f64); 5] = [
     (0.2, 0.066_364_482_1),
     (1.0, 0.301_720_773_8),

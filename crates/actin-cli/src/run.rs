@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, Opened};
 use crate::progress::Progress;
-use actin_sim::{RunDirectory, RunError, RunStatus, StabilitySummary, Summary};
+use actin_sim::{RunDirectory, RunDirectoryError, RunError, RunStatus, StabilitySummary, Summary};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -12,7 +12,10 @@ pub(crate) fn run(path: &Path, out: Option<PathBuf>, overwrite: bool) -> Result<
     let mut opened = Opened::open(path)?;
     actin_sim::estimate(&opened.assembly).map_err(|problem| opened.refuse(&problem))?;
     let out = out.unwrap_or_else(|| Path::new("runs").join(path.file_stem().unwrap_or_default()));
-    let unusable = |error: actin_sim::RunDirectoryError| Failure::Input(error.to_string());
+    let unusable = |error: RunDirectoryError| match error {
+        RunDirectoryError::NotFinite { .. } => Failure::Numerical(error.to_string()),
+        _ => Failure::Input(error.to_string()),
+    };
     let directory = RunDirectory::create(&out, overwrite).map_err(unusable)?;
     directory
         .write_scene(&opened.assembly.scene)
@@ -38,10 +41,11 @@ fn broken(opened: &Opened, directory: &RunDirectory, error: RunError) -> Failure
     let (why, trajectory, report) = match error {
         RunError::Refused(problem) => return opened.refuse(&problem),
         RunError::Ended {
+            place,
             failure,
             trajectory,
             report,
-        } => (failure.to_string(), trajectory, report),
+        } => (format!("{place}{failure}"), trajectory, report),
         RunError::Failed {
             failure,
             body,

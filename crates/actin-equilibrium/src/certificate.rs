@@ -103,12 +103,18 @@ fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
 }
 
 /// Takes the count of negative pivots where it is the same for all realisations of rounding.
+///
+/// Before that the residual is brought down by a step of Newton's method: what it leaves of a
+/// zero eigenvalue is the same in all realisations and would pass for a sign.
 fn resolve(
     solver: &mut Solver,
     state: &State,
     interactions: &[Box<dyn Interaction>],
     certificate: &mut Certificate,
 ) {
+    let polished = polish(solver, state, interactions);
+    let state = polished.as_ref().unwrap_or(state);
+    let negative_pivots = solver.factorize(0.0).negative;
     let mut noise = Noise::new(1);
     let bounds = certificate.negative..=certificate.negative + certificate.unresolved;
     for _ in 0..REALIZATIONS {
@@ -119,12 +125,36 @@ fn resolve(
         std::mem::swap(&mut solver.assembly.values, &mut changed);
         let negative = solver.factorize(0.0).negative;
         std::mem::swap(&mut solver.assembly.values, &mut changed);
-        if negative != certificate.negative_pivots || !bounds.contains(&negative) {
+        if negative != negative_pivots || !bounds.contains(&negative) {
             return;
         }
     }
-    certificate.negative = certificate.negative_pivots;
+    certificate.negative = negative_pivots;
     certificate.unresolved = 0;
+}
+
+/// One step from `state`, at which the stiffness is then assembled; `None`, with the assembly as
+/// it was, if the step does not bring the residual down.
+fn polish(
+    solver: &mut Solver,
+    state: &State,
+    interactions: &[Box<dyn Interaction>],
+) -> Option<State> {
+    let (residual, floor) = solver.residual_and_floor(state);
+    let inertia = solver.factorize(0.0);
+    solver.make_positive(inertia, false).ok()?;
+    let step = solver.plain_step();
+    let mut polished = state.clone();
+    solver.layout.apply(&mut polished, &step, 1.0);
+    let evaluation = Evaluation::new(interactions, &polished);
+    solver.work.evaluations += 1;
+    let after = solver.layout.residual(&polished, &evaluation.loads);
+    // What is at its floor already may rise a little.
+    if !(evaluation.is_finite() && after.is_within(&residual.max(&floor))) {
+        return None;
+    }
+    solver.assemble(interactions, &polished, &evaluation.loads);
+    Some(polished)
 }
 
 /// How the stiffness changes when each coordinate changes by `amplitude` roundings.

@@ -147,6 +147,13 @@ impl Solver {
         )
     }
 
+    /// The step of the last factor for the loads of the last assembly.
+    pub(crate) fn plain_step(&mut self) -> Vec<f64> {
+        let mut step = self.reduced.clone();
+        self.solve(&mut step);
+        step
+    }
+
     /// Solves with the last factor, in place.
     pub(crate) fn solve(&mut self, b: &mut [f64]) {
         let factor = self.factor.as_mut().expect("the stiffness is assembled");

@@ -15,6 +15,8 @@ pub struct State {
     pub controls: Vec<f64>,
     /// Held bodies that slide together.
     pub sliders: Vec<Slider>,
+    /// Time, by which a drive places what it moves.
+    pub time: f64,
 }
 
 impl State {

@@ -38,7 +38,6 @@ pub struct System {
     loads_are_current: bool,
     force_evaluations: u64,
     drive: Option<Box<dyn Drive>>,
-    time: f64,
 }
 
 impl System {
@@ -52,7 +51,6 @@ impl System {
             loads_are_current: false,
             force_evaluations: 0,
             drive: None,
-            time: 0.0,
         }
     }
 
@@ -60,7 +58,7 @@ impl System {
     pub fn set_drive(&mut self, drive: Box<dyn Drive>) {
         drive.place(&mut self.state, 0.0);
         self.loads_are_current = false;
-        self.time = 0.0;
+        self.state.time = 0.0;
         self.drive = Some(drive);
     }
 
@@ -123,9 +121,10 @@ impl Split for System {
         self.loads_are_current = false;
         self.state.points.drift(h);
         self.state.frames.drift(h);
-        self.time += h;
+        self.state.time += h;
         if let Some(drive) = &self.drive {
-            drive.place(&mut self.state, self.time);
+            let time = self.state.time;
+            drive.place(&mut self.state, time);
         }
     }
 

@@ -353,10 +353,21 @@ impl<'a> Builder<'a> {
     }
 
     fn hold_ends(&mut self) -> Result<(), Problem> {
+        let masses: Vec<f64> = self.state.points.inverse_mass().to_vec();
         for (i, clamp) in self.scene.clamps.iter().enumerate() {
             let section = self.scene.filament.end_index(clamp.end);
-            let masses: Vec<f64> = self.state.points.inverse_mass().to_vec();
             let (points, frames) = self.hold(i, clamp, section)?;
+            let held_before = self.clamps.iter().any(|other| {
+                points.clone().any(|p| other.points.contains(&p))
+                    || frames.clone().any(|f| other.frames.contains(&f))
+            });
+            if held_before {
+                return Err(Problem::new(
+                    format!("clamps[{i}].hold"),
+                    format!("{:?}", clamp.hold),
+                    "holds bodies that the other clamp holds: the filament is too short for both",
+                ));
+            }
             let directions = clamp.slides.directions();
             if !directions.is_empty() {
                 self.state.sliders.push(Slider {

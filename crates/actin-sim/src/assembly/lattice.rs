@@ -173,7 +173,7 @@ fn check(i: usize, section: &Section, resolved: Resolved) -> Result<Resolved, Pr
         return Err(Problem::new(
             key,
             format!("{to_nm:?}"),
-            "no length is left for this rod once its neighbours end at a monomer",
+            "no length is left for this section once its ends lie at monomers",
         ));
     }
     Ok(resolved)

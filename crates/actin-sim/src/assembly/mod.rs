@@ -57,7 +57,12 @@ impl Assembly {
             bonds: self.sections.iter().map(SectionSpan::bonds).sum(),
             segments: frames(BodyKind::Segment),
             junctions: self.sections.len() - 1,
-            dofs: 3 * (free_points.count() + free_frames.count()),
+            dofs: 3 * (free_points.count() + free_frames.count())
+                + state
+                    .sliders
+                    .iter()
+                    .map(|s| s.directions.len())
+                    .sum::<usize>(),
         }
     }
 

@@ -27,7 +27,7 @@ pub(super) fn kinetic_limit(assembly: &Assembly) -> f64 {
     });
     let work = forces.sum::<f64>() * 2.0 * assembly.length_nm();
     let limit = ROOM * (assembly.system.total_energy() + work) + LEAST;
-    if limit > LEAST { limit } else { f64::INFINITY }
+    if limit.is_nan() { f64::INFINITY } else { limit }
 }
 
 #[cfg(test)]

@@ -43,8 +43,10 @@ pub(super) fn run(
         trajectory: Trajectory::default(),
         last: None,
         points: 0,
+        stages_done: 0,
     };
     let failure = follower.follow(&mut newton, &mut state)?;
+    let follower_stage = follower.stages_done;
     let (trajectory, last, points) = (follower.trajectory, follower.last, follower.points);
     *assembly.system.state_mut() = state;
     let wanted = settings.lowest_eigenvalue && last.is_some();
@@ -63,10 +65,19 @@ pub(super) fn run(
     match failure {
         None => Ok((trajectory, report)),
         Some(failure) => Err(RunError::Ended {
+            place: place(assembly, follower_stage),
             failure,
             trajectory: Box::new(trajectory),
             report: Box::new(report),
         }),
+    }
+}
+
+/// Where a path stands after `points` equilibria, in words; nothing where there is no path.
+fn place(assembly: &Assembly, stages_done: usize) -> String {
+    match assembly.drive.stages() {
+        0 => String::new(),
+        stages => format!("in stage {} of {stages}, ", stages_done + 1),
     }
 }
 
@@ -118,6 +129,7 @@ struct Follower<'a> {
     trajectory: Trajectory,
     last: Option<Equilibrium>,
     points: usize,
+    stages_done: usize,
 }
 
 impl Follower<'_> {
@@ -135,6 +147,7 @@ impl Follower<'_> {
             if let Err(failure) = self.stage(&path, newton, state, stage) {
                 return Ok(Some(failure));
             }
+            self.stages_done += 1;
         }
         Ok(None)
     }
@@ -147,14 +160,19 @@ impl Follower<'_> {
                 self.arrive(0.0, state, equilibrium);
                 Ok(())
             }
-            Err(failure) => Err(Box::new(PathFailure {
-                parameter: 0.0,
-                attempted: 0.0,
-                equilibrium: None,
-                work: failure.work,
-                trouble: actin_equilibrium::PathTrouble::NoEquilibrium(failure),
-                points: 0,
-            })),
+            Err(failure) => {
+                // The best state that was reached is worth keeping.
+                let best = record(&self.assembly.system, 0.0, state);
+                self.trajectory.records.push(best);
+                Err(Box::new(PathFailure {
+                    parameter: 0.0,
+                    attempted: 0.0,
+                    equilibrium: None,
+                    work: failure.work,
+                    trouble: actin_equilibrium::PathTrouble::NoEquilibrium(failure),
+                    points: 0,
+                }))
+            }
         }
     }
 

@@ -88,8 +88,10 @@ pub enum RunError {
     #[error(transparent)]
     Refused(#[from] Problem),
     /// The path of equilibria ended before its end.
-    #[error("{failure}")]
+    #[error("{place}{failure}")]
     Ended {
+        /// The stage that broke, in words; empty where there is no path.
+        place: String,
         /// Where and why.
         failure: Box<PathFailure>,
         /// The equilibria that were reached.

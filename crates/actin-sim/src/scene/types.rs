@@ -185,7 +185,7 @@ impl Slides {
 #[serde(deny_unknown_fields)]
 pub enum Load {
     /// A constant force on a free end: on the last node of a rod, or half on each of the last two
-    /// monomers.
+    /// monomers. On an end that slides it acts on the inner held body.
     EndForce {
         /// Which end.
         end: End,

@@ -35,11 +35,13 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
     }
     match &scene.task {
         Task::Dynamics(dynamics) => {
-            check_durations(scene)?;
+            check_durations(scene, dynamics.duration_ns)?;
+            check_swings(scene)?;
             check_dynamics(dynamics)
         }
         Task::Equilibrium(equilibrium) => {
             check_potential(&scene.filament)?;
+            check_support(scene)?;
             check_equilibrium(equilibrium)
         }
     }
@@ -214,7 +216,7 @@ fn check_load(scene: &Scene, i: usize, load: &Load) -> Result<(), Problem> {
 }
 
 /// In time, every stage takes some.
-fn check_durations(scene: &Scene) -> Result<(), Problem> {
+fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Problem> {
     for (i, stage) in scene.path.iter().enumerate() {
         let key = format!("path[{i}].duration_ns");
         let Some(duration) = stage.duration_ns else {
@@ -222,6 +224,60 @@ fn check_durations(scene: &Scene) -> Result<(), Problem> {
             return Err(Problem::new(key, "none", rule));
         };
         positive(&key, duration)?;
+    }
+    let whole: f64 = scene.path.iter().filter_map(|s| s.duration_ns).sum();
+    if whole > duration_ns {
+        return Err(Problem::new(
+            "task.duration_ns",
+            show(duration_ns),
+            format!("ends before the path does, whose stages take {whole:?} ns"),
+        ));
+    }
+    Ok(())
+}
+
+/// In time, the inertia of an end that slides is that of its motion along straight lines: a turn must
+/// not swing it along them.
+fn check_swings(scene: &Scene) -> Result<(), Problem> {
+    for (i, stage) in scene.path.iter().enumerate() {
+        for (k, setting) in stage.set.iter().enumerate() {
+            let Setting::Turn { end, turn_deg } = *setting else {
+                continue;
+            };
+            let slides = scene.clamps.iter().find(|c| c.end == end).map(|c| c.slides);
+            let tilts = turn_deg[0] != 0.0 || turn_deg[1] != 0.0;
+            if slides == Some(Slides::Freely) || (slides == Some(Slides::AlongAxis) && tilts) {
+                return Err(Problem::new(
+                    format!("path[{i}].set[{k}].turn_deg"),
+                    show(turn_deg),
+                    "in Dynamics an end that slides turns about its axis only, and one that slides \
+                     Freely not at all: Equilibrium follows such paths",
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A load along a direction in which nothing is held has no equilibrium.
+fn check_support(scene: &Scene) -> Result<(), Problem> {
+    for (i, load) in scene.loads.iter().enumerate() {
+        let Load::EndForce { force_pn, .. } = load;
+        let unheld = |direction: usize| {
+            let is_free = |clamp: &Clamp| match clamp.slides {
+                Slides::Nowhere => false,
+                Slides::AlongAxis => direction == 2,
+                Slides::Freely => true,
+            };
+            scene.clamps.iter().all(is_free)
+        };
+        if (0..3).any(|d| force_pn[d] != 0.0 && unheld(d)) {
+            return Err(Problem::new(
+                format!("loads[{i}].force_pn"),
+                show(force_pn),
+                "nothing holds the filament against this force: it has no equilibrium",
+            ));
+        }
     }
     Ok(())
 }

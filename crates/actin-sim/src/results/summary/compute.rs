@@ -52,7 +52,7 @@ impl Summary {
 impl StabilitySummary {
     fn new(certificate: &Certificate) -> Self {
         Self {
-            stable: certificate.negative == 0,
+            stable: certificate.negative == 0 && certificate.unresolved == 0,
             negative_eigenvalues: certificate.negative,
             unresolved_eigenvalues: certificate.unresolved,
             resolution_pn_per_nm: certificate.resolution,

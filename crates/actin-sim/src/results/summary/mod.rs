@@ -63,7 +63,7 @@ pub enum RunStatus {
 /// What the eigenvalues of the stiffness say of an equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StabilitySummary {
-    /// Whether it is a minimum of the energy, if need be with neutral modes.
+    /// Whether all eigenvalues are positive beyond doubt: a minimum of the energy.
     pub stable: bool,
     /// Number of negative eigenvalues: more than none is a saddle.
     pub negative_eigenvalues: usize,

@@ -1,0 +1,53 @@
+//! Newton's method and damped dynamics end in the same state.
+
+use crate::common::{build, run, solved};
+
+/// A short filament of both kinds, bent askew.
+fn scene(task: &str) -> String {
+    format!(
+        "Scene(
+            filament: Filament(
+                sections: [
+                    Ellipsoids(from_nm: 0.0, to_nm: 20.0),
+                    Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
+                ],
+                monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+            ),
+            clamps: [Clamp(end: Start)],
+            loads: [EndForce(end: End, force_pn: (-2.0, 0.5, 0.0))],
+            task: {task},
+        )"
+    )
+}
+
+/// Two methods that share the loads and nothing else. The dynamics stops at a residual that
+/// displaces the softest mode by less than is asked for.
+#[test]
+fn dynamics_comes_to_rest_where_newton_ends() {
+    let (newton, _) = solved(&scene("Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)"));
+    let mut moving = build(&scene(
+        "Dynamics(
+            duration_ns: 2000.0,
+            integrator: PositionVerlet,
+            step_safety: 0.9,
+            drag: (translational_per_ns: 2.0, rotational_per_ns: 2.0),
+            stop: (force_pn: 1e-8, torque_pn_nm: 1e-8, kinetic_pn_nm: 1e-12),
+            record_every_ns: 1.0,
+        )",
+    ));
+    let (_, report) = run(&mut moving).unwrap();
+    assert!(report.converged, "{} steps were not enough", report.steps);
+    let positions =
+        |assembly: &actin_sim::Assembly| assembly.system.state().points.position.clone();
+    let (a, b) = (positions(&newton), positions(&moving));
+    let apart = a
+        .iter()
+        .zip(b.iter())
+        .map(|(x, y)| (x - y).norm())
+        .fold(0.0, f64::max);
+    println!(
+        "dynamics, {} evaluations: {apart:.1e} nm from Newton",
+        report.force_evaluations
+    );
+    assert!(apart < 1e-6, "{apart:e} nm apart");
+}

@@ -1,0 +1,170 @@
+//! Columns: critical loads from the stiffness turning singular, and what comes after.
+
+use crate::chain::{Chain, frame, point};
+use crate::common::{
+    BEND, LENGTH, SHEAR, build, cantilever, critical, newton, second_order_limit, solved, to,
+};
+use actin_equilibrium::{BodyOrder, Group, Layout, Newton};
+use actin_mechanics::{Interaction, PointLoad, State, UnitQuaternion, Vector3};
+use actin_sim::End;
+use std::f64::consts::PI;
+
+/// Meshes, each twice as fine.
+const MESHES: [usize; 3] = [16, 32, 64];
+
+/// `B / L^2` of [`cantilever`].
+const UNIT: f64 = BEND / (LENGTH * LENGTH);
+
+#[test]
+fn clamped_free_column() {
+    let values = MESHES.map(|segments| {
+        let assembly = build(&cantilever(
+            segments,
+            [0.0, 0.0, -1.0],
+            "task: Equilibrium()",
+        ));
+        let mut newton = newton(&assembly, 1e-8);
+        let interactions = assembly.system.interactions();
+        let straight = assembly.system.state();
+        critical(
+            &mut newton,
+            straight,
+            interactions,
+            [2.0 * UNIT, 3.0 * UNIT],
+        )
+    });
+    let exact = 0.25 * PI * PI * UNIT;
+    let limit = second_order_limit("Euler, clamped and free", values, exact, 0.03);
+    assert!(limit.abs() < 1e-5, "{limit:e}");
+}
+
+/// A straight column of unit length and bending rigidity on `n` segments along z. Without a wall
+/// its first frame is free.
+fn column(n: usize, wall: bool) -> (State, Chain, BodyOrder) {
+    let h = 1.0 / n as f64;
+    let none = [UnitQuaternion::identity(); 2];
+    let mut state = State::default();
+    let mut chain = Chain::new(1e4, [1.0, 1.0, 1.0]);
+    let mut order = BodyOrder::default();
+    for k in 0..=n {
+        point(&mut state, Vector3::z() * (h * k as f64));
+        order.points.push(k as f64);
+    }
+    for k in 0..n {
+        let own = frame(&mut state, UnitQuaternion::identity());
+        order.frames.push(k as f64 + 0.5);
+        chain.segment([k, k + 1], own, h);
+        if k > 0 {
+            chain.bend([k - 1, k], h, none);
+        }
+    }
+    state.points.hold(0);
+    if wall {
+        let held = frame(&mut state, UnitQuaternion::identity());
+        order.frames.push(0.0);
+        state.frames.hold(held);
+        chain.bend([held, 0], 0.5 * h, none);
+    }
+    state.controls.push(0.0);
+    (state, chain, order)
+}
+
+/// Both ends pinned: the far node slides along the axis, no frame is held. The turn about the axis
+/// stays free, a neutral mode that must not be counted.
+#[test]
+fn pinned_column() {
+    let values = MESHES.map(|n| {
+        let (state, chain, order) = column(n, false);
+        let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), 0);
+        let slider = Group::sliding(vec![n], vec![], Vector3::z());
+        let layout = Layout::new(&state, Some(&order), vec![slider]).unwrap();
+        let mut newton = Newton::new(layout, to(1e-9)).unwrap();
+        let terms: Vec<Box<dyn Interaction>> = vec![Box::new(chain), Box::new(load)];
+        critical(&mut newton, &state, &terms, [9.0, 11.0])
+    });
+    let limit = second_order_limit("Euler, pinned", values, PI * PI, 0.03);
+    assert!(limit.abs() < 1e-5, "{limit:e}");
+}
+
+/// Both ends clamped, the far one slides along the axis as one body with its frame.
+#[test]
+fn clamped_column() {
+    let values = MESHES.map(|n| {
+        let (mut state, mut chain, mut order) = column(n, true);
+        let held = frame(&mut state, UnitQuaternion::identity());
+        order.frames.push(n as f64);
+        state.frames.hold(held);
+        chain.bend(
+            [n - 1, held],
+            0.5 / n as f64,
+            [UnitQuaternion::identity(); 2],
+        );
+        let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), 0);
+        let slider = Group::sliding(vec![n], vec![held], Vector3::z());
+        let layout = Layout::new(&state, Some(&order), vec![slider]).unwrap();
+        let mut newton = Newton::new(layout, to(1e-9)).unwrap();
+        let terms: Vec<Box<dyn Interaction>> = vec![Box::new(chain), Box::new(load)];
+        critical(&mut newton, &state, &terms, [36.0, 42.0])
+    });
+    let limit = second_order_limit("Euler, clamped", values, 4.0 * PI * PI, 0.03);
+    assert!(limit.abs() < 1e-5, "{limit:e}");
+}
+
+/// A column that bends under its own weight: `q L^3 / B = 7.8373474389`, the smallest zero of a
+/// Bessel function of order -1/3. Source: `PHYSICS.md` section 8.
+#[test]
+fn greenhills_column() {
+    let values = MESHES.map(|n| {
+        let (state, chain, order) = column(n, true);
+        let weight = |k: usize| if k == n { 0.5 } else { 1.0 } / n as f64;
+        let shares = (1..=n).map(|k| (k, weight(k))).collect();
+        let load = PointLoad::new(&state, shares, -Vector3::z(), 0);
+        let layout = Layout::new(&state, Some(&order), vec![]).unwrap();
+        let mut newton = Newton::new(layout, to(1e-9)).unwrap();
+        let terms: Vec<Box<dyn Interaction>> = vec![Box::new(chain), Box::new(load)];
+        critical(&mut newton, &state, &terms, [7.0, 9.0])
+    });
+    let limit = second_order_limit("Greenhill", values, 7.837_347_438_9, 0.03);
+    assert!(limit.abs() < 1e-5, "{limit:e}");
+}
+
+/// Complete elliptic integrals of the first and second kind by the arithmetic-geometric mean.
+fn elliptic(k: f64) -> (f64, f64) {
+    let (mut a, mut b, mut c) = (1.0, (1.0 - k * k).sqrt(), k);
+    let (mut sum, mut weight) = (0.5 * c * c, 1.0);
+    while c.abs() > 1e-16 {
+        (a, b, c) = (0.5 * (a + b), (a * b).sqrt(), 0.5 * (a - b));
+        sum += weight * c * c;
+        weight *= 2.0;
+    }
+    let first = 0.5 * PI / a;
+    (first, first * (1.0 - sum))
+}
+
+/// Beyond its critical load the straight column is a saddle; off it, and on, the solver finds the
+/// elastica whose tip is turned by `a`: with `k = sin(a/2)` the load is `K^2 B/L^2`, the tip at
+/// `2 k L / K` beside and `(2 E / K - 1) L` above the clamp.
+#[test]
+fn post_buckling_of_the_clamped_free_column() {
+    for degrees in [30.0_f64, 60.0, 120.0] {
+        let modulus = (0.5 * degrees.to_radians()).sin();
+        let (first, second) = elliptic(modulus);
+        let load = first * first * UNIT;
+        let tips = MESHES.map(|segments| {
+            let scene = cantilever(segments, [0.0, 0.0, -load], "task: Equilibrium()");
+            let (assembly, report) = solved(&scene);
+            assert_eq!(report.equilibrium.unwrap().certificate.negative, 0);
+            assembly.tip_nm(assembly.system.state(), End::End)
+        });
+        let side = tips.map(|tip| tip.xy().norm() / LENGTH);
+        let height = tips.map(|tip| tip.z / LENGTH + load / SHEAR);
+        for (name, values, exact) in [
+            ("side", side, 2.0 * modulus / first),
+            ("height", height, 2.0 * second / first - 1.0),
+        ] {
+            let what = format!("buckled by {degrees} deg, {name}");
+            let limit = second_order_limit(&what, values, exact, 0.02);
+            assert!(limit.abs() < 1e-5, "{what}: {limit:e}");
+        }
+    }
+}

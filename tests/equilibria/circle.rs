@@ -1,0 +1,85 @@
+//! A rod rolled up by turning its end, which moves freely: couples only, so uniform curvature.
+
+use crate::common::{BEND, LENGTH, bisect, second_order_limit, solved};
+use actin_mechanics::Vector3;
+use actin_sim::{Assembly, End, RunReport};
+use std::f64::consts::PI;
+
+/// The rod with its end turned about y by `turn` (deg); `twist` is its twisting rigidity.
+fn rolled(segments: usize, twist: f64, turn: f64) -> (Assembly, RunReport) {
+    solved(&format!(
+        "Scene(
+            filament: Filament(
+                sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
+                rod: RodModel(material: Rigidities(
+                    shear_pn: (1e5, 1e5, 1e5), bend_pn_nm2: ({BEND:?}, {BEND:?}, {twist:?}),
+                )),
+            ),
+            clamps: [Clamp(end: Start), Clamp(end: End, slides: Freely)],
+            path: [Stage(set: [Turn(end: End, turn_deg: (0.0, {turn:?}, 0.0))])],
+            task: Equilibrium(leave_saddles: 0),
+        )"
+    ))
+}
+
+fn end_couple(assembly: &mut Assembly) -> Vector3 {
+    let loads = assembly.system.loads().clone();
+    let clamp = assembly.clamps.iter().find(|c| c.end == End::End).unwrap();
+    clamp.reaction(assembly.system.state(), &loads).torque_pn_nm
+}
+
+/// Every bending element has the same angle, so that the couple `2 pi B / L` is exact on any
+/// mesh, and so is the closure of the polygon.
+#[test]
+fn a_full_turn_closes_a_circle() {
+    let (mut assembly, report) = rolled(20, 2.0 * BEND, 360.0);
+    let couple = end_couple(&mut assembly);
+    let exact = 2.0 * PI * BEND / LENGTH;
+    let tip = assembly.tip_nm(assembly.system.state(), End::End);
+    let certificate = report.equilibrium.unwrap().certificate;
+    println!(
+        "circle: couple {} of {exact}, closed to {:.1e} nm",
+        couple.y,
+        tip.norm()
+    );
+    // The residual of 1e-7 pN nm, and what it moves.
+    assert!((couple - Vector3::y() * exact).norm() < 1e-6, "{couple}");
+    assert!(tip.norm() < 1e-6, "{tip}");
+    assert_eq!(certificate.negative, 0);
+}
+
+/// Half a circle has the diameter `2 L / pi`; the polygon's is off by the square of its angle.
+#[test]
+fn half_a_turn_has_the_right_diameter() {
+    let values = [10, 20, 40].map(|segments| {
+        let (assembly, _) = rolled(segments, 2.0 * BEND, 180.0);
+        let tip = assembly.tip_nm(assembly.system.state(), End::End);
+        assert!(tip.z.abs() < 1e-6, "{tip}");
+        tip.x
+    });
+    let limit = second_order_limit("half circle", values, 2.0 * LENGTH / PI, 0.01);
+    assert!(limit.abs() < 1e-6, "{limit:e}");
+}
+
+/// A rod that twists easily leaves the plane before it is a circle: with `c = B3 / B`, at the
+/// turn `2 x` where `tan x = -x (1 - c)/c`, the first conjugate point of the force-free rod, which
+/// moves like a symmetric top. For `c = 1/3`, actin's, that is 210.46 deg.
+#[test]
+fn a_rod_that_twists_easily_leaves_the_plane() {
+    let c: f64 = 1.0 / 3.0;
+    let mut x: f64 = 1.8;
+    for _ in 0..50 {
+        x = PI + (-x * (1.0 - c) / c).atan();
+    }
+    let exact = (2.0 * x).to_degrees();
+    println!("conjugate point at {exact} deg");
+    let values = [10, 20, 40].map(|segments| {
+        let mut is_unstable = |turn: f64| {
+            let (_, report) = rolled(segments, c * BEND, turn);
+            report.equilibrium.unwrap().certificate.negative > 0
+        };
+        bisect(&mut is_unstable, [190.0, 230.0])
+    });
+    let limit = second_order_limit("roll-up loses stability", values, exact, 0.08);
+    assert!(limit.abs() < 1e-5, "{limit:e}");
+}

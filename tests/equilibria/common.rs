@@ -1,0 +1,124 @@
+//! Scenes as text, solvers for them, orders of convergence and a search for critical loads.
+
+use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions, Residual};
+use actin_mechanics::{Interaction, State};
+use actin_sim::{Assembly, RunError, RunReport, Scene, Trajectory};
+use std::ops::ControlFlow;
+
+/// The assembly of a scene.
+pub(crate) fn build(text: &str) -> Assembly {
+    let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    Assembly::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
+}
+
+/// Runs an assembly as its scene asks.
+pub(crate) fn run(assembly: &mut Assembly) -> Result<(Trajectory, RunReport), RunError> {
+    actin_sim::run(assembly, &mut |_| ControlFlow::Continue(()))
+}
+
+/// Runs a scene that must reach its end; the assembly is then in the last state.
+pub(crate) fn solved(text: &str) -> (Assembly, RunReport) {
+    let mut assembly = build(text);
+    let (_, report) = run(&mut assembly).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    (assembly, report)
+}
+
+/// A cantilever of a rod as a scene: 160 nm, `B = 3.9e4` pN nm^2, under a force on its tip (pN).
+///
+/// Its shear and stretch are equally stiff (`S`, pN), so that the couple of the force on a
+/// strained segment, `n x r'` with `r' = d3 + n/S`, is that on an unstrained one: the frames are
+/// exactly those of an inextensible rod, whatever `S`.
+pub(crate) fn cantilever(segments: usize, force: [f64; 3], task: &str) -> String {
+    let [x, y, z] = force;
+    format!(
+        "Scene(
+            filament: Filament(
+                sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
+                rod: RodModel(material: Rigidities(
+                    shear_pn: ({SHEAR:?}, {SHEAR:?}, {SHEAR:?}),
+                    bend_pn_nm2: ({BEND:?}, {BEND:?}, 1.3e4),
+                )),
+            ),
+            clamps: [Clamp(end: Start)],
+            loads: [EndForce(end: End, force_pn: ({x:?}, {y:?}, {z:?}))],
+            {task}
+        )"
+    )
+}
+
+/// Length of [`cantilever`] (nm).
+pub(crate) const LENGTH: f64 = 160.0;
+/// Its bending rigidity (pN nm^2).
+pub(crate) const BEND: f64 = 3.9e4;
+/// Its rigidity against shear and stretch (pN).
+pub(crate) const SHEAR: f64 = 1e5;
+
+/// A solver for the free bodies of an assembly, in the order of arc length.
+pub(crate) fn newton(assembly: &Assembly, tolerance: f64) -> Newton {
+    let order = BodyOrder {
+        points: assembly.points.iter().map(|p| p.s_nm).collect(),
+        frames: assembly.frames.iter().map(|f| f.s_nm).collect(),
+    };
+    let layout = Layout::new(assembly.system.state(), Some(&order), vec![]).unwrap();
+    Newton::new(layout, to(tolerance)).unwrap()
+}
+
+/// Options with this residual for forces and torques.
+pub(crate) fn to(tolerance: f64) -> NewtonOptions {
+    NewtonOptions {
+        tolerance: Residual {
+            force: tolerance,
+            torque: tolerance,
+        },
+        ..NewtonOptions::default()
+    }
+}
+
+/// The control 0 at which the stiffness of the equilibrium near `straight` turns indefinite, by
+/// bisection; each equilibrium is solved for from `straight` itself.
+pub(crate) fn critical(
+    newton: &mut Newton,
+    straight: &State,
+    interactions: &[Box<dyn Interaction>],
+    bounds: [f64; 2],
+) -> f64 {
+    let mut is_unstable = |control: f64| {
+        let mut state = straight.clone();
+        state.controls[0] = control;
+        newton.solve(&mut state, interactions).unwrap().is_saddle()
+    };
+    bisect(&mut is_unstable, bounds)
+}
+
+/// The parameter between `bounds` at which stability is lost.
+pub(crate) fn bisect(is_unstable: &mut dyn FnMut(f64) -> bool, bounds: [f64; 2]) -> f64 {
+    let [mut low, mut high] = bounds;
+    assert!(!is_unstable(low), "stable at {low}");
+    assert!(is_unstable(high), "unstable at {high}");
+    // Far below the least error of a mesh, 1e-5.
+    while high - low > 1e-9 * high {
+        let middle = 0.5 * (low + high);
+        if is_unstable(middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Asserts second-order convergence on meshes each twice as fine, within `slack` of the order,
+/// and returns the limit by Richardson's extrapolation.
+pub(crate) fn second_order_limit(what: &str, values: [f64; 3], exact: f64, slack: f64) -> f64 {
+    let errors = values.map(|value| value / exact - 1.0);
+    let orders = [errors[0] / errors[1], errors[1] / errors[2]].map(|r| r.abs().log2());
+    let limit = (4.0 * values[2] - values[1]) / 3.0 / exact - 1.0;
+    println!(
+        "{what}: errors {:.2e} {:.2e} {:.2e}, orders {:.3} {:.3}, extrapolated {limit:.1e}",
+        errors[0], errors[1], errors[2], orders[0], orders[1]
+    );
+    for order in orders {
+        assert!((order - 2.0).abs() < slack, "{what}: orders {orders:?}");
+    }
+    limit
+}

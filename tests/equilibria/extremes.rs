@@ -1,0 +1,292 @@
+//! What no sensible scene asks for: each ends in a certified equilibrium or in a report that says
+//! why not, in a bounded number of steps; never in a wrong answer.
+//!
+//! `cargo test -p actin-sim --test equilibria extremes -- --nocapture --include-ignored` prints
+//! the table of `docs/statics.md`.
+
+use crate::common::{build, run};
+use actin_equilibrium::{PathFailure, Stability};
+use actin_mechanics::Vector3;
+use actin_sim::{Assembly, End, Load, Record, RunError};
+use std::time::Instant;
+
+/// Largest force and torque on a free body at an equilibrium (pN, pN nm).
+const RESIDUAL: f64 = 1e-6;
+
+/// A scene in parts.
+struct Extreme {
+    name: String,
+    sections: &'static str,
+    clamps: &'static str,
+    loads: String,
+    path: String,
+    task: &'static str,
+}
+
+const ONE_WALL: &str = "Clamp(end: Start)";
+const BOTH_WALLS: &str = "Clamp(end: Start), Clamp(end: End)";
+const SLIDING: &str = "Clamp(end: Start), Clamp(end: End, slides: AlongAxis)";
+
+impl Extreme {
+    /// A cantilever under a force (pN) on its tip.
+    fn pulled(name: &str, sections: &'static str, [x, y, z]: [f64; 3]) -> Self {
+        Self {
+            name: name.to_owned(),
+            sections,
+            clamps: ONE_WALL,
+            loads: format!("EndForce(end: End, force_pn: ({x:?}, {y:?}, {z:?}))"),
+            path: String::new(),
+            task: "",
+        }
+    }
+
+    /// A filament whose far end is moved.
+    fn driven(name: &str, sections: &'static str, clamps: &'static str, set: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            sections,
+            clamps,
+            loads: String::new(),
+            path: format!("Stage(set: [{set}])"),
+            task: "",
+        }
+    }
+
+    /// The same, but followed across sudden jumps.
+    fn across_jumps(self) -> Self {
+        Self {
+            task: "accept_jumps: true",
+            ..self
+        }
+    }
+
+    fn assembly(&self) -> Assembly {
+        build(&format!(
+            "Scene(
+                filament: Filament(
+                    sections: [{}],
+                    monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+                ),
+                clamps: [{}],
+                loads: [{}],
+                path: [{}],
+                task: Equilibrium(force_pn: {RESIDUAL:?}, torque_pn_nm: {RESIDUAL:?}, {}),
+            )",
+            self.sections, self.clamps, self.loads, self.path, self.task
+        ))
+    }
+
+    /// Runs the scene, prints its row, and checks whatever it says. Returns whether it reached
+    /// its end.
+    fn check(&self) -> bool {
+        let mut assembly = self.assembly();
+        let clock = Instant::now();
+        let result = run(&mut assembly);
+        let seconds = clock.elapsed().as_secs_f64();
+        let (trajectory, report, failure) = match result {
+            Ok((trajectory, report)) => (trajectory, report, None),
+            Err(RunError::Ended {
+                failure,
+                trajectory,
+                report,
+                ..
+            }) => (*trajectory, *report, Some(failure)),
+            Err(other) => panic!("{}: {other}", self.name),
+        };
+        let ended = match (&failure, &report.equilibrium) {
+            (Some(failure), _) => failure.to_string(),
+            (None, found) => format!("{:?}", found.as_ref().unwrap().certificate.stability()),
+        };
+        let steps = failure.as_ref().map(|f| f.work.iterations);
+        let found = report.equilibrium.as_ref();
+        let steps = steps.max(found.map(|f| f.newton_iterations)).unwrap();
+        println!("| {} | {ended} | {steps} | {seconds:.2} s |", self.name);
+        // At most a thousand equilibria on the way, ten iterations each.
+        assert!(steps < 10_000, "{}: {steps} iterations", self.name);
+        let Some(found) = found else {
+            let failure = failure.unwrap();
+            assert!(failure.equilibrium.is_none() && trajectory.records.is_empty());
+            return false;
+        };
+        let is_saddle = matches!(found.certificate.stability(), Stability::Saddle { .. });
+        assert!(!is_saddle, "{}: {:?}", self.name, found.certificate);
+        self.check_balance(&mut assembly, trajectory.records.last().unwrap());
+        if let Some(failure) = &failure {
+            self.check_report(failure);
+        }
+        failure.is_none()
+    }
+
+    /// The last state is an equilibrium: small residual, and walls that bear the loads.
+    fn check_balance(&self, assembly: &mut Assembly, last: &Record) {
+        let residual = last.residual_force_pn.max(last.residual_torque_pn_nm);
+        assert!(residual <= RESIDUAL, "{}: {residual:e}", self.name);
+        let loads = assembly.system.loads().clone();
+        let state = assembly.system.state();
+        let applied = assembly.scene.loads.iter().map(|load| match *load {
+            Load::EndForce { force_pn, .. } => Vector3::from(force_pn),
+        });
+        let reactions = assembly
+            .clamps
+            .iter()
+            .map(|clamp| clamp.reaction(state, &loads).force_pn);
+        let sum: Vector3 = applied.chain(reactions).sum();
+        // Each free point may add its residual.
+        let bound = RESIDUAL * state.points.len() as f64;
+        assert!(sum.norm() <= bound, "{}: {sum}", self.name);
+    }
+
+    /// A path that ends early says where, and keeps what it has.
+    fn check_report(&self, failure: &PathFailure) {
+        let name = &self.name;
+        assert!(
+            !self.path.is_empty(),
+            "{name}: a load has an equilibrium: {failure}"
+        );
+        assert!(
+            failure.parameter > 0.0 && failure.parameter < failure.attempted,
+            "{name}"
+        );
+        assert!(failure.equilibrium.is_some(), "{name}");
+    }
+}
+
+/// Sections of the scenes.
+const MONOMERS_20: &str = "Ellipsoids(from_nm: 0.0, to_nm: 20.0)";
+const MONOMERS_75: &str = "Ellipsoids(from_nm: 0.0, to_nm: 75.0)";
+const MONOMERS_1600: &str = "Ellipsoids(from_nm: 0.0, to_nm: 1600.0)";
+const ROD_20: &str = "Rod(from_nm: 0.0, to_nm: 20.0)";
+const ROD_75: &str = "Rod(from_nm: 0.0, to_nm: 75.0)";
+const ROD_16000: &str = "Rod(from_nm: 0.0, to_nm: 16000.0)";
+const ONE_SEGMENT: &str = "Rod(from_nm: 0.0, to_nm: 10.0, segments: 1)";
+const TWO_MONOMERS: &str = "Rod(from_nm: 0.0, to_nm: 40.0),
+    Ellipsoids(from_nm: 40.0, to_nm: 45.5), Rod(from_nm: 45.5, to_nm: 85.5)";
+
+/// Forces on the tip.
+const PULLED: [(&str, &str, [f64; 3]); 11] = [
+    ("1 pN across 16 um of rod", ROD_16000, [1.0, 0.0, 0.0]),
+    ("1 pN against 16 um of rod", ROD_16000, [0.0, 0.0, -1.0]),
+    (
+        "1 pN across 1.6 um of monomers",
+        MONOMERS_1600,
+        [1.0, 0.0, 0.0],
+    ),
+    (
+        "1000 pN across 20 nm of monomers",
+        MONOMERS_20,
+        [1e3, 0.0, 0.0],
+    ),
+    (
+        "1000 pN along 20 nm of monomers",
+        MONOMERS_20,
+        [0.0, 0.0, 1e3],
+    ),
+    (
+        "1000 pN against 20 nm of monomers",
+        MONOMERS_20,
+        [0.0, 0.0, -1e3],
+    ),
+    ("1000 pN across 20 nm of rod", ROD_20, [1e3, 0.0, 0.0]),
+    ("1000 pN against 20 nm of rod", ROD_20, [0.0, 0.0, -1e3]),
+    (
+        "10 pN across one segment of 10 nm",
+        ONE_SEGMENT,
+        [10.0, 0.0, 0.0],
+    ),
+    (
+        "2 pN across two monomers between rods",
+        TWO_MONOMERS,
+        [2.0, 0.0, 0.0],
+    ),
+    (
+        "1000 pN across two monomers between rods",
+        TWO_MONOMERS,
+        [1e3, 0.0, 0.0],
+    ),
+];
+
+/// Turns of the far end about the axis (deg), along which it slides.
+const TURNED: [(&str, &str, f64); 6] = [
+    ("75 nm of monomers by +720 deg", MONOMERS_75, 720.0),
+    ("75 nm of monomers by -720 deg", MONOMERS_75, -720.0),
+    ("75 nm of rod by 720 deg", ROD_75, 720.0),
+    ("one segment by 170 deg", ONE_SEGMENT, 170.0),
+    ("one segment by 720 deg", ONE_SEGMENT, 720.0),
+    ("two monomers between rods by 360 deg", TWO_MONOMERS, 360.0),
+];
+
+/// Shifts of the far end along the axis (nm).
+const SHIFTED: [(&str, &str, f64); 4] = [
+    ("75 nm of monomers pushed by 20 %", MONOMERS_75, -15.0),
+    ("75 nm of monomers pushed to 20 %", MONOMERS_75, -60.0),
+    ("75 nm of rod pushed by 20 %", ROD_75, -15.0),
+    ("75 nm of rod pushed to 20 %", ROD_75, -60.0),
+];
+
+/// A filament whose end is turned by `degrees` about the axis, along which it slides.
+fn turned(name: &str, sections: &'static str, degrees: f64) -> Extreme {
+    let set = format!("Turn(end: End, turn_deg: (0.0, 0.0, {degrees:?}))");
+    Extreme::driven(name, sections, SLIDING, &set)
+}
+
+/// A filament whose end is shifted by `shift` (nm) along the axis.
+fn shifted(name: &str, sections: &'static str, shift: f64) -> Extreme {
+    let set = format!("Shift(end: End, shift_nm: (0.0, 0.0, {shift:?}))");
+    Extreme::driven(name, sections, BOTH_WALLS, &set)
+}
+
+#[test]
+fn extremes_of_force_are_certified() {
+    for (name, sections, force) in PULLED {
+        assert!(Extreme::pulled(name, sections, force).check(), "{name}");
+    }
+}
+
+/// Monomers snap from one state to another on the way to 720 deg: the path ends before that, or
+/// goes on from where the snap leads if it is told to.
+#[test]
+fn extremes_of_turn_are_certified_or_reported() {
+    for (name, sections, degrees) in TURNED {
+        if !turned(name, sections, degrees).check() {
+            let name = format!("{name}, across jumps");
+            turned(&name, sections, degrees).across_jumps().check();
+        }
+    }
+}
+
+#[test]
+fn extremes_of_shift_are_certified_or_reported() {
+    for (name, sections, shift) in SHIFTED {
+        if !shifted(name, sections, shift).check() {
+            let name = format!("{name}, across jumps");
+            shifted(&name, sections, shift).across_jumps().check();
+        }
+    }
+}
+
+/// 5844 monomers.
+#[test]
+#[ignore = "takes a minute"]
+fn extremes_of_length() {
+    let sections = "Ellipsoids(from_nm: 0.0, to_nm: 16000.0)";
+    let name = "1 pN across 16 um of monomers";
+    let extreme = Extreme {
+        task: "iterations: 3000",
+        ..Extreme::pulled(name, sections, [1.0, 0.0, 0.0])
+    };
+    assert!(extreme.check());
+}
+
+/// Two turns of the end are two turns of the rod, not none: its twist is uniform, and its
+/// couple `B3` times that.
+#[test]
+fn extremes_of_twist_are_not_taken_for_nothing() {
+    let mut assembly = turned("two turns", ROD_75, 720.0).assembly();
+    run(&mut assembly).unwrap();
+    let loads = assembly.system.loads().clone();
+    let clamp = assembly.clamps.iter().find(|c| c.end == End::End).unwrap();
+    let couple = clamp.reaction(assembly.system.state(), &loads).torque_pn_nm;
+    let exact = 1.3e4 * 4.0 * std::f64::consts::PI / 75.0;
+    // The residual, in each of eight frames.
+    assert!((couple.z - exact).abs() < 1e-5, "{couple} against {exact}");
+}

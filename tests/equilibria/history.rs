@@ -1,0 +1,47 @@
+//! The residual falls quadratically near the solution.
+
+use crate::common::{build, newton};
+
+/// Newton's method on the exact second derivative: each residual is at most a constant times the
+/// square of the one before. A missing or wrong term makes the fall linear.
+#[test]
+fn the_mixed_cantilever_converges_quadratically() {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../scenarios/cantilever-equilibrium.ron"
+    );
+    let assembly = build(&std::fs::read_to_string(path).unwrap());
+    let mut state = assembly.system.state().clone();
+    let mut newton = newton(&assembly, 1e-9);
+    let found = newton.solve(&mut state, assembly.system.interactions());
+    let found = found.unwrap();
+    let mut residuals: Vec<(f64, f64)> = found
+        .history
+        .iter()
+        .map(|step| (step.residual.force, step.residual.torque))
+        .collect();
+    residuals.push((found.residual.force, found.residual.torque));
+    for (k, (force, torque)) in residuals.iter().enumerate() {
+        println!("{k:3}  {force:.2e} pN  {torque:.2e} pN nm");
+    }
+    println!(
+        "{:?}, {:?}",
+        found.certificate.unwrap().stability(),
+        found.work
+    );
+    let sizes: Vec<f64> = residuals.iter().map(|&(f, t)| f.max(t)).collect();
+    // Rounding leaves about the floor; ten times that is still a square.
+    let floor = 10.0 * found.floor.force.max(found.floor.torque);
+    let pairs: Vec<_> = sizes
+        .windows(2)
+        .filter(|pair| pair[0] < 0.1 && pair[1] > floor)
+        .collect();
+    assert!(!pairs.is_empty(), "no step in the quadratic range");
+    for pair in pairs {
+        // The constant is the relative change of stiffness per pN: measured 0.2 to 0.4 per pN.
+        assert!(pair[1] < 2.0 * pair[0] * pair[0], "{pair:?}");
+    }
+    // With the last step of the quadratic range the residual falls by 1e3 at least.
+    let last = &sizes[sizes.len() - 2..];
+    assert!(last[1] < 1e-3 * last[0], "{last:?}");
+}

@@ -1,0 +1,16 @@
+//! Equilibria by Newton's method against what owes nothing to it: differences of the loads, damped
+//! dynamics, closed solutions of rods, and extremes that must end in a certificate or a report.
+//!
+//! `docs/statics.md` quotes the numbers that these tests print (`-- --nocapture`).
+
+mod agreement;
+mod bend;
+mod buckling;
+mod chain;
+mod circle;
+mod common;
+mod elastica;
+mod extremes;
+mod history;
+mod ring;
+mod second_derivatives;

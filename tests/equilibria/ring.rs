@@ -1,0 +1,61 @@
+//! Michell's ring: a closed rod that is twisted snaps out of its plane.
+
+use crate::chain::{Chain, frame, point};
+use crate::common::{bisect, second_order_limit, to};
+use actin_equilibrium::{Layout, Newton};
+use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3, rotation};
+use std::f64::consts::TAU;
+
+/// Bending rigidity over twisting rigidity.
+const RATIO: f64 = 1.5;
+
+/// A straight rod of length 2 pi and unit bending rigidity, bent to a ring on `n` segments and
+/// closed with its ends turned against each other by `twist` (rad).
+fn ring(n: usize, twist: f64) -> (State, Vec<Box<dyn Interaction>>) {
+    let h = TAU / n as f64;
+    let radius = 0.5 * h / (0.5 * h).sin();
+    let none = UnitQuaternion::identity();
+    let mut state = State::default();
+    let mut chain = Chain::new(1e6, [1.0, 1.0, 1.0 / RATIO]);
+    for k in 0..n {
+        let angle = h * k as f64;
+        point(
+            &mut state,
+            Vector3::new(1.0 - angle.cos(), 0.0, angle.sin()) * radius,
+        );
+        let around = rotation::exp(Vector3::y() * (angle + 0.5 * h));
+        let spin = rotation::exp(Vector3::z() * (twist * k as f64 / n as f64));
+        frame(&mut state, around * spin);
+    }
+    for k in 0..n {
+        chain.segment([k, (k + 1) % n], k, h);
+        // Where the ring is closed, the first frame is seen turned by the twist.
+        let closing = rotation::exp(Vector3::z() * twist);
+        let seen = if k + 1 == n { closing } else { none };
+        chain.bend([k, (k + 1) % n], h, [none, seen]);
+    }
+    // Without this the ring floats. It still rolls about its own centre line.
+    state.points.hold(0);
+    state.frames.hold(0);
+    (state, vec![Box::new(chain)])
+}
+
+/// The ring is unstable beyond a twist of `2 pi sqrt(3) B / B3`. Source: `PHYSICS.md` section 8.
+#[test]
+fn a_twisted_ring_leaves_its_plane() {
+    let exact = TAU * 3.0_f64.sqrt() * RATIO;
+    let values = [32, 64, 128].map(|n| {
+        let mut is_unstable = |twist: f64| {
+            let (mut state, terms) = ring(n, twist);
+            let mut newton = Newton::new(Layout::free(&state), to(1e-9)).unwrap();
+            let flat: f64 = terms.iter().map(|term| term.energy(&state)).sum();
+            let found = newton.solve(&mut state, &terms).unwrap();
+            // Round-off alone leads a step out of the plane where that lowers the energy; what
+            // it ends in, an eight, has a third of the energy.
+            found.is_saddle() || found.energy < 0.8 * flat
+        };
+        bisect(&mut is_unstable, [0.9 * exact, 1.1 * exact])
+    });
+    let limit = second_order_limit("Michell's ring", values, exact, 0.1);
+    assert!(limit.abs() < 1e-4, "{limit:e}");
+}
