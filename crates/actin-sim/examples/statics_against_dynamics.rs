@@ -14,6 +14,8 @@ use std::time::Instant;
 
 /// Residual at which both stop (pN, pN nm).
 const RESIDUAL: f64 = 1e-6;
+/// Residual at which their equilibria are compared.
+const TIGHT: f64 = 1e-8;
 /// Share of the stability limit that the dynamics takes.
 const SAFETY: f64 = 0.95;
 /// Drag rates (1/ns); the first flexural mode has 0.17 rad/ns.
@@ -25,17 +27,14 @@ const LENGTHS: [f64; 7] = [160.0, 320.0, 640.0, 1600.0, 4000.0, 8000.0, 16_000.0
 
 fn main() {
     let scene = figure_4();
-    let newton = best_newton(&scene, 20);
+    let newton = best_newton(&scene, 20, RESIDUAL);
     println!("cantilever of Figure 4, 160 nm, 2 pN, to {RESIDUAL:e} pN and pN nm");
     println!("{newton}");
     let mut best = f64::INFINITY;
     for drag in DRAGS {
-        let motion = motion(&scene, drag);
-        let apart = (motion.state.as_ref()).map(|state| furthest(state, newton.state()));
-        println!(
-            "{motion}; {:.1e} nm from Newton's",
-            apart.unwrap_or(f64::NAN)
-        );
+        let motion = motion(&scene, drag, RESIDUAL);
+        let apart = furthest(&motion.state, &newton.state);
+        println!("{motion}; {apart:.1e} nm from Newton's");
         if motion.converged {
             best = best.min(motion.seconds);
         }
@@ -44,15 +43,24 @@ fn main() {
         "best motion over Newton: {:.0} times the time",
         best / newton.seconds
     );
+    let motion = motion(&scene, 0.2, TIGHT);
+    let exact = best_newton(&scene, 1, TIGHT);
+    let apart = furthest(&exact.state, &motion.state);
+    println!("both to {TIGHT:e} pN: {apart:.1e} nm apart; {motion}");
     println!();
     println!("Newton against length, 2 pN (160 nm / L)^2");
     let mut points = Vec::new();
     for length in LENGTHS {
-        let run = best_newton(&cantilever(length), if length < 2000.0 { 5 } else { 3 });
+        let run = best_newton(&cantilever(length), repeats(length), RESIDUAL);
         println!("{length:7} nm: {run}");
         points.push((length.ln(), run.seconds.ln()));
     }
     println!("time ~ length^{:.3} (least squares)", slope(&points));
+}
+
+/// How often the time of a length is taken.
+fn repeats(length: f64) -> usize {
+    if length < 2000.0 { 5 } else { 2 }
 }
 
 /// What a run took.
@@ -63,14 +71,8 @@ struct Run {
     iterations: u64,
     residual: (f64, f64),
     converged: bool,
-    state: Option<State>,
+    state: State,
     note: String,
-}
-
-impl Run {
-    fn state(&self) -> &State {
-        self.state.as_ref().expect("Newton reached an equilibrium")
-    }
 }
 
 impl std::fmt::Display for Run {
@@ -119,11 +121,12 @@ fn cantilever(length: f64) -> Scene {
 }
 
 /// The fastest of several Newton solves, each from a newly built filament.
-fn best_newton(scene: &Scene, repeats: usize) -> Run {
+fn best_newton(scene: &Scene, repeats: usize, residual: f64) -> Run {
     let mut scene = scene.clone();
     scene.task = Task::Equilibrium(actin_sim::Equilibrium {
-        force_pn: RESIDUAL,
-        torque_pn_nm: RESIDUAL,
+        force_pn: residual,
+        torque_pn_nm: residual,
+        iterations: 1000,
         ..actin_sim::Equilibrium::default()
     });
     (0..repeats)
@@ -147,12 +150,12 @@ fn newton(scene: &Scene) -> Run {
         iterations: found.newton_iterations,
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
         converged: report.converged,
-        state: Some(last.state.clone()),
+        state: last.state.clone(),
         note: format!(", {:?}", found.certificate.stability()),
     }
 }
 
-fn motion(scene: &Scene, drag: f64) -> Run {
+fn motion(scene: &Scene, drag: f64, residual: f64) -> Run {
     let mut scene = scene.clone();
     let text = format!(
         "Scene(
@@ -162,7 +165,7 @@ fn motion(scene: &Scene, drag: f64) -> Run {
                 integrator: PositionVerlet,
                 step_safety: {SAFETY:?},
                 drag: (translational_per_ns: {drag:?}, rotational_per_ns: {drag:?}),
-                stop: (force_pn: {RESIDUAL:?}, torque_pn_nm: {RESIDUAL:?}, kinetic_pn_nm: 1.0),
+                stop: (force_pn: {residual:?}, torque_pn_nm: {residual:?}, kinetic_pn_nm: 1.0),
                 record_every_ns: 1.0,
             ),
         )"
@@ -183,7 +186,7 @@ fn motion(scene: &Scene, drag: f64) -> Run {
         iterations: 0,
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
         converged: report.converged,
-        state: Some(last.state.clone()),
+        state: last.state.clone(),
         note: format!(
             ", {:.0} ns in steps of {:.2} ps",
             last.time_ns,
