@@ -41,3 +41,8 @@ pub const XI_COEFFICIENTS: [f64; 7] = [
 /// Largest twist (rad/nm) of the rows of Tables 3 and 5 that the published parameters were fitted
 /// to: 200 degrees over 75.5 nm. Source: as above.
 pub const TWIST_RANGE: f64 = 0.0462;
+
+/// Coupling `C3` of extension and twist (pN nm) that gives the slope -0.2831 nm of length against
+/// twist at S3 = 3.4e4 pN. Source: the slope is `R0^2 sin(-166.154 deg) / 2.7385 nm` for a helix
+/// of radius 1.8 nm whose neighbours keep their distances; `docs/validation.md`.
+pub const C3: f64 = 9.63e3;

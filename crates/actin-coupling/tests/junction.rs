@@ -202,6 +202,19 @@ fn curvatures_follow_the_filament() {
             assert!((before - Vector3::z() * expected[0]).norm() < 1e-14);
             assert!((after - Vector3::z() * expected[1]).norm() < 1e-14);
         }
+        // What the rod is told of the junction is the bending element on its own side.
+        let on_rods_side = usize::from(monomers_first);
+        let joined = junction.joined_elements();
+        assert_eq!(joined.len(), 2);
+        let curvatures = junction.curvatures(&filament.state);
+        for (joined, curvatures) in joined.iter().zip(curvatures) {
+            let q = joined
+                .frames
+                .map(|f| filament.state.frames.orientation.get(f));
+            let kappa = joined.element.curvature(q[0], q[1]);
+            assert!((kappa - curvatures[on_rods_side]).norm() < 1e-14);
+            assert_eq!(joined.frames[on_rods_side], rod);
+        }
     }
 }
 

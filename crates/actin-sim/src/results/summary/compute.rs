@@ -32,6 +32,7 @@ impl Summary {
             tip_nm: tip_nm.into(),
             tip_displacement_nm: (tip_nm - tip_at_rest_nm).into(),
             end_reactions: EndReactions::new(assembly, &last.state),
+            beyond_range: assembly.beyond_range(&last.state),
             residual: ResidualSummary {
                 force_pn: last.residual_force_pn,
                 torque_pn_nm: last.residual_torque_pn_nm,

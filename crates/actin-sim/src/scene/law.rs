@@ -1,0 +1,134 @@
+//! The rod's constitutive law, as a scene writes it.
+
+use serde::{Deserialize, Serialize};
+
+/// How the rod departs from constant rigidities.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum RodLaw {
+    /// Not at all.
+    #[default]
+    Constant,
+    /// The paper's B3(kappa) and xi(kappa), all parameters as published, `p_0` included.
+    PublishedExtension,
+    /// The paper's B3(kappa) and an energy `C3 sigma_3 kappa_3` per length.
+    CouplingEnergy,
+    /// Laws fitted to measurements on filaments of monomers.
+    Fitted,
+    /// Laws of one's own; what is left out is constant.
+    Laws(Box<RodLaws>),
+}
+
+/// A law for each deformation that has one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RodLaws {
+    /// Bending.
+    pub bend: Option<BendLaw>,
+    /// Twist.
+    pub twist: Option<TwistLaw>,
+    /// Stretch.
+    pub stretch: Option<StretchLaw>,
+    /// Shear.
+    pub shear: Option<ShearLaw>,
+    /// Natural length against twist.
+    pub twist_stretch: Option<TwistStretchLaw>,
+}
+
+/// A law of bending.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum BendLaw {
+    /// Rigidity that rises with bending, twist and shear.
+    Stiffening {
+        /// Rigidity at rest (pN nm^2).
+        rest_pn_nm2: f64,
+        /// What it gains (pN nm^2).
+        rise_pn_nm2: f64,
+        /// Curvature that gains half (rad/nm).
+        curvature_per_nm: f64,
+        /// Twist that gains half (rad/nm); without it twist does not stiffen.
+        #[serde(default)]
+        twist_per_nm: Option<f64>,
+        /// Shear strain that gains half; without it shear does not stiffen.
+        #[serde(default)]
+        shear: Option<f64>,
+        /// Largest curvature of the data behind it (rad/nm).
+        range_per_nm: f64,
+    },
+}
+
+/// A law of twist.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum TwistLaw {
+    /// Three tanh steps, as published.
+    Tanh {
+        /// Limit of far over-twist (pN nm^2).
+        b_plus_pn_nm2: f64,
+        /// Limit of far under-twist (pN nm^2).
+        b_minus_pn_nm2: f64,
+        /// The seven parameters lambda.
+        lambda: [f64; 7],
+        /// Largest twist of the data behind it (rad/nm).
+        range_per_nm: f64,
+    },
+}
+
+/// A law of stretch.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum StretchLaw {
+    /// One rigidity in tension, another in compression.
+    Sided {
+        /// Far in tension (pN).
+        tension_pn: f64,
+        /// Far in compression (pN).
+        compression_pn: f64,
+        /// Strain over which one goes over into the other.
+        width: f64,
+    },
+}
+
+/// A law of shear.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum ShearLaw {
+    /// Force with a linear and a cubic part.
+    Cubic {
+        /// S1 and S2 (pN), which may be 0.
+        linear_pn: [f64; 2],
+        /// Force over the cube of the strain (pN).
+        cubic_pn: f64,
+    },
+}
+
+/// A law of natural length against twist.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum TwistStretchLaw {
+    /// `xi - 1` as a polynomial of the twist.
+    Polynomial {
+        /// `p_0` to `p_6` (nm^i/rad^i).
+        coefficients: [f64; 7],
+        /// Largest twist of the data behind it (rad/nm).
+        range_per_nm: f64,
+    },
+}
+
+impl RodLaws {
+    /// The laws behind [`RodLaw::Fitted`].
+    pub fn fitted() -> Self {
+        Self {
+            bend: Some(BendLaw::Stiffening {
+                rest_pn_nm2: 3.13e4,
+                rise_pn_nm2: 8.4e3,
+                curvature_per_nm: 2.856e-3,
+                twist_per_nm: None,
+                shear: Some(0.01),
+                range_per_nm: 0.02,
+            }),
+            ..Self::default()
+        }
+    }
+}
