@@ -30,6 +30,6 @@ pub use run::{
 };
 pub use scene::{
     Anchors, Clamp, Drag, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Integrator,
-    JunctionModel, JunctionWeight, Load, Material, Monomers, Problem, RodModel, Scene, SceneError,
-    Section, Setting, Slides, Stage, StopRule, Task,
+    JunctionModel, JunctionWeight, Linker, Load, Material, Monomers, Problem, RodModel, Scene,
+    SceneError, Section, Setting, Slides, Stage, StopRule, Task,
 };

@@ -19,6 +19,7 @@ pub(crate) use ramp::Ramp;
 pub use reaction::{Clamped, Reaction};
 
 use crate::scene::{End, Scene};
+use actin_coupling::Linker;
 use actin_mechanics::{State, System, Vector3};
 
 /// A scene, ready to run.
@@ -38,6 +39,8 @@ pub struct Assembly {
     pub sections: Vec<SectionSpan>,
     /// The ends that are held.
     pub clamps: Vec<Clamped>,
+    /// The linkers, in the order of the scene.
+    pub linkers: Vec<Linker>,
     /// What the path of the scene moves.
     pub drive: Drive,
     /// The state as built, unloaded and at rest.

@@ -3,6 +3,7 @@
 //! Reading happens in two steps. RON gives the types below and refuses unknown or missing keys;
 //! [`validate`] then checks what numbers may be. Both report line and column.
 
+mod linker;
 mod locate;
 mod model;
 mod problem;
@@ -10,6 +11,7 @@ mod read;
 mod types;
 mod validate;
 
+pub use linker::Linker;
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
 pub use problem::{Problem, SceneError};
 pub use types::{
