@@ -12,5 +12,6 @@ mod common;
 mod elastica;
 mod extremes;
 mod history;
+mod linkers;
 mod ring;
 mod second_derivatives;

@@ -17,6 +17,7 @@ pub(crate) fn check(path: &Path) -> Result<(), Failure> {
     println!("{}", opened.assembly.scene.to_ron());
     print_sections(&opened.assembly);
     print_counts(&opened.assembly);
+    print_linkers(&opened.assembly);
     match &estimate {
         Some(estimate) => print_cost(estimate),
         None => println!("// cost: some tens of Newton iterations for each equilibrium"),
@@ -38,6 +39,18 @@ fn print_sections(assembly: &Assembly) {
         println!(
             "//   {:9.4} to {:9.4} nm: {what}",
             section.from_nm, section.to_nm
+        );
+    }
+}
+
+fn print_linkers(assembly: &Assembly) {
+    for (i, linker) in assembly.linkers.iter().enumerate() {
+        let place = |[x, y, z]: [f64; 3]| format!("({x:.4}, {y:.4}, {z:.4})");
+        println!(
+            "// linker {i}: from {} nm on {} to {} nm",
+            place(linker.site().position(&assembly.rest).into()),
+            assembly.linked(i),
+            place(linker.end_position(&assembly.rest).into()),
         );
     }
 }

@@ -1,4 +1,4 @@
-//! Why a junction was refused.
+//! Why a junction or a linker was refused.
 
 use actin_cosserat::ParameterError;
 use thiserror::Error;
@@ -41,5 +41,21 @@ pub enum JunctionError {
         frame: usize,
         /// Angle between the two frames (rad).
         angle: f64,
+    },
+}
+
+/// Why a linker or its site was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum LinkerError {
+    /// A parameter is out of range.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// A segment that the rod does not have.
+    #[error("segment {segment} of a rod that has {segments}, counted from 0")]
+    Segment {
+        /// Which segment was asked for.
+        segment: usize,
+        /// Number of segments of the rod.
+        segments: usize,
     },
 }

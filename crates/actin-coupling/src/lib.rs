@@ -1,4 +1,4 @@
-//! The junction between a filament of monomers and a Cosserat rod.
+//! What joins filaments: the junction between monomers and a Cosserat rod, and linkers.
 //!
 //! The last one or two monomers before a rod (or the first after it) are attached to the rod's
 //! end, each by one bond that shears, stretches, bends and twists as a piece of the rod does. A
@@ -6,7 +6,10 @@
 //! frames of the two sections: [`push_junction_frames`] puts them there while the filament is
 //! being built, [`Junction::new`] makes the interaction once all bodies stand.
 //!
-//! Nothing here knows how monomers hold together or where a scene puts a junction.
+//! A [`Linker`] is a spring that holds a [`Site`] of a filament, on monomer or rod, to an [`Anchor`]
+//! or to another site.
+//!
+//! Nothing here knows how monomers hold together or where a scene puts a junction or a linker.
 //!
 //! # Source
 //! Gunaratne, Floyd, Ni, Papoian and Erban, arXiv 2203.01284, Section 3.
@@ -19,7 +22,11 @@ mod bond;
 mod build;
 mod error;
 mod junction;
+mod linker;
+mod site;
 
 pub use build::push_junction_frames;
-pub use error::JunctionError;
+pub use error::{JunctionError, LinkerError};
 pub use junction::{AttachedMonomer, Junction, JunctionSide, JunctionWeight};
+pub use linker::{Anchor, Linker, LinkerEnd};
+pub use site::Site;

@@ -30,7 +30,7 @@ pub use run::{
 };
 pub use scene::{
     Anchors, BendLaw, Clamp, Drag, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold,
-    Integrator, JunctionModel, JunctionWeight, Load, Material, Monomers, Problem, RodLaw, RodLaws,
-    RodModel, Scene, SceneError, Section, Setting, ShearLaw, Slides, Stage, StopRule, StretchLaw,
-    Task, TwistLaw, TwistStretchLaw,
+    Integrator, JunctionModel, JunctionWeight, Linker, Load, Material, Monomers, Problem, RodLaw,
+    RodLaws, RodModel, Scene, SceneError, Section, Setting, ShearLaw, Slides, Stage, StopRule,
+    StretchLaw, Task, TwistLaw, TwistStretchLaw,
 };

@@ -19,4 +19,9 @@ impl Assembly {
         };
         format!("the {name} at s = {s_nm:.2} nm")
     }
+
+    /// What linker `i` holds on to, such as `the segment at s = 75.00 nm`.
+    pub fn linked(&self, i: usize) -> String {
+        self.describe(Body::Frame(self.linkers[i].site().frame()))
+    }
 }

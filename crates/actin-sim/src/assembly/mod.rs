@@ -23,6 +23,7 @@ pub use reaction::{Clamped, Reaction};
 
 use crate::scene::{End, Scene};
 use actin_cosserat::{RodLayout, RodMaterial};
+use actin_coupling::Linker;
 use actin_mechanics::{State, System, Vector3};
 
 /// A scene, ready to run.
@@ -46,6 +47,8 @@ pub struct Assembly {
     pub(crate) material: RodMaterial,
     /// The ends that are held.
     pub clamps: Vec<Clamped>,
+    /// The linkers, in the order of the scene.
+    pub linkers: Vec<Linker>,
     /// What the path of the scene moves.
     pub drive: Drive,
     /// The state as built, unloaded and at rest.

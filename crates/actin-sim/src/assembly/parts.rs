@@ -48,6 +48,8 @@ pub enum Part {
     Junction(usize),
     /// A load, by its index in the scene.
     Load(usize),
+    /// A linker, by its index in the scene.
+    Linker(usize),
 }
 
 impl fmt::Display for Part {
@@ -56,6 +58,7 @@ impl fmt::Display for Part {
             Self::Section(i) => write!(f, "section_{i}"),
             Self::Junction(i) => write!(f, "junction_{i}_{}", i + 1),
             Self::Load(i) => write!(f, "load_{i}"),
+            Self::Linker(i) => write!(f, "linker_{i}"),
         }
     }
 }

@@ -77,6 +77,7 @@ impl Specimen {
             filament: self.filament.clone(),
             clamps,
             loads,
+            linkers: Vec::new(),
             path,
             task: Task::Equilibrium(self.solver.clone()),
         }

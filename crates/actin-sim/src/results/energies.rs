@@ -166,7 +166,7 @@ mod tests {
     /// Every name of the fixed layout is there, once, and every unit with it.
     #[test]
     fn columns_are_named_with_their_units() {
-        let assembly = fixture::clamped_start();
+        let assembly = fixture::linked();
         let (header, _) = table_of(&assembly, &fixture::trajectory(&assembly).records);
         assert_eq!(
             header[..5],
@@ -183,8 +183,14 @@ mod tests {
             header[last..],
             ["residual_force_pn", "residual_torque_pn_nm"]
         );
-        let names = ["bonds", "rod", "junction", "load"];
-        let parts = ["section_0", "section_1", "junction_0_1", "load_0"];
+        let names = ["bonds", "rod", "junction", "load", "linker"];
+        let parts = [
+            "section_0",
+            "section_1",
+            "junction_0_1",
+            "load_0",
+            "linker_0",
+        ];
         for name in names.into_iter().chain(parts) {
             let name = format!("{name}_pn_nm");
             let count = header.iter().filter(|h| **h == name).count();

@@ -1,6 +1,6 @@
 //! A small mixed filament and a made-up run of it, for the tests of this module.
 
-use crate::{Assembly, Record, RunReport, Scene, Trajectory};
+use crate::{Assembly, Linker, Record, RunReport, Scene, Trajectory};
 use actin_mechanics::testing::{Noise, perturb, set_in_motion};
 use actin_mechanics::{Loads, State};
 
@@ -32,6 +32,21 @@ fn build(text: &str) -> Assembly {
 /// Monomers at a clamped start, then a rod with a force at its end.
 pub(super) fn clamped_start() -> Assembly {
     build(CLAMPED_START)
+}
+
+/// The same with a linker.
+pub(super) fn linked() -> Assembly {
+    let mut scene = Scene::from_ron(CLAMPED_START).unwrap();
+    scene.linkers.push(Linker {
+        at_nm: 25.0,
+        radius_nm: 1.8,
+        azimuth_deg: 30.0,
+        anchor_nm: None,
+        displaced_nm: Some([1.0, 0.5, -0.3]),
+        stiffness_pn_per_nm: 3.0,
+        rest_length_nm: 0.4,
+    });
+    Assembly::build(&scene).unwrap()
 }
 
 /// A rod clamped at its end, with a force at its start.

@@ -4,6 +4,7 @@
 //! [`validate`] then checks what numbers may be. Both report line and column.
 
 mod law;
+mod linker;
 mod locate;
 mod model;
 mod problem;
@@ -12,6 +13,7 @@ mod types;
 mod validate;
 
 pub use law::{BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistStretchLaw};
+pub use linker::Linker;
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
 pub use problem::{Problem, SceneError};
 pub use types::{

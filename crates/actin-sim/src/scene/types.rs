@@ -1,10 +1,11 @@
 //! What a scene says: filament, clamps, loads and task.
 
+use super::Linker;
 use super::model::{JunctionModel, Monomers, RodModel};
 use actin_mechanics::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// A scene: one filament, what holds it, what loads it, and what is asked of it.
+/// A scene: one filament, what holds it, what loads and links it, and what is asked of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
@@ -19,6 +20,9 @@ pub struct Scene {
     /// What loads it.
     #[serde(default)]
     pub loads: Vec<Load>,
+    /// Springs that hold it to points outside of it.
+    #[serde(default)]
+    pub linkers: Vec<Linker>,
     /// How controls are moved, stage by stage: loads, shifts and turns of held ends.
     #[serde(default)]
     pub path: Vec<Stage>,

@@ -2,7 +2,7 @@
 
 use super::{
     Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Load, Problem, Scene, Section,
-    Setting, Slides, Stage, StopRule, Task,
+    Setting, Slides, Stage, StopRule, Task, linker,
 };
 use std::fmt::Debug;
 
@@ -29,6 +29,9 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
     }
     for (i, load) in scene.loads.iter().enumerate() {
         check_load(scene, i, load)?;
+    }
+    for (i, linker) in scene.linkers.iter().enumerate() {
+        linker::check(scene, i, linker)?;
     }
     for (i, stage) in scene.path.iter().enumerate() {
         check_stage(scene, i, stage)?;
@@ -259,8 +262,12 @@ fn check_swings(scene: &Scene) -> Result<(), Problem> {
     Ok(())
 }
 
-/// A load along a direction in which nothing is held has no equilibrium.
+/// A load along a direction in which nothing is held has no equilibrium. A linker holds against
+/// every force: it follows its site around the anchor until it points along it.
 fn check_support(scene: &Scene) -> Result<(), Problem> {
+    if !scene.linkers.is_empty() {
+        return Ok(());
+    }
     for (i, load) in scene.loads.iter().enumerate() {
         let Load::EndForce { force_pn, .. } = load;
         let unheld = |direction: usize| {
@@ -381,14 +388,14 @@ fn show(value: impl Debug) -> String {
     format!("{value:?}")
 }
 
-fn finite(key: &str, value: f64) -> Result<(), Problem> {
+pub(super) fn finite(key: &str, value: f64) -> Result<(), Problem> {
     if value.is_finite() {
         return Ok(());
     }
     Err(Problem::new(key, show(value), "must be finite"))
 }
 
-fn positive(key: &str, value: f64) -> Result<(), Problem> {
+pub(super) fn positive(key: &str, value: f64) -> Result<(), Problem> {
     if value.is_finite() && value > 0.0 {
         return Ok(());
     }
@@ -399,7 +406,7 @@ fn positive(key: &str, value: f64) -> Result<(), Problem> {
     ))
 }
 
-fn non_negative(key: &str, value: f64) -> Result<(), Problem> {
+pub(super) fn non_negative(key: &str, value: f64) -> Result<(), Problem> {
     if value.is_finite() && value >= 0.0 {
         return Ok(());
     }

@@ -1,11 +1,12 @@
 //! The numbers of a summary, from the last record of a run.
 
 use super::{
-    EndReaction, EndReactions, EnergySummary, ResidualSummary, RunStatus, StabilitySummary,
-    Summary, WorkSummary,
+    EndReaction, EndReactions, EnergySummary, LinkerSummary, ResidualSummary, RunStatus,
+    StabilitySummary, Summary, WorkSummary,
 };
 use crate::results::energies::{Totals, distinct, sum_where};
 use crate::{Assembly, End, Reaction, Record, RunReport};
+use actin_coupling::Linker;
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, State, Vector3};
 
@@ -33,6 +34,11 @@ impl Summary {
             tip_displacement_nm: (tip_nm - tip_at_rest_nm).into(),
             end_reactions: EndReactions::new(assembly, &last.state),
             beyond_range: assembly.beyond_range(&last.state),
+            linkers: assembly
+                .linkers
+                .iter()
+                .map(|linker| LinkerSummary::new(linker, &last.state))
+                .collect(),
             residual: ResidualSummary {
                 force_pn: last.residual_force_pn,
                 torque_pn_nm: last.residual_torque_pn_nm,
@@ -94,6 +100,17 @@ impl EndReactions {
         Self {
             start: at(End::Start),
             end: at(End::End),
+        }
+    }
+}
+
+impl LinkerSummary {
+    fn new(linker: &Linker, state: &State) -> Self {
+        Self {
+            site_nm: linker.site().position(state).into(),
+            anchor_nm: linker.end_position(state).into(),
+            force_pn: linker.force(state).into(),
+            extension_nm: linker.extension(state),
         }
     }
 }
@@ -199,6 +216,26 @@ mod tests {
         let tip = last.state.points.position.get(0);
         assert_eq!(Vector3::from(summary.tip_nm), tip);
         assert!(summary.end_reactions.start.is_none() && summary.end_reactions.end.is_some());
+    }
+
+    /// Extension and force belong together, and the force points from the site to the anchor.
+    #[test]
+    fn linkers_are_reported() {
+        let assembly = fixture::linked();
+        let (last, summary) = last_summary(&assembly);
+        let [linker] = &summary.linkers[..] else {
+            panic!("one linker, found {}", summary.linkers.len());
+        };
+        let reach = Vector3::from(linker.anchor_nm) - Vector3::from(linker.site_nm);
+        assert!((reach.norm() - 0.4 - linker.extension_nm).abs() < 1e-14);
+        let expected = reach.normalize() * (3.0 * linker.extension_nm);
+        assert!((Vector3::from(linker.force_pn) - expected).norm() < 1e-13);
+        let energy = summary.energy_pn_nm.terms["linker"];
+        assert!((energy - 1.5 * linker.extension_nm.powi(2)).abs() < 1e-13);
+        // The random state has moved the site, and the rod's elastic energy with it.
+        let at_rest = assembly.linkers[0].site().position(&assembly.rest);
+        assert!((Vector3::from(linker.site_nm) - at_rest).norm() > 1e-3);
+        assert!(last.energies_pn_nm.len() == assembly.terms.len());
     }
 
     #[test]

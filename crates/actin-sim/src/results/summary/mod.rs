@@ -37,6 +37,9 @@ pub struct Summary {
     /// Where rods left the data behind their laws in the last record; there the numbers rest on
     /// the laws' continuation.
     pub beyond_range: Vec<BeyondRange>,
+    /// What the linkers do, in the order of the scene.
+    #[serde(default)]
+    pub linkers: Vec<LinkerSummary>,
     /// How far from an equilibrium the last record is.
     pub residual: ResidualSummary,
     /// Lowest eigenvalue of the stiffness; none unless an equilibrium was asked for it.
@@ -112,6 +115,19 @@ pub struct EndReaction {
     pub torque_pn_nm: [f64; 3],
 }
 
+/// What a linker does.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LinkerSummary {
+    /// Position of the site (nm, lab frame).
+    pub site_nm: [f64; 3],
+    /// Position of the anchor (nm, lab frame).
+    pub anchor_nm: [f64; 3],
+    /// Force on the filament (pN, lab frame).
+    pub force_pn: [f64; 3],
+    /// Length beyond the rest length (nm); negative where the linker is shorter.
+    pub extension_nm: f64,
+}
+
 /// Largest loads on free bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ResidualSummary {
@@ -154,6 +170,9 @@ impl Summary {
         }
         for (key, vector) in self.vectors() {
             ensure_finite(file, key, &[3], vector)?;
+        }
+        for (i, linker) in self.linkers.iter().enumerate() {
+            linker.ensure_finite(file, &format!("linkers[{i}]"))?;
         }
         Ok(())
     }
@@ -208,6 +227,24 @@ impl Summary {
     }
 }
 
+impl LinkerSummary {
+    fn ensure_finite(&self, file: &str, key: &str) -> Result<(), RunDirectoryError> {
+        for (name, vector) in [
+            ("site_nm", self.site_nm),
+            ("anchor_nm", self.anchor_nm),
+            ("force_pn", self.force_pn),
+        ] {
+            ensure_finite(file, &format!("{key}.{name}"), &[3], vector)?;
+        }
+        ensure_finite(
+            file,
+            &format!("{key}.extension_nm"),
+            &[],
+            [self.extension_nm],
+        )
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -215,12 +252,12 @@ mod tests {
     use serde_json::Value;
 
     fn summary() -> Summary {
-        let assembly = fixture::clamped_start();
+        let assembly = fixture::linked();
         let last = fixture::trajectory(&assembly).records.pop().unwrap();
         Summary::new(&assembly, &last, &fixture::report())
     }
 
-    const KEYS: [&str; 31] = [
+    const KEYS: [&str; 35] = [
         "/scene",
         "/status",
         "/counts/monomers",
@@ -240,6 +277,10 @@ mod tests {
         "/tip_displacement_nm/2",
         "/end_reactions/start/force_pn/2",
         "/end_reactions/start/torque_pn_nm/2",
+        "/linkers/0/site_nm/2",
+        "/linkers/0/anchor_nm/2",
+        "/linkers/0/force_pn/2",
+        "/linkers/0/extension_nm",
         "/residual/force_pn",
         "/residual/torque_pn_nm",
         "/lowest_stiffness_eigenvalue",

@@ -1,0 +1,248 @@
+//! The linker as an interaction: a spring to a site. Where sites are is in `site.rs`.
+
+use crate::LinkerError;
+use crate::site::{Site, ensure};
+use actin_mechanics::{
+    Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
+};
+
+/// Length (nm) below which a linker counts as shut: squares of such components underflow.
+const SHUT: f64 = 1e-150;
+
+/// A point outside of the filament that holds one end of a linker.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchor {
+    /// Where it is before it is moved (nm, lab frame).
+    pub position: Vector3,
+    /// Index in [`State::controls`] of the first of the three components of its displacement
+    /// (nm, lab frame); none if it stays.
+    pub control: Option<usize>,
+}
+
+impl Anchor {
+    /// An anchor that stays at `position` (nm, lab frame).
+    pub fn fixed(position: Vector3) -> Self {
+        Self {
+            position,
+            control: None,
+        }
+    }
+
+    /// Where it is in `state` (nm, lab frame).
+    pub fn position(&self, state: &State) -> Vector3 {
+        let displacement = self.control.map_or_else(Vector3::zeros, |first| {
+            Vector3::from_column_slice(&state.controls[first..first + 3])
+        });
+        self.position + displacement
+    }
+}
+
+/// What holds the other end of a linker.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LinkerEnd {
+    /// A point outside of the filament.
+    Anchor(Anchor),
+    /// Another site, of the same filament or of another.
+    Site(Site),
+}
+
+/// A Hookean linker between a site and an anchor or another site: term `linker`, one element.
+///
+/// With `d` from the site to the other end (nm), `k` the stiffness (pN/nm) and `L` the rest length
+/// (nm), `E = k (|d| - L)^2 / 2`. The force on the site is `k (|d| - L) d / |d|`, that on the other
+/// end the opposite; on a segment or monomer either acts as the site's own derivative has it, so
+/// that forces and couples are the gradient of `E`.
+///
+/// With `L = 0` this is `k d`, smooth everywhere. With `L > 0` the energy has a cone's tip at
+/// `d = 0`, where no direction is preferred: the force there is zero, its mean over all directions,
+/// and the stiffness is `-k` in every direction, finite and negative, since the energy falls
+/// whichever way the ends part. So a state in which a linker is shut is never taken for a minimum.
+///
+/// # Source
+/// arXiv 2203.01284, Section 3, whose linker forces come in halves with a couple about the middle
+/// of the segment: statically equivalent, but not the gradient of an energy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Linker {
+    site: Site,
+    end: LinkerEnd,
+    stiffness: f64,
+    rest_length: f64,
+}
+
+impl Linker {
+    /// A linker of a stiffness (pN/nm) and a rest length (nm).
+    ///
+    /// # Errors
+    /// A stiffness that is not positive, a negative rest length, or an anchor that is not finite.
+    ///
+    /// ```
+    /// use actin_coupling::{Anchor, Linker, LinkerEnd, Site};
+    /// use actin_cosserat::StraightRod;
+    /// use actin_mechanics::{State, Vector3};
+    /// let mut state = State::default();
+    /// let rod = StraightRod::uniform(2, 10.0).push(&mut state)?;
+    /// // A quarter of the way from node 1 to node 2, on the axis, pulled along x by 3 nm.
+    /// let site = Site::on_rod(&rod, (1, 0.25), 0.0, 0.0)?;
+    /// let anchor = LinkerEnd::Anchor(Anchor::fixed(Vector3::new(3.0, 0.0, 12.5)));
+    /// let linker = Linker::new(site, anchor, 2.0, 1.0)?;
+    /// assert_eq!(linker.extension(&state), 2.0);
+    /// assert_eq!(linker.force(&state), Vector3::x() * 4.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn new(
+        site: Site,
+        end: LinkerEnd,
+        stiffness: f64,
+        rest_length: f64,
+    ) -> Result<Self, LinkerError> {
+        let stiff = stiffness.is_finite() && stiffness > 0.0;
+        ensure(stiff, "stiffness", stiffness, "positive and finite")?;
+        let long = rest_length.is_finite() && rest_length >= 0.0;
+        ensure(long, "rest_length", rest_length, "finite and not negative")?;
+        if let LinkerEnd::Anchor(anchor) = &end {
+            for value in anchor.position.iter().copied() {
+                ensure(value.is_finite(), "anchor", value, "finite")?;
+            }
+        }
+        Ok(Self {
+            site,
+            end,
+            stiffness,
+            rest_length,
+        })
+    }
+
+    /// The site.
+    pub fn site(&self) -> &Site {
+        &self.site
+    }
+
+    /// What holds the other end.
+    pub fn end(&self) -> &LinkerEnd {
+        &self.end
+    }
+
+    /// Where the other end is (nm, lab frame).
+    pub fn end_position(&self, state: &State) -> Vector3 {
+        match &self.end {
+            LinkerEnd::Anchor(anchor) => anchor.position(state),
+            LinkerEnd::Site(site) => site.position(state),
+        }
+    }
+
+    /// Length beyond the rest length (nm); negative where the linker is shorter.
+    pub fn extension(&self, state: &State) -> f64 {
+        self.reach(state).norm() - self.rest_length
+    }
+
+    /// Force on the filament at the site (pN, lab frame). What holds the other end feels the
+    /// opposite.
+    pub fn force(&self, state: &State) -> Vector3 {
+        self.pull(self.reach(state))
+    }
+
+    /// From the site to the other end (lab frame).
+    #[inline]
+    fn reach(&self, state: &State) -> Vector3 {
+        self.end_position(state) - self.site.position(state)
+    }
+
+    /// Force on the site when the other end is at `d` from it: `dE/dd`.
+    #[inline]
+    fn pull(&self, d: Vector3) -> Vector3 {
+        // Spelled out, so that no rest length leaves no division.
+        if self.rest_length == 0.0 {
+            return d * self.stiffness;
+        }
+        match d.try_normalize(SHUT) {
+            Some(n) => (d - n * self.rest_length) * self.stiffness,
+            None => Vector3::zeros(),
+        }
+    }
+
+    /// `d^2 E / dd^2 = k [ n n^T + (1 - L / |d|) (1 - n n^T) ]`, `n = d / |d|`.
+    fn spring(&self, d: Vector3) -> Matrix3 {
+        let whole = Matrix3::from_diagonal_element(self.stiffness);
+        if self.rest_length == 0.0 {
+            return whole;
+        }
+        match d.try_normalize(SHUT) {
+            Some(n) => {
+                let across = Matrix3::identity() - n * n.transpose();
+                whole - across * (self.stiffness * self.rest_length / d.norm())
+            }
+            None => -whole,
+        }
+    }
+
+    /// Every coordinate that the linker follows, and the derivative of its vector by it.
+    fn slopes(&self, state: &State) -> Vec<(Coordinates, Matrix3)> {
+        let mut slopes: Vec<_> = self.site.slopes(state).map(|(c, j)| (c, -j)).collect();
+        if let LinkerEnd::Site(other) = &self.end {
+            slopes.extend(other.slopes(state));
+        }
+        slopes
+    }
+}
+
+impl Interaction for Linker {
+    fn term(&self) -> &'static str {
+        "linker"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        let force = self.force(state);
+        self.site.add_force(force, state, loads);
+        if let LinkerEnd::Site(other) = &self.end {
+            other.add_force(-force, state, loads);
+        }
+    }
+
+    fn elements(&self) -> usize {
+        1
+    }
+
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        assert_eq!(energies.len(), 1, "a linker is one element");
+        energies[0] = 0.5 * self.stiffness * self.extension(state).powi(2);
+    }
+
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        Some(self)
+    }
+}
+
+impl SecondOrder for Linker {
+    /// `J^T K J` with `J` the derivative of the linker's vector by each coordinate, and for each
+    /// frame the part in which its force turns the arm.
+    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        let d = self.reach(state);
+        let (force, spring) = (self.pull(d), self.spring(d));
+        let slopes = self.slopes(state);
+        for (k, &(a, slope_a)) in slopes.iter().enumerate() {
+            stiffness.push(a, a, symmetric(slope_a.transpose() * spring * slope_a));
+            for &(b, slope_b) in &slopes[k + 1..] {
+                let block = slope_a.transpose() * spring * slope_b;
+                if a == b {
+                    // Both sites follow this body: the block and its transpose are on the diagonal.
+                    stiffness.push(a, a, block + block.transpose());
+                } else {
+                    stiffness.push(a, b, block);
+                }
+            }
+        }
+        let geometric = |site: &Site, g: Vector3, stiffness: &mut Stiffness| {
+            let frame = Coordinates::Frame(site.frame());
+            stiffness.push(frame, frame, site.curvature_of_work(g, state));
+        };
+        geometric(&self.site, -force, stiffness);
+        if let LinkerEnd::Site(other) = &self.end {
+            geometric(other, force, stiffness);
+        }
+    }
+}
+
+/// The symmetric part, which differs from `m` by round-off.
+fn symmetric(m: Matrix3) -> Matrix3 {
+    0.5 * (m + m.transpose())
+}

@@ -1,0 +1,287 @@
+//! Linkers: that their loads are a gradient that balances, on either model and between two sites.
+
+use actin_cosserat::{ParameterError, RodLayout, StraightRod};
+use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, Site};
+use actin_mechanics::testing::{
+    Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness,
+    loads_of, perturb, resultant, stiffness_matrix,
+};
+use actin_mechanics::{Frame, Inertia, Interaction, Point, State, Vector3, rotation};
+use proptest::prelude::*;
+
+/// A rod of three segments of 10 nm along z and two monomers beside it, all displaced and turned.
+struct Scene {
+    state: State,
+    rod: RodLayout,
+    /// Point and frame of each monomer.
+    monomers: [(usize, usize); 2],
+}
+
+fn scene(noise: &mut Noise) -> Scene {
+    let mut state = State::default();
+    let rod = StraightRod::uniform(3, 10.0).push(&mut state).unwrap();
+    let monomers = [35.0, 38.0].map(|height| {
+        let point = state.points.push(Point {
+            position: Vector3::z() * height,
+            mass: 0.0697,
+        });
+        let frame = state.frames.push(Frame {
+            orientation: rotation::exp(Vector3::z() * height),
+            inertia: Inertia::from_moments([0.2, 0.15, 0.15]).unwrap(),
+        });
+        (point, frame)
+    });
+    perturb(&mut state, noise, 1.0, 0.8);
+    Scene {
+        state,
+        rod,
+        monomers,
+    }
+}
+
+impl Scene {
+    fn on_rod(&self, segment: usize, fraction: f64) -> Site {
+        Site::on_rod(&self.rod, (segment, fraction), 1.8, 0.7 + fraction).unwrap()
+    }
+
+    fn on_monomer(&self, k: usize) -> Site {
+        let (point, frame) = self.monomers[k];
+        Site::on_monomer(point, frame, Vector3::new(0.5, -1.0, 0.3)).unwrap()
+    }
+}
+
+fn anchor() -> LinkerEnd {
+    LinkerEnd::Anchor(Anchor::fixed(Vector3::new(3.0, -2.0, 17.0)))
+}
+
+/// Linkers from either model to an anchor and to one another; the last two join sites that have
+/// bodies in common.
+fn all(scene: &Scene, rest_length: f64) -> Vec<Linker> {
+    let pairs = [
+        (scene.on_rod(1, 0.3), anchor()),
+        (scene.on_monomer(0), anchor()),
+        (
+            scene.on_rod(0, 0.25),
+            LinkerEnd::Site(scene.on_rod(2, 0.75)),
+        ),
+        (scene.on_rod(1, 0.3), LinkerEnd::Site(scene.on_monomer(1))),
+        (scene.on_monomer(0), LinkerEnd::Site(scene.on_monomer(1))),
+        (scene.on_rod(0, 0.6), LinkerEnd::Site(scene.on_rod(1, 0.2))),
+        (scene.on_rod(1, 0.2), LinkerEnd::Site(scene.on_rod(1, 0.9))),
+    ];
+    let linker = |(site, end)| Linker::new(site, end, 7.0, rest_length).unwrap();
+    pairs.into_iter().map(linker).collect()
+}
+
+/// Halves of the force with a couple about the middle, as printed, would miss the gradient where
+/// the site is not in the middle of its segment.
+#[test]
+fn loads_are_minus_the_gradient() {
+    let mut noise = Noise::new(11);
+    for rest_length in [0.0, 2.5, 40.0] {
+        let scene = scene(&mut noise);
+        for linker in all(&scene, rest_length) {
+            // h = 0.01 nm and rad: truncation and round-off of energies up to 3e3 pN nm over
+            // loads of 30 pN are below 1e-11.
+            assert_is_gradient(&linker, &scene.state, 0.01, 1e-9);
+        }
+    }
+}
+
+/// Without the geometric part the turn of the arm would be missing from the frames' blocks; sites
+/// that share bodies need block and transposed block on the diagonal.
+#[test]
+fn stiffness_is_the_derivative_of_the_loads() {
+    let mut noise = Noise::new(12);
+    for rest_length in [0.0, 2.5, 40.0] {
+        let scene = scene(&mut noise);
+        for linker in all(&scene, rest_length) {
+            // As above; the derivative of the loads is as smooth.
+            assert_is_stiffness(&linker, &scene.state, 0.01, 1e-9);
+        }
+    }
+}
+
+/// Both ends on one rigid body: nothing that the body does changes the linker.
+#[test]
+fn a_linker_within_a_rigid_body_does_nothing() {
+    let scene = scene(&mut Noise::new(13));
+    let (point, frame) = scene.monomers[1];
+    let other = LinkerEnd::Site(Site::on_monomer(point, frame, Vector3::z()).unwrap());
+    let linker = Linker::new(scene.on_monomer(1), other, 7.0, 0.5).unwrap();
+    let (force, torque) = resultant(&scene.state, &loads_of(&linker, &scene.state));
+    let stiffness = stiffness_matrix(&linker, &scene.state);
+    // Round-off of a force of some 10 pN at some 40 nm, and of a stiffness of 7 pN/nm.
+    assert!(linker.force(&scene.state).norm() > 1.0);
+    assert!(force.norm() < 1e-12 && torque.norm() < 1e-12);
+    assert!(stiffness.amax() < 1e-12, "{}", stiffness.amax());
+}
+
+proptest! {
+    /// Between two sites nothing is left over; an anchor bears minus the force, along the line
+    /// from the site, so that with its moment nothing is left over either.
+    #[test]
+    fn forces_and_torques_balance(seed: u64, slack in 0_usize..3) {
+        let scene = scene(&mut Noise::new(seed));
+        for linker in all(&scene, [0.0, 2.5, 40.0][slack]) {
+            if let LinkerEnd::Site(_) = linker.end() {
+                // Sums of some ten products: some units in the last place.
+                assert_is_balanced(&linker, &scene.state, 1e-14);
+                assert_is_invariant(&linker, &scene.state, 1e-12);
+                continue;
+            }
+            let (force, torque) = resultant(&scene.state, &loads_of(&linker, &scene.state));
+            let pull = linker.force(&scene.state);
+            let moment = linker.end_position(&scene.state).cross(&pull);
+            prop_assert!((force - pull).norm() <= 1e-14 * pull.norm());
+            // The site's weights and arm are rounded once more than the anchor's place.
+            prop_assert!((torque - moment).norm() <= 1e-13 * 60.0 * pull.norm());
+        }
+    }
+}
+
+/// A segment that moves as a rigid body and a monomer with the same frame: the same point has the
+/// same force and the same resultant on either, wherever along the segment it is.
+#[test]
+fn rod_and_monomer_feel_the_same_at_the_same_point() {
+    let mut noise = Noise::new(14);
+    let mut scene = scene(&mut noise);
+    let (first, second) = (scene.rod.points().start, scene.rod.points().start + 1);
+    let frame = scene.rod.frames().start;
+    let q = scene.state.frames.orientation.get(frame);
+    let start = scene.state.points.position.get(first);
+    scene
+        .state
+        .points
+        .position
+        .set(second, start + q * Vector3::z() * 10.0);
+    for fraction in [0.0, 0.3, 1.0] {
+        let on_rod = Site::on_rod(&scene.rod, (0, fraction), 1.8, -2.0).unwrap();
+        let arm = on_rod.arm() + Vector3::z() * (10.0 * fraction);
+        let on_monomer = Site::on_monomer(first, frame, arm).unwrap();
+        let [rod, monomer] =
+            [on_rod, on_monomer].map(|site| Linker::new(site, anchor(), 7.0, 1.0).unwrap());
+        let state = &scene.state;
+        // Round-off of places of 20 nm.
+        assert!((rod.site().position(state) - monomer.site().position(state)).norm() < 1e-13);
+        assert!((rod.energy(state) / monomer.energy(state) - 1.0).abs() < 1e-13);
+        let [(force, torque), expected] =
+            [&rod, &monomer].map(|linker| resultant(state, &loads_of(linker, state)));
+        assert!((force - expected.0).norm() < 1e-12 * force.norm());
+        assert!((torque - expected.1).norm() < 1e-12 * torque.norm());
+    }
+}
+
+/// Energy, force and work by hand: 3 nm along x at 2 pN/nm, 4 nm off the axis along y, so that the
+/// couple is about -z.
+#[test]
+fn a_linker_pulls_by_its_extension() {
+    let mut state = State::default();
+    let rod = StraightRod::uniform(2, 10.0).push(&mut state).unwrap();
+    let site = Site::on_rod(&rod, (1, 0.25), 4.0, std::f64::consts::FRAC_PI_2).unwrap();
+    let end = LinkerEnd::Anchor(Anchor::fixed(Vector3::new(5.0, 4.0, 12.5)));
+    let linker = Linker::new(site, end, 2.0, 2.0).unwrap();
+    // cos(pi/2) is 6e-17, not 0.
+    assert!((linker.energy(&state) - 9.0).abs() < 1e-14);
+    let loads = loads_of(&linker, &state);
+    let expected = [(0, 0.0), (1, 4.5), (2, 1.5)];
+    for (node, force) in expected {
+        assert!((loads.force.get(node) - Vector3::x() * force).norm() < 1e-14);
+    }
+    assert!((loads.torque.get(1) + Vector3::z() * 24.0).norm() < 1e-13);
+    assert!(loads.torque.get(0).norm() == 0.0);
+}
+
+/// Shut and slack: without rest length everything is smooth through zero; at its rest length a
+/// linker resists along itself only; shut, it has no force and no stiffness that would hold it.
+#[test]
+fn limits_are_defined() {
+    let scene = scene(&mut Noise::new(15));
+    let site = scene.on_monomer(0);
+    let at = site.position(&scene.state);
+    let make = |shift: Vector3, rest_length| {
+        let end = LinkerEnd::Anchor(Anchor::fixed(at + shift));
+        Linker::new(site.clone(), end, 7.0, rest_length).unwrap()
+    };
+    let block = |linker: &Linker| {
+        let point = 3 * scene.monomers[0].0;
+        let matrix = stiffness_matrix(linker, &scene.state);
+        matrix.fixed_view::<3, 3>(point, point).into_owned()
+    };
+    let none = make(Vector3::zeros(), 0.0);
+    assert!(none.energy(&scene.state).abs() < f64::MIN_POSITIVE);
+    assert_eq!(none.force(&scene.state), Vector3::zeros());
+    assert_eq!(block(&none), nalgebra::Matrix3::identity() * 7.0);
+    assert_is_stiffness(&none, &scene.state, 0.01, 1e-9);
+
+    // The anchor's place is rounded to 7e-15 nm.
+    let slack = make(Vector3::x() * 2.0, 2.0);
+    assert!(slack.force(&scene.state).norm() < 1e-12);
+    let along = nalgebra::Matrix3::from_diagonal(&Vector3::new(7.0, 0.0, 0.0));
+    assert!((block(&slack) - along).amax() < 1e-12);
+
+    let shut = make(Vector3::zeros(), 2.0);
+    assert!((shut.energy(&scene.state) - 14.0).abs() < 1e-13);
+    assert_eq!(shut.force(&scene.state), Vector3::zeros());
+    assert_eq!(block(&shut), nalgebra::Matrix3::identity() * -7.0);
+}
+
+/// Controls move the anchor; a linker that ignores them would not notice.
+#[test]
+fn controls_move_an_anchor() {
+    let mut scene = scene(&mut Noise::new(16));
+    let site = scene.on_rod(1, 0.5);
+    let position = site.position(&scene.state);
+    scene.state.controls = vec![9.0, 0.0, 0.0, 0.0];
+    let anchor = Anchor {
+        position,
+        control: Some(1),
+    };
+    let linker = Linker::new(site, LinkerEnd::Anchor(anchor), 7.0, 0.0).unwrap();
+    assert_eq!(linker.force(&scene.state), Vector3::zeros());
+    scene.state.controls = vec![9.0, 1.0, -2.0, 3.0];
+    let expected = Vector3::new(7.0, -14.0, 21.0);
+    // The anchor's place of some 20 nm is rounded.
+    assert!((linker.force(&scene.state) - expected).norm() < 1e-12);
+}
+
+#[test]
+fn linkers_that_make_no_sense_are_refused() {
+    let scene = scene(&mut Noise::new(17));
+    let on_rod = |segment, fraction, radius, azimuth| {
+        Site::on_rod(&scene.rod, (segment, fraction), radius, azimuth).map(drop)
+    };
+    let refused =
+        |key, value, rule| Err(LinkerError::Parameter(ParameterError { key, value, rule }));
+    let beyond = LinkerError::Segment {
+        segment: 3,
+        segments: 3,
+    };
+    assert_eq!(on_rod(3, 0.5, 1.8, 0.0), Err(beyond));
+    for fraction in [-1e-9, 1.1] {
+        let expected = refused("fraction", fraction, "from 0 to 1");
+        assert_eq!(on_rod(0, fraction, 1.8, 0.0), expected);
+    }
+    let expected = refused("radius", -1.8, "finite and not negative");
+    assert_eq!(on_rod(0, 0.5, -1.8, 0.0), expected);
+    let infinite = f64::INFINITY;
+    let expected = refused("azimuth", infinite, "finite");
+    assert_eq!(on_rod(0, 0.5, 1.8, infinite), expected);
+    let expected = refused("arm", infinite, "finite");
+    let arm = Vector3::new(0.0, infinite, 0.0);
+    assert_eq!(Site::on_monomer(0, 0, arm).map(drop), expected);
+
+    let linker = |stiffness, rest_length, position| {
+        let end = LinkerEnd::Anchor(Anchor::fixed(position));
+        Linker::new(scene.on_monomer(0), end, stiffness, rest_length).map(drop)
+    };
+    for stiffness in [0.0, -1.0, infinite] {
+        let expected = refused("stiffness", stiffness, "positive and finite");
+        assert_eq!(linker(stiffness, 0.0, Vector3::zeros()), expected);
+    }
+    let expected = refused("rest_length", -1.0, "finite and not negative");
+    assert_eq!(linker(1.0, -1.0, Vector3::zeros()), expected);
+    let expected = refused("anchor", infinite, "finite");
+    assert_eq!(linker(1.0, 0.0, Vector3::new(infinite, 0.0, 0.0)), expected);
+    assert!(on_rod(0, f64::NAN, 1.8, 0.0).is_err());
+}

@@ -1,0 +1,196 @@
+//! From a scene's linkers to sites on what resolves them.
+
+use super::{Body, Builder};
+use crate::assembly::Part;
+use crate::assembly::lattice::Resolved;
+use crate::scene::{self, Problem};
+use actin_cosserat::RodLayout;
+use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, Site};
+use actin_ellipsoid::Monomers;
+use actin_mechanics::Vector3;
+
+/// A site this close to a node (nm) is at it: room for the round-off of sums of lengths.
+const NODE_TOLERANCE_NM: f64 = 1e-9;
+
+/// A shorter linker (nm) has no direction: its site stands at places rounded to 1e-14 nm.
+const SHUT_NM: f64 = 1e-9;
+
+impl Builder<'_> {
+    /// Pushes the linkers, the controls of each anchor behind those of the loads.
+    pub(super) fn push_linkers(&mut self) -> Result<(), Problem> {
+        for (i, linker) in self.scene.linkers.iter().enumerate() {
+            let linker = self.linker(i, linker, self.state.controls.len())?;
+            self.state.controls.extend([0.0; 3]);
+            self.push_term(Box::new(linker.clone()), Part::Linker(i));
+            self.linkers.push(linker);
+        }
+        Ok(())
+    }
+
+    /// Linker `i` of a scene, whose anchor is moved by three controls from `control` on.
+    ///
+    /// # Errors
+    /// A linker that would have a direction but has none, its anchor standing at its site.
+    fn linker(&self, i: usize, linker: &scene::Linker, control: usize) -> Result<Linker, Problem> {
+        let refused =
+            |error: LinkerError| Problem::new(format!("linkers[{i}]"), "", error.to_string());
+        let site = self.site(linker).map_err(refused)?;
+        let at = site.position(&self.state);
+        let place = match (linker.anchor_nm, linker.displaced_nm) {
+            (Some(place), _) => Vector3::from(place),
+            (None, displaced) => at + displaced.map_or_else(Vector3::zeros, Vector3::from),
+        };
+        if linker.rest_length_nm > 0.0 && (place - at).norm() < SHUT_NM {
+            let key = linker.anchor_key();
+            let value = linker.anchor_nm.or(linker.displaced_nm);
+            return Err(Problem::new(
+                format!("linkers[{i}].{key}"),
+                value.map_or_else(String::new, |v| format!("{v:?}")),
+                "stands at the site: a linker with a rest length needs a direction",
+            ));
+        }
+        let anchor = LinkerEnd::Anchor(Anchor {
+            position: place,
+            control: Some(control),
+        });
+        let (stiffness, rest_length) = (linker.stiffness_pn_per_nm, linker.rest_length_nm);
+        Linker::new(site, anchor, stiffness, rest_length).map_err(refused)
+    }
+
+    /// The site at the arc length, radius and azimuth of a linker.
+    fn site(&self, linker: &scene::Linker) -> Result<Site, LinkerError> {
+        let s_nm = linker.at_nm;
+        // A boundary belongs to the section before it; what monomers leave over at the end, to the
+        // last section.
+        let within = |r: &Resolved| s_nm <= r.to_nm;
+        let last = self.resolved.len() - 1;
+        let section = self.resolved.iter().position(within).unwrap_or(last);
+        let azimuth = linker.azimuth_deg.to_radians();
+        match &self.bodies[section] {
+            Body::Rod(layout) => {
+                let place = on_segment(layout, s_nm - self.resolved[section].from_nm);
+                Site::on_rod(layout, place, linker.radius_nm, azimuth)
+            }
+            Body::Monomers(monomers) => {
+                let (sin, cos) = azimuth.sin_cos();
+                let radius = linker.radius_nm;
+                self.on_monomer(monomers, Vector3::new(radius * cos, radius * sin, s_nm))
+            }
+        }
+    }
+
+    /// The site at a place of the filament as built (nm, lab frame), fixed in the nearest monomer.
+    fn on_monomer(&self, monomers: &Monomers, place: Vector3) -> Result<Site, LinkerError> {
+        let distance = |k: usize| (self.lattice.s_nm(monomers.index(k)) - place.z).abs();
+        // The first of equals: of two monomers equally near the lower one.
+        let nearest = (0..monomers.count)
+            .min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
+            .expect("a section has at least two monomers");
+        let (point, frame) = (monomers.point(nearest), monomers.frame(nearest));
+        let centre = self.state.points.position.get(point);
+        let q = self.state.frames.orientation.get(frame);
+        Site::on_monomer(point, frame, q.inverse_transform_vector(&(place - centre)))
+    }
+}
+
+/// Segment of a rod and share of its length at `s_nm` from the rod's start (nm); a node belongs to
+/// the segment before it.
+fn on_segment(layout: &RodLayout, s_nm: f64) -> (usize, f64) {
+    let lengths = layout.segment_lengths();
+    let mut start = 0.0;
+    for (segment, length) in lengths.iter().enumerate() {
+        if s_nm <= start + length + NODE_TOLERANCE_NM || segment + 1 == lengths.len() {
+            return (segment, ((s_nm - start) / length).clamp(0.0, 1.0));
+        }
+        start += length;
+    }
+    unreachable!("a rod has at least one segment")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Assembly, Scene};
+
+    /// Linkers of a filament of 60 nm that is resolved as `sections` say.
+    fn sites(sections: &str, linkers: &str) -> (Assembly, Vec<Vector3>) {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [{sections}]),
+                clamps: [Clamp(end: Start)],
+                linkers: [{linkers}],
+                task: Equilibrium(),
+            )"
+        );
+        let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+        let at = |linker: &Linker| linker.site().position(&assembly.rest);
+        let places = assembly.linkers.iter().map(at).collect();
+        (assembly, places)
+    }
+
+    const ROD: &str = "Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)";
+    const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 60.0)";
+    const MIXED: &str = "Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0)";
+
+    /// The same places in space, whatever resolves them; the anchor is displaced from there.
+    #[test]
+    fn a_site_is_the_same_place_in_every_model() {
+        for sections in [ROD, MONOMERS, MIXED] {
+            for s_nm in [0.0, 12.3, 25.0, 30.0, 31.0, 60.0] {
+                let linker = format!(
+                    "Linker(at_nm: {s_nm:?}, radius_nm: 1.8, azimuth_deg: 90.0,
+                        displaced_nm: (1.0, 2.0, 3.0), stiffness_pn_per_nm: 5.0)"
+                );
+                let (assembly, places) = sites(sections, &linker);
+                let expected = Vector3::new(0.0, 1.8, s_nm);
+                // Round-off of places of 60 nm.
+                assert!((places[0] - expected).norm() < 1e-13, "{}", places[0]);
+                let force = assembly.linkers[0].force(&assembly.rest);
+                assert!((force - Vector3::new(5.0, 10.0, 15.0)).norm() < 1e-11);
+            }
+        }
+    }
+
+    /// Nodes belong to the segment before them; monomer 9 is the nearest to 25 nm.
+    #[test]
+    fn sites_are_on_the_nearest_body() {
+        let linker = |s_nm: f64| {
+            format!(
+                "Linker(at_nm: {s_nm:?}, anchor_nm: (9.0, 0.0, 0.0), stiffness_pn_per_nm: 5.0),"
+            )
+        };
+        let all: String = [0.0, 20.0, 25.0, 60.0].map(linker).concat();
+        let (rod, _) = sites(ROD, &all);
+        let shares: Vec<_> = rod.linkers.iter().map(|l| l.site().shares()).collect();
+        assert_eq!(shares[0], [(0, 1.0), (1, 0.0)]);
+        assert_eq!(shares[1], [(1, 0.0), (2, 1.0)]);
+        assert_eq!(shares[2], [(2, 0.5), (3, 0.5)]);
+        assert_eq!(shares[3], [(5, 0.0), (6, 1.0)]);
+        let (monomers, _) = sites(MONOMERS, &linker(25.0));
+        // The first point is monomer -1.
+        assert_eq!(monomers.linkers[0].site().shares(), [(10, 1.0)]);
+        assert_eq!(rod.linkers[1].end_position(&rod.rest), Vector3::x() * 9.0);
+    }
+
+    /// Controls of linkers stand behind those of loads, three for each.
+    #[test]
+    fn controls_move_the_anchors() {
+        let text = "Scene(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+            clamps: [Clamp(end: Start)],
+            loads: [EndForce(end: End, force_pn: (0.0, 0.0, 1.0))],
+            linkers: [
+                Linker(at_nm: 20.0, displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: 5.0),
+                Linker(at_nm: 40.0, displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: 5.0),
+            ],
+            task: Equilibrium(),
+        )";
+        let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
+        let mut state = assembly.rest.clone();
+        assert_eq!(state.controls, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        state.controls[5] = 2.0;
+        let forces = assembly.linkers.iter().map(|l| l.force(&state));
+        let expected = [Vector3::zeros(), Vector3::y() * 10.0];
+        assert_eq!(forces.collect::<Vec<_>>(), expected);
+    }
+}
