@@ -28,9 +28,10 @@ pub use results::{RunDirectory, RunDirectoryError, RunStatus, StabilitySummary, 
 pub use run::{
     EquilibriumReport, Estimate, Progress, Record, RunError, RunReport, Trajectory, estimate, run,
 };
+pub use scene::fitted::laws as fitted_laws;
 pub use scene::{
     Anchors, BendLaw, Clamp, Drag, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold,
     Integrator, JunctionModel, JunctionWeight, Linker, Load, Material, Monomers, Problem, RodLaw,
     RodLaws, RodModel, Scene, SceneError, Section, Setting, ShearLaw, Slides, Stage, StopRule,
-    StretchLaw, Task, TwistLaw, TwistStretchLaw,
+    StretchLaw, Task, TwistLaw, TwistRise, TwistStretchLaw,
 };
