@@ -126,3 +126,25 @@ fn singular(triangle: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), FitError>
     let values = svd.S().column_vector().iter().copied().collect();
     Ok((values, svd.V().to_owned()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A column of rounding errors would become a good one by scaling. Over the range of its
+    /// parameter it changes nothing, so it counts as zero, unless that range is large.
+    #[test]
+    fn a_column_of_rounding_counts_as_zero() {
+        let matrix = Mat::from_fn(
+            3,
+            2,
+            |i, j| {
+                if j == 0 { 1.0 } else { [1e-16, -1e-16, 0.0][i] }
+            },
+        );
+        let small = Factor::new(matrix.as_ref(), &[1.0, 1.0], 1e-12).unwrap();
+        assert_eq!((small.rank(), small.determined()), (1, vec![true, false]));
+        let large = Factor::new(matrix.as_ref(), &[1.0, 1e16], 1e-12).unwrap();
+        assert_eq!((large.rank(), large.determined()), (2, vec![true, true]));
+    }
+}

@@ -81,3 +81,38 @@ fn solve(
         .map(|k| solution[(k, 0)] / scales[free[k]])
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `|c - R s|^2` with `R = [[1, 1], [0, 1]]`, `c = (2, 1)` has its minimum at (1, 1). With the
+    /// second bounded by 0.5 the first is to be 1.5; a step that is only cut stays at 1.
+    #[test]
+    fn the_others_are_solved_again_where_one_meets_its_bound() {
+        let matrix = Mat::from_fn(2, 2, |i, j| if i > j { 0.0 } else { 1.0 });
+        let linear = Linearisation::new(matrix.as_ref(), &[2.0, 1.0]).unwrap();
+        let room = |up| Room {
+            down: vec![-9.0; 2],
+            up: vec![9.0, up],
+            free: vec![true; 2],
+        };
+        // Damping of 1e-14 moves the step by about as much.
+        let near = |step: &[f64], x: f64, y: f64| {
+            assert!(
+                (step[0] - x).abs() < 1e-12 && (step[1] - y).abs() < 1e-12,
+                "{step:?}"
+            );
+        };
+        near(
+            &damped_step(&linear, 1e-14, &[1.0; 2], &room(9.0)),
+            1.0,
+            1.0,
+        );
+        near(
+            &damped_step(&linear, 1e-14, &[1.0; 2], &room(0.5)),
+            1.5,
+            0.5,
+        );
+    }
+}

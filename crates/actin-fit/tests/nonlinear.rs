@@ -155,6 +155,25 @@ fn a_parameter_stops_at_its_bound() {
     assert!((error - deviation / square.sqrt()).abs() < 1e-12);
 }
 
+/// On a bound means on it, to the last bit, from wherever the search comes: a parameter a bit beside
+/// it would count as free.
+#[test]
+fn bounds_are_met_to_the_last_bit() {
+    let data = noisy(&decay(), &places(0.0, 3.0, 15), &[2.0, 1.3], 0.05, 3);
+    for k in 1..40 {
+        let shift = 0.017 * f64::from(k);
+        for (rates, start, bound, status) in [
+            ((-1.0, 0.7), 0.69 - shift, 0.7_f64, Status::AtUpperBound),
+            ((2.1, 9.0), 2.11 + shift, 2.1_f64, Status::AtLowerBound),
+        ] {
+            let bounds = Bounds::new(&[(0.0, 10.0), rates]).unwrap();
+            let fit = fit(&decay(), &data, &bounds, &[2.0, start]).unwrap();
+            assert_eq!(fit.parameters[1].to_bits(), bound.to_bits());
+            assert_eq!(fit.statuses[1], status);
+        }
+    }
+}
+
 /// A bound that the minimum does not touch changes nothing, even for a start on it.
 #[test]
 fn a_bound_is_left_again() {
