@@ -5,10 +5,13 @@
 //! anything but a simulation of that run.
 
 mod figure4;
+mod figure9;
 mod html;
-mod plot;
-mod report;
+pub(crate) mod plot;
+pub(crate) mod report;
 mod tables;
+
+pub(crate) use tables::paper;
 
 use report::Artefact;
 use std::fs;
@@ -18,8 +21,9 @@ use std::path::Path;
 type Recipe = (&'static str, fn(&Path, bool) -> Result<Artefact, String>);
 
 /// The artefacts that exist.
-const RECIPES: [Recipe; 6] = [
+const RECIPES: [Recipe; 7] = [
     ("fig4", figure4::reproduce),
+    ("fig9", figure9::reproduce),
     ("table1", tables::table1),
     ("table2", tables::table2),
     ("table3", tables::table3),

@@ -35,10 +35,7 @@ impl Law {
                 let law = TwistStretch::linear(constants::C3, rigidities.shear.z);
                 published(material, law)
             }
-            RodLaw::Fitted => {
-                let material = RodMaterial::new(fitted::rigidities());
-                material.and_then(|material| with_laws(material, &fitted::laws()))
-            }
+            RodLaw::Fitted => with_laws(material, &fitted::laws()),
             RodLaw::Laws(laws) => with_laws(material, laws),
         }
         .map_err(refused("law"))?;
@@ -173,15 +170,17 @@ impl From<scene::TwistRise> for TwistRise {
 
 impl From<scene::StretchLaw> for StretchLaw {
     fn from(law: scene::StretchLaw) -> Self {
-        let scene::StretchLaw::Sided {
-            tension_pn,
-            compression_pn,
-            width,
-        } = law;
-        Self::Sided {
-            tension: tension_pn,
-            compression: compression_pn,
-            width,
+        match law {
+            scene::StretchLaw::Constant { rigidity_pn } => Self::Constant(rigidity_pn),
+            scene::StretchLaw::Sided {
+                tension_pn,
+                compression_pn,
+                width,
+            } => Self::Sided {
+                tension: tension_pn,
+                compression: compression_pn,
+                width,
+            },
         }
     }
 }

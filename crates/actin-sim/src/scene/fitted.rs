@@ -4,20 +4,9 @@
 //! parameters (64 bonds per interface, drawn for each): `docs/validation.md` holds the data, the
 //! errors and why each term is there.
 
-use super::{BendLaw, RodLaws, ShearLaw, TwistLaw, TwistRise, TwistStretchLaw};
-use actin_cosserat::Rigidities;
-use actin_mechanics::Vector3;
+use super::{BendLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw};
 
-/// The constants of the law: stretch alone; each other has a law of its own below.
-pub(crate) fn rigidities() -> Rigidities {
-    let table = Rigidities::table4();
-    Rigidities {
-        shear: Vector3::new(table.shear.x, table.shear.y, 3.30e4),
-        ..table
-    }
-}
-
-/// The laws that depart from constants.
+/// A law for every deformation; nothing of the scene's material is left.
 pub fn laws() -> RodLaws {
     RodLaws {
         bend: Some(BendLaw::Stiffening {
@@ -42,7 +31,9 @@ pub fn laws() -> RodLaws {
             },
             range_per_nm: 0.0475,
         }),
-        stretch: None,
+        stretch: Some(StretchLaw::Constant {
+            rigidity_pn: 3.30e4,
+        }),
         shear: Some(ShearLaw::Cubic {
             linear_pn: [0.0, 0.0],
             cubic_pn: 8.27e5,

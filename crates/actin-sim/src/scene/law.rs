@@ -102,6 +102,11 @@ pub struct TwistRise {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum StretchLaw {
+    /// One rigidity at every strain, in place of the material's.
+    Constant {
+        /// Rigidity (pN).
+        rigidity_pn: f64,
+    },
     /// One rigidity in tension, another in compression.
     Sided {
         /// Far in tension (pN).
