@@ -49,6 +49,9 @@ pub fn twist_under_tension(
 /// Pulls the far end along the axis with each force (pN) and turns it until no couple holds it, to
 /// 1e-4 of the couple that would block the turn.
 ///
+/// Of monomers in compression the couple can jump over zero, between equilibria that differ in
+/// which way loose monomers give; such a force is not reached.
+///
 /// # Errors
 /// A filament that is refused, a force that is zero or not finite.
 pub fn free_turn_under_tension(
