@@ -63,3 +63,6 @@ pub use twisted::{HelixPoint, PulledBendPoint, bend_twisted, bend_under_tension}
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod law_tests;

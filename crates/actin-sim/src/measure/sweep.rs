@@ -114,6 +114,18 @@ pub(super) fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureErr
     }
 }
 
+/// Whether a value that is held while others are swept is one; zero is.
+pub(super) fn check_finite(name: &'static str, value: f64) -> Result<(), MeasureError> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(MeasureError::Value {
+        name,
+        value,
+        rule: "finite",
+    })
+}
+
 /// The transverse direction at an azimuth (lab frame).
 pub(super) fn across(azimuth_deg: f64) -> Vector3 {
     let (sin, cos) = azimuth_deg.to_radians().sin_cos();

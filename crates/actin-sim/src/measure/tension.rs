@@ -1,6 +1,6 @@
 //! Twist under axial force: couples at held turns, and the turn of an end that is free to turn.
 
-use super::sweep::{Curve, Unreached, check, in_order, sweep};
+use super::sweep::{Curve, Unreached, check, check_finite, in_order, sweep};
 use super::twist::{self, TwistPoint};
 use super::{MeasureError, Specimen};
 use crate::scene::{End, Load, Scene, Setting, Slides, Stage};
@@ -35,7 +35,7 @@ pub fn twist_under_tension(
     force_pn: f64,
     turns_deg: &[f64],
 ) -> Result<Curve<PulledTwistPoint>, MeasureError> {
-    check_force(force_pn)?;
+    check_finite("force_pn", force_pn)?;
     let scene = |turns: &[f64]| {
         let controls: Vec<_> = turns.iter().map(|&turn| (force_pn, turn)).collect();
         pulled(specimen, &controls)
@@ -48,6 +48,9 @@ pub fn twist_under_tension(
 
 /// Pulls the far end along the axis with each force (pN) and turns it until no couple holds it, to
 /// 1e-4 of the couple that would block the turn.
+///
+/// Of monomers in compression the couple can jump over zero, between equilibria that differ in
+/// which way loose monomers give; such a force is not reached.
 ///
 /// # Errors
 /// A filament that is refused, a force that is zero or not finite.
@@ -70,44 +73,72 @@ pub fn free_turn_under_tension(
     Ok(all)
 }
 
-/// Walks from turn 0 against the couple until that changes its sign, then closes in on the zero by
-/// false position, with the weight of the end that stays halved (Illinois).
 fn free_turn(specimen: &Specimen, force_pn: f64) -> Result<Curve<PulledTwistPoint>, MeasureError> {
     let mut curve = held(specimen, force_pn, 0.0)?;
     let Some(blocked) = curve.points.first().map(couple) else {
         return Ok(curve);
     };
-    let (mut from, mut at_from) = (0.0, blocked);
-    let (mut to, mut at_to) = (-FIRST_STEP_DEG * blocked.signum(), blocked);
+    let mut search = Search::new(blocked);
+    let (mut turn, mut left) = (0.0, blocked);
     for _ in 0..TRIALS {
-        let is_bracket = at_from * at_to < 0.0;
-        let turn = if is_bracket {
+        turn = search.trial_deg();
+        curve = held(specimen, force_pn, turn)?;
+        left = match curve.points.first().map(couple) {
+            Some(left) if left.abs() > COUPLE_LEFT * blocked.abs() => left,
+            _ => return Ok(curve),
+        };
+        search.narrow(turn, left);
+    }
+    curve.points.clear();
+    // A couple that jumps over zero has no zero: there are several equilibria.
+    let reason = format!("after {TRIALS} trials {left} pN nm are left at {turn} deg");
+    let value = force_pn;
+    curve.unreached.push(Unreached { value, reason });
+    Ok(curve)
+}
+
+/// Walks from turn 0 against the couple until that changes its sign, then closes in on the zero by
+/// false position, where the weight of an end that stays is halved (Illinois).
+struct Search {
+    /// Turn (deg) and couple (pN nm) at the far side of the zero, or nearest to it so far.
+    from: (f64, f64),
+    /// The same at the latest trial; before there is a bracket, the next trial.
+    to: (f64, f64),
+    is_bracket: bool,
+}
+
+impl Search {
+    fn new(blocked: f64) -> Self {
+        Self {
+            from: (0.0, blocked),
+            to: (-FIRST_STEP_DEG * blocked.signum(), blocked),
+            is_bracket: false,
+        }
+    }
+
+    fn trial_deg(&self) -> f64 {
+        let ((from, at_from), (to, at_to)) = (self.from, self.to);
+        if self.is_bracket {
             to - at_to * (to - from) / (at_to - at_from)
         } else {
             to
-        };
-        curve = held(specimen, force_pn, turn)?;
-        let Some(at_turn) = curve.points.first().map(couple) else {
-            return Ok(curve);
-        };
-        if at_turn.abs() <= COUPLE_LEFT * blocked.abs() {
-            return Ok(curve);
-        }
-        if !is_bracket && at_turn * at_from > 0.0 {
-            (from, at_from, to, at_to) = (turn, at_turn, 2.0 * turn, at_turn);
-        } else if at_turn * at_to < 0.0 && is_bracket {
-            (from, at_from, to, at_to) = (to, at_to, turn, at_turn);
-        } else {
-            let weight = if is_bracket { 0.5 } else { 1.0 };
-            (at_from, to, at_to) = (weight * at_from, turn, at_turn);
         }
     }
-    curve.points.clear();
-    curve.unreached.push(Unreached {
-        value: force_pn,
-        reason: format!("no turn without couple in {TRIALS} trials"),
-    });
-    Ok(curve)
+
+    fn narrow(&mut self, turn: f64, couple: f64) {
+        if !self.is_bracket && couple * self.from.1 > 0.0 {
+            self.from = (turn, couple);
+            self.to.0 = 2.0 * turn;
+            return;
+        }
+        if self.is_bracket && couple * self.to.1 < 0.0 {
+            self.from = self.to;
+        } else if self.is_bracket {
+            self.from.1 *= 0.5;
+        }
+        self.to = (turn, couple);
+        self.is_bracket = true;
+    }
 }
 
 fn couple(point: &PulledTwistPoint) -> f64 {
@@ -159,15 +190,4 @@ fn pulled(specimen: &Specimen, controls: &[(f64, f64)]) -> Scene {
         vec![unit],
         path,
     )
-}
-
-fn check_force(force_pn: f64) -> Result<(), MeasureError> {
-    if force_pn.is_finite() {
-        return Ok(());
-    }
-    Err(MeasureError::Value {
-        name: "force_pn",
-        value: force_pn,
-        rule: "finite",
-    })
 }

@@ -1,7 +1,7 @@
 //! Bending by couples of a filament that is twisted, or pulled along its axis.
 
 use super::follow::{Evidence, Stop};
-use super::sweep::{Curve, across, check, reaction, sweep};
+use super::sweep::{Curve, across, check, check_finite, reaction, sweep};
 use super::{MeasureError, Specimen};
 use crate::Assembly;
 use crate::scene::{End, Load, Scene, Setting, Slides, Stage};
@@ -47,7 +47,7 @@ pub fn bend_twisted(
     tilts_rad_per_nm: &[f64],
     azimuth_deg: f64,
 ) -> Result<Curve<HelixPoint>, MeasureError> {
-    finite("twist_rad_per_nm", twist_rad_per_nm)?;
+    check_finite("twist_rad_per_nm", twist_rad_per_nm)?;
     let axis = across(azimuth_deg);
     let length = Assembly::build(&helix(specimen, &[]))?.length_nm();
     let twist = Vector3::z() * (twist_rad_per_nm * length);
@@ -165,7 +165,7 @@ pub fn bend_under_tension(
     curvatures_rad_per_nm: &[f64],
     azimuth_deg: f64,
 ) -> Result<Curve<PulledBendPoint>, MeasureError> {
-    finite("force_pn", force_pn)?;
+    check_finite("force_pn", force_pn)?;
     check("curvature_rad_per_nm", curvatures_rad_per_nm)?;
     let axis = across(azimuth_deg);
     let length = Assembly::build(&opposed(specimen, force_pn, &[]))?.length_nm();
@@ -237,15 +237,4 @@ fn opposed(specimen: &Specimen, force_pn: f64, halves: &[Vector3]) -> Scene {
         vec![unit],
         path,
     )
-}
-
-fn finite(name: &'static str, value: f64) -> Result<(), MeasureError> {
-    if value.is_finite() {
-        return Ok(());
-    }
-    Err(MeasureError::Value {
-        name,
-        value,
-        rule: "finite",
-    })
 }
