@@ -3,6 +3,7 @@
 
 mod holds;
 mod linkers;
+mod spans;
 
 use super::lattice::{Lattice, Resolved, resolve};
 use super::{Assembly, Clamped, Drive, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term};
@@ -380,6 +381,7 @@ impl<'a> Builder<'a> {
                 *segments = Some(span.frames.len());
             }
         }
+        let spans = self.spans();
         let drive = Drive::new(&scene, &self.clamps, &self.state);
         drive.place(&mut self.state, 0.0);
         Assembly {
@@ -393,6 +395,7 @@ impl<'a> Builder<'a> {
             sections: self.sections,
             clamps: self.clamps,
             linkers: self.linkers,
+            spans,
         }
     }
 }
