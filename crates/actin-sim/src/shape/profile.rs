@@ -88,20 +88,21 @@ fn bend((s_a, a): (f64, UnitQuaternion), (s_b, b): (f64, UnitQuaternion)) -> Vec
 
 /// Values between monomers, averaged with their neighbours of the same kind; others as they are.
 fn smoothed(values: &[Vector3], between_monomers: &[bool]) -> Vec<Vector3> {
-    let neighbour = |i: Option<usize>| {
-        let i = i.filter(|&i| i < values.len() && between_monomers[i])?;
-        Some(values[i])
+    let of_kind = |i: &usize| *i < values.len() && between_monomers[*i];
+    let neighbour = |i: Option<usize>| i.filter(of_kind).map(|i| values[i]);
+    let average = |i: usize| match (neighbour(i.checked_sub(1)), neighbour(Some(i + 1))) {
+        (Some(a), Some(b)) => 0.5 * values[i] + 0.25 * (a + b),
+        (Some(a), None) | (None, Some(a)) => 0.5 * (values[i] + a),
+        (None, None) => values[i],
     };
-    (0..values.len())
-        .map(|i| match between_monomers[i] {
-            false => values[i],
-            true => match (neighbour(i.checked_sub(1)), neighbour(Some(i + 1))) {
-                (Some(a), Some(b)) => 0.5 * values[i] + 0.25 * (a + b),
-                (Some(a), None) | (None, Some(a)) => 0.5 * (values[i] + a),
-                (None, None) => values[i],
-            },
-        })
-        .collect()
+    let one = |i| {
+        if between_monomers[i] {
+            average(i)
+        } else {
+            values[i]
+        }
+    };
+    (0..values.len()).map(one).collect()
 }
 
 /// Energy per length (pN) of each cell between two of the ascending places `cells` (nm).
