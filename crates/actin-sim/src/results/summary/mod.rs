@@ -218,17 +218,7 @@ impl Summary {
                 .into_iter()
                 .filter_map(|(k, v)| Some((k.to_owned(), v?))),
         );
-        let shape = &self.shape;
-        let shape = [
-            ("shape.twist_turns", Some(shape.twist_turns)),
-            ("shape.writhe", shape.writhe),
-            ("shape.link_turns", shape.link_turns),
-            ("shape.largest_distance_nm", Some(shape.largest_distance_nm)),
-        ];
-        let known = shape
-            .into_iter()
-            .filter_map(|(k, v)| Some((k.to_owned(), v?)));
-        scalars.extend(known);
+        scalars.extend(self.shape.scalars());
         let eigenvalue = self.lowest_stiffness_eigenvalue.into_iter();
         scalars.extend(eigenvalue.map(|value| ("lowest_stiffness_eigenvalue".to_owned(), value)));
         scalars
@@ -248,6 +238,19 @@ impl Summary {
             vectors.push(("end_reactions.end.torque_pn_nm", end.torque_pn_nm));
         }
         vectors
+    }
+}
+
+impl ShapeSummary {
+    fn scalars(&self) -> impl Iterator<Item = (String, f64)> {
+        let all = [
+            ("shape.twist_turns", Some(self.twist_turns)),
+            ("shape.writhe", self.writhe),
+            ("shape.link_turns", self.link_turns),
+            ("shape.largest_distance_nm", Some(self.largest_distance_nm)),
+        ];
+        all.into_iter()
+            .filter_map(|(key, value)| Some((key.to_owned(), value?)))
     }
 }
 
