@@ -100,6 +100,12 @@ fn print(summary: &Summary, out: &Path) {
         summary.residual.force_pn,
         summary.residual.torque_pn_nm
     );
+    for beyond in &summary.beyond_range {
+        println!(
+            "beyond the data of its law: {} {:.4} rad/nm at s = {:.1} nm, data reach {:.4}",
+            beyond.quantity, beyond.value_per_nm, beyond.s_nm, beyond.range_per_nm
+        );
+    }
     println!("written to {}", out.display());
 }
 

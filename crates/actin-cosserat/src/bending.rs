@@ -59,6 +59,21 @@ impl BendingStiffness {
     }
 }
 
+impl BendingLoads {
+    /// The loads at couple `m = dU/dkappa` and angle `theta` (body axes).
+    #[inline]
+    pub(crate) fn of_couple(m: Vector3, theta: Vector3) -> Self {
+        // J_l^-T m and J_r^-T m share all but a sign; see actin_mechanics::rotation.
+        let cross = theta.cross(&m);
+        let c = rotation::inverse_jacobian_coefficient(theta.norm_squared());
+        let even = m + c * theta.cross(&cross);
+        BendingLoads {
+            first: even + 0.5 * cross,
+            second: 0.5 * cross - even,
+        }
+    }
+}
+
 impl Mul<f64> for BendingStiffness {
     type Output = Self;
 
@@ -88,6 +103,15 @@ impl BendingElement {
         rotation::log(qa.inverse() * qb) / self.rest_distance
     }
 
+    /// Derivatives of the curvature with respect to turns of the first and of the second frame
+    /// (1/nm): `-J_l(theta)^-1 / Dhat` and `J_r(theta)^-1 / Dhat`.
+    pub(crate) fn curvature_slopes(self, qa: UnitQuaternion, qb: UnitQuaternion) -> [Matrix3; 2] {
+        let theta = rotation::log(qa.inverse() * qb);
+        let right = rotation::right_jacobian_inverse(theta) / self.rest_distance;
+        // J_l(theta) = J_r(-theta), the transpose of J_r(theta).
+        [-right.transpose(), right]
+    }
+
     /// Energy (pN nm).
     #[inline]
     pub fn energy(&self, material: &RodMaterial, qa: UnitQuaternion, qb: UnitQuaternion) -> f64 {
@@ -104,16 +128,12 @@ impl BendingElement {
         qb: UnitQuaternion,
     ) -> BendingLoads {
         let theta = rotation::log(qa.inverse() * qb);
-        let m = material.bending_couple(theta * self.rest_distance.recip());
-        // J_l^-T m and J_r^-T m share all but a sign; see actin_mechanics::rotation.
-        let cross = theta.cross(&m);
-        let c = rotation::inverse_jacobian_coefficient(theta.norm_squared());
-        let even = m + c * theta.cross(&cross);
-        BendingLoads {
-            first: even + 0.5 * cross,
-            second: 0.5 * cross - even,
-        }
+        BendingLoads::of_couple(
+            material.bending_couple(theta * self.rest_distance.recip()),
+            theta,
+        )
     }
+
     /// Second derivatives of the energy, geometric part included.
     ///
     /// With `m = dU/dkappa`, `C = d^2 U/dkappa^2`, `J = J_r(theta)^-1` and `D` the derivative of
@@ -142,12 +162,25 @@ impl BendingElement {
         qa: UnitQuaternion,
         qb: UnitQuaternion,
     ) -> BendingStiffness {
+        let kappa = self.curvature(qa, qb);
+        self.stiffness_of(
+            material.bending_couple(kappa),
+            material.bending_tangent(kappa),
+            (qa, qb),
+        )
+    }
+
+    /// The same for given couple `m = dU/dkappa` (pN nm) and tangent `d^2 U/dkappa^2` (pN nm^2).
+    pub(crate) fn stiffness_of(
+        self,
+        m: Vector3,
+        tangent: Matrix3,
+        (qa, qb): (UnitQuaternion, UnitQuaternion),
+    ) -> BendingStiffness {
         let relative = qa.inverse() * qb;
         let theta = rotation::log(relative);
-        let kappa = theta / self.rest_distance;
-        let m = material.bending_couple(kappa);
         let jacobian = rotation::right_jacobian_inverse(theta);
-        let tangent = material.bending_tangent(kappa) / self.rest_distance;
+        let tangent = tangent / self.rest_distance;
         let geometric = rotation::right_jacobian_inverse_transpose_slope(theta, m) * jacobian;
         let k = jacobian.tr_mul(&(tangent * jacobian)) + geometric;
         // The transpose is averaged in also to make the material part symmetric to the last bit.

@@ -1,6 +1,7 @@
 //! The force law that is the gradient of an energy.
 
-use crate::{BendingElement, RodLayout, RodMaterial, ShearElement};
+use crate::extended::ExtendedSegments;
+use crate::{BendingElement, RodLayout, RodMaterial, SegmentCurvature, SegmentLaw, ShearElement};
 use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness};
 
 /// A rod whose loads are minus the gradient of its energy: term `rod`.
@@ -16,12 +17,29 @@ use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness};
 pub struct EnergyGradient {
     layout: RodLayout,
     material: RodMaterial,
+    extended: Option<ExtendedSegments>,
 }
 
 impl EnergyGradient {
     /// The law on a rod.
     pub fn new(layout: RodLayout, material: RodMaterial) -> Self {
-        Self { layout, material }
+        Self {
+            layout,
+            material,
+            extended: None,
+        }
+    }
+
+    /// The same with segments whose energy depends on the mean curvature around them.
+    ///
+    /// The couple that belongs to this acts on the frames of the bending elements around, so that
+    /// pulling turns a rod as turning pulls it.
+    #[must_use]
+    pub fn with_extension(self, law: SegmentLaw, curvature: SegmentCurvature) -> Self {
+        Self {
+            extended: Some(ExtendedSegments { law, curvature }),
+            ..self
+        }
     }
 
     /// The rod.
@@ -35,36 +53,39 @@ impl EnergyGradient {
     }
 }
 
-/// Energies of the elements of a rod, the same for both force laws.
-pub(crate) fn write_energies(
+/// Energies of the shear elements.
+pub(crate) fn write_shear_energies(
     layout: &RodLayout,
     material: &RodMaterial,
     state: &State,
     energies: &mut [f64],
 ) {
-    assert_eq!(energies.len(), layout.elements(), "one energy per element");
-    let (shear, bending) = energies.split_at_mut(layout.segments());
     let lengths = layout.segment_lengths().iter();
     let bodies = layout.points().zip(layout.frames());
-    for ((energy, &length), (i, frame)) in shear.iter_mut().zip(lengths).zip(bodies) {
+    for ((energy, &length), (i, frame)) in energies.iter_mut().zip(lengths).zip(bodies) {
         let l = state.points.position.get(i + 1) - state.points.position.get(i);
         let q = state.frames.orientation.get(frame);
         *energy = ShearElement::segment(length).energy(material, q, l);
     }
+}
+
+/// Energies of the bending elements, the same for both force laws.
+pub(crate) fn write_bending_energies(
+    layout: &RodLayout,
+    material: &RodMaterial,
+    state: &State,
+    energies: &mut [f64],
+) {
     let distances = layout.voronoi_lengths().iter();
     let chain = layout.bending_chain();
-    for ((energy, &rest_distance), a) in bending.iter_mut().zip(distances).zip(chain) {
+    for ((energy, &rest_distance), a) in energies.iter_mut().zip(distances).zip(chain) {
         let q = &state.frames.orientation;
         *energy = BendingElement { rest_distance }.energy(material, q.get(a), q.get(a + 1));
     }
 }
 
-impl Interaction for EnergyGradient {
-    fn term(&self) -> &'static str {
-        "rod"
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
+impl EnergyGradient {
+    fn add_shear_loads(&self, state: &State, loads: &mut Loads) {
         let lengths = self.layout.segment_lengths().iter();
         let bodies = self.layout.points().zip(self.layout.frames());
         for (&length, (i, frame)) in lengths.zip(bodies) {
@@ -75,6 +96,9 @@ impl Interaction for EnergyGradient {
             loads.force.add(i + 1, -shear.force);
             loads.torque.add(frame, shear.torque);
         }
+    }
+
+    fn add_bending_loads(&self, state: &State, loads: &mut Loads) {
         let distances = self.layout.voronoi_lengths().iter();
         for (&rest_distance, a) in distances.zip(self.layout.bending_chain()) {
             let q = &state.frames.orientation;
@@ -85,13 +109,61 @@ impl Interaction for EnergyGradient {
         }
     }
 
+    fn add_shear_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        let lengths = self.layout.segment_lengths().iter();
+        let bodies = self.layout.points().zip(self.layout.frames());
+        for (&length, (i, frame)) in lengths.zip(bodies) {
+            let l = state.points.position.get(i + 1) - state.points.position.get(i);
+            let q = state.frames.orientation.get(frame);
+            let shear = ShearElement::segment(length).stiffness(&self.material, q, l);
+            shear.push([i, i + 1], frame, stiffness);
+        }
+    }
+
+    fn add_bending_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        let distances = self.layout.voronoi_lengths().iter();
+        for (&rest_distance, a) in distances.zip(self.layout.bending_chain()) {
+            let q = &state.frames.orientation;
+            let element = BendingElement { rest_distance };
+            let bending = element.stiffness(&self.material, q.get(a), q.get(a + 1));
+            bending.push([a, a + 1], stiffness);
+        }
+    }
+
+    /// What extended segments need of the rod.
+    fn rod(&self) -> (&RodLayout, &RodMaterial) {
+        (&self.layout, &self.material)
+    }
+}
+
+impl Interaction for EnergyGradient {
+    fn term(&self) -> &'static str {
+        "rod"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        match &self.extended {
+            None => self.add_shear_loads(state, loads),
+            Some(segments) => segments.add_loads(self.rod(), state, loads),
+        }
+        self.add_bending_loads(state, loads);
+    }
+
     fn elements(&self) -> usize {
         self.layout.elements()
     }
 
     fn write_energies(&self, state: &State, energies: &mut [f64]) {
-        write_energies(&self.layout, &self.material, state, energies);
+        let (layout, material) = self.rod();
+        assert_eq!(energies.len(), layout.elements(), "one energy per element");
+        let (shear, bending) = energies.split_at_mut(layout.segments());
+        match &self.extended {
+            None => write_shear_energies(layout, material, state, shear),
+            Some(segments) => segments.write_energies(self.rod(), state, shear),
+        }
+        write_bending_energies(layout, material, state, bending);
     }
+
     fn second_order(&self) -> Option<&dyn SecondOrder> {
         Some(self)
     }
@@ -101,20 +173,10 @@ impl SecondOrder for EnergyGradient {
     /// Pushes those of [`ShearElement::stiffness`], then those of [`BendingElement::stiffness`]:
     /// a body's diagonal block once per element that it belongs to.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
-        let lengths = self.layout.segment_lengths().iter();
-        let bodies = self.layout.points().zip(self.layout.frames());
-        for (&length, (i, frame)) in lengths.zip(bodies) {
-            let l = state.points.position.get(i + 1) - state.points.position.get(i);
-            let q = state.frames.orientation.get(frame);
-            let shear = ShearElement::segment(length).stiffness(&self.material, q, l);
-            shear.push([i, i + 1], frame, stiffness);
+        match &self.extended {
+            None => self.add_shear_stiffness(state, stiffness),
+            Some(segments) => segments.add_stiffness(self.rod(), state, stiffness),
         }
-        let distances = self.layout.voronoi_lengths().iter();
-        for (&rest_distance, a) in distances.zip(self.layout.bending_chain()) {
-            let q = &state.frames.orientation;
-            let element = BendingElement { rest_distance };
-            let bending = element.stiffness(&self.material, q.get(a), q.get(a + 1));
-            bending.push([a, a + 1], stiffness);
-        }
+        self.add_bending_stiffness(state, stiffness);
     }
 }

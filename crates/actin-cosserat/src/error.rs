@@ -50,4 +50,17 @@ impl ParameterError {
             Err(Self { key, value, rule })
         }
     }
+
+    /// Refuses what is not a finite number.
+    ///
+    /// # Errors
+    /// Infinities and NaN.
+    pub fn unless_finite(key: &'static str, value: f64) -> Result<(), Self> {
+        if value.is_finite() {
+            Ok(())
+        } else {
+            let rule = "finite";
+            Err(Self { key, value, rule })
+        }
+    }
 }

@@ -24,6 +24,8 @@ pub mod constants;
 mod cross_section;
 mod energy_gradient;
 mod error;
+mod extended;
+mod law;
 mod layout;
 mod material;
 mod paper_balance;
@@ -36,6 +38,11 @@ pub use clamp::{Held, RodClamp};
 pub use cross_section::CrossSection;
 pub use energy_gradient::EnergyGradient;
 pub use error::{ParameterError, RodError};
+pub use extended::{JoinedElement, SegmentCurvature, SegmentLaw};
+pub use law::{
+    BendLaw, CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw,
+    TanhTwist, TwistLaw, TwistRise, TwistStretch,
+};
 pub use layout::{RodEnd, RodLayout};
 pub use material::RodMaterial;
 pub use paper_balance::PaperBalance;

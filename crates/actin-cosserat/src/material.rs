@@ -1,69 +1,154 @@
 //! The constitutive law: from strains to forces, couples, their tangents and energies per length.
 //!
-//! The rod and whatever is joined to it ask the material only through these six functions.
+//! The rod and whatever is joined to it ask the material only through these six functions. The
+//! laws it is made of are in `law/`; what couples the strain of a segment to the curvature around
+//! it is in `extended/`.
 
-use crate::{ParameterError, Rigidities};
+use crate::{BendLaw, CubicShear, ParameterError, Rigidities, StretchLaw, TwistLaw};
 use actin_mechanics::{Matrix3, Vector3};
+use nalgebra::Vector2;
 
-/// The material of a rod: constant rigidities, validated.
+/// The material of a rod: how it resists shear, stretch, bending and twist, validated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RodMaterial {
-    rigidities: Rigidities,
+    shear: CubicShear,
+    stretch: StretchLaw,
+    bend: BendLaw,
+    twist: TwistLaw,
 }
 
 impl RodMaterial {
-    /// The material with the given rigidities.
+    /// The material with constant rigidities.
     ///
     /// # Errors
     /// A rigidity that is not positive and finite.
     pub fn new(rigidities: Rigidities) -> Result<Self, ParameterError> {
         rigidities.validate()?;
-        Ok(Self { rigidities })
+        let Rigidities { shear, bend } = rigidities;
+        Ok(Self {
+            shear: CubicShear {
+                linear: [shear.x, shear.y],
+                cubic: 0.0,
+            },
+            stretch: StretchLaw::Constant(shear.z),
+            bend: BendLaw::Constant([bend.x, bend.y]),
+            twist: TwistLaw::Constant(bend.z),
+        })
     }
 
-    /// The rigidities.
-    pub fn rigidities(&self) -> &Rigidities {
-        &self.rigidities
+    /// The same with another law of twist.
+    ///
+    /// ```
+    /// use actin_cosserat::{Rigidities, RodMaterial, TanhTwist, TwistLaw};
+    /// use actin_mechanics::Vector3;
+    /// let published = TwistLaw::Tanh(TanhTwist::published());
+    /// let material = RodMaterial::new(Rigidities::table4())?.with_twist(published)?;
+    /// // A right-handed turn of 10 degrees over 75.5 nm meets a tenth of the constant 1.3e4.
+    /// let couple = material.bending_couple(Vector3::z() * 0.0023).z;
+    /// assert!(couple < 0.1 * 1.3e4 * 0.0023);
+    /// # Ok::<(), actin_cosserat::ParameterError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// What [`TwistLaw::validate`] refuses.
+    pub fn with_twist(self, twist: TwistLaw) -> Result<Self, ParameterError> {
+        twist.validate()?;
+        Ok(Self { twist, ..self })
     }
 
-    /// Force in body axes (pN) at shear strain `sigma`: `S sigma`.
+    /// The same with another law of bending.
+    ///
+    /// # Errors
+    /// What [`BendLaw::validate`] refuses.
+    pub fn with_bend(self, bend: BendLaw) -> Result<Self, ParameterError> {
+        bend.validate()?;
+        Ok(Self { bend, ..self })
+    }
+
+    /// The same with another law of stretch.
+    ///
+    /// # Errors
+    /// What [`StretchLaw::validate`] refuses.
+    pub fn with_stretch(self, stretch: StretchLaw) -> Result<Self, ParameterError> {
+        stretch.validate()?;
+        Ok(Self { stretch, ..self })
+    }
+
+    /// The same with another law of shear.
+    ///
+    /// # Errors
+    /// What [`CubicShear::validate`] refuses.
+    pub fn with_shear(self, shear: CubicShear) -> Result<Self, ParameterError> {
+        shear.validate()?;
+        Ok(Self { shear, ..self })
+    }
+
+    /// The law of bending.
+    pub fn bend(&self) -> &BendLaw {
+        &self.bend
+    }
+
+    /// The law of twist.
+    pub fn twist(&self) -> &TwistLaw {
+        &self.twist
+    }
+
+    /// The law of stretch.
+    pub fn stretch(&self) -> &StretchLaw {
+        &self.stretch
+    }
+
+    /// The law of shear.
+    pub fn shear(&self) -> &CubicShear {
+        &self.shear
+    }
+
+    /// Force in body axes (pN) at shear strain `sigma`.
     #[inline]
     pub fn shear_force(&self, sigma: Vector3) -> Vector3 {
-        self.rigidities.shear.component_mul(&sigma)
+        let across = self.shear.force(sigma.xy());
+        Vector3::new(across.x, across.y, self.stretch.force(sigma.z))
     }
 
-    /// Energy per rest length (pN) at shear strain `sigma`: `sigma^T S sigma / 2`, of which
+    /// Energy per rest length (pN) at shear strain `sigma`, of which
     /// [`shear_force`](Self::shear_force) is the gradient.
     #[inline]
     pub fn shear_energy_density(&self, sigma: Vector3) -> f64 {
-        0.5 * sigma.dot(&self.shear_force(sigma))
+        self.shear.energy_density(sigma.xy()) + self.stretch.energy_density(sigma.z)
     }
 
     /// Tangent (pN) at shear strain `sigma`: the derivative of [`shear_force`](Self::shear_force)
-    /// with respect to `sigma`, symmetric. For constant rigidities it is `S` at every strain.
+    /// with respect to `sigma`, symmetric.
     #[inline]
-    pub fn shear_tangent(&self, _sigma: Vector3) -> Matrix3 {
-        Matrix3::from_diagonal(&self.rigidities.shear)
+    pub fn shear_tangent(&self, sigma: Vector3) -> Matrix3 {
+        let mut tangent = Matrix3::zeros();
+        let across = self.shear.tangent(Vector2::new(sigma.x, sigma.y));
+        tangent.fixed_view_mut::<2, 2>(0, 0).copy_from(&across);
+        tangent[(2, 2)] = self.stretch.tangent(sigma.z);
+        tangent
     }
 
-    /// Couple in body axes (pN nm) at curvature `kappa` (rad/nm): `B kappa`.
+    /// Couple in body axes (pN nm) at curvature `kappa` (rad/nm).
     #[inline]
     pub fn bending_couple(&self, kappa: Vector3) -> Vector3 {
-        self.rigidities.bend.component_mul(&kappa)
+        let mut couple = self.bend.couple(kappa);
+        couple.z += self.twist.couple(kappa.z);
+        couple
     }
 
     /// Tangent (pN nm^2) at curvature `kappa` (rad/nm): the derivative of
-    /// [`bending_couple`](Self::bending_couple) with respect to `kappa`, symmetric. For constant
-    /// rigidities it is `B` at every curvature.
+    /// [`bending_couple`](Self::bending_couple) with respect to `kappa`, symmetric.
     #[inline]
-    pub fn bending_tangent(&self, _kappa: Vector3) -> Matrix3 {
-        Matrix3::from_diagonal(&self.rigidities.bend)
+    pub fn bending_tangent(&self, kappa: Vector3) -> Matrix3 {
+        let mut tangent = self.bend.tangent(kappa);
+        tangent[(2, 2)] += self.twist.tangent(kappa.z);
+        tangent
     }
 
-    /// Energy per rest length (pN) at curvature `kappa` (rad/nm): `kappa^T B kappa / 2`, of which
+    /// Energy per rest length (pN) at curvature `kappa` (rad/nm), of which
     /// [`bending_couple`](Self::bending_couple) is the gradient.
     #[inline]
     pub fn bending_energy_density(&self, kappa: Vector3) -> f64 {
-        0.5 * kappa.dot(&self.bending_couple(kappa))
+        self.bend.energy_density(kappa) + self.twist.energy_density(kappa.z)
     }
 }

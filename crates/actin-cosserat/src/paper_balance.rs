@@ -1,6 +1,9 @@
 //! The force law as the paper prints it. It has no potential.
 
-use crate::{BendingElement, RodEnd, RodLayout, RodMaterial, ShearElement};
+use crate::energy_gradient::write_bending_energies;
+use crate::{
+    BendingElement, RodEnd, RodLayout, RodMaterial, SegmentCurvature, ShearElement, TwistStretch,
+};
 use actin_mechanics::{Interaction, Loads, State, UnitQuaternion, Vector3};
 
 /// A rod with the balance equations as printed: term `rod`, not conservative.
@@ -26,12 +29,37 @@ use actin_mechanics::{Interaction, Loads, State, UnitQuaternion, Vector3};
 pub struct PaperBalance {
     layout: RodLayout,
     material: RodMaterial,
+    extension: Option<(TwistStretch, SegmentCurvature)>,
 }
 
 impl PaperBalance {
     /// The law on a rod.
     pub fn new(layout: RodLayout, material: RodMaterial) -> Self {
-        Self { layout, material }
+        Self {
+            layout,
+            material,
+            extension: None,
+        }
+    }
+
+    /// The same with `e` and `E` scaled by `1/xi` as printed. No couple answers to that.
+    #[must_use]
+    pub fn with_extension(self, law: TwistStretch, curvature: SegmentCurvature) -> Self {
+        Self {
+            extension: Some((law, curvature)),
+            ..self
+        }
+    }
+
+    /// Vector of segment `k` (nm, lab frame), over its `xi`.
+    #[inline]
+    fn scaled_vector(&self, k: usize, state: &State) -> Vector3 {
+        let i = self.layout.points().start + k;
+        let l = state.points.position.get(i + 1) - state.points.position.get(i);
+        match &self.extension {
+            None => l,
+            Some((law, curvature)) => l / (1.0 + law.extension(curvature.mean(k, state).z)),
+        }
     }
 
     /// The rod.
@@ -52,7 +80,7 @@ impl PaperBalance {
             self.layout.frames().start + k,
         );
         let rest_length = self.layout.segment_lengths()[k];
-        let l = state.points.position.get(i + 1) - state.points.position.get(i);
+        let l = self.scaled_vector(k, state);
         let q = state.frames.orientation.get(frame);
         let inverse_extension = rest_length / l.norm();
         // Both printed loads are those of the energy divided by e.
@@ -66,11 +94,7 @@ impl PaperBalance {
     #[inline]
     fn voronoi_extension(&self, j: usize, state: &State) -> f64 {
         let walls = usize::from(self.layout.wall(RodEnd::Start).is_some());
-        let first = self.layout.points().start;
-        let half_length = |segment: usize| {
-            let i = first + segment;
-            0.5 * (state.points.position.get(i + 1) - state.points.position.get(i)).norm()
-        };
+        let half_length = |segment| 0.5 * self.scaled_vector(segment, state).norm();
         // Element j joins these segments' frames; at a wall one of the two is missing.
         let before = j.checked_sub(walls);
         let after = Some(j + 1 - walls).filter(|&segment| segment < self.layout.segments());
@@ -119,7 +143,16 @@ impl Interaction for PaperBalance {
     }
 
     fn write_energies(&self, state: &State, energies: &mut [f64]) {
-        crate::energy_gradient::write_energies(&self.layout, &self.material, state, energies);
+        let (layout, material) = (&self.layout, &self.material);
+        assert_eq!(energies.len(), layout.elements(), "one energy per element");
+        let (shear, bending) = energies.split_at_mut(layout.segments());
+        let lengths = layout.segment_lengths().iter();
+        for (k, (energy, &length)) in shear.iter_mut().zip(lengths).enumerate() {
+            let q = state.frames.orientation.get(layout.frames().start + k);
+            let l = self.scaled_vector(k, state);
+            *energy = ShearElement::segment(length).energy(material, q, l);
+        }
+        write_bending_energies(layout, material, state, bending);
     }
 
     fn is_conservative(&self) -> bool {

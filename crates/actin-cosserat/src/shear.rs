@@ -53,6 +53,17 @@ impl ShearStiffness {
     }
 }
 
+impl ShearLoads {
+    /// The loads at force `n` in the axes of a frame (columns), where the vector is `body`.
+    #[inline]
+    pub(crate) fn of_force(n: Vector3, axes: Matrix3, body: Vector3) -> Self {
+        Self {
+            force: axes * n,
+            torque: body.cross(&n),
+        }
+    }
+}
+
 impl Mul<f64> for ShearStiffness {
     type Output = Self;
 
@@ -104,12 +115,9 @@ impl ShearElement {
         let axes = q.to_rotation_matrix().into_inner();
         let body = axes.tr_mul(&l);
         let sigma = body * self.rest_length.recip() - self.rest_direction;
-        let n = material.shear_force(sigma);
-        ShearLoads {
-            force: axes * n,
-            torque: body.cross(&n),
-        }
+        ShearLoads::of_force(material.shear_force(sigma), axes, body)
     }
+
     /// Second derivatives of the energy, geometric part included.
     ///
     /// With `y = Q^T l`, `n = dW/dsigma` and `A = (d^2 W/dsigma^2) / |lhat|` they are `Q A Q^T`,
@@ -132,11 +140,24 @@ impl ShearElement {
         q: UnitQuaternion,
         l: Vector3,
     ) -> ShearStiffness {
+        let sigma = self.strain(q, l);
+        self.stiffness_of(
+            material.shear_force(sigma),
+            material.shear_tangent(sigma),
+            (q, l),
+        )
+    }
+
+    /// The same for given force `n` (pN) and tangent (pN), both in body axes.
+    pub(crate) fn stiffness_of(
+        &self,
+        n: Vector3,
+        tangent: Matrix3,
+        (q, l): (UnitQuaternion, Vector3),
+    ) -> ShearStiffness {
         let axes = q.to_rotation_matrix().into_inner();
         let y = axes.tr_mul(&l);
-        let sigma = y / self.rest_length - self.rest_direction;
-        let n = material.shear_force(sigma);
-        let a = material.shear_tangent(sigma) / self.rest_length;
+        let a = tangent / self.rest_length;
         let turned = y.cross_matrix();
         let a_turned = a * turned;
         let vector = axes * a * axes.transpose();

@@ -1,6 +1,6 @@
 //! One bond between a monomer and a rod's end: its rest quantities, energy, loads and stiffness.
 
-use actin_cosserat::{BendingElement, RodMaterial, ShearElement};
+use actin_cosserat::{BendingElement, JoinedElement, RodMaterial, ShearElement};
 use actin_mechanics::{Loads, State, Stiffness, UnitQuaternion, Vector3};
 
 /// A bond with its junction frame. The rod's own elements make it up: a shear element between the
@@ -31,6 +31,16 @@ impl Bond {
     /// The junction frame.
     pub(crate) fn junction(&self) -> usize {
         self.frames[1]
+    }
+
+    /// The bending element that the junction frame forms with the rod's end.
+    pub(crate) fn joined(&self) -> JoinedElement {
+        // The monomer is at one end of the chain, the rod at the other.
+        let k = usize::from(self.monomer == 0);
+        JoinedElement {
+            frames: [self.frames[k], self.frames[k + 1]],
+            element: self.bending[k],
+        }
     }
 
     /// What turns the junction basis at rest into each body's own frame.

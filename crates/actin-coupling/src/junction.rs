@@ -3,7 +3,7 @@
 use crate::JunctionError;
 use crate::bond::Bond;
 use crate::build::{check_count, check_distance};
-use actin_cosserat::{BendingElement, RodEnd, RodLayout, RodMaterial, ShearElement};
+use actin_cosserat::{BendingElement, JoinedElement, RodEnd, RodLayout, RodMaterial, ShearElement};
 use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3, rotation};
 use std::ops::Range;
 
@@ -109,6 +109,12 @@ impl Junction {
     /// The junction frames.
     pub fn frames(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
         self.bonds.iter().map(Bond::junction)
+    }
+
+    /// The bending elements that join the rod's end segment to the junction frames: with the
+    /// rod's own they give the mean curvature around that segment.
+    pub fn joined_elements(&self) -> Vec<JoinedElement> {
+        self.bonds.iter().map(Bond::joined).collect()
     }
 
     /// Curvatures (rad/nm) of each bond's two bending elements, in filament order on either side:

@@ -163,6 +163,19 @@ fn stiffness_is_the_derivative_of_the_loads_far_from_rest() {
     }
 }
 
+/// What a rod is told of a junction is the bending element on its own side, the `side`th frame of
+/// which is its own.
+fn assert_joined(junction: &Junction, state: &State, side: usize, rod: usize) {
+    let joined = junction.joined_elements();
+    assert_eq!(joined.len(), 2);
+    for (joined, curvatures) in joined.iter().zip(junction.curvatures(state)) {
+        let q = joined.frames.map(|f| state.frames.orientation.get(f));
+        let kappa = joined.element.curvature(q[0], q[1]);
+        assert!((kappa - curvatures[side]).norm() < 1e-14);
+        assert_eq!(joined.frames[side], rod);
+    }
+}
+
 /// Twist that grows along the filament is positive in every element, on either side of the rod,
 /// and over `D_E` beside the monomer. Constant rigidities do not see the order of the frames: the
 /// energy is even in the curvature.
@@ -202,6 +215,7 @@ fn curvatures_follow_the_filament() {
             assert!((before - Vector3::z() * expected[0]).norm() < 1e-14);
             assert!((after - Vector3::z() * expected[1]).norm() < 1e-14);
         }
+        assert_joined(&junction, &filament.state, usize::from(monomers_first), rod);
     }
 }
 

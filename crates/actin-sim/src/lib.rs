@@ -22,15 +22,17 @@ pub mod shape;
 pub use actin_cosserat::constants as rod_constants;
 pub use actin_ellipsoid::constants as ellipsoid_constants;
 pub use assembly::{
-    Assembly, BodyKind, Clamped, Counts, Drive, FrameInfo, Part, PointInfo, Reaction, Resolution,
-    SectionSpan, Term,
+    Assembly, BeyondRange, BodyKind, Clamped, Counts, Drive, FrameInfo, Part, PointInfo, Reaction,
+    Resolution, SectionSpan, Term,
 };
 pub use results::{RunDirectory, RunDirectoryError, RunStatus, StabilitySummary, Summary};
 pub use run::{
     EquilibriumReport, Estimate, Progress, Record, RunError, RunReport, Trajectory, estimate, run,
 };
+pub use scene::fitted::laws as fitted_laws;
 pub use scene::{
-    Anchors, Clamp, Drag, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Integrator,
-    JunctionModel, JunctionWeight, Linker, Load, Material, Monomers, Problem, RodModel, Scene,
-    SceneError, Section, Setting, Slides, Stage, StopRule, Task,
+    Anchors, BendLaw, Clamp, Drag, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold,
+    Integrator, JunctionModel, JunctionWeight, Linker, Load, Material, Monomers, Problem, RodLaw,
+    RodLaws, RodModel, Scene, SceneError, Section, Setting, ShearLaw, Slides, Stage, StopRule,
+    StretchLaw, Task, TwistLaw, TwistRise, TwistStretchLaw,
 };

@@ -7,11 +7,9 @@ mod spans;
 
 use super::lattice::{Lattice, Resolved, resolve};
 use super::{Assembly, Clamped, Drive, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term};
-use super::{BodyKind, models};
-use crate::scene::{End, ForceLaw, Hold, Load, MOST_BODIES, Problem, Scene, Section};
-use actin_cosserat::{
-    CrossSection, EnergyGradient, PaperBalance, RodLayout, RodMaterial, StraightRod, Walls,
-};
+use super::{BodyKind, law, models};
+use crate::scene::{End, Hold, Load, MOST_BODIES, Problem, Scene, Section};
+use actin_cosserat::{CrossSection, JoinedElement, RodLayout, StraightRod, Walls};
 use actin_coupling::{AttachedMonomer, Junction, JunctionSide, Linker, push_junction_frames};
 use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
 use actin_mechanics::{Interaction, PointLoad, State, System, UnitQuaternion, Vector3};
@@ -52,7 +50,7 @@ struct Builder<'a> {
     resolved: Vec<Resolved>,
     lattice: Lattice,
     model: EllipsoidModel,
-    material: RodMaterial,
+    law: law::Law,
     cross_section: CrossSection,
     state: State,
     bodies: Vec<Body>,
@@ -70,18 +68,17 @@ struct Builder<'a> {
 impl<'a> Builder<'a> {
     fn new(scene: &'a Scene, resolved: Vec<Resolved>) -> Result<Self, Problem> {
         let filament = &scene.filament;
-        let refused = |error: actin_cosserat::ParameterError| {
-            let key = format!("filament.rod.material.{}", error.key);
-            Problem::new(key, error.value, format!("must be {}", error.rule))
-        };
         let monomers = &filament.monomers;
         let density = monomers.mass_ag / monomers.rise_nm;
         let area = actin_cosserat::constants::CROSS_SECTION_AREA;
         Ok(Self {
             lattice: Lattice::of(scene),
             model: models::ellipsoids(monomers)?,
-            material: RodMaterial::new(filament.rod.material.rigidities()).map_err(refused)?,
-            cross_section: CrossSection::new(density, area).map_err(refused)?,
+            law: law::Law::new(&filament.rod)?,
+            cross_section: CrossSection::new(density, area).map_err(|error| {
+                let key = format!("filament.rod.{}", error.key);
+                Problem::new(key, error.value, format!("must be {}", error.rule))
+            })?,
             scene,
             resolved,
             state: State::default(),
@@ -285,18 +282,29 @@ impl<'a> Builder<'a> {
 
     /// Pushes the interactions of all sections and junctions, in filament order.
     fn push_interactions(&mut self) -> Result<(), Problem> {
+        let junctions: Vec<Junction> = (1..self.bodies.len())
+            .map(|i| self.junction(i - 1))
+            .collect::<Result<_, _>>()?;
+        let joined =
+            |junction: Option<&Junction>| junction.map_or_else(Vec::new, Junction::joined_elements);
         for i in 0..self.bodies.len() {
-            if i > 0 {
-                let junction = self.junction(i - 1)?;
-                self.push_term(Box::new(junction), Part::Junction(i - 1));
+            let before = i.checked_sub(1).map(|k| &junctions[k]);
+            let around = [joined(before), joined(junctions.get(i))];
+            if let Some(junction) = before {
+                self.push_term(Box::new(junction.clone()), Part::Junction(i - 1));
             }
-            let interaction = self.interaction_of(i)?;
+            let interaction = self.interaction_of(i, &around)?;
             self.push_term(interaction, Part::Section(i));
         }
         Ok(())
     }
 
-    fn interaction_of(&mut self, i: usize) -> Result<Box<dyn Interaction>, Problem> {
+    /// The interaction of section `i`, whose start and end the elements `around` join to others.
+    fn interaction_of(
+        &mut self,
+        i: usize,
+        around: &[Vec<JoinedElement>; 2],
+    ) -> Result<Box<dyn Interaction>, Problem> {
         Ok(match &self.bodies[i] {
             Body::Monomers(monomers) => {
                 let bonds = self
@@ -310,14 +318,7 @@ impl<'a> Builder<'a> {
                 }
                 Box::new(bonds)
             }
-            Body::Rod(layout) => match self.scene.filament.rod.force_law {
-                ForceLaw::EnergyGradient => {
-                    Box::new(EnergyGradient::new(layout.clone(), self.material))
-                }
-                ForceLaw::PaperBalance => {
-                    Box::new(PaperBalance::new(layout.clone(), self.material))
-                }
-            },
+            Body::Rod(layout) => self.law.interaction(layout, around),
         })
     }
 
@@ -349,7 +350,7 @@ impl<'a> Builder<'a> {
             &attached,
             frames,
             layout,
-            self.material,
+            self.law.material,
         )
         .map_err(|error| junction_problem(&error))
     }
@@ -382,6 +383,15 @@ impl<'a> Builder<'a> {
             }
         }
         let spans = self.spans();
+        let rods = self
+            .bodies
+            .iter()
+            .enumerate()
+            .filter_map(|(section, body)| match body {
+                Body::Monomers(_) => None,
+                Body::Rod(layout) => Some((section, layout.clone())),
+            });
+        let rods = rods.collect();
         let drive = Drive::new(&scene, &self.clamps, &self.state);
         drive.place(&mut self.state, 0.0);
         Assembly {
@@ -393,6 +403,8 @@ impl<'a> Builder<'a> {
             points: self.points,
             frames: self.frames,
             sections: self.sections,
+            material: self.law.material,
+            rods,
             clamps: self.clamps,
             linkers: self.linkers,
             spans,

@@ -8,17 +8,21 @@ mod build;
 mod describe;
 mod drive;
 mod lattice;
+mod law;
 mod models;
 mod parts;
 mod ramp;
+mod range;
 mod reaction;
 
 pub use drive::Drive;
 pub use parts::{BodyKind, Counts, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term};
 pub(crate) use ramp::Ramp;
+pub use range::BeyondRange;
 pub use reaction::{Clamped, Reaction};
 
 use crate::scene::{End, Scene};
+use actin_cosserat::{RodLayout, RodMaterial};
 use actin_coupling::Linker;
 use actin_mechanics::{State, System, Vector3};
 
@@ -37,6 +41,10 @@ pub struct Assembly {
     pub frames: Vec<FrameInfo>,
     /// Sections as resolved, in order.
     pub sections: Vec<SectionSpan>,
+    /// Rods: the index of the section and what it is made of.
+    pub(crate) rods: Vec<(usize, RodLayout)>,
+    /// What resists in them.
+    pub(crate) material: RodMaterial,
     /// The ends that are held.
     pub clamps: Vec<Clamped>,
     /// The linkers, in the order of the scene.

@@ -97,7 +97,7 @@ fn leg<P>(
     })
 }
 
-fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureError> {
+pub(super) fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureError> {
     let bad = values.iter().find(|v| !v.is_finite() || **v == 0.0);
     match bad {
         Some(&value) => Err(MeasureError::Value {

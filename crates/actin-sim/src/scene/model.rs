@@ -1,5 +1,6 @@
 //! Parameters of the models, as a scene writes them.
 
+use super::RodLaw;
 use actin_cosserat::Rigidities;
 use actin_ellipsoid::EllipsoidParameters;
 use serde::{Deserialize, Serialize};
@@ -55,6 +56,8 @@ pub struct RodModel {
     pub force_law: ForceLaw,
     /// Rigidities.
     pub material: Material,
+    /// How the rod departs from these rigidities.
+    pub law: RodLaw,
 }
 
 /// The two force laws of the rod.

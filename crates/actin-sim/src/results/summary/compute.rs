@@ -34,6 +34,7 @@ impl Summary {
             tip_nm: tip_nm.into(),
             tip_displacement_nm: (tip_nm - tip_at_rest_nm).into(),
             end_reactions: EndReactions::new(assembly, &last.state),
+            beyond_range: assembly.beyond_range(&last.state),
             linkers: assembly
                 .linkers
                 .iter()

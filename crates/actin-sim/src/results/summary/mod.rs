@@ -3,7 +3,7 @@
 mod compute;
 
 use super::{RunDirectoryError, finite::ensure_finite};
-use crate::Counts;
+use crate::{BeyondRange, Counts};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -34,6 +34,9 @@ pub struct Summary {
     pub tip_displacement_nm: [f64; 3],
     /// What holds the clamped ends.
     pub end_reactions: EndReactions,
+    /// Where rods left the data behind their laws in the last record; there the numbers rest on
+    /// the laws' continuation.
+    pub beyond_range: Vec<BeyondRange>,
     /// What the linkers do, in the order of the scene.
     #[serde(default)]
     pub linkers: Vec<LinkerSummary>,

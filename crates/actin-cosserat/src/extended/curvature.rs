@@ -1,0 +1,154 @@
+//! The mean curvature around each segment.
+
+use crate::{BendingElement, RodLayout};
+use actin_mechanics::{State, Vector3};
+
+/// A bending element that joins the end of a rod to something else, in the rod's direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JoinedElement {
+    /// The frames that it joins: at the rod's start the second, at its end the first is that of
+    /// the rod's end segment.
+    pub frames: [usize; 2],
+    /// The element.
+    pub element: BendingElement,
+}
+
+/// Which bending elements stand around each segment of a rod, and with what shares its curvature
+/// is their mean.
+///
+/// Each side of a segment has half; a side on which several elements stand (the bonds of a
+/// junction) shares its half among them. Where one side has none (a free end), the other has all:
+/// a quadrature that counts the missing side as straight would halve the twist of a uniformly
+/// twisted rod at its ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SegmentCurvature {
+    /// Where the elements around each segment begin, and where those of the last one end.
+    offsets: Vec<usize>,
+    around: Vec<Around>,
+}
+
+/// One of the elements around a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Around {
+    pub(crate) frames: [usize; 2],
+    pub(crate) element: BendingElement,
+    /// Its part of the mean; those around a segment sum to 1.
+    pub(crate) share: f64,
+}
+
+impl SegmentCurvature {
+    /// The means of a rod that the elements `start` and `end` join to its surroundings.
+    ///
+    /// ```
+    /// use actin_cosserat::{SegmentCurvature, StraightRod};
+    /// use actin_mechanics::{State, Vector3, rotation};
+    /// let mut state = State::default();
+    /// let layout = StraightRod::uniform(2, 10.0).push(&mut state)?;
+    /// state.frames.orientation.set(1, rotation::exp(Vector3::z() * 0.2));
+    /// let curvature = SegmentCurvature::new(&layout, &[], &[]);
+    /// // Both segments of a free pair have the twist of the one element between them.
+    /// assert!((curvature.mean(0, &state).z - 0.02).abs() < 1e-15);
+    /// assert!((curvature.mean(1, &state).z - 0.02).abs() < 1e-15);
+    /// # Ok::<(), actin_cosserat::RodError>(())
+    /// ```
+    pub fn new(layout: &RodLayout, start: &[JoinedElement], end: &[JoinedElement]) -> Self {
+        let own: Vec<JoinedElement> = layout
+            .bending_chain()
+            .zip(layout.voronoi_lengths())
+            .map(|(a, &rest_distance)| JoinedElement {
+                frames: [a, a + 1],
+                element: BendingElement { rest_distance },
+            })
+            .collect();
+        let mut curvature = Self {
+            offsets: vec![0],
+            around: Vec::new(),
+        };
+        for frame in layout.frames() {
+            let on = |side: usize, joined: &[JoinedElement]| -> Vec<JoinedElement> {
+                let all = own.iter().chain(joined);
+                all.filter(|e| e.frames[side] == frame).copied().collect()
+            };
+            curvature.push_segment(&[on(1, start), on(0, end)]);
+        }
+        curvature
+    }
+
+    /// Appends a segment with the elements on its two sides.
+    fn push_segment(&mut self, sides: &[Vec<JoinedElement>; 2]) {
+        let present = sides.iter().filter(|side| !side.is_empty()).count();
+        for side in sides {
+            let share = ((present * side.len()) as f64).recip();
+            self.around.extend(side.iter().map(|joined| Around {
+                frames: joined.frames,
+                element: joined.element,
+                share,
+            }));
+        }
+        self.offsets.push(self.around.len());
+    }
+
+    /// The elements around `segment`.
+    #[inline]
+    pub(crate) fn around(&self, segment: usize) -> &[Around] {
+        &self.around[self.offsets[segment]..self.offsets[segment + 1]]
+    }
+
+    /// Mean curvature around `segment` (rad/nm, body axes); zero where nothing bends.
+    #[inline]
+    pub fn mean(&self, segment: usize, state: &State) -> Vector3 {
+        let q = &state.frames.orientation;
+        let curvature = |a: &Around| {
+            let [first, second] = a.frames.map(|frame| q.get(frame));
+            a.share * a.element.curvature(first, second)
+        };
+        self.around(segment).iter().map(curvature).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{StraightRod, Walls};
+
+    fn shares(curvature: &SegmentCurvature, segment: usize) -> Vec<([usize; 2], f64)> {
+        let around = curvature.around(segment).iter();
+        around.map(|a| (a.frames, a.share)).collect()
+    }
+
+    /// Frames: wall 0, segments 1 to 3, then two junction frames.
+    #[test]
+    fn walls_and_junctions_are_neighbours() {
+        let mut state = State::default();
+        let walls = Walls {
+            start: true,
+            end: false,
+        };
+        let rod = StraightRod {
+            walls,
+            ..StraightRod::uniform(3, 10.0)
+        };
+        let layout = rod.push(&mut state).unwrap();
+        let joined = [4, 5].map(|junction| JoinedElement {
+            frames: [3, junction],
+            element: BendingElement { rest_distance: 6.0 },
+        });
+        let curvature = SegmentCurvature::new(&layout, &[], &joined);
+        assert_eq!(shares(&curvature, 0), [([0, 1], 0.5), ([1, 2], 0.5)]);
+        assert_eq!(shares(&curvature, 1), [([1, 2], 0.5), ([2, 3], 0.5)]);
+        let last = [([2, 3], 0.5), ([3, 4], 0.25), ([3, 5], 0.25)];
+        assert_eq!(shares(&curvature, 2), last);
+    }
+
+    #[test]
+    fn free_ends_take_their_only_neighbour_and_a_lone_segment_has_none() {
+        let mut state = State::default();
+        let layout = StraightRod::uniform(3, 10.0).push(&mut state).unwrap();
+        let curvature = SegmentCurvature::new(&layout, &[], &[]);
+        assert_eq!(shares(&curvature, 0), [([0, 1], 1.0)]);
+        assert_eq!(shares(&curvature, 2), [([1, 2], 1.0)]);
+        let lone = StraightRod::uniform(1, 10.0).push(&mut state).unwrap();
+        let curvature = SegmentCurvature::new(&lone, &[], &[]);
+        assert_eq!(curvature.mean(0, &state), Vector3::zeros());
+    }
+}

@@ -1,0 +1,170 @@
+//! What couples the strain of a segment to the curvature around it.
+
+use crate::law::Jet;
+use crate::{BendLaw, RodMaterial, Stiffening, TwistStretch};
+use actin_mechanics::{Matrix3, Vector3};
+
+/// A segment's energy per rest length as a function of its strain and the mean curvature around
+/// it.
+///
+/// `W(sigma - (xi(kappa_3) - 1) e3) + U(kappa, gamma) - U(kappa, 0)`, with `W` the material's
+/// energy of shear and stretch, `xi` the law of twist and stretch, and `U` that of bending where
+/// shear stiffens it. The nodes' own energy, without shear, stays with them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SegmentLaw {
+    twist_stretch: Option<TwistStretch>,
+    stiffening: Option<Stiffening>,
+}
+
+/// First and second derivatives of the energy per length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SegmentJet {
+    /// By the strain: force (pN).
+    pub(crate) force: Vector3,
+    /// By the mean curvature: couple (pN nm).
+    pub(crate) couple: Vector3,
+    pub(crate) by_strain: Matrix3,
+    /// Rows belong to the strain.
+    pub(crate) mixed: Matrix3,
+    pub(crate) by_curvature: Matrix3,
+}
+
+impl SegmentLaw {
+    /// What a material and a law of twist and stretch need; `None` where nothing couples.
+    pub fn of(material: &RodMaterial, twist_stretch: Option<TwistStretch>) -> Option<Self> {
+        let stiffening = match material.bend() {
+            BendLaw::Stiffening(law) if law.shear.is_finite() => Some(*law),
+            _ => None,
+        };
+        (twist_stretch.is_some() || stiffening.is_some()).then_some(Self {
+            twist_stretch,
+            stiffening,
+        })
+    }
+
+    /// The law of twist and stretch.
+    pub fn twist_stretch(&self) -> Option<&TwistStretch> {
+        self.twist_stretch.as_ref()
+    }
+
+    /// Natural extension `xi - 1` at twist `k3`, with two derivatives.
+    #[inline]
+    fn extension(&self, k3: f64) -> [f64; 3] {
+        self.twist_stretch.map_or([0.0; 3], |law| law.jet(k3))
+    }
+
+    /// The energy per length, its force and its couple at strain `sigma` and curvature `kappa`.
+    #[inline]
+    pub(crate) fn loads(
+        &self,
+        material: &RodMaterial,
+        sigma: Vector3,
+        kappa: Vector3,
+    ) -> (Vector3, Vector3) {
+        let [extension, slope, _] = self.extension(kappa.z);
+        let mut force = material.shear_force(sigma - Vector3::z() * extension);
+        let mut couple = Vector3::new(0.0, 0.0, -force.z * slope);
+        if let Some(law) = &self.stiffening {
+            let stiffened = Stiffened::new(law, sigma, kappa);
+            force += stiffened.force();
+            couple += stiffened.couple();
+        }
+        (force, couple)
+    }
+
+    /// Energy per length (pN).
+    pub(crate) fn energy(&self, material: &RodMaterial, sigma: Vector3, kappa: Vector3) -> f64 {
+        let [extension, ..] = self.extension(kappa.z);
+        let own = material.shear_energy_density(sigma - Vector3::z() * extension);
+        let added = (self.stiffening.as_ref()).map(|law| Stiffened::new(law, sigma, kappa));
+        own + added.map_or(0.0, |stiffened| stiffened.added.value)
+    }
+
+    /// First and second derivatives.
+    pub(crate) fn jet(&self, material: &RodMaterial, sigma: Vector3, kappa: Vector3) -> SegmentJet {
+        let [extension, slope, second] = self.extension(kappa.z);
+        let strain = sigma - Vector3::z() * extension;
+        let tangent = material.shear_tangent(strain);
+        let (force, couple) = self.loads(material, sigma, kappa);
+        let turn = Vector3::z() * slope;
+        let pull = material.shear_force(strain).z;
+        let mut jet = SegmentJet {
+            force,
+            couple,
+            by_strain: tangent,
+            mixed: -(tangent * Vector3::z()) * turn.transpose(),
+            by_curvature: tangent[(2, 2)] * turn * turn.transpose(),
+        };
+        jet.by_curvature[(2, 2)] -= pull * second;
+        if let Some(law) = &self.stiffening {
+            Stiffened::new(law, sigma, kappa).add_to(&mut jet);
+        }
+        jet
+    }
+}
+
+/// What shear adds to the energy of bending, as a function of `p = k1^2 + k2^2`,
+/// `t = k3^2/twist^2` and `g = gamma^2/shear^2`: `f(p, t + g) - f(p, t)`.
+struct Stiffened {
+    /// At `t + g`.
+    with: Jet,
+    /// With shear less without.
+    added: Jet,
+    /// Gradients of `p`, of `t` (by the curvature) and of `g` (by the strain).
+    of_p: Vector3,
+    of_t: Vector3,
+    of_g: Vector3,
+    /// Half the second derivatives of `t` and `g`.
+    twist: f64,
+    shear: f64,
+}
+
+impl Stiffened {
+    #[inline]
+    fn new(law: &Stiffening, sigma: Vector3, kappa: Vector3) -> Self {
+        let (twist, shear) = (law.twist.powi(-2), law.shear.powi(-2));
+        let p = kappa.x * kappa.x + kappa.y * kappa.y;
+        let t = kappa.z * kappa.z * twist;
+        let g = (sigma.x * sigma.x + sigma.y * sigma.y) * shear;
+        let with = law.jet(p, t + g);
+        Self {
+            with,
+            added: with - law.jet(p, t),
+            of_p: 2.0 * Vector3::new(kappa.x, kappa.y, 0.0),
+            of_t: 2.0 * twist * Vector3::new(0.0, 0.0, kappa.z),
+            of_g: 2.0 * shear * Vector3::new(sigma.x, sigma.y, 0.0),
+            twist,
+            shear,
+        }
+    }
+
+    fn force(&self) -> Vector3 {
+        self.with.s * self.of_g
+    }
+
+    fn couple(&self) -> Vector3 {
+        self.added.p * self.of_p + self.added.s * self.of_t
+    }
+
+    fn add_to(&self, jet: &mut SegmentJet) {
+        let Self {
+            with,
+            added,
+            of_p,
+            of_t,
+            of_g,
+            ..
+        } = self;
+        let across = Vector3::new(1.0, 1.0, 0.0);
+        jet.by_strain += with.ss * of_g * of_g.transpose()
+            + 2.0 * with.s * self.shear * Matrix3::from_diagonal(&across);
+        jet.mixed += of_g * (with.ps * of_p + with.ss * of_t).transpose();
+        let crossed = added.ps * of_p * of_t.transpose();
+        let curved = across * added.p + Vector3::z() * (added.s * self.twist);
+        jet.by_curvature += added.pp * of_p * of_p.transpose()
+            + added.ss * of_t * of_t.transpose()
+            + crossed
+            + crossed.transpose()
+            + 2.0 * Matrix3::from_diagonal(&curved);
+    }
+}

@@ -1,0 +1,176 @@
+//! Energies, loads and stiffness of segments that the curvature around them reaches.
+
+use super::curvature::Around;
+use super::law::SegmentJet;
+use super::{SegmentCurvature, SegmentLaw};
+use crate::bending::BendingLoads;
+use crate::shear::ShearLoads;
+use crate::{RodLayout, RodMaterial, ShearElement};
+use actin_mechanics::{
+    Coordinates, Loads, Matrix3, State, Stiffness, UnitQuaternion, Vector3, rotation,
+};
+
+/// The segments of an extended rod; they stand in for its shear elements.
+#[derive(Clone, Debug)]
+pub(crate) struct ExtendedSegments {
+    pub(crate) law: SegmentLaw,
+    pub(crate) curvature: SegmentCurvature,
+}
+
+/// A segment as it is: its element, bodies and what they say.
+struct Segment<'a> {
+    element: ShearElement,
+    points: [usize; 2],
+    frame: usize,
+    q: UnitQuaternion,
+    l: Vector3,
+    kappa: Vector3,
+    around: &'a [Around],
+}
+
+impl Segment<'_> {
+    fn strain(&self) -> Vector3 {
+        self.element.strain(self.q, self.l)
+    }
+
+    /// Couple per length of a bending element that stands for the `couple` (pN nm) of the mean.
+    fn couple_on(&self, around: &Around, couple: Vector3) -> Vector3 {
+        self.element.rest_length * around.share / around.element.rest_distance * couple
+    }
+}
+
+impl ExtendedSegments {
+    #[inline]
+    fn segment(&self, k: usize, layout: &RodLayout, state: &State) -> Segment<'_> {
+        let (i, frame) = (layout.points().start + k, layout.frames().start + k);
+        let x = &state.points.position;
+        Segment {
+            element: ShearElement::segment(layout.segment_lengths()[k]),
+            points: [i, i + 1],
+            frame,
+            q: state.frames.orientation.get(frame),
+            l: x.get(i + 1) - x.get(i),
+            kappa: self.curvature.mean(k, state),
+            around: self.curvature.around(k),
+        }
+    }
+
+    pub(crate) fn write_energies(
+        &self,
+        (layout, material): (&RodLayout, &RodMaterial),
+        state: &State,
+        energies: &mut [f64],
+    ) {
+        for (k, energy) in energies.iter_mut().enumerate() {
+            let segment = self.segment(k, layout, state);
+            let density = self.law.energy(material, segment.strain(), segment.kappa);
+            *energy = segment.element.rest_length * density;
+        }
+    }
+
+    pub(crate) fn add_loads(
+        &self,
+        (layout, material): (&RodLayout, &RodMaterial),
+        state: &State,
+        loads: &mut Loads,
+    ) {
+        let q = &state.frames.orientation;
+        for k in 0..layout.segments() {
+            let segment = self.segment(k, layout, state);
+            let (n, couple) = self.law.loads(material, segment.strain(), segment.kappa);
+            let axes = segment.q.to_rotation_matrix().into_inner();
+            let shear = ShearLoads::of_force(n, axes, axes.tr_mul(&segment.l));
+            loads.force.add(segment.points[0], shear.force);
+            loads.force.add(segment.points[1], -shear.force);
+            loads.torque.add(segment.frame, shear.torque);
+            for around in segment.around {
+                let [a, b] = around.frames;
+                let theta = rotation::log(q.get(a).inverse() * q.get(b));
+                let bending = BendingLoads::of_couple(segment.couple_on(around, couple), theta);
+                loads.torque.add(a, bending.first);
+                loads.torque.add(b, bending.second);
+            }
+        }
+    }
+
+    pub(crate) fn add_stiffness(
+        &self,
+        (layout, material): (&RodLayout, &RodMaterial),
+        state: &State,
+        stiffness: &mut Stiffness,
+    ) {
+        for k in 0..layout.segments() {
+            let segment = self.segment(k, layout, state);
+            let jet = self.law.jet(material, segment.strain(), segment.kappa);
+            let own =
+                (segment.element).stiffness_of(jet.force, jet.by_strain, (segment.q, segment.l));
+            own.push(segment.points, segment.frame, stiffness);
+            push_curvature(&segment, &jet, state, stiffness);
+        }
+    }
+}
+
+/// A body's coordinates with the derivative of some three numbers with respect to them.
+type Slope = (Coordinates, Matrix3);
+
+/// Derivatives of the strain (1/nm and 1).
+fn strain_slopes(segment: &Segment) -> [Slope; 3] {
+    let axes = segment.q.to_rotation_matrix().into_inner();
+    let per_length = segment.element.rest_length.recip();
+    let by_vector = axes.transpose() * per_length;
+    let by_turn = axes.tr_mul(&segment.l).cross_matrix() * per_length;
+    [
+        (Coordinates::Point(segment.points[0]), -by_vector),
+        (Coordinates::Point(segment.points[1]), by_vector),
+        (Coordinates::Frame(segment.frame), by_turn),
+    ]
+}
+
+/// Derivatives of one element's part of the mean curvature (1/nm).
+fn curvature_slopes(around: &Around, state: &State) -> [Slope; 2] {
+    let [a, b] = around
+        .frames
+        .map(|frame| state.frames.orientation.get(frame));
+    let slopes = around.element.curvature_slopes(a, b);
+    [0, 1].map(|k| {
+        let frame = Coordinates::Frame(around.frames[k]);
+        (frame, slopes[k] * around.share)
+    })
+}
+
+/// Pushes all that involves the curvature: its own second derivatives at the couple of the mean,
+/// and the products of first derivatives.
+fn push_curvature(segment: &Segment, jet: &SegmentJet, state: &State, stiffness: &mut Stiffness) {
+    let length = segment.element.rest_length;
+    let q = &state.frames.orientation;
+    let strain = strain_slopes(segment);
+    for (j, around) in segment.around.iter().enumerate() {
+        let frames = around.frames;
+        let weight = length * around.share / around.element.rest_distance;
+        let tangent = jet.by_curvature * (weight * around.share);
+        let couple = segment.couple_on(around, jet.couple);
+        let orientations = (q.get(frames[0]), q.get(frames[1]));
+        let bending = (around.element).stiffness_of(couple, tangent, orientations);
+        bending.push(frames, stiffness);
+        let slopes = curvature_slopes(around, state);
+        push_product(&strain, jet.mixed * length, &slopes, stiffness);
+        for other in &segment.around[j + 1..] {
+            let others = curvature_slopes(other, state);
+            push_product(&slopes, jet.by_curvature * length, &others, stiffness);
+        }
+    }
+}
+
+/// Pushes `a^T M b` for every body of either, and its transpose where both are the same body.
+fn push_product(a: &[Slope], m: Matrix3, b: &[Slope], stiffness: &mut Stiffness) {
+    for (first, left) in a {
+        for (second, right) in b {
+            let block = left.tr_mul(&(m * right));
+            if first == second {
+                stiffness.push(*first, *first, block + block.transpose());
+            } else {
+                stiffness.push(*first, *second, block);
+            }
+        }
+    }
+}

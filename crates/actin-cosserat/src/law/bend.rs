@@ -1,0 +1,101 @@
+//! How a rod resists bending.
+
+use super::Stiffening;
+use crate::ParameterError;
+use actin_mechanics::{Matrix3, Vector3};
+
+/// A law of bending: couples about d1 and d2, and what bending does to the twist.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BendLaw {
+    /// Two rigidities, the same at every curvature (pN nm^2).
+    Constant([f64; 2]),
+    /// One rigidity about both axes that rises with the deformation.
+    Stiffening(Stiffening),
+}
+
+impl BendLaw {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// What the law's own `validate` refuses, or a constant that is not positive.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        match self {
+            Self::Constant([b1, b2]) => {
+                ParameterError::unless_positive("B1", *b1)?;
+                ParameterError::unless_positive("B2", *b2)
+            }
+            Self::Stiffening(law) => law.validate(),
+        }
+    }
+
+    /// Couple (pN nm) at curvature `kappa` (rad/nm).
+    #[inline]
+    pub fn couple(&self, kappa: Vector3) -> Vector3 {
+        match self {
+            Self::Constant([b1, b2]) => Vector3::new(b1 * kappa.x, b2 * kappa.y, 0.0),
+            Self::Stiffening(law) => law.couple(kappa),
+        }
+    }
+
+    /// Derivative of the couple (pN nm^2), symmetric.
+    #[inline]
+    pub fn tangent(&self, kappa: Vector3) -> Matrix3 {
+        match self {
+            Self::Constant([b1, b2]) => Matrix3::from_diagonal(&Vector3::new(*b1, *b2, 0.0)),
+            Self::Stiffening(law) => law.tangent(kappa),
+        }
+    }
+
+    /// Energy per length (pN).
+    #[inline]
+    pub fn energy_density(&self, kappa: Vector3) -> f64 {
+        match self {
+            Self::Constant([b1, b2]) => 0.5 * (b1 * kappa.x * kappa.x + b2 * kappa.y * kappa.y),
+            Self::Stiffening(law) => law.energy_density(kappa),
+        }
+    }
+
+    /// Largest curvature (rad/nm) that the law's data reach, if it has data.
+    pub fn range(&self) -> Option<f64> {
+        match self {
+            Self::Constant(_) => None,
+            Self::Stiffening(law) => Some(law.range),
+        }
+    }
+}
+
+/// Without shear, a function of the curvature alone: `p = k1^2 + k2^2`, `s = k3^2 / twist^2`.
+impl Stiffening {
+    #[inline]
+    fn arguments(&self, kappa: Vector3) -> (f64, f64) {
+        let p = kappa.x * kappa.x + kappa.y * kappa.y;
+        (p, (kappa.z / self.twist).powi(2))
+    }
+
+    fn energy_density(&self, kappa: Vector3) -> f64 {
+        let (p, s) = self.arguments(kappa);
+        self.jet(p, s).value
+    }
+
+    fn couple(&self, kappa: Vector3) -> Vector3 {
+        let (p, s) = self.arguments(kappa);
+        let jet = self.jet(p, s);
+        let turn = kappa.z / (self.twist * self.twist);
+        2.0 * Vector3::new(jet.p * kappa.x, jet.p * kappa.y, jet.s * turn)
+    }
+
+    fn tangent(&self, kappa: Vector3) -> Matrix3 {
+        let (p, s) = self.arguments(kappa);
+        let jet = self.jet(p, s);
+        let scale = (self.twist * self.twist).recip();
+        // Gradients of p and of s.
+        let of_p = 2.0 * Vector3::new(kappa.x, kappa.y, 0.0);
+        let of_s = 2.0 * Vector3::z() * (kappa.z * scale);
+        let mixed = of_p * of_s.transpose();
+        let curved = Vector3::new(jet.p, jet.p, jet.s * scale);
+        jet.pp * of_p * of_p.transpose()
+            + jet.ps * (mixed + mixed.transpose())
+            + jet.ss * of_s * of_s.transpose()
+            + 2.0 * Matrix3::from_diagonal(&curved)
+    }
+}

@@ -1,0 +1,28 @@
+//! Constitutive laws that are more than a constant, one per file.
+//!
+//! Each gives a couple or a force, its tangent and its energy per length. How they join to a
+//! material is in `material.rs`; what couples a segment to its neighbours is in `extended/`.
+
+mod bend;
+mod dilogarithm;
+mod polynomial_stretch;
+mod rooted_stretch;
+mod shear;
+mod sided_twist;
+mod stiffening;
+mod stretch;
+mod tanh_twist;
+mod twist;
+mod twist_stretch;
+
+pub use bend::BendLaw;
+pub use polynomial_stretch::PolynomialStretch;
+pub use rooted_stretch::RootedStretch;
+pub use shear::CubicShear;
+pub use sided_twist::{SidedTwist, TwistRise};
+pub(crate) use stiffening::Jet;
+pub use stiffening::Stiffening;
+pub use stretch::StretchLaw;
+pub use tanh_twist::TanhTwist;
+pub use twist::TwistLaw;
+pub use twist_stretch::TwistStretch;

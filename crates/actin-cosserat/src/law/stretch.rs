@@ -1,0 +1,126 @@
+//! How a rod resists stretch.
+
+use crate::ParameterError;
+
+/// A law of stretch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StretchLaw {
+    /// One rigidity at every strain (pN).
+    Constant(f64),
+    /// One rigidity in tension, another in compression, joined smoothly.
+    ///
+    /// Force `m e + h (sqrt(e^2 + w^2) - w)` at strain `e`, with `m` and `h` half the sum and
+    /// half the difference of the two rigidities.
+    Sided {
+        /// Rigidity far in tension (pN).
+        tension: f64,
+        /// Rigidity far in compression (pN).
+        compression: f64,
+        /// Strain `w` over which one goes over into the other.
+        width: f64,
+    },
+}
+
+impl StretchLaw {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// A rigidity or a width that is not positive and finite.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        match *self {
+            Self::Constant(s3) => ParameterError::unless_positive("S3", s3),
+            Self::Sided {
+                tension,
+                compression,
+                width,
+            } => [
+                ("tension", tension),
+                ("compression", compression),
+                ("width", width),
+            ]
+            .into_iter()
+            .try_for_each(|(key, value)| ParameterError::unless_positive(key, value)),
+        }
+    }
+
+    /// Force (pN) at strain `e`.
+    #[inline]
+    pub fn force(&self, e: f64) -> f64 {
+        match *self {
+            Self::Constant(s3) => s3 * e,
+            Self::Sided {
+                tension,
+                compression,
+                width,
+            } => {
+                let root = e.hypot(width);
+                // sqrt(e^2 + w^2) - w, without its cancellation at small strain.
+                let bend = e * e / (root + width);
+                0.5 * ((tension + compression) * e + (tension - compression) * bend)
+            }
+        }
+    }
+
+    /// Derivative of the force (pN).
+    #[inline]
+    pub fn tangent(&self, e: f64) -> f64 {
+        match *self {
+            Self::Constant(s3) => s3,
+            Self::Sided {
+                tension,
+                compression,
+                width,
+            } => {
+                let side = e / e.hypot(width);
+                0.5 * ((tension + compression) + (tension - compression) * side)
+            }
+        }
+    }
+
+    /// Energy per length (pN): the integral of the force from 0.
+    #[inline]
+    pub fn energy_density(&self, e: f64) -> f64 {
+        match *self {
+            Self::Constant(s3) => 0.5 * s3 * e * e,
+            Self::Sided {
+                tension,
+                compression,
+                width,
+            } => {
+                let area = 0.5 * (e * e.hypot(width) + width * width * (e / width).asinh());
+                0.25 * (tension + compression) * e * e
+                    + 0.5 * (tension - compression) * (area - width * e)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use actin_mechanics::testing::derivative;
+
+    const SIDED: StretchLaw = StretchLaw::Sided {
+        tension: 3.4e4,
+        compression: 1.7e4,
+        width: 1e-3,
+    };
+
+    #[test]
+    fn force_and_tangent_are_derivatives() {
+        for e in [-0.1, -1e-3, 0.0, 2e-4, 0.05] {
+            let force = derivative(1e-5, |h| SIDED.energy_density(e + h));
+            assert!((SIDED.force(e) - force).abs() < 1e-7 * 3.4e4 * (0.01 + f64::abs(e)));
+            let tangent = derivative(1e-5, |h| SIDED.force(e + h));
+            assert!((SIDED.tangent(e) - tangent).abs() < 1e-8 * 3.4e4);
+        }
+    }
+
+    /// Far on each side the force differs from its own rigidity times strain by the constant
+    /// h w = 8.5 pN.
+    #[test]
+    fn each_side_has_its_own_rigidity() {
+        assert!((SIDED.force(0.1) - (3.4e3 - 8.5)).abs() < 0.1);
+        assert!((SIDED.force(-0.1) + (1.7e3 + 8.5)).abs() < 0.1);
+    }
+}

@@ -1,0 +1,68 @@
+//! How a rod resists twist.
+
+use super::{SidedTwist, TanhTwist};
+use crate::ParameterError;
+
+/// A law of twist, each with a secant rigidity `B3(k)`, couple `B3(k) k` and its integral.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TwistLaw {
+    /// One rigidity at every twist (pN nm^2).
+    Constant(f64),
+    /// Three tanh steps, as published.
+    Tanh(TanhTwist),
+    /// Saturating to either side.
+    Sided(SidedTwist),
+}
+
+impl TwistLaw {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// What the law's own `validate` refuses, or a constant that is not positive.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        match self {
+            Self::Constant(b3) => ParameterError::unless_positive("B3", *b3),
+            Self::Tanh(law) => law.validate(),
+            Self::Sided(law) => law.validate(),
+        }
+    }
+
+    /// Couple (pN nm) at twist `k` (rad/nm).
+    #[inline]
+    pub fn couple(&self, k: f64) -> f64 {
+        match self {
+            Self::Constant(b3) => b3 * k,
+            Self::Tanh(law) => law.couple(k),
+            Self::Sided(law) => law.couple(k),
+        }
+    }
+
+    /// Derivative of the couple (pN nm^2).
+    #[inline]
+    pub fn tangent(&self, k: f64) -> f64 {
+        match self {
+            Self::Constant(b3) => *b3,
+            Self::Tanh(law) => law.tangent(k),
+            Self::Sided(law) => law.tangent(k),
+        }
+    }
+
+    /// Energy per length (pN).
+    #[inline]
+    pub fn energy_density(&self, k: f64) -> f64 {
+        match self {
+            Self::Constant(b3) => 0.5 * b3 * k * k,
+            Self::Tanh(law) => law.energy_density(k),
+            Self::Sided(law) => law.energy_density(k),
+        }
+    }
+
+    /// Largest twist (rad/nm) that the law's data reach, if it has data.
+    pub fn range(&self) -> Option<f64> {
+        match self {
+            Self::Constant(_) => None,
+            Self::Tanh(law) => Some(law.range),
+            Self::Sided(law) => Some(law.range),
+        }
+    }
+}

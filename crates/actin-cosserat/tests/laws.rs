@@ -1,0 +1,299 @@
+//! Rods with laws that are more than constants: they remain gradients, and what follows.
+
+mod common;
+
+use actin_cosserat::{
+    BendLaw, BendingElement, CubicShear, EnergyGradient, JoinedElement, PaperBalance,
+    PolynomialStretch, Rigidities, RodLayout, RodMaterial, RootedStretch, SegmentCurvature,
+    SegmentLaw, SidedTwist, Stiffening, StraightRod, StretchLaw, TanhTwist, TwistLaw, TwistRise,
+    TwistStretch, Walls,
+};
+use actin_mechanics::testing::{
+    Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness,
+    derivative, loads_of,
+};
+use actin_mechanics::{Interaction, State, Vector3, rotation};
+use common::{ALL_WALLS, strained_rod};
+
+/// Scales of the order of the strained rod's angles and strains, so that every term is felt.
+const STIFFENING: Stiffening = Stiffening {
+    rest: 3e4,
+    rise: 1e4,
+    curvature: 0.05,
+    twist: 0.06,
+    shear: 0.2,
+    range: 0.2,
+};
+
+/// The published form at twists that a strained rod reaches.
+fn wide_twist() -> TanhTwist {
+    let mut law = TanhTwist::published();
+    for i in [0, 1, 3, 4, 5, 6] {
+        law.lambda[i] *= 4.0;
+    }
+    law.range *= 4.0;
+    law
+}
+
+/// Length against twist with every power felt.
+fn wide_stretch() -> TwistStretch {
+    TwistStretch::Polynomial(PolynomialStretch {
+        coefficients: [-5e-4, -0.3, -5.0, 20.0, 300.0, -1e3, -1e4],
+        range: 0.2,
+    })
+}
+
+/// The saturating laws at such twists.
+const SIDED: SidedTwist = SidedTwist {
+    rest: 272.0,
+    under: TwistRise {
+        rise: 1.3e4,
+        half: 0.04,
+        slow: 0.08,
+    },
+    over: TwistRise {
+        rise: 2.2e4,
+        half: 0.05,
+        slow: 0.07,
+    },
+    range: 0.2,
+};
+
+const ROOTED: TwistStretch = TwistStretch::Rooted(RootedStretch {
+    slope: -0.29,
+    bend: 0.46,
+    half: 0.03,
+    cubic: 2.0,
+    range: 0.2,
+});
+
+fn constant() -> RodMaterial {
+    RodMaterial::new(Rigidities::table4()).unwrap()
+}
+
+fn every_law() -> RodMaterial {
+    let stretch = StretchLaw::Sided {
+        tension: 3.4e4,
+        compression: 1.7e4,
+        width: 0.1,
+    };
+    let shear = CubicShear {
+        linear: [1e3, 2e3],
+        cubic: 1e5,
+    };
+    constant()
+        .with_twist(TwistLaw::Tanh(wide_twist()))
+        .and_then(|m| m.with_bend(BendLaw::Stiffening(STIFFENING)))
+        .and_then(|m| m.with_stretch(stretch))
+        .and_then(|m| m.with_shear(shear))
+        .unwrap()
+}
+
+/// Materials with what couples their segments.
+fn laws() -> Vec<(&'static str, RodMaterial, Option<TwistStretch>)> {
+    let twisted = constant().with_twist(TwistLaw::Tanh(wide_twist())).unwrap();
+    let bent = constant()
+        .with_bend(BendLaw::Stiffening(STIFFENING))
+        .unwrap();
+    let sided = constant().with_twist(TwistLaw::Sided(SIDED)).unwrap();
+    vec![
+        ("constant", constant(), None),
+        ("B3(kappa)", twisted, None),
+        ("xi(kappa)", constant(), Some(wide_stretch())),
+        ("published extension", twisted, Some(wide_stretch())),
+        (
+            "coupling energy",
+            twisted,
+            Some(TwistStretch::linear(9.35e3, 3.4e4)),
+        ),
+        ("B_perp(kappa)", bent, None),
+        ("all", every_law(), Some(wide_stretch())),
+        ("sided twist and rooted stretch", sided, Some(ROOTED)),
+    ]
+}
+
+/// The rod under a law; both its ends are joined to a frame of the neighbouring rods.
+fn rod_of(layout: RodLayout, material: RodMaterial, law: Option<TwistStretch>) -> EnergyGradient {
+    let joined = |frames, rest_distance| JoinedElement {
+        frames,
+        element: BendingElement { rest_distance },
+    };
+    let frames = layout.frames();
+    let start = joined([0, frames.start], 6.0);
+    let end = joined([frames.end - 1, layout.bending_chain().end], 8.0);
+    let curvature = SegmentCurvature::new(&layout, &[start], &[end]);
+    let rod = EnergyGradient::new(layout, material);
+    match SegmentLaw::of(&material, law) {
+        Some(law) => rod.with_extension(law, curvature),
+        None => rod,
+    }
+}
+
+/// Without the couple that belongs to xi, or with it on the wrong frames, or with the shear that
+/// belongs to stiffened bending missing, the loads are off by percents.
+#[test]
+fn every_law_is_a_gradient_far_from_rest() {
+    let mut noise = Noise::new(31);
+    for (name, material, law) in laws() {
+        for walls in ALL_WALLS {
+            for segments in [1, 2, 4] {
+                let (state, layout) = strained_rod(segments, walls, &mut noise);
+                let rod = rod_of(layout, material, law);
+                println!("{name}, {segments} segments, {walls:?}");
+                // Laws bend over twists of 0.03 to 0.07 rad/nm, 0.3 rad an element: truncation of
+                // the differences at h = 0.003 lies below 1e-9.
+                assert_is_gradient(&rod, &state, 0.003, 1e-9);
+            }
+        }
+    }
+}
+
+/// A cross block that is missing, transposed or counted once where a body meets itself.
+#[test]
+fn every_law_has_its_stiffness() {
+    let mut noise = Noise::new(32);
+    for (name, material, law) in laws() {
+        for walls in ALL_WALLS {
+            for segments in [1, 3] {
+                let (state, layout) = strained_rod(segments, walls, &mut noise);
+                let rod = rod_of(layout, material, law);
+                println!("{name}, {segments} segments, {walls:?}");
+                assert_is_stiffness(&rod, &state, 0.003, 1e-8);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_law_balances_and_does_not_mind_where_it_is() {
+    let mut noise = Noise::new(33);
+    for (_, material, law) in laws() {
+        let (state, layout) = strained_rod(5, Walls::default(), &mut noise);
+        let rod = rod_of(layout, material, law);
+        assert_is_balanced(&rod, &state, 1e-13);
+        assert_is_invariant(&rod, &state, 1e-12);
+    }
+}
+
+/// A straight free rod of ten segments of 10 nm, twisted by `k` (rad/nm) and stretched to
+/// `extension` times its length, with the published extension.
+fn uniform(k: f64, extension: f64) -> (State, EnergyGradient) {
+    let mut state = State::default();
+    let layout = StraightRod::uniform(10, 10.0).push(&mut state).unwrap();
+    for i in layout.points() {
+        let rest = state.points.position.get(i);
+        state.points.position.set(i, rest * extension);
+    }
+    for i in layout.frames() {
+        let turn = rotation::exp(Vector3::z() * (10.0 * k * i as f64));
+        state.frames.orientation.set(i, turn);
+    }
+    let twist = TwistLaw::Tanh(TanhTwist::published());
+    let material = constant().with_twist(twist).unwrap();
+    let law = SegmentLaw::of(&material, Some(TwistStretch::published())).unwrap();
+    let curvature = SegmentCurvature::new(&layout, &[], &[]);
+    let rod = EnergyGradient::new(layout, material).with_extension(law, curvature);
+    (state, rod)
+}
+
+/// A uniformly twisted rod that has shrunk by xi is free of force, ends included, and carries the
+/// couple B3(k) k. With the curvature of end segments halved, their ends would pull.
+#[test]
+fn uniform_twist_has_its_length_and_couple() {
+    for k in [-0.06, -0.0462, -0.01, 0.002, 0.02, 0.0462, 0.08] {
+        let xi = 1.0 + TwistStretch::published().extension(k);
+        let (state, rod) = uniform(k, xi);
+        let loads = loads_of(&rod, &state);
+        for i in rod.layout().points() {
+            // Of S3 = 3.4e4 pN.
+            assert!(loads.force.get(i).norm() < 1e-9, "{k}, node {i}");
+        }
+        let couple = TanhTwist::published().secant(k) * k;
+        for i in 0..10 {
+            let expected = if i == 0 { couple } else { 0.0 } - if i == 9 { couple } else { 0.0 };
+            let torque = loads.torque.get(i) - Vector3::z() * expected;
+            assert!(torque.norm() < 1e-9, "{k}, frame {i}: {torque}");
+        }
+    }
+}
+
+/// Maxwell and Betti: the couple by which a stretched rod resists twist changes with the stretch
+/// as the force changes with the twist.
+#[test]
+fn force_and_couple_are_reciprocal() {
+    let k = 0.02;
+    let couple = |e: f64| {
+        // Of the last frame: what holds the end.
+        let (state, rod) = uniform(k, 1.0 + e);
+        let end = rod.layout().frames().end - 1;
+        let loads = loads_of(&rod, &state);
+        -(0..=end)
+            .map(|i| loads.torque.get(i).z * i as f64)
+            .sum::<f64>()
+            * 10.0
+    };
+    let force = |k: f64| {
+        let (state, rod) = uniform(k, 1.0);
+        let end = rod.layout().points().end - 1;
+        -loads_of(&rod, &state).force.get(end).z
+    };
+    // Work of a uniform twist: sum of torque times turn; of a uniform stretch: force times length.
+    let of_stretch = derivative(1e-4, couple);
+    let of_twist = derivative(1e-4, |h| force(k + h)) * 100.0;
+    assert!(of_stretch.abs() > 1e4, "nothing couples: {of_stretch}");
+    assert!(
+        (of_stretch / of_twist - 1.0).abs() < 1e-9,
+        "{of_stretch} {of_twist}"
+    );
+}
+
+/// The energy with the product of extension and twist written out, in a uniform state.
+#[test]
+fn coupling_energy_is_the_printed_product() {
+    let (c3, s3, b3) = (9.35e3, 3.4e4, 1.3e4);
+    let (k, e) = (0.01, 0.002);
+    let (state, rod) = uniform(k, 1.0 + e);
+    let layout = rod.layout().clone();
+    let law = SegmentLaw::of(&constant(), Some(TwistStretch::linear(c3, s3))).unwrap();
+    let curvature = SegmentCurvature::new(&layout, &[], &[]);
+    let rod = EnergyGradient::new(layout, constant()).with_extension(law, curvature);
+    let mut energies = vec![0.0; rod.elements()];
+    rod.write_energies(&state, &mut energies);
+    // Per 10 nm of a segment, and of the element at its node.
+    let expected = 10.0 * (0.5 * s3 * e * e + c3 * e * k + 0.5 * (b3 + c3 * c3 / s3) * k * k);
+    assert!((energies[4] + energies[13] - expected).abs() < 1e-12 * expected);
+}
+
+/// The printed balance with its scaled extensions does work around a closed cycle of twist and
+/// stretch; the gradient does none.
+#[test]
+fn only_the_printed_balance_does_work_around_a_cycle() {
+    let around = |gradient: bool| {
+        let steps = 400;
+        let work = |i: usize| {
+            let angle = std::f64::consts::TAU * (i as f64 + 0.5) / steps as f64;
+            let (k, e) = (0.02 + 0.005 * angle.sin(), 0.01 * angle.cos());
+            let (dk, de) = (0.005 * angle.cos(), -0.01 * angle.sin());
+            let (state, rod) = uniform(k, 1.0 + e);
+            let layout = rod.layout().clone();
+            let loads = if gradient {
+                loads_of(&rod, &state)
+            } else {
+                let curvature = SegmentCurvature::new(&layout, &[], &[]);
+                let law = TwistStretch::published();
+                let rod = PaperBalance::new(layout, *rod.material()).with_extension(law, curvature);
+                loads_of(&rod, &state)
+            };
+            let turning = (0..10).map(|i| loads.torque.get(i).z * 10.0 * i as f64 * dk);
+            let moving = (0..11).map(|i| loads.force.get(i).z * 10.0 * i as f64 * de);
+            let rate: f64 = turning.chain(moving).sum();
+            rate * std::f64::consts::TAU / steps as f64
+        };
+        (0..steps).map(work).sum::<f64>()
+    };
+    let (gradient, printed) = (around(true), around(false));
+    println!("work around the cycle: gradient {gradient:.3e} pN nm, printed {printed:.3e} pN nm");
+    // The midpoint rule is exact to round-off for a smooth cycle; the energy is some 500 pN nm.
+    assert!(gradient.abs() < 1e-9, "{gradient}");
+    assert!(printed.abs() > 1.0, "{printed}");
+}

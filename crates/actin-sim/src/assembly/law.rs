@@ -1,0 +1,227 @@
+//! From a scene's rod law to the interaction of a rod.
+
+use crate::scene::{self, ForceLaw, Problem, RodLaw, RodLaws, RodModel, fitted};
+use actin_cosserat::{
+    BendLaw, CubicShear, EnergyGradient, JoinedElement, PaperBalance, ParameterError,
+    PolynomialStretch, RodLayout, RodMaterial, RootedStretch, SegmentCurvature, SegmentLaw,
+    SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, constants,
+};
+use actin_mechanics::Interaction;
+
+/// The constitutive law of the rods of a scene.
+pub(super) struct Law {
+    balance: ForceLaw,
+    pub(super) material: RodMaterial,
+    twist_stretch: Option<TwistStretch>,
+}
+
+impl Law {
+    /// The law that a scene names.
+    pub(super) fn new(rod: &RodModel) -> Result<Self, Problem> {
+        let extends = !matches!(rod.law, RodLaw::Constant | RodLaw::PublishedExtension);
+        if rod.force_law == ForceLaw::PaperBalance && extends {
+            return Err(Problem::new(
+                "filament.rod.force_law",
+                "PaperBalance",
+                "the printed balance goes with the laws Constant and PublishedExtension alone",
+            ));
+        }
+        let rigidities = rod.material.rigidities();
+        let material = RodMaterial::new(rigidities).map_err(refused("material"))?;
+        let (material, twist_stretch) = match &rod.law {
+            RodLaw::Constant => Ok((material, None)),
+            RodLaw::PublishedExtension => published(material, TwistStretch::published()),
+            RodLaw::CouplingEnergy => {
+                let law = TwistStretch::linear(constants::C3, rigidities.shear.z);
+                published(material, law)
+            }
+            RodLaw::Fitted => {
+                let material = RodMaterial::new(fitted::rigidities());
+                material.and_then(|material| with_laws(material, &fitted::laws()))
+            }
+            RodLaw::Laws(laws) => with_laws(material, laws),
+        }
+        .map_err(refused("law"))?;
+        Ok(Self {
+            balance: rod.force_law,
+            material,
+            twist_stretch,
+        })
+    }
+
+    /// The interaction of a rod whose start and end the given elements join to others.
+    pub(super) fn interaction(
+        &self,
+        layout: &RodLayout,
+        [start, end]: &[Vec<JoinedElement>; 2],
+    ) -> Box<dyn Interaction> {
+        let curvature = SegmentCurvature::new(layout, start, end);
+        let (layout, material) = (layout.clone(), self.material);
+        match self.balance {
+            ForceLaw::EnergyGradient => {
+                let rod = EnergyGradient::new(layout, material);
+                match SegmentLaw::of(&material, self.twist_stretch) {
+                    Some(law) => Box::new(rod.with_extension(law, curvature)),
+                    None => Box::new(rod),
+                }
+            }
+            ForceLaw::PaperBalance => {
+                let rod = PaperBalance::new(layout, material);
+                match self.twist_stretch {
+                    Some(law) => Box::new(rod.with_extension(law, curvature)),
+                    None => Box::new(rod),
+                }
+            }
+        }
+    }
+}
+
+fn refused(part: &'static str) -> impl Fn(ParameterError) -> Problem {
+    move |error| {
+        let key = format!("filament.rod.{part}.{}", error.key);
+        Problem::new(key, error.value, format!("must be {}", error.rule))
+    }
+}
+
+/// A material with or without a law of length against twist.
+type Parts = (RodMaterial, Option<TwistStretch>);
+
+fn published(material: RodMaterial, law: TwistStretch) -> Result<Parts, ParameterError> {
+    let material = material.with_twist(TwistLaw::Tanh(TanhTwist::published()))?;
+    Ok((material, Some(law)))
+}
+
+fn with_laws(mut material: RodMaterial, laws: &RodLaws) -> Result<Parts, ParameterError> {
+    if let Some(bend) = laws.bend {
+        material = material.with_bend(bend.into())?;
+    }
+    if let Some(twist) = laws.twist {
+        material = material.with_twist(twist.into())?;
+    }
+    if let Some(stretch) = laws.stretch {
+        material = material.with_stretch(stretch.into())?;
+    }
+    if let Some(shear) = laws.shear {
+        material = material.with_shear(shear.into())?;
+    }
+    let twist_stretch = laws.twist_stretch.map(TwistStretch::from);
+    if let Some(law) = &twist_stretch {
+        law.validate()?;
+    }
+    Ok((material, twist_stretch))
+}
+
+impl From<scene::BendLaw> for BendLaw {
+    fn from(law: scene::BendLaw) -> Self {
+        let scene::BendLaw::Stiffening {
+            rest_pn_nm2,
+            rise_pn_nm2,
+            curvature_per_nm,
+            twist_per_nm,
+            shear,
+            range_per_nm,
+        } = law;
+        Self::Stiffening(Stiffening {
+            rest: rest_pn_nm2,
+            rise: rise_pn_nm2,
+            curvature: curvature_per_nm,
+            twist: twist_per_nm.unwrap_or(f64::INFINITY),
+            shear: shear.unwrap_or(f64::INFINITY),
+            range: range_per_nm,
+        })
+    }
+}
+
+impl From<scene::TwistLaw> for TwistLaw {
+    fn from(law: scene::TwistLaw) -> Self {
+        match law {
+            scene::TwistLaw::Tanh {
+                b_plus_pn_nm2,
+                b_minus_pn_nm2,
+                lambda,
+                range_per_nm,
+            } => Self::Tanh(TanhTwist {
+                b_plus: b_plus_pn_nm2,
+                b_minus: b_minus_pn_nm2,
+                lambda,
+                range: range_per_nm,
+            }),
+            scene::TwistLaw::Sided {
+                rest_pn_nm2,
+                under,
+                over,
+                range_per_nm,
+            } => Self::Sided(SidedTwist {
+                rest: rest_pn_nm2,
+                under: under.into(),
+                over: over.into(),
+                range: range_per_nm,
+            }),
+        }
+    }
+}
+
+impl From<scene::TwistRise> for TwistRise {
+    fn from(side: scene::TwistRise) -> Self {
+        Self {
+            rise: side.rise_pn_nm2,
+            half: side.half_per_nm,
+            slow: side.slow_per_nm,
+        }
+    }
+}
+
+impl From<scene::StretchLaw> for StretchLaw {
+    fn from(law: scene::StretchLaw) -> Self {
+        let scene::StretchLaw::Sided {
+            tension_pn,
+            compression_pn,
+            width,
+        } = law;
+        Self::Sided {
+            tension: tension_pn,
+            compression: compression_pn,
+            width,
+        }
+    }
+}
+
+impl From<scene::ShearLaw> for CubicShear {
+    fn from(law: scene::ShearLaw) -> Self {
+        let scene::ShearLaw::Cubic {
+            linear_pn,
+            cubic_pn,
+        } = law;
+        Self {
+            linear: linear_pn,
+            cubic: cubic_pn,
+        }
+    }
+}
+
+impl From<scene::TwistStretchLaw> for TwistStretch {
+    fn from(law: scene::TwistStretchLaw) -> Self {
+        match law {
+            scene::TwistStretchLaw::Polynomial {
+                coefficients,
+                range_per_nm,
+            } => Self::Polynomial(PolynomialStretch {
+                coefficients,
+                range: range_per_nm,
+            }),
+            scene::TwistStretchLaw::Rooted {
+                slope_nm,
+                bend_nm,
+                half_per_nm,
+                cubic_nm3,
+                range_per_nm,
+            } => Self::Rooted(RootedStretch {
+                slope: slope_nm,
+                bend: bend_nm,
+                half: half_per_nm,
+                cubic: cubic_nm3,
+                range: range_per_nm,
+            }),
+        }
+    }
+}

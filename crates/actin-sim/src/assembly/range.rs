@@ -1,0 +1,75 @@
+//! Where a state leaves the data behind a rod's fitted laws.
+
+use super::Assembly;
+use actin_cosserat::BendingElement;
+use actin_mechanics::{State, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// A rod goes further than the data that one of its laws was fitted to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BeyondRange {
+    /// Index of the section.
+    pub section: usize,
+    /// `twist` or `curvature`.
+    pub quantity: String,
+    /// Where it goes furthest, as arc length at rest (nm).
+    pub s_nm: f64,
+    /// What it reaches there (rad/nm).
+    pub value_per_nm: f64,
+    /// How far the data reach (rad/nm).
+    pub range_per_nm: f64,
+}
+
+impl Assembly {
+    /// Where the rods leave the data of their laws in `state`: at most once per section and
+    /// quantity, where it is worst. Beyond the data a law goes on with the slope that it has
+    /// there.
+    pub fn beyond_range(&self, state: &State) -> Vec<BeyondRange> {
+        let twist = |kappa: Vector3| kappa.z;
+        let bend = |kappa: Vector3| kappa.xy().norm();
+        let mut found = Vec::new();
+        for rod in 0..self.rods.len() {
+            let ranges = [
+                (
+                    "twist",
+                    self.material.twist().range(),
+                    twist as fn(Vector3) -> f64,
+                ),
+                ("curvature", self.material.bend().range(), bend),
+            ];
+            for (quantity, range, measure) in ranges {
+                let Some(range_per_nm) = range else { continue };
+                let (s_nm, value_per_nm) = self.furthest(rod, state, measure);
+                if value_per_nm.abs() > range_per_nm {
+                    found.push(BeyondRange {
+                        section: self.rods[rod].0,
+                        quantity: quantity.to_owned(),
+                        s_nm,
+                        value_per_nm,
+                        range_per_nm,
+                    });
+                }
+            }
+        }
+        found
+    }
+
+    /// Where in a rod `measure` of the curvature is largest, and what it is there.
+    fn furthest(&self, rod: usize, state: &State, measure: fn(Vector3) -> f64) -> (f64, f64) {
+        let (section, layout) = &self.rods[rod];
+        let q = &state.frames.orientation;
+        let positions = layout.element_positions();
+        let nodes = positions[layout.segments()..].iter();
+        let elements = layout
+            .bending_chain()
+            .zip(layout.voronoi_lengths())
+            .zip(nodes);
+        let values = elements.map(|((a, &rest_distance), s)| {
+            let kappa = BendingElement { rest_distance }.curvature(q.get(a), q.get(a + 1));
+            (self.sections[*section].from_nm + s, measure(kappa))
+        });
+        values
+            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+            .unwrap_or_default()
+    }
+}
