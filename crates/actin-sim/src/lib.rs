@@ -17,6 +17,7 @@ pub mod measure;
 mod results;
 mod run;
 mod scene;
+pub mod shape;
 
 pub use actin_cosserat::constants as rod_constants;
 pub use actin_ellipsoid::constants as ellipsoid_constants;
