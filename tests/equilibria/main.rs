@@ -15,3 +15,4 @@ mod history;
 mod linkers;
 mod ring;
 mod second_derivatives;
+mod shape;

@@ -2,6 +2,7 @@
 
 mod check;
 mod figures;
+mod fit;
 mod tidy;
 
 use clap::{Parser, Subcommand};
@@ -20,9 +21,11 @@ struct Arguments {
 enum Task {
     /// Formatting, lints as errors, documentation, benches that build, tidiness.
     Check,
+    /// Fits a rod's laws to tables or to filaments of monomers.
+    FitParameters(fit::Options),
     /// Computes figures and tables of the paper and compares them with it.
     ReproduceFigures {
-        /// Which: fig4, fig8, fig10, table1 to table5. All that exist by default.
+        /// Which: fig4, fig8 to fig10, table1 to table5. All that exist by default.
         ids: Vec<String>,
         /// Where to write pictures, tables and reports.
         #[arg(long, default_value = "target/figures")]
@@ -36,6 +39,7 @@ enum Task {
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Check => check::run(),
+        Task::FitParameters(options) => fit::run(&options),
         Task::ReproduceFigures { ids, out, quick } => figures::reproduce(&ids, &out, quick),
     };
     match outcome {

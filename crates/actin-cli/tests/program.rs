@@ -84,6 +84,7 @@ fn a_scene_runs_into_its_directory() {
         "scene.ron",
         "summary.json",
         "energies.csv",
+        "profile.csv",
         "states.npz",
         "run.pvd",
     ] {

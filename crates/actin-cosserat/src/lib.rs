@@ -39,7 +39,10 @@ pub use cross_section::CrossSection;
 pub use energy_gradient::EnergyGradient;
 pub use error::{ParameterError, RodError};
 pub use extended::{JoinedElement, SegmentCurvature, SegmentLaw};
-pub use law::{BendLaw, CubicShear, Stiffening, StretchLaw, TanhTwist, TwistLaw, TwistStretch};
+pub use law::{
+    BendLaw, CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw,
+    TanhTwist, TwistLaw, TwistRise, TwistStretch,
+};
 pub use layout::{RodEnd, RodLayout};
 pub use material::RodMaterial;
 pub use paper_balance::PaperBalance;

@@ -3,9 +3,10 @@
 mod common;
 
 use actin_cosserat::{
-    BendLaw, BendingElement, CubicShear, EnergyGradient, JoinedElement, PaperBalance, Rigidities,
-    RodLayout, RodMaterial, SegmentCurvature, SegmentLaw, Stiffening, StraightRod, StretchLaw,
-    TanhTwist, TwistLaw, TwistStretch, Walls,
+    BendLaw, BendingElement, CubicShear, EnergyGradient, JoinedElement, PaperBalance,
+    PolynomialStretch, Rigidities, RodLayout, RodMaterial, RootedStretch, SegmentCurvature,
+    SegmentLaw, SidedTwist, Stiffening, StraightRod, StretchLaw, TanhTwist, TwistLaw, TwistRise,
+    TwistStretch, Walls,
 };
 use actin_mechanics::testing::{
     Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness,
@@ -36,11 +37,35 @@ fn wide_twist() -> TanhTwist {
 
 /// Length against twist with every power felt.
 fn wide_stretch() -> TwistStretch {
-    TwistStretch {
+    TwistStretch::Polynomial(PolynomialStretch {
         coefficients: [-5e-4, -0.3, -5.0, 20.0, 300.0, -1e3, -1e4],
         range: 0.2,
-    }
+    })
 }
+
+/// The saturating laws at such twists.
+const SIDED: SidedTwist = SidedTwist {
+    rest: 272.0,
+    under: TwistRise {
+        rise: 1.3e4,
+        half: 0.04,
+        slow: 0.08,
+    },
+    over: TwistRise {
+        rise: 2.2e4,
+        half: 0.05,
+        slow: 0.07,
+    },
+    range: 0.2,
+};
+
+const ROOTED: TwistStretch = TwistStretch::Rooted(RootedStretch {
+    slope: -0.29,
+    bend: 0.46,
+    half: 0.03,
+    cubic: 2.0,
+    range: 0.2,
+});
 
 fn constant() -> RodMaterial {
     RodMaterial::new(Rigidities::table4()).unwrap()
@@ -70,6 +95,7 @@ fn laws() -> Vec<(&'static str, RodMaterial, Option<TwistStretch>)> {
     let bent = constant()
         .with_bend(BendLaw::Stiffening(STIFFENING))
         .unwrap();
+    let sided = constant().with_twist(TwistLaw::Sided(SIDED)).unwrap();
     vec![
         ("constant", constant(), None),
         ("B3(kappa)", twisted, None),
@@ -82,6 +108,7 @@ fn laws() -> Vec<(&'static str, RodMaterial, Option<TwistStretch>)> {
         ),
         ("B_perp(kappa)", bent, None),
         ("all", every_law(), Some(wide_stretch())),
+        ("sided twist and rooted stretch", sided, Some(ROOTED)),
     ]
 }
 

@@ -17,6 +17,7 @@ pub mod measure;
 mod results;
 mod run;
 mod scene;
+pub mod shape;
 
 pub use actin_cosserat::constants as rod_constants;
 pub use actin_ellipsoid::constants as ellipsoid_constants;
@@ -28,9 +29,10 @@ pub use results::{RunDirectory, RunDirectoryError, RunStatus, StabilitySummary, 
 pub use run::{
     EquilibriumReport, Estimate, Progress, Record, RunError, RunReport, Trajectory, estimate, run,
 };
+pub use scene::fitted::laws as fitted_laws;
 pub use scene::{
     Anchors, BendLaw, Clamp, Drag, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold,
     Integrator, JunctionModel, JunctionWeight, Linker, Load, Material, Monomers, Problem, RodLaw,
     RodLaws, RodModel, Scene, SceneError, Section, Setting, ShearLaw, Slides, Stage, StopRule,
-    StretchLaw, Task, TwistLaw, TwistStretchLaw,
+    StretchLaw, Task, TwistLaw, TwistRise, TwistStretchLaw,
 };

@@ -6,10 +6,13 @@
 
 mod buckling;
 mod figure4;
+mod figure9;
 mod html;
-mod plot;
-mod report;
+pub(crate) mod plot;
+pub(crate) mod report;
 mod tables;
+
+pub(crate) use tables::paper;
 
 use report::Artefact;
 use std::fs;
@@ -19,9 +22,10 @@ use std::path::Path;
 type Recipe = (&'static str, fn(&Path, bool) -> Result<Artefact, String>);
 
 /// The artefacts that exist.
-const RECIPES: [Recipe; 8] = [
+const RECIPES: [Recipe; 9] = [
     ("fig4", figure4::reproduce),
     ("fig8", buckling::figure8),
+    ("fig9", figure9::reproduce),
     ("fig10", buckling::figure10),
     ("table1", tables::table1),
     ("table2", tables::table2),

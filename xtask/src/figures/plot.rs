@@ -5,7 +5,7 @@ use std::path::Path;
 
 /// One line of a chart.
 #[derive(Clone, Debug)]
-pub(super) struct Series {
+pub(crate) struct Series {
     /// Name in the legend; series without a name are drawn only.
     pub label: Option<String>,
     /// Colour.
@@ -18,7 +18,7 @@ pub(super) struct Series {
 
 /// A chart.
 #[derive(Clone, Debug)]
-pub(super) struct Chart<'a> {
+pub(crate) struct Chart<'a> {
     pub title: &'a str,
     pub x_label: &'a str,
     pub y_label: &'a str,
@@ -58,7 +58,7 @@ pub(super) fn resolution_colour(share: f64) -> RGBColor {
 ///
 /// # Errors
 /// A chart without points, or a file that cannot be written.
-pub(super) fn draw(chart: &Chart<'_>, path: &Path) -> Result<(), String> {
+pub(crate) fn draw(chart: &Chart<'_>, path: &Path) -> Result<(), String> {
     let (x, y) = ranges(chart).ok_or_else(|| format!("{}: nothing to draw", chart.title))?;
     let root = SVGBackend::new(path, SIZE).into_drawing_area();
     render(chart, &root, x, y).map_err(|e| format!("{}: {e}", path.display()))

@@ -97,7 +97,7 @@ pub(super) fn write(artefacts: &[Artefact], out: &Path) -> Result<(), String> {
 }
 
 /// Writes a table of numbers under a header.
-pub(super) fn write_csv(
+pub(crate) fn write_csv(
     out: &Path,
     name: &str,
     header: &[&str],
@@ -116,7 +116,7 @@ pub(super) fn write_csv(
 }
 
 /// Writes a text file.
-pub(super) fn save(out: &Path, name: &str, text: &str) -> Result<(), String> {
+pub(crate) fn save(out: &Path, name: &str, text: &str) -> Result<(), String> {
     let path = out.join(name);
     fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))
 }

@@ -1,7 +1,7 @@
 //! Words that a crate must not know.
 
 /// Crates, and words that none of their lines may hold.
-const FORBIDDEN: [(&str, &[&str]); 3] = [
+const FORBIDDEN: [(&str, &[&str]); 4] = [
     (
         "crates/actin-mechanics/src",
         &["monomer", "filament", "cosserat", "helix", "bond"],
@@ -13,6 +13,12 @@ const FORBIDDEN: [(&str, &[&str]); 3] = [
     (
         "crates/actin-equilibrium/src",
         &["monomer", "actin ", "cosserat", "helix"],
+    ),
+    (
+        "crates/actin-fit/src",
+        &[
+            "monomer", "actin ", "filament", "cosserat", "helix", "rigidity",
+        ],
     ),
 ];
 

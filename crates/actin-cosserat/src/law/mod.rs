@@ -5,7 +5,10 @@
 
 mod bend;
 mod dilogarithm;
+mod polynomial_stretch;
+mod rooted_stretch;
 mod shear;
+mod sided_twist;
 mod stiffening;
 mod stretch;
 mod tanh_twist;
@@ -13,7 +16,10 @@ mod twist;
 mod twist_stretch;
 
 pub use bend::BendLaw;
+pub use polynomial_stretch::PolynomialStretch;
+pub use rooted_stretch::RootedStretch;
 pub use shear::CubicShear;
+pub use sided_twist::{SidedTwist, TwistRise};
 pub(crate) use stiffening::Jet;
 pub use stiffening::Stiffening;
 pub use stretch::StretchLaw;

@@ -83,6 +83,14 @@ impl Stiffening {
         2.0 * self.jet(k * k, stiffening).p
     }
 
+    /// Derivatives of the secant at no twist with respect to `rest`, `rise` and `curvature`.
+    pub fn secant_gradient(&self, k: f64) -> [f64; 3] {
+        let q = (k / self.curvature).powi(2);
+        let share = q / (1.0 + q);
+        let of_scale = -2.0 * self.rise * share / ((1.0 + q) * self.curvature);
+        [1.0, share, of_scale]
+    }
+
     /// `U` as a function of `p = k^2` and of `s`.
     #[inline]
     pub(crate) fn jet(&self, p: f64, s: f64) -> Jet {
@@ -151,6 +159,35 @@ mod tests {
                     "{p} {s} {k}: {value} {slope}"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn gradient_in_the_parameters() {
+        for k in [0.0, 1e-3, 0.01] {
+            let [rest, rise, curvature] = LAW.secant_gradient(k);
+            let of = |f: &dyn Fn(f64) -> Stiffening, h| derivative(h, |d| f(d).secant(k, 0.0));
+            let by_rest = of(
+                &|d| Stiffening {
+                    rest: LAW.rest + d,
+                    ..LAW
+                },
+                10.0,
+            );
+            let by_rise = of(
+                &|d| Stiffening {
+                    rise: LAW.rise + d,
+                    ..LAW
+                },
+                10.0,
+            );
+            let moved = |d| Stiffening {
+                curvature: LAW.curvature + d,
+                ..LAW
+            };
+            let by_curvature = of(&moved, 1e-5);
+            assert!((rest - by_rest).abs() < 1e-9 && (rise - by_rise).abs() < 1e-9);
+            assert!((curvature - by_curvature).abs() <= 1e-7 * curvature.abs());
         }
     }
 

@@ -1,6 +1,6 @@
 //! How a rod resists twist.
 
-use super::TanhTwist;
+use super::{SidedTwist, TanhTwist};
 use crate::ParameterError;
 
 /// A law of twist, each with a secant rigidity `B3(k)`, couple `B3(k) k` and its integral.
@@ -10,6 +10,8 @@ pub enum TwistLaw {
     Constant(f64),
     /// Three tanh steps, as published.
     Tanh(TanhTwist),
+    /// Saturating to either side.
+    Sided(SidedTwist),
 }
 
 impl TwistLaw {
@@ -21,6 +23,7 @@ impl TwistLaw {
         match self {
             Self::Constant(b3) => ParameterError::unless_positive("B3", *b3),
             Self::Tanh(law) => law.validate(),
+            Self::Sided(law) => law.validate(),
         }
     }
 
@@ -30,6 +33,7 @@ impl TwistLaw {
         match self {
             Self::Constant(b3) => b3 * k,
             Self::Tanh(law) => law.couple(k),
+            Self::Sided(law) => law.couple(k),
         }
     }
 
@@ -39,6 +43,7 @@ impl TwistLaw {
         match self {
             Self::Constant(b3) => *b3,
             Self::Tanh(law) => law.tangent(k),
+            Self::Sided(law) => law.tangent(k),
         }
     }
 
@@ -48,6 +53,7 @@ impl TwistLaw {
         match self {
             Self::Constant(b3) => 0.5 * b3 * k * k,
             Self::Tanh(law) => law.energy_density(k),
+            Self::Sided(law) => law.energy_density(k),
         }
     }
 
@@ -56,6 +62,7 @@ impl TwistLaw {
         match self {
             Self::Constant(_) => None,
             Self::Tanh(law) => Some(law.range),
+            Self::Sided(law) => Some(law.range),
         }
     }
 }

@@ -3,6 +3,7 @@
 
 mod holds;
 mod linkers;
+mod spans;
 
 use super::lattice::{Lattice, Resolved, resolve};
 use super::{Assembly, Clamped, Drive, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term};
@@ -381,6 +382,7 @@ impl<'a> Builder<'a> {
                 *segments = Some(span.frames.len());
             }
         }
+        let spans = self.spans();
         let rods = self
             .bodies
             .iter()
@@ -405,6 +407,7 @@ impl<'a> Builder<'a> {
             rods,
             clamps: self.clamps,
             linkers: self.linkers,
+            spans,
         }
     }
 }

@@ -101,6 +101,12 @@ impl Drive {
         self.stages == 0
     }
 
+    /// Turn of a clamp's end (rad, rotation vector in the lab frame) at path parameter `u`.
+    pub(crate) fn turn(&self, clamp: usize, u: f64) -> Vector3 {
+        let track = self.turns.iter().find(|track| track.what == clamp);
+        track.map_or_else(Vector3::zeros, |track| track.at(u).0)
+    }
+
     /// Puts controls and held bodies where they belong at path parameter `u`. Of an end that
     /// slides, the component along which it slides stays as it is in `state`.
     pub fn place(&self, state: &mut State, u: f64) {

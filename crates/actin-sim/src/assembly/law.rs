@@ -1,10 +1,10 @@
 //! From a scene's rod law to the interaction of a rod.
 
-use crate::scene::{self, ForceLaw, Problem, RodLaw, RodLaws, RodModel};
+use crate::scene::{self, ForceLaw, Problem, RodLaw, RodLaws, RodModel, fitted};
 use actin_cosserat::{
-    BendLaw, CubicShear, EnergyGradient, JoinedElement, PaperBalance, ParameterError, RodLayout,
-    RodMaterial, SegmentCurvature, SegmentLaw, Stiffening, StretchLaw, TanhTwist, TwistLaw,
-    TwistStretch, constants,
+    BendLaw, CubicShear, EnergyGradient, JoinedElement, PaperBalance, ParameterError,
+    PolynomialStretch, RodLayout, RodMaterial, RootedStretch, SegmentCurvature, SegmentLaw,
+    SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, constants,
 };
 use actin_mechanics::Interaction;
 
@@ -35,7 +35,7 @@ impl Law {
                 let law = TwistStretch::linear(constants::C3, rigidities.shear.z);
                 published(material, law)
             }
-            RodLaw::Fitted => with_laws(material, &RodLaws::fitted()),
+            RodLaw::Fitted => with_laws(material, &fitted::laws()),
             RodLaw::Laws(laws) => with_laws(material, laws),
         }
         .map_err(refused("law"))?;
@@ -131,32 +131,56 @@ impl From<scene::BendLaw> for BendLaw {
 
 impl From<scene::TwistLaw> for TwistLaw {
     fn from(law: scene::TwistLaw) -> Self {
-        let scene::TwistLaw::Tanh {
-            b_plus_pn_nm2,
-            b_minus_pn_nm2,
-            lambda,
-            range_per_nm,
-        } = law;
-        Self::Tanh(TanhTwist {
-            b_plus: b_plus_pn_nm2,
-            b_minus: b_minus_pn_nm2,
-            lambda,
-            range: range_per_nm,
-        })
+        match law {
+            scene::TwistLaw::Tanh {
+                b_plus_pn_nm2,
+                b_minus_pn_nm2,
+                lambda,
+                range_per_nm,
+            } => Self::Tanh(TanhTwist {
+                b_plus: b_plus_pn_nm2,
+                b_minus: b_minus_pn_nm2,
+                lambda,
+                range: range_per_nm,
+            }),
+            scene::TwistLaw::Sided {
+                rest_pn_nm2,
+                under,
+                over,
+                range_per_nm,
+            } => Self::Sided(SidedTwist {
+                rest: rest_pn_nm2,
+                under: under.into(),
+                over: over.into(),
+                range: range_per_nm,
+            }),
+        }
+    }
+}
+
+impl From<scene::TwistRise> for TwistRise {
+    fn from(side: scene::TwistRise) -> Self {
+        Self {
+            rise: side.rise_pn_nm2,
+            half: side.half_per_nm,
+            slow: side.slow_per_nm,
+        }
     }
 }
 
 impl From<scene::StretchLaw> for StretchLaw {
     fn from(law: scene::StretchLaw) -> Self {
-        let scene::StretchLaw::Sided {
-            tension_pn,
-            compression_pn,
-            width,
-        } = law;
-        Self::Sided {
-            tension: tension_pn,
-            compression: compression_pn,
-            width,
+        match law {
+            scene::StretchLaw::Constant { rigidity_pn } => Self::Constant(rigidity_pn),
+            scene::StretchLaw::Sided {
+                tension_pn,
+                compression_pn,
+                width,
+            } => Self::Sided {
+                tension: tension_pn,
+                compression: compression_pn,
+                width,
+            },
         }
     }
 }
@@ -176,13 +200,27 @@ impl From<scene::ShearLaw> for CubicShear {
 
 impl From<scene::TwistStretchLaw> for TwistStretch {
     fn from(law: scene::TwistStretchLaw) -> Self {
-        let scene::TwistStretchLaw::Polynomial {
-            coefficients,
-            range_per_nm,
-        } = law;
-        Self {
-            coefficients,
-            range: range_per_nm,
+        match law {
+            scene::TwistStretchLaw::Polynomial {
+                coefficients,
+                range_per_nm,
+            } => Self::Polynomial(PolynomialStretch {
+                coefficients,
+                range: range_per_nm,
+            }),
+            scene::TwistStretchLaw::Rooted {
+                slope_nm,
+                bend_nm,
+                half_per_nm,
+                cubic_nm3,
+                range_per_nm,
+            } => Self::Rooted(RootedStretch {
+                slope: slope_nm,
+                bend: bend_nm,
+                half: half_per_nm,
+                cubic: cubic_nm3,
+                range: range_per_nm,
+            }),
         }
     }
 }

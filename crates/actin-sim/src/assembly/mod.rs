@@ -49,6 +49,9 @@ pub struct Assembly {
     pub clamps: Vec<Clamped>,
     /// The linkers, in the order of the scene.
     pub linkers: Vec<Linker>,
+    /// For each term the arc lengths (nm) between which each of its elements lies; empty for loads
+    /// and linkers, which are no part of the filament.
+    pub(crate) spans: Vec<Vec<[f64; 2]>>,
     /// What the path of the scene moves.
     pub drive: Drive,
     /// The state as built, unloaded and at rest.

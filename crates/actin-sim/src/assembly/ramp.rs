@@ -1,6 +1,6 @@
 //! The path of a scene in time: smooth ramps from stage to stage.
 
-use super::Drive;
+use super::{Assembly, Drive};
 use actin_mechanics::State;
 
 /// A [`Drive`] whose stages take their durations one after the other; behind the last, controls
@@ -16,12 +16,27 @@ pub(crate) struct Ramp {
 }
 
 impl Ramp {
-    pub(crate) fn new(drive: Drive, durations: Vec<f64>) -> Self {
+    fn new(drive: Drive, durations: Vec<f64>) -> Self {
         Self { drive, durations }
     }
 
+    /// The ramps of an assembly's path; none where there is no path.
+    pub(crate) fn of(assembly: &Assembly) -> Option<Self> {
+        if assembly.drive.is_still() {
+            return None;
+        }
+        let stages = assembly.scene.path.iter();
+        let durations = stages.filter_map(|stage| stage.duration_ns).collect();
+        Some(Self::new(assembly.drive.clone(), durations))
+    }
+
+    /// Time that all stages take (ns).
+    pub(crate) fn duration(&self) -> f64 {
+        self.durations.iter().sum()
+    }
+
     /// Path parameter at `time` (ns) and its rate (1/ns).
-    fn parameter(&self, time: f64) -> (f64, f64) {
+    pub(crate) fn parameter(&self, time: f64) -> (f64, f64) {
         let mut start = 0.0;
         for (stage, duration) in self.durations.iter().enumerate() {
             let x = (time - start) / duration;

@@ -97,7 +97,7 @@ fn leg<P>(
     })
 }
 
-fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureError> {
+pub(super) fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureError> {
     let bad = values.iter().find(|v| !v.is_finite() || **v == 0.0);
     match bad {
         Some(&value) => Err(MeasureError::Value {
@@ -112,6 +112,18 @@ fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureError> {
         }),
         None => Ok(()),
     }
+}
+
+/// Whether a value that is held while others are swept is one; zero is.
+pub(super) fn check_finite(name: &'static str, value: f64) -> Result<(), MeasureError> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(MeasureError::Value {
+        name,
+        value,
+        rule: "finite",
+    })
 }
 
 /// The transverse direction at an azimuth (lab frame).

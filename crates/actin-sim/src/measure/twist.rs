@@ -66,7 +66,7 @@ fn scene(specimen: &Specimen, turns_deg: &[f64]) -> Scene {
     specimen.scene("Twist", Some(Slides::AlongAxis), Vec::new(), path)
 }
 
-fn read(assembly: &Assembly, turn_deg: f64, stop: &Stop) -> TwistPoint {
+pub(super) fn read(assembly: &Assembly, turn_deg: f64, stop: &Stop) -> TwistPoint {
     let length = assembly.length_nm();
     let torque_at = |end| reaction(assembly, &stop.state, end).torque_pn_nm.z;
     let curvature = turn_deg.to_radians() / length;

@@ -9,13 +9,16 @@ use std::path::{Path, PathBuf};
 pub(super) const SCENE: &str = "scene.ron";
 pub(super) const SUMMARY: &str = "summary.json";
 pub(super) const ENERGIES: &str = "energies.csv";
+pub(super) const PROFILE: &str = "profile.csv";
 pub(super) const STATES: &str = "states.npz";
 pub(super) const COLLECTION: &str = "run.pvd";
 const CHECKPOINT: &str = "checkpoint.bin";
 pub(super) const PICTURES: &str = "vtk";
 
 /// Everything that a run directory holds beside its pictures.
-const FILES: [&str; 6] = [SCENE, SUMMARY, ENERGIES, STATES, COLLECTION, CHECKPOINT];
+const FILES: [&str; 7] = [
+    SCENE, SUMMARY, ENERGIES, PROFILE, STATES, COLLECTION, CHECKPOINT,
+];
 
 /// Appended to the name of a file that is not whole yet.
 const UNFINISHED: &str = ".part";

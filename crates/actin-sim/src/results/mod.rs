@@ -4,11 +4,13 @@
 //! |---|---|---|
 //! | `scene.ron` | the scene, every default written out | `actin run` |
 //! | `energies.csv` | energies and residuals of every record | anything |
+//! | `profile.csv` | the last record along the filament: place, curvature, twist, energy | anything |
 //! | `states.npz` | every record's state | numpy |
 //! | `vtk/NNNN.vtp`, `run.pvd` | every record as a picture | `ParaView`, pyvista |
 //! | `summary.json` | the last record in numbers | anything |
 //!
-//! Only this module knows file formats; nothing here computes physics beyond sums. Nothing that
+//! Only this module knows file formats; nothing here computes physics beyond sums: shapes come from
+//! [`crate::shape`]. Nothing that
 //! is not finite is ever written.
 
 mod directory;
@@ -17,6 +19,7 @@ mod error;
 mod finite;
 #[cfg(test)]
 mod fixture;
+mod profile;
 mod states;
 mod summary;
 mod vtk;

@@ -1,12 +1,13 @@
 //! Writing the results of a run into its directory: what is checked, and in which order.
 
 use super::directory::{
-    COLLECTION, ENERGIES, PICTURES, RunDirectory, SCENE, STATES, SUMMARY, remove_if_there,
+    COLLECTION, ENERGIES, PICTURES, PROFILE, RunDirectory, SCENE, STATES, SUMMARY, remove_if_there,
 };
 use super::energies::EnergyTable;
 use super::states::States;
 use super::vtk::{Drawing, collection};
-use super::{RunDirectoryError, Summary};
+use super::{RunDirectoryError, Summary, profile};
+use crate::shape;
 use crate::{Assembly, Record, RunReport, Scene, Trajectory};
 use std::fs;
 use std::io::Write;
@@ -39,14 +40,17 @@ impl RunDirectory {
         let summary = Summary::new(assembly, last, report);
         let table = EnergyTable::new(assembly, records);
         let states = States::new(assembly, records);
+        let along = shape::profile(assembly, &last.state);
         summary.ensure_finite(SUMMARY)?;
         table.ensure_finite(ENERGIES)?;
         states.ensure_finite(STATES)?;
+        profile::ensure_all_finite(&along, PROFILE)?;
 
         remove_if_there(&self.path.join(SUMMARY))?;
         self.write_scene(&assembly.scene)?;
         self.write_file(ENERGIES, |out| table.write(out))?;
         self.write_file(STATES, |out| states.write(out))?;
+        self.write_file(PROFILE, |out| profile::write(&along, out))?;
         self.write_pictures(assembly, records)?;
         self.write_file(SUMMARY, |out| {
             serde_json::to_writer_pretty(&mut *out, &summary)?;
@@ -135,6 +139,11 @@ mod tests {
         assert_eq!(json["work"]["steps"], 12);
         assert_eq!(Scene::from_ron(&read(SCENE)).unwrap(), assembly.scene);
         assert_eq!(read(ENERGIES).lines().count(), 1 + trajectory.records.len());
+        let profile = read(PROFILE);
+        let header = "s_nm,x_nm,y_nm,z_nm,curvature_rad_per_nm,twist_rad_per_nm,\
+                      energy_per_length_pn,section";
+        assert_eq!(profile.lines().next(), Some(header));
+        assert!(profile.contains(",ellipsoids\n") && profile.contains(",rod\n"));
         assert_eq!(read(COLLECTION).matches("<DataSet ").count(), 3);
         let states = fs::File::open(folder.path().join(STATES)).unwrap();
         let mut states = zip::ZipArchive::new(states).unwrap();
@@ -147,7 +156,9 @@ mod tests {
         }
         assert_eq!(
             all_names(folder.path()),
-            [ENERGIES, COLLECTION, SCENE, STATES, SUMMARY, PICTURES]
+            [
+                ENERGIES, PROFILE, COLLECTION, SCENE, STATES, SUMMARY, PICTURES
+            ]
         );
         assert_eq!(all_names(&folder.path().join(PICTURES)).len(), 3);
     }

@@ -154,13 +154,10 @@ impl Estimate {
 
 /// Sets the path of the scene going, if there is one, and returns the time that it takes (ns).
 fn drive(assembly: &mut Assembly) -> f64 {
-    if assembly.drive.is_still() {
+    let Some(ramp) = Ramp::of(assembly) else {
         return 0.0;
-    }
-    let stages = assembly.scene.path.iter();
-    let durations: Vec<f64> = stages.filter_map(|stage| stage.duration_ns).collect();
-    let duration = durations.iter().sum();
-    let ramp = Ramp::new(assembly.drive.clone(), durations);
+    };
+    let duration = ramp.duration();
     assembly.system.set_drive(Box::new(ramp));
     duration
 }

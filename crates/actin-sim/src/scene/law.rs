@@ -73,12 +73,40 @@ pub enum TwistLaw {
         /// Largest twist of the data behind it (rad/nm).
         range_per_nm: f64,
     },
+    /// Saturating, with its own rise to either side.
+    Sided {
+        /// Rigidity at rest (pN nm^2).
+        rest_pn_nm2: f64,
+        /// In under-twist.
+        under: TwistRise,
+        /// In over-twist.
+        over: TwistRise,
+        /// Largest twist of the data behind it (rad/nm).
+        range_per_nm: f64,
+    },
+}
+
+/// One side of a law of twist: the secant gains `rise k^2 / (k^2 + slow |k| + half^2)`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TwistRise {
+    /// What it gains far from rest (pN nm^2).
+    pub rise_pn_nm2: f64,
+    /// Twist at which half is gained if `slow` is none (rad/nm).
+    pub half_per_nm: f64,
+    /// How much the rise is drawn out (rad/nm).
+    pub slow_per_nm: f64,
 }
 
 /// A law of stretch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum StretchLaw {
+    /// One rigidity at every strain, in place of the material's.
+    Constant {
+        /// Rigidity (pN).
+        rigidity_pn: f64,
+    },
     /// One rigidity in tension, another in compression.
     Sided {
         /// Far in tension (pN).
@@ -114,21 +142,17 @@ pub enum TwistStretchLaw {
         /// Largest twist of the data behind it (rad/nm).
         range_per_nm: f64,
     },
-}
-
-impl RodLaws {
-    /// The laws behind [`RodLaw::Fitted`].
-    pub fn fitted() -> Self {
-        Self {
-            bend: Some(BendLaw::Stiffening {
-                rest_pn_nm2: 3.13e4,
-                rise_pn_nm2: 8.4e3,
-                curvature_per_nm: 2.856e-3,
-                twist_per_nm: None,
-                shear: Some(0.01),
-                range_per_nm: 0.02,
-            }),
-            ..Self::default()
-        }
-    }
+    /// `xi - 1 = slope k - bend (sqrt(k^2 + half^2) - half) + cubic k^3`.
+    Rooted {
+        /// Slope at rest (nm/rad).
+        slope_nm: f64,
+        /// Half the difference of the slopes on either side (nm/rad).
+        bend_nm: f64,
+        /// Twist over which one goes over into the other (rad/nm).
+        half_per_nm: f64,
+        /// Coefficient of the cube (nm^3/rad^3).
+        cubic_nm3: f64,
+        /// Largest twist of the data behind it (rad/nm).
+        range_per_nm: f64,
+    },
 }

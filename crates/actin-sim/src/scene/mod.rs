@@ -3,6 +3,7 @@
 //! Reading happens in two steps. RON gives the types below and refuses unknown or missing keys;
 //! [`validate`] then checks what numbers may be. Both report line and column.
 
+pub(crate) mod fitted;
 mod law;
 mod linker;
 mod locate;
@@ -12,7 +13,9 @@ mod read;
 mod types;
 mod validate;
 
-pub use law::{BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistStretchLaw};
+pub use law::{
+    BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw,
+};
 pub use linker::Linker;
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
 pub use problem::{Problem, SceneError};

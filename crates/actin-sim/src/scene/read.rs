@@ -1,6 +1,6 @@
 //! Reading and writing scenes as RON.
 
-use super::{Scene, SceneError, locate, validate::validate};
+use super::{RodLaw, RodLaws, Scene, SceneError, locate, validate::validate};
 use ron::error::{Error as RonError, SpannedError};
 use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
@@ -9,6 +9,20 @@ use ron::ser::PrettyConfig;
 const UNIT_SUFFIXES: [&str; 8] = [
     "_per_ns", "_per_nm", "_nm", "_nm2", "_pn", "_ns", "_deg", "_ag",
 ];
+
+impl RodLaws {
+    /// The laws as a scene writes them after `law:`.
+    ///
+    /// # Panics
+    /// Never: laws hold numbers and names alone.
+    pub fn to_ron(&self) -> String {
+        let law = RodLaw::Laws(Box::new(self.clone()));
+        let config = PrettyConfig::new().depth_limit(4).compact_arrays(true);
+        options()
+            .to_string_pretty(&law, config)
+            .expect("laws hold numbers and names only, which RON can write")
+    }
+}
 
 impl Scene {
     /// Reads and validates a scene.

@@ -2,6 +2,7 @@
 //! plane in which the filament happens to buckle.
 
 use super::case::Case;
+use actin_sim::shape::Ribbon;
 use actin_sim::{Assembly, End, Part};
 use std::ops::ControlFlow;
 
@@ -39,8 +40,18 @@ pub(super) struct Measured {
     pub beyond_per_nm: Option<f64>,
     /// Turns by which the ends have been turned against each other: the change of the link.
     pub link_turns: f64,
+    /// Twist in turns, and writhe of the smoothed centre line, the ends going on straight.
+    pub twist_turns: f64,
+    pub writhe: f64,
     /// The centre line.
     pub centre_line: Vec<Place>,
+}
+
+impl Measured {
+    /// Twist and writhe minus link: what White's formula says is zero.
+    pub(super) fn link_error(&self) -> f64 {
+        self.twist_turns + self.writhe - self.link_turns
+    }
 }
 
 impl Outcome {
@@ -95,6 +106,7 @@ pub(super) fn measure(case: &Case, assembly: &mut Assembly) -> Measured {
     let points = 0..assembly.points.len();
     let line = points.map(|i| assembly.centre_line_nm(state, i));
     let centre_line: Vec<Place> = line.map(Into::into).collect();
+    let ribbon = Ribbon::new(assembly, state);
     let beyond = assembly.beyond_range(state).into_iter();
     Measured {
         height_nm: height(&centre_line),
@@ -103,6 +115,9 @@ pub(super) fn measure(case: &Case, assembly: &mut Assembly) -> Measured {
         energy_pn_nm: elastic(assembly),
         beyond_per_nm: beyond.map(|b| b.value_per_nm.abs()).reduce(f64::max),
         link_turns: f64::from(2 * case.turn_deg) / 360.0,
+        twist_turns: ribbon.twist(),
+        // None is given of curves a hundred times as long.
+        writhe: ribbon.writhe().unwrap_or(f64::NAN),
         centre_line,
     }
 }

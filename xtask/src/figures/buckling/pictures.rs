@@ -32,23 +32,24 @@ fn lines(plan: &Plan, results: &Results, turn: i32, out: &Path) -> Result<Vec<Pi
     let law = rods(plan.figure);
     let front = Chart {
         title: &format!("In each filament's own plane of buckling, {what} at each end"),
-        x_label: "along the axis (nm)",
+        x_label: "along the axis, from the middle (nm)",
         y_label: "in the plane (nm)",
         series: view(plan, results, turn, |p| (p[0], p[1])),
-        equal_axes: true,
+        equal_axes: false,
     };
     let side = Chart {
         title: &format!("From the side of that plane, {what} at each end"),
-        x_label: "along the axis (nm)",
+        x_label: "along the axis, from the middle (nm)",
         y_label: "out of the plane (nm)",
         series: view(plan, results, turn, |p| (p[0], p[2])),
-        equal_axes: true,
+        equal_axes: false,
     };
     let name = Case::turn_name(turn).replace('/', "_");
     let captions = [
         format!(
             "Centre lines, seed 0, {law}; every filament is turned about the axis until its own \
-             plane of buckling lies in the page. Red is all monomers, blue all rod."
+             plane of buckling lies in the page. Red is all monomers, blue all rod. The scales of the \
+             two axes differ."
         ),
         "The same lines from the side: what leaves the plane.".into(),
     ];
@@ -103,27 +104,7 @@ fn against_rod(
     out: &Path,
 ) -> Result<Picture, String> {
     let Observable { name, unit, .. } = observable;
-    let mut series = Vec::new();
-    for (i, (group_name, group)) in plan.groups().into_iter().enumerate() {
-        for &turn in plan.turns.iter().filter(|turn| (**turn > 0) == over) {
-            // Colours by group; the angles of one group are far apart.
-            let share = i as f64 / (plan.groups().len() - 1) as f64;
-            let points = means(plan, results, (group, turn), observable);
-            let label = format!("{} deg, {}", turn.abs(), describe(group_name, group));
-            series.push(Series {
-                label: Some(label),
-                colour: resolution_colour(1.0 - share),
-                points: points.clone(),
-                dots: false,
-            });
-            series.push(Series {
-                label: None,
-                colour: resolution_colour(1.0 - share),
-                points,
-                dots: true,
-            });
-        }
-    }
+    let series = curves(plan, results, observable, over);
     let what = if name == "height" {
         "Largest distance from the axis"
     } else {
@@ -144,6 +125,37 @@ fn against_rod(
         plan.seeds
     );
     Ok(Picture { file, caption })
+}
+
+/// One curve for each group that is drawn and each turn, with its points.
+fn curves(plan: &Plan, results: &Results, observable: Observable, over: bool) -> Vec<Series> {
+    let drawn = |name: &str| plan.figure == Figure::Eight || matches!(name, "" | "standard/");
+    let groups: Vec<_> = plan.groups().into_iter().filter(|g| drawn(g.0)).collect();
+    let turns: Vec<i32> = plan
+        .turns
+        .iter()
+        .copied()
+        .filter(|t| (*t > 0) == over)
+        .collect();
+    let mut series = Vec::new();
+    for (i, &(name, group)) in groups.iter().enumerate() {
+        for (k, &turn) in turns.iter().enumerate() {
+            // From blue for the first group to red for the last; the first turn is the purest.
+            let share = 1.0 - i as f64 / (groups.len() - 1) as f64;
+            let share = share + (0.5 - share) * 0.3 * k as f64;
+            let points = means(plan, results, (group, turn), observable);
+            let label = format!("{} deg, {}", turn.abs(), describe(name, group));
+            let curve = |label, points, dots| Series {
+                label,
+                colour: resolution_colour(share),
+                points,
+                dots,
+            };
+            series.push(curve(Some(label), points.clone(), false));
+            series.push(curve(None, points, true));
+        }
+    }
+    series
 }
 
 fn describe(name: &str, group: Group) -> String {

@@ -6,7 +6,7 @@ use super::outcome::Place;
 ///
 /// The plane is that of the largest second moment of (x, y) about the axis, so the line's offsets
 /// are largest along the first returned coordinate; that coordinate is positive on average.
-/// Returns (along the axis, in the plane, out of it), in nm.
+/// Returns (along the axis from the middle between the ends, in the plane, out of it), in nm.
 pub(super) fn in_own_plane(line: &[Place]) -> Vec<Place> {
     let moment = |product: fn(&Place) -> f64| line.iter().map(product).sum::<f64>();
     let (xx, xy, yy) = (
@@ -18,8 +18,10 @@ pub(super) fn in_own_plane(line: &[Place]) -> Vec<Place> {
     let mean: f64 = line.iter().map(|p| cos * p[0] + sin * p[1]).sum();
     let sign = 1.0_f64.copysign(mean);
     let (sin, cos) = (sign * sin, sign * cos);
+    let ends = line.first().zip(line.last());
+    let middle = ends.map_or(0.0, |(first, last)| 0.5 * (first[2] + last[2]));
     line.iter()
-        .map(|[x, y, z]| [*z, cos * x + sin * y, cos * y - sin * x])
+        .map(|[x, y, z]| [*z - middle, cos * x + sin * y, cos * y - sin * x])
         .collect()
 }
 

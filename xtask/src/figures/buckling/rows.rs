@@ -3,6 +3,7 @@
 use super::case::{Case, Figure, Group, Resolved};
 use super::expected;
 use super::lists::Plan;
+use super::outcome::Outcome;
 use super::results::{OBSERVABLES, Observable, Results, range};
 use crate::figures::report::Row;
 
@@ -10,6 +11,10 @@ use crate::figures::report::Row;
 const HEIGHT_SPREAD_NM: f64 = 1.5;
 /// Largest spread of couples of extended rods at 180 deg of under-twist, relative to the mean.
 const COUPLE_SPREAD: f64 = 0.08;
+/// Smallest spread of heights of rods of constant rigidities that calls for an extension (nm).
+const STANDARD_SPREAD_NM: f64 = 5.0;
+/// Largest deviation of twist plus writhe from link (turns).
+const LINK_ERROR: f64 = 1e-3;
 
 /// Name of the artefact.
 pub(super) fn artefact(figure: Figure) -> &'static str {
@@ -32,8 +37,50 @@ pub(super) fn rows(plan: &Plan, results: &Results) -> Vec<Row> {
             }
         }
     }
+    all.extend(writhes(plan, results));
+    all.extend(link_error(plan.figure, results));
     all.push(uncertified(plan.figure, results));
     all
+}
+
+/// Writhe of every filament of the first group, the sampling with seed 0.
+fn writhes(plan: &Plan, results: &Results) -> Vec<Row> {
+    let turns = plan.turns.iter();
+    let pairs = turns.flat_map(|&turn| plan.resolved.iter().map(move |&r| (turn, r)));
+    let row = |(turn, resolved): (i32, Resolved)| {
+        let m = &results
+            .of(Case::new(plan.main(), resolved, turn, 0))?
+            .measured;
+        let note = format!(
+            "of the smoothed centre line, seed 0; twist {:.4}, link {:.4} turns",
+            m.twist_turns, m.link_turns
+        );
+        let quantity = format!("writhe/{}/{}", Case::turn_name(turn), resolved.name());
+        Some(Row::measured(
+            artefact(plan.figure),
+            quantity,
+            "",
+            m.writhe,
+            note,
+        ))
+    };
+    pairs.filter_map(row).collect()
+}
+
+/// Largest deviation of twist plus writhe from link over all equilibria.
+fn link_error(figure: Figure, results: &Results) -> Option<Row> {
+    let worst = results.outcomes.iter().max_by(|a, b| {
+        let error = |o: &Outcome| o.measured.link_error().abs();
+        error(a).total_cmp(&error(b))
+    })?;
+    let note = format!(
+        "largest of twist plus writhe minus link over {} equilibria, at {}",
+        results.outcomes.len(),
+        worst.case.name()
+    );
+    let value = worst.measured.link_error().abs();
+    let row = Row::measured(artefact(figure), "link_error", "turns", value, note);
+    Some(row.against(0.0, LINK_ERROR))
 }
 
 /// One observable of one filament: the mean over samplings.
@@ -126,6 +173,11 @@ fn spread(
     );
     Some(match (plan.figure, name, observable.name, turn) {
         (Figure::Ten, "", "height", 180 | 270) => row.against(0.0, HEIGHT_SPREAD_NM),
+        (Figure::Ten, "standard/", "height", 180 | 270) => Row {
+            pass: Some(row.ours >= STANDARD_SPREAD_NM),
+            note: format!("at least {STANDARD_SPREAD_NM} nm is expected; {}", row.note),
+            ..row
+        },
         (Figure::Ten, "", "couple", -180) => row.against(0.0, COUPLE_SPREAD),
         _ => row,
     })

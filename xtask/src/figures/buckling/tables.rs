@@ -8,7 +8,7 @@ use super::rows::artefact;
 use crate::figures::report::write_csv;
 use std::path::Path;
 
-const COLUMNS: [&str; 22] = [
+const COLUMNS: [&str; 24] = [
     "rods",
     "clamp",
     "bonds_per_interface",
@@ -20,7 +20,9 @@ const COLUMNS: [&str; 22] = [
     "couple_pn_nm",
     "force_pn",
     "energy_pn_nm",
-    "link_change_turns",
+    "link_turns",
+    "twist_turns",
+    "writhe",
     "beyond_data_per_nm",
     "stable",
     "negative_eigenvalues",
@@ -89,6 +91,8 @@ fn columns(o: &Outcome) -> Vec<String> {
             m.force_pn,
             m.energy_pn_nm,
             m.link_turns,
+            m.twist_turns,
+            m.writhe,
         ]
         .map(number),
     );

@@ -4,7 +4,7 @@ mod ensemble;
 mod lengths;
 mod listings;
 mod loads;
-mod paper;
+pub(crate) mod paper;
 mod parameters;
 mod pictures;
 mod rigidities;

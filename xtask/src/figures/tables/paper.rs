@@ -13,7 +13,7 @@ pub(super) const CURVATURE_ROUNDING: f64 = 5e-5;
 
 /// Which of the two is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Table {
+pub(crate) enum Table {
     /// Secant twisting rigidity (pN nm^2).
     Rigidity,
     /// Relative change of length.
@@ -22,7 +22,7 @@ pub(super) enum Table {
 
 /// One entry of Table 3 or 5.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Entry {
+pub(crate) struct Entry {
     /// Angle (deg), as printed without a sign.
     pub phi_deg: f64,
     /// Curvature (rad/nm), positive in over-twist.
@@ -44,13 +44,13 @@ impl Entry {
     }
 
     /// Whether the paper calls it reliable.
-    pub(super) fn is_reliable(&self) -> bool {
+    pub(crate) fn is_reliable(&self) -> bool {
         self.phi_deg <= RELIABLE_DEG
     }
 }
 
 /// All entries, under-twist first, in ascending order of curvature.
-pub(super) fn entries(table: Table) -> Result<Vec<Entry>, String> {
+pub(crate) fn entries(table: Table) -> Result<Vec<Entry>, String> {
     let text = match table {
         Table::Rigidity => TABLE_3,
         Table::LengthChange => TABLE_5,

@@ -2,9 +2,10 @@
 
 use super::{
     EndReaction, EndReactions, EnergySummary, LinkerSummary, ResidualSummary, RunStatus,
-    StabilitySummary, Summary, WorkSummary,
+    ShapeSummary, StabilitySummary, Summary, WorkSummary,
 };
 use crate::results::energies::{Totals, distinct, sum_where};
+use crate::shape::{self, Ribbon};
 use crate::{Assembly, End, Reaction, Record, RunReport};
 use actin_coupling::Linker;
 use actin_equilibrium::Certificate;
@@ -39,6 +40,7 @@ impl Summary {
                 .iter()
                 .map(|linker| LinkerSummary::new(linker, &last.state))
                 .collect(),
+            shape: ShapeSummary::new(assembly, last),
             residual: ResidualSummary {
                 force_pn: last.residual_force_pn,
                 torque_pn_nm: last.residual_torque_pn_nm,
@@ -100,6 +102,18 @@ impl EndReactions {
         Self {
             start: at(End::Start),
             end: at(End::End),
+        }
+    }
+}
+
+impl ShapeSummary {
+    fn new(assembly: &Assembly, record: &Record) -> Self {
+        let ribbon = Ribbon::new(assembly, &record.state);
+        Self {
+            twist_turns: ribbon.twist(),
+            writhe: ribbon.writhe(),
+            link_turns: shape::link(assembly, record.time_ns),
+            largest_distance_nm: ribbon.largest_distance_nm(),
         }
     }
 }

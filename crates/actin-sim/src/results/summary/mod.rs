@@ -40,6 +40,8 @@ pub struct Summary {
     /// What the linkers do, in the order of the scene.
     #[serde(default)]
     pub linkers: Vec<LinkerSummary>,
+    /// Twist, writhe, link and distance from the axis.
+    pub shape: ShapeSummary,
     /// How far from an equilibrium the last record is.
     pub residual: ResidualSummary,
     /// Lowest eigenvalue of the stiffness; none unless an equilibrium was asked for it.
@@ -113,6 +115,20 @@ pub struct EndReaction {
     pub force_pn: [f64; 3],
     /// Torque on the filament about the clamped point (pN nm, lab frame).
     pub torque_pn_nm: [f64; 3],
+}
+
+/// The shape of the filament, which goes on straight beyond both ends.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShapeSummary {
+    /// Twist from end to end (turns); over-twist is positive.
+    pub twist_turns: f64,
+    /// Writhe of the centre line; none of very many bodies.
+    pub writhe: Option<f64>,
+    /// Turn of the end against the start (turns), which is twist plus writhe; none unless both ends
+    /// are clamped and parallel.
+    pub link_turns: Option<f64>,
+    /// Largest distance of the centre line from the axis as built (nm).
+    pub largest_distance_nm: f64,
 }
 
 /// What a linker does.
@@ -205,6 +221,7 @@ impl Summary {
                 .into_iter()
                 .filter_map(|(k, v)| Some((k.to_owned(), v?))),
         );
+        scalars.extend(self.shape.scalars());
         let eigenvalue = self.lowest_stiffness_eigenvalue.into_iter();
         scalars.extend(eigenvalue.map(|value| ("lowest_stiffness_eigenvalue".to_owned(), value)));
         scalars
@@ -224,6 +241,19 @@ impl Summary {
             vectors.push(("end_reactions.end.torque_pn_nm", end.torque_pn_nm));
         }
         vectors
+    }
+}
+
+impl ShapeSummary {
+    fn scalars(&self) -> impl Iterator<Item = (String, f64)> {
+        let all = [
+            ("shape.twist_turns", Some(self.twist_turns)),
+            ("shape.writhe", self.writhe),
+            ("shape.link_turns", self.link_turns),
+            ("shape.largest_distance_nm", Some(self.largest_distance_nm)),
+        ];
+        all.into_iter()
+            .filter_map(|(key, value)| Some((key.to_owned(), value?)))
     }
 }
 
@@ -257,7 +287,7 @@ mod tests {
         Summary::new(&assembly, &last, &fixture::report())
     }
 
-    const KEYS: [&str; 35] = [
+    const KEYS: [&str; 39] = [
         "/scene",
         "/status",
         "/counts/monomers",
@@ -277,6 +307,10 @@ mod tests {
         "/tip_displacement_nm/2",
         "/end_reactions/start/force_pn/2",
         "/end_reactions/start/torque_pn_nm/2",
+        "/shape/twist_turns",
+        "/shape/writhe",
+        "/shape/link_turns",
+        "/shape/largest_distance_nm",
         "/linkers/0/site_nm/2",
         "/linkers/0/anchor_nm/2",
         "/linkers/0/force_pn/2",

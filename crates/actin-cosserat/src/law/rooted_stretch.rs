@@ -1,0 +1,156 @@
+//! A natural length that bends from one slope in the twist to another.
+
+use crate::ParameterError;
+
+/// Natural over rest length with a slope on either side of rest.
+///
+/// `xi(k) - 1 = slope k - bend (sqrt(k^2 + half^2) - half) + cubic k^3` with the twist `k`
+/// (rad/nm). At rest it is 1. Beyond `range` it goes on with its value and slope there.
+///
+/// # Source
+/// The form follows twisted filaments of monomers (`docs/validation.md`, Figure 9): as long as
+/// both kinds of interface keep their lengths the slope is that of a helix, and which of them gives
+/// way depends on the side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RootedStretch {
+    /// Slope at rest (nm/rad).
+    pub slope: f64,
+    /// Half the difference of the slopes far in under-twist and over-twist (nm/rad).
+    pub bend: f64,
+    /// Twist over which one goes over into the other (rad/nm).
+    pub half: f64,
+    /// Coefficient of the cube (nm^3/rad^3).
+    pub cubic: f64,
+    /// Largest `|k|` (rad/nm) that the data reach.
+    pub range: f64,
+}
+
+impl RootedStretch {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// A `half` or range that is not positive; any other number that is not finite.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        ParameterError::unless_positive("half", self.half)?;
+        ParameterError::unless_positive("range", self.range)?;
+        [
+            ("slope", self.slope),
+            ("bend", self.bend),
+            ("cubic", self.cubic),
+        ]
+        .into_iter()
+        .try_for_each(|(key, value)| ParameterError::unless_finite(key, value))
+    }
+
+    /// `xi - 1`, its first and its second derivative at `k` (rad/nm).
+    ///
+    /// ```
+    /// use actin_cosserat::RootedStretch;
+    /// let law = RootedStretch { slope: -0.3, bend: 0.4, half: 0.03, cubic: 0.0, range: 0.1 };
+    /// // -0.3 x 0.04 - 0.4 (0.05 - 0.03)
+    /// assert!((law.jet(0.04)[0] + 0.02).abs() < 1e-15);
+    /// ```
+    #[inline]
+    pub fn jet(&self, k: f64) -> [f64; 3] {
+        let inside = k.clamp(-self.range, self.range);
+        let root = inside.hypot(self.half);
+        let cube = self.cubic * inside * inside;
+        // sqrt(k^2 + half^2) - half, without its cancellation at small twist.
+        let bent = self.bend * inside * inside / (root + self.half);
+        let value = self.slope * inside - bent + cube * inside;
+        let slope = self.slope - self.bend * inside / root + 3.0 * cube;
+        if k.abs() <= self.range {
+            let second =
+                6.0 * self.cubic * inside - self.bend * self.half * self.half / root.powi(3);
+            [value, slope, second]
+        } else {
+            [value + slope * (k - inside), slope, 0.0]
+        }
+    }
+
+    /// Derivatives of `xi - 1` with respect to `slope`, `bend`, `half` and `cubic`, inside the
+    /// range.
+    pub fn gradient(&self, k: f64) -> [f64; 4] {
+        let root = k.hypot(self.half);
+        let of_half = self.bend * (1.0 - self.half / root);
+        [k, -k * k / (root + self.half), of_half, k * k * k]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use actin_mechanics::testing::derivative;
+
+    const LAW: RootedStretch = RootedStretch {
+        slope: -0.29,
+        bend: 0.46,
+        half: 0.0067,
+        cubic: 28.5,
+        range: 0.0475,
+    };
+
+    #[test]
+    fn jet_holds_the_derivatives_inside_and_beyond() {
+        for k in [-0.1, -0.04, -0.01, 0.0, 0.02, 0.045, 0.2] {
+            let jet = LAW.jet(k);
+            for order in [0, 1] {
+                let slope = derivative(1e-4, |h| LAW.jet(k + h)[order]);
+                let scale = [1.0, 70.0][order];
+                assert!((jet[order + 1] - slope).abs() < 1e-7 * scale, "{k} {order}");
+            }
+        }
+    }
+
+    #[test]
+    fn gradient_in_the_parameters() {
+        for k in [-0.03, -1e-3, 0.01, 0.04] {
+            let with = |i: usize, h: f64| {
+                let mut moved = LAW;
+                let places = [
+                    &mut moved.slope,
+                    &mut moved.bend,
+                    &mut moved.half,
+                    &mut moved.cubic,
+                ];
+                *places.into_iter().nth(i).unwrap() += h;
+                moved.jet(k)[0]
+            };
+            for (i, value) in LAW.gradient(k).into_iter().enumerate() {
+                let slope = derivative(1e-4, |h| with(i, h));
+                assert!((value - slope).abs() < 1e-8, "{k} {i}");
+            }
+        }
+    }
+
+    #[test]
+    fn bad_numbers_are_refused() {
+        for (key, law) in [
+            (
+                "slope",
+                RootedStretch {
+                    slope: f64::NAN,
+                    ..LAW
+                },
+            ),
+            (
+                "bend",
+                RootedStretch {
+                    bend: f64::INFINITY,
+                    ..LAW
+                },
+            ),
+            ("half", RootedStretch { half: 0.0, ..LAW }),
+            (
+                "cubic",
+                RootedStretch {
+                    cubic: f64::NAN,
+                    ..LAW
+                },
+            ),
+            ("range", RootedStretch { range: -1.0, ..LAW }),
+        ] {
+            assert_eq!(law.validate().unwrap_err().key, key);
+        }
+    }
+}

@@ -1,0 +1,284 @@
+//! A twisting rigidity that rises from its value at rest, differently to either side.
+
+use crate::ParameterError;
+
+/// A secant twisting rigidity that saturates on either side of rest.
+///
+/// `B3(k) = rest + rise k^2 / (k^2 + slow |k| + half^2)` with its own `rise`, `half` and `slow`
+/// for over-twist (`k > 0`) and under-twist. The couple is `B3(k) k` and has two continuous
+/// derivatives at rest; the energy per length is its integral, in closed form. Beyond `range` the
+/// couple goes on with its value and slope there.
+///
+/// # Source
+/// The form follows twisted filaments of monomers: next to nothing resists small twist, and what
+/// does at large twist is reached sooner in under-twist (`docs/validation.md`, Figure 9).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SidedTwist {
+    /// Rigidity at rest (pN nm^2).
+    pub rest: f64,
+    /// What is gained in under-twist.
+    pub under: TwistRise,
+    /// What is gained in over-twist.
+    pub over: TwistRise,
+    /// Largest `|k|` (rad/nm) that the data reach.
+    pub range: f64,
+}
+
+/// One side of a [`SidedTwist`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwistRise {
+    /// What the rigidity gains far from rest (pN nm^2).
+    pub rise: f64,
+    /// Twist at which half is gained if `slow` is none (rad/nm).
+    pub half: f64,
+    /// How much the rise is drawn out (rad/nm).
+    pub slow: f64,
+}
+
+impl TwistRise {
+    fn validate(&self) -> Result<(), ParameterError> {
+        ParameterError::unless_positive("rise", self.rise)?;
+        ParameterError::unless_positive("half", self.half)?;
+        if self.slow >= 0.0 && self.slow.is_finite() {
+            return Ok(());
+        }
+        let (key, value, rule) = ("slow", self.slow, "finite and not negative");
+        Err(ParameterError { key, value, rule })
+    }
+
+    /// `k^2 + slow k + half^2` for `k >= 0`.
+    #[inline]
+    fn denominator(&self, k: f64) -> f64 {
+        k * (k + self.slow) + self.half * self.half
+    }
+
+    /// `int_0^k s^3 / denominator(s) ds` for `k >= 0`, from partial fractions.
+    fn moment(&self, k: f64) -> f64 {
+        let (slow, half2) = (self.slow, self.half * self.half);
+        let excess = slow * slow - half2;
+        let logarithm = (k * (k + slow) / half2).ln_1p();
+        // int ds / denominator = 2 t artanh(sqrt(d) t) / (sqrt(d) t), also for negative d.
+        let t = k / (2.0 * half2 + slow * k);
+        let rest = 2.0 * t * artanh_over((slow * slow - 4.0 * half2) * t * t);
+        0.5 * k * k - slow * k + 0.5 * excess * logarithm + slow * (half2 - 0.5 * excess) * rest
+    }
+}
+
+/// `artanh(sqrt z) / sqrt z`, which is `atan(sqrt -z) / sqrt -z` for negative `z`.
+fn artanh_over(z: f64) -> f64 {
+    if z.abs() < 1e-3 {
+        // The first neglected term, z^6/13, is below round-off.
+        1.0 + z * (1.0 / 3.0 + z * (0.2 + z * (1.0 / 7.0 + z * (1.0 / 9.0 + z / 11.0))))
+    } else if z > 0.0 {
+        z.sqrt().atanh() / z.sqrt()
+    } else {
+        (-z).sqrt().atan() / (-z).sqrt()
+    }
+}
+
+impl SidedTwist {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// A rise, half or range that is not positive; a negative `rest` or `slow`.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        if !(self.rest >= 0.0 && self.rest.is_finite()) {
+            let (key, value, rule) = ("rest", self.rest, "finite and not negative");
+            return Err(ParameterError { key, value, rule });
+        }
+        self.under.validate()?;
+        self.over.validate()?;
+        ParameterError::unless_positive("range", self.range)
+    }
+
+    #[inline]
+    fn side(&self, k: f64) -> &TwistRise {
+        if k < 0.0 { &self.under } else { &self.over }
+    }
+
+    /// Couple by the formula (pN nm).
+    #[inline]
+    fn inner_couple(&self, k: f64) -> f64 {
+        let (side, a) = (self.side(k), k.abs());
+        k * (self.rest + side.rise * a * a / side.denominator(a))
+    }
+
+    #[inline]
+    fn inner_tangent(&self, k: f64) -> f64 {
+        let (side, a) = (self.side(k), k.abs());
+        let over = side.denominator(a).recip();
+        let share = a * a * over;
+        // d(k^3/D)/dk = 3 k^2/D - k^3 (2k + slow)/D^2
+        self.rest + side.rise * share * (3.0 - a * (2.0 * a + side.slow) * over)
+    }
+
+    /// Secant rigidity (pN nm^2): couple over twist.
+    ///
+    /// ```
+    /// use actin_cosserat::{SidedTwist, TwistRise};
+    /// let side = TwistRise { rise: 1.2e4, half: 0.01, slow: 0.0 };
+    /// let law = SidedTwist { rest: 300.0, under: side, over: side, range: 0.05 };
+    /// assert!((law.secant(0.01) - 6300.0).abs() < 1e-9);
+    /// ```
+    pub fn secant(&self, k: f64) -> f64 {
+        if k == 0.0 {
+            self.rest
+        } else {
+            self.couple(k) / k
+        }
+    }
+
+    /// Derivatives of the secant with respect to `rest`, then `rise`, `half` and `slow` of
+    /// under-twist, then those of over-twist; inside the range.
+    pub fn secant_gradient(&self, k: f64) -> [f64; 7] {
+        let (side, a) = (self.side(k), k.abs());
+        let over = side.denominator(a).recip();
+        let share = a * a * over;
+        let of_denominator = -side.rise * share * over;
+        let own = [share, of_denominator * 2.0 * side.half, of_denominator * a];
+        let [rise, half, slow] = own;
+        if k < 0.0 {
+            [1.0, rise, half, slow, 0.0, 0.0, 0.0]
+        } else {
+            [1.0, 0.0, 0.0, 0.0, rise, half, slow]
+        }
+    }
+
+    /// Couple (pN nm) at twist `k` (rad/nm).
+    #[inline]
+    pub fn couple(&self, k: f64) -> f64 {
+        let inside = k.clamp(-self.range, self.range);
+        let couple = self.inner_couple(inside);
+        if k.abs() <= self.range {
+            couple
+        } else {
+            couple + self.inner_tangent(inside) * (k - inside)
+        }
+    }
+
+    /// Derivative of the couple (pN nm^2).
+    #[inline]
+    pub fn tangent(&self, k: f64) -> f64 {
+        self.inner_tangent(k.clamp(-self.range, self.range))
+    }
+
+    /// Energy per length (pN): the integral of the couple from 0 to `k`, to round-off.
+    pub fn energy_density(&self, k: f64) -> f64 {
+        let inside = k.clamp(-self.range, self.range);
+        let side = self.side(k);
+        let energy = 0.5 * self.rest * inside * inside + side.rise * side.moment(inside.abs());
+        let beyond = k - inside;
+        energy + beyond * (self.inner_couple(inside) + 0.5 * beyond * self.tangent(k))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::law::tanh_twist::tests::integral;
+    use actin_mechanics::testing::derivative;
+
+    /// With a positive, a negative and no discriminant of the denominator.
+    fn laws() -> [SidedTwist; 3] {
+        [0.0192, 0.005, 0.018].map(|slow| SidedTwist {
+            rest: 272.0,
+            under: TwistRise {
+                rise: 1.29e4,
+                half: 0.009,
+                slow,
+            },
+            over: TwistRise {
+                rise: 2.2e4,
+                half: 0.0119,
+                slow: 0.0163,
+            },
+            range: 0.0475,
+        })
+    }
+
+    #[test]
+    fn energy_is_the_integral_of_the_couple() {
+        for law in laws() {
+            for k in [-0.0475, -0.02, -0.003, 0.001, 0.01, 0.04] {
+                let expected = integral(k, |s| law.couple(s));
+                let error = (law.energy_density(k) - expected).abs();
+                // Of terms of order rise slow k that cancel at small twist.
+                assert!(error < 1e-14 * 2e4 * 0.02 * f64::abs(k), "{k}: {error:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn tangent_is_the_slope_of_the_couple_and_both_go_on_beyond_the_range() {
+        for law in laws() {
+            for k in [-0.2, -0.03, -0.01, 0.004, 0.02, 0.045, 0.1] {
+                let slope = derivative(1e-5, |h| law.couple(k + h));
+                assert!((law.tangent(k) - slope).abs() < 1e-7 * 2e4, "{k}");
+            }
+            let (k, range) = (0.2, law.range);
+            let expected = law.couple(range) + law.tangent(range) * (k - range);
+            assert!((law.couple(k) - expected).abs() < 1e-10);
+            assert!((law.tangent(0.0) - law.rest).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn gradient_in_the_parameters() {
+        let law = laws()[0];
+        let with = |i: usize, h: f64| {
+            let mut moved = law;
+            let places = [
+                &mut moved.rest,
+                &mut moved.under.rise,
+                &mut moved.under.half,
+                &mut moved.under.slow,
+                &mut moved.over.rise,
+                &mut moved.over.half,
+                &mut moved.over.slow,
+            ];
+            *places.into_iter().nth(i).unwrap() += h;
+            moved
+        };
+        for k in [-0.03, -0.004, 0.01, 0.04] {
+            for (i, value) in law.secant_gradient(k).into_iter().enumerate() {
+                let h = if [2, 3, 5, 6].contains(&i) { 1e-4 } else { 1.0 };
+                let slope = derivative(h, |d| with(i, d).secant(k));
+                assert!((value - slope).abs() < 1e-7 * value.abs() + 1e-9, "{k} {i}");
+            }
+        }
+    }
+
+    #[test]
+    fn bad_numbers_are_refused() {
+        let law = laws()[0];
+        let over = |over| SidedTwist { over, ..law };
+        for (key, law) in [
+            ("rest", SidedTwist { rest: -1.0, ..law }),
+            (
+                "rise",
+                over(TwistRise {
+                    rise: 0.0,
+                    ..law.over
+                }),
+            ),
+            (
+                "half",
+                over(TwistRise {
+                    half: f64::NAN,
+                    ..law.over
+                }),
+            ),
+            (
+                "slow",
+                over(TwistRise {
+                    slow: -1.0,
+                    ..law.over
+                }),
+            ),
+            ("range", SidedTwist { range: 0.0, ..law }),
+        ] {
+            assert_eq!(law.validate().unwrap_err().key, key);
+        }
+        assert_eq!(law.validate(), Ok(()));
+    }
+}

@@ -1,0 +1,150 @@
+//! QR of a matrix with scaled columns, and what its singular values say.
+
+use crate::error::FitError;
+use faer::linalg::solvers::{Qr, SolveLstsq, Svd};
+use faer::{Mat, MatRef};
+
+/// Part of a parameter in the directions of which the data say nothing, above which it is not
+/// determined. Singular vectors are known to about 1e-16 over the tolerance of the rank, at worst
+/// 1e-4 of this.
+const PARTICIPATION: f64 = 1e-6;
+
+/// `A = Q R D`, with columns of unit length in `Q R`, and the singular values of `R`.
+#[derive(Debug)]
+pub(crate) struct Factor {
+    qr: Qr<f64>,
+    /// Lengths of the columns, the diagonal of `D`; 1 for columns that count as zero.
+    lengths: Vec<f64>,
+    singular: Vec<f64>,
+    right: Mat<f64>,
+    rank: usize,
+}
+
+impl Factor {
+    /// Factors a matrix with at least as many rows as columns.
+    ///
+    /// Singular values below `tolerance` times the largest count as zero. So do columns for which
+    /// length times unit is below `tolerance` times the largest such product: what a parameter
+    /// changes is then rounding, however it is scaled.
+    ///
+    /// # Errors
+    /// If the singular values are not found, which needs a matrix that is not finite.
+    pub(crate) fn new(
+        matrix: MatRef<'_, f64>,
+        units: &[f64],
+        tolerance: f64,
+    ) -> Result<Self, FitError> {
+        let lengths = column_lengths(matrix, units, tolerance);
+        let scaled = Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
+            lengths[j].map_or(0.0, |length| matrix[(i, j)] / length)
+        });
+        let qr = Qr::new(scaled.as_ref());
+        let (singular, right) = singular(qr.thin_R())?;
+        let least = tolerance * singular.first().copied().unwrap_or(0.0);
+        let rank = singular.iter().take_while(|s| **s > least).count();
+        Ok(Self {
+            qr,
+            lengths: lengths.iter().map(|l| l.unwrap_or(1.0)).collect(),
+            singular,
+            right,
+            rank,
+        })
+    }
+
+    pub(crate) fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// Largest over smallest singular value of the scaled matrix.
+    pub(crate) fn condition(&self) -> f64 {
+        match (self.singular.first(), self.singular.last()) {
+            (Some(largest), Some(smallest)) => largest / smallest,
+            _ => 1.0,
+        }
+    }
+
+    /// The `z` that makes `|A z - right|` least; needs full rank.
+    pub(crate) fn solve(&self, right: &[f64]) -> Vec<f64> {
+        let right = Mat::from_fn(right.len(), 1, |i, _| right[i]);
+        let scaled = self.qr.solve_lstsq(&right);
+        (0..self.lengths.len())
+            .map(|j| scaled[(j, 0)] / self.lengths[j])
+            .collect()
+    }
+
+    /// Whether each column is determined: whether it has no part in the directions that count as
+    /// zero.
+    pub(crate) fn determined(&self) -> Vec<bool> {
+        let n = self.lengths.len();
+        (0..n)
+            .map(|j| {
+                let part: f64 = (self.rank..n).map(|k| self.right[(j, k)].powi(2)).sum();
+                part.sqrt() <= PARTICIPATION
+            })
+            .collect()
+    }
+
+    /// `(A^T A)^-1` on what is determined; zero in rows and columns of what is not.
+    pub(crate) fn inverse_normal(&self) -> Mat<f64> {
+        let n = self.lengths.len();
+        let determined = self.determined();
+        Mat::from_fn(n, n, |i, j| {
+            if !(determined[i] && determined[j]) {
+                return 0.0;
+            }
+            let sum: f64 = (0..self.rank)
+                .map(|k| {
+                    self.right[(i, k)] / self.singular[k] * self.right[(j, k)] / self.singular[k]
+                })
+                .sum();
+            sum / self.lengths[i] / self.lengths[j]
+        })
+    }
+}
+
+/// Length of each column; `None` where it counts as zero.
+fn column_lengths(matrix: MatRef<'_, f64>, units: &[f64], tolerance: f64) -> Vec<Option<f64>> {
+    let lengths: Vec<f64> = (0..matrix.ncols())
+        .map(|j| matrix.col(j).norm_l2())
+        .collect();
+    let effects: Vec<f64> = lengths.iter().zip(units).map(|(l, u)| l * u).collect();
+    let largest = effects.iter().copied().fold(0.0, f64::max);
+    lengths
+        .iter()
+        .zip(&effects)
+        .map(|(&length, &effect)| (effect > tolerance * largest).then_some(length))
+        .collect()
+}
+
+/// Singular values, largest first, and right singular vectors.
+fn singular(triangle: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), FitError> {
+    let (rows, columns) = triangle.shape();
+    if columns == 0 {
+        return Ok((Vec::new(), Mat::zeros(0, 0)));
+    }
+    let svd = Svd::new(triangle).map_err(|_| FitError::NoSingularValues { rows, columns })?;
+    let values = svd.S().column_vector().iter().copied().collect();
+    Ok((values, svd.V().to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A column of rounding errors would become a good one by scaling. Over the range of its
+    /// parameter it changes nothing, so it counts as zero, unless that range is large.
+    #[test]
+    fn a_column_of_rounding_counts_as_zero() {
+        let matrix = Mat::from_fn(
+            3,
+            2,
+            |i, j| {
+                if j == 0 { 1.0 } else { [1e-16, -1e-16, 0.0][i] }
+            },
+        );
+        let small = Factor::new(matrix.as_ref(), &[1.0, 1.0], 1e-12).unwrap();
+        assert_eq!((small.rank(), small.determined()), (1, vec![true, false]));
+        let large = Factor::new(matrix.as_ref(), &[1.0, 1e16], 1e-12).unwrap();
+        assert_eq!((large.rank(), large.determined()), (2, vec![true, true]));
+    }
+}

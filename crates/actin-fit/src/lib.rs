@@ -1,0 +1,46 @@
+//! Least squares: functions, data, and how well the data determine what was fitted.
+//!
+//! [`fit_linear`] solves linear problems by QR, [`Polynomial`] the ones with powers.
+//! [`LevenbergMarquardt`] fits a [`Model`] within [`Bounds`] from several [`Starts`]. A fit comes
+//! with covariance, residuals, what ended each search, and which parameters the data determine.
+//!
+//! This crate knows functions and data, not what they stand for.
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+mod bounds;
+mod data;
+mod descent;
+mod error;
+mod factor;
+mod gradient_check;
+mod levenberg;
+mod linear;
+mod model;
+mod observations;
+mod options;
+mod polynomial;
+mod precision;
+mod problem;
+mod report;
+mod starts;
+mod step;
+
+pub use bounds::Bounds;
+pub use data::Data;
+pub use error::FitError;
+pub use gradient_check::{GradientCheck, check_gradient};
+pub use levenberg::LevenbergMarquardt;
+pub use linear::{LinearFit, fit_linear};
+pub use model::{ClosureModel, Model};
+pub use observations::{Noise, Observations};
+pub use options::Options;
+pub use polynomial::Polynomial;
+pub use precision::{Goodness, Precision};
+pub use report::{Ending, Fit, StartReport, Status};
+pub use starts::Starts;
+
+/// The matrices of this crate: `matrix[(row, column)]`.
+pub use faer::{Mat, MatRef};

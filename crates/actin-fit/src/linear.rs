@@ -1,0 +1,113 @@
+//! Linear least squares.
+
+use crate::error::{FitError, all_finite, enough_points, same_length};
+use crate::factor::Factor;
+use crate::observations::Observations;
+use crate::precision::{Goodness, Precision};
+use faer::{Mat, MatRef};
+
+/// A linear fit: parameters, how well they are known and how well the data are met.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearFit {
+    /// The parameters, one for each column of the design.
+    pub parameters: Vec<f64>,
+    /// How well they are known.
+    pub precision: Precision,
+    /// How well the data are met.
+    pub goodness: Goodness,
+}
+
+/// The parameters `p` that make `sum_i ((y_i - sum_j A_ij p_j) / sigma_i)^2` least.
+///
+/// Shapes: `m` observations and `n` columns -> `n` parameters. Solved by QR of the weighted
+/// design, its columns scaled to unit length. Digits lost are about those of the condition number
+/// that is reported, not of its square, as with normal equations. Rank is told from singular
+/// values, which count as zero below `max(m, n)` units of rounding.
+///
+/// ```
+/// use actin_fit::{Mat, Observations, fit_linear};
+///
+/// // The mean of 1, 2 and 6, and its standard error sqrt(7) / sqrt(3).
+/// let ones = Mat::full(3, 1, 1.0);
+/// let fit = fit_linear(ones.as_ref(), &Observations::new(&[1.0, 2.0, 6.0])?)?;
+/// assert!((fit.parameters[0] - 3.0).abs() < 1e-14);
+/// let error = fit.precision.standard_error(0).unwrap();
+/// assert!((error * error - 7.0 / 3.0).abs() < 1e-14);
+/// # Ok::<(), actin_fit::FitError>(())
+/// ```
+///
+/// # Errors
+/// If the design does not match the observations or is not finite, there are too few points, or its
+/// rank is deficient.
+///
+/// # Source
+/// Golub and Van Loan, Matrix Computations (2013), 5.3; Bjorck, Numerical Methods for Least Squares
+/// Problems (1996), 2.8.
+pub fn fit_linear(
+    design: MatRef<'_, f64>,
+    observations: &Observations,
+) -> Result<LinearFit, FitError> {
+    let (points, parameters) = design.shape();
+    same_length("rows of the design", observations.len(), points)?;
+    for j in 0..parameters {
+        let column: Vec<f64> = design.col(j).iter().copied().collect();
+        all_finite("design row", &column)?;
+    }
+    enough_points(points, observations.needed(parameters))?;
+
+    let deviations = observations.deviations();
+    let weighted = Mat::from_fn(points, parameters, |i, j| design[(i, j)] / deviations[i]);
+    let tolerance = points as f64 * f64::EPSILON;
+    // A column counts as zero only if it is zero: units are not known here.
+    let units: Vec<f64> = (0..parameters)
+        .map(|j| 1.0 / weighted.col(j).norm_l2().max(f64::MIN_POSITIVE))
+        .collect();
+    let factor = Factor::new(weighted.as_ref(), &units, tolerance)?;
+    full_rank(&factor, parameters)?;
+
+    let right: Vec<f64> = observations
+        .values()
+        .iter()
+        .zip(deviations)
+        .map(|(y, deviation)| y / deviation)
+        .collect();
+    let solution = factor.solve(&right);
+    Ok(report(design, observations, &factor, solution))
+}
+
+fn full_rank(factor: &Factor, parameters: usize) -> Result<(), FitError> {
+    if factor.rank() == parameters {
+        return Ok(());
+    }
+    let determined = factor.determined();
+    Err(FitError::RankDeficient {
+        rank: factor.rank(),
+        parameters,
+        undetermined: (0..parameters).filter(|&j| !determined[j]).collect(),
+    })
+}
+
+fn report(
+    design: MatRef<'_, f64>,
+    observations: &Observations,
+    factor: &Factor,
+    parameters: Vec<f64>,
+) -> LinearFit {
+    let residuals = observations
+        .values()
+        .iter()
+        .enumerate()
+        .map(|(i, y)| {
+            let terms = parameters.iter().enumerate();
+            y - terms.map(|(j, p)| design[(i, j)] * p).sum::<f64>()
+        })
+        .collect();
+    let goodness = Goodness::new(residuals, observations, factor.rank());
+    let columns: Vec<usize> = (0..parameters.len()).collect();
+    let noise = observations.noise();
+    LinearFit {
+        precision: Precision::new(columns.len(), &columns, factor, &goodness, noise),
+        parameters,
+        goodness,
+    }
+}

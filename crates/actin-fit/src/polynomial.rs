@@ -1,0 +1,108 @@
+//! Polynomials as linear models.
+
+use crate::data::Data;
+use crate::error::{FitError, same_length};
+use crate::linear::{LinearFit, fit_linear};
+use faer::Mat;
+
+/// A polynomial of one variable, with or without a constant term.
+///
+/// ```
+/// use actin_fit::{Data, Observations, Polynomial};
+///
+/// // 2 x + x^2 at 1, 2, 3, 4.
+/// let data = Data::new(&[1.0, 2.0, 3.0, 4.0], Observations::new(&[3.0, 8.0, 15.0, 24.0])?)?;
+/// let polynomial = Polynomial::without_constant(2);
+/// let fit = polynomial.fit(&data)?;
+/// assert!((fit.parameters[0] - 2.0).abs() < 1e-12);
+/// assert!((polynomial.value(&fit.parameters, 5.0) - 35.0).abs() < 1e-12);
+/// # Ok::<(), actin_fit::FitError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Polynomial {
+    lowest: i32,
+    degree: i32,
+}
+
+impl Polynomial {
+    /// `p_0 + p_1 x + ... + p_degree x^degree`.
+    pub fn new(degree: u8) -> Self {
+        Self {
+            lowest: 0,
+            degree: i32::from(degree),
+        }
+    }
+
+    /// `p_1 x + ... + p_degree x^degree`, which vanishes at zero.
+    pub fn without_constant(degree: u8) -> Self {
+        Self {
+            lowest: 1,
+            degree: i32::from(degree),
+        }
+    }
+
+    /// The powers, one for each coefficient.
+    pub fn powers(&self) -> impl Iterator<Item = i32> + use<> {
+        self.lowest..=self.degree
+    }
+
+    /// Number of coefficients.
+    pub fn coefficients(&self) -> usize {
+        self.powers().count()
+    }
+
+    /// Fits the coefficients of the powers of `x`, lowest first.
+    ///
+    /// The variable is scaled by a power of two, so that no power overflows and no digit is lost.
+    /// The scaled columns of a design of high degree, far from zero, still depend on one another:
+    /// the condition number of the fit says how much.
+    ///
+    /// # Errors
+    /// As [`fit_linear`]; if the data have more than one independent variable.
+    pub fn fit(&self, data: &Data) -> Result<LinearFit, FitError> {
+        same_length("a row of x", 1, data.width())?;
+        let scale = power_of_two(data.rows());
+        let powers: Vec<i32> = self.powers().collect();
+        let design = Mat::from_fn(data.len(), powers.len(), |i, j| {
+            (data.row(i)[0] / scale).powi(powers[j])
+        });
+        let mut fit = fit_linear(design.as_ref(), data.observations())?;
+        let factors: Vec<f64> = powers.iter().map(|&k| scale.powi(-k)).collect();
+        for (p, factor) in fit.parameters.iter_mut().zip(&factors) {
+            *p *= factor;
+        }
+        let covariance = &fit.precision.covariance;
+        fit.precision.covariance = Mat::from_fn(powers.len(), powers.len(), |i, j| {
+            covariance[(i, j)] * factors[i] * factors[j]
+        });
+        Ok(fit)
+    }
+
+    /// The polynomial with these coefficients at `x`, by Horner's rule.
+    ///
+    /// # Panics
+    /// If the number of coefficients is not that of the polynomial.
+    pub fn value(&self, coefficients: &[f64], x: f64) -> f64 {
+        assert_eq!(coefficients.len(), self.coefficients(), "coefficients");
+        let sum = coefficients.iter().rev().fold(0.0, |sum, p| sum * x + p);
+        sum * x.powi(self.lowest)
+    }
+
+    /// Derivatives of the value at `x` by the coefficients: the powers of `x`.
+    pub fn gradient(&self, x: f64) -> Vec<f64> {
+        self.powers().map(|k| x.powi(k)).collect()
+    }
+}
+
+/// The power of two next above the largest size; 1 where all is zero.
+fn power_of_two(x: &[f64]) -> f64 {
+    let largest = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let mut scale = 1.0;
+    while scale < largest {
+        scale *= 2.0;
+    }
+    while largest > 0.0 && scale >= 2.0 * largest {
+        scale *= 0.5;
+    }
+    scale
+}

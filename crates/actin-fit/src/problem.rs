@@ -1,0 +1,143 @@
+//! A model on data: weighted residuals, chi squared and its linearisation.
+
+use crate::bounds::Bounds;
+use crate::data::Data;
+use crate::model::Model;
+use faer::linalg::solvers::Qr;
+use faer::{Mat, MatRef};
+
+/// A model, data and bounds that belong together.
+pub(crate) struct Problem<'a> {
+    pub(crate) model: &'a dyn Model,
+    pub(crate) data: &'a Data,
+    pub(crate) bounds: &'a Bounds,
+}
+
+impl Problem<'_> {
+    /// Writes `(y_i - f(x_i)) / sigma_i`; returns their sum of squares.
+    pub(crate) fn residuals(&self, p: &[f64], residuals: &mut [f64]) -> f64 {
+        let observations = self.data.observations();
+        let measured = observations.values().iter().zip(observations.deviations());
+        let mut sum = 0.0;
+        for (i, (residual, (y, deviation))) in residuals.iter_mut().zip(measured).enumerate() {
+            *residual = (y - self.model.value(self.data.row(i), p)) / deviation;
+            sum += *residual * *residual;
+        }
+        sum
+    }
+
+    /// Derivatives of the model by the parameters over deviations; one row for each point.
+    pub(crate) fn derivatives(&self, p: &[f64]) -> Mat<f64> {
+        let deviations = self.data.observations().deviations();
+        let mut matrix = Mat::zeros(self.data.len(), p.len());
+        let mut gradient = vec![0.0; p.len()];
+        for (i, deviation) in deviations.iter().enumerate() {
+            self.model.gradient(self.data.row(i), p, &mut gradient);
+            for (j, g) in gradient.iter().enumerate() {
+                matrix[(i, j)] = g / deviation;
+            }
+        }
+        matrix
+    }
+
+    /// Rounding error of chi squared: that of the weighted observations, times twice the residuals.
+    pub(crate) fn rounding(&self, chi_squared: f64) -> f64 {
+        2.0 * ROUNDINGS * f64::EPSILON * self.size() * chi_squared.sqrt() + self.least()
+    }
+
+    /// Chi squared that rounding alone leaves.
+    pub(crate) fn least(&self) -> f64 {
+        (ROUNDINGS * f64::EPSILON * self.size()).powi(2)
+    }
+
+    /// Length of the vector of weighted observations.
+    fn size(&self) -> f64 {
+        let observations = self.data.observations();
+        let measured = observations.values().iter().zip(observations.deviations());
+        let sum: f64 = measured.map(|(y, s)| (y / s).powi(2)).sum();
+        sum.sqrt()
+    }
+
+    /// A length that counts as large for each parameter: the distance of its bounds, or else its
+    /// value.
+    pub(crate) fn units(&self, p: &[f64]) -> Vec<f64> {
+        let unit = |(j, v): (usize, &f64)| match self.bounds.width(j) {
+            width if width.is_finite() && width > 0.0 => width,
+            _ if *v != 0.0 => v.abs(),
+            _ => 1.0,
+        };
+        p.iter().enumerate().map(unit).collect()
+    }
+}
+
+/// Roundings that one value of a model takes, as a guess: a few function calls.
+const ROUNDINGS: f64 = 4.0;
+
+/// The residuals near a point, `|r - A s|^2 = |c - R s|^2 + constant`, `R` with as many rows as
+/// there are parameters, or points if they are fewer.
+#[derive(Debug)]
+pub(crate) struct Linearisation {
+    pub(crate) triangle: Mat<f64>,
+    pub(crate) rotated: Vec<f64>,
+    /// Lengths of the columns of `A`.
+    pub(crate) lengths: Vec<f64>,
+    /// `A^T r`: minus half the gradient of chi squared.
+    pub(crate) descent: Vec<f64>,
+}
+
+impl Linearisation {
+    /// Reduces derivatives and residuals; `None` if a number is not finite.
+    pub(crate) fn new(matrix: MatRef<'_, f64>, residuals: &[f64]) -> Option<Self> {
+        let (points, n) = matrix.shape();
+        let lengths: Vec<f64> = (0..n).map(|j| matrix.col(j).norm_l2()).collect();
+        if !lengths.iter().all(|l| l.is_finite()) {
+            return None;
+        }
+        let descent = (0..n)
+            .map(|j| {
+                matrix
+                    .col(j)
+                    .iter()
+                    .zip(residuals)
+                    .map(|(a, r)| a * r)
+                    .sum()
+            })
+            .collect();
+        let joined = Mat::from_fn(points, n + 1, |i, j| {
+            if j < n { matrix[(i, j)] } else { residuals[i] }
+        });
+        let qr = Qr::new(joined.as_ref());
+        let rows = n.min(points);
+        Some(Self {
+            triangle: qr.thin_R().get(..rows, ..n).to_owned(),
+            rotated: (0..rows).map(|i| qr.thin_R()[(i, n)]).collect(),
+            lengths,
+            descent,
+        })
+    }
+
+    /// `c - R s`.
+    pub(crate) fn remainder(&self, step: &[f64]) -> Vec<f64> {
+        let row = |i: usize| {
+            let terms = step.iter().enumerate();
+            self.rotated[i] - terms.map(|(j, s)| self.triangle[(i, j)] * s).sum::<f64>()
+        };
+        (0..self.rotated.len()).map(row).collect()
+    }
+
+    /// Decrease of chi squared that the linearisation promises for a step.
+    pub(crate) fn promised(&self, step: &[f64]) -> f64 {
+        let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
+        square(&self.rotated) - square(&self.remainder(step))
+    }
+
+    /// Cosine between the residuals, of squared length `chi_squared`, and the effect of a parameter.
+    pub(crate) fn cosine(&self, parameter: usize, chi_squared: f64) -> f64 {
+        let product = self.lengths[parameter] * chi_squared.sqrt();
+        if product > 0.0 {
+            self.descent[parameter] / product
+        } else {
+            0.0
+        }
+    }
+}

@@ -1,0 +1,271 @@
+//! Linear least squares: exact recovery, normal equations, weights, rank and refusals.
+
+mod common;
+
+use actin_fit::{Data, FitError, Mat, Observations, Polynomial, fit_linear};
+use common::{Gauss, places};
+use proptest::prelude::*;
+
+fn observations(y: &[f64]) -> Observations {
+    Observations::new(y).unwrap()
+}
+
+proptest! {
+    /// Data of a polynomial give back its coefficients, whatever the units of x: an error of
+    /// the scaling is a power of the scale.
+    #[test]
+    fn polynomials_are_recovered(
+        p in prop::collection::vec(-1.0..1.0_f64, 5),
+        size in prop::sample::select(vec![1e-40_f64, 0.03, 1.0, 700.0, 1e40]),
+        constant in any::<bool>(),
+    ) {
+        let polynomial = if constant { Polynomial::new(4) } else { Polynomial::without_constant(5) };
+        // Each term counts as much at the end of the range, in any unit.
+        let p: Vec<f64> = p.iter().zip(polynomial.powers()).map(|(p, k)| p * size.powi(-k)).collect();
+        let x: Vec<f64> = places(-1.0, 1.0, 17).iter().map(|x| x * size).collect();
+        let y: Vec<f64> = x.iter().map(|x| polynomial.value(&p, *x)).collect();
+        let fit = polynomial.fit(&Data::new(&x, observations(&y)).unwrap()).unwrap();
+        for (k, (got, is)) in polynomial.powers().zip(fit.parameters.iter().zip(&p)) {
+            // Condition 50, times rounding of values of order 1.
+            prop_assert!((got - is).abs() * size.powi(k) < 1e-13 * 50.0);
+        }
+        prop_assert!(fit.goodness.rms < 1e-14 * 5.0);
+    }
+}
+
+/// Where the normal equations lose few digits both ways agree: parameters, covariance and chi
+/// squared. A slip in the column scaling, or a transposed triangle, shows here.
+#[test]
+fn qr_agrees_with_normal_equations() {
+    let mut noise = Gauss::new(1);
+    let (points, n) = (30, 3);
+    let design = Mat::from_fn(points, n, |_, j| {
+        noise.next() * 10.0_f64.powi(i32::try_from(j).unwrap())
+    });
+    let y: Vec<f64> = (0..points).map(|_| noise.next()).collect();
+    let deviations: Vec<f64> = (0..points).map(|i| 0.5 + (i % 4) as f64).collect();
+    let known = observations(&y).with_deviations(&deviations).unwrap();
+    let fit = fit_linear(design.as_ref(), &known).unwrap();
+
+    let weight = |i: usize| deviations[i].powi(-2);
+    let normal = Mat::from_fn(n, n, |a, b| {
+        (0..points)
+            .map(|i| design[(i, a)] * weight(i) * design[(i, b)])
+            .sum::<f64>()
+    });
+    for a in 0..n {
+        // N p = A^T W y, and N C = 1, with rounding times a condition below 1e3 in these units.
+        let right: f64 = (0..points).map(|i| design[(i, a)] * weight(i) * y[i]).sum();
+        let left: f64 = (0..n).map(|b| normal[(a, b)] * fit.parameters[b]).sum();
+        assert!((left - right).abs() < 1e-12 * normal[(a, a)].sqrt() * 10.0);
+        for b in 0..n {
+            let product: f64 = (0..n)
+                .map(|k| normal[(a, k)] * fit.precision.covariance[(k, b)])
+                .sum();
+            let unit = (normal[(a, a)] / normal[(b, b)]).sqrt();
+            assert!((product - f64::from(u8::from(a == b))).abs() < 1e-13 * unit * 10.0);
+        }
+    }
+    let residuals = &fit.goodness.residuals;
+    let chi: f64 = (0..points).map(|i| residuals[i].powi(2) * weight(i)).sum();
+    assert!((chi / fit.goodness.chi_squared - 1.0).abs() < 1e-14);
+    assert_eq!(fit.goodness.degrees_of_freedom, 27);
+}
+
+/// A point of weight 2 is two points: the same parameters. A weight taken as a deviation, or its
+/// root forgotten, gives others.
+#[test]
+fn a_weight_counts_points() {
+    let weighted = observations(&[1.0, 5.0, 6.0])
+        .with_weights(&[2.0, 1.0, 3.0])
+        .unwrap();
+    let line = Polynomial::new(1);
+    let a = line
+        .fit(&Data::new(&[0.0, 1.0, 2.0], weighted).unwrap())
+        .unwrap();
+    let repeated = observations(&[1.0, 1.0, 5.0, 6.0, 6.0, 6.0]);
+    let b = line
+        .fit(&Data::new(&[0.0, 0.0, 1.0, 2.0, 2.0, 2.0], repeated).unwrap())
+        .unwrap();
+    for (a, b) in a.parameters.iter().zip(&b.parameters) {
+        assert!((a - b).abs() < 1e-14);
+    }
+    assert!((a.goodness.chi_squared - b.goodness.chi_squared).abs() < 1e-14);
+}
+
+/// Known deviations fix the errors; relative ones do not: a common factor drops out.
+#[test]
+fn known_deviations_set_the_errors() {
+    let x = places(0.0, 1.0, 8);
+    let y = [0.1, 0.0, 0.4, 0.2, 0.6, 0.9, 0.7, 1.1];
+    let fit = |o: Observations| Polynomial::new(1).fit(&Data::new(&x, o).unwrap()).unwrap();
+    let error = |o| fit(o).precision.standard_error(1).unwrap();
+    let plain = error(observations(&y));
+    let relative = error(observations(&y).with_weights(&[9.0; 8]).unwrap());
+    assert!((relative / plain - 1.0).abs() < 1e-13);
+    // Slope of n points with deviation s: s / sqrt(sum (x - mean)^2), by hand.
+    let spread: f64 = x.iter().map(|x| (x - 0.5) * (x - 0.5)).sum();
+    let known = error(observations(&y).with_deviations(&[3.0; 8]).unwrap());
+    assert!((known - 3.0 / spread.sqrt()).abs() < 1e-13);
+}
+
+/// Error bands of a straight line are narrowest at the mean of x, s / sqrt(n): variances without
+/// covariances would say more.
+#[test]
+fn propagation_uses_covariances() {
+    let x = places(2.0, 4.0, 9);
+    let known = observations(&[0.0; 9]).with_deviations(&[0.6; 9]).unwrap();
+    let line = Polynomial::new(1);
+    let fit = line.fit(&Data::new(&x, known).unwrap()).unwrap();
+    let at_mean = fit.precision.propagated(&line.gradient(3.0));
+    assert!((at_mean - 0.2).abs() < 1e-13, "{at_mean}");
+    let correlation = fit.precision.correlation();
+    // -mean / sqrt(mean of squares), by hand.
+    let mean_square = x.iter().map(|x| x * x).sum::<f64>() / 9.0;
+    assert!((correlation[(0, 1)] + 3.0 / mean_square.sqrt()).abs() < 1e-13);
+    assert!((correlation[(1, 1)] - 1.0).abs() < 1e-15);
+}
+
+/// Columns 0 and 2 are parallel, column 1 is not: rank 2, and only 0 and 2 are named.
+#[test]
+fn parallel_columns_are_named() {
+    let design = Mat::from_fn(5, 3, |i, j| match j {
+        0 => 0.1 * (i + 1) as f64,
+        1 => 1.0,
+        _ => 1e6 * 0.3 * (i + 1) as f64,
+    });
+    let error = fit_linear(design.as_ref(), &observations(&[1.0, 2.0, 3.0, 5.0, 8.0])).unwrap_err();
+    assert_eq!(
+        error,
+        FitError::RankDeficient {
+            rank: 2,
+            parameters: 3,
+            undetermined: vec![0, 2]
+        }
+    );
+    assert_eq!(
+        error.to_string(),
+        "the data determine 2 of 3 parameters; not determined: [0, 2]"
+    );
+}
+
+/// Three places cannot tell a cubic, however often each is measured.
+#[test]
+fn repeated_places_do_not_determine_a_polynomial() {
+    let x = [1.0, 1.0, 2.0, 2.0, 3.0, 3.0];
+    let data = Data::new(&x, observations(&[1.0, 1.1, 2.0, 2.1, 3.0, 3.1])).unwrap();
+    let error = Polynomial::new(3).fit(&data).unwrap_err();
+    let FitError::RankDeficient {
+        rank, parameters, ..
+    } = error
+    else {
+        panic!("{error}");
+    };
+    assert_eq!((rank, parameters), (3, 4));
+}
+
+/// A column of zeros has no length to be scaled to.
+#[test]
+fn a_column_of_zeros_is_named() {
+    let design = Mat::from_fn(4, 2, |i, j| if j == 0 { 0.0 } else { i as f64 });
+    let error = fit_linear(design.as_ref(), &observations(&[1.0, 2.0, 3.0, 4.0])).unwrap_err();
+    assert_eq!(
+        error,
+        FitError::RankDeficient {
+            rank: 1,
+            parameters: 2,
+            undetermined: vec![0]
+        }
+    );
+}
+
+/// As many points as parameters leave nothing to tell the noise from, unless it is known.
+#[test]
+fn too_few_points_are_refused() {
+    let line = Polynomial::new(1);
+    let two = || observations(&[1.0, 3.0]);
+    let data = |o| Data::new(&[0.0, 1.0], o).unwrap();
+    assert_eq!(
+        line.fit(&data(two())).unwrap_err(),
+        FitError::TooFewPoints {
+            points: 2,
+            needed: 3
+        }
+    );
+    let fit = line
+        .fit(&data(two().with_deviations(&[0.5, 0.5]).unwrap()))
+        .unwrap();
+    assert!((fit.parameters[1] - 2.0).abs() < 1e-14);
+    assert_eq!(fit.goodness.reduced_chi_squared(), None);
+    assert!((fit.precision.standard_error(0).unwrap() - 0.5).abs() < 1e-14);
+}
+
+#[test]
+fn data_that_are_not_finite_are_refused() {
+    let error = Observations::new(&[0.0, f64::INFINITY]).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "observation 1 must be finite, but is inf"
+    );
+    let error = Data::new(&[f64::NEG_INFINITY], observations(&[0.0])).unwrap_err();
+    assert!(matches!(
+        error,
+        FitError::NotFinite {
+            what: "x",
+            index: 0,
+            ..
+        }
+    ));
+    let design = Mat::from_fn(2, 1, |i, _| if i == 1 { f64::NAN } else { 1.0 });
+    let error = fit_linear(design.as_ref(), &observations(&[1.0, 2.0])).unwrap_err();
+    assert!(matches!(error, FitError::NotFinite { index: 1, .. }));
+}
+
+#[test]
+fn weights_that_are_not_positive_are_refused() {
+    let error = observations(&[1.0]).with_weights(&[0.0]).unwrap_err();
+    assert_eq!(
+        error,
+        FitError::NotPositive {
+            what: "weight",
+            index: 0,
+            value: 0.0
+        }
+    );
+    let error = observations(&[1.0]).with_deviations(&[-1.0]).unwrap_err();
+    assert_eq!(
+        error,
+        FitError::NotPositive {
+            what: "deviation",
+            index: 0,
+            value: -1.0
+        }
+    );
+}
+
+#[test]
+fn lists_of_other_lengths_are_refused() {
+    let error = observations(&[1.0]).with_weights(&[1.0, 1.0]).unwrap_err();
+    assert_eq!(
+        error,
+        FitError::Dimension {
+            what: "weights",
+            expected: 1,
+            found: 2
+        }
+    );
+    let error = Data::from_rows(2, &[1.0; 3], observations(&[1.0, 2.0])).unwrap_err();
+    assert_eq!(
+        error,
+        FitError::Dimension {
+            what: "x",
+            expected: 4,
+            found: 3
+        }
+    );
+    let wide = Data::from_rows(2, &[1.0; 4], observations(&[1.0, 2.0])).unwrap();
+    assert!(matches!(
+        Polynomial::new(0).fit(&wide),
+        Err(FitError::Dimension { .. })
+    ));
+}

@@ -1,0 +1,73 @@
+//! Which stretch of the filament each element of an interaction spans.
+
+use super::{Body, Builder};
+use crate::assembly::Part;
+use actin_cosserat::{RodEnd, RodLayout};
+use actin_ellipsoid::{InterfaceKind, Monomers};
+
+impl Builder<'_> {
+    /// Arc lengths (nm) from where to where each element of each term reaches, in their order;
+    /// empty for what is no part of the filament.
+    pub(super) fn spans(&self) -> Vec<Vec<[f64; 2]>> {
+        let of = |part: Part| match part {
+            Part::Section(i) => match &self.bodies[i] {
+                Body::Rod(layout) => rod(layout, self.resolved[i].from_nm),
+                Body::Monomers(monomers) => self.interfaces(monomers),
+            },
+            Part::Junction(i) => self.junction_bonds(i),
+            Part::Load(_) | Part::Linker(_) => Vec::new(),
+        };
+        self.terms.iter().map(|term| of(term.part)).collect()
+    }
+
+    /// From monomer to monomer: for each lower one the lateral, then the longitudinal interface.
+    fn interfaces(&self, monomers: &Monomers) -> Vec<[f64; 2]> {
+        let s_nm = |k: usize| self.lattice.s_nm(monomers.index(k));
+        let of = |lower: usize| {
+            let uppers = InterfaceKind::ALL.map(|kind| lower + kind.steps());
+            let inside = uppers.into_iter().filter(|&upper| upper < monomers.count);
+            inside.map(move |upper| [s_nm(lower), s_nm(upper)])
+        };
+        (0..monomers.count).flat_map(of).collect()
+    }
+
+    /// From each attached monomer to the middle of the rod's end segment.
+    fn junction_bonds(&self, i: usize) -> Vec<[f64; 2]> {
+        let n = self.attached();
+        let s_nm = |m: &Monomers, k: usize| self.lattice.s_nm(m.index(k));
+        let boundary = self.resolved[i].to_nm;
+        match (&self.bodies[i], &self.bodies[i + 1]) {
+            (Body::Monomers(m), Body::Rod(layout)) => {
+                let middle = boundary + 0.5 * layout.end_length(RodEnd::Start);
+                (m.count - n..m.count)
+                    .map(|k| [s_nm(m, k), middle])
+                    .collect()
+            }
+            (Body::Rod(layout), Body::Monomers(m)) => {
+                let middle = boundary - 0.5 * layout.end_length(RodEnd::End);
+                (0..n).map(|k| [middle, s_nm(m, k)]).collect()
+            }
+            _ => unreachable!("validation refuses neighbouring sections of one kind"),
+        }
+    }
+}
+
+/// Segments, then from middle to middle about the nodes that bend; a wall bends the outer half of
+/// its segment.
+fn rod(layout: &RodLayout, from_nm: f64) -> Vec<[f64; 2]> {
+    let mut nodes = vec![from_nm];
+    for length in layout.segment_lengths() {
+        nodes.push(nodes[nodes.len() - 1] + length);
+    }
+    let last = nodes.len() - 1;
+    let middle = |k: usize| 0.5 * (nodes[k] + nodes[k + 1]);
+    let about = |k: usize| {
+        let from = if k == 0 { nodes[0] } else { middle(k - 1) };
+        let to = if k == last { nodes[last] } else { middle(k) };
+        [from, to]
+    };
+    let first = usize::from(layout.wall(RodEnd::Start).is_none());
+    let past = nodes.len() - usize::from(layout.wall(RodEnd::End).is_none());
+    let segments = nodes.windows(2).map(|pair| [pair[0], pair[1]]);
+    segments.chain((first..past).map(about)).collect()
+}

@@ -1,0 +1,65 @@
+//! `profile.csv`: local fields of the last record along the filament.
+
+use super::{RunDirectoryError, finite::ensure_finite};
+use crate::shape::ProfilePoint;
+use std::io::{self, Write};
+
+/// Names of the columns of numbers.
+const COLUMNS: [&str; 7] = [
+    "s_nm",
+    "x_nm",
+    "y_nm",
+    "z_nm",
+    "curvature_rad_per_nm",
+    "twist_rad_per_nm",
+    "energy_per_length_pn",
+];
+
+/// The numbers of one row.
+fn numbers(point: &ProfilePoint) -> [f64; 7] {
+    let [x, y, z] = point.position_nm.into();
+    [
+        point.s_nm,
+        x,
+        y,
+        z,
+        point.curvature_rad_per_nm,
+        point.twist_rad_per_nm,
+        point.energy_per_length_pn,
+    ]
+}
+
+/// Refuses numbers that are not finite.
+///
+/// # Errors
+/// The first such number, with its column and the index of its row.
+pub(super) fn ensure_all_finite(
+    points: &[ProfilePoint],
+    file: &str,
+) -> Result<(), RunDirectoryError> {
+    for (column, name) in COLUMNS.iter().enumerate() {
+        let values = points.iter().map(|point| numbers(point)[column]);
+        ensure_finite(file, name, &[points.len()], values)?;
+    }
+    Ok(())
+}
+
+/// Writes the table: a header and a row for each point, the kind of its section last. Numbers have
+/// as many digits as bring them back exactly.
+///
+/// # Errors
+/// Those of `out`.
+pub(super) fn write(points: &[ProfilePoint], out: &mut impl Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(COLUMNS.into_iter().chain(["section"]))?;
+    for point in points {
+        let section = if point.is_ellipsoids {
+            "ellipsoids"
+        } else {
+            "rod"
+        };
+        let row = numbers(point).map(|value| format!("{value:?}"));
+        writer.write_record(row.iter().map(String::as_str).chain([section]))?;
+    }
+    writer.flush()
+}

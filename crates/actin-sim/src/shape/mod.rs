@@ -1,0 +1,16 @@
+//! The shape of a filament: twist, writhe, link, distance from the axis, and local fields.
+//!
+//! Everything is a function of a [`Ribbon`]: the centre line as a polyline with a frame on each of
+//! its edges, the same for monomers, rods and both. Nothing here knows files.
+
+mod link;
+mod profile;
+mod ribbon;
+mod twist;
+mod writhe;
+
+pub use link::link;
+pub use profile::{ProfilePoint, profile};
+pub use ribbon::Ribbon;
+pub use twist::twist;
+pub use writhe::{closed_writhe, extended_writhe};

@@ -1,0 +1,275 @@
+//! The centre line of a filament with a frame on each edge, whatever resolves it.
+
+use super::{extended_writhe, twist};
+use crate::{Assembly, End};
+use actin_mechanics::{State, UnitQuaternion, Vector3};
+
+/// More vertices than this are not asked for their writhe, which costs their number squared: 5e7
+/// solid angles take some seconds.
+const MOST_FOR_WRITHE: usize = 10_000;
+
+/// A filament as a polyline of `n + 1` vertices and `n` edges, each edge with a frame.
+///
+/// Of a rod the vertices are its nodes and the edges its segments. Of monomers the vertices lie
+/// midway between neighbours on their smoothed centre line, `(c_k + c_{k+1}) / 2` with `c` the
+/// centre moved inward by the helix's radius: what alternates between the two strands drops out,
+/// and what is smooth is kept to `kappa rise^2 / 8`, 0.01 nm at 0.01 rad/nm. The edges are then
+/// those about each monomer, with its frame turned by its own place on the helix; at a junction the
+/// last of them ends in the rod's node, so that one polyline runs through the whole filament.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ribbon {
+    /// Arc length of each vertex at rest (nm).
+    pub s_nm: Vec<f64>,
+    /// Vertices (nm, lab frame).
+    pub points_nm: Vec<Vector3>,
+    /// Whether each vertex lies between monomers; if not, it is a rod's node.
+    pub between_monomers: Vec<bool>,
+    /// Arc length of each frame at rest (nm).
+    pub frame_s_nm: Vec<f64>,
+    /// Frame of each edge: the axes in which it was built, third along the filament, as they now
+    /// lie (body to lab).
+    pub frames: Vec<UnitQuaternion>,
+    /// The outermost held frames at start and end, in the same axes, each with its arc length at
+    /// rest (nm); none at a free end.
+    pub ends: [Option<(f64, UnitQuaternion)>; 2],
+}
+
+impl Ribbon {
+    /// The ribbon of an assembly's filament in `state`.
+    pub fn new(assembly: &Assembly, state: &State) -> Self {
+        let mut ribbon = Self {
+            s_nm: Vec::new(),
+            points_nm: Vec::new(),
+            between_monomers: Vec::new(),
+            frame_s_nm: Vec::new(),
+            frames: Vec::new(),
+            ends: [End::Start, End::End].map(|end| held_frame(assembly, state, end)),
+        };
+        let last = assembly.sections.len() - 1;
+        for (i, section) in assembly.sections.iter().enumerate() {
+            let centre = |k: usize| (assembly.points[k].s_nm, assembly.centre_line_nm(state, k));
+            let mut frames = section.frames.clone();
+            if section.is_ellipsoids() {
+                for k in section.points.start..section.points.end - 1 {
+                    let (one, other) = (centre(k), centre(k + 1));
+                    ribbon.push_vertex(0.5 * (one.0 + other.0), 0.5 * (one.1 + other.1), true);
+                }
+                // The outermost monomer at an end of the filament has no edge about it.
+                frames.start += usize::from(i == 0);
+                frames.end -= usize::from(i == last);
+            } else {
+                for k in section.points.clone() {
+                    let (s_nm, point) = centre(k);
+                    ribbon.push_vertex(s_nm, point, false);
+                }
+            }
+            for frame in frames {
+                ribbon.frame_s_nm.push(assembly.frames[frame].s_nm);
+                ribbon.frames.push(from_rest(assembly, state, frame));
+            }
+        }
+        ribbon
+    }
+
+    fn push_vertex(&mut self, s_nm: f64, point: Vector3, between_monomers: bool) {
+        self.s_nm.push(s_nm);
+        self.points_nm.push(point);
+        self.between_monomers.push(between_monomers);
+    }
+
+    /// Unit vectors along the edges; an edge without length lies along its frame.
+    pub fn tangents(&self) -> Vec<Vector3> {
+        let edges = self.points_nm.windows(2).zip(&self.frames);
+        edges
+            .map(|(pair, q)| {
+                let edge = (pair[1] - pair[0]).try_normalize(0.0);
+                edge.unwrap_or_else(|| q * Vector3::z())
+            })
+            .collect()
+    }
+
+    /// The frame and the unit vector by which the filament goes on straight beyond either end:
+    /// those of a held frame, or of the last edge where the end is free.
+    fn extensions(&self, tangents: &[Vector3]) -> [(UnitQuaternion, Vector3); 2] {
+        let free = [0, self.frames.len() - 1];
+        [0, 1].map(|k| match self.ends[k] {
+            Some((_, q)) => (q, q * Vector3::z()),
+            None => (self.frames[free[k]], tangents[free[k]]),
+        })
+    }
+
+    /// Twist in turns from end to end, ends included: see [`twist`].
+    pub fn twist(&self) -> f64 {
+        let tangents = self.tangents();
+        let [first, last] = self.extensions(&tangents);
+        let inside = self.frames.iter().copied().zip(tangents);
+        let all = std::iter::once(first).chain(inside).chain([last]);
+        let (frames, tangents): (Vec<_>, Vec<_>) = all.unzip();
+        twist(&frames, &tangents)
+    }
+
+    /// Writhe of the filament, which goes on straight beyond both ends: see [`extended_writhe`].
+    /// None of more than ten thousand vertices.
+    pub fn writhe(&self) -> Option<f64> {
+        let [(_, first), (_, last)] = self.extensions(&self.tangents());
+        let few = self.points_nm.len() <= MOST_FOR_WRITHE;
+        few.then(|| extended_writhe(&self.points_nm, [first, last]))
+    }
+
+    /// Largest distance of the centre line from lab z, the axis of the filament as built (nm).
+    ///
+    /// Taken as the top of the parabola through the vertex that is furthest and its neighbours: of
+    /// a rod of segments `h` the vertices alone may miss `kappa h^2 / 8`, 0.25 nm at 0.02 rad/nm.
+    pub fn largest_distance_nm(&self) -> f64 {
+        let distance: Vec<f64> = self.points_nm.iter().map(|p| p.x.hypot(p.y)).collect();
+        let furthest = (0..distance.len()).max_by(|&i, &j| distance[i].total_cmp(&distance[j]));
+        let Some(top) = furthest.filter(|&i| i > 0 && i + 1 < distance.len()) else {
+            return furthest.map_or(0.0, |i| distance[i]);
+        };
+        let near = [top - 1, top, top + 1];
+        top_of_parabola(near.map(|i| self.s_nm[i]), near.map(|i| distance[i]))
+    }
+}
+
+/// Largest value of the parabola through three points whose middle one is the highest.
+fn top_of_parabola(x: [f64; 3], y: [f64; 3]) -> f64 {
+    let (before, after) = (x[1] - x[0], x[2] - x[1]);
+    let (rise, fall) = ((y[1] - y[0]) / before, (y[2] - y[1]) / after);
+    let curvature = 2.0 * (fall - rise) / (before + after);
+    if curvature >= 0.0 {
+        return y[1];
+    }
+    let slope = (rise * after + fall * before) / (before + after);
+    y[1] - 0.5 * slope * slope / curvature
+}
+
+/// How frame `i` has turned since it was built.
+fn from_rest(assembly: &Assembly, state: &State, i: usize) -> UnitQuaternion {
+    state.frames.orientation.get(i) * assembly.rest.frames.orientation.get(i).inverse()
+}
+
+/// The outermost frame that a clamp holds.
+fn held_frame(assembly: &Assembly, state: &State, end: End) -> Option<(f64, UnitQuaternion)> {
+    let clamp = assembly.clamps.iter().find(|clamp| clamp.end == end)?;
+    let frame = match end {
+        End::Start => *clamp.frames.first()?,
+        End::End => *clamp.frames.last()?,
+    };
+    let s_nm = assembly.frames[frame].s_nm;
+    Some((s_nm, from_rest(assembly, state, frame)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+    use actin_mechanics::rotation;
+    use actin_mechanics::testing::{Noise, move_rigidly, perturb};
+
+    fn build(sections: &str, clamps: &str) -> Assembly {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [{sections}]),
+                clamps: [{clamps}],
+                task: Equilibrium(),
+            )"
+        );
+        Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
+    }
+
+    const SECTIONS: [&str; 4] = [
+        "Rod(from_nm: 0.0, to_nm: 60.0)",
+        "Ellipsoids(from_nm: 0.0, to_nm: 60.0)",
+        "Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0)",
+        "Rod(from_nm: 0.0, to_nm: 20.0), Ellipsoids(from_nm: 20.0, to_nm: 40.0),
+         Rod(from_nm: 40.0, to_nm: 60.0)",
+    ];
+    const CLAMPS: [&str; 3] = [
+        "",
+        "Clamp(end: Start)",
+        "Clamp(end: Start), Clamp(end: End)",
+    ];
+
+    /// At rest the ribbon is the axis, its frames are the lab's, and each lies in the middle of its
+    /// edge: a monomer too many or too few, or its own azimuth, would show.
+    #[test]
+    fn the_ribbon_of_a_filament_at_rest_is_straight() {
+        for (sections, clamps) in SECTIONS.iter().flat_map(|s| CLAMPS.map(|c| (s, c))) {
+            let assembly = build(sections, clamps);
+            let ribbon = Ribbon::new(&assembly, &assembly.rest);
+            assert_eq!(ribbon.points_nm.len(), ribbon.frames.len() + 1);
+            for (s_nm, point) in ribbon.s_nm.iter().zip(&ribbon.points_nm) {
+                // Round-off of places of 60 nm.
+                assert!((point - Vector3::z() * *s_nm).norm() < 1e-13);
+            }
+            for (i, q) in ribbon.frames.iter().enumerate() {
+                assert!(q.angle() < 1e-14);
+                let middle = 0.5 * (ribbon.s_nm[i] + ribbon.s_nm[i + 1]);
+                assert!((ribbon.frame_s_nm[i] - middle).abs() < 1e-12);
+            }
+            assert!(ribbon.twist().abs() < 1e-13 && ribbon.writhe().unwrap().abs() < 1e-13);
+            assert!(ribbon.largest_distance_nm() < 1e-13);
+        }
+    }
+
+    /// Bodies turned in proportion to their arc length: twist, and no writhe.
+    #[test]
+    fn a_turned_filament_twists_by_its_turn() {
+        for sections in SECTIONS {
+            let assembly = build(sections, "Clamp(end: Start), Clamp(end: End)");
+            let mut state = assembly.rest.clone();
+            for (i, info) in assembly.frames.iter().enumerate() {
+                let turn = rotation::exp(Vector3::z() * (0.2 * info.s_nm));
+                let q = turn * state.frames.orientation.get(i);
+                state.frames.orientation.set(i, q);
+            }
+            for (i, info) in assembly.points.iter().enumerate() {
+                let turn = rotation::exp(Vector3::z() * (0.2 * info.s_nm));
+                let x = turn * state.points.position.get(i);
+                state.points.position.set(i, x);
+            }
+            let ribbon = Ribbon::new(&assembly, &state);
+            let [first, last] = ribbon.ends.map(|end| end.unwrap().0);
+            let expected = 0.2 * (last - first) / (2.0 * std::f64::consts::PI);
+            assert!((ribbon.twist() - expected).abs() < 1e-13);
+            assert!(ribbon.writhe().unwrap().abs() < 1e-13);
+        }
+    }
+
+    /// Twist and writhe belong to the shape, not to where it lies.
+    #[test]
+    fn a_rigid_motion_changes_neither() {
+        let assembly = build(SECTIONS[2], CLAMPS[1]);
+        let mut noise = Noise::new(3);
+        let mut state = assembly.rest.clone();
+        perturb(&mut state, &mut noise, 1.5, 0.2);
+        let before = Ribbon::new(&assembly, &state);
+        move_rigidly(&mut state, noise.vector(), noise.vector() * 20.0);
+        let after = Ribbon::new(&assembly, &state);
+        let (one, other) = (before.writhe().unwrap(), after.writhe().unwrap());
+        assert!(one.abs() > 1e-3 && (one - other).abs() < 1e-12);
+        assert!((before.twist() - after.twist()).abs() < 1e-12);
+    }
+
+    /// Two strands displaced to opposite sides leave the centre line where it was.
+    #[test]
+    fn the_zigzag_of_two_strands_drops_out() {
+        let assembly = build(SECTIONS[1], "");
+        let mut state = assembly.rest.clone();
+        for i in 0..assembly.points.len() {
+            let side = if i % 2 == 0 { 0.3 } else { -0.3 };
+            state.points.position.add(i, Vector3::x() * side);
+        }
+        let ribbon = Ribbon::new(&assembly, &state);
+        assert!(ribbon.largest_distance_nm() < 1e-13);
+    }
+
+    /// A parabola's top is found between its points; the highest of three on a line is one of them.
+    #[test]
+    fn the_top_lies_between_vertices() {
+        let at = |x: f64| 5.0 - 0.1 * (x - 0.4).powi(2);
+        let x = [-10.0, 0.0, 7.0];
+        assert!((top_of_parabola(x, x.map(at)) - 5.0).abs() < 1e-14);
+        assert!((top_of_parabola([0.0, 1.0, 2.0], [1.0, 1.0, 1.0]) - 1.0).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,139 @@
+//! Twist, writhe and link of simulated filaments.
+
+use crate::common::{build, run};
+use actin_sim::shape::{Ribbon, link};
+use actin_sim::{Assembly, Trajectory};
+
+/// Sections of 300 nm, ends turned against each other by twice `turn` (deg) and moved in by 7.5 nm
+/// each. Straight, it is a saddle, which the solver leaves along its softest mode.
+fn buckled(sections: &str, turn: f64) -> String {
+    format!(
+        "Scene(
+            filament: Filament(
+                sections: [{sections}],
+                monomers: Monomers(lateral_bonds: 32, longitudinal_bonds: 32),
+            ),
+            clamps: [Clamp(end: Start), Clamp(end: End)],
+            path: [
+                Stage(set: [
+                    Turn(end: Start, turn_deg: (0.0, 0.0, {:?})),
+                    Turn(end: End, turn_deg: (0.0, 0.0, {turn:?})),
+                ]),
+                Stage(set: [
+                    Shift(end: Start, shift_nm: (0.0, 0.0, 7.5)),
+                    Shift(end: End, shift_nm: (0.0, 0.0, -7.5)),
+                ]),
+            ],
+            task: Equilibrium(accept_jumps: true),
+        )",
+        -turn
+    )
+}
+
+fn end_of(text: &str) -> (Assembly, Trajectory) {
+    let mut assembly = build(text);
+    let (trajectory, _) = run(&mut assembly).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    (assembly, trajectory)
+}
+
+/// Twist, writhe and largest distance at the end; the sum of the first two is held against the
+/// link at every equilibrium of the path.
+fn measured(what: &str, text: &str) -> [f64; 3] {
+    let (assembly, trajectory) = end_of(text);
+    let mut worst: f64 = 0.0;
+    for record in &trajectory.records {
+        let ribbon = Ribbon::new(&assembly, &record.state);
+        let link = link(&assembly, record.time_ns).unwrap();
+        worst = worst.max((ribbon.twist() + ribbon.writhe().unwrap() - link).abs());
+    }
+    let ribbon = Ribbon::new(&assembly, assembly.system.state());
+    let (twist, writhe) = (ribbon.twist(), ribbon.writhe().unwrap());
+    let height = ribbon.largest_distance_nm();
+    println!(
+        "{what}: twist {twist:.5}, writhe {writhe:.5}, height {height:.3} nm, off {worst:.1e}"
+    );
+    // White's formula is exact for polygons; round-off of some thousand solid angles is left.
+    assert!(worst < 1e-9, "{what}: {worst:e}");
+    [twist, writhe, height]
+}
+
+fn rod(segments: usize) -> String {
+    format!("Rod(from_nm: 0.0, to_nm: 300.0, segments: {segments})")
+}
+
+/// The formula on buckled rods of both senses, and what twist and writhe each converge to: by the
+/// square of the segment, as the rod itself does.
+#[test]
+fn twist_and_writhe_of_a_buckled_rod_make_its_link() {
+    for turn in [270.0, -270.0] {
+        let of = |n: usize| measured(&format!("rod of {n} segments"), &buckled(&rod(n), turn));
+        let [coarse, middle, fine] = [15, 30, 60].map(of);
+        assert!(fine[1] * turn > 0.0 && fine[1].abs() > 0.02);
+        for k in 0..3 {
+            let order = ((coarse[k] - middle[k]) / (middle[k] - fine[k])).log2();
+            println!("quantity {k}: order {order:.2}");
+            assert!((order - 2.0).abs() < 0.3, "order {order}");
+        }
+    }
+}
+
+/// The same where monomers are resolved: twist is counted from their frames, writhe from the
+/// smoothed centre line, and one ribbon runs through the junctions.
+#[test]
+fn twist_and_writhe_of_monomers_make_their_link() {
+    let mixed = "Rod(from_nm: 0.0, to_nm: 70.0), Ellipsoids(from_nm: 70.0, to_nm: 230.0),
+        Rod(from_nm: 230.0, to_nm: 300.0)";
+    let [_, writhe, _] = measured("mixed", &buckled(mixed, 180.0));
+    assert!(writhe > 0.01);
+    let [_, writhe, _] = measured("mixed", &buckled(mixed, -180.0));
+    assert!(writhe < -0.01);
+}
+
+/// A ring from a motion in time: the link follows the ramp.
+#[test]
+fn the_link_follows_the_path_in_time() {
+    let (assembly, trajectory) = end_of(
+        "Scene(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 4)]),
+            clamps: [Clamp(end: Start), Clamp(end: End)],
+            path: [Stage(
+                set: [Turn(end: End, turn_deg: (0.0, 0.0, 90.0))],
+                duration_ns: 2.0,
+            )],
+            task: Dynamics(duration_ns: 3.0, record_every_ns: 0.5),
+        )",
+    );
+    for record in &trajectory.records {
+        let ribbon = Ribbon::new(&assembly, &record.state);
+        let expected = link(&assembly, record.time_ns).unwrap();
+        let sum = ribbon.twist() + ribbon.writhe().unwrap();
+        assert!((sum - expected).abs() < 1e-12, "{sum} {expected}");
+    }
+    let last = trajectory.records.last().unwrap();
+    assert!((link(&assembly, last.time_ns).unwrap() - 0.25).abs() < 1e-15);
+    assert!((link(&assembly, 1.0).unwrap() - 0.125).abs() < 1e-15);
+}
+
+/// Where an end is free, or tilted, nothing says what twist and writhe would add up to.
+#[test]
+fn a_free_or_tilted_end_has_no_link() {
+    let scene = |clamps: &str, turn: &str| {
+        let path = format!("Stage(set: [Turn(end: Start, turn_deg: {turn})])");
+        format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+                clamps: [{clamps}],
+                path: [{path}],
+                task: Equilibrium(),
+            )"
+        )
+    };
+    let both = "Clamp(end: Start), Clamp(end: End)";
+    assert_eq!(
+        link(&build(&scene("Clamp(end: Start)", "(0.0, 0.0, 90.0)")), 1.0),
+        None
+    );
+    assert_eq!(link(&build(&scene(both, "(10.0, 0.0, 90.0)")), 1.0), None);
+    let turned = link(&build(&scene(both, "(0.0, 0.0, 90.0)")), 1.0).unwrap();
+    assert!((turned + 0.25).abs() < 1e-15);
+}

@@ -1,0 +1,192 @@
+//! Fits of bending and shear: rigidity against curvature, and what shear and twist add to it.
+
+use super::forms::Stiffened;
+use super::measured::{BendData, Point};
+use actin_cosserat::Stiffening;
+use actin_fit::{
+    Bounds, ClosureModel, Data, Fit, FitError, LevenbergMarquardt, Observations, Starts,
+};
+use actin_sim::measure::{Specimen, bend_by_tip_force, shear_by_force};
+use actin_sim::{BendLaw, RodLaw, RodLaws, RodModel, ShearLaw, StretchLaw};
+
+/// Segments of the rods that stand in for filaments (nm).
+const SEGMENT_NM: f64 = 5.0;
+/// Share of a parameter by which it moves for a derivative.
+const MOVE: f64 = 1e-3;
+
+/// The fits and what they make together.
+#[derive(Debug)]
+pub(crate) struct BendFits {
+    /// Rest, rise and curvature.
+    pub bend: Fit,
+    /// Cubic shear (pN) and the shear strain that gains half the rise.
+    pub shear: Fit,
+    /// The twist that gains half the rise (rad/nm).
+    pub twist: Fit,
+    /// All of it.
+    pub law: Stiffening,
+    pub cubic_pn: f64,
+    /// Stretching rigidity in tension (pN).
+    pub stretch_pn: f64,
+    /// Relative deviations of deflections and shifts: length, force, share.
+    pub checks: Vec<[f64; 3]>,
+}
+
+impl BendFits {
+    /// Fits bending first, then what twist and shear add to it.
+    pub(crate) fn new(data: &BendData) -> Result<Self, String> {
+        let range = data.bend.iter().fold(0.0, |most: f64, p| most.max(p.x));
+        let bend = fit_bend(data, range).map_err(|e| format!("B against curvature: {e}"))?;
+        let mut law = Stiffened { range }.law(&bend.parameters);
+        let twist = fit_twist(data, law).map_err(|e| format!("B against twist: {e}"))?;
+        law.twist = twist.parameters[0];
+        let shear = fit_shear(data, law).map_err(|e| format!("shear: {e}"))?;
+        law.shear = shear.parameters[1];
+        let cubic_pn = shear.parameters[0];
+        let tension = data.stretch.iter().filter(|p| p.x > 0.0).map(|p| p.mean);
+        let stretch_pn = tension.clone().sum::<f64>() / tension.count() as f64;
+        let checks = beams(data).map(|(is_tip, p)| {
+            let rod = shift(is_tip, &p, law, cubic_pn);
+            [p.length_nm, p.x, rod / p.mean - 1.0]
+        });
+        Ok(Self {
+            checks: checks.collect(),
+            bend,
+            shear,
+            twist,
+            law,
+            cubic_pn,
+            stretch_pn,
+        })
+    }
+
+    /// The parts of a scene's law that they are.
+    pub(crate) fn laws(&self) -> RodLaws {
+        RodLaws {
+            stretch: Some(StretchLaw::Constant {
+                rigidity_pn: self.stretch_pn,
+            }),
+            ..laws(self.law, self.cubic_pn)
+        }
+    }
+}
+
+fn laws(law: Stiffening, cubic_pn: f64) -> RodLaws {
+    RodLaws {
+        bend: Some(BendLaw::Stiffening {
+            rest_pn_nm2: law.rest,
+            rise_pn_nm2: law.rise,
+            curvature_per_nm: law.curvature,
+            twist_per_nm: law.twist.is_finite().then_some(law.twist),
+            shear: law.shear.is_finite().then_some(law.shear),
+            range_per_nm: law.range,
+        }),
+        shear: Some(ShearLaw::Cubic {
+            linear_pn: [0.0; 2],
+            cubic_pn,
+        }),
+        ..RodLaws::default()
+    }
+}
+
+fn relative(x: &[f64], width: usize, y: &[f64]) -> Result<Data, FitError> {
+    let weights: Vec<f64> = y.iter().map(|v| v.powi(-2)).collect();
+    Data::from_rows(width, x, Observations::new(y)?.with_weights(&weights)?)
+}
+
+fn fit_bend(data: &BendData, range: f64) -> Result<Fit, FitError> {
+    let x: Vec<f64> = data.bend.iter().map(|p| p.x).collect();
+    let y: Vec<f64> = data.bend.iter().map(|p| p.mean).collect();
+    let bounds = Bounds::new(&[(1e3, 1e6), (0.0, 1e6), (1e-5, 0.1)])?;
+    let starts = Starts::at(&[3.1e4, 8e3, 2.8e-3]).and_drawn(30, 1);
+    let data = relative(&x, 1, &y)?;
+    LevenbergMarquardt::default().fit(&Stiffened { range }, &data, &bounds, &starts)
+}
+
+/// The one scale by which twist stiffens bending.
+fn fit_twist(data: &BendData, law: Stiffening) -> Result<Fit, FitError> {
+    let x: Vec<f64> = data
+        .twisted
+        .iter()
+        .flat_map(|row| [row[0], row[1]])
+        .collect();
+    let y: Vec<f64> = data.twisted.iter().map(|row| row[2]).collect();
+    let secant = move |x: &[f64], twist: f64| Stiffening { twist, ..law }.secant(x[1], x[0]);
+    let model = ClosureModel::new(
+        1,
+        move |x, p| secant(x, p[0]),
+        move |x, p, gradient: &mut [f64]| {
+            let h = MOVE * p[0];
+            gradient[0] = (secant(x, p[0] + h) - secant(x, p[0] - h)) / (2.0 * h);
+        },
+    );
+    let bounds = Bounds::new(&[(1e-4, 1.0)])?;
+    let starts = Starts::at(&[3e-3]).and_drawn(10, 1);
+    LevenbergMarquardt::default().fit(&model, &relative(&x, 2, &y)?, &bounds, &starts)
+}
+
+/// Tips and guided ends with what they are.
+fn beams(data: &BendData) -> impl Iterator<Item = (bool, Point)> + '_ {
+    let tips = data.tips.iter().map(|p| (true, *p));
+    tips.chain(data.guided.iter().map(|p| (false, *p)))
+}
+
+/// Cubic shear and its share in stiffening, from rods under the same loads as the filaments.
+fn fit_shear(data: &BendData, law: Stiffening) -> Result<Fit, FitError> {
+    let all: Vec<(bool, Point)> = beams(data).collect();
+    let x: Vec<f64> = (0..all.len()).map(|i| i as f64).collect();
+    let y: Vec<f64> = all.iter().map(|(_, p)| p.mean).collect();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "an index that was made a number"
+    )]
+    let rod = move |x: &[f64], p: &[f64]| {
+        let (is_tip, point) = all[x[0] as usize];
+        shift(is_tip, &point, Stiffening { shear: p[1], ..law }, p[0])
+    };
+    let slopes = {
+        let rod = rod.clone();
+        move |x: &[f64], p: &[f64], gradient: &mut [f64]| {
+            for j in 0..2 {
+                let h = MOVE * p[j];
+                let at = |side: f64| {
+                    let mut moved = [p[0], p[1]];
+                    moved[j] += side * h;
+                    rod(x, &moved)
+                };
+                gradient[j] = (at(1.0) - at(-1.0)) / (2.0 * h);
+            }
+        }
+    };
+    let bounds = Bounds::new(&[(1e4, 1e8), (1e-4, 1.0)])?;
+    let model = ClosureModel::new(2, rod, slopes);
+    let data = relative(&x, 1, &y)?;
+    LevenbergMarquardt::default().fit(&model, &data, &bounds, &Starts::at(&[1e6, 1e-2]))
+}
+
+/// How far a rod of this law goes where a filament was measured (nm); not a number if it has no
+/// equilibrium there.
+fn shift(is_tip: bool, point: &Point, law: Stiffening, cubic_pn: f64) -> f64 {
+    let rod = RodModel {
+        law: RodLaw::Laws(Box::new(laws(law, cubic_pn))),
+        ..RodModel::default()
+    };
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "tens of segments"
+    )]
+    let segments = (point.length_nm / SEGMENT_NM).round() as usize;
+    let specimen = Specimen::rod(point.length_nm, Some(segments), rod);
+    let found = if is_tip {
+        bend_by_tip_force(&specimen, &[point.x], 0.0)
+            .ok()
+            .and_then(|curve| curve.points.first().map(|p| p.deflection_nm))
+    } else {
+        shear_by_force(&specimen, &[point.x], 0.0)
+            .ok()
+            .and_then(|curve| curve.points.first().map(|p| p.shift_nm))
+    };
+    found.unwrap_or(f64::NAN)
+}

@@ -1,0 +1,113 @@
+//! Figure 9: B3 and the change of length against twist, data and curves.
+
+use super::data::{Column, TwistData};
+use super::twist::TwistFits;
+use crate::figures::plot::{Chart, Series, draw as draw_chart};
+use actin_cosserat::{PolynomialStretch, TanhTwist};
+use plotters::style::RGBColor;
+use std::path::Path;
+
+const DATA: RGBColor = RGBColor(20, 20, 20);
+const PUBLISHED: RGBColor = RGBColor(200, 60, 40);
+const SAME_FORM: RGBColor = RGBColor(230, 160, 0);
+const SMALLEST: RGBColor = RGBColor(30, 90, 190);
+/// Points of a curve.
+const CURVE: i32 = 300;
+
+/// Writes `figure-9a.svg` and `figure-9b.svg`; returns their names and captions.
+pub(crate) fn draw(
+    data: &TwistData,
+    fits: &TwistFits,
+    out: &Path,
+) -> Result<Vec<(String, String)>, String> {
+    let mut pictures = Vec::new();
+    for (chart, file, what) in [
+        (
+            rigidity(data, fits),
+            "figure-9a.svg",
+            "Secant twisting rigidity",
+        ),
+        (
+            length(data, fits),
+            "figure-9b.svg",
+            "Relative change of length",
+        ),
+    ] {
+        draw_chart(&chart, &out.join(file))?;
+        let caption = format!(
+            "{what} against twist, with three fits. Data: {}.",
+            data.source
+        );
+        pictures.push((file.to_owned(), caption));
+    }
+    Ok(pictures)
+}
+
+fn rigidity(data: &TwistData, fits: &TwistFits) -> Chart<'static> {
+    let (tanh, sided) = (fits.tanh_law(&fits.tanh), fits.sided_law());
+    let published = TanhTwist::published();
+    let range = data.rigidity.range();
+    Chart {
+        title: "Twisting rigidity against twist",
+        x_label: "twist (rad/nm); positive: over-twist",
+        y_label: "B3 (1000 pN nm^2)",
+        series: vec![
+            curve("published parameters", PUBLISHED, range, |k| {
+                1e-3 * published.secant(k)
+            }),
+            curve("the same form, refitted", SAME_FORM, range, |k| {
+                1e-3 * tanh.secant(k)
+            }),
+            curve("saturating to either side", SMALLEST, range, |k| {
+                1e-3 * sided.secant(k)
+            }),
+            dots(&data.rigidity, "data", 1e-3),
+        ],
+        equal_axes: false,
+    }
+}
+
+fn length(data: &TwistData, fits: &TwistFits) -> Chart<'static> {
+    let (polynomial, rooted) = (fits.polynomial_law(&fits.polynomial), fits.rooted_law());
+    let published = PolynomialStretch::published();
+    let range = data.length.range();
+    Chart {
+        title: "Change of length against twist",
+        x_label: "twist (rad/nm); positive: over-twist",
+        y_label: "dL / L (%)",
+        series: vec![
+            curve("published polynomial", PUBLISHED, range, |k| {
+                100.0 * published.extension(k)
+            }),
+            curve("refitted polynomial", SAME_FORM, range, |k| {
+                100.0 * polynomial.extension(k)
+            }),
+            curve("two slopes", SMALLEST, range, |k| 100.0 * rooted.jet(k)[0]),
+            dots(&data.length, "data", 100.0),
+        ],
+        equal_axes: false,
+    }
+}
+
+fn curve(label: &str, colour: RGBColor, range: f64, law: impl Fn(f64) -> f64) -> Series {
+    let points = (-CURVE..=CURVE).map(|i| {
+        let k = range * f64::from(i) / f64::from(CURVE);
+        (k, law(k))
+    });
+    Series {
+        label: Some(label.to_owned()),
+        colour,
+        points: points.collect(),
+        dots: false,
+    }
+}
+
+fn dots(column: &Column, label: &str, scale: f64) -> Series {
+    let points = column.twist.iter().zip(&column.value);
+    Series {
+        label: Some(label.to_owned()),
+        colour: DATA,
+        points: points.map(|(k, v)| (*k, v * scale)).collect(),
+        dots: true,
+    }
+}

@@ -1,0 +1,135 @@
+//! Laws as RON that a scene takes, curves and data as CSV.
+
+use super::bend::BendFits;
+use super::data::TwistData;
+use super::measured::{BendData, Point};
+use super::twist::TwistFits;
+use crate::figures::report::{save, write_csv};
+use actin_cosserat::{PolynomialStretch, RootedStretch, SidedTwist, TanhTwist, TwistRise};
+use actin_sim::{RodLaws, TwistLaw, TwistStretchLaw};
+use std::path::Path;
+
+/// Points of a curve.
+const CURVE: i32 = 400;
+
+/// Writes `rod-law.ron`, the smallest forms, and `published-form.ron`, the paper's forms refitted;
+/// what stands in them goes behind `law:` in a scene's `RodModel`.
+pub(super) fn laws(fits: &TwistFits, bend: Option<&BendFits>, out: &Path) -> Result<(), String> {
+    let head = "// A rod law for a scene: `rod: RodModel(law: ...)`. Written by fit-parameters.\n";
+    let smallest = RodLaws {
+        twist: Some(sided(fits.sided_law())),
+        twist_stretch: Some(rooted(fits.rooted_law())),
+        ..bend.map(BendFits::laws).unwrap_or_default()
+    };
+    save(
+        out,
+        "rod-law.ron",
+        &format!("{head}{}\n", smallest.to_ron()),
+    )?;
+    let published = RodLaws {
+        twist: Some(tanh(fits.tanh_law(&fits.tanh))),
+        twist_stretch: Some(polynomial(fits.polynomial_law(&fits.without_offset))),
+        ..RodLaws::default()
+    };
+    save(
+        out,
+        "published-form.ron",
+        &format!("{head}{}\n", published.to_ron()),
+    )
+}
+
+fn sided(law: SidedTwist) -> TwistLaw {
+    let side = |side: TwistRise| actin_sim::TwistRise {
+        rise_pn_nm2: side.rise,
+        half_per_nm: side.half,
+        slow_per_nm: side.slow,
+    };
+    TwistLaw::Sided {
+        rest_pn_nm2: law.rest,
+        under: side(law.under),
+        over: side(law.over),
+        range_per_nm: law.range,
+    }
+}
+
+fn tanh(law: TanhTwist) -> TwistLaw {
+    TwistLaw::Tanh {
+        b_plus_pn_nm2: law.b_plus,
+        b_minus_pn_nm2: law.b_minus,
+        lambda: law.lambda,
+        range_per_nm: law.range,
+    }
+}
+
+fn rooted(law: RootedStretch) -> TwistStretchLaw {
+    TwistStretchLaw::Rooted {
+        slope_nm: law.slope,
+        bend_nm: law.bend,
+        half_per_nm: law.half,
+        cubic_nm3: law.cubic,
+        range_per_nm: law.range,
+    }
+}
+
+fn polynomial(law: PolynomialStretch) -> TwistStretchLaw {
+    TwistStretchLaw::Polynomial {
+        coefficients: law.coefficients,
+        range_per_nm: law.range,
+    }
+}
+
+/// Writes `curves.csv`: every form over the range of the data.
+pub(super) fn curves(data: &TwistData, fits: &TwistFits, out: &Path) -> Result<(), String> {
+    let range = data.rigidity.range().max(data.length.range());
+    let (tanh, relative) = (
+        fits.tanh_law(&fits.tanh),
+        fits.tanh_law(&fits.tanh_relative),
+    );
+    let (sided, rooted) = (fits.sided_law(), fits.rooted_law());
+    let polynomial = fits.polynomial_law(&fits.polynomial);
+    let rows = (-CURVE..=CURVE).map(|i| {
+        let k = range * f64::from(i) / f64::from(CURVE);
+        [
+            k,
+            TanhTwist::published().secant(k),
+            tanh.secant(k),
+            relative.secant(k),
+            sided.secant(k),
+            PolynomialStretch::published().extension(k),
+            polynomial.extension(k),
+            rooted.jet(k)[0],
+        ]
+        .map(|x| format!("{x:.8e}"))
+        .to_vec()
+    });
+    let header = [
+        "kappa3_rad_per_nm",
+        "b3_published_pn_nm2",
+        "b3_tanh_pn_nm2",
+        "b3_tanh_relative_pn_nm2",
+        "b3_sided_pn_nm2",
+        "dl_over_l_published",
+        "dl_over_l_polynomial",
+        "dl_over_l_rooted",
+    ];
+    write_csv(out, "curves.csv", &header, rows)
+}
+
+/// Writes `bend.csv` and `beams.csv`: what was measured beside the law.
+pub(super) fn bend_csv(data: &BendData, fits: &BendFits, out: &Path) -> Result<(), String> {
+    let number = |x: f64| format!("{x:.8e}");
+    let bend = data.bend.iter().map(|p: &Point| {
+        let law = fits.law.secant(p.x, 0.0);
+        [p.x, p.mean, p.error, law].map(number).to_vec()
+    });
+    let header = [
+        "curvature_rad_per_nm",
+        "b_pn_nm2",
+        "standard_error",
+        "law_pn_nm2",
+    ];
+    write_csv(out, "bend.csv", &header, bend)?;
+    let beams = fits.checks.iter().map(|row| row.map(number).to_vec());
+    let header = ["length_nm", "force_pn", "rod_over_filament_less_1"];
+    write_csv(out, "beams.csv", &header, beams)
+}
