@@ -4,6 +4,7 @@
 //! folder and returns rows that set our number beside the paper's. Nothing here is drawn from
 //! anything but a simulation of that run.
 
+mod buckling;
 mod figure4;
 mod figure9;
 mod html;
@@ -21,9 +22,11 @@ use std::path::Path;
 type Recipe = (&'static str, fn(&Path, bool) -> Result<Artefact, String>);
 
 /// The artefacts that exist.
-const RECIPES: [Recipe; 7] = [
+const RECIPES: [Recipe; 9] = [
     ("fig4", figure4::reproduce),
+    ("fig8", buckling::figure8),
     ("fig9", figure9::reproduce),
+    ("fig10", buckling::figure10),
     ("table1", tables::table1),
     ("table2", tables::table2),
     ("table3", tables::table3),

@@ -1,0 +1,167 @@
+//! Damped motion along the same path: whether it ends in the equilibrium that statics finds.
+
+use super::case::{Case, Resolved};
+use super::lists::Plan;
+use super::outcome::{Measured, Outcome, measure, outcome};
+use super::results::{OBSERVABLES, Results};
+use super::rows::artefact;
+use super::starts::is_same;
+use crate::figures::report::Row;
+use actin_sim::{Assembly, Drag, Dynamics, Equilibrium, Integrator, Record, StopRule, Task};
+use std::ops::ControlFlow;
+
+/// Where damped motion ended.
+#[derive(Clone, Debug)]
+pub(super) struct Motion {
+    pub case: Case,
+    /// The state in which the motion was stopped.
+    pub end: Measured,
+    /// Residual force (pN) and torque (pN nm) there.
+    pub residual: (f64, f64),
+    pub time_ns: f64,
+    pub force_evaluations: u64,
+    pub wall_s: f64,
+    /// The equilibrium that Newton's method finds from that state.
+    pub nearest: Outcome,
+}
+
+/// Drag rates (1/ns): about critical for the slowest mode of bending.
+const DRAG_PER_NS: f64 = 0.3;
+/// Residual at which the motion is stopped (pN, pN nm). The plane of buckling may still turn then:
+/// what is compared does not depend on it.
+const STOP: f64 = 1e-3;
+/// Longest time (ns).
+const LONGEST_NS: f64 = 3000.0;
+/// Tolerances of what is compared between the end of the motion and the equilibrium: the residual
+/// over the softest stiffness against a change of height (about 0.1 pN/nm) is 0.01 nm; couple,
+/// thrust and energy follow.
+const TOLERANCES: [f64; 4] = [0.02, 0.3, 0.02, 0.05];
+
+/// The cases that are moved in time: one mixed resolution in both directions.
+pub(super) fn cases(plan: &Plan) -> Vec<Case> {
+    let case = |turn| Case::new(plan.main(), Resolved::Mixed(140), turn, 0);
+    [180, -180].map(case).into()
+}
+
+/// Moves the filament along its path in time, then solves from where it came to rest.
+pub(super) fn run(case: &Case) -> Result<Motion, String> {
+    let fail = |error: &dyn std::fmt::Display| format!("{}: dynamics: {error}", case.name());
+    let mut scene = case.scene()?;
+    scene.task = Task::Dynamics(dynamics());
+    let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
+    let watch = &mut |_| ControlFlow::Continue(());
+    let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
+    let last = trajectory
+        .records
+        .last()
+        .ok_or_else(|| fail(&"no record"))?;
+    *assembly.system.state_mut() = last.state.clone();
+    Ok(Motion {
+        case: *case,
+        end: measure(case, &mut assembly),
+        residual: (last.residual_force_pn, last.residual_torque_pn_nm),
+        time_ns: last.time_ns,
+        force_evaluations: report.force_evaluations,
+        wall_s: report.wall_s,
+        nearest: nearest(case, last)?,
+    })
+}
+
+fn dynamics() -> Dynamics {
+    Dynamics {
+        duration_ns: LONGEST_NS,
+        integrator: Integrator::PositionVerlet,
+        time_step_ns: None,
+        step_safety: 0.9,
+        allow_unstable_step: false,
+        drag: Drag {
+            translational_per_ns: DRAG_PER_NS,
+            rotational_per_ns: DRAG_PER_NS,
+        },
+        stop: Some(StopRule {
+            force_pn: STOP,
+            torque_pn_nm: STOP,
+            kinetic_pn_nm: 1e-6,
+        }),
+        record_every_ns: None,
+    }
+}
+
+/// The equilibrium that Newton's method finds from `record`, the ends staying where they are.
+fn nearest(case: &Case, record: &Record) -> Result<Outcome, String> {
+    let mut scene = case.scene()?;
+    scene.path.clear();
+    scene.task = Task::Equilibrium(Equilibrium::default());
+    let mut assembly =
+        Assembly::build(&scene).map_err(|error| format!("{}: {error}", case.name()))?;
+    *assembly.system.state_mut() = record.state.clone();
+    outcome(case, &mut assembly)
+}
+
+/// Rows: how far the end of the motion is from its equilibrium, and which equilibrium that is.
+pub(super) fn rows(plan: &Plan, results: &Results, motions: &[Motion]) -> Vec<Row> {
+    motions
+        .iter()
+        .flat_map(|motion| {
+            let mut rows = differences(motion);
+            rows.push(which(plan, results, motion));
+            rows
+        })
+        .collect()
+}
+
+fn differences(motion: &Motion) -> Vec<Row> {
+    let name = format!(
+        "{}/{}",
+        Case::turn_name(motion.case.turn_deg),
+        motion.case.resolved.name()
+    );
+    let pairs = OBSERVABLES.into_iter().zip(TOLERANCES);
+    let row = |(observable, tolerance): (super::results::Observable, f64)| {
+        let value = (observable.of)(&motion.end) - (observable.of)(&motion.nearest.measured);
+        let note = format!(
+            "end of damped motion ({:.0} ns, residual {:.1e} pN and {:.1e} pN nm, {} force \
+             evaluations, {:.0} s) minus the equilibrium that Newton's method finds from it; \
+             certified stable: {}",
+            motion.time_ns,
+            motion.residual.0,
+            motion.residual.1,
+            motion.force_evaluations,
+            motion.wall_s,
+            motion.nearest.is_stable()
+        );
+        let quantity = format!("dynamics_difference/{}/{name}", observable.name);
+        Row::measured(
+            artefact(motion.case.group.figure),
+            quantity,
+            observable.unit,
+            value,
+            note,
+        )
+        .against(0.0, tolerance)
+    };
+    pairs.map(row).collect()
+}
+
+/// How many of the starts of statics lead to the equilibrium that the motion found.
+fn which(plan: &Plan, results: &Results, motion: &Motion) -> Row {
+    let turn = motion.case.turn_deg;
+    let starts = plan.starts_at(turn);
+    let found = results.from_starts(motion.case, &starts);
+    let same = found.iter().filter(|o| is_same(o, &motion.nearest)).count();
+    let m = &motion.nearest.measured;
+    let note = format!(
+        "of {} starts of statics that end in the equilibrium that damped motion finds ({:.3} nm, \
+         {:.2} pN nm, energy {:.3} pN nm)",
+        found.len(),
+        m.height_nm,
+        m.couple_pn_nm,
+        m.energy_pn_nm
+    );
+    let quantity = format!(
+        "dynamics_same_as_statics/{}/{}",
+        Case::turn_name(turn),
+        motion.case.resolved.name()
+    );
+    Row::measured(artefact(plan.figure), quantity, "", same as f64, note)
+}

@@ -1,0 +1,169 @@
+//! Which cases belong to which figure.
+
+use super::case::{Case, DEFAULT_BONDS, Figure, Group, Order, ROD_LENGTHS, Resolved, Start};
+use actin_sim::Hold;
+
+/// Resolutions, samplings and starts of one run.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub figure: Figure,
+    /// Turns of the ends (deg).
+    pub turns: Vec<i32>,
+    pub resolved: Vec<Resolved>,
+    /// Samplings of the bonds.
+    pub seeds: u64,
+    /// Starts from which every resolution of the main group is solved, and at which turns.
+    pub starts: Vec<Start>,
+    pub started: Vec<i32>,
+}
+
+/// Bonds per interface of the numbers to compare with.
+const PROTOTYPE_BONDS: usize = 32;
+
+impl Plan {
+    pub(super) fn eight(quick: bool) -> Self {
+        Self {
+            figure: Figure::Eight,
+            turns: vec![180, -180],
+            resolved: resolved(quick),
+            seeds: if quick { 2 } else { 8 },
+            starts: if quick { orders() } else { starts() },
+            started: vec![180, -180],
+        }
+    }
+
+    pub(super) fn ten(quick: bool) -> Self {
+        Self {
+            figure: Figure::Ten,
+            turns: vec![180, -180, 270, -270, 360, -360],
+            seeds: if quick { 1 } else { 4 },
+            starts: starts(),
+            started: if quick { vec![360] } else { vec![360, -360] },
+            resolved: resolved(quick),
+        }
+    }
+
+    /// Groups by the name that precedes their quantities; the first is the one that is compared
+    /// and has no name.
+    pub(super) fn groups(&self) -> Vec<(&'static str, Group)> {
+        let group = |extended, hold, bonds| Group {
+            figure: self.figure,
+            extended,
+            hold,
+            bonds,
+        };
+        let (bonds, fewer) = (DEFAULT_BONDS, PROTOTYPE_BONDS);
+        match self.figure {
+            Figure::Eight => vec![
+                ("", group(false, Hold::TwoNodesAndFrame, bonds)),
+                ("wall/", group(false, Hold::Wall, bonds)),
+                ("bonds-32/", group(false, Hold::TwoNodesAndFrame, fewer)),
+            ],
+            Figure::Ten => vec![
+                ("", group(true, Hold::NodeAndFrame, bonds)),
+                ("wall/", group(true, Hold::Wall, bonds)),
+                ("standard/", group(false, Hold::NodeAndFrame, bonds)),
+                ("bonds-32/", group(true, Hold::NodeAndFrame, fewer)),
+            ],
+        }
+    }
+
+    /// The group that is compared.
+    pub(super) fn main(&self) -> Group {
+        self.groups()[0].1
+    }
+
+    /// Every case, none twice.
+    pub(super) fn cases(&self) -> Vec<Case> {
+        let mut all = Vec::new();
+        for (_, group) in self.groups() {
+            for &turn in &self.turns {
+                for &resolved in &self.resolved {
+                    all.extend((0..self.seeds).map(|s| Case::new(group, resolved, turn, s)));
+                }
+            }
+        }
+        for &turn in &self.turns {
+            for &resolved in &self.resolved {
+                let case = Case::new(self.main(), resolved, turn, 0);
+                all.extend(
+                    self.starts_at(turn)
+                        .into_iter()
+                        .map(|start| case.from(start)),
+                );
+            }
+        }
+        let mut unique: Vec<Case> = Vec::with_capacity(all.len());
+        for case in all {
+            if !unique.contains(&case) {
+                unique.push(case);
+            }
+        }
+        unique
+    }
+
+    /// Starts at a turn: at least both orders.
+    pub(super) fn starts_at(&self, turn: i32) -> Vec<Start> {
+        if self.started.contains(&turn) {
+            self.starts.clone()
+        } else {
+            orders()
+        }
+    }
+}
+
+fn resolved(quick: bool) -> Vec<Resolved> {
+    let lengths: &[u32] = if quick { &[40, 140, 240] } else { &ROD_LENGTHS };
+    Resolved::all(lengths)
+}
+
+/// Twist first and compression first.
+fn orders() -> Vec<Start> {
+    let start = |order| Start {
+        order,
+        ..Start::DEFAULT
+    };
+    [Order::TwistFirst, Order::CompressionFirst]
+        .map(start)
+        .into()
+}
+
+/// Three orders, each pulled two ways, and two of them in small steps: eight starts.
+fn starts() -> Vec<Start> {
+    let orders = [Order::TwistFirst, Order::CompressionFirst, Order::Together];
+    let mut all: Vec<Start> = orders
+        .into_iter()
+        .flat_map(|order| {
+            [0, 120].map(|pull_deg| Start {
+                order,
+                pull_deg,
+                small_steps: false,
+            })
+        })
+        .collect();
+    all.extend(
+        [Order::TwistFirst, Order::CompressionFirst].map(|order| Start {
+            order,
+            pull_deg: 0,
+            small_steps: true,
+        }),
+    );
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At least three samplings, six starts, all resolutions of the paper and both pure cases.
+    #[test]
+    fn the_plans_hold_what_the_figures_show() {
+        for plan in [Plan::eight(false), Plan::ten(false)] {
+            assert!(plan.seeds >= 3 && plan.starts.len() >= 6);
+            assert_eq!(plan.resolved.len(), 9);
+            let cases = plan.cases();
+            let default = Case::new(plan.main(), Resolved::Mixed(240), 180, 2);
+            assert_eq!(cases.iter().filter(|case| **case == default).count(), 1);
+        }
+    }
+}

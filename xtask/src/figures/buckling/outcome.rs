@@ -1,0 +1,138 @@
+//! What comes out of a case: the equilibrium, its certificate, and what does not depend on the
+//! plane in which the filament happens to buckle.
+
+use super::case::Case;
+use actin_sim::shape::Ribbon;
+use actin_sim::{Assembly, End, Part};
+use std::ops::ControlFlow;
+
+/// A point in the lab frame (nm).
+pub(super) type Place = [f64; 3];
+
+/// An equilibrium in numbers.
+#[derive(Clone, Debug)]
+pub(super) struct Outcome {
+    pub case: Case,
+    pub measured: Measured,
+    /// Eigenvalues of the stiffness below zero, and those that cannot be told from it.
+    pub negative: usize,
+    pub unresolved: usize,
+    /// Residual force (pN) and torque (pN nm).
+    pub residual: (f64, f64),
+    /// Newton steps of the whole path, and equilibria on it.
+    pub iterations: u64,
+    pub points: usize,
+    pub wall_s: f64,
+}
+
+/// What is seen of a state.
+#[derive(Clone, Debug)]
+pub(super) struct Measured {
+    /// Largest distance of the centre line from the axis (nm).
+    pub height_nm: f64,
+    /// Couple about the axis that turns the far end, positive along its turn (pN nm).
+    pub couple_pn_nm: f64,
+    /// Thrust that pushes the far end in (pN).
+    pub force_pn: f64,
+    /// Elastic energy, without that of the pull (pN nm).
+    pub energy_pn_nm: f64,
+    /// Largest twist or curvature beyond the data behind a rod's law (rad/nm), if any.
+    pub beyond_per_nm: Option<f64>,
+    /// Turns by which the ends have been turned against each other: the change of the link.
+    pub link_turns: f64,
+    /// Twist in turns, and writhe of the smoothed centre line, the ends going on straight.
+    pub twist_turns: f64,
+    pub writhe: f64,
+    /// The centre line.
+    pub centre_line: Vec<Place>,
+}
+
+impl Measured {
+    /// Twist and writhe minus link: what White's formula says is zero.
+    pub(super) fn link_error(&self) -> f64 {
+        self.twist_turns + self.writhe - self.link_turns
+    }
+}
+
+impl Outcome {
+    /// A minimum of the energy beyond doubt.
+    pub(super) fn is_stable(&self) -> bool {
+        self.negative == 0 && self.unresolved == 0
+    }
+}
+
+/// Finds the equilibrium of `case` along its path.
+///
+/// # Errors
+/// A scene that cannot be read or built, a path that ends early: in words, with the case.
+pub(super) fn solve(case: &Case) -> Result<Outcome, String> {
+    let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", case.name());
+    let mut assembly = Assembly::build(&case.scene()?).map_err(|e| fail(&e))?;
+    outcome(case, &mut assembly)
+}
+
+/// Runs an assembled equilibrium of `case`.
+pub(super) fn outcome(case: &Case, assembly: &mut Assembly) -> Result<Outcome, String> {
+    let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", case.name());
+    let watch = &mut |_| ControlFlow::Continue(());
+    let (trajectory, report) = actin_sim::run(assembly, watch).map_err(|e| fail(&e))?;
+    let last = trajectory
+        .records
+        .last()
+        .ok_or_else(|| fail(&"no record"))?;
+    let found = report
+        .equilibrium
+        .ok_or_else(|| fail(&"no certificate of the equilibrium"))?;
+    Ok(Outcome {
+        case: *case,
+        measured: measure(case, assembly),
+        negative: found.certificate.negative,
+        unresolved: found.certificate.unresolved,
+        residual: (last.residual_force_pn, last.residual_torque_pn_nm),
+        iterations: found.newton_iterations,
+        points: found.points,
+        wall_s: report.wall_s,
+    })
+}
+
+/// Measures the state that the assembly is in.
+pub(super) fn measure(case: &Case, assembly: &mut Assembly) -> Measured {
+    let loads = assembly.system.loads().clone();
+    let state = assembly.system.state();
+    let end = assembly.clamps.iter().find(|clamp| clamp.end == End::End);
+    let reaction = end.map(|clamp| clamp.reaction(state, &loads));
+    let (couple, force) =
+        reaction.map_or((f64::NAN, f64::NAN), |r| (r.torque_pn_nm.z, r.force_pn.z));
+    let points = 0..assembly.points.len();
+    let line = points.map(|i| assembly.centre_line_nm(state, i));
+    let centre_line: Vec<Place> = line.map(Into::into).collect();
+    let ribbon = Ribbon::new(assembly, state);
+    let beyond = assembly.beyond_range(state).into_iter();
+    Measured {
+        height_nm: height(&centre_line),
+        couple_pn_nm: couple * case.sign(),
+        force_pn: -force,
+        energy_pn_nm: elastic(assembly),
+        beyond_per_nm: beyond.map(|b| b.value_per_nm.abs()).reduce(f64::max),
+        link_turns: f64::from(2 * case.turn_deg) / 360.0,
+        twist_turns: ribbon.twist(),
+        // None is given of curves a hundred times as long.
+        writhe: ribbon.writhe().unwrap_or(f64::NAN),
+        centre_line,
+    }
+}
+
+/// Largest distance from the axis, lab z (nm).
+fn height(line: &[Place]) -> f64 {
+    line.iter().map(|[x, y, _]| x.hypot(*y)).fold(0.0, f64::max)
+}
+
+/// Energy of all but linkers and loads (pN nm).
+fn elastic(assembly: &Assembly) -> f64 {
+    let energies = assembly.system.energies();
+    let terms = assembly.terms.iter().zip(energies);
+    terms
+        .filter(|(term, _)| !matches!(term.part, Part::Load(_) | Part::Linker(_)))
+        .map(|(_, energy)| energy)
+        .sum()
+}
