@@ -14,6 +14,8 @@ use actin_mechanics::{Interaction, Loads, State};
 const GROW: f64 = 8.0;
 /// How far the first regularisation goes beyond the negative curvature that was found.
 const BEYOND: f64 = 2.0;
+/// Part of a regularisation that sufficed from which one that is to suffice again is sought.
+const GUESS: f64 = GROW;
 /// A regularisation above this multiple of the largest diagonal entry is never needed.
 const LIMIT: f64 = 1e3;
 /// A step this many times longer than wanted calls for more regularisation.
@@ -164,8 +166,18 @@ impl Solver {
     /// makes it positive definite; `inertia` is that of the present factor.
     pub(crate) fn make_positive(
         &mut self,
+        inertia: Inertia,
+        with_ties: bool,
+    ) -> Result<f64, Trouble> {
+        self.make_positive_from(inertia, with_ties, 0.0)
+    }
+
+    /// The same; the first multiple that is tried is at least `guess`.
+    fn make_positive_from(
+        &mut self,
         mut inertia: Inertia,
         with_ties: bool,
+        guess: f64,
     ) -> Result<f64, Trouble> {
         let largest = self.largest_diagonal();
         let lightest = self.metric.iter().copied().fold(f64::INFINITY, f64::min);
@@ -174,6 +186,7 @@ impl Solver {
         while !inertia.is_positive() {
             shift = (GROW * shift)
                 .max(shift + self.beyond_curvature())
+                .max(guess)
                 .max(least);
             // A shift that is not a number fails, too.
             if shift.is_nan() || shift > LIMIT * largest / lightest {
@@ -234,8 +247,14 @@ impl Solver {
         cubic: f64,
     ) -> Result<Direction, Trouble> {
         let plain = self.factorize(0.0);
+        let lengths = self.assembly.ties().lengths(state);
+        let limits: Vec<f64> = lengths.iter().map(|length| strain * length).collect();
+        if cubic > 0.0 && !plain.is_positive() {
+            // The shift that the plain stiffness needs says nothing of that with ties.
+            return self.stiffened_direction(state, plain, cubic, (limits, 0.0));
+        }
         let shift = self.make_positive(plain, false)?;
-        let mut direction = self.solve_direction(state, plain, shift, &[]);
+        let direction = self.solve_direction(state, plain, shift, &[]);
         let too_long = direction.extent.strain > TOO_LONG * strain;
         let cubic = if too_long {
             cubic.max(self.least_cubic(state))
@@ -245,26 +264,37 @@ impl Solver {
         if cubic == 0.0 || direction.extent.strain < SHORT {
             return Ok(direction);
         }
-        let lengths = self.assembly.ties().lengths(state);
-        let mut motions: Vec<f64> = direction
-            .motions
-            .iter()
-            .zip(&lengths)
-            .map(|(motion, length)| motion.min(strain * length))
-            .collect();
-        for _ in 0..ROUNDS {
+        let motions = direction.motions.iter().zip(&limits);
+        let motions = motions.map(|(motion, limit)| motion.min(*limit)).collect();
+        self.stiffened_direction(state, plain, cubic, (motions, shift / GUESS))
+    }
+
+    /// The direction in which ties are stiffened by `cubic` times their motions; these and the
+    /// regularisation are first guesses.
+    fn stiffened_direction(
+        &mut self,
+        state: &State,
+        plain: Inertia,
+        cubic: f64,
+        (mut motions, mut guess): (Vec<f64>, f64),
+    ) -> Result<Direction, Trouble> {
+        let mut round = 1;
+        loop {
             let weights: Vec<f64> = motions.iter().map(|motion| cubic * motion).collect();
             self.assembly.assemble_ties(state, &self.layout, &weights);
             let inertia = self.factorize_with_ties(0.0);
-            let shift = self.make_positive(inertia, true)?;
-            direction = self.solve_direction(state, plain, shift, &weights);
+            let shift = self.make_positive_from(inertia, true, guess)?;
+            let direction = self.solve_direction(state, plain, shift, &weights);
+            if round == ROUNDS {
+                return Ok(Direction { cubic, ..direction });
+            }
             for (motion, new) in motions.iter_mut().zip(&direction.motions) {
                 // The geometric mean solves w = cubic r, w r = f in one round.
                 *motion = (*motion * new).sqrt();
             }
+            guess = shift / GUESS;
+            round += 1;
         }
-        direction.cubic = cubic;
-        Ok(direction)
     }
 
     /// A first guess of how fast the stiffness of a tie changes with its motion.
