@@ -3,6 +3,7 @@
 //! The loop over bonds is in `kernel.rs`, second derivatives are in `bonds/stiffness.rs`; drawing
 //! anchors is in `interface.rs`.
 
+mod energies;
 mod stiffness;
 mod sums;
 
@@ -186,11 +187,7 @@ impl Interaction for Bonds {
 
     fn write_energies(&self, state: &State, energies: &mut [f64]) {
         assert_eq!(energies.len(), self.elements(), "one energy per interface");
-        for (energy, pair) in energies.iter_mut().zip(&self.pairs) {
-            let lower = self.body(state, pair.lower);
-            let relative = self.body(state, pair.upper).relative_to(&lower);
-            *energy = self.table(pair.kind).energy(pair.lower, &relative);
-        }
+        self.write_pairs(state, energies);
     }
 }
 

@@ -81,13 +81,4 @@ impl BondTable {
             }
         })
     }
-
-    /// Energy of one pair: the sum over its bonds of `k (|d| - L)^2 / 2`.
-    pub(crate) fn energy(&self, pair: usize, relative: &Relative) -> f64 {
-        let squares = self.bonds_of(pair).map(|bond| {
-            let d = relative.rotation * bond.upper + relative.offset - bond.lower;
-            (d.norm() - bond.rest_length).powi(2)
-        });
-        0.5 * self.stiffness * squares.sum::<f64>()
-    }
 }

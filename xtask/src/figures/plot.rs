@@ -98,9 +98,10 @@ fn render(
             plane.draw_series(line)?
         };
         if let Some(label) = &series.label {
-            drawn.label(label).legend(move |(x, y)| {
-                PathElement::new([(x, y), (x + 22, y)], colour.stroke_width(3))
-            });
+            let dots = series.dots;
+            drawn
+                .label(label)
+                .legend(move |(x, y)| key(dots, colour, (x, y)));
         }
     }
     plane
@@ -112,6 +113,19 @@ fn render(
         .draw()?;
     root.present()?;
     Ok(())
+}
+
+/// What stands for a series in the legend: a stretch of its line, or one of its dots.
+fn key<'a>(
+    dots: bool,
+    colour: RGBColor,
+    (x, y): (i32, i32),
+) -> DynElement<'static, SVGBackend<'a>, (i32, i32)> {
+    if dots {
+        Circle::new((x + 11, y), 2, colour.filled()).into_dyn()
+    } else {
+        PathElement::new([(x, y), (x + 22, y)], colour.stroke_width(3)).into_dyn()
+    }
 }
 
 /// The corner where the legend hides the fewest points.

@@ -8,8 +8,6 @@ use std::path::Path;
 pub(crate) struct Column {
     pub twist: Vec<f64>,
     pub value: Vec<f64>,
-    /// Standard errors of the values, where they are known.
-    pub error: Option<Vec<f64>>,
 }
 
 /// A filament's twist in two columns.

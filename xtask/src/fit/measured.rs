@@ -75,12 +75,9 @@ pub(super) fn twisted(samplings: u64) -> Result<TwistData, String> {
         .map_err(failed("twisting"))?;
     let column = |value: fn(&actin_sim::measure::TwistPoint) -> f64| {
         let mut column = Column::default();
-        let mut errors = Vec::new();
         for (k, sample) in sampled_by(&curves, |p| p.curvature_rad_per_nm, value) {
             column.push(k, sample.mean);
-            errors.push(sample.error);
         }
-        column.error = (samplings > 1).then_some(errors);
         column
     };
     Ok(TwistData {

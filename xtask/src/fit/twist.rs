@@ -56,9 +56,9 @@ impl TwistFits {
         let (rigidity, length) = (&data.rigidity, &data.length);
         let of_xi = |e| format!("xi against twist: {e}");
         let of_b3 = |e| format!("B3 against twist: {e}");
-        let plain = observed(length, Weights::Known).map_err(of_xi)?;
-        let equal = observed(rigidity, Weights::Equal).map_err(of_b3)?;
-        let relative = observed(rigidity, Weights::Relative).map_err(of_b3)?;
+        let plain = observed(length, false).map_err(of_xi)?;
+        let equal = observed(rigidity, false).map_err(of_b3)?;
+        let relative = observed(rigidity, true).map_err(of_b3)?;
         let published = TanhTwist::published();
         let tanh = |data: &Data, extra: &[f64]| {
             let starts = Starts::at(extra).and_drawn(STARTS.0, STARTS.1);
@@ -154,25 +154,14 @@ fn wide(law: TanhTwist) -> TanhTwist {
     }
 }
 
-/// How rows are weighed.
-#[derive(Clone, Copy, PartialEq)]
-enum Weights {
-    Equal,
-    Relative,
-    /// By their standard errors, if they are known; else equal.
-    Known,
-}
-
-fn observed(column: &Column, weights: Weights) -> Result<Data, actin_fit::FitError> {
-    let plain = Observations::new(&column.value)?;
-    let observations = match (weights, &column.error) {
-        (Weights::Relative, _) => {
-            let weights: Vec<f64> = column.value.iter().map(|v| v.powi(-2)).collect();
-            plain.with_weights(&weights)?
-        }
-        (Weights::Known, Some(errors)) => plain.with_deviations(errors)?,
-        _ => plain,
-    };
+/// A column with equal or with relative weights. The scatter over samplings is no weight: a form
+/// of few parameters misses the means by more than that, and is to miss them evenly.
+fn observed(column: &Column, relative: bool) -> Result<Data, actin_fit::FitError> {
+    let mut observations = Observations::new(&column.value)?;
+    if relative {
+        let weights: Vec<f64> = column.value.iter().map(|v| v.powi(-2)).collect();
+        observations = observations.with_weights(&weights)?;
+    }
     Data::new(&column.twist, observations)
 }
 
@@ -250,7 +239,7 @@ mod tests {
     #[test]
     fn derivatives_of_the_forms() {
         let data = TwistData::from_paper(false).unwrap();
-        let data = observed(&data.rigidity, Weights::Equal).unwrap();
+        let data = observed(&data.rigidity, false).unwrap();
         let range = 1.0;
         let checks: [(&dyn Model, &[f64]); 3] = [
             (

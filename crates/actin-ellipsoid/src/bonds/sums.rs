@@ -71,6 +71,15 @@ impl Relatives {
             self.offset[i][lane] = relative.offset[i];
         }
     }
+
+    /// The pairs that stand at `place`: rotations and offsets.
+    #[inline(always)]
+    pub(crate) fn read<S: Simd>(&self, simd: S, place: usize) -> (WideMatrix<S>, Wide3<S>) {
+        let read = |lanes| wide::read(simd, lanes, place);
+        let rows = self.rotation.each_ref();
+        let rotation = rows.map(|row| row.each_ref().map(read));
+        (rotation, self.offset.each_ref().map(read))
+    }
 }
 
 impl Sums {
@@ -90,13 +99,7 @@ impl WithSimd for SumBonds<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         for first in (0..GROUP).step_by(S::F64_LANES.min(GROUP)) {
             let place = place_of::<S>(first);
-            let read = |lanes| wide::read(simd, lanes, place);
-            let rotation = self
-                .relatives
-                .rotation
-                .each_ref()
-                .map(|row| row.each_ref().map(read));
-            let offset = self.relatives.offset.each_ref().map(read);
+            let (rotation, offset) = self.relatives.read(simd, place);
             let sums = sum_bonds(simd, &rotation, offset, self.records, place);
             for (row, values) in self.sums.lines.iter_mut().zip(sums.lines) {
                 for (lanes, value) in row.iter_mut().zip(values) {

@@ -1,8 +1,8 @@
 //! The law `Fitted`: what measurements on filaments of monomers say of a rod.
 //!
 //! Every number was printed by `cargo xtask fit-parameters --measure`, from filaments of the default
-//! parameters (64 bonds per interface, drawn for each): `docs/validation.md` holds the data, the
-//! errors and why each term is there.
+//! parameters (64 bonds per interface, drawn for each): `docs/validation.md` says how
+//! well they meet the filaments and why each term is there.
 
 use super::{BendLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw};
 
@@ -10,40 +10,40 @@ use super::{BendLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistSt
 pub fn laws() -> RodLaws {
     RodLaws {
         bend: Some(BendLaw::Stiffening {
-            rest_pn_nm2: 3.169e4,
-            rise_pn_nm2: 7.90e3,
-            curvature_per_nm: 2.73e-3,
-            twist_per_nm: Some(2.4e-3),
-            shear: Some(9.5e-3),
-            range_per_nm: 0.0175,
+            rest_pn_nm2: 31_717.0,
+            rise_pn_nm2: 8_070.5,
+            curvature_per_nm: 2.845e-3,
+            twist_per_nm: Some(2.871e-3),
+            shear: Some(9.915e-3),
+            range_per_nm: 0.015,
         }),
         twist: Some(TwistLaw::Sided {
-            rest_pn_nm2: 272.0,
+            rest_pn_nm2: 225.65,
             under: TwistRise {
-                rise_pn_nm2: 12_880.0,
-                half_per_nm: 0.009_05,
-                slow_per_nm: 0.0192,
+                rise_pn_nm2: 12_877.3,
+                half_per_nm: 8.713_5e-3,
+                slow_per_nm: 1.862e-2,
             },
             over: TwistRise {
-                rise_pn_nm2: 22_155.0,
-                half_per_nm: 0.011_88,
-                slow_per_nm: 0.0163,
+                rise_pn_nm2: 23_082.2,
+                half_per_nm: 1.141_46e-2,
+                slow_per_nm: 1.843_1e-2,
             },
-            range_per_nm: 0.0475,
+            range_per_nm: 0.0472,
         }),
         stretch: Some(StretchLaw::Constant {
-            rigidity_pn: 3.30e4,
+            rigidity_pn: 3.29e4,
         }),
         shear: Some(ShearLaw::Cubic {
             linear_pn: [0.0, 0.0],
-            cubic_pn: 8.27e5,
+            cubic_pn: 8.282e5,
         }),
         twist_stretch: Some(TwistStretchLaw::Rooted {
-            slope_nm: -0.289_76,
-            bend_nm: 0.461_95,
-            half_per_nm: 0.006_728,
-            cubic_nm3: 28.5,
-            range_per_nm: 0.0475,
+            slope_nm: -0.288_514,
+            bend_nm: 0.460_159,
+            half_per_nm: 6.587_3e-3,
+            cubic_nm3: 27.601_6,
+            range_per_nm: 0.0472,
         }),
     }
 }

@@ -35,11 +35,7 @@ impl Summary {
             tip_displacement_nm: (tip_nm - tip_at_rest_nm).into(),
             end_reactions: EndReactions::new(assembly, &last.state),
             beyond_range: assembly.beyond_range(&last.state),
-            linkers: assembly
-                .linkers
-                .iter()
-                .map(|linker| LinkerSummary::new(linker, &last.state))
-                .collect(),
+            linkers: LinkerSummary::all(assembly, &last.state),
             shape: ShapeSummary::new(assembly, last),
             residual: ResidualSummary {
                 force_pn: last.residual_force_pn,
@@ -119,6 +115,11 @@ impl ShapeSummary {
 }
 
 impl LinkerSummary {
+    fn all(assembly: &Assembly, state: &State) -> Vec<Self> {
+        let linkers = assembly.linkers.iter();
+        linkers.map(|linker| Self::new(linker, state)).collect()
+    }
+
     fn new(linker: &Linker, state: &State) -> Self {
         Self {
             site_nm: linker.site().position(state).into(),
