@@ -22,8 +22,11 @@ const EQUAL: f64 = 1e-8;
 /// An observable: name, unit, value.
 type Observable = (&'static str, &'static str, fn(&Halves) -> f64);
 
-const OBSERVABLES: [Observable; 5] = [
+const OBSERVABLES: [Observable; 6] = [
     ("half_energy_ratio", "", Halves::ratio),
+    ("half_energy_excess", "pN nm", |h| {
+        h.over_pn_nm - h.under_pn_nm
+    }),
     ("energy", "pN nm", Halves::energy_pn_nm),
     ("turn", "deg", |h| h.turn_deg),
     ("pull", "pN", |h| h.pull_pn),
