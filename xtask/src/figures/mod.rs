@@ -6,6 +6,7 @@
 
 mod buckling;
 mod figure4;
+mod figure7;
 mod figure9;
 mod html;
 pub(crate) mod plot;
@@ -22,8 +23,9 @@ use std::path::Path;
 type Recipe = (&'static str, fn(&Path, bool) -> Result<Artefact, String>);
 
 /// The artefacts that exist.
-const RECIPES: [Recipe; 9] = [
+const RECIPES: [Recipe; 10] = [
     ("fig4", figure4::reproduce),
+    ("fig7", figure7::reproduce),
     ("fig8", buckling::figure8),
     ("fig9", figure9::reproduce),
     ("fig10", buckling::figure10),

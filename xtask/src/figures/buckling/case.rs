@@ -220,10 +220,8 @@ impl Case {
             linker.displaced_nm = Some([cos * x - sin * y, sin * x + cos * y, z]);
         }
         scene.path = self.path(&scene.path);
-        if let Task::Equilibrium(equilibrium) = &mut scene.task {
-            if self.start.small_steps {
-                equilibrium.largest_step = SMALL_STEP;
-            }
+        if let (Task::Equilibrium(equilibrium), true) = (&mut scene.task, self.start.small_steps) {
+            equilibrium.largest_step = SMALL_STEP;
         }
     }
 

@@ -147,7 +147,7 @@ fn differences(motion: &Motion) -> Vec<Row> {
 fn which(plan: &Plan, results: &Results, motion: &Motion) -> Row {
     let turn = motion.case.turn_deg;
     let starts = plan.starts_at(turn);
-    let found = results.from_starts(motion.case, &starts);
+    let found = results.started(motion.case, &starts);
     let same = found.iter().filter(|o| is_same(o, &motion.nearest)).count();
     let m = &motion.nearest.measured;
     let note = format!(

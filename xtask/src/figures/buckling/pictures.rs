@@ -18,8 +18,8 @@ pub(super) fn draw(plan: &Plan, results: &Results, out: &Path) -> Result<Vec<Pic
         pictures.extend(lines(plan, results, turn, out)?);
     }
     for observable in &OBSERVABLES[..2] {
-        for over in [true, false] {
-            pictures.push(against_rod(plan, results, (*observable, over), out)?);
+        for &turn in &plan.turns {
+            pictures.push(against_rod(plan, results, (*observable, turn), out)?);
         }
     }
     Ok(pictures)
@@ -96,64 +96,56 @@ fn view(
         .collect()
 }
 
-/// An observable against the length of rod, all groups and turns of one direction.
+/// An observable against the length of rod at one turn, all groups.
 fn against_rod(
     plan: &Plan,
     results: &Results,
-    (observable, over): (Observable, bool),
+    (observable, turn): (Observable, i32),
     out: &Path,
 ) -> Result<Picture, String> {
     let Observable { name, unit, .. } = observable;
-    let series = curves(plan, results, observable, over);
-    let what = if name == "height" {
-        "Largest distance from the axis"
-    } else {
-        "End couple"
+    let what = match name {
+        "height" => "Largest distance from the axis",
+        _ => "End couple",
     };
     let chart = Chart {
-        title: &format!("{what}, {}", direction(over)),
+        title: &format!(
+            "{what}, {} deg of {} at each end",
+            turn.abs(),
+            direction(turn > 0)
+        ),
         x_label: "length of rod (nm); 0 is all monomers, 300 all rod",
         y_label: &format!("{name} ({unit})"),
-        series,
+        series: curves(plan, results, observable, turn),
         equal_axes: false,
     };
-    let sign = if over { "over" } else { "under" };
-    let file = format!("{}_{name}_{sign}.svg", artefact(plan.figure));
+    let turn = Case::turn_name(turn).replace('/', "_");
+    let file = format!("{}_{turn}_{name}.svg", artefact(plan.figure));
     draw_chart(&chart, &out.join(&file))?;
     let caption = format!(
-        "{what} against the length of rod: means over {} samplings of the bonds.",
+        "{what} against the length of rod: means over {} samplings of the bonds. Monomers have 64 \
+         bonds per interface unless 32 are named.",
         plan.seeds
     );
     Ok(Picture { file, caption })
 }
 
-/// One curve for each group that is drawn and each turn, with its points.
-fn curves(plan: &Plan, results: &Results, observable: Observable, over: bool) -> Vec<Series> {
-    let drawn = |name: &str| plan.figure == Figure::Eight || matches!(name, "" | "standard/");
-    let groups: Vec<_> = plan.groups().into_iter().filter(|g| drawn(g.0)).collect();
-    let turns: Vec<i32> = plan
-        .turns
-        .iter()
-        .copied()
-        .filter(|t| (*t > 0) == over)
-        .collect();
+/// One curve for each group, with its points.
+fn curves(plan: &Plan, results: &Results, observable: Observable, turn: i32) -> Vec<Series> {
+    let groups = plan.groups();
     let mut series = Vec::new();
     for (i, &(name, group)) in groups.iter().enumerate() {
-        for (k, &turn) in turns.iter().enumerate() {
-            // From blue for the first group to red for the last; the first turn is the purest.
-            let share = 1.0 - i as f64 / (groups.len() - 1) as f64;
-            let share = share + (0.5 - share) * 0.3 * k as f64;
-            let points = means(plan, results, (group, turn), observable);
-            let label = format!("{} deg, {}", turn.abs(), describe(name, group));
-            let curve = |label, points, dots| Series {
-                label,
-                colour: resolution_colour(share),
-                points,
-                dots,
-            };
-            series.push(curve(Some(label), points.clone(), false));
-            series.push(curve(None, points, true));
-        }
+        // From blue for the first group to red for the last.
+        let share = 1.0 - i as f64 / (groups.len() - 1) as f64;
+        let points = means(plan, results, (group, turn), observable);
+        let curve = |label, points, dots| Series {
+            label,
+            colour: resolution_colour(share),
+            points,
+            dots,
+        };
+        series.push(curve(Some(describe(name, group)), points.clone(), false));
+        series.push(curve(None, points, true));
     }
     series
 }

@@ -171,16 +171,21 @@ fn spread(
         (high - low) * scale,
         note,
     );
-    Some(match (plan.figure, name, observable.name, turn) {
+    Some(judged(row, plan.figure, (name, observable.name), turn))
+}
+
+/// The spread compared with what is asked of it, where something is.
+fn judged(row: Row, figure: Figure, (group, observable): (&str, &str), turn: i32) -> Row {
+    match (figure, group, observable, turn) {
         (Figure::Ten, "", "height", 180 | 270) => row.against(0.0, HEIGHT_SPREAD_NM),
+        (Figure::Ten, "", "couple", -180) => row.against(0.0, COUPLE_SPREAD),
         (Figure::Ten, "standard/", "height", 180 | 270) => Row {
             pass: Some(row.ours >= STANDARD_SPREAD_NM),
             note: format!("at least {STANDARD_SPREAD_NM} nm is expected; {}", row.note),
             ..row
         },
-        (Figure::Ten, "", "couple", -180) => row.against(0.0, COUPLE_SPREAD),
         _ => row,
-    })
+    }
 }
 
 /// How the means go from all rod to all monomers, in words.

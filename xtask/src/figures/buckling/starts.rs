@@ -75,7 +75,7 @@ fn order_difference(
 /// Number of distinct equilibria of one filament.
 fn distinct_row(plan: &Plan, results: &Results, resolved: Resolved, turn: i32) -> Option<Row> {
     let case = Case::new(plan.main(), resolved, turn, 0);
-    let outcomes = results.from_starts(case, &plan.starts_at(turn));
+    let outcomes = results.started(case, &plan.starts_at(turn));
     let distinct = distinct(&outcomes);
     let first = distinct.first()?;
     let each: Vec<String> = distinct

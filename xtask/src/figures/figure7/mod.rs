@@ -1,0 +1,112 @@
+//! Figure 7: a filament held at both ends and turned in its middle by a linker, as a rod, whose
+//! halves store the same, and as monomers, whose over-twisted half stores more.
+
+mod case;
+mod rows;
+
+use super::plot::{Chart, Series, draw as draw_chart, resolution_colour};
+use super::report::{Artefact, Picture};
+use actin_sim::Hold;
+use case::{Case, Halves, Resolved, Sliding};
+use rayon::prelude::*;
+use std::path::Path;
+use std::time::Instant;
+
+/// Samplings of the bonds, each pulled in both directions.
+const SEEDS: u64 = 16;
+const QUICK_SEEDS: u64 = 4;
+
+/// Runs all cases, draws them and compares them.
+pub(super) fn reproduce(out: &Path, quick: bool) -> Result<Artefact, String> {
+    let started = Instant::now();
+    let cases = cases(if quick { QUICK_SEEDS } else { SEEDS });
+    let results: Vec<Halves> = cases.par_iter().map(Case::run).collect::<Result<_, _>>()?;
+    rows::write_tables(&results, out)?;
+    let worst = |pick: fn(&Halves) -> f64| results.iter().map(pick).fold(0.0, f64::max);
+    Ok(Artefact {
+        id: "fig7",
+        title: "Turned in the middle: the energy of both halves",
+        settings: format!(
+            "Scenes scenarios/figure-7/*.ron, {} equilibria; every force is below {:.1e} pN and \
+             every torque below {:.1e} pN nm.",
+            results.len(),
+            worst(|h| h.residual.0),
+            worst(|h| h.residual.1)
+        ),
+        rows: rows::rows(&results),
+        pictures: vec![picture(&results, out)?],
+        wall_s: started.elapsed().as_secs_f64(),
+    })
+}
+
+/// Rods with both clamps, monomers with 64 and 32 bonds; with both ends held along the axis, one or
+/// none.
+fn cases(seeds: u64) -> Vec<Case> {
+    let rods = [Hold::TwoNodesAndFrame, Hold::Wall].map(Resolved::Rod);
+    let monomers = [64, 32].map(Resolved::Ellipsoids);
+    let mut all = Vec::new();
+    for sliding in [Sliding::Neither, Sliding::FarEnd, Sliding::BothEnds] {
+        for resolved in rods.into_iter().chain(monomers) {
+            let is_rod = matches!(resolved, Resolved::Rod(_));
+            let seeds = if is_rod { 1 } else { seeds };
+            let directions: &[bool] = if is_rod { &[false] } else { &[false, true] };
+            for seed in 0..seeds {
+                all.extend(directions.iter().map(|&reversed| Case {
+                    resolved,
+                    seed,
+                    reversed,
+                    sliding,
+                }));
+            }
+        }
+    }
+    all
+}
+
+/// Energy per length: the rod, and the mean of the monomers with the default bonds.
+fn picture(results: &[Halves], out: &Path) -> Result<Picture, String> {
+    let of_kind =
+        |kind: &str| -> Vec<&Halves> { results.iter().filter(|h| h.case.kind() == kind).collect() };
+    let curve = |label: &str, share: f64, halves: &[&Halves]| Series {
+        label: Some(label.into()),
+        colour: resolution_colour(share),
+        points: mean_profile(halves),
+        dots: false,
+    };
+    let chart = Chart {
+        title: "Energy along the filament; the over-twisted half is on the right",
+        x_label: "arc length from the middle (nm)",
+        y_label: "elastic energy per length (pN)",
+        series: vec![
+            curve("rod", 1.0, &of_kind("rod")),
+            curve("ellipsoids", 0.0, &of_kind("ellipsoid")),
+            curve(
+                "ellipsoids, both ends slide",
+                0.4,
+                &of_kind("both-ends-slide/ellipsoid"),
+            ),
+        ],
+        equal_axes: false,
+    };
+    draw_chart(&chart, &out.join("fig7_energy.svg"))?;
+    Ok(Picture {
+        file: "fig7_energy.svg".into(),
+        caption: "Elastic energy per length; of ellipsoids the mean over all samplings and both \
+                  directions of the pull."
+            .into(),
+    })
+}
+
+/// Mean over profiles that are known at the same places, within the mirror image.
+fn mean_profile(halves: &[&Halves]) -> Vec<(f64, f64)> {
+    let Some(first) = halves.first() else {
+        return Vec::new();
+    };
+    let n = halves.len() as f64;
+    (0..first.profile.len())
+        .map(|i| {
+            let sum: f64 = halves.iter().map(|h| h.profile[i].1).sum();
+            (first.profile[i].0, sum / n)
+        })
+        .collect()
+}

@@ -1,0 +1,173 @@
+//! Numbers of Figure 7 as rows of the report, and the table behind them.
+
+use super::case::{Halves, Resolved, Sliding};
+use crate::figures::report::{Row, write_csv};
+use actin_sim::Hold;
+use std::path::Path;
+
+/// Rod held in two nodes and a frame, by an independent prototype: energy (pN nm), turn (deg), pull
+/// (pN); to the digits given.
+const ROD: [(&str, f64); 3] = [("energy", 27.96), ("turn", 5.285), ("pull", 15.65)];
+/// Relative tolerance of these.
+const ROD_TOLERANCE: f64 = 1e-3;
+/// Monomers, by the same prototype with 32 bonds: energy (pN nm) and turn (deg).
+const ELLIPSOIDS: [(&str, f64); 2] = [("energy", 22.3), ("turn", 10.2)];
+/// Relative tolerance of these.
+const ELLIPSOIDS_TOLERANCE: f64 = 0.05;
+/// The over-twisted half stores 6 to 13 % more.
+const EXCESS: (f64, f64) = (0.06, 0.13);
+/// The halves of a rod are equal to round-off of the energies.
+const EQUAL: f64 = 1e-8;
+
+/// An observable: name, unit, value.
+type Observable = (&'static str, &'static str, fn(&Halves) -> f64);
+
+const OBSERVABLES: [Observable; 6] = [
+    ("half_energy_ratio", "", Halves::ratio),
+    ("half_energy_excess", "pN nm", |h| {
+        h.over_pn_nm - h.under_pn_nm
+    }),
+    ("energy", "pN nm", Halves::energy_pn_nm),
+    ("turn", "deg", |h| h.turn_deg),
+    ("pull", "pN", |h| h.pull_pn),
+    ("tension", "pN", |h| h.tension_pn),
+];
+
+/// All rows, kind by kind.
+pub(super) fn rows(results: &[Halves]) -> Vec<Row> {
+    let mut kinds: Vec<String> = results.iter().map(|r| r.case.kind()).collect();
+    kinds.dedup();
+    let of_kind = |kind: &String| results.iter().filter(|r| r.case.kind() == *kind).collect();
+    let mut all: Vec<Row> = kinds
+        .iter()
+        .flat_map(|kind| {
+            let halves: Vec<&Halves> = of_kind(kind);
+            OBSERVABLES.map(|observable| row(kind, &halves, observable))
+        })
+        .collect();
+    let doubtful = results.iter().filter(|r| r.doubtful > 0).count();
+    let note = format!("of {} equilibria", results.len());
+    all.push(Row::measured(
+        "fig7",
+        "not_certified_stable",
+        "",
+        doubtful as f64,
+        note,
+    ));
+    all
+}
+
+fn row(kind: &str, halves: &[&Halves], (name, unit, of): Observable) -> Row {
+    let values: Vec<f64> = halves.iter().map(|h| of(h)).collect();
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let squares: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
+    let sd = (squares / (n - 1.0).max(1.0)).sqrt();
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let note = if values.len() > 1 {
+        format!(
+            "mean over {n} (samplings, both directions), sd {sd:.4}, standard error {:.4}, range \
+             {low:.4} to {high:.4}",
+            sd / n.sqrt()
+        )
+    } else {
+        "one equilibrium".into()
+    };
+    let quantity = format!("{name}/{kind}");
+    let row = Row::measured("fig7", quantity, unit, mean, note);
+    against(row, halves[0], name)
+}
+
+/// The row compared with what is known of its kind.
+fn against(row: Row, example: &Halves, name: &str) -> Row {
+    let find = |table: &[(&str, f64)]| table.iter().find(|e| e.0 == name).map(|e| e.1);
+    let case = example.case;
+    let compared = match case.resolved {
+        _ if case.sliding != Sliding::Neither => None,
+        Resolved::Rod(Hold::TwoNodesAndFrame) => {
+            find(&ROD).map(|value| (value, ROD_TOLERANCE * value))
+        }
+        Resolved::Rod(_) => None,
+        Resolved::Ellipsoids(_) => {
+            find(&ELLIPSOIDS).map(|value| (value, ELLIPSOIDS_TOLERANCE * value))
+        }
+    };
+    match (name, case.resolved, compared) {
+        ("half_energy_ratio", Resolved::Rod(_), _) if case.sliding != Sliding::FarEnd => {
+            row.against(1.0, EQUAL)
+        }
+        ("half_energy_ratio", Resolved::Ellipsoids(_), _) if case.sliding == Sliding::Neither => {
+            let middle = 1.0 + 0.5 * (EXCESS.0 + EXCESS.1);
+            row.against(middle, 0.5 * (EXCESS.1 - EXCESS.0))
+        }
+        (_, _, Some((value, tolerance))) => {
+            let note = format!("compared with an independent prototype; {}", row.note);
+            Row { note, ..row }.against(value, tolerance)
+        }
+        _ => row,
+    }
+}
+
+const COLUMNS: [&str; 12] = [
+    "kind",
+    "seed",
+    "reversed",
+    "over_twisted_half_pn_nm",
+    "under_twisted_half_pn_nm",
+    "ratio",
+    "turn_deg",
+    "pull_pn",
+    "tension_pn",
+    "not_positive_eigenvalues",
+    "residual_pn",
+    "residual_pn_nm",
+];
+
+/// Writes `fig7.csv` and `fig7_profile.csv`.
+pub(super) fn write_tables(results: &[Halves], out: &Path) -> Result<(), String> {
+    let rows = results.iter().map(|h| {
+        let mut row = vec![
+            h.case.kind(),
+            h.case.seed.to_string(),
+            h.case.reversed.to_string(),
+        ];
+        let numbers = [
+            h.over_pn_nm,
+            h.under_pn_nm,
+            h.ratio(),
+            h.turn_deg,
+            h.pull_pn,
+        ];
+        row.extend(numbers.map(number));
+        row.push(number(h.tension_pn));
+        row.push(h.doubtful.to_string());
+        row.extend([h.residual.0, h.residual.1].map(number));
+        row
+    });
+    write_csv(out, "fig7.csv", &COLUMNS, rows)?;
+    let points = results.iter().flat_map(|h| {
+        let key = [
+            h.case.kind(),
+            h.case.seed.to_string(),
+            h.case.reversed.to_string(),
+        ];
+        h.profile.iter().map(move |&(s, e)| {
+            let mut row = key.to_vec();
+            row.extend([number(s), number(e)]);
+            row
+        })
+    });
+    let header = [
+        "kind",
+        "seed",
+        "reversed",
+        "s_from_middle_nm",
+        "energy_per_length_pn",
+    ];
+    write_csv(out, "fig7_profile.csv", &header, points)
+}
+
+fn number(x: f64) -> String {
+    format!("{x:.12e}")
+}
