@@ -13,6 +13,7 @@ mod elastica;
 mod extremes;
 mod history;
 mod linkers;
+mod reciprocity;
 mod ring;
 mod second_derivatives;
 mod shape;
