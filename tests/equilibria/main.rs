@@ -17,3 +17,4 @@ mod reciprocity;
 mod ring;
 mod second_derivatives;
 mod shape;
+mod twisted;
