@@ -133,11 +133,9 @@ fn spread(force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
 #[test]
 fn mixed_cantilevers_spread_less_under_the_fitted_law() {
     for force in [0.5, 2.0] {
-        let of = |law, weight| spread(force, law, weight);
-        let [constant, fitted] =
-            [RodLaw::Constant, RodLaw::Fitted].map(|law| of(&law, JunctionWeight::Shared));
-        let [stiff_constant, stiff_fitted] =
-            [RodLaw::Constant, RodLaw::Fitted].map(|law| of(&law, JunctionWeight::Full));
+        let of = |weight| [RodLaw::Constant, RodLaw::Fitted].map(|law| spread(force, &law, weight));
+        let [constant, fitted] = of(JunctionWeight::Shared);
+        let [stiff_constant, stiff_fitted] = of(JunctionWeight::Full);
         assert!(fitted < 0.6 * constant && stiff_fitted < 0.8 * stiff_constant);
         assert!(constant < stiff_constant && fitted < stiff_fitted);
     }
