@@ -33,13 +33,18 @@ pub(crate) const ROD_AT_BOTH_ENDS: Filament = (
 pub(crate) const FILAMENTS: [Filament; 4] = [ELLIPSOIDS, ROD, MIXED, ROD_AT_BOTH_ENDS];
 
 /// The filament as built, free, with 16 bonds per interface.
-pub(crate) fn assemble((_, sections): Filament, law: ForceLaw) -> Assembly {
+pub(crate) fn assemble(filament: Filament, law: ForceLaw) -> Assembly {
+    assemble_of(filament, &format!("force_law: {law:?}"))
+}
+
+/// The same with its rods as a scene writes them.
+pub(crate) fn assemble_of((_, sections): Filament, rod: &str) -> Assembly {
     let text = format!(
         "Scene(
             filament: Filament(
                 sections: [{sections}],
                 monomers: (seed: 1, lateral_bonds: 16, longitudinal_bonds: 16),
-                rod: (force_law: {law:?}),
+                rod: ({rod}),
             ),
             task: Dynamics(duration_ns: 1.0),
         )"
@@ -52,12 +57,27 @@ pub(crate) fn assemble((_, sections): Filament, law: ForceLaw) -> Assembly {
 /// rad/nm (as much as in the scenes), and shaken: every kind of strain is at work, with a third to
 /// a half of kBT of strain energy for each degree of freedom (the test of the order prints it).
 pub(crate) fn in_flight(filament: Filament) -> System {
-    let mut assembly = assemble(filament, ForceLaw::EnergyGradient);
+    let assembly = assemble(filament, ForceLaw::EnergyGradient);
+    fly_off(assembly, Vector3::new(6e-3, -3e-3, 1e-2), 0.0, 1.0)
+}
+
+/// An assembly as built, bent and twisted to `kappa` (rad/nm), then all of it stretched by
+/// `extension`, flying and turning as in [`in_flight`] and shaken `shake` times as much.
+pub(crate) fn fly_off(
+    mut assembly: Assembly,
+    kappa: Vector3,
+    extension: f64,
+    shake: f64,
+) -> System {
     let mut noise = Noise::new(5);
-    set_in_motion(assembly.system.state_mut(), &mut noise, 1.0, 1.0);
-    bend(&mut assembly, Vector3::new(6e-3, -3e-3, 1e-2));
+    set_in_motion(assembly.system.state_mut(), &mut noise, shake, shake);
+    bend(&mut assembly, kappa);
     let state = assembly.system.state_mut();
-    perturb(state, &mut noise, 2e-3, 1e-3);
+    for i in 0..state.points.len() {
+        let x = state.points.position.get(i);
+        state.points.position.set(i, x * (1.0 + extension));
+    }
+    perturb(state, &mut noise, 2e-3 * shake, 1e-3 * shake);
     let (velocity, omega) = (
         Vector3::new(20.0, -10.0, 30.0),
         Vector3::new(3.0, -2.0, 5.0),

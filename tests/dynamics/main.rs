@@ -5,6 +5,7 @@
 mod energy;
 mod filaments;
 mod invariants;
+mod laws;
 mod modes;
 mod order;
 mod paper_balance;
