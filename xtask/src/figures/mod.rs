@@ -7,6 +7,7 @@
 mod figure4;
 mod figure9;
 mod html;
+mod linked;
 pub(crate) mod plot;
 pub(crate) mod report;
 mod tables;
@@ -21,8 +22,10 @@ use std::path::Path;
 type Recipe = (&'static str, fn(&Path, bool) -> Result<Artefact, String>);
 
 /// The artefacts that exist.
-const RECIPES: [Recipe; 7] = [
+const RECIPES: [Recipe; 9] = [
     ("fig4", figure4::reproduce),
+    ("fig5", linked::figure5),
+    ("fig6", linked::figure6),
     ("fig9", figure9::reproduce),
     ("table1", tables::table1),
     ("table2", tables::table2),
