@@ -4,6 +4,7 @@
 //! `docs/statics.md` quotes the numbers that these tests print (`-- --nocapture`).
 
 mod agreement;
+mod anchors;
 mod bend;
 mod buckling;
 mod chain;

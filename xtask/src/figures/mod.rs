@@ -9,6 +9,7 @@ mod figure4;
 mod figure7;
 mod figure9;
 mod html;
+mod linked;
 pub(crate) mod plot;
 pub(crate) mod report;
 mod tables;
@@ -23,8 +24,10 @@ use std::path::Path;
 type Recipe = (&'static str, fn(&Path, bool) -> Result<Artefact, String>);
 
 /// The artefacts that exist.
-const RECIPES: [Recipe; 10] = [
+const RECIPES: [Recipe; 12] = [
     ("fig4", figure4::reproduce),
+    ("fig5", linked::figure5),
+    ("fig6", linked::figure6),
     ("fig7", figure7::reproduce),
     ("fig8", buckling::figure8),
     ("fig9", figure9::reproduce),

@@ -78,7 +78,7 @@ fn render(
         .caption(chart.title, ("sans-serif", 20))
         .margin(14)
         .x_label_area_size(46)
-        .y_label_area_size(66)
+        .y_label_area_size(78)
         .build_cartesian_2d(x, y)?;
     plane
         .configure_mesh()

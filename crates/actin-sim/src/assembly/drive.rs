@@ -1,10 +1,11 @@
-//! What a scene moves from outside: held ends and load factors, along its path.
+//! What a scene moves from outside: held ends, load factors and anchors, along its path.
 
 use super::Clamped;
 use crate::scene::{Scene, Setting, Slides};
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 
-/// A control, by the index of its load or clamp, and its values at the ends of the stages, the first of them before the path.
+/// A control, by the index of its load, clamp or linker, and its values at the ends of the stages,
+/// the first of them before the path.
 #[derive(Clone, Debug, PartialEq)]
 struct Track {
     what: usize,
@@ -40,6 +41,9 @@ pub struct Drive {
     loads: Vec<Track>,
     shifts: Vec<Track>,
     turns: Vec<Track>,
+    anchors: Vec<Track>,
+    /// Index of the first control of the first anchor: those of loads stand before it.
+    first_anchor: usize,
     ends: Vec<HeldEnd>,
 }
 
@@ -82,11 +86,20 @@ impl Drive {
             });
             Some(Track::new(clamp, values?))
         };
+        let anchor = |index: usize| {
+            let values = values(scene, &|setting| match *setting {
+                Setting::Anchor { linker, shift_nm } if linker == index => Some(shift_nm.into()),
+                _ => None,
+            });
+            Some(Track::new(index, values?))
+        };
         Self {
             stages: scene.path.len(),
             loads: (0..scene.loads.len()).filter_map(load).collect(),
             shifts: (0..clamps.len()).filter_map(shift).collect(),
             turns: (0..clamps.len()).filter_map(turn).collect(),
+            anchors: (0..scene.linkers.len()).filter_map(anchor).collect(),
+            first_anchor: scene.loads.len(),
             ends: clamps.iter().map(|c| HeldEnd::new(c, rest)).collect(),
         }
     }
@@ -118,6 +131,11 @@ impl Drive {
     pub(super) fn place_moving(&self, state: &mut State, u: f64, rate: f64) {
         for track in &self.loads {
             state.controls[track.what] = track.at(u).0.x;
+        }
+        for track in &self.anchors {
+            let first = self.first_anchor + 3 * track.what;
+            let displacement = track.at(u).0;
+            state.controls[first..first + 3].copy_from_slice(displacement.as_slice());
         }
         let motion = |tracks: &[Track], clamp| {
             let track = tracks.iter().find(|track| track.what == clamp);

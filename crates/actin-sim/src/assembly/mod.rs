@@ -24,7 +24,7 @@ pub use reaction::{Clamped, Reaction};
 use crate::scene::{End, Scene};
 use actin_cosserat::{RodLayout, RodMaterial};
 use actin_coupling::Linker;
-use actin_mechanics::{State, System, Vector3};
+use actin_mechanics::{State, System, UnitQuaternion, Vector3};
 
 /// A scene, ready to run.
 #[derive(Debug)]
@@ -113,6 +113,25 @@ impl Assembly {
                 position - radial * self.scene.filament.monomers.radius_nm
             }
             None => position,
+        }
+    }
+
+    /// Turns a free filament as it stands about lab z, along which it is built, by `angle` (rad):
+    /// another start for the same equilibria. Anchors and loads stay.
+    ///
+    /// # Panics
+    /// If an end is clamped.
+    pub fn roll(&mut self, angle: f64) {
+        assert!(self.clamps.is_empty(), "a clamped end does not roll");
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle);
+        let state = self.system.state_mut();
+        for i in 0..state.points.len() {
+            let place = turn * state.points.position.get(i);
+            state.points.position.set(i, place);
+        }
+        for i in 0..state.frames.len() {
+            let orientation = turn * state.frames.orientation.get(i);
+            state.frames.orientation.set(i, orientation);
         }
     }
 }

@@ -23,7 +23,7 @@ pub struct Scene {
     /// Springs that hold it to points outside of it.
     #[serde(default)]
     pub linkers: Vec<Linker>,
-    /// How controls are moved, stage by stage: loads, shifts and turns of held ends.
+    /// How controls are moved, stage by stage: loads, shifts and turns of held ends, anchors.
     #[serde(default)]
     pub path: Vec<Stage>,
     /// What is asked.
@@ -70,6 +70,14 @@ pub enum Setting {
         end: End,
         /// Rotation vector in the lab frame (deg), of any length; z is the filament's axis.
         turn_deg: [f64; 3],
+    },
+    /// Displacement of a linker's anchor from where the linker puts it, by the linker's index in
+    /// `linkers`.
+    Anchor {
+        /// Which linker.
+        linker: usize,
+        /// Displacement in the lab frame (nm).
+        shift_nm: [f64; 3],
     },
 }
 

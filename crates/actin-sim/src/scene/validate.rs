@@ -326,22 +326,28 @@ fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), Problem> {
 fn check_stage(scene: &Scene, i: usize, stage: &Stage) -> Result<(), Problem> {
     for (k, setting) in stage.set.iter().enumerate() {
         let key = |name: &str| format!("path[{i}].set[{k}].{name}");
+        let exists = |name: &str, index: usize, count: usize| {
+            let rule = format!("there are {count} {name}s, counted from 0");
+            let missing = || Problem::new(key(name), index, rule);
+            (index < count).then_some(()).ok_or_else(missing)
+        };
         let (end, name, value) = match *setting {
             Setting::LoadFactor { load, factor } => {
-                if load >= scene.loads.len() {
-                    let rule = format!("there are {} loads, counted from 0", scene.loads.len());
-                    return Err(Problem::new(key("load"), load, rule));
-                }
+                exists("load", load, scene.loads.len())?;
                 finite(&key("factor"), factor)?;
                 continue;
             }
-            Setting::Shift { end, shift_nm } => (end, "shift_nm", shift_nm),
-            Setting::Turn { end, turn_deg } => (end, "turn_deg", turn_deg),
+            Setting::Anchor { linker, shift_nm } => {
+                exists("linker", linker, scene.linkers.len())?;
+                (None, "shift_nm", shift_nm)
+            }
+            Setting::Shift { end, shift_nm } => (Some(end), "shift_nm", shift_nm),
+            Setting::Turn { end, turn_deg } => (Some(end), "turn_deg", turn_deg),
         };
         if value.iter().any(|v| !v.is_finite()) {
             return Err(Problem::new(key(name), show(value), "must be finite"));
         }
-        if !scene.is_clamped(end) {
+        if let Some(end) = end.filter(|end| !scene.is_clamped(*end)) {
             let rule = "this end is free: only a clamped end is moved from outside";
             return Err(Problem::new(key("end"), show(end), rule));
         }

@@ -1,0 +1,177 @@
+//! Anchors that a path moves, and linkers whose sites change their model.
+
+use crate::common::{build, run, solved};
+use actin_mechanics::Vector3;
+use actin_sim::Assembly;
+
+/// Monomers and rod, clamped, with a linker on each; the anchors stand at `displaced` and go on by
+/// `shifts` along a path in one stage of 40 ns.
+fn clamped(displaced: [Vector3; 2], shifts: Option<[Vector3; 2]>, task: &str) -> String {
+    let show = |v: Vector3| format!("({:?}, {:?}, {:?})", v.x, v.y, v.z);
+    let set = |i: usize, shift| format!("Anchor(linker: {i}, shift_nm: {})", show(shift));
+    let path = shifts.map_or_else(String::new, |[a, b]| {
+        let (a, b) = (set(0, a), set(1, b));
+        format!("path: [Stage(set: [{a}, {b}], duration_ns: 40.0)],")
+    });
+    let [a, b] = displaced.map(show);
+    format!(
+        "Scene(
+            filament: Filament(
+                sections: [
+                    Ellipsoids(from_nm: 0.0, to_nm: 20.0),
+                    Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
+                ],
+                monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+            ),
+            clamps: [Clamp(end: Start)],
+            loads: [EndForce(end: End, force_pn: (0.0, 1.0, 0.0))],
+            linkers: [
+                Linker(
+                    at_nm: 12.0, radius_nm: 1.8, azimuth_deg: 40.0,
+                    displaced_nm: {a}, stiffness_pn_per_nm: 20.0,
+                ),
+                Linker(
+                    at_nm: 33.0, radius_nm: 1.8, azimuth_deg: -70.0,
+                    displaced_nm: {b}, stiffness_pn_per_nm: 10.0,
+                ),
+            ],
+            {path}
+            task: {task},
+        )"
+    )
+}
+
+const TIGHT: &str = "Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)";
+const SHIFTS: [[f64; 3]; 2] = [[2.0, 0.5, 1.0], [-3.0, 0.0, 2.0]];
+
+/// Largest distance of two states' points (nm).
+fn apart(a: &Assembly, b: &Assembly) -> f64 {
+    let (a, b) = (a.system.state(), b.system.state());
+    let pairs = a.points.position.iter().zip(b.points.position.iter());
+    pairs.map(|(x, y)| (x - y).norm()).fold(0.0, f64::max)
+}
+
+/// The end of a path is the equilibrium for anchors that stand where it leads. A track that moved
+/// the wrong linker, or the load whose control stands before those of anchors, would end elsewhere.
+#[test]
+fn a_path_of_anchors_ends_where_they_stand() {
+    let shifts = SHIFTS.map(Vector3::from);
+    let (at_once, _) = solved(&clamped(shifts, None, TIGHT));
+    let (moved, _) = solved(&clamped([Vector3::zeros(); 2], Some(shifts), TIGHT));
+    let distance = apart(&at_once, &moved);
+    println!("path of anchors: {distance:.1e} nm");
+    // Residuals of 1e-9 pN on floppy modes that the load has stiffened to some pN/nm.
+    assert!(distance < 1e-6, "{distance:e} nm apart");
+    for k in 0..2 {
+        let place = |a: &Assembly| a.linkers[k].end_position(a.system.state());
+        // Sums of the same places and displacements.
+        assert!((place(&at_once) - place(&moved)).norm() < 1e-12);
+    }
+}
+
+/// In time anchors follow the smooth ramp: half of the way in half of the time, and the motion ends
+/// in the equilibrium of the path.
+#[test]
+fn anchors_move_smoothly_in_time() {
+    let shifts = SHIFTS.map(Vector3::from);
+    let task = "Dynamics(
+        duration_ns: 2000.0,
+        integrator: PositionVerlet,
+        step_safety: 0.9,
+        drag: (translational_per_ns: 2.0, rotational_per_ns: 2.0),
+        stop: (force_pn: 1e-8, torque_pn_nm: 1e-8, kinetic_pn_nm: 1e-12),
+        record_every_ns: 1.0,
+    )";
+    let mut moving = build(&clamped([Vector3::zeros(); 2], Some(shifts), task));
+    let rest = moving.rest.clone();
+    let (trajectory, report) = run(&mut moving).unwrap();
+    assert!(report.converged, "{} steps were not enough", report.steps);
+    let linker = &moving.linkers[1];
+    for record in trajectory.records.iter().take_while(|r| r.time_ns < 45.0) {
+        let x = (record.time_ns / 40.0).min(1.0);
+        let share = x.powi(3) * (10.0 + x * (6.0 * x - 15.0));
+        let moved = linker.end_position(&record.state) - linker.end_position(&rest);
+        // The time of a record is a sum of steps.
+        assert!(
+            (moved - shifts[1] * share).norm() < 1e-9,
+            "{}",
+            record.time_ns
+        );
+    }
+    let (still, _) = solved(&clamped([Vector3::zeros(); 2], Some(shifts), TIGHT));
+    let distance = apart(&still, &moving);
+    println!("ramp of anchors: {distance:.1e} nm from statics");
+    // The stop rule's 1e-8 pN on modes of some 0.1 pN/nm.
+    assert!(distance < 1e-6, "{distance:e} nm apart");
+}
+
+/// The filament of Figure 5 with its sites on the outer side of the bend, `rod` nm of it a rod of
+/// fine segments, whose mesh does not count beside the model.
+fn planar(rod: f64) -> Assembly {
+    let (from, to) = (80.0 - 0.5 * rod, 80.0 + 0.5 * rod);
+    let segments = (rod / 2.5).round();
+    let linker = |s: f64, x: f64| {
+        format!(
+            "Linker(
+                at_nm: {s:?}, radius_nm: 1.8, azimuth_deg: 180.0, displaced_nm: ({x:?}, 0.0, 0.0),
+                stiffness_pn_per_nm: 100.0,
+            ),"
+        )
+    };
+    let linkers = [(25.0, 8.0), (80.0, -8.0), (135.0, 8.0)].map(|(s, x)| linker(s, x));
+    let (assembly, _) = solved(&format!(
+        "Scene(
+            filament: Filament(sections: [
+                Ellipsoids(from_nm: 0.0, to_nm: {from:?}),
+                Rod(from_nm: {from:?}, to_nm: {to:?}, segments: {segments}),
+                Ellipsoids(from_nm: {to:?}, to_nm: 160.0),
+            ]),
+            linkers: [{}],
+            task: Equilibrium(),
+        )",
+        linkers.concat()
+    ));
+    assembly
+}
+
+/// Energy (pN nm) and pull of the outer linkers (pN) of an equilibrium.
+fn numbers(assembly: &Assembly) -> [f64; 3] {
+    let state = assembly.system.state();
+    let pull = |k: usize| assembly.linkers[k].force(state).norm();
+    [assembly.system.energies().iter().sum(), pull(0), pull(2)]
+}
+
+/// As junctions move outward across the outer sites, which pass from monomers to rod, energy and
+/// pulls change by no more from one resolution to the next than they differ over all resolutions
+/// whose sites do not change their model. A site that was elsewhere on the other model, or turned
+/// with a monomer's own azimuth, would show as a jump of hundreds of pN nm.
+#[test]
+fn the_equilibrium_is_continuous_where_a_junction_crosses_a_site() {
+    let crossing: Vec<Assembly> = [95.0, 98.0, 101.0, 104.0, 108.0, 112.0, 116.0]
+        .map(planar)
+        .into();
+    let on_rod = |a: &Assembly| [0, 2].map(|k| a.linkers[k].site().shares().len() == 2);
+    assert_eq!(on_rod(&crossing[0]), [false; 2]);
+    assert_eq!(on_rod(&crossing[6]), [true; 2]);
+    let steps: Vec<[f64; 3]> = crossing.iter().map(numbers).collect();
+    let others = [30.0, 60.0, 90.0, 130.0, 140.0].map(|rod| numbers(&planar(rod)));
+    for (k, name) in ["energy", "pull at 25 nm", "pull at 135 nm"]
+        .iter()
+        .enumerate()
+    {
+        let step = steps
+            .windows(2)
+            .map(|w| (w[1][k] - w[0][k]).abs())
+            .fold(0.0, f64::max);
+        let largest = others
+            .iter()
+            .map(|n| n[k])
+            .fold(f64::NEG_INFINITY, f64::max);
+        let smallest = others.iter().map(|n| n[k]).fold(f64::INFINITY, f64::min);
+        println!(
+            "{name}: steps up to {step:.2}, spread {:.2}",
+            largest - smallest
+        );
+        assert!(step < largest - smallest, "{name}: a step of {step}");
+    }
+}
