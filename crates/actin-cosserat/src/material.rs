@@ -6,7 +6,6 @@
 
 use crate::{BendLaw, CubicShear, ParameterError, Rigidities, StretchLaw, TwistLaw};
 use actin_mechanics::{Matrix3, Vector3};
-use nalgebra::Vector2;
 
 /// The material of a rod: how it resists shear, stretch, bending and twist, validated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,57 +105,69 @@ impl RodMaterial {
     /// Force in body axes (pN) at shear strain `sigma`.
     #[inline]
     pub fn shear_force(&self, sigma: Vector3) -> Vector3 {
-        let across = self.shear.force(sigma.xy());
-        let across = Vector3::new(across.x, across.y, 0.0);
-        if self.stretches_along_d3() {
-            return across + Vector3::z() * self.stretch.force(sigma.z);
-        }
-        let segment = Vector3::z() + sigma;
-        let length = segment.norm();
-        across + segment * (self.stretch.force(length - 1.0) / length)
+        self.shear_force_beyond(sigma, 0.0)
     }
 
     /// Energy per rest length (pN) at shear strain `sigma`, of which
     /// [`shear_force`](Self::shear_force) is the gradient.
     #[inline]
     pub fn shear_energy_density(&self, sigma: Vector3) -> f64 {
-        let strain = if self.stretches_along_d3() {
-            sigma.z
-        } else {
-            (Vector3::z() + sigma).norm() - 1.0
-        };
-        self.shear.energy_density(sigma.xy()) + self.stretch.energy_density(strain)
+        self.shear_energy_beyond(sigma, 0.0)
     }
 
     /// Tangent (pN) at shear strain `sigma`: the derivative of [`shear_force`](Self::shear_force)
     /// with respect to `sigma`, symmetric.
     #[inline]
     pub fn shear_tangent(&self, sigma: Vector3) -> Matrix3 {
-        let mut tangent = Matrix3::zeros();
-        let across = self.shear.tangent(Vector2::new(sigma.x, sigma.y));
-        tangent.fixed_view_mut::<2, 2>(0, 0).copy_from(&across);
-        if self.stretches_along_d3() {
-            tangent[(2, 2)] = self.stretch.tangent(sigma.z);
-            return tangent;
+        self.shear_tangent_beyond(sigma, 0.0)
+    }
+
+    /// The force where a strain of `natural` in length costs nothing.
+    #[inline]
+    pub(crate) fn shear_force_beyond(&self, sigma: Vector3, natural: f64) -> Vector3 {
+        let across = self.shear.force(sigma.xy());
+        let (strain, along, _) = self.length_strain(sigma);
+        Vector3::new(across.x, across.y, 0.0) + along * self.stretch.force(strain - natural)
+    }
+
+    /// Its energy per length (pN).
+    #[inline]
+    pub(crate) fn shear_energy_beyond(&self, sigma: Vector3, natural: f64) -> f64 {
+        let (strain, ..) = self.length_strain(sigma);
+        self.shear.energy_density(sigma.xy()) + self.stretch.energy_density(strain - natural)
+    }
+
+    /// Its derivative (pN), symmetric.
+    #[inline]
+    pub(crate) fn shear_tangent_beyond(&self, sigma: Vector3, natural: f64) -> Matrix3 {
+        let (strain, along, bend) = self.length_strain(sigma);
+        let outer = along * along.transpose();
+        let strain = strain - natural;
+        let mut tangent = self.stretch.tangent(strain) * outer
+            + bend * self.stretch.force(strain) * (Matrix3::identity() - outer);
+        let mut corner = tangent.fixed_view_mut::<2, 2>(0, 0);
+        corner += self.shear.tangent(sigma.xy());
+        tangent
+    }
+
+    /// The strain of length, its gradient by `sigma`, and the factor of its second derivative,
+    /// which is across the gradient.
+    ///
+    /// Where shear is linear it is the component along d3. Where shear is cubic it is the change
+    /// of the segment's length, `|e3 + sigma| - 1`: tension along d3 pulls a segment across as
+    /// soon as it shears, more than a shearing rigidity below the tension holds it back, so that a
+    /// rod that does not resist small shear would give way under any tension. Tension along the
+    /// segment holds it straight, as a string.
+    #[inline]
+    pub(crate) fn length_strain(&self, sigma: Vector3) -> (f64, Vector3, f64) {
+        if self.shear.cubic == 0.0 {
+            return (sigma.z, Vector3::z(), 0.0);
         }
         let segment = Vector3::z() + sigma;
         let length = segment.norm();
-        let along = segment * segment.transpose() / (length * length);
-        let strain = length - 1.0;
-        tangent
-            + self.stretch.tangent(strain) * along
-            + self.stretch.force(strain) / length * (Matrix3::identity() - along)
-    }
-
-    /// Whether stretch is the component of the strain along d3, as it is where shear is linear, or
-    /// the change of the segment's length, `|e3 + sigma| - 1`.
-    ///
-    /// Tension along d3 pulls a segment across as soon as it shears, more than a shearing rigidity
-    /// below the tension holds it back: a rod whose shear is cubic would give way under any tension.
-    /// Tension along the segment holds it straight, as a string.
-    #[inline]
-    fn stretches_along_d3(&self) -> bool {
-        self.shear.cubic == 0.0
+        // |segment| - 1, without its cancellation at small strain.
+        let strain = (2.0 * sigma.z + sigma.norm_squared()) / (length + 1.0);
+        (strain, segment / length, length.recip())
     }
 
     /// Couple in body axes (pN nm) at curvature `kappa` (rad/nm).

@@ -18,10 +18,12 @@ use actin_mechanics::{Interaction, Loads, State, UnitQuaternion, Vector3};
 /// curvature (with the sign of its discrete one the printed couples would drive a bend further);
 /// constant inertia, since `I/e` and its rate cannot be split into drift and kick.
 ///
-/// Forces balance exactly and so do the moments of the shear elements; the couples of a bending
-/// element leave `theta^3 m / 12` where `m` is not parallel to the angle `theta`. The energy
-/// written is that of [`EnergyGradient`](crate::EnergyGradient), which this law does not keep:
-/// loads differ from its gradient by the order of the strain.
+/// Forces balance exactly and, without an extension, so do the moments of the shear elements; with
+/// one, which scales the force by `xi` and the torque not, `(xi - 1) |lhat| t x n` is left. The
+/// couples of a bending element leave `theta^3 m / 12` where `m` is not parallel to the angle
+/// `theta`. The energy written is that of [`EnergyGradient`](crate::EnergyGradient), with an
+/// extension at the strain of `l / xi`; this law does not keep it: loads differ from its gradient
+/// by the order of the strain.
 ///
 /// # Source
 /// arXiv 2203.01284, Section 2.2, after Gazzola et al. (2018).

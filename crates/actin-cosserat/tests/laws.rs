@@ -295,5 +295,6 @@ fn only_the_printed_balance_does_work_around_a_cycle() {
     println!("work around the cycle: gradient {gradient:.3e} pN nm, printed {printed:.3e} pN nm");
     // The midpoint rule is exact to round-off for a smooth cycle; the energy is some 500 pN nm.
     assert!(gradient.abs() < 1e-9, "{gradient}");
-    assert!(printed.abs() > 1.0, "{printed}");
+    // As the errata quote it.
+    assert!((printed - 421.0).abs() < 1.0, "{printed}");
 }

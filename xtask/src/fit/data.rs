@@ -21,6 +21,9 @@ pub(crate) struct TwistData {
     pub length: Column,
 }
 
+/// Fewest values of a column: one more than the seven parameters of the largest forms.
+const FEWEST: usize = 8;
+
 impl Column {
     pub(super) fn push(&mut self, twist: f64, value: f64) {
         self.twist.push(twist);
@@ -101,7 +104,21 @@ impl TwistData {
                 }
             }
         }
+        data.ensure_enough(&name.to_string())?;
         Ok(data)
+    }
+
+    /// Refuses a column of fewer values than the largest form has parameters.
+    fn ensure_enough(&self, name: &str) -> Result<(), String> {
+        for (key, column) in [("b3_pn_nm2", &self.rigidity), ("dl_over_l", &self.length)] {
+            let count = column.value.len();
+            if count < FEWEST {
+                return Err(format!(
+                    "{name}: column `{key}` has {count} values, at least {FEWEST} are needed"
+                ));
+            }
+        }
+        Ok(())
     }
 }
 
@@ -148,11 +165,16 @@ mod tests {
 
     #[test]
     fn empty_cells_are_no_values() {
-        let text =
-            "# mine\ndl_over_l, kappa3_rad_per_nm, b3_pn_nm2\n-0.01, 0.02, 1.2e4\n, -0.02, 6e3\n";
-        let data = read(text).unwrap();
-        assert_eq!(data.rigidity.value, [1.2e4, 6e3]);
-        assert_eq!(data.length.twist, [0.02]);
+        let header = "# mine\ndl_over_l, kappa3_rad_per_nm, b3_pn_nm2\n".to_owned();
+        let rows = "-0.01, 0.02, 1.2e4\n".repeat(9);
+        let data = read(&(header.clone() + &rows + ", -0.02, 6e3\n")).unwrap();
+        assert_eq!(data.rigidity.value.len(), 10);
+        assert_eq!(data.length.twist.len(), 9);
+        let message = read(&(header + &rows.replace("-0.01", ""))).unwrap_err();
+        assert!(
+            message.contains("column `dl_over_l` has 0 values"),
+            "{message}"
+        );
     }
 
     #[test]

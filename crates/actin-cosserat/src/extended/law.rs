@@ -7,9 +7,10 @@ use actin_mechanics::{Matrix3, Vector3};
 /// A segment's energy per rest length as a function of its strain and the mean curvature around
 /// it.
 ///
-/// `W(sigma - (xi(kappa_3) - 1) e3) + U(kappa, gamma) - U(kappa, 0)`, with `W` the material's
-/// energy of shear and stretch, `xi` the law of twist and stretch, and `U` that of bending where
-/// shear stiffens it. The nodes' own energy, without shear, stays with them.
+/// `W(sigma, xi(kappa_3) - 1) + U(kappa, gamma) - U(kappa, 0)`, with `W` the material's energy of
+/// shear and of stretch beyond the natural extension `xi - 1`, `xi` the law of twist and stretch,
+/// and `U` that of bending where shear stiffens it. The nodes' own energy, without shear, stays
+/// with them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SegmentLaw {
     twist_stretch: Option<TwistStretch>,
@@ -53,7 +54,7 @@ impl SegmentLaw {
         self.twist_stretch.map_or([0.0; 3], |law| law.jet(k3))
     }
 
-    /// The energy per length, its force and its couple at strain `sigma` and curvature `kappa`.
+    /// Force (pN) and couple (pN nm) at strain `sigma` and mean curvature `kappa`.
     #[inline]
     pub(crate) fn loads(
         &self,
@@ -62,8 +63,10 @@ impl SegmentLaw {
         kappa: Vector3,
     ) -> (Vector3, Vector3) {
         let [extension, slope, _] = self.extension(kappa.z);
-        let mut force = material.shear_force(sigma - Vector3::z() * extension);
-        let mut couple = Vector3::new(0.0, 0.0, -force.z * slope);
+        let mut force = material.shear_force_beyond(sigma, extension);
+        let (strain, ..) = material.length_strain(sigma);
+        let pull = material.stretch().force(strain - extension);
+        let mut couple = Vector3::new(0.0, 0.0, -pull * slope);
         if let Some(law) = &self.stiffening {
             let stiffened = Stiffened::new(law, sigma, kappa);
             force += stiffened.force();
@@ -75,7 +78,7 @@ impl SegmentLaw {
     /// Energy per length (pN).
     pub(crate) fn energy(&self, material: &RodMaterial, sigma: Vector3, kappa: Vector3) -> f64 {
         let [extension, ..] = self.extension(kappa.z);
-        let own = material.shear_energy_density(sigma - Vector3::z() * extension);
+        let own = material.shear_energy_beyond(sigma, extension);
         let added = (self.stiffening.as_ref()).map(|law| Stiffened::new(law, sigma, kappa));
         own + added.map_or(0.0, |stiffened| stiffened.added.value)
     }
@@ -83,17 +86,20 @@ impl SegmentLaw {
     /// First and second derivatives.
     pub(crate) fn jet(&self, material: &RodMaterial, sigma: Vector3, kappa: Vector3) -> SegmentJet {
         let [extension, slope, second] = self.extension(kappa.z);
-        let strain = sigma - Vector3::z() * extension;
-        let tangent = material.shear_tangent(strain);
+        let (strain, along, _) = material.length_strain(sigma);
+        let stretch = material.stretch();
+        let (pull, rigidity) = (
+            stretch.force(strain - extension),
+            stretch.tangent(strain - extension),
+        );
         let (force, couple) = self.loads(material, sigma, kappa);
         let turn = Vector3::z() * slope;
-        let pull = material.shear_force(strain).z;
         let mut jet = SegmentJet {
             force,
             couple,
-            by_strain: tangent,
-            mixed: -(tangent * Vector3::z()) * turn.transpose(),
-            by_curvature: tangent[(2, 2)] * turn * turn.transpose(),
+            by_strain: material.shear_tangent_beyond(sigma, extension),
+            mixed: -rigidity * along * turn.transpose(),
+            by_curvature: rigidity * turn * turn.transpose(),
         };
         jet.by_curvature[(2, 2)] -= pull * second;
         if let Some(law) = &self.stiffening {

@@ -1,6 +1,6 @@
 //! From a scene's rod law to the interaction of a rod.
 
-use crate::scene::{self, ForceLaw, Problem, RodLaw, RodLaws, RodModel, fitted};
+use crate::scene::{self, ForceLaw, Material, Problem, RodLaw, RodLaws, RodModel, fitted};
 use actin_cosserat::{
     BendLaw, CubicShear, EnergyGradient, JoinedElement, PaperBalance, ParameterError,
     PolynomialStretch, RodLayout, RodMaterial, RootedStretch, SegmentCurvature, SegmentLaw,
@@ -26,6 +26,13 @@ impl Law {
                 "the printed balance goes with the laws Constant and PublishedExtension alone",
             ));
         }
+        if rod.law == RodLaw::Fitted && rod.material != Material::default() {
+            return Err(Problem::new(
+                "filament.rod.material",
+                format!("{:?}", rod.material),
+                "the law Fitted has a law for every deformation: leave the material out",
+            ));
+        }
         let rigidities = rod.material.rigidities();
         let material = RodMaterial::new(rigidities).map_err(refused("material"))?;
         let (material, twist_stretch) = match &rod.law {
@@ -43,6 +50,14 @@ impl Law {
             material,
             twist_stretch,
         })
+    }
+
+    /// Largest twist (rad/nm) that the data behind the laws of twist and of length reach.
+    pub(super) fn twist_range(&self) -> Option<f64> {
+        let twist = self.material.twist().range();
+        let length = self.twist_stretch.map(|law| law.range());
+        let both = twist.into_iter().chain(length);
+        both.reduce(f64::min).filter(|range| range.is_finite())
     }
 
     /// The interaction of a rod whose start and end the given elements join to others.

@@ -22,7 +22,7 @@ pub use range::BeyondRange;
 pub use reaction::{Clamped, Reaction};
 
 use crate::scene::{End, Scene};
-use actin_cosserat::{RodLayout, RodMaterial};
+use actin_cosserat::RodLayout;
 use actin_coupling::Linker;
 use actin_mechanics::{State, System, UnitQuaternion, Vector3};
 
@@ -43,8 +43,10 @@ pub struct Assembly {
     pub sections: Vec<SectionSpan>,
     /// Rods: the index of the section and what it is made of.
     pub(crate) rods: Vec<(usize, RodLayout)>,
-    /// What resists in them.
-    pub(crate) material: RodMaterial,
+    /// Largest twist of the data behind their laws (rad/nm), if these have data.
+    pub(crate) twist_range: Option<f64>,
+    /// Largest curvature of such data (rad/nm).
+    pub(crate) bend_range: Option<f64>,
     /// The ends that are held.
     pub clamps: Vec<Clamped>,
     /// The linkers, in the order of the scene.

@@ -22,20 +22,16 @@ pub struct BeyondRange {
 
 impl Assembly {
     /// Where the rods leave the data of their laws in `state`: at most once per section and
-    /// quantity, where it is worst. Beyond the data a law goes on with the slope that it has
-    /// there.
+    /// quantity, where it is worst. Beyond their data laws of twist and of length go on with the
+    /// slope that they have there, bending by its formula. Junctions are not looked at.
     pub fn beyond_range(&self, state: &State) -> Vec<BeyondRange> {
         let twist = |kappa: Vector3| kappa.z;
         let bend = |kappa: Vector3| kappa.xy().norm();
         let mut found = Vec::new();
         for rod in 0..self.rods.len() {
             let ranges = [
-                (
-                    "twist",
-                    self.material.twist().range(),
-                    twist as fn(Vector3) -> f64,
-                ),
-                ("curvature", self.material.bend().range(), bend),
+                ("twist", self.twist_range, twist as fn(Vector3) -> f64),
+                ("curvature", self.bend_range, bend),
             ];
             for (quantity, range, measure) in ranges {
                 let Some(range_per_nm) = range else { continue };
@@ -52,6 +48,28 @@ impl Assembly {
             }
         }
         found
+    }
+
+    /// The worst of [`beyond_range`](Self::beyond_range) over some states.
+    pub fn worst_beyond_range<'a>(
+        &self,
+        states: impl IntoIterator<Item = &'a State>,
+    ) -> Vec<BeyondRange> {
+        let mut worst: Vec<BeyondRange> = Vec::new();
+        for beyond in states
+            .into_iter()
+            .flat_map(|state| self.beyond_range(state))
+        {
+            let place = |b: &&mut BeyondRange| {
+                (b.section, &b.quantity) == (beyond.section, &beyond.quantity)
+            };
+            match worst.iter_mut().find(place) {
+                Some(known) if known.value_per_nm.abs() >= beyond.value_per_nm.abs() => {}
+                Some(known) => *known = beyond,
+                None => worst.push(beyond),
+            }
+        }
+        worst
     }
 
     /// Where in a rod `measure` of the curvature is largest, and what it is there.

@@ -37,7 +37,11 @@ impl RunDirectory {
         let records = &trajectory.records;
         let last = records.last().ok_or(RunDirectoryError::NoRecord)?;
         ensure_same_bodies(assembly, records)?;
-        let summary = Summary::new(assembly, last, report);
+        let states = records.iter().map(|record| &record.state);
+        let summary = Summary {
+            beyond_range: assembly.worst_beyond_range(states),
+            ..Summary::new(assembly, last, report)
+        };
         let table = EnergyTable::new(assembly, records);
         let states = States::new(assembly, records);
         let along = shape::profile(assembly, &last.state);

@@ -34,8 +34,8 @@ pub struct Summary {
     pub tip_displacement_nm: [f64; 3],
     /// What holds the clamped ends.
     pub end_reactions: EndReactions,
-    /// Where rods left the data behind their laws in the last record; there the numbers rest on
-    /// the laws' continuation.
+    /// Where rods left the data behind their laws, the worst of all records in a run's summary (of
+    /// the last record in one computed alone); there the numbers rest on the laws' continuation.
     pub beyond_range: Vec<BeyondRange>,
     /// What the linkers do, in the order of the scene.
     #[serde(default)]
