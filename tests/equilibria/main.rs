@@ -11,6 +11,7 @@ mod circle;
 mod common;
 mod elastica;
 mod extremes;
+mod fitted;
 mod history;
 mod linkers;
 mod reciprocity;

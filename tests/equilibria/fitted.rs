@@ -1,0 +1,142 @@
+//! The law `Fitted` against filaments of monomers other than those it was fitted to.
+
+use actin_sim::measure::{
+    Curve, Sampled, Specimen, bend_by_tip_force, over_samplings, sampled_by, twist,
+};
+use actin_sim::{Filament, JunctionModel, JunctionWeight, Monomers, RodLaw, RodModel, Section};
+
+/// Seeds of the bonds; those of the fit are below 100.
+const SEEDS: [u64; 8] = [100, 101, 102, 103, 104, 105, 106, 107];
+
+fn rod(law: RodLaw) -> RodModel {
+    RodModel {
+        law,
+        ..RodModel::default()
+    }
+}
+
+/// Length of so many rises (nm).
+fn rises(count: f64) -> f64 {
+    count * Monomers::default().rise_nm
+}
+
+/// The gate of the deflections: 3 % at 0.5 pN and above, 5 % at 0.1 pN, where a rod of constant
+/// rigidities misses by 28 %.
+#[test]
+fn cantilevers_of_rod_and_monomers_bend_alike() {
+    let length = rises(58.5);
+    let forces = [0.1, 0.5, 1.0, 2.0, 5.0];
+    let filament = Specimen::ellipsoids(length, Monomers::default());
+    let curves: Vec<Curve<_>> = [0.0, 90.0]
+        .into_iter()
+        .flat_map(|azimuth| {
+            over_samplings(&filament, &SEEDS[..4], |s| {
+                bend_by_tip_force(s, &forces, azimuth)
+            })
+            .unwrap()
+        })
+        .collect();
+    let measured = sampled_by(&curves, |p| p.force_pn, |p| p.deflection_nm);
+    let of = |law| {
+        let specimen = Specimen::rod(curves[0].length_nm, None, rod(law));
+        bend_by_tip_force(&specimen, &forces, 0.0).unwrap()
+    };
+    let (fitted, constant) = (of(RodLaw::Fitted), of(RodLaw::Constant));
+    for (k, (force, tips)) in measured.iter().enumerate() {
+        assert_eq!(tips.count, 8);
+        let [fitted, constant] =
+            [&fitted, &constant].map(|curve| curve.points[k].deflection_nm / tips.mean - 1.0);
+        println!(
+            "{force} pN: {:.3} nm, sd {:.3}; Fitted {:+.2} %, Constant {:+.2} %",
+            tips.mean,
+            tips.deviation,
+            100.0 * fitted,
+            100.0 * constant
+        );
+        let allowed = if *force < 0.3 { 0.05 } else { 0.03 };
+        assert!(fitted.abs() < allowed, "{force} pN: {fitted}");
+    }
+}
+
+/// The gate of twist: secants within 5 % and lengths within 5e-4, to 200 degrees.
+#[test]
+fn rod_and_monomers_twist_and_shorten_alike() {
+    let turns = [
+        -200.0, -160.0, -120.0, -80.0, -40.0, -20.0, 20.0, 40.0, 80.0, 120.0, 160.0, 200.0,
+    ];
+    let filament = Specimen::ellipsoids(rises(27.0), Monomers::default());
+    let curves = over_samplings(&filament, &SEEDS, |s| twist(s, &turns)).unwrap();
+    let secants = sampled_by(&curves, |p| p.turn_deg, |p| p.rigidity_pn_nm2);
+    let lengths = sampled_by(&curves, |p| p.turn_deg, |p| p.relative_length_change);
+    let specimen = Specimen::rod(curves[0].length_nm, None, rod(RodLaw::Fitted));
+    let fitted = twist(&specimen, &turns).unwrap();
+    for ((point, (turn, secant)), (_, length)) in fitted.points.iter().zip(&secants).zip(&lengths) {
+        let stiffer = point.rigidity_pn_nm2 / secant.mean - 1.0;
+        let longer = point.relative_length_change - length.mean;
+        println!(
+            "{turn} deg ({}): B3 {:.0}, se {:.0}, Fitted {:+.2} %; dL/L {:+.5}, se {:.5}, Fitted {longer:+.5}",
+            secant.count,
+            secant.mean,
+            secant.error,
+            100.0 * stiffer,
+            length.mean,
+            length.error
+        );
+        assert!(stiffer.abs() < 0.05 && longer.abs() < 5e-4, "{turn} deg");
+    }
+}
+
+/// Mean tip deflection (nm) of mixed cantilevers of 160 nm with this much rod at the tip.
+fn tip(rod_nm: f64, force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
+    let boundary = 160.0 - rod_nm;
+    let specimen = Specimen::new(Filament {
+        sections: vec![
+            Section::Ellipsoids {
+                from_nm: 0.0,
+                to_nm: boundary,
+            },
+            Section::Rod {
+                from_nm: boundary,
+                to_nm: 160.0,
+                segments: None,
+            },
+        ],
+        monomers: Monomers::default(),
+        rod: rod(law.clone()),
+        junction: JunctionModel {
+            weight,
+            ..JunctionModel::default()
+        },
+    });
+    let bend = |s: &Specimen| bend_by_tip_force(s, &[force], 180.0);
+    let curves = over_samplings(&specimen, &SEEDS[..4], bend).unwrap();
+    Sampled::of(curves.iter().map(|c| c.points[0].deflection_nm)).mean
+}
+
+/// Tips for 20, 40, ... 140 nm of rod, and their spread relative to their mean.
+fn spread(force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
+    let tips: Vec<f64> = (1..=7)
+        .map(|k| tip(20.0 * f64::from(k), force, law, weight))
+        .collect();
+    let low = tips.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = tips.iter().copied().fold(0.0, f64::max);
+    let spread = (high - low) / Sampled::of(tips.iter().copied()).mean;
+    println!(
+        "{force} pN, {law:?}, {weight:?}: {tips:.2?}, spread {:.1} %",
+        100.0 * spread
+    );
+    spread
+}
+
+/// Of the spread over the resolutions the law of the rod makes the most, and the weight of the
+/// junction the rest: a rod that bends as the monomers do leaves half of it, or a quarter.
+#[test]
+fn mixed_cantilevers_spread_less_under_the_fitted_law() {
+    for force in [0.5, 2.0] {
+        let of = |weight| [RodLaw::Constant, RodLaw::Fitted].map(|law| spread(force, &law, weight));
+        let [constant, fitted] = of(JunctionWeight::Shared);
+        let [stiff_constant, stiff_fitted] = of(JunctionWeight::Full);
+        assert!(fitted < 0.6 * constant && stiff_fitted < 0.8 * stiff_constant);
+        assert!(constant < stiff_constant && fitted < stiff_fitted);
+    }
+}
