@@ -272,3 +272,38 @@ fn what_check_prints_is_the_scene() {
     let files = fs::read_dir(place.folder.path()).unwrap().count();
     assert_eq!(files, 2, "checking writes nothing");
 }
+
+/// A rod turned through 300 degrees over 75 nm, 0.0698 rad/nm, is beyond the 0.0472 of its law's data
+/// in twist: said once per rod and quantity, on the terminal and in the summary. Turned through 180 it
+/// is not.
+#[test]
+fn a_rod_beyond_the_data_of_its_law_is_reported() {
+    let scene = |turn: &str| {
+        format!(
+            "Scene(
+                filament: Filament(
+                    sections: [Rod(from_nm: 0.0, to_nm: 75.0)],
+                    rod: RodModel(law: Fitted),
+                ),
+                clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
+                path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, {turn}))])],
+                task: Equilibrium(),
+            )"
+        )
+    };
+    for (turn, beyond) in [("300.0", true), ("-300.0", true), ("180.0", false)] {
+        let place = Workplace::with(&scene(turn));
+        let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let sign = if turn.starts_with('-') { "-" } else { "" };
+        let line = format!("beyond the data of its law: twist {sign}0.0698 rad/nm at s = ");
+        println!("{turn}: {}", stdout(&output));
+        assert_eq!(stdout(&output).matches(&line).count(), usize::from(beyond));
+        let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+        assert_eq!(
+            summary.matches("\"range_per_nm\": 0.0472").count(),
+            usize::from(beyond)
+        );
+        assert_eq!(summary.contains("\"quantity\": \"twist\""), beyond);
+    }
+}
