@@ -29,16 +29,15 @@ impl Law {
         let rigidities = rod.material.rigidities();
         let material = RodMaterial::new(rigidities).map_err(refused("material"))?;
         let (material, twist_stretch) = match &rod.law {
-            RodLaw::Constant => Ok((material, None)),
-            RodLaw::PublishedExtension => published(material, TwistStretch::published()),
+            RodLaw::Constant => (material, None),
+            RodLaw::PublishedExtension => published(material, TwistStretch::published())?,
             RodLaw::CouplingEnergy => {
                 let law = TwistStretch::linear(constants::C3, rigidities.shear.z);
-                published(material, law)
+                published(material, law)?
             }
-            RodLaw::Fitted => with_laws(material, &fitted::laws()),
-            RodLaw::Laws(laws) => with_laws(material, laws),
-        }
-        .map_err(refused("law"))?;
+            RodLaw::Fitted => with_laws(material, &fitted::laws())?,
+            RodLaw::Laws(laws) => with_laws(material, laws)?,
+        };
         Ok(Self {
             balance: rod.force_law,
             material,
@@ -75,35 +74,60 @@ impl Law {
 
 fn refused(part: &'static str) -> impl Fn(ParameterError) -> Problem {
     move |error| {
-        let key = format!("filament.rod.{part}.{}", error.key);
-        Problem::new(key, error.value, format!("must be {}", error.rule))
+        let key = format!("filament.rod.{part}.{}", written(error.key));
+        let value = format!("{:?}", error.value);
+        Problem::new(key, value, format!("must be {}", error.rule))
+    }
+}
+
+/// A law's parameter as a scene writes it, with its unit.
+fn written(parameter: &str) -> &str {
+    match parameter {
+        "rest" => "rest_pn_nm2",
+        "rise" => "rise_pn_nm2",
+        "b_plus" => "b_plus_pn_nm2",
+        "b_minus" => "b_minus_pn_nm2",
+        "curvature" => "curvature_per_nm",
+        "twist" => "twist_per_nm",
+        "half" => "half_per_nm",
+        "slow" => "slow_per_nm",
+        "range" => "range_per_nm",
+        "lambda 2" => "lambda[1]",
+        "lambda 5" => "lambda[4]",
+        "lambda 7" => "lambda[6]",
+        "p" => "coefficients",
+        "S1" | "S2" => "linear_pn",
+        "cubic_shear" => "cubic_pn",
+        "S3" => "rigidity_pn",
+        other => other,
     }
 }
 
 /// A material with or without a law of length against twist.
 type Parts = (RodMaterial, Option<TwistStretch>);
 
-fn published(material: RodMaterial, law: TwistStretch) -> Result<Parts, ParameterError> {
-    let material = material.with_twist(TwistLaw::Tanh(TanhTwist::published()))?;
+fn published(material: RodMaterial, law: TwistStretch) -> Result<Parts, Problem> {
+    let twist = TwistLaw::Tanh(TanhTwist::published());
+    let material = material.with_twist(twist).map_err(refused("law"))?;
     Ok((material, Some(law)))
 }
 
-fn with_laws(mut material: RodMaterial, laws: &RodLaws) -> Result<Parts, ParameterError> {
+fn with_laws(mut material: RodMaterial, laws: &RodLaws) -> Result<Parts, Problem> {
     if let Some(bend) = laws.bend {
-        material = material.with_bend(bend.into())?;
+        material = (material.with_bend(bend.into())).map_err(refused("law.bend"))?;
     }
     if let Some(twist) = laws.twist {
-        material = material.with_twist(twist.into())?;
+        material = (material.with_twist(twist.into())).map_err(refused("law.twist"))?;
     }
     if let Some(stretch) = laws.stretch {
-        material = material.with_stretch(stretch.into())?;
+        material = (material.with_stretch(stretch.into())).map_err(refused("law.stretch"))?;
     }
     if let Some(shear) = laws.shear {
-        material = material.with_shear(shear.into())?;
+        material = (material.with_shear(shear.into())).map_err(refused("law.shear"))?;
     }
     let twist_stretch = laws.twist_stretch.map(TwistStretch::from);
     if let Some(law) = &twist_stretch {
-        law.validate()?;
+        law.validate().map_err(refused("law.twist_stretch"))?;
     }
     Ok((material, twist_stretch))
 }
