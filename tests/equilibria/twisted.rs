@@ -5,7 +5,10 @@ use actin_mechanics::{Loads, State, rotation};
 use actin_sim::measure::{Sampled, Specimen, twist};
 use actin_sim::{Assembly, BodyKind, Resolution, RodLaw, RodModel, rod_constants};
 
-/// `B3(kappa)` (pN nm^2) and `xi - 1` as the paper prints them.
+/// `B3(kappa)` (pN nm^2) and `xi - 1` at a twist (rad/nm).
+type Formula = fn(f64) -> (f64, f64);
+
+/// Both as the paper prints them.
 fn published(k: f64) -> (f64, f64) {
     let (plus, minus) = (rod_constants::B3_PLUS, rod_constants::B3_MINUS);
     let [l1, l2, l3, l4, l5, l6, l7] = rod_constants::B3_LAMBDA;
@@ -49,7 +52,7 @@ fn fitted(k: f64) -> (f64, f64) {
 /// segment with half the curvature, or without its wall's, would be another length.
 #[test]
 fn a_twisted_rod_has_its_couple_and_length() {
-    let laws: [(_, fn(f64) -> (f64, f64)); 2] = [
+    let laws: [(RodLaw, Formula); 2] = [
         (RodLaw::PublishedExtension, published),
         (RodLaw::Fitted, fitted),
     ];
@@ -85,10 +88,9 @@ fn a_twisted_rod_has_its_couple_and_length() {
 
 /// 150 nm, the far end sliding, turned through `turns_deg`, a stage for each.
 fn scene(sections: &str, law: &str, weight: &str, turns_deg: &[f64], seed: u64) -> String {
-    let stages: String = turns_deg
-        .iter()
-        .map(|turn| format!("Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, {turn:?}))]),"))
-        .collect();
+    let stage =
+        |turn: &f64| format!("Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, {turn:?}))])");
+    let stages = turns_deg.iter().map(stage).collect::<Vec<_>>().join(", ");
     format!(
         "Scene(
             filament: Filament(
