@@ -109,3 +109,24 @@ fn couple_against_shift_is_force_against_turn() {
         }
     }
 }
+
+/// A pulled rod is straight and stable under every law, and is pulled as its law of stretch says. With
+/// the tension along d3 instead of the segment, a rod whose shear is cubic had two negative
+/// eigenvalues at each inner node under the smallest tension, and gave way to a zigzag.
+#[test]
+fn tension_holds_a_rod_straight() {
+    for (law, pull) in [("CouplingEnergy", 3.4e4), ("Fitted", 3.29e4)] {
+        for shift_nm in [1.5e-3, 0.15] {
+            let held = Held::at(ROD, law, 0.0, shift_nm);
+            let (force, _) = held.beside(0.0, 0.0);
+            let expected = pull * shift_nm / 75.0;
+            println!("{law}, {shift_nm} nm: {force:.6} pN for {expected:.6}");
+            // The residual of 1e-9 pN.
+            assert!((force - expected).abs() < 1e-8, "{law}");
+            let positions = held.state.points.position.iter();
+            let farthest = positions.map(|x| x.xy().norm()).fold(0.0, f64::max);
+            // 1e-9 pN over the softest spring across, the tension over a segment: 0.07 pN/nm.
+            assert!(farthest < 1e-7, "{law}: {farthest:e} nm off the axis");
+        }
+    }
+}

@@ -107,14 +107,25 @@ impl RodMaterial {
     #[inline]
     pub fn shear_force(&self, sigma: Vector3) -> Vector3 {
         let across = self.shear.force(sigma.xy());
-        Vector3::new(across.x, across.y, self.stretch.force(sigma.z))
+        let across = Vector3::new(across.x, across.y, 0.0);
+        if self.stretches_along_d3() {
+            return across + Vector3::z() * self.stretch.force(sigma.z);
+        }
+        let segment = Vector3::z() + sigma;
+        let length = segment.norm();
+        across + segment * (self.stretch.force(length - 1.0) / length)
     }
 
     /// Energy per rest length (pN) at shear strain `sigma`, of which
     /// [`shear_force`](Self::shear_force) is the gradient.
     #[inline]
     pub fn shear_energy_density(&self, sigma: Vector3) -> f64 {
-        self.shear.energy_density(sigma.xy()) + self.stretch.energy_density(sigma.z)
+        let strain = if self.stretches_along_d3() {
+            sigma.z
+        } else {
+            (Vector3::z() + sigma).norm() - 1.0
+        };
+        self.shear.energy_density(sigma.xy()) + self.stretch.energy_density(strain)
     }
 
     /// Tangent (pN) at shear strain `sigma`: the derivative of [`shear_force`](Self::shear_force)
@@ -124,8 +135,28 @@ impl RodMaterial {
         let mut tangent = Matrix3::zeros();
         let across = self.shear.tangent(Vector2::new(sigma.x, sigma.y));
         tangent.fixed_view_mut::<2, 2>(0, 0).copy_from(&across);
-        tangent[(2, 2)] = self.stretch.tangent(sigma.z);
+        if self.stretches_along_d3() {
+            tangent[(2, 2)] = self.stretch.tangent(sigma.z);
+            return tangent;
+        }
+        let segment = Vector3::z() + sigma;
+        let length = segment.norm();
+        let along = segment * segment.transpose() / (length * length);
+        let strain = length - 1.0;
         tangent
+            + self.stretch.tangent(strain) * along
+            + self.stretch.force(strain) / length * (Matrix3::identity() - along)
+    }
+
+    /// Whether stretch is the component of the strain along d3, as it is where shear is linear, or
+    /// the change of the segment's length, `|e3 + sigma| - 1`.
+    ///
+    /// Tension along d3 pulls a segment across as soon as it shears, more than a shearing rigidity
+    /// below the tension holds it back: a rod whose shear is cubic would give way under any tension.
+    /// Tension along the segment holds it straight, as a string.
+    #[inline]
+    fn stretches_along_d3(&self) -> bool {
+        self.shear.cubic == 0.0
     }
 
     /// Couple in body axes (pN nm) at curvature `kappa` (rad/nm).
