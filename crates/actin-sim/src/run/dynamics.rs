@@ -4,7 +4,7 @@ use super::bound::kinetic_limit;
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
 use crate::assembly::Ramp;
-use crate::scene::{Dynamics, Integrator, Problem, StopRule, Task};
+use crate::scene::{Dynamics, Integrator, Problem, RodLaw, StopRule, Task};
 use actin_integrate::{Composition, Drag, Moment, Reason, Run};
 use actin_mechanics::Split;
 use std::ops::ControlFlow;
@@ -16,7 +16,8 @@ const DEFAULT_RECORDS: f64 = 100.0;
 /// What a scene will cost, known before it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// Largest frequency of the built filament (rad/ns).
+    /// Largest frequency of the built filament (rad/ns); where shear stiffens its rods, at least
+    /// that with constant rigidities.
     pub largest_frequency_rad_per_ns: f64,
     /// Largest stable time step of the chosen integrator (ns).
     pub stability_limit_ns: f64,
@@ -56,8 +57,14 @@ pub fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, Problem> {
 fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Problem> {
     let scheme = dynamics.integrator.composition();
     let refused = |what: String| Problem::new("filament", what, "has no stable time step");
-    let frequency = actin_integrate::largest_frequency(&assembly.system)
-        .map_err(|error| refused(error.to_string()))?;
+    let frequency_of = |assembly: &Assembly| {
+        actin_integrate::largest_frequency(&assembly.system)
+            .map_err(|error| refused(error.to_string()))
+    };
+    let mut frequency = frequency_of(assembly)?;
+    if let Some(constant) = with_constant_rods(assembly)? {
+        frequency = frequency.max(frequency_of(&constant)?);
+    }
     let limit = actin_integrate::stable_step(scheme, frequency, 1.0)
         .map_err(|error| refused(error.to_string()))?;
     let wanted = dynamics
@@ -88,6 +95,23 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Pro
         steps: run.steps(),
         force_evaluations: run.steps() * scheme.force_evaluations_per_step() as u64,
     })
+}
+
+/// The same filament with rods of constant rigidities, where its rods resist shear only once they
+/// are sheared: what they show at rest is not what a motion meets.
+fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, Problem> {
+    let rod = &assembly.scene.filament.rod;
+    let shears_softly = match &rod.law {
+        RodLaw::Constant | RodLaw::PublishedExtension | RodLaw::CouplingEnergy => false,
+        RodLaw::Fitted => true,
+        RodLaw::Laws(laws) => laws.shear.is_some(),
+    };
+    if !shears_softly || assembly.counts().segments == 0 {
+        return Ok(None);
+    }
+    let mut scene = assembly.scene.clone();
+    scene.filament.rod.law = RodLaw::Constant;
+    Assembly::build(&scene).map(Some)
 }
 
 /// Runs the motion.

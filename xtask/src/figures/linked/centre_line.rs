@@ -155,6 +155,8 @@ mod tests {
         let mut bulged = parabola(10.0, 7);
         bulged.places[3][1] = 2.0;
         let (apart, s) = parabola(10.0, 7).farthest_from(&bulged);
-        assert!((apart - 2.0).abs() < 1e-12 && s == 30.0, "{apart} at {s}");
+        assert!((apart - 2.0).abs() < 1e-12, "{apart}");
+        // Places are compared every nanometre, node 3 among them.
+        assert!((s - 30.0).abs() < 1e-9, "{s}");
     }
 }

@@ -9,6 +9,9 @@ use std::path::Path;
 /// Centre lines closer than the radius of the helix (nm) lie within one another's filament.
 const HELIX_RADIUS_NM: f64 = 1.8;
 
+/// What is read off a spread.
+type Pick = fn(&Spread) -> f64;
+
 /// The rows that both figures have.
 pub(super) fn of_figure(figure: &Figure, outcomes: &[Outcome]) -> Vec<Row> {
     let mut all = Vec::new();
@@ -36,12 +39,14 @@ fn spreads(figure: &Figure, outcomes: &[Outcome], variant: Variant) -> Vec<Row> 
     );
     let node = format!("largest between {}; {words}", first.farthest);
     let force = format!("largest (max - min)/mean of a linker's pull; {words}");
-    let measures: [(&str, &'static str, fn(&Spread) -> f64, String); 3] = [
-        ("energy_spread", "", |s| s.energy, energy),
-        ("node_spread", "nm", |s| s.node, node),
-        ("linker_force_spread", "", |s| s.force, force),
+    let picks: [Pick; 3] = [|s| s.energy, |s| s.node, |s| s.force];
+    let names = [
+        ("energy_spread", "", energy),
+        ("node_spread", "nm", node),
+        ("linker_force_spread", "", force),
     ];
-    let rows = measures.into_iter().flat_map(|(name, unit, pick, note)| {
+    let measures = names.into_iter().zip(picks);
+    let rows = measures.flat_map(|((name, unit, note), pick)| {
         let (mean, sd) = statistics(all.iter().map(pick));
         let over = format!("{} samplings of the bonds, sd {sd:.4}; {words}", all.len());
         let quantity = format!("{name}{suffix}");
@@ -228,7 +233,7 @@ pub(super) fn larger_claims(
     (planar, planar_outcomes): (&Figure, &[Outcome]),
 ) -> Vec<Row> {
     let mut rows = Vec::new();
-    let measures: [(&str, fn(&Spread) -> f64, &str); 3] = [
+    let measures: [(&str, Pick, &str); 3] = [
         (
             "node_spread",
             |s| s.node,

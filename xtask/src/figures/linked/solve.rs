@@ -105,18 +105,18 @@ enum Start<'a> {
 
 /// The equilibrium near a start.
 fn balance(scene: &Scene, start: &Start<'_>) -> Result<Balance, String> {
-    balance_with(scene, start, Equilibrium::default())
+    balance_with(scene, start, &Equilibrium::default())
 }
 
 fn balance_with(
     scene: &Scene,
     start: &Start<'_>,
-    settings: Equilibrium,
+    settings: &Equilibrium,
 ) -> Result<Balance, String> {
     let mut scene = scene.clone();
     scene.task = Task::Equilibrium(Equilibrium {
         lowest_eigenvalue: true,
-        ..settings
+        ..settings.clone()
     });
     let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
     match start {
@@ -197,7 +197,7 @@ pub(super) fn in_plane(case: &Case) -> Result<(Balance, u64), String> {
         leave_saddles: 0,
         ..Equilibrium::default()
     };
-    let saddle = balance_with(&scene, &Start::Turned(0.0), keep)?;
+    let saddle = balance_with(&scene, &Start::Turned(0.0), &keep)?;
     let left = balance(&scene, &Start::Turned(0.0))?;
     Ok((saddle, left.iterations))
 }
