@@ -59,46 +59,32 @@ struct HeldEnd {
 impl Drive {
     /// The drive of a scene whose clamps hold these bodies of `rest`.
     pub(super) fn new(scene: &Scene, clamps: &[Clamped], rest: &State) -> Self {
-        let load = |index: usize| {
-            let values = values(scene, &|setting| match *setting {
-                Setting::LoadFactor { load, factor } if load == index => {
-                    Some(Vector3::from_element(factor))
-                }
-                _ => None,
-            });
-            Some(Track::new(index, values?))
+        let load = |index: usize, setting: &Setting| match *setting {
+            Setting::LoadFactor { load, factor } if load == index => {
+                Some(Vector3::from_element(factor))
+            }
+            _ => None,
         };
-        let shift = |clamp: usize| {
-            let values = values(scene, &|setting| match *setting {
-                Setting::Shift { end, shift_nm } if end == clamps[clamp].end => {
-                    Some(shift_nm.into())
-                }
-                _ => None,
-            });
-            Some(Track::new(clamp, values?))
+        let shift = |clamp: usize, setting: &Setting| match *setting {
+            Setting::Shift { end, shift_nm } if end == clamps[clamp].end => Some(shift_nm.into()),
+            _ => None,
         };
-        let turn = |clamp: usize| {
-            let values = values(scene, &|setting| match *setting {
-                Setting::Turn { end, turn_deg } if end == clamps[clamp].end => {
-                    Some(turn_deg.map(f64::to_radians).into())
-                }
-                _ => None,
-            });
-            Some(Track::new(clamp, values?))
+        let turn = |clamp: usize, setting: &Setting| match *setting {
+            Setting::Turn { end, turn_deg } if end == clamps[clamp].end => {
+                Some(turn_deg.map(f64::to_radians).into())
+            }
+            _ => None,
         };
-        let anchor = |index: usize| {
-            let values = values(scene, &|setting| match *setting {
-                Setting::Anchor { linker, shift_nm } if linker == index => Some(shift_nm.into()),
-                _ => None,
-            });
-            Some(Track::new(index, values?))
+        let anchor = |index: usize, setting: &Setting| match *setting {
+            Setting::Anchor { linker, shift_nm } if linker == index => Some(shift_nm.into()),
+            _ => None,
         };
         Self {
             stages: scene.path.len(),
-            loads: (0..scene.loads.len()).filter_map(load).collect(),
-            shifts: (0..clamps.len()).filter_map(shift).collect(),
-            turns: (0..clamps.len()).filter_map(turn).collect(),
-            anchors: (0..scene.linkers.len()).filter_map(anchor).collect(),
+            loads: tracks(scene, scene.loads.len(), &load),
+            shifts: tracks(scene, clamps.len(), &shift),
+            turns: tracks(scene, clamps.len(), &turn),
+            anchors: tracks(scene, scene.linkers.len(), &anchor),
             first_anchor: scene.loads.len(),
             ends: clamps.iter().map(|c| HeldEnd::new(c, rest)).collect(),
         }
@@ -148,6 +134,16 @@ impl Drive {
             end.place(state, shift, turn);
         }
     }
+}
+
+/// The tracks of those of `count` controls that some stage sets, by what `find` reads for each.
+fn tracks(
+    scene: &Scene,
+    count: usize,
+    find: &dyn Fn(usize, &Setting) -> Option<Vector3>,
+) -> Vec<Track> {
+    let track = |what| Some(Track::new(what, values(scene, &|s| find(what, s))?));
+    (0..count).filter_map(track).collect()
 }
 
 /// Values of a control at the ends of the stages, from zero before the path; `None` if no stage sets

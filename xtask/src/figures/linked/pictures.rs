@@ -116,23 +116,11 @@ fn energies(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Option<P
         .collect();
     let limits = moved.iter().map(|(_, m)| m.limit.energy);
     let top = DRAWN_TO * limits.fold(0.0, f64::max);
-    let start = moved.iter().filter_map(|(_, m)| Some(m.energy.first()?[0]));
+    let start = moved.iter().filter_map(|(_, m)| Some(m.energy.first()?[1]));
     let start = start.fold(0.0, f64::max);
     if moved.is_empty() {
         return Ok(None);
     }
-    let curves = moved.iter().map(|(o, motion)| Series {
-        label: Some(o.case.name()),
-        colour: resolution_colour(o.case.rod_share()),
-        points: drawn(motion, top),
-        dots: false,
-    });
-    let dotted = moved.iter().map(|(o, motion)| Series {
-        label: None,
-        colour: resolution_colour(o.case.rod_share()),
-        points: limit(motion),
-        dots: true,
-    });
     let chart = Chart {
         title: &format!(
             "{}: energy while the damped motion comes to rest",
@@ -140,7 +128,7 @@ fn energies(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Option<P
         ),
         x_label: "time (ns)",
         y_label: "filament, linkers and kinetic energy (pN nm)",
-        series: curves.chain(dotted).collect(),
+        series: curves(&moved, top),
         equal_axes: false,
     };
     let file = format!("{}_energy.svg", figure.id);
@@ -151,6 +139,24 @@ fn energies(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Option<P
          pN nm on. Dotted: the certified equilibrium that each motion tends to."
     );
     Ok(Some(Picture { file, caption }))
+}
+
+/// A line for each motion, and a dotted one for its limit.
+fn curves(moved: &[(&Outcome, &Motion)], top: f64) -> Vec<Series> {
+    let series = |(o, motion): &(&Outcome, &Motion)| {
+        let colour = resolution_colour(o.case.rod_share());
+        let of = |label, points, dots| Series {
+            label,
+            colour,
+            points,
+            dots,
+        };
+        [
+            of(Some(o.case.name()), drawn(motion, top), false),
+            of(None, limit(motion), true),
+        ]
+    };
+    moved.iter().flat_map(series).collect()
 }
 
 /// The part of a motion that is drawn.

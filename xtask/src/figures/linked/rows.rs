@@ -158,9 +158,9 @@ fn evidence(figure: &Figure, outcomes: &[Outcome]) -> [Row; 3] {
 
 /// Damped dynamics against Newton's method.
 fn motions(figure: &Figure, outcomes: &[Outcome]) -> Vec<Row> {
-    let moved: Vec<_> = outcomes
-        .iter()
-        .filter_map(|o| o.motion.as_ref().map(|m| (o, m)))
+    let moved = outcomes.iter();
+    let moved: Vec<_> = moved
+        .filter_map(|o| Some((o, o.motion.as_ref()?)))
         .collect();
     if moved.is_empty() {
         return Vec::new();
@@ -168,40 +168,23 @@ fn motions(figure: &Figure, outcomes: &[Outcome]) -> Vec<Row> {
     let last = |m: &solve::Motion| m.energy.last().map_or(f64::NAN, |e| e[1]);
     let energies = moved.iter().map(|(_, m)| (last(m) - m.limit.energy).abs());
     let nodes = moved.iter().map(|(_, m)| m.from_limit_nm);
-    let elsewhere = moved
-        .iter()
-        .filter(|(o, m)| m.limit.energy > o.lowest.energy + SAME_PN_NM);
+    let (energy, node) = (energies.fold(0.0, f64::max), nodes.fold(0.0, f64::max));
+    let is_elsewhere =
+        |(o, m): &&(&Outcome, &solve::Motion)| m.limit.energy > o.lowest.energy + SAME_PN_NM;
+    let elsewhere = moved.iter().filter(is_elsewhere).count() as f64;
     let unfinished = moved.iter().filter(|(_, m)| !m.converged).count();
+    let count = moved.len();
     let note = format!(
         "largest difference between the end of damped dynamics and the certified equilibrium that \
-         Newton's method reaches from there, {} motions; {unfinished} ended by time, all others \
-         by the stop rule",
-        moved.len()
+         Newton's method reaches from there, {count} motions; {unfinished} ended by time, all \
+         others by the stop rule"
     );
-    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+    let to = format!("of {count} motions: those that end in another equilibrium than the lowest");
     let row = |quantity, unit, ours, note| Row::measured(figure.id, quantity, unit, ours, note);
     vec![
-        row(
-            "newton_difference/energy",
-            "pN nm",
-            largest(&mut energies.into_iter()),
-            note.clone(),
-        ),
-        row(
-            "newton_difference/node",
-            "nm",
-            largest(&mut nodes.into_iter()),
-            note,
-        ),
-        row(
-            "motions_to_a_higher_equilibrium",
-            "",
-            elsewhere.count() as f64,
-            format!(
-                "of {} motions: those whose end is not the lowest equilibrium that was found",
-                moved.len()
-            ),
-        ),
+        row("newton_difference/energy", "pN nm", energy, note.clone()),
+        row("newton_difference/node", "nm", node, note),
+        row("motions_to_a_higher_equilibrium", "", elsewhere, to),
     ]
 }
 
@@ -228,56 +211,46 @@ pub(super) fn bending_claim(figure: &Figure, outcomes: &[Outcome]) -> [Row; 1] {
 }
 
 /// What the paper says of Figure 6: deviations of shape and energy are larger than in Figure 5.
-pub(super) fn larger_claims(
-    (figure, outcomes): (&Figure, &[Outcome]),
-    (planar, planar_outcomes): (&Figure, &[Outcome]),
-) -> Vec<Row> {
-    let mut rows = Vec::new();
-    let measures: [(&str, Pick, &str); 3] = [
-        (
-            "node_spread",
-            |s| s.node,
-            "deviations of shape are more noticeable",
-        ),
-        (
-            "energy_range",
-            Spread::energy_range,
-            "energies vary more (in pN nm)",
-        ),
-        (
-            "energy_spread",
-            |s| s.energy,
-            "energies vary more (relative to their mean)",
-        ),
+pub(super) fn larger_claims(here: (&Figure, &[Outcome]), there: (&Figure, &[Outcome])) -> Vec<Row> {
+    let picks: [Pick; 3] = [|s| s.node, Spread::energy_range, |s| s.energy];
+    let claims = [
+        ("node_spread", "deviations of shape are more noticeable"),
+        ("energy_range", "energies vary more (in pN nm)"),
+        ("energy_spread", "energies vary more (relative to the mean)"),
     ];
-    for variant in VARIANTS {
-        let here = over_seeds(figure, outcomes, variant);
-        let there = over_seeds(planar, planar_outcomes, variant);
-        rows.extend(measures.iter().map(|(name, pick, claim)| {
-            let (ours, sd) = statistics(here.iter().map(pick));
-            let (theirs, planar_sd) = statistics(there.iter().map(pick));
-            let pairs = here.iter().zip(&there);
-            let larger = pairs.filter(|(a, b)| pick(a) > pick(b)).count();
-            Row {
-                tolerance: Some(1.0),
-                pass: Some(ours > theirs),
-                ..Row::measured(
-                    figure.id,
-                    format!("claim/{name}_over_fig5{}", variant.suffix()),
-                    "",
-                    ours / theirs,
-                    format!(
-                        "the paper: {claim} than in Figure 5; more than the tolerance passes. Means \
-                         over samplings: {ours:.4} (sd {sd:.4}) here, {theirs:.4} (sd \
-                         {planar_sd:.4}) there, larger in {larger} of {} samplings; {}",
-                        here.len(),
-                        variant.words()
-                    ),
-                )
-            }
-        }));
+    let of_variant = |variant| {
+        let spreads = [here, there].map(|(figure, o)| over_seeds(figure, o, variant));
+        let pairs = claims.into_iter().zip(picks);
+        pairs.map(move |(claim, pick)| larger(here.0, variant, claim, &spreads, pick))
+    };
+    VARIANTS.into_iter().flat_map(of_variant).collect()
+}
+
+/// One claim on one variant: the ratio of the means over samplings.
+fn larger(
+    figure: &Figure,
+    variant: Variant,
+    (name, claim): (&str, &str),
+    [here, there]: &[Vec<Spread>; 2],
+    pick: Pick,
+) -> Row {
+    let (ours, sd) = statistics(here.iter().map(pick));
+    let (theirs, planar_sd) = statistics(there.iter().map(pick));
+    let pairs = here.iter().zip(there);
+    let larger = pairs.filter(|(a, b)| pick(a) > pick(b)).count();
+    let quantity = format!("claim/{name}_over_fig5{}", variant.suffix());
+    let note = format!(
+        "the paper: {claim} than in Figure 5; more than the tolerance passes. Means over \
+         samplings: {ours:.4} (sd {sd:.4}) here, {theirs:.4} (sd {planar_sd:.4}) there, larger in \
+         {larger} of {} samplings; {}",
+        here.len(),
+        variant.words()
+    );
+    Row {
+        tolerance: Some(1.0),
+        pass: Some(ours > theirs),
+        ..Row::measured(figure.id, quantity, "", ours / theirs, note)
     }
-    rows
 }
 
 /// Spreads of all samplings of the bonds.
