@@ -14,7 +14,7 @@ pub fn laws() -> RodLaws {
             rise_pn_nm2: 8_070.5,
             curvature_per_nm: 2.845e-3,
             twist_per_nm: Some(2.871e-3),
-            shear: Some(9.915e-3),
+            shear: Some(9.922e-3),
             range_per_nm: 0.015,
         }),
         twist: Some(TwistLaw::Sided {
@@ -36,7 +36,7 @@ pub fn laws() -> RodLaws {
         }),
         shear: Some(ShearLaw::Cubic {
             linear_pn: [0.0, 0.0],
-            cubic_pn: 8.282e5,
+            cubic_pn: 8.282_4e5,
         }),
         twist_stretch: Some(TwistStretchLaw::Rooted {
             slope_nm: -0.288_514,
