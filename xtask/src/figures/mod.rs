@@ -11,6 +11,8 @@ mod figure9;
 mod html;
 pub(crate) mod plot;
 pub(crate) mod report;
+mod scene3d;
+mod schematics;
 mod tables;
 
 pub(crate) use tables::paper;
@@ -23,7 +25,10 @@ use std::path::Path;
 type Recipe = (&'static str, fn(&Path, bool) -> Result<Artefact, String>);
 
 /// The artefacts that exist.
-const RECIPES: [Recipe; 10] = [
+const RECIPES: [Recipe; 13] = [
+    ("fig1", schematics::figure1),
+    ("fig2", schematics::figure2),
+    ("fig3", schematics::figure3),
     ("fig4", figure4::reproduce),
     ("fig7", figure7::reproduce),
     ("fig8", buckling::figure8),
