@@ -25,6 +25,10 @@ impl Assembly {
     ///
     /// They are drawn anew from the scene's parameters: draws are keyed by seed, interface and
     /// lattice index, so that these are the bonds that act, at the cost of drawing them.
+    ///
+    /// # Panics
+    /// If the assembly's scene was given other parameters since it was built, which cannot be
+    /// bonded.
     pub fn bonds_of(&self, section: usize) -> Option<Bonds> {
         let span = self.sections.get(section)?;
         let Resolution::Ellipsoids { first_index, .. } = span.resolution else {

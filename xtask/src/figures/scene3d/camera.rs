@@ -63,8 +63,15 @@ mod tests {
             up: Vector3::z(),
         };
         let camera = Camera::new(&view, Vector3::zeros(), 10.0);
-        assert_eq!(camera.project(Vector3::zeros()), [0.0, 0.0]);
-        assert_eq!(camera.project(Vector3::new(0.0, 1.0, 2.0)), [0.1, 0.2]);
-        assert_eq!(camera.project(Vector3::new(5.0, 1.0, 2.0)), [0.2, 0.4]);
+        let cases = [
+            (Vector3::zeros(), [0.0, 0.0]),
+            (Vector3::new(0.0, 1.0, 2.0), [0.1, 0.2]),
+            (Vector3::new(5.0, 1.0, 2.0), [0.2, 0.4]),
+        ];
+        for (point, [x, y]) in cases {
+            let place = camera.project(point);
+            // Round-off of numbers of order 1.
+            assert!((place[0] - x).abs() < 1e-15 && (place[1] - y).abs() < 1e-15);
+        }
     }
 }
