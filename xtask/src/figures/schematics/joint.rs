@@ -18,7 +18,7 @@ const AXIS_NM: f64 = 3.0;
 /// Where the names of monomer and frame of each bond stand (pixels, right and down).
 const OFFSETS: [[[f64; 2]; 2]; 2] = [
     [[-100.0, -120.0], [-20.0, -155.0]],
-    [[-150.0, 120.0], [-20.0, 155.0]],
+    [[-124.0, 120.0], [-20.0, 155.0]],
 ];
 
 /// Solves the scene, draws its junction and measures it.
