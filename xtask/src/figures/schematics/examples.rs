@@ -34,7 +34,7 @@ pub(in crate::figures) fn reproduce(out: &Path, _quick: bool) -> Result<Artefact
     let sheet = sheet(&solved);
     let caption = "Filaments of monomers and rod: (a) 100 nm on a wall, 5 pN down at the tip; (b) 160 \
         nm, both ends turned by 150 deg in opposite senses, which over-twists, and moved in by 8 nm \
-        each, so that it buckles into a helix, seen from the side and along its axis; arcs show the turns, straight arrows the shifts, both to scale; (c) 110 nm held by nothing but four \
+        each, so that it buckles, a little out of a plane, seen from the side and along its axis; arcs show the turns, straight arrows the shifts, both to scale; (c) 110 nm held by nothing but four \
         linkers to fixed anchors.";
     let title = "Three kinds of scenes";
     let picture = (&sheet, caption.to_owned());
@@ -138,7 +138,7 @@ fn rows(solved: &[Solved]) -> Result<Vec<Row>, String> {
     ));
     let writhe = ribbon.writhe().ok_or("too many vertices for a writhe")?;
     let note =
-        "of the filament, straight beyond both ends; 0 for a plane curve: a sign of the helix";
+        "of the filament, straight beyond both ends; 0 for a plane curve: how far it is a helix";
     rows.push(row("buckling/writhe", "", writhe, note));
     let linkers = solved[2].assembly.linkers.iter().enumerate();
     rows.extend(linkers.map(|(i, linker)| {
