@@ -22,8 +22,8 @@ pub mod shape;
 pub use actin_cosserat::constants as rod_constants;
 pub use actin_ellipsoid::constants as ellipsoid_constants;
 pub use assembly::{
-    Assembly, BeyondRange, BodyKind, Clamped, Counts, Drive, FrameInfo, Part, PointInfo, Reaction,
-    Resolution, SectionSpan, Term,
+    Assembly, BeyondRange, BodyKind, Clamped, Counts, Drive, FrameInfo, JunctionBond, Part,
+    PointInfo, Reaction, Resolution, SectionSpan, Term,
 };
 pub use results::{RunDirectory, RunDirectoryError, RunStatus, StabilitySummary, Summary};
 pub use run::{

@@ -12,6 +12,8 @@ mod html;
 mod linked;
 pub(crate) mod plot;
 pub(crate) mod report;
+mod scene3d;
+mod schematics;
 mod tables;
 
 pub(crate) use tables::paper;
@@ -24,7 +26,10 @@ use std::path::Path;
 type Recipe = (&'static str, fn(&Path, bool) -> Result<Artefact, String>);
 
 /// The artefacts that exist.
-const RECIPES: [Recipe; 12] = [
+const RECIPES: [Recipe; 15] = [
+    ("fig1", schematics::figure1),
+    ("fig2", schematics::figure2),
+    ("fig3", schematics::figure3),
     ("fig4", figure4::reproduce),
     ("fig5", linked::figure5),
     ("fig6", linked::figure6),

@@ -28,7 +28,15 @@ const ALLOWED: [(&str, &[&str]); 10] = [
         ],
     ),
     ("crates/actin-cli", &["actin-sim"]),
-    ("xtask", &["actin-sim", "actin-cosserat", "actin-fit"]),
+    (
+        "xtask",
+        &[
+            "actin-mechanics",
+            "actin-sim",
+            "actin-cosserat",
+            "actin-fit",
+        ],
+    ),
 ];
 
 /// Dependencies that point the wrong way, and crates that no rule speaks of.

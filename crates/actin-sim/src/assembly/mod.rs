@@ -4,6 +4,7 @@
 //! points, frames and terms. Bodies stand in filament order: monomers, junction frames, rod
 //! nodes and segments follow one another as they do along the filament.
 
+mod bonded;
 mod build;
 mod describe;
 mod drive;
@@ -15,6 +16,7 @@ mod ramp;
 mod range;
 mod reaction;
 
+pub use bonded::JunctionBond;
 pub use drive::Drive;
 pub use parts::{BodyKind, Counts, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term};
 pub(crate) use ramp::Ramp;

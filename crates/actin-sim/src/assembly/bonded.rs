@@ -1,0 +1,162 @@
+//! Who is bonded to whom, for whoever draws or measures bonds: those between monomers and those of
+//! a junction. What the bonds do is in the crates of the models.
+
+use super::{Assembly, BodyKind, Resolution, SectionSpan, models};
+use actin_ellipsoid::{Bonds, Monomers};
+use std::ops::Range;
+
+/// One bond of a junction: from an attached monomer's centre to the rod's end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct JunctionBond {
+    /// The junction, by the index of the section before it.
+    pub junction: usize,
+    /// Point at the monomer's centre.
+    pub monomer: usize,
+    /// The monomer's frame.
+    pub monomer_frame: usize,
+    /// Node at the rod's end.
+    pub node: usize,
+    /// Frame of the bond, `Q_MR` of the paper.
+    pub frame: usize,
+}
+
+impl Assembly {
+    /// The bonds between the monomers of a section; none of a rod.
+    ///
+    /// They are drawn anew from the scene's parameters: draws are keyed by seed, interface and
+    /// lattice index, so that these are the bonds that act, at the cost of drawing them.
+    ///
+    /// # Panics
+    /// If the assembly's scene was given other parameters since it was built, which cannot be
+    /// bonded.
+    pub fn bonds_of(&self, section: usize) -> Option<Bonds> {
+        let span = self.sections.get(section)?;
+        let Resolution::Ellipsoids { first_index, .. } = span.resolution else {
+            return None;
+        };
+        let monomers = Monomers {
+            first_point: span.points.start,
+            first_frame: span.frames.start,
+            first_index,
+            count: span.points.len(),
+        };
+        let model = models::ellipsoids(&self.scene.filament.monomers)
+            .expect("the assembly was built with these parameters");
+        let bonds = model.bonds(&monomers);
+        Some(bonds.expect("the assembly was built with these bonds"))
+    }
+
+    /// The bonds of all junctions in filament order.
+    pub fn junction_bonds(&self) -> Vec<JunctionBond> {
+        let pairs = self.sections.windows(2).enumerate();
+        pairs
+            .flat_map(|(junction, pair)| self.bonds_between(junction, &pair[0], &pair[1]))
+            .collect()
+    }
+
+    /// The bonds of the junction between two sections.
+    fn bonds_between(
+        &self,
+        junction: usize,
+        before: &SectionSpan,
+        after: &SectionSpan,
+    ) -> Vec<JunctionBond> {
+        let frames = (before.frames.end..after.frames.start)
+            .filter(|&frame| self.frames[frame].kind == BodyKind::Junction);
+        let attached = self.scene.filament.junction.attached_monomers;
+        let (monomers, node) = if before.is_ellipsoids() {
+            (before, after.points.start)
+        } else {
+            (after, before.points.end - 1)
+        };
+        let nearest = |bodies: &Range<usize>| {
+            if before.is_ellipsoids() {
+                bodies.end - attached..bodies.end
+            } else {
+                bodies.start..bodies.start + attached
+            }
+        };
+        let (points, monomer_frames) = (nearest(&monomers.points), nearest(&monomers.frames));
+        let bodies = points.zip(monomer_frames).zip(frames);
+        bodies
+            .map(|((monomer, monomer_frame), frame)| JunctionBond {
+                junction,
+                monomer,
+                monomer_frame,
+                node,
+                frame,
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+    use actin_mechanics::testing::{Noise, perturb};
+
+    fn build() -> Assembly {
+        let text = "Scene(
+            filament: Filament(sections: [
+                Rod(from_nm: 0.0, to_nm: 20.0),
+                Ellipsoids(from_nm: 20.0, to_nm: 50.0),
+                Rod(from_nm: 50.0, to_nm: 70.0),
+            ]),
+            task: Equilibrium(),
+        )";
+        Assembly::build(&Scene::from_ron(text).unwrap()).unwrap()
+    }
+
+    /// The energy of the listed bonds is that of the term, in a state where every bond is
+    /// stretched: other anchors, another pairing or another run of monomers would miss it.
+    #[test]
+    fn the_listed_bonds_are_those_that_act() {
+        let mut assembly = build();
+        perturb(assembly.system.state_mut(), &mut Noise::new(5), 0.2, 0.05);
+        let energies = assembly.system.energies();
+        let bonds = assembly.bonds_of(1).unwrap();
+        let state = assembly.system.state();
+        let energy: f64 = bonds
+            .pairs()
+            .iter()
+            .flat_map(|pair| {
+                let ends = bonds.ends_of(pair, state).zip(bonds.bonds_of(pair));
+                ends.map(|([lower, upper], bond)| {
+                    0.5 * pair.stiffness * ((upper - lower).norm() - bond.rest_length).powi(2)
+                })
+            })
+            .sum();
+        let term = assembly.terms.iter().position(|t| t.name == bonds_term());
+        let expected = energies[term.unwrap()];
+        assert_eq!(bonds.number_of_bonds(), assembly.sections[1].bonds());
+        // Round-off of a sum over some thousand bonds.
+        assert!((energy - expected).abs() < 1e-10 * expected);
+        assert!(assembly.bonds_of(0).is_none() && assembly.bonds_of(9).is_none());
+    }
+
+    fn bonds_term() -> &'static str {
+        "bonds"
+    }
+
+    /// At rest a bond spans the helix's radius and half a rise or one and a half: attaching the
+    /// wrong monomer, or the one at the other end, makes it longer.
+    #[test]
+    fn junction_bonds_reach_from_the_nearest_two_monomers() {
+        let assembly = build();
+        let bonds = assembly.junction_bonds();
+        let rest = &assembly.rest.points.position;
+        let monomers = &assembly.scene.filament.monomers;
+        let steps = [0.5, 1.5, 1.5, 0.5];
+        assert_eq!(bonds.len(), steps.len());
+        for (bond, steps) in bonds.iter().zip(steps) {
+            let length = (rest.get(bond.monomer) - rest.get(bond.node)).norm();
+            let expected = monomers.radius_nm.hypot(steps * monomers.rise_nm);
+            assert!((length - expected).abs() < 1e-12, "{bond:?}");
+            assert_eq!(assembly.frames[bond.frame].kind, BodyKind::Junction);
+            let between =
+                0.5 * (assembly.points[bond.monomer].s_nm + assembly.points[bond.node].s_nm);
+            assert!((assembly.frames[bond.frame].s_nm - between).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Texts at points of the scene, placed inside the panel and clear of one another.
+
+use super::Colour;
+use super::panel::Frame;
+use super::solid::Stroke;
+use super::svg::{Align, Canvas, text_width};
+use actin_mechanics::Vector3;
+
+/// A text at a point.
+#[derive(Clone, Debug)]
+pub(crate) struct Label {
+    /// What it names (nm, lab frame).
+    pub at: Vector3,
+    pub text: String,
+    /// Where it stands from there in pixels, right and down; the text goes on in that direction.
+    pub offset: [f64; 2],
+}
+
+/// Size of the letters in pixels.
+pub(super) const LETTERS: f64 = 14.0;
+/// Labels further away than this have a line to what they name (pixels).
+const LEADER: f64 = 18.0;
+const LEADER_COLOUR: Colour = Colour([120, 120, 120]);
+
+/// Left, top, right, bottom.
+type Area = [f64; 4];
+
+/// Paints all labels of a panel.
+pub(super) fn paint(labels: &[Label], frame: &Frame, canvas: &mut Canvas) {
+    let mut taken: Vec<Area> = Vec::new();
+    for label in labels {
+        let named = frame.pixel(frame.camera.project(label.at));
+        let area = free_area(label, named, frame.area, &taken);
+        taken.push(area);
+        let [left, top, right, bottom] = area;
+        if label.offset[0].hypot(label.offset[1]) > LEADER {
+            let near = [named[0].clamp(left, right), named[1].clamp(top, bottom)];
+            let stroke = Stroke::solid(LEADER_COLOUR, 0.9);
+            canvas.line([named, near], stroke, 1.0);
+        }
+        let baseline = bottom - 0.3 * LETTERS;
+        canvas.text(
+            [0.5 * (left + right), baseline],
+            LETTERS,
+            Align::Middle,
+            false,
+            &label.text,
+        );
+    }
+}
+
+/// Where a label stands: at its offset, moved into the panel, then down past those that are there.
+fn free_area(label: &Label, named: [f64; 2], panel: Area, taken: &[Area]) -> Area {
+    let (width, height) = (text_width(&label.text, LETTERS), 1.25 * LETTERS);
+    let [right, down] = label.offset;
+    let share = |v: f64| {
+        if v > 1.0 {
+            0.0
+        } else if v < -1.0 {
+            1.0
+        } else {
+            0.5
+        }
+    };
+    let left = named[0] + right - share(right) * width;
+    let left = left.min(panel[2] - width).max(panel[0]);
+    let mut top = named[1] + down - 0.5 * height;
+    top = top.min(panel[3] - height).max(panel[1]);
+    let meets = |top: f64| {
+        taken.iter().find(|other| {
+            left < other[2] && other[0] < left + width && top < other[3] && other[1] < top + height
+        })
+    };
+    while let Some(other) = meets(top) {
+        top = other[3] + 1.0;
+    }
+    [left, top, left + width, top + height]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Labels of one point end up below one another and inside the panel.
+    #[test]
+    fn labels_keep_clear_of_edges_and_of_one_another() {
+        let label = Label {
+            at: Vector3::zeros(),
+            text: "a name".into(),
+            offset: [10.0, 0.0],
+        };
+        let panel = [0.0, 0.0, 100.0, 200.0];
+        let mut taken: Vec<Area> = Vec::new();
+        for _ in 0..3 {
+            taken.push(free_area(&label, [95.0, 5.0], panel, &taken));
+        }
+        for (i, area) in taken.iter().enumerate() {
+            assert!(area[0] >= panel[0] && area[2] <= panel[2] && area[1] >= panel[1]);
+            assert!(taken[..i].iter().all(|other| area[1] >= other[3]));
+        }
+    }
+}

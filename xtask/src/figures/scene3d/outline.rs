@@ -1,0 +1,148 @@
+//! Outlines of solids in the picture: the ellipse of an ellipsoid, the hull of a cylinder.
+
+use super::camera::Camera;
+use actin_mechanics::{Matrix3, Vector3};
+
+/// An ellipse in the plane of the picture.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ellipse {
+    /// Its middle.
+    pub centre: [f64; 2],
+    /// Its semi-axes, the larger first.
+    pub semi_axes: [f64; 2],
+    /// From the picture's right to the larger axis, counter-clockwise (rad).
+    pub angle: f64,
+}
+
+/// The outline of the ellipsoid whose semi-axes are the columns of `semi_axes` (lab frame).
+///
+/// With the centre `c` and `M = A A^T` of the semi-axes `A`, both as the camera sees them, the
+/// planes that touch the ellipsoid are those of the dual quadric `[M - c c^T, -c; -c^T, -1]`, and
+/// the lines that touch its picture those of the dual conic `M - c c^T` (Hartley and Zisserman,
+/// Multiple View Geometry, 2nd ed., section 8.3). The ellipsoid lies in front of the camera.
+pub(super) fn ellipsoid(camera: &Camera, centre: Vector3, semi_axes: &Matrix3) -> Ellipse {
+    let columns: Vec<Vector3> = semi_axes
+        .column_iter()
+        .map(|axis| camera.turn(axis.into_owned()))
+        .collect();
+    let axes = Matrix3::from_columns(&columns);
+    let c = camera.see(centre);
+    let conic = axes * axes.transpose() - c * c.transpose();
+    let scale = -1.0 / conic[(2, 2)];
+    let middle = [-scale * conic[(0, 2)], -scale * conic[(1, 2)]];
+    let spread = |i: usize, j: usize| scale * conic[(i, j)] + middle[i] * middle[j];
+    let (xx, xy, yy) = (spread(0, 0), spread(0, 1), spread(1, 1));
+    let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
+    Ellipse {
+        centre: middle,
+        semi_axes: [(mean + half).sqrt(), (mean - half).max(0.0).sqrt()],
+        angle: 0.5 * (2.0 * xy).atan2(xx - yy),
+    }
+}
+
+impl Ellipse {
+    /// Corners of the upright box around it.
+    pub(super) fn bounds(&self) -> [[f64; 2]; 2] {
+        let (sin, cos) = self.angle.sin_cos();
+        let [a, b] = self.semi_axes;
+        let half = [(a * cos).hypot(b * sin), (a * sin).hypot(b * cos)];
+        let [x, y] = self.centre;
+        [[x - half[0], y - half[1]], [x + half[0], y + half[1]]]
+    }
+}
+
+/// Points on the rim of a disc.
+const RIM: usize = 72;
+
+/// The rim of the disc about `centre` across `normal` (nm, lab frame).
+pub(super) fn rim(centre: Vector3, normal: Vector3, radius: f64) -> Vec<Vector3> {
+    let aside = if normal.x.abs() < 0.9 * normal.norm() {
+        Vector3::x()
+    } else {
+        Vector3::y()
+    };
+    let u = normal.cross(&aside).normalize() * radius;
+    let v = normal.normalize().cross(&u);
+    (0..RIM)
+        .map(|k| {
+            let (sin, cos) = (k as f64 * std::f64::consts::TAU / RIM as f64).sin_cos();
+            centre + u * cos + v * sin
+        })
+        .collect()
+}
+
+/// The convex hull, counter-clockwise. A cylinder is the hull of its two rims, in the picture too.
+pub(super) fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
+        let mut chain: Vec<[f64; 2]> = Vec::new();
+        for p in points {
+            while let [.., a, b] = chain[..]
+                && (b[0] - a[0]) * (p[1] - a[1]) <= (b[1] - a[1]) * (p[0] - a[0])
+            {
+                chain.pop();
+            }
+            chain.push(p);
+        }
+        chain.pop();
+        chain
+    };
+    let mut lower = chain(&mut points.iter().copied());
+    lower.extend(chain(&mut points.iter().rev().copied()));
+    lower
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::scene3d::camera::View;
+    use actin_mechanics::rotation;
+
+    /// In every direction of the picture the outline reaches exactly as far as the furthest
+    /// projected point of the surface: an orthographic outline, or a centre that is the image of
+    /// the centre, would miss at this distance of three radii.
+    #[test]
+    fn the_outline_is_that_of_the_sampled_surface() {
+        let view = View {
+            towards_viewer: Vector3::new(1.0, -2.0, 0.5),
+            up: Vector3::z(),
+        };
+        let camera = Camera::new(&view, Vector3::new(2.0, 1.0, -1.0), 9.0);
+        let turn = rotation::exp(Vector3::new(0.3, 0.8, -0.4));
+        let semi_axes = turn.to_rotation_matrix().into_inner()
+            * Matrix3::from_diagonal(&Vector3::new(1.9, 2.7, 1.2));
+        let centre = Vector3::new(0.5, 0.2, 0.3);
+        let ellipse = ellipsoid(&camera, centre, &semi_axes);
+        let mut surface = Vec::new();
+        for i in 0..=600 {
+            let (sin, cos) = (std::f64::consts::PI * f64::from(i) / 600.0).sin_cos();
+            for j in 0..1200 {
+                let (s, c) = (std::f64::consts::TAU * f64::from(j) / 1200.0).sin_cos();
+                let unit = Vector3::new(sin * c, sin * s, cos);
+                surface.push(camera.project(centre + semi_axes * unit));
+            }
+        }
+        let (sin, cos) = ellipse.angle.sin_cos();
+        for k in 0..24 {
+            let (n_y, n_x) = (f64::from(k) * 0.27).sin_cos();
+            let sampled = surface.iter().map(|p| n_x * p[0] + n_y * p[1]);
+            let sampled = sampled.fold(f64::NEG_INFINITY, f64::max);
+            let [a, b] = ellipse.semi_axes;
+            let reach = (a * (n_x * cos + n_y * sin)).hypot(b * (n_y * cos - n_x * sin));
+            let outline = n_x * ellipse.centre[0] + n_y * ellipse.centre[1] + reach;
+            // Samples 0.005 rad apart fall short by at most the square of half of it.
+            assert!((outline - sampled).abs() < 1e-5 && outline >= sampled - 1e-12);
+        }
+        let image = camera.project(centre);
+        assert!((image[0] - ellipse.centre[0]).hypot(image[1] - ellipse.centre[1]) > 1e-3);
+    }
+
+    /// Points within and on the edges of a square drop out.
+    #[test]
+    fn a_hull_keeps_corners_only() {
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let mut points = square.to_vec();
+        points.extend([[0.5, 0.5], [0.5, 0.0], [0.2, 0.9]]);
+        assert_eq!(hull(points), square);
+    }
+}

@@ -1,0 +1,91 @@
+//! A whole picture: panels and a legend below them.
+
+use super::Colour;
+use super::panel::Panel;
+use super::solid::Stroke;
+use super::svg::{Align, Canvas, Paint, text_width};
+
+/// What stands for an entry in the legend.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Key {
+    Ball(Colour),
+    Dot(Colour),
+    Line(Stroke),
+    Arrow(Stroke),
+    /// A filled rectangle of an opacity.
+    Area(Colour, f64),
+}
+
+/// A whole picture.
+#[derive(Clone, Debug)]
+pub(crate) struct Sheet {
+    /// Begins the names within the file; unlike those of other pictures of a page.
+    pub prefix: &'static str,
+    pub width: f64,
+    /// Height without the legend, in pixels.
+    pub height: f64,
+    pub panels: Vec<Panel>,
+    pub legend: Vec<(Key, String)>,
+}
+
+const LETTERS: f64 = 14.0;
+const ROW: f64 = 26.0;
+const KEY: f64 = 28.0;
+const GAP: f64 = 22.0;
+const MARGIN: f64 = 16.0;
+
+impl Sheet {
+    /// The picture as SVG.
+    pub(crate) fn svg(&self) -> String {
+        let places = self.legend_places();
+        let rows = places.last().map_or(0.0, |[_, y]| y / ROW + 1.0);
+        let size = [self.width, self.height + rows * ROW + MARGIN];
+        let mut canvas = Canvas::new(self.prefix, size);
+        for panel in &self.panels {
+            panel.paint(&mut canvas);
+        }
+        for ((key, text), [x, y]) in self.legend.iter().zip(places) {
+            let y = self.height + y + 0.5 * ROW;
+            key.paint([x, y], &mut canvas);
+            canvas.text([x + KEY + 6.0, y + 5.0], LETTERS, Align::Start, false, text);
+        }
+        canvas.finish()
+    }
+
+    /// Where each entry of the legend begins: side by side, in as many rows as are needed.
+    fn legend_places(&self) -> Vec<[f64; 2]> {
+        let (mut x, mut y) = (MARGIN, 0.0);
+        let entries = self.legend.iter();
+        entries
+            .map(|(_, text)| {
+                let width = KEY + 6.0 + text_width(text, LETTERS);
+                if x > MARGIN && x + width > self.width - MARGIN {
+                    (x, y) = (MARGIN, y + ROW);
+                }
+                let place = [x, y];
+                x += width + GAP;
+                place
+            })
+            .collect()
+    }
+}
+
+impl Key {
+    /// Paints it to the right of a place.
+    fn paint(self, [x, y]: [f64; 2], canvas: &mut Canvas) {
+        let ends = [[x, y], [x + KEY, y]];
+        let middle = [x + 0.5 * KEY, y];
+        let opaque = |fill| Paint { fill, opacity: 1.0 };
+        match self {
+            Self::Ball(colour) => canvas.ball(middle, [11.0, 8.0], 0.0, opaque(colour)),
+            Self::Dot(colour) => canvas.dot(middle, 4.5, opaque(colour)),
+            Self::Line(stroke) => canvas.line(ends, stroke, 1.0),
+            Self::Arrow(stroke) => canvas.arrow(ends, stroke),
+            Self::Area(fill, opacity) => {
+                let (top, bottom) = (y - 7.0, y + 7.0);
+                let corners = [[x, top], [x + KEY, top], [x + KEY, bottom], [x, bottom]];
+                canvas.polygon(&corners, Paint { fill, opacity });
+            }
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! What is drawn: solids in space, and how each is painted.
+
+use super::camera::Camera;
+use super::colour::Colour;
+use super::outline::{self, hull, rim};
+use super::panel::Frame;
+use super::svg::{Canvas, Paint};
+use actin_mechanics::{Matrix3, Vector3};
+
+/// How a line looks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stroke {
+    pub colour: Colour,
+    /// Width in pixels.
+    pub width: f64,
+    pub dashed: bool,
+}
+
+impl Stroke {
+    /// A line without gaps.
+    pub(crate) fn solid(colour: Colour, width: f64) -> Self {
+        Self {
+            colour,
+            width,
+            dashed: false,
+        }
+    }
+}
+
+/// A solid (nm, lab frame).
+#[derive(Clone, Debug)]
+pub(crate) enum Solid {
+    /// An ellipsoid, its semi-axes the columns of a matrix.
+    Ellipsoid { centre: Vector3, semi_axes: Matrix3 },
+    /// A cylinder with flat ends.
+    Cylinder { ends: [Vector3; 2], radius: f64 },
+    /// A flat polygon.
+    Plate { corners: Vec<Vector3> },
+    /// A disc of so many pixels about a point.
+    Dot { at: Vector3, pixels: f64 },
+    /// A line.
+    Line { ends: [Vector3; 2], stroke: Stroke },
+    /// A line with a head at its second end.
+    Arrow { ends: [Vector3; 2], stroke: Stroke },
+}
+
+/// A solid with its looks and its place in the order of painting.
+#[derive(Clone, Debug)]
+pub(crate) struct Item {
+    pub solid: Solid,
+    pub colour: Colour,
+    /// From 0, not seen, to 1.
+    pub opacity: f64,
+    /// How much nearer to the viewer it counts than its middle (nm).
+    pub nearer_nm: f64,
+}
+
+impl Item {
+    /// An opaque solid that counts where it is.
+    pub(crate) fn new(solid: Solid, colour: Colour) -> Self {
+        Self {
+            solid,
+            colour,
+            opacity: 1.0,
+            nearer_nm: 0.0,
+        }
+    }
+
+    /// A line.
+    pub(crate) fn line(ends: [Vector3; 2], stroke: Stroke) -> Self {
+        Self::new(Solid::Line { ends, stroke }, stroke.colour)
+    }
+
+    /// The same item with an opacity.
+    pub(crate) fn with_opacity(self, opacity: f64) -> Self {
+        Self { opacity, ..self }
+    }
+
+    /// The same item, painted as if it were nearer (nm).
+    pub(crate) fn nearer(self, nearer_nm: f64) -> Self {
+        Self { nearer_nm, ..self }
+    }
+
+    /// Distance by which the order of painting goes.
+    pub(super) fn depth(&self, camera: &Camera) -> f64 {
+        camera.see(self.solid.middle()).norm() - self.nearer_nm
+    }
+}
+
+impl Solid {
+    /// Its middle.
+    pub(super) fn middle(&self) -> Vector3 {
+        match self {
+            Self::Ellipsoid { centre, .. } => *centre,
+            Self::Dot { at, .. } => *at,
+            Self::Cylinder { ends, .. } | Self::Line { ends, .. } | Self::Arrow { ends, .. } => {
+                0.5 * (ends[0] + ends[1])
+            }
+            Self::Plate { corners } => corners.iter().sum::<Vector3>() / corners.len() as f64,
+        }
+    }
+
+    /// Places in the picture between which it lies.
+    pub(super) fn extent(&self, camera: &Camera) -> Vec<[f64; 2]> {
+        match self {
+            Self::Ellipsoid { centre, semi_axes } => outline::ellipsoid(camera, *centre, semi_axes)
+                .bounds()
+                .into(),
+            Self::Dot { at, .. } => vec![camera.project(*at)],
+            Self::Line { ends, .. } | Self::Arrow { ends, .. } => {
+                ends.map(|end| camera.project(end)).into()
+            }
+            Self::Cylinder { ends, radius } => {
+                let rims = ends
+                    .iter()
+                    .flat_map(|&end| rim(end, ends[1] - ends[0], *radius));
+                rims.map(|p| camera.project(p)).collect()
+            }
+            Self::Plate { corners } => corners.iter().map(|&p| camera.project(p)).collect(),
+        }
+    }
+
+    /// Paints it.
+    pub(super) fn paint(&self, item: &Item, frame: &Frame, canvas: &mut Canvas) {
+        let paint = Paint {
+            fill: item.colour,
+            opacity: item.opacity,
+        };
+        let pixel = |p: &Vector3| frame.pixel(frame.camera.project(*p));
+        match self {
+            Self::Ellipsoid { centre, semi_axes } => {
+                let ellipse = outline::ellipsoid(&frame.camera, *centre, semi_axes);
+                let semi_axes = ellipse.semi_axes.map(|a| a * frame.scale);
+                // The picture's y axis points down: counter-clockwise turns are negative.
+                let angle = -ellipse.angle.to_degrees();
+                canvas.ball(frame.pixel(ellipse.centre), semi_axes, angle, paint);
+            }
+            Self::Dot { at, pixels } => canvas.dot(pixel(at), *pixels, paint),
+            Self::Line { ends, stroke } => {
+                canvas.line(ends.each_ref().map(pixel), *stroke, item.opacity);
+            }
+            Self::Arrow { ends, stroke } => canvas.arrow(ends.each_ref().map(pixel), *stroke),
+            Self::Plate { corners } => {
+                canvas.polygon(&corners.iter().map(pixel).collect::<Vec<_>>(), paint);
+            }
+            Self::Cylinder { ends, radius } => paint_cylinder(*ends, *radius, paint, frame, canvas),
+        }
+    }
+}
+
+/// The outline of a cylinder, then the end that faces the viewer.
+fn paint_cylinder(
+    ends: [Vector3; 2],
+    radius: f64,
+    paint: Paint,
+    frame: &Frame,
+    canvas: &mut Canvas,
+) {
+    let axis = ends[1] - ends[0];
+    let rims = ends.map(|end| {
+        let rim = rim(end, axis, radius).into_iter();
+        let rim = rim.map(|p| frame.pixel(frame.camera.project(p)));
+        rim.collect::<Vec<_>>()
+    });
+    canvas.polygon(&hull(rims.concat()), paint);
+    let near = usize::from(frame.camera.see(ends[1]).norm() < frame.camera.see(ends[0]).norm());
+    let fill = paint.fill.lighter(0.35);
+    canvas.polygon(&rims[near], Paint { fill, ..paint });
+}
