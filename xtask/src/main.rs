@@ -25,7 +25,7 @@ enum Task {
     FitParameters(fit::Options),
     /// Computes figures and tables of the paper and compares them with it.
     ReproduceFigures {
-        /// Which: fig1 to fig4, fig7 to fig10, table1 to table5. All that exist by default.
+        /// Which: fig1 to fig10, table1 to table5. All by default.
         ids: Vec<String>,
         /// Where to write pictures, tables and reports.
         #[arg(long, default_value = "target/figures")]
