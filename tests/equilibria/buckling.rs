@@ -111,7 +111,7 @@ fn clamped_column() {
 }
 
 /// A column that bends under its own weight: `q L^3 / B = 7.8373474389`, the smallest zero of a
-/// Bessel function of order -1/3. Source: `PHYSICS.md` section 8.
+/// Bessel function of order -1/3. Source: Greenhill (1881).
 #[test]
 fn greenhills_column() {
     let values = MESHES.map(|n| {

@@ -4,7 +4,7 @@ use crate::common::{BEND, LENGTH, SHEAR, cantilever, second_order_limit, solved}
 use actin_sim::End;
 
 /// `alpha = F L^2 / B` and the deflection over the length of the inextensible rod.
-/// Source: `PHYSICS.md` section 8 (elliptic integrals).
+/// Source: elliptic integrals (Bisshopp and Drucker, Q. Appl. Math. 3 (1945) 272).
 const ELASTICA: [(f64, f64); 5] = [
     (0.2, 0.066_364_482_1),
     (1.0, 0.301_720_773_8),

@@ -40,7 +40,7 @@ fn ring(n: usize, twist: f64) -> (State, Vec<Box<dyn Interaction>>) {
     (state, vec![Box::new(chain)])
 }
 
-/// The ring is unstable beyond a twist of `2 pi sqrt(3) B / B3`. Source: `PHYSICS.md` section 8.
+/// The ring is unstable beyond a twist of `2 pi sqrt(3) B / B3`. Source: Michell (1889).
 #[test]
 fn a_twisted_ring_leaves_its_plane() {
     let exact = TAU * 3.0_f64.sqrt() * RATIO;

@@ -9,8 +9,9 @@
 use actin_sim::Monomers;
 use actin_sim::measure::{
     Curve, Evidence, MeasureError, Sampled, Specimen, bend_by_couples, bend_by_tip_force,
-    bend_twisted, bend_under_tension, free_turn_under_tension, over_samplings, sampled_by,
-    shear_by_force, stretch_by_force, twist, twist_under_tension,
+    bend_twisted, bend_under_tension, free_turn_under_tension, over_samplings,
+    over_samplings_and_azimuths, sampled_by, shear_by_force, stretch_by_force, twist,
+    twist_under_tension,
 };
 use std::error::Error;
 use std::fmt::Write as _;
@@ -131,16 +132,13 @@ fn filament(rises: f64) -> Specimen {
     Specimen::ellipsoids(rises * monomers.rise_nm, monomers)
 }
 
-/// Measures all samplings at all azimuths.
+/// All samplings at all azimuths.
 fn around<P: Send>(
     specimen: &Specimen,
     seeds: &[u64],
     measure: impl Fn(&Specimen, f64) -> Result<Curve<P>, MeasureError> + Sync,
 ) -> Result<Vec<Curve<P>>, MeasureError> {
-    let curves = over_samplings(specimen, seeds, |sampling| {
-        AZIMUTHS.iter().map(|&a| measure(sampling, a)).collect()
-    })?;
-    Ok(curves.into_iter().flat_map(|c: Vec<_>| c).collect())
+    over_samplings_and_azimuths(specimen, seeds, &AZIMUTHS, measure)
 }
 
 fn bend(seeds: &[u64]) -> Result<Table, MeasureError> {

@@ -4,7 +4,8 @@ use super::data::{Column, TwistData};
 use actin_sim::Monomers;
 use actin_sim::measure::{
     Curve, MeasureError, Specimen, bend_by_couples, bend_by_tip_force, bend_twisted,
-    over_samplings, sampled_by, shear_by_force, stretch_by_force, twist,
+    over_samplings, over_samplings_and_azimuths, sampled_by, shear_by_force, stretch_by_force,
+    twist,
 };
 
 /// Rises between the inner held monomers of a twisted filament (73.94 nm), as for Table 3.
@@ -93,10 +94,7 @@ fn around<P: Send>(
     seeds: &[u64],
     measure: impl Fn(&Specimen, f64) -> Result<Curve<P>, MeasureError> + Sync,
 ) -> Result<Vec<Curve<P>>, MeasureError> {
-    let curves = over_samplings(specimen, seeds, |sampling| {
-        AZIMUTHS_DEG.iter().map(|&a| measure(sampling, a)).collect()
-    })?;
-    Ok(curves.into_iter().flat_map(|c: Vec<_>| c).collect())
+    over_samplings_and_azimuths(specimen, seeds, &AZIMUTHS_DEG, measure)
 }
 
 fn points<P>(curves: &[Curve<P>], x: impl Fn(&P) -> f64, y: impl Fn(&P) -> f64) -> Vec<Point> {

@@ -205,7 +205,7 @@ mod tests {
     use super::*;
     use actin_fit::check_gradient;
 
-    /// The numbers of PHYSICS section 6: the published polynomial is the least-squares one, and
+    /// The published polynomial is the least-squares one, and
     /// the published lambda are not.
     #[test]
     fn paper_rows_give_the_published_polynomial_and_a_better_tanh() {

@@ -63,6 +63,26 @@ pub fn over_samplings<T: Send>(
     measured.into_iter().collect()
 }
 
+/// Measures every sampling at each azimuth (deg) of a transverse load, in parallel over samplings;
+/// curves of one sampling stand together.
+///
+/// # Errors
+/// The first error of `measure`, in the order of the seeds.
+pub fn over_samplings_and_azimuths<P: Send>(
+    specimen: &Specimen,
+    seeds: &[u64],
+    azimuths_deg: &[f64],
+    measure: impl Fn(&Specimen, f64) -> Result<Curve<P>, MeasureError> + Sync,
+) -> Result<Vec<Curve<P>>, MeasureError> {
+    let curves = over_samplings(specimen, seeds, |sampling| {
+        let at = azimuths_deg
+            .iter()
+            .map(|&azimuth| measure(sampling, azimuth));
+        at.collect::<Result<Vec<_>, _>>()
+    })?;
+    Ok(curves.into_iter().flatten().collect())
+}
+
 /// Mean and scatter of `measured` at each value of `prescribed` that occurs in the curves, in
 /// ascending order. Values of `prescribed` within 1e-9 of each other (relative) are the same.
 ///

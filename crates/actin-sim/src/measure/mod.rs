@@ -50,7 +50,7 @@ pub use actin_equilibrium::{Certificate, Stability};
 pub use bend::{TipForcePoint, bend_by_tip_force};
 pub use couples::{CouplePoint, bend_by_couples};
 pub use elastica::elastica_deflection;
-pub use ensemble::{Sampled, over_samplings, sampled_by};
+pub use ensemble::{Sampled, over_samplings, over_samplings_and_azimuths, sampled_by};
 pub use error::MeasureError;
 pub use follow::Evidence;
 pub use shear::{ShearPoint, shear_by_force};
