@@ -20,10 +20,12 @@ fn scene(task: &str) -> String {
     )
 }
 
+/// Asserts that damped dynamics comes to rest where Newton's method ends, for the scene that
+/// `scene` makes of a task.
+///
 /// Two methods that share the loads and nothing else. The dynamics stops at a residual that
 /// displaces the softest mode by less than is asked for.
-#[test]
-fn dynamics_comes_to_rest_where_newton_ends() {
+pub(crate) fn assert_dynamics_ends_with_newton(scene: impl Fn(&str) -> String) {
     let (newton, _) = solved(&scene("Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)"));
     let mut moving = build(&scene(
         "Dynamics(
@@ -50,4 +52,9 @@ fn dynamics_comes_to_rest_where_newton_ends() {
         report.force_evaluations
     );
     assert!(apart < 1e-6, "{apart:e} nm apart");
+}
+
+#[test]
+fn dynamics_comes_to_rest_where_newton_ends() {
+    assert_dynamics_ends_with_newton(scene);
 }

@@ -1,7 +1,7 @@
 //! What no sensible scene asks for: each ends in a certified equilibrium or in a report that says
 //! why not, in a bounded number of steps; never in a wrong answer.
 //!
-//! `cargo test -p actin-sim --test equilibria extremes -- --nocapture --include-ignored` prints
+//! `cargo test -p actin-sim --test equilibria extremes -- --nocapture` prints
 //! the table of `docs/statics.md`.
 
 use crate::common::{build, run};
@@ -266,7 +266,6 @@ fn extremes_of_shift_are_certified_or_reported() {
 
 /// 5844 monomers.
 #[test]
-#[ignore = "takes a minute"]
 fn extremes_of_length() {
     let sections = "Ellipsoids(from_nm: 0.0, to_nm: 16000.0)";
     let name = "1 pN across 16 um of monomers";

@@ -1,6 +1,7 @@
 //! Filaments held by linkers: a value from outside, balance, and dynamics beside statics.
 
-use crate::common::{build, run, solved};
+use crate::agreement::assert_dynamics_ends_with_newton;
+use crate::common::solved;
 use actin_mechanics::{Vector3, rotation};
 use actin_sim::{Assembly, BodyKind};
 
@@ -115,29 +116,9 @@ fn clamp_and_linkers_balance() {
     assert!(force.norm() < 4e-8 && torque.norm() < 2e-6);
 }
 
-/// Two methods that share the loads and nothing else. The dynamics stops at a residual that
-/// displaces the softest mode by less than is asked for.
 #[test]
 fn dynamics_comes_to_rest_where_newton_ends() {
-    let (newton, _) = solved(&mixed("Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)"));
-    let mut moving = build(&mixed(
-        "Dynamics(
-            duration_ns: 2000.0,
-            integrator: PositionVerlet,
-            step_safety: 0.9,
-            drag: (translational_per_ns: 2.0, rotational_per_ns: 2.0),
-            stop: (force_pn: 1e-8, torque_pn_nm: 1e-8, kinetic_pn_nm: 1e-12),
-            record_every_ns: 1.0,
-        )",
-    ));
-    let (_, report) = run(&mut moving).unwrap();
-    assert!(report.converged, "{} steps were not enough", report.steps);
-    let positions = |a: &Assembly| a.system.state().points.position.clone();
-    let (a, b) = (positions(&newton), positions(&moving));
-    let pairs = a.iter().zip(b.iter());
-    let apart = pairs.map(|(x, y)| (x - y).norm()).fold(0.0, f64::max);
-    println!("dynamics: {apart:.1e} nm from Newton");
-    assert!(apart < 1e-6, "{apart:e} nm apart");
+    assert_dynamics_ends_with_newton(mixed);
 }
 
 /// A filament that nothing but a linker holds hangs on it: the site comes to lie on the line from
