@@ -125,8 +125,9 @@ proptest! {
         let scene = scene(&mut Noise::new(seed));
         for linker in all(&scene, [0.0, 2.5, 40.0][slack]) {
             if let LinkerEnd::Site(_) = linker.end() {
-                // Sums of some ten products: some units in the last place.
-                assert_is_balanced(&linker, &scene.state, 1e-14);
+                // Sums of some ten products with arms that are rounded sums themselves: over 20000
+                // draws some exceed 1e-14 of what is added up.
+                assert_is_balanced(&linker, &scene.state, 1e-12);
                 // With a rest length near the distance the energy is what a cancellation leaves, and
                 // a share of it no measure of rounding.
                 if slack == 0 {
