@@ -1,0 +1,56 @@
+//! Small motions of a straight filament, given along its arc length.
+
+use actin_mechanics::{State, Vector3, rotation};
+use actin_sim::{Assembly, Scene};
+
+/// How the cross-section at one arc length is moved, whatever resolves it there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Motion {
+    /// Displacement of the axis (nm).
+    pub(crate) shift: Vector3,
+    /// Rotation vector about the axis's own point (rad).
+    pub(crate) turn: Vector3,
+    /// Velocity of the axis (nm/ns).
+    pub(crate) velocity: Vector3,
+    /// Angular velocity (rad/ns).
+    pub(crate) spin: Vector3,
+}
+
+/// The assembly of a scene.
+pub(crate) fn build(text: &str) -> Assembly {
+    let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    Assembly::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
+}
+
+/// Moves every free body of a straight filament as the cross-section at its arc length.
+pub(crate) fn set(assembly: &mut Assembly, motion: &dyn Fn(f64) -> Motion) {
+    let (points, frames) = (assembly.points.clone(), assembly.frames.clone());
+    let state = assembly.system.state_mut();
+    for (i, point) in points.iter().enumerate() {
+        if state.points.is_free(i) {
+            let m = motion(point.s_nm);
+            let axis = Vector3::z() * point.s_nm;
+            let arm = rotation::exp(m.turn) * (state.points.position.get(i) - axis);
+            state.points.position.set(i, axis + m.shift + arm);
+            state
+                .points
+                .velocity
+                .set(i, m.velocity + m.spin.cross(&arm));
+        }
+    }
+    for (i, frame) in frames.iter().enumerate() {
+        if state.frames.is_free(i) {
+            let m = motion(frame.s_nm);
+            let orientation = rotation::exp(m.turn) * state.frames.orientation.get(i);
+            state.frames.orientation.set(i, orientation);
+            set_spin(state, i, m.spin);
+        }
+    }
+}
+
+/// Gives frame `i` an angular velocity (rad/ns, lab frame).
+pub(crate) fn set_spin(state: &mut State, i: usize, spin: Vector3) {
+    let body = state.frames.orientation.get(i).inverse() * spin;
+    let momentum = body.component_div(&state.frames.inverse_moments(i));
+    state.frames.angular_momentum.set(i, momentum);
+}
