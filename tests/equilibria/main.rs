@@ -13,6 +13,7 @@ mod common;
 mod elastica;
 mod extremes;
 mod fitted;
+mod helical;
 mod history;
 mod linkers;
 mod reciprocity;
