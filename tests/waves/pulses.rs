@@ -126,7 +126,9 @@ enum Beyond {
 /// The filament: a rod as long as the pulse needs, and as much beyond it.
 fn filament(pulse: Pulse, segment: f64, beyond: Beyond) -> (Assembly, f64) {
     let enough = 2.0 * REACH * pulse.width;
-    let count = (1_usize..).find(|&n| n as f64 * segment >= enough).unwrap();
+    let count = (1_usize..1000)
+        .find(|&n| n as f64 * segment >= enough)
+        .unwrap();
     let (half, end) = (count as f64 * segment, 2.0 * count as f64 * segment);
     let time = enough / pulse.speed();
     let (sections, rest) = match beyond {
