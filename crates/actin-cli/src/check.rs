@@ -1,7 +1,7 @@
 //! `actin check`: what a scene resolves to and what it would cost.
 
 use crate::failure::{Failure, Opened};
-use actin_sim::{Assembly, Estimate, Resolution};
+use actin_sim::{Assembly, Estimate, Resolution, SectionSpan};
 use std::path::Path;
 
 /// Validates the scene at `path` and prints it with every default, its counts and its cost.
@@ -27,30 +27,46 @@ pub(crate) fn check(path: &Path) -> Result<(), Failure> {
 
 fn print_sections(assembly: &Assembly) {
     println!("// sections, as resolved on the lattice of monomers:");
-    for section in &assembly.sections {
-        let what = match section.resolution {
-            Resolution::Ellipsoids { bonds, .. } => {
-                format!("{} monomers, {bonds} bonds", section.points.len())
-            }
-            Resolution::Rod { segment_nm } => {
-                format!("{} segments of {segment_nm:.4} nm", section.frames.len())
-            }
-        };
-        println!(
-            "//   {:9.4} to {:9.4} nm: {what}",
-            section.from_nm, section.to_nm
-        );
+    for filament in 0..assembly.filaments.len() {
+        if assembly.filaments.len() > 1 {
+            let span = &assembly.filaments[filament];
+            let (from, along) = (place(span.origin_nm.into()), place(span.axis().into()));
+            println!("//   filament {filament} from {from} nm along {along}:");
+        }
+        for section in assembly.sections_of(filament) {
+            print_section(section);
+        }
     }
+}
+
+fn print_section(section: &SectionSpan) {
+    let what = match section.resolution {
+        Resolution::Ellipsoids { bonds, .. } => {
+            format!("{} monomers, {bonds} bonds", section.points.len())
+        }
+        Resolution::Rod { segment_nm } => {
+            format!("{} segments of {segment_nm:.4} nm", section.frames.len())
+        }
+    };
+    println!(
+        "//   {:9.4} to {:9.4} nm: {what}",
+        section.from_nm, section.to_nm
+    );
+}
+
+fn place([x, y, z]: [f64; 3]) -> String {
+    format!("({x:.4}, {y:.4}, {z:.4})")
 }
 
 fn print_linkers(assembly: &Assembly) {
     for (i, linker) in assembly.linkers.iter().enumerate() {
-        let place = |[x, y, z]: [f64; 3]| format!("({x:.4}, {y:.4}, {z:.4})");
+        let other = assembly.linked_to(i);
         println!(
-            "// linker {i}: from {} nm on {} to {} nm",
+            "// linker {i}: from {} nm on {} to {} nm{}",
             place(linker.site().position(&assembly.rest).into()),
             assembly.linked(i),
             place(linker.end_position(&assembly.rest).into()),
+            other.map_or_else(String::new, |body| format!(" on {body}")),
         );
     }
 }

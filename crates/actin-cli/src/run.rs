@@ -93,6 +93,10 @@ fn print(summary: &Summary, out: &Path) {
         ),
     }
     println!("tip displacement ({x:.4}, {y:.4}, {z:.4}) nm");
+    for (i, filament) in summary.filaments.iter().enumerate().skip(1) {
+        let [x, y, z] = filament.tip_displacement_nm;
+        println!("  of filament {i} ({x:.4}, {y:.4}, {z:.4}) nm");
+    }
     println!(
         "energy {:.6} pN nm, of it elastic {:.6}; residual {:.1e} pN, {:.1e} pN nm",
         summary.energy_pn_nm.total,
@@ -101,8 +105,12 @@ fn print(summary: &Summary, out: &Path) {
         summary.residual.torque_pn_nm
     );
     for beyond in &summary.beyond_range {
+        let of = match beyond.filament {
+            0 => String::new(),
+            filament => format!(" of filament {filament}"),
+        };
         println!(
-            "beyond the data of its law: {} {:.4} rad/nm at s = {:.1} nm, data reach {:.4}",
+            "beyond the data of its law: {} {:.4} rad/nm at s = {:.1} nm{of}, data reach {:.4}",
             beyond.quantity, beyond.value_per_nm, beyond.s_nm, beyond.range_per_nm
         );
     }

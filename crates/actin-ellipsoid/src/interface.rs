@@ -110,7 +110,7 @@ pub struct Interface {
 impl Interface {
     /// Draws the interface of the given kind whose lower monomer has the given lattice index.
     ///
-    /// The draws depend on the seed, the kind and the index only (on seed and kind only where
+    /// The draws depend on seed and sampling, the kind and the index only (not on the index where
     /// anchors are identical), so the same monomers have the same anchors in whatever run.
     ///
     /// # Errors
@@ -129,7 +129,7 @@ impl Interface {
             maximum: kind.parameters(parameters).maximum_length,
         };
         let number = kind.stream_number(parameters.anchors, index);
-        let mut stream = Stream::new(parameters.seed, number);
+        let mut stream = Stream::new(parameters.seed, parameters.sampling, number);
         let mut attempts = 0;
         let bonds = (0..kind.parameters(parameters).bonds)
             .map(|_| gap.draw_bond(kind, &mut stream, &mut attempts))

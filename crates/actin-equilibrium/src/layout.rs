@@ -105,7 +105,20 @@ pub struct Layout {
     point_node: Vec<Option<usize>>,
     frame_node: Vec<Option<usize>>,
     groups: Vec<Group>,
-    ordered: bool,
+    order: Order,
+    /// Places of the nodes in the order in which bodies follow one another.
+    sequence: Vec<usize>,
+}
+
+/// Where the order of unknowns comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// By minimum degree, once the stiffness is seen.
+    Sought,
+    /// As it is, or by minimum degree if that fills less, once the stiffness is seen.
+    Compared,
+    /// As it is.
+    Settled,
 }
 
 impl Layout {
@@ -143,10 +156,28 @@ impl Layout {
             point_node: vec![None; state.points.len()],
             frame_node: vec![None; state.frames.len()],
             groups,
-            ordered: order.is_some(),
+            order: match order {
+                Some(_) => Order::Settled,
+                None => Order::Sought,
+            },
+            sequence: Vec::new(),
         };
+        layout.sequence = (0..layout.nodes.len()).collect();
         layout.number();
         Ok(layout)
+    }
+
+    /// The same bodies, eliminated in the order given or, if its factor costs less, in one found by
+    /// minimum degree: for bodies that are not coupled along the order only. Which it is shows at
+    /// the first solve and depends on which bodies are coupled, not on numbers.
+    ///
+    /// Bodies follow one another in the order given whichever it is.
+    #[must_use]
+    pub fn with_least_fill(mut self) -> Self {
+        if self.order == Order::Settled {
+            self.order = Order::Compared;
+        }
+        self
     }
 
     /// Number of unknowns.
@@ -225,14 +256,29 @@ impl Layout {
         }
     }
 
-    /// Whether the order is settled.
-    pub(crate) fn is_ordered(&self) -> bool {
-        self.ordered
+    /// Where the order comes from.
+    pub(crate) fn order(&self) -> Order {
+        self.order
+    }
+
+    /// Keeps the order for good.
+    pub(crate) fn settle(&mut self) {
+        self.order = Order::Settled;
+    }
+
+    /// Places of all nodes in the order in which bodies follow one another.
+    pub(crate) fn sequence(&self) -> &[usize] {
+        &self.sequence
     }
 
     /// Puts node `order[k]` in place `k`, for good.
     pub(crate) fn reorder(&mut self, order: &[usize]) {
-        self.ordered = true;
+        if self.order == Order::Compared {
+            for (place, &node) in order.iter().enumerate() {
+                self.sequence[node] = place;
+            }
+        }
+        self.order = Order::Settled;
         self.nodes = order.iter().map(|&k| self.nodes[k]).collect();
         self.number();
     }

@@ -54,7 +54,7 @@ fn published_rule_accepts_the_same_points() {
         let gap = gap(kind);
         let Neighbour { rotation, offset } = gap.neighbour;
         let direction = offset.normalize();
-        let mut stream = Stream::new(9, 0);
+        let mut stream = Stream::new(9, 0, 0);
         let mut accepted = 0;
         for _ in 0..50_000 {
             let point = gap.ellipsoid.sample(&mut stream);

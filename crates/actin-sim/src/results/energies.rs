@@ -65,7 +65,7 @@ impl EnergyTable {
         let names = distinct(terms, |term| term.name);
         let parts = distinct(terms, |term| term.part);
         Self {
-            header: header(&names, &parts),
+            header: header(assembly, &names, &parts),
             rows: records
                 .iter()
                 .map(|record| row(terms, &names, &parts, record))
@@ -99,12 +99,12 @@ impl EnergyTable {
     }
 }
 
-fn header(names: &[&str], parts: &[Part]) -> Vec<String> {
+fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
     let energies = ["total", "potential", "elastic", "kinetic"]
         .into_iter()
         .map(str::to_owned)
         .chain(names.iter().map(ToString::to_string))
-        .chain(parts.iter().map(ToString::to_string))
+        .chain(parts.iter().map(|part| assembly.name_of(*part)))
         .map(|name| format!("{name}_pn_nm"));
     let residuals = ["residual_force_pn", "residual_torque_pn_nm"].map(str::to_owned);
     std::iter::once("time_ns".to_owned())
@@ -237,7 +237,7 @@ mod tests {
         let (header, rows) = table_of(&assembly, &fixture::trajectory(&assembly).records);
         let names = distinct(&assembly.terms, |term| term.name.to_owned());
         let parts = distinct(&assembly.terms, |term| term.part);
-        let parts: Vec<String> = parts.iter().map(ToString::to_string).collect();
+        let parts: Vec<String> = parts.iter().map(|part| assembly.name_of(*part)).collect();
         for row in &rows {
             let of = |name: &str| *column(&header, row, &format!("{name}_pn_nm"));
             let sum = |names: &[String]| names.iter().map(|name| of(name)).sum::<f64>();

@@ -38,6 +38,8 @@ pub(super) fn clamped_start() -> Assembly {
 pub(super) fn linked() -> Assembly {
     let mut scene = Scene::from_ron(CLAMPED_START).unwrap();
     scene.linkers.push(Linker {
+        filament: 0,
+        to: None,
         at_nm: 25.0,
         radius_nm: 1.8,
         azimuth_deg: 30.0,

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | `scene.ron` | the scene, every default written out | `actin run` |
 //! | `energies.csv` | energies and residuals of every record | anything |
-//! | `profile.csv` | the last record along the filament: place, curvature, twist, energy | anything |
+//! | `profile.csv` | the last record along each filament: place, curvature, twist, energy | anything |
 //! | `states.npz` | every record's state | numpy |
 //! | `vtk/NNNN.vtp`, `run.pvd` | every record as a picture | `ParaView`, pyvista |
 //! | `summary.json` | the last record in numbers | anything |
@@ -27,4 +27,4 @@ mod write;
 
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;
-pub use summary::{RunStatus, StabilitySummary, Summary};
+pub use summary::{FilamentSummary, RunStatus, StabilitySummary, Summary};

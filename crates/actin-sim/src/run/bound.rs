@@ -13,19 +13,29 @@ const LEAST: f64 = 1.0;
 
 /// Limit of the kinetic energy (pN nm); infinite where no bound is known.
 ///
-/// A filament that is held fast at one end, and whose controls stay, has at most the energy that
-/// it begins with and the work of its loads, `|F| 2 L` each: nothing on it is ever further from
-/// where it was than twice its length.
+/// Where some end is held fast and so is one of every filament that is loaded, and where controls
+/// stay, there is at most the energy that the scene begins with and the work of its loads,
+/// `|F| 2 L` each: nothing on a filament held fast is ever further from where it was than twice its
+/// length.
 pub(super) fn kinetic_limit(assembly: &Assembly) -> f64 {
     let scene = &assembly.scene;
-    let is_fast = |clamp: &crate::Clamped| clamp.slides == Slides::Nowhere;
-    if !scene.path.is_empty() || !assembly.clamps.iter().any(is_fast) {
+    let is_fast = |filament: usize| {
+        let mut clamps = assembly.clamps.iter();
+        clamps.any(|clamp| clamp.filament == filament && clamp.slides == Slides::Nowhere)
+    };
+    let are_fast = scene.loads.iter().all(|load| match load {
+        Load::EndForce { filament, .. } => is_fast(*filament),
+    });
+    let some_are_fast = (0..assembly.filaments.len()).any(is_fast);
+    if !scene.path.is_empty() || !some_are_fast || !are_fast {
         return f64::INFINITY;
     }
-    let forces = scene.loads.iter().map(|load| match load {
-        Load::EndForce { force_pn, .. } => Vector3::from(*force_pn).norm(),
+    let works = scene.loads.iter().map(|load| match load {
+        Load::EndForce {
+            filament, force_pn, ..
+        } => Vector3::from(*force_pn).norm() * assembly.length_of(*filament),
     });
-    let work = forces.sum::<f64>() * 2.0 * assembly.length_nm();
+    let work = 2.0 * works.sum::<f64>();
     let limit = ROOM * (assembly.system.total_energy() + work) + LEAST;
     if limit.is_nan() { f64::INFINITY } else { limit }
 }

@@ -97,20 +97,25 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Pro
     })
 }
 
-/// The same filament with rods of constant rigidities, where its rods resist shear only once they
+/// The same filaments with rods of constant rigidities, where rods resist shear only once they
 /// are sheared: what they show at rest is not what a motion meets.
 fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, Problem> {
-    let rod = &assembly.scene.filament.rod;
-    let shears_softly = match &rod.law {
+    let shears_softly = |law: &RodLaw| match law {
         RodLaw::Constant | RodLaw::PublishedExtension | RodLaw::CouplingEnergy => false,
         RodLaw::Fitted => true,
         RodLaw::Laws(laws) => laws.shear.is_some(),
     };
-    if !shears_softly || assembly.counts().segments == 0 {
+    let mut scene = assembly.scene.clone();
+    let mut changes = false;
+    for (i, filament) in scene.filaments_mut().enumerate() {
+        if shears_softly(&filament.rod.law) && assembly.counts_of(i).segments > 0 {
+            filament.rod.law = RodLaw::Constant;
+            changes = true;
+        }
+    }
+    if !changes {
         return Ok(None);
     }
-    let mut scene = assembly.scene.clone();
-    scene.filament.rod.law = RodLaw::Constant;
     Assembly::build(&scene).map(Some)
 }
 

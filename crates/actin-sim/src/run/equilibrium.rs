@@ -3,6 +3,7 @@
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
 use crate::scene::{Equilibrium as Settings, Problem};
+use actin_coupling::{Linker, LinkerEnd};
 use actin_equilibrium::{
     BodyOrder, Certificate, Equilibrium, Jumps, Layout, Newton, NewtonOptions, Path, PathFailure,
     PathOptions, Residual, Saddles, Work,
@@ -10,6 +11,10 @@ use actin_equilibrium::{
 use actin_mechanics::{Loads, State, System};
 use std::ops::ControlFlow;
 use std::time::Instant;
+
+/// What is added to arc lengths from one filament to the next (nm), more than any rise or segment
+/// reaches beyond an end, so that filaments do not interleave.
+const BETWEEN_FILAMENTS_NM: f64 = 1e3;
 
 /// What is known of an equilibrium.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,16 +86,20 @@ fn place(assembly: &Assembly, stages_done: usize) -> String {
     }
 }
 
-/// What may move, in the order of arc length, and how far it is to be solved.
+/// What may move, filament by filament in the order of arc length, and how far it is to be solved.
+///
+/// Where linkers join sites, unknowns are eliminated in an order that fills less if there is one.
 pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, Problem> {
-    let order = BodyOrder {
-        points: assembly.points.iter().map(|p| p.s_nm).collect(),
-        frames: assembly.frames.iter().map(|f| f.s_nm).collect(),
-    };
     let refused =
         |key: &str, error: &dyn std::error::Error| Problem::new(key, "", error.to_string());
-    let layout = Layout::new(assembly.system.state(), Some(&order), Vec::new())
+    let layout = Layout::new(assembly.system.state(), Some(&order(assembly)), Vec::new())
         .map_err(|error| refused("filament", &error))?;
+    let joins = |linker: &Linker| matches!(linker.end(), LinkerEnd::Site(_));
+    let layout = if assembly.linkers.iter().any(joins) {
+        layout.with_least_fill()
+    } else {
+        layout
+    };
     let options = NewtonOptions {
         tolerance: Residual {
             force: settings.force_pn,
@@ -100,6 +109,23 @@ pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton,
         ..NewtonOptions::default()
     };
     Newton::new(layout, options).map_err(|error| refused("task", &error))
+}
+
+/// Each filament's arc lengths behind those of the one before.
+pub(crate) fn order(assembly: &Assembly) -> BodyOrder {
+    let mut order = BodyOrder::default();
+    let mut behind = 0.0;
+    for filament in &assembly.filaments {
+        let points = assembly.points[filament.points.clone()].iter();
+        let frames = assembly.frames[filament.frames.clone()].iter();
+        let first = order.points.len();
+        order.points.extend(points.map(|p| behind + p.s_nm));
+        order.frames.extend(frames.map(|f| behind + f.s_nm));
+        let furthest = order.points[first..].iter().copied().fold(behind, f64::max);
+        // Held monomers of the next stand a rise before its arc length 0.
+        behind = furthest + BETWEEN_FILAMENTS_NM;
+    }
+    order
 }
 
 fn path(settings: &Settings) -> Result<Path, Problem> {

@@ -8,19 +8,23 @@ mod law;
 mod linker;
 mod locate;
 mod model;
+mod place;
 mod problem;
 mod read;
+mod support;
 mod types;
 mod validate;
+mod written;
 
 pub use law::{
     BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw,
 };
-pub use linker::Linker;
+pub use linker::{Linker, LinkerSite};
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
 pub use problem::{Problem, SceneError};
 pub use types::{
     Clamp, Drag, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Load, Scene, Section,
     Setting, Slides, Stage, StopRule, Task,
 };
+pub(crate) use support::is_across;
 pub(crate) use validate::{MOST_BODIES, MOST_BONDS, validate};

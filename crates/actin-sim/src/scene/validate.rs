@@ -1,8 +1,9 @@
 //! The rules that numbers of a scene have to satisfy.
 
+use super::support::{check_support, check_swings};
 use super::{
-    Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Load, Problem, Scene, Section,
-    Setting, Slides, Stage, StopRule, Task, linker,
+    Clamp, Dynamics, Equilibrium, Filament, ForceLaw, Hold, Load, Problem, Scene, Section, Setting,
+    Slides, Stage, StopRule, Task, linker,
 };
 use std::fmt::Debug;
 
@@ -23,7 +24,11 @@ pub(crate) const MOST_BONDS: f64 = 1e8;
 /// # Errors
 /// The first rule that is broken.
 pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
-    filament(&scene.filament)?;
+    for (i, one) in scene.filaments().enumerate() {
+        let named = |problem: Problem| problem.with_filament(&scene.filament_key(i));
+        filament(one).map_err(named)?;
+        check_place(one).map_err(named)?;
+    }
     for (i, clamp) in scene.clamps.iter().enumerate() {
         check_clamp(scene, i, clamp)?;
     }
@@ -43,7 +48,9 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
             check_dynamics(dynamics)
         }
         Task::Equilibrium(equilibrium) => {
-            check_potential(&scene.filament)?;
+            for (i, one) in scene.filaments().enumerate() {
+                check_potential(one).map_err(|p| p.with_filament(&scene.filament_key(i)))?;
+            }
             check_support(scene)?;
             check_equilibrium(equilibrium)
         }
@@ -65,6 +72,20 @@ fn filament(filament: &Filament) -> Result<(), Problem> {
         check_boundary(i, section, previous)?;
     }
     check_model(filament)
+}
+
+fn check_place(filament: &Filament) -> Result<(), Problem> {
+    for (key, value) in [("at_nm", filament.at_nm), ("direction", filament.direction)] {
+        if value.iter().any(|v| !v.is_finite()) {
+            let key = format!("filament.{key}");
+            return Err(Problem::new(key, show(value), "must be finite"));
+        }
+    }
+    if filament.direction == [0.0; 3] {
+        let rule = "a filament lies along some direction: must not be zero";
+        return Err(Problem::new("filament.direction", show(filament.direction), rule));
+    }
+    finite("filament.roll_deg", filament.roll_deg)
 }
 
 fn check_span(i: usize, section: &Section) -> Result<(), Problem> {
@@ -172,18 +193,16 @@ fn check_bonds(key: &str, bonds: usize) -> Result<(), Problem> {
 
 fn check_clamp(scene: &Scene, i: usize, clamp: &Clamp) -> Result<(), Problem> {
     let key = format!("clamps[{i}]");
-    if scene.clamps[..i].iter().any(|c| c.end == clamp.end) {
+    let filament = scene.named_filament(&format!("{key}.filament"), clamp.filament)?;
+    let place = (clamp.filament, clamp.end);
+    if scene.clamps[..i].iter().any(|c| (c.filament, c.end) == place) {
         return Err(Problem::new(
             format!("{key}.end"),
             show(clamp.end),
             "this end is clamped already",
         ));
     }
-    let is_rod = matches!(
-        scene.filament.sections[scene.filament.end_index(clamp.end)],
-        Section::Rod { .. }
-    );
-    if !is_rod && clamp.hold != Hold::Wall {
+    if !filament.is_rod_at(clamp.end) && clamp.hold != Hold::Wall {
         return Err(Problem::new(
             format!("{key}.hold"),
             show(clamp.hold),
@@ -195,8 +214,13 @@ fn check_clamp(scene: &Scene, i: usize, clamp: &Clamp) -> Result<(), Problem> {
 }
 
 fn check_load(scene: &Scene, i: usize, load: &Load) -> Result<(), Problem> {
-    let Load::EndForce { end, force_pn } = load;
+    let Load::EndForce {
+        filament,
+        end,
+        force_pn,
+    } = load;
     let key = format!("loads[{i}]");
+    scene.named_filament(&format!("{key}.filament"), *filament)?;
     if force_pn.iter().any(|f| !f.is_finite()) {
         return Err(Problem::new(
             format!("{key}.force_pn"),
@@ -204,11 +228,8 @@ fn check_load(scene: &Scene, i: usize, load: &Load) -> Result<(), Problem> {
             "must be finite",
         ));
     }
-    if scene
-        .clamps
-        .iter()
-        .any(|c| c.end == *end && c.slides == Slides::Nowhere)
-    {
+    let clamp = scene.clamp_at(*filament, *end);
+    if clamp.is_some_and(|c| c.slides == Slides::Nowhere) {
         return Err(Problem::new(
             format!("{key}.end"),
             show(end),
@@ -235,56 +256,6 @@ fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Problem> {
             show(duration_ns),
             format!("ends before the path does, whose stages take {whole:?} ns"),
         ));
-    }
-    Ok(())
-}
-
-/// In time, the inertia of an end that slides is that of its motion along straight lines: a turn must
-/// not swing it along them.
-fn check_swings(scene: &Scene) -> Result<(), Problem> {
-    for (i, stage) in scene.path.iter().enumerate() {
-        for (k, setting) in stage.set.iter().enumerate() {
-            let Setting::Turn { end, turn_deg } = *setting else {
-                continue;
-            };
-            let slides = scene.clamps.iter().find(|c| c.end == end).map(|c| c.slides);
-            let tilts = turn_deg[0] != 0.0 || turn_deg[1] != 0.0;
-            if slides == Some(Slides::Freely) || (slides == Some(Slides::AlongAxis) && tilts) {
-                return Err(Problem::new(
-                    format!("path[{i}].set[{k}].turn_deg"),
-                    show(turn_deg),
-                    "in Dynamics an end that slides turns about its axis only, and one that slides \
-                     Freely not at all: Equilibrium follows such paths",
-                ));
-            }
-        }
-    }
-    Ok(())
-}
-
-/// A load along a direction in which nothing is held has no equilibrium. A linker holds against
-/// every force: it follows its site around the anchor until it points along it.
-fn check_support(scene: &Scene) -> Result<(), Problem> {
-    if !scene.linkers.is_empty() {
-        return Ok(());
-    }
-    for (i, load) in scene.loads.iter().enumerate() {
-        let Load::EndForce { force_pn, .. } = load;
-        let unheld = |direction: usize| {
-            let is_free = |clamp: &Clamp| match clamp.slides {
-                Slides::Nowhere => false,
-                Slides::AlongAxis => direction == 2,
-                Slides::Freely => true,
-            };
-            scene.clamps.iter().all(is_free)
-        };
-        if (0..3).any(|d| force_pn[d] != 0.0 && unheld(d)) {
-            return Err(Problem::new(
-                format!("loads[{i}].force_pn"),
-                show(force_pn),
-                "nothing holds the filament against this force: it has no equilibrium",
-            ));
-        }
     }
     Ok(())
 }
@@ -331,7 +302,7 @@ fn check_stage(scene: &Scene, i: usize, stage: &Stage) -> Result<(), Problem> {
             let missing = || Problem::new(key(name), index, rule);
             (index < count).then_some(()).ok_or_else(missing)
         };
-        let (end, name, value) = match *setting {
+        let (held, name, value) = match *setting {
             Setting::LoadFactor { load, factor } => {
                 exists("load", load, scene.loads.len())?;
                 finite(&key("factor"), factor)?;
@@ -339,15 +310,29 @@ fn check_stage(scene: &Scene, i: usize, stage: &Stage) -> Result<(), Problem> {
             }
             Setting::Anchor { linker, shift_nm } => {
                 exists("linker", linker, scene.linkers.len())?;
+                if scene.linkers[linker].to.is_some() {
+                    let rule = "this linker joins two sites: it has no anchor to be moved";
+                    return Err(Problem::new(key("linker"), linker, rule));
+                }
                 (None, "shift_nm", shift_nm)
             }
-            Setting::Shift { end, shift_nm } => (Some(end), "shift_nm", shift_nm),
-            Setting::Turn { end, turn_deg } => (Some(end), "turn_deg", turn_deg),
+            Setting::Shift {
+                filament,
+                end,
+                shift_nm,
+            } => (Some((filament, end)), "shift_nm", shift_nm),
+            Setting::Turn {
+                filament,
+                end,
+                turn_deg,
+            } => (Some((filament, end)), "turn_deg", turn_deg),
         };
         if value.iter().any(|v| !v.is_finite()) {
             return Err(Problem::new(key(name), show(value), "must be finite"));
         }
-        if let Some(end) = end.filter(|end| !scene.is_clamped(*end)) {
+        let Some((filament, end)) = held else { continue };
+        scene.named_filament(&key("filament"), filament)?;
+        if !scene.is_clamped(filament, end) {
             let rule = "this end is free: only a clamped end is moved from outside";
             return Err(Problem::new(key("end"), show(end), rule));
         }
@@ -432,27 +417,4 @@ fn each_positive(key: &str, values: [f64; 3]) -> Result<(), Problem> {
         show(values),
         "each must be finite and greater than 0",
     ))
-}
-
-impl Filament {
-    /// Index of the section at one end.
-    pub(crate) fn end_index(&self, end: End) -> usize {
-        match end {
-            End::Start => 0,
-            End::End => self.sections.len() - 1,
-        }
-    }
-}
-
-impl Scene {
-    /// What is held at one end; nothing if it is free.
-    pub(crate) fn hold(&self, end: End) -> Option<Hold> {
-        let clamp = self.clamps.iter().find(|clamp| clamp.end == end);
-        clamp.map(|clamp| clamp.hold)
-    }
-
-    /// Whether an end is held.
-    pub(crate) fn is_clamped(&self, end: End) -> bool {
-        self.hold(end).is_some()
-    }
 }

@@ -206,7 +206,7 @@ impl<'a> Drawn<'a> {
         let loads = self.assembly.scene.loads.iter();
         loads
             .map(|load| {
-                let Load::EndForce { end, force_pn } = load;
+                let Load::EndForce { end, force_pn, .. } = load;
                 (self.assembly.tip_nm(self.state, *end), (*force_pn).into())
             })
             .collect()

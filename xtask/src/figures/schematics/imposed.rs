@@ -22,8 +22,8 @@ pub(super) fn arrows(drawn: &Drawn<'_>, radius_nm: f64) -> Vec<Item> {
         .flat_map(|stage| &stage.set);
     settings
         .flat_map(|setting| match setting {
-            Setting::Shift { end, shift_nm } => shift(drawn, *end, (*shift_nm).into()),
-            Setting::Turn { end, turn_deg } => turn(drawn, *end, (*turn_deg).into(), radius_nm),
+            Setting::Shift { end, shift_nm, .. } => shift(drawn, *end, (*shift_nm).into()),
+            Setting::Turn { end, turn_deg, .. } => turn(drawn, *end, (*turn_deg).into(), radius_nm),
             // A load is drawn as it acts, an anchor where it ends.
             Setting::LoadFactor { .. } | Setting::Anchor { .. } => Vec::new(),
         })
