@@ -5,6 +5,7 @@
 mod energy;
 mod filaments;
 mod invariants;
+mod joined;
 mod laws;
 mod modes;
 mod order;

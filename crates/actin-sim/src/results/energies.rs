@@ -198,6 +198,27 @@ mod tests {
         }
     }
 
+    /// Parts of filament 0 keep their names; those of others carry the index of their filament.
+    #[test]
+    fn parts_of_further_filaments_are_told_apart() {
+        let assembly = fixture::pair();
+        let (header, rows) = table_of(&assembly, &fixture::trajectory(&assembly).records);
+        let parts = [
+            "section_0",
+            "junction_0_1",
+            "section_1",
+            "filament_1_section_0",
+            "filament_1_junction_0_1",
+            "filament_1_section_1",
+            "linker_0",
+        ];
+        let values = parts.map(|name| *column(&header, &rows[0], &format!("{name}_pn_nm")));
+        let elastic = *column(&header, &rows[0], "elastic_pn_nm");
+        // A few additions in another order.
+        assert!((values.iter().sum::<f64>() / elastic - 1.0).abs() < 1e-13);
+        assert!(values.iter().all(|v| *v > 0.0));
+    }
+
     /// Single numbers come back bit for bit: fewer digits would be enough for a plot, but not for
     /// an energy error of 1e-8.
     #[test]

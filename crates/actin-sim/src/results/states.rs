@@ -289,4 +289,21 @@ mod tests {
         assert_eq!(filaments, vec![0; assembly.points.len()]);
         assert_eq!(archive.len(), 11);
     }
+
+    /// Each body says which filament it belongs to: as many of the second as of the first here.
+    #[test]
+    fn bodies_belong_to_filaments() {
+        let assembly = fixture::pair();
+        let mut archive = archive(&assembly, &fixture::trajectory(&assembly));
+        for (name, count) in [
+            ("filament", assembly.points.len()),
+            ("frame_filament", assembly.frames.len()),
+        ] {
+            let (_, filaments) = read::<u64>(&mut archive, name);
+            // The first is clamped and has a monomer more, outside of its length.
+            let first = filaments.iter().filter(|f| **f == 0).count();
+            assert_eq!((filaments.len(), first), (count, count.div_ceil(2)));
+            assert!(filaments.is_sorted());
+        }
+    }
 }

@@ -20,8 +20,9 @@ impl Builder<'_> {
     /// without effect where it has none.
     pub(super) fn push_linkers(&mut self) -> Result<(), Problem> {
         for (i, linker) in self.scene.linkers.iter().enumerate() {
-            let linker = self.linker(i, linker, self.stock.state.controls.len())?;
+            let control = self.stock.state.controls.len();
             self.stock.state.controls.extend([0.0; 3]);
+            let linker = self.linker(i, linker, control)?;
             self.stock.push_term(Box::new(linker.clone()), Part::Linker(i));
             self.linkers.push(linker);
         }

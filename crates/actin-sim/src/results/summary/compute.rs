@@ -288,6 +288,33 @@ mod tests {
         assert!(last.energies_pn_nm.len() == assembly.terms.len());
     }
 
+    /// Each filament has its own tip, counts and energy; what linkers store belongs to none, and the
+    /// keys of the whole are those of filament 0.
+    #[test]
+    fn filaments_are_reported_one_by_one() {
+        let assembly = fixture::pair();
+        let (last, summary) = last_summary(&assembly);
+        let [first, second] = &summary.filaments[..] else {
+            panic!("two filaments, found {}", summary.filaments.len());
+        };
+        let tip = last.state.points.position.get(assembly.points.len() - 1);
+        assert_eq!(Vector3::from(second.tip_nm), tip);
+        assert_eq!((summary.tip_nm, summary.shape), (first.tip_nm, first.shape));
+        assert!(first.end_reactions.start.is_some() && second.end_reactions.start.is_none());
+        let (all, one, other) = (summary.counts, first.counts, second.counts);
+        assert_eq!(all.monomers, one.monomers + other.monomers);
+        assert_eq!(all.bonds, one.bonds + other.bonds);
+        assert_eq!(all.segments, one.segments + other.segments);
+        assert_eq!(all.junctions, one.junctions + other.junctions);
+        assert_eq!(all.dofs, one.dofs + other.dofs);
+        let energy = &summary.energy_pn_nm;
+        let parts = first.elastic_pn_nm + second.elastic_pn_nm + energy.terms["linker"];
+        // A few additions in another order.
+        assert!((parts / energy.elastic - 1.0).abs() < 1e-13);
+        let linker = &summary.linkers[0];
+        assert_eq!((linker.filament, linker.to_filament), (1, Some(0)));
+    }
+
     #[test]
     fn energies_are_those_of_the_last_record() {
         let assembly = fixture::clamped_start();
