@@ -65,7 +65,10 @@ fn linkers_between_filaments_keep_momentum_and_angular_momentum() {
     let changes = [(p_end - p).norm() / momentum, (l_end - l).norm() / moment];
     let drift = system.total_energy() / before - 1.0;
     let gone = (system.state().points.position.get(0) - places.get(0)).norm();
-    println!("joined: relative changes {}, energy {drift:.1e}", scientific(&changes));
+    println!(
+        "joined: relative changes {}, energy {drift:.1e}",
+        scientific(&changes)
+    );
     assert!(gone > 10.0);
     // A random walk of 4e4 kicks of relative round-off 1e-16: 2e-14.
     assert!(changes.iter().all(|c| *c < 1e-13), "{changes:?}");

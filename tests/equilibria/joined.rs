@@ -3,7 +3,7 @@
 use crate::agreement::assert_dynamics_ends_with_newton;
 use crate::common::{BEND, LENGTH, SHEAR, build, cantilever, newton, solved, to};
 use actin_equilibrium::{BodyOrder, Layout, Newton};
-use actin_mechanics::Vector3;
+use actin_mechanics::{State, Vector3};
 use actin_sim::{Assembly, End};
 
 /// `count` rods of [`cantilever`] side by side, 10 nm apart along lab x, with these linkers.
@@ -53,13 +53,21 @@ fn two_rods_joined_at_their_tips_bear_half_each() {
     let load = format!("EndForce(end: End, force_pn: ({force:?}, 0.0, 0.0))");
     let (mut pair, _) = solved(&row(2, &link(0, LENGTH, k), &load, tight));
     let alone = |force: f64| {
-        let (rod, _) = solved(&cantilever(16, [force, 0.0, 0.0], &format!("task: {tight}")));
+        let (rod, _) = solved(&cantilever(
+            16,
+            [force, 0.0, 0.0],
+            &format!("task: {tight}"),
+        ));
         moved(&rod, 0)
     };
     let loads = pair.system.loads().clone();
     let state = pair.system.state();
     let borne = -pair.linkers[0].force(state);
-    println!("linker: {borne:?} pN; tips {:?} {:?} nm", moved(&pair, 0), moved(&pair, 1));
+    println!(
+        "linker: {borne:?} pN; tips {:?} {:?} nm",
+        moved(&pair, 0),
+        moved(&pair, 1)
+    );
     // Ends stay level to 1e-3 of their distance, so that the spring pulls along x but for that.
     let expected = [alone(force + borne.x * -1.0), alone(borne.x)];
     for (filament, expected) in expected.iter().enumerate() {
@@ -143,13 +151,19 @@ fn a_string_between_its_ends_bends_a_rod_to_an_elastica() {
         ));
         let certificate = report.equilibrium.unwrap().certificate;
         // What floats has six motions without stiffness, and the bow's plane is one of them.
-        assert_eq!((certificate.negative, certificate.unresolved <= 6), (0, true));
+        assert_eq!(
+            (certificate.negative, certificate.unresolved <= 6),
+            (0, true)
+        );
         let force = bow.linkers[0].force(bow.system.state()).norm();
         force / thrust - 1.0
     });
     println!("bow: errors of the thrust {errors:.2e?}");
     let orders = [errors[0] / errors[1], errors[1] / errors[2]].map(f64::log2);
-    assert!(orders.iter().all(|order| (order - 2.0).abs() < 0.1), "{orders:?}");
+    assert!(
+        orders.iter().all(|order| (order - 2.0).abs() < 0.1),
+        "{orders:?}"
+    );
     errors.reverse();
     assert!(((4.0 * errors[0] - errors[1]) / 3.0).abs() < 1e-5);
 }
@@ -171,13 +185,14 @@ fn one_by_one(assembly: &Assembly) -> BodyOrder {
 /// eliminated one by one, all along at once, and in the order that fills least.
 #[test]
 fn the_order_of_elimination_changes_the_fill_only() {
-    let places = [40.0, 80.0, 120.0, 160.0];
-    let linkers: String = (0..3)
-        .flat_map(|i| places.map(|s| link(i, s, 50.0)))
-        .collect();
-    let load = "EndForce(end: End, force_pn: (1.0, 0.5, 0.0))";
-    let assembly = build(&row(4, &linkers, load, "Equilibrium()"));
-    let layout = || Layout::new(assembly.system.state(), Some(&one_by_one(&assembly)), vec![]);
+    let assembly = bundle();
+    let layout = || {
+        Layout::new(
+            assembly.system.state(),
+            Some(&one_by_one(&assembly)),
+            vec![],
+        )
+    };
     let solve = |mut newton: Newton| {
         let mut state = assembly.rest.clone();
         let interactions = assembly.system.interactions();
@@ -190,15 +205,33 @@ fn the_order_of_elimination_changes_the_fill_only() {
     let ordered = solve(Newton::new(layout().unwrap(), to(1e-10)).unwrap());
     let along = solve(newton(&assembly, 1e-10));
     let least = solve(Newton::new(layout().unwrap().with_least_fill(), to(1e-10)).unwrap());
-    println!("entries: {} one by one, {} along, {} least", ordered.1, along.1, least.1);
+    println!(
+        "entries: {} one by one, {} along, {} least",
+        ordered.1, along.1, least.1
+    );
     assert!(2 * least.1 < ordered.1 && least.1 < along.1);
     for other in [&ordered, &along] {
-        let pairs = least.0.points.position.iter().zip(other.0.points.position.iter());
-        let apart = pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        let apart = apart(&least.0, &other.0);
         println!("{apart:.1e} nm apart, eigenvalue {:.6e}", other.2);
         // Residuals of 1e-10 pN at compliances of 10 nm/pN.
         assert!(apart < 1e-8);
         // Each to the 1e-9 at which the iteration ends.
         assert!((other.2 / least.2 - 1.0).abs() < 1e-6);
     }
+}
+
+/// Largest distance of two states' points (nm).
+fn apart(a: &State, b: &State) -> f64 {
+    let pairs = a.points.position.iter().zip(b.points.position.iter());
+    pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+}
+
+/// Four rods cross-linked every 40 nm, and pulled askew.
+fn bundle() -> Assembly {
+    let places = [40.0, 80.0, 120.0, 160.0];
+    let linkers: String = (0..3)
+        .flat_map(|i| places.map(|s| link(i, s, 50.0)))
+        .collect();
+    let load = "EndForce(end: End, force_pn: (1.0, 0.5, 0.0))";
+    build(&row(4, &linkers, load, "Equilibrium()"))
 }

@@ -4,7 +4,7 @@
 use crate::common::{build, run, solved};
 use actin_mechanics::testing::Noise;
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
-use actin_sim::{Assembly, Clamp, End, Filament, Load, Scene, Setting, Slides};
+use actin_sim::{Assembly, End, Filament, Load, Scene, Setting, Slides, Stage};
 
 const TIGHT: &str = "Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)";
 
@@ -57,7 +57,13 @@ fn unlinked_filaments_are_each_alone() {
     ));
     let alone = |filament: &str, force| {
         let filament = format!("filament: ({filament})");
-        solved(&scene(&filament, "Clamp(end: Start)", &pull(0, force), &task)).0
+        solved(&scene(
+            &filament,
+            "Clamp(end: Start)",
+            &pull(0, force),
+            &task,
+        ))
+        .0
     };
     let (first, second) = (alone(MIXED, forces[0]), alone(ASKEW, forces[1]));
     let counts = [&first, &second].map(|a| a.points.len());
@@ -90,7 +96,12 @@ fn filaments_alike_are_sampled_independently() {
     };
     let task = "task: Equilibrium()";
     let alone = build(&scene(&format!("filament: ({MIXED})"), "", "", task));
-    let pair = build(&scene(&format!("filaments: [({MIXED}), ({MIXED})]"), "", "", task));
+    let pair = build(&scene(
+        &format!("filaments: [({MIXED}), ({MIXED})]"),
+        "",
+        "",
+        task,
+    ));
     assert_eq!(bonds(&pair, 0).to_bits(), bonds(&alone, 0).to_bits());
     assert!((bonds(&pair, 2) - bonds(&alone, 0)).abs() > 1e-6);
 }
@@ -143,11 +154,17 @@ fn where_a_scene_lies_does_not_matter() {
     for _ in 0..3 {
         let (turn, shift) = (rotation::exp(noise.vector() * 2.0), noise.vector() * 30.0);
         let mut moved = scene.clone();
-        moved.filaments_mut().for_each(|f| move_filament(f, turn, shift));
+        moved
+            .filaments_mut()
+            .for_each(|f| move_filament(f, turn, shift));
         for Load::EndForce { force_pn, .. } in &mut moved.loads {
             *force_pn = (turn * Vector3::from(*force_pn)).into();
         }
-        for place in moved.linkers.iter_mut().filter_map(|l| l.displaced_nm.as_mut()) {
+        for place in moved
+            .linkers
+            .iter_mut()
+            .filter_map(|l| l.displaced_nm.as_mut())
+        {
             *place = (turn * Vector3::from(*place)).into();
         }
         let there = solve(&moved);
@@ -163,6 +180,27 @@ fn where_a_scene_lies_does_not_matter() {
     }
 }
 
+/// Settings that turn and shift the start of filament 1 and shift the anchor of linker 1.
+fn moving(turn: Vector3, shift: Vector3, anchor: Vector3) -> Vec<Setting> {
+    let (filament, end) = (1, End::Start);
+    vec![
+        Setting::Turn {
+            filament,
+            end,
+            turn_deg: turn.map(f64::to_degrees).into(),
+        },
+        Setting::Shift {
+            filament,
+            end,
+            shift_nm: shift.into(),
+        },
+        Setting::Anchor {
+            linker: 1,
+            shift_nm: anchor.into(),
+        },
+    ]
+}
+
 /// A path that turns and shifts the clamp of filament 1 ends in the equilibrium of the scene in
 /// which that filament is built there; so does one that moves the anchor that it hangs on. A
 /// setting that found the clamp of filament 0 would turn that one.
@@ -176,41 +214,27 @@ fn a_path_moves_the_end_of_the_filament_that_it_names() {
     let mut built = scene.clone();
     let rotated = rotation::exp(turn);
     // The clamped point, where arc length begins, is shifted only.
-    move_filament(&mut built.further[0], rotated, place + shift - rotated * place);
+    move_filament(
+        &mut built.further[0],
+        rotated,
+        place + shift - rotated * place,
+    );
     built.linkers[1].displaced_nm = None;
-    let anchor = Assembly::build(&scene).unwrap().linkers[1].end_position(&actin_mechanics::State {
-        controls: vec![0.0; 8],
-        ..actin_mechanics::State::default()
-    });
+    let at_rest = Assembly::build(&scene).unwrap();
+    let anchor = at_rest.linkers[1].end_position(&at_rest.rest);
     let further = Vector3::new(0.0, -2.0, 1.0);
     built.linkers[1].anchor_nm = Some((anchor + further).into());
     let built = solve(&built);
 
-    scene.path = vec![actin_sim::Stage {
-        set: vec![
-            Setting::Turn {
-                filament: 1,
-                end: End::Start,
-                turn_deg: turn.map(f64::to_degrees).into(),
-            },
-            Setting::Shift {
-                filament: 1,
-                end: End::Start,
-                shift_nm: shift.into(),
-            },
-            Setting::Anchor {
-                linker: 1,
-                shift_nm: further.into(),
-            },
-        ],
+    scene.path = vec![Stage {
+        set: moving(turn, shift, further),
         duration_ns: None,
     }];
     let moved = solve(&scene);
     let distance = apart((&moved, 0), (&built, 0), moved.points.len(), |x| x);
     println!("path of filament 1: {distance:.1e} nm");
     assert!(distance < 1e-8, "{distance:e} nm apart");
-    let Clamp { filament, .. } = moved.scene.clamps[1];
-    let held = moved.clamp_at(filament, End::Start).unwrap();
+    let held = moved.clamp_at(1, End::Start).unwrap();
     let point = held.point_nm(moved.system.state());
     assert!((point - place - shift).norm() < 1e-12);
 }

@@ -69,7 +69,6 @@ fn broken(opened: &Opened, directory: &RunDirectory, error: RunError) -> Failure
 }
 
 fn print(summary: &Summary, out: &Path) {
-    let [x, y, z] = summary.tip_displacement_nm;
     let work = &summary.work;
     match &summary.stability {
         Some(stability) => println!(
@@ -92,11 +91,7 @@ fn print(summary: &Summary, out: &Path) {
             summary.wall_s
         ),
     }
-    println!("tip displacement ({x:.4}, {y:.4}, {z:.4}) nm");
-    for (i, filament) in summary.filaments.iter().enumerate().skip(1) {
-        let [x, y, z] = filament.tip_displacement_nm;
-        println!("  of filament {i} ({x:.4}, {y:.4}, {z:.4}) nm");
-    }
+    print_tips(summary);
     println!(
         "energy {:.6} pN nm, of it elastic {:.6}; residual {:.1e} pN, {:.1e} pN nm",
         summary.energy_pn_nm.total,
@@ -104,6 +99,20 @@ fn print(summary: &Summary, out: &Path) {
         summary.residual.force_pn,
         summary.residual.torque_pn_nm
     );
+    print_beyond(summary);
+    println!("written to {}", out.display());
+}
+
+fn print_tips(summary: &Summary) {
+    let [x, y, z] = summary.tip_displacement_nm;
+    println!("tip displacement ({x:.4}, {y:.4}, {z:.4}) nm");
+    for (i, filament) in summary.filaments.iter().enumerate().skip(1) {
+        let [x, y, z] = filament.tip_displacement_nm;
+        println!("  of filament {i} ({x:.4}, {y:.4}, {z:.4}) nm");
+    }
+}
+
+fn print_beyond(summary: &Summary) {
     for beyond in &summary.beyond_range {
         let of = match beyond.filament {
             0 => String::new(),
@@ -114,7 +123,6 @@ fn print(summary: &Summary, out: &Path) {
             beyond.quantity, beyond.value_per_nm, beyond.s_nm, beyond.range_per_nm
         );
     }
-    println!("written to {}", out.display());
 }
 
 fn stability_in_words(stability: &StabilitySummary) -> String {

@@ -116,8 +116,8 @@ fn settle(present: Vec<Vec<usize>>, blocks: &[Block], layout: &mut Layout) -> Ve
     let cost = |neighbours: &[Vec<usize>], layout: &Layout| {
         factor_operations(upper_triangle(neighbours, layout).as_ref())
     };
-    let is_as_good = layout.order() == Order::Compared
-        && cost(&present, layout) <= cost(&reordered, &sought);
+    let is_as_good =
+        layout.order() == Order::Compared && cost(&present, layout) <= cost(&reordered, &sought);
     if is_as_good {
         layout.settle();
         return present;

@@ -94,6 +94,8 @@ fn cost(assembly: &Assembly, layout: &Layout) -> (u64, f64) {
     };
     // The first finds the pattern.
     certify();
-    let least = (0..REPEATS).map(|_| certify()).fold(f64::INFINITY, f64::min);
+    let least = (0..REPEATS)
+        .map(|_| certify())
+        .fold(f64::INFINITY, f64::min);
     (newton.work().factor_entries, least)
 }

@@ -35,7 +35,7 @@ pub use run::{
 pub use scene::fitted::laws as fitted_laws;
 pub use scene::{
     Anchors, BendLaw, Clamp, Drag, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold,
-    Integrator, JunctionModel, JunctionWeight, Linker, LinkerSite, Load, Material, Monomers, Problem, RodLaw,
-    RodLaws, RodModel, Scene, SceneError, Section, Setting, ShearLaw, Slides, Stage, StopRule,
-    StretchLaw, Task, TwistLaw, TwistRise, TwistStretchLaw,
+    Integrator, JunctionModel, JunctionWeight, Linker, LinkerSite, Load, Material, Monomers,
+    Problem, RodLaw, RodLaws, RodModel, Scene, SceneError, Section, Setting, ShearLaw, Slides,
+    Stage, StopRule, StretchLaw, Task, TwistLaw, TwistRise, TwistStretchLaw,
 };

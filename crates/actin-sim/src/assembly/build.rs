@@ -8,7 +8,9 @@ mod linkers;
 mod spans;
 mod strand;
 
-use super::{Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Part, PointInfo, Rod, SectionSpan, Term};
+use super::{
+    Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Part, PointInfo, Rod, SectionSpan, Term,
+};
 use crate::scene::{Load, Problem, Scene, Section};
 use actin_coupling::Linker;
 use actin_mechanics::{Interaction, PointLoad, State, System};

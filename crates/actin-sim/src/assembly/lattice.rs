@@ -31,11 +31,7 @@ impl Lattice {
     /// The lattice of a filament whose start and end are held or not.
     pub(super) fn of(filament: &Filament, [start, _]: [bool; 2]) -> Self {
         let rise_nm = filament.monomers.rise_nm;
-        let origin_nm = if start {
-            0.0
-        } else {
-            -0.5 * rise_nm
-        };
+        let origin_nm = if start { 0.0 } else { -0.5 * rise_nm };
         Self { origin_nm, rise_nm }
     }
 
@@ -64,10 +60,7 @@ impl Lattice {
 /// # Errors
 /// Places beyond those that are counted, a section that is left with fewer than two monomers, or a
 /// rod that is left with no length.
-pub(super) fn resolve(
-    filament: &Filament,
-    is_held: [bool; 2],
-) -> Result<Vec<Resolved>, Problem> {
+pub(super) fn resolve(filament: &Filament, is_held: [bool; 2]) -> Result<Vec<Resolved>, Problem> {
     let lattice = Lattice::of(filament, is_held);
     let sections = &filament.sections;
     let last = sections.len() - 1;

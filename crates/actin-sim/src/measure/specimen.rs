@@ -1,8 +1,8 @@
 //! What is measured.
 
 use crate::scene::{
-    Clamp, End, Equilibrium, Filament, Hold, Load, Monomers, RodModel, Scene,
-    Section, Slides, Stage, Task,
+    Clamp, End, Equilibrium, Filament, Hold, Load, Monomers, RodModel, Scene, Section, Slides,
+    Stage, Task,
 };
 
 /// A filament to be measured, how it is held and how far equilibria are solved.

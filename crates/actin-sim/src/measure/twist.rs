@@ -59,10 +59,10 @@ fn scene(specimen: &Specimen, turns_deg: &[f64]) -> Scene {
         let end = End::End;
         Stage {
             set: vec![Setting::Turn {
-                    filament: 0,
-                    end,
-                    turn_deg,
-                }],
+                filament: 0,
+                end,
+                turn_deg,
+            }],
             duration_ns: None,
         }
     };

@@ -100,7 +100,9 @@ impl<'a> States<'a> {
         let spans = &self.assembly.filaments;
         let indices = |count_of: fn(&FilamentSpan) -> usize| {
             let counts = spans.iter().map(count_of).enumerate();
-            counts.flat_map(|(i, count)| vec![i as u64; count]).collect()
+            counts
+                .flat_map(|(i, count)| vec![i as u64; count])
+                .collect()
         };
         [
             ("filament", indices(|span| span.points.len())),

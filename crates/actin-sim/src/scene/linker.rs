@@ -124,10 +124,17 @@ fn check_one_end(i: usize, linker: &Linker) -> Result<(), Problem> {
         "to" => "the linker goes to a site already: write one of the two".to_owned(),
         first => format!("the anchor is given by {first} already: write one of the two"),
     };
-    let ends = [("anchor_nm", linker.anchor_nm), ("displaced_nm", linker.displaced_nm)];
+    let ends = [
+        ("anchor_nm", linker.anchor_nm),
+        ("displaced_nm", linker.displaced_nm),
+    ];
     for (name, value) in ends {
         if let Some(value) = value.filter(|_| name != first) {
-            return Err(Problem::new(format!("linkers[{i}].{name}"), show(value), rule()));
+            return Err(Problem::new(
+                format!("linkers[{i}].{name}"),
+                show(value),
+                rule(),
+            ));
         }
     }
     if linker.to.is_none() && linker.anchor().is_none() {

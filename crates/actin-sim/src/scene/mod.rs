@@ -22,9 +22,9 @@ pub use law::{
 pub use linker::{Linker, LinkerSite};
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
 pub use problem::{Problem, SceneError};
+pub(crate) use support::is_across;
 pub use types::{
     Clamp, Drag, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Load, Scene, Section,
     Setting, Slides, Stage, StopRule, Task,
 };
-pub(crate) use support::is_across;
 pub(crate) use validate::{MOST_BODIES, MOST_BONDS, validate};

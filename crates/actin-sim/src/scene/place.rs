@@ -38,7 +38,11 @@ impl Filament {
         let larger = (0.5 * (1.0 + cosine.abs())).sqrt();
         let smaller = 0.5 * sine.norm() / larger;
         let about = sine.try_normalize(0.0).unwrap_or_else(Vector3::x);
-        let (cos, sin) = if cosine < 0.0 { (smaller, larger) } else { (larger, smaller) };
+        let (cos, sin) = if cosine < 0.0 {
+            (smaller, larger)
+        } else {
+            (larger, smaller)
+        };
         let tilt = Quaternion::from_parts(cos, about * sin);
         let tilt = UnitQuaternion::from_quaternion(tilt);
         let roll = self.roll_deg.to_radians();
@@ -154,20 +158,35 @@ mod tests {
     /// By default nothing is turned, to the last bit: results of scenes that place nothing stay.
     #[test]
     fn the_default_turns_nothing() {
-        assert_eq!(along([0.0, 0.0, 1.0], 0.0).rotation(), UnitQuaternion::identity());
-        assert_eq!(along([0.0, 0.0, 7e200], 0.0).rotation(), UnitQuaternion::identity());
+        assert_eq!(
+            along([0.0, 0.0, 1.0], 0.0).rotation(),
+            UnitQuaternion::identity()
+        );
+        assert_eq!(
+            along([0.0, 0.0, 7e200], 0.0).rotation(),
+            UnitQuaternion::identity()
+        );
     }
 
     /// Lab z goes to the direction, of any length and opposite to z too; the roll is about it.
     #[test]
     fn the_axis_and_the_azimuth_go_where_they_are_sent() {
-        for direction in [[3.0, 0.0, 4.0], [0.0, -2.0, -1e-9], [1e-200, 0.0, 0.0], [1e-9, 0.0, -1.0], [0.0, 0.0, -1.0]] {
+        for direction in [
+            [3.0, 0.0, 4.0],
+            [0.0, -2.0, -1e-9],
+            [1e-200, 0.0, 0.0],
+            [1e-9, 0.0, -1.0],
+            [0.0, 0.0, -1.0],
+        ] {
             let filament = along(direction, 90.0);
             let axis = filament.axis();
             assert!((axis.norm() - 1.0).abs() < 1e-15);
             let unrolled = along(direction, 0.0).rotation();
             // Rounding of square roots and a rotation.
-            assert!((unrolled * Vector3::z() - axis).norm() < 1e-15, "{direction:?}");
+            assert!(
+                (unrolled * Vector3::z() - axis).norm() < 1e-15,
+                "{direction:?}"
+            );
             let (x, y) = (unrolled * Vector3::x(), unrolled * Vector3::y());
             assert!((filament.rotation() * Vector3::x() - y).norm() < 1e-15);
             assert!(x.cross(&y).dot(&axis) > 0.999);

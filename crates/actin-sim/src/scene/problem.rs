@@ -64,7 +64,8 @@ impl SceneError {
     /// that is written there.
     pub fn locate(problem: &Problem, text: &str) -> Self {
         // Filament 0 of a scene may stand in a list of one.
-        let is_listed = !locate::is_written(text, "filament") && locate::is_written(text, "filaments");
+        let is_listed =
+            !locate::is_written(text, "filament") && locate::is_written(text, "filaments");
         let problem = if is_listed {
             problem.clone().with_filament("filaments[0]")
         } else {

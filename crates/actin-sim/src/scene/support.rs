@@ -60,7 +60,8 @@ pub(super) fn check_support(scene: &Scene) -> Result<(), Problem> {
         let group = joined[*filament];
         let force = Vector3::from(*force_pn);
         let drifts = |direction: &Vector3| force.dot(direction).abs() > ROUNDING * force.norm();
-        let is_unheld = !anchored.contains(&group) && unheld(scene, &joined, group).iter().any(drifts);
+        let is_unheld =
+            !anchored.contains(&group) && unheld(scene, &joined, group).iter().any(drifts);
         if is_unheld {
             return Err(Problem::new(
                 format!("loads[{i}].force_pn"),
@@ -75,10 +76,19 @@ pub(super) fn check_support(scene: &Scene) -> Result<(), Problem> {
 /// For each filament the lowest index among those that linkers join it to, itself included.
 fn joined(scene: &Scene) -> Vec<usize> {
     let mut lowest: Vec<usize> = (0..scene.number_of_filaments()).collect();
-    let pairs = scene.linkers.iter().filter_map(|linker| Some((linker.filament, linker.to?.filament)));
+    let pairs = scene
+        .linkers
+        .iter()
+        .filter_map(|linker| Some((linker.filament, linker.to?.filament)));
     for (one, other) in pairs {
-        let (from, to) = (lowest[one].max(lowest[other]), lowest[one].min(lowest[other]));
-        lowest.iter_mut().filter(|l| **l == from).for_each(|l| *l = to);
+        let (from, to) = (
+            lowest[one].max(lowest[other]),
+            lowest[one].min(lowest[other]),
+        );
+        lowest
+            .iter_mut()
+            .filter(|l| **l == from)
+            .for_each(|l| *l = to);
     }
     lowest
 }
@@ -86,7 +96,10 @@ fn joined(scene: &Scene) -> Vec<usize> {
 /// Directions, orthonormal, along which the clamps of a group of joined filaments let it move.
 fn unheld(scene: &Scene, joined: &[usize], group: usize) -> Vec<Vector3> {
     let mut free = Slides::Freely.directions(Vector3::z());
-    let clamps = scene.clamps.iter().filter(|clamp| joined[clamp.filament] == group);
+    let clamps = scene
+        .clamps
+        .iter()
+        .filter(|clamp| joined[clamp.filament] == group);
     for clamp in clamps {
         let axis = scene.filament_at(clamp.filament).map(Filament::axis);
         let slides = clamp.slides.directions(axis.unwrap_or_default());
@@ -127,7 +140,9 @@ mod tests {
     #[test]
     fn support_goes_along_linkers() {
         let link = |a: usize, b: usize| {
-            format!("Linker(filament: {a}, at_nm: 30.0, to: Site(filament: {b}, at_nm: 30.0), stiffness_pn_per_nm: 1.0),")
+            format!(
+                "Linker(filament: {a}, at_nm: 30.0, to: Site(filament: {b}, at_nm: 30.0), stiffness_pn_per_nm: 1.0),"
+            )
         };
         let chain = [link(2, 1), link(0, 2)].concat();
         let anchor = "Linker(at_nm: 0.0, displaced_nm: (1.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0)";
@@ -139,7 +154,10 @@ mod tests {
         assert!(!is_borne("", &chain) && is_borne("", &[&chain, anchor].concat()));
         assert!(!is_borne("Clamp(end: Start)", &link(2, 1)) && !is_borne("", anchor));
         let message = refusal("", "", force);
-        assert!(message.contains("loads[0].force_pn = [0.0, 0.0, 1.0]: nothing holds"), "{message}");
+        assert!(
+            message.contains("loads[0].force_pn = [0.0, 0.0, 1.0]: nothing holds"),
+            "{message}"
+        );
     }
 
     /// An end that slides along its axis bears no force along it, unless another end that slides

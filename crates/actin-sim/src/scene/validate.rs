@@ -2,8 +2,8 @@
 
 use super::support::{check_support, check_swings};
 use super::{
-    Clamp, Dynamics, Equilibrium, Filament, ForceLaw, Hold, Load, Problem, Scene, Section, Setting,
-    Slides, Stage, StopRule, Task, linker,
+    Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Load, Problem, Scene, Section,
+    Setting, Slides, Stage, StopRule, Task, linker,
 };
 use std::fmt::Debug;
 
@@ -75,15 +75,15 @@ fn filament(filament: &Filament) -> Result<(), Problem> {
 }
 
 fn check_place(filament: &Filament) -> Result<(), Problem> {
-    for (key, value) in [("at_nm", filament.at_nm), ("direction", filament.direction)] {
-        if value.iter().any(|v| !v.is_finite()) {
-            let key = format!("filament.{key}");
-            return Err(Problem::new(key, show(value), "must be finite"));
-        }
-    }
+    all_finite("filament.at_nm", filament.at_nm)?;
+    all_finite("filament.direction", filament.direction)?;
     if filament.direction == [0.0; 3] {
         let rule = "a filament lies along some direction: must not be zero";
-        return Err(Problem::new("filament.direction", show(filament.direction), rule));
+        return Err(Problem::new(
+            "filament.direction",
+            show(filament.direction),
+            rule,
+        ));
     }
     finite("filament.roll_deg", filament.roll_deg)
 }
@@ -195,7 +195,10 @@ fn check_clamp(scene: &Scene, i: usize, clamp: &Clamp) -> Result<(), Problem> {
     let key = format!("clamps[{i}]");
     let filament = scene.named_filament(&format!("{key}.filament"), clamp.filament)?;
     let place = (clamp.filament, clamp.end);
-    if scene.clamps[..i].iter().any(|c| (c.filament, c.end) == place) {
+    if scene.clamps[..i]
+        .iter()
+        .any(|c| (c.filament, c.end) == place)
+    {
         return Err(Problem::new(
             format!("{key}.end"),
             show(clamp.end),
@@ -302,11 +305,10 @@ fn check_stage(scene: &Scene, i: usize, stage: &Stage) -> Result<(), Problem> {
             let missing = || Problem::new(key(name), index, rule);
             (index < count).then_some(()).ok_or_else(missing)
         };
-        let (held, name, value) = match *setting {
+        match *setting {
             Setting::LoadFactor { load, factor } => {
                 exists("load", load, scene.loads.len())?;
                 finite(&key("factor"), factor)?;
-                continue;
             }
             Setting::Anchor { linker, shift_nm } => {
                 exists("linker", linker, scene.linkers.len())?;
@@ -314,30 +316,37 @@ fn check_stage(scene: &Scene, i: usize, stage: &Stage) -> Result<(), Problem> {
                     let rule = "this linker joins two sites: it has no anchor to be moved";
                     return Err(Problem::new(key("linker"), linker, rule));
                 }
-                (None, "shift_nm", shift_nm)
+                all_finite(&key("shift_nm"), shift_nm)?;
             }
             Setting::Shift {
                 filament,
                 end,
                 shift_nm,
-            } => (Some((filament, end)), "shift_nm", shift_nm),
+            } => {
+                all_finite(&key("shift_nm"), shift_nm)?;
+                check_held(scene, &key(""), filament, end)?;
+            }
             Setting::Turn {
                 filament,
                 end,
                 turn_deg,
-            } => (Some((filament, end)), "turn_deg", turn_deg),
-        };
-        if value.iter().any(|v| !v.is_finite()) {
-            return Err(Problem::new(key(name), show(value), "must be finite"));
-        }
-        let Some((filament, end)) = held else { continue };
-        scene.named_filament(&key("filament"), filament)?;
-        if !scene.is_clamped(filament, end) {
-            let rule = "this end is free: only a clamped end is moved from outside";
-            return Err(Problem::new(key("end"), show(end), rule));
+            } => {
+                all_finite(&key("turn_deg"), turn_deg)?;
+                check_held(scene, &key(""), filament, end)?;
+            }
         }
     }
     Ok(())
+}
+
+/// What a setting moves from outside is held; its keys begin with `prefix`.
+fn check_held(scene: &Scene, prefix: &str, filament: usize, end: End) -> Result<(), Problem> {
+    scene.named_filament(&format!("{prefix}filament"), filament)?;
+    if scene.is_clamped(filament, end) {
+        return Ok(());
+    }
+    let rule = "this end is free: only a clamped end is moved from outside";
+    Err(Problem::new(format!("{prefix}end"), show(end), rule))
 }
 
 fn check_dynamics(dynamics: &Dynamics) -> Result<(), Problem> {
@@ -406,6 +415,13 @@ pub(super) fn non_negative(key: &str, value: f64) -> Result<(), Problem> {
         show(value),
         "must be finite and not negative",
     ))
+}
+
+fn all_finite(key: &str, values: [f64; 3]) -> Result<(), Problem> {
+    if values.iter().all(|v| v.is_finite()) {
+        return Ok(());
+    }
+    Err(Problem::new(key, show(values), "must be finite"))
 }
 
 fn each_positive(key: &str, values: [f64; 3]) -> Result<(), Problem> {

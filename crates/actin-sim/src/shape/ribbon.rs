@@ -160,7 +160,8 @@ fn top_of_parabola(x: [f64; 3], y: [f64; 3]) -> f64 {
 
 /// The axes in which the filament of frame `i` was built, turned as the frame since then.
 fn from_rest(assembly: &Assembly, state: &State, i: usize) -> UnitQuaternion {
-    let turned = state.frames.orientation.get(i) * assembly.rest.frames.orientation.get(i).inverse();
+    let turned =
+        state.frames.orientation.get(i) * assembly.rest.frames.orientation.get(i).inverse();
     turned * assembly.filaments[assembly.filament_of_frame(i)].rotation
 }
 

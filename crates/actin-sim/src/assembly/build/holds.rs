@@ -33,24 +33,32 @@ impl Builder<'_> {
                     mass: points.clone().map(|i| 1.0 / masses[i]).sum(),
                 });
             }
-            let section = &strand.resolved[strand.filament.end_index(clamp.end)];
-            let about_nm = strand.axis_at(match clamp.end {
-                End::Start => section.from_nm,
-                End::End => section.to_nm,
-            });
-            self.clamps.push(Clamped {
-                filament: clamp.filament,
-                end: clamp.end,
-                axis,
-                arm_nm: self.stock.state.points.position.get(points.start) - about_nm,
-                rest: self.stock.state.frames.orientation.get(frames.start),
-                points: points.collect(),
-                frames: frames.collect(),
-                about_nm,
-                slides: clamp.slides,
-            });
+            let clamped = self.clamped(clamp, points, frames);
+            self.clamps.push(clamped);
         }
         Ok(())
+    }
+
+    /// The end that a clamp holds with these bodies.
+    fn clamped(&self, clamp: &Clamp, points: Range<usize>, frames: Range<usize>) -> Clamped {
+        let strand = &self.strands[clamp.filament];
+        let section = &strand.resolved[strand.filament.end_index(clamp.end)];
+        let about_nm = strand.axis_at(match clamp.end {
+            End::Start => section.from_nm,
+            End::End => section.to_nm,
+        });
+        let state = &self.stock.state;
+        Clamped {
+            filament: clamp.filament,
+            end: clamp.end,
+            axis: strand.filament.axis(),
+            arm_nm: state.points.position.get(points.start) - about_nm,
+            rest: state.frames.orientation.get(frames.start),
+            points: points.collect(),
+            frames: frames.collect(),
+            about_nm,
+            slides: clamp.slides,
+        }
     }
 
     /// Holds the bodies of clamp `i`; returns points and frames.

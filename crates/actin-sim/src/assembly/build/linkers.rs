@@ -23,7 +23,8 @@ impl Builder<'_> {
             let control = self.stock.state.controls.len();
             self.stock.state.controls.extend([0.0; 3]);
             let linker = self.linker(i, linker, control)?;
-            self.stock.push_term(Box::new(linker.clone()), Part::Linker(i));
+            self.stock
+                .push_term(Box::new(linker.clone()), Part::Linker(i));
             self.linkers.push(linker);
         }
         Ok(())

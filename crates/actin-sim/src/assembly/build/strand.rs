@@ -220,7 +220,8 @@ impl<'a> Strand<'a> {
         let walls = [actin_cosserat::RodEnd::Start, actin_cosserat::RodEnd::End]
             .map(|end| layout.wall(end).is_some());
         stock.frames.extend(walls[0].then(|| wall(from_nm)));
-        stock.frames
+        stock
+            .frames
             .extend((0..layout.segments()).map(|k| FrameInfo {
                 kind: BodyKind::Segment,
                 s_nm: node(k) + 0.5 * length,
@@ -277,7 +278,8 @@ impl<'a> Strand<'a> {
         )
         .map_err(|error| junction_problem(&error))?;
         let side = if monomers_first { -0.5 } else { 0.5 };
-        stock.frames
+        stock
+            .frames
             .extend(distances.iter().map(|distance| FrameInfo {
                 kind: BodyKind::Junction,
                 s_nm: boundary + side * distance,
