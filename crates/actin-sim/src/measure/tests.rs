@@ -5,7 +5,7 @@ use super::sweep::{far_end_shift, reaction};
 use super::*;
 use crate::scene::{End, Load, Setting, Slides, Stage};
 use crate::{
-    Assembly, Filament, ForceLaw, Hold, JunctionModel, Monomers, RodModel, Scene, Section, Summary,
+    Assembly, Filament, ForceLaw, Hold, Monomers, RodModel, Scene, Section, Summary,
 };
 use std::f64::consts::PI;
 
