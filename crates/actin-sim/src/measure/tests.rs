@@ -4,9 +4,7 @@ use super::follow::follow;
 use super::sweep::{far_end_shift, reaction};
 use super::*;
 use crate::scene::{End, Load, Setting, Slides, Stage};
-use crate::{
-    Assembly, Filament, ForceLaw, Hold, Monomers, RodModel, Scene, Section, Summary,
-};
+use crate::{Assembly, Filament, ForceLaw, Hold, Monomers, RodModel, Scene, Section, Summary};
 use std::f64::consts::PI;
 
 /// Rise and distance from the axis (nm), turn (rad) of the default monomers.
