@@ -4,6 +4,7 @@
 
 use crate::group::{Group, orthonormal};
 use actin_mechanics::{Coordinates, State, Vector3};
+use std::collections::BTreeSet;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -108,6 +109,8 @@ pub struct Layout {
     order: Order,
     /// Places of the nodes in the order in which bodies follow one another.
     sequence: Vec<usize>,
+    /// Pairs of bodies that are coupled but no neighbours, the lesser first.
+    loose: BTreeSet<(Coordinates, Coordinates)>,
 }
 
 /// Where the order of unknowns comes from.
@@ -161,6 +164,7 @@ impl Layout {
                 None => Order::Sought,
             },
             sequence: Vec::new(),
+            loose: BTreeSet::new(),
         };
         layout.sequence = (0..layout.nodes.len()).collect();
         layout.number();
@@ -178,6 +182,21 @@ impl Layout {
             self.order = Order::Compared;
         }
         self
+    }
+
+    /// The same, where these pairs of bodies are coupled but no neighbours: what they do to each
+    /// other is not stiffened to regularise a step, and no strain that would limit it. They swing
+    /// about a soft coupling as far as a step leads them; the energy judges.
+    #[must_use]
+    pub fn with_loose(mut self, pairs: impl IntoIterator<Item = [Coordinates; 2]>) -> Self {
+        let pairs = pairs.into_iter().map(|[a, b]| (a.min(b), a.max(b)));
+        self.loose.extend(pairs);
+        self
+    }
+
+    /// Whether two coupled bodies are no neighbours.
+    pub(crate) fn is_loose(&self, a: Coordinates, b: Coordinates) -> bool {
+        self.loose.contains(&(a.min(b), a.max(b)))
     }
 
     /// Number of unknowns.

@@ -1,20 +1,23 @@
 //! Equilibria: Newton from the built state, or along the path of the scene.
 
 use super::{Progress, Record, RunError, RunReport, Trajectory};
-use crate::Assembly;
 use crate::scene::{Equilibrium as Settings, Problem};
-use actin_coupling::{Linker, LinkerEnd};
+use crate::{Assembly, Resolution};
+use actin_coupling::{LinkerEnd, Site};
 use actin_equilibrium::{
     BodyOrder, Certificate, Equilibrium, Jumps, Layout, Newton, NewtonOptions, Path, PathFailure,
     PathOptions, Residual, Saddles, Work,
 };
-use actin_mechanics::{Loads, State, System};
+use actin_mechanics::{Coordinates, Loads, State, System};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
 /// What is added to arc lengths from one filament to the next (nm), more than any rise or segment
 /// reaches beyond an end, so that filaments do not interleave.
 const BETWEEN_FILAMENTS_NM: f64 = 1e3;
+
+/// How many segments or rises a bond or segment reaches at most, with room.
+const REACH: f64 = 3.0;
 
 /// What is known of an equilibrium.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,17 +91,18 @@ fn place(assembly: &Assembly, stages_done: usize) -> String {
 
 /// What may move, filament by filament in the order of arc length, and how far it is to be solved.
 ///
-/// Where linkers join sites, unknowns are eliminated in an order that fills less if there is one.
+/// Where linkers join sites, unknowns are eliminated in an order that fills less if there is one, and
+/// joined bodies swing about each other as they will.
 pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, Problem> {
     let refused =
         |key: &str, error: &dyn std::error::Error| Problem::new(key, "", error.to_string());
     let layout = Layout::new(assembly.system.state(), Some(&order(assembly)), Vec::new())
         .map_err(|error| refused("filament", &error))?;
-    let joins = |linker: &Linker| matches!(linker.end(), LinkerEnd::Site(_));
-    let layout = if assembly.linkers.iter().any(joins) {
-        layout.with_least_fill()
-    } else {
+    let loose = loose_pairs(assembly);
+    let layout = if loose.is_empty() {
         layout
+    } else {
+        layout.with_least_fill().with_loose(loose)
     };
     let options = NewtonOptions {
         tolerance: Residual {
@@ -109,6 +113,47 @@ pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton,
         ..NewtonOptions::default()
     };
     Newton::new(layout, options).map_err(|error| refused("task", &error))
+}
+
+/// Bodies that linkers join and nothing else does: those of different filaments, or far apart in one.
+fn loose_pairs(assembly: &Assembly) -> Vec<[Coordinates; 2]> {
+    let joined = assembly
+        .linkers
+        .iter()
+        .filter_map(|linker| match linker.end() {
+            LinkerEnd::Anchor(_) => None,
+            LinkerEnd::Site(other) => Some((bodies_of(linker.site()), bodies_of(other))),
+        });
+    let pairs = joined.flat_map(|(site, other)| {
+        let with_all = |a| other.iter().map(move |&b| [a, b]).collect::<Vec<_>>();
+        site.iter().flat_map(|&a| with_all(a)).collect::<Vec<_>>()
+    });
+    pairs.filter(|&[a, b]| are_apart(assembly, a, b)).collect()
+}
+
+/// The bodies that a site follows.
+fn bodies_of(site: &Site) -> Vec<Coordinates> {
+    let points = site.shares().iter().map(|&(i, _)| Coordinates::Point(i));
+    points.chain([Coordinates::Frame(site.frame())]).collect()
+}
+
+/// Whether no bond or segment couples two bodies.
+fn are_apart(assembly: &Assembly, a: Coordinates, b: Coordinates) -> bool {
+    let place = |body| match body {
+        Coordinates::Point(i) => (assembly.filament_of_point(i), assembly.points[i].s_nm),
+        Coordinates::Frame(i) => (assembly.filament_of_frame(i), assembly.frames[i].s_nm),
+    };
+    let ((f, s_a), (g, s_b)) = (place(a), place(b));
+    let longest = assembly
+        .sections_of(f)
+        .iter()
+        .map(|section| match section.resolution {
+            Resolution::Rod { segment_nm } => segment_nm,
+            Resolution::Ellipsoids { .. } => assembly.monomers_of(f).rise_nm,
+        });
+    // Monomers reach the next but one, bending elements from middle to middle.
+    let reach = REACH * longest.fold(0.0, f64::max);
+    f != g || (s_a - s_b).abs() > reach
 }
 
 /// Each filament's arc lengths behind those of the one before.
