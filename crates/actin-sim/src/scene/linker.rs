@@ -86,11 +86,12 @@ impl Linker {
 impl LinkerSite {
     /// Whether the other site is the same place in the same filament.
     fn is_at(&self, other: &Self) -> bool {
-        let same_side = (self.azimuth_deg - other.azimuth_deg).rem_euclid(360.0) == 0.0;
+        let same = |a: f64, b: f64| (a - b).abs() <= 0.0;
+        let same_side = (self.azimuth_deg - other.azimuth_deg).rem_euclid(360.0) <= 0.0;
         self.filament == other.filament
-            && self.at_nm == other.at_nm
-            && self.radius_nm == other.radius_nm
-            && (self.radius_nm == 0.0 || same_side)
+            && same(self.at_nm, other.at_nm)
+            && same(self.radius_nm, other.radius_nm)
+            && (self.radius_nm <= 0.0 || same_side)
     }
 }
 

@@ -77,7 +77,7 @@ fn filament(filament: &Filament) -> Result<(), Problem> {
 fn check_place(filament: &Filament) -> Result<(), Problem> {
     all_finite("filament.at_nm", filament.at_nm)?;
     all_finite("filament.direction", filament.direction)?;
-    if filament.direction == [0.0; 3] {
+    if filament.direction.iter().all(|d| d.abs() <= 0.0) {
         let rule = "a filament lies along some direction: must not be zero";
         return Err(Problem::new(
             "filament.direction",
