@@ -19,16 +19,16 @@ pub(crate) struct Watch {
     /// Kinetic energy (pN nm) that no sound state has.
     pub(crate) kinetic_limit: f64,
     /// Largest kinetic energy seen so far.
-    largest_kinetic: f64,
+    pub(crate) largest_kinetic: f64,
 }
 
 impl Watch {
-    /// A watch that has seen nothing yet.
-    pub(crate) fn new(h: f64, kinetic_limit: f64) -> Self {
+    /// A watch that has seen kinetic energies up to `largest_kinetic`; zero at the start.
+    pub(crate) fn new(h: f64, kinetic_limit: f64, largest_kinetic: f64) -> Self {
         Self {
             h: h.abs(),
             kinetic_limit,
-            largest_kinetic: 0.0,
+            largest_kinetic,
         }
     }
 

@@ -5,7 +5,8 @@
 //! [`actin_mechanics::Split`] shows: drift, kick and damp. [`largest_frequency`] and
 //! [`stable_step`] give the time step. A [`Run`] advances a [`actin_mechanics::System`], shows
 //! synchronised states to [`Observer`]s, and ends by a [`StopRule`], at its last step, when an
-//! observer asks for it, or with a [`RunFailure`] that names what broke.
+//! observer asks for it, or with a [`RunFailure`] that names what broke. At a [`Pause`] it can be left
+//! with a [`Checkpoint`], from which [`Run::resume`] goes on to the same bits.
 //!
 //! This crate knows nothing of what the bodies stand for, and never solves for an equilibrium.
 //! Times are in ns, lengths in nm, forces in pN, rates in 1/ns.
@@ -14,6 +15,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod checkpoint;
 mod composition;
 mod diagnosis;
 mod drag;
@@ -29,6 +31,7 @@ mod step;
 mod stepper;
 mod stop;
 
+pub use checkpoint::{Checkpoint, Mark, Pause};
 pub use composition::{Composition, Stage, UnknownScheme};
 pub use drag::{Drag, DragError};
 pub use failure::{Body, Problem, RunFailure};

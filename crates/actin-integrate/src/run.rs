@@ -1,7 +1,7 @@
 //! A run: which method, which step, how long. Carrying it out is in `execution`.
 
 use crate::execution::Execution;
-use crate::{Composition, Drag, Observer, Outcome, RunFailure, StopRule};
+use crate::{Checkpoint, Composition, Drag, Observer, Outcome, RunFailure, StopRule};
 use actin_mechanics::System;
 use thiserror::Error;
 
@@ -197,6 +197,24 @@ impl Run {
         observers: &mut [&mut dyn Observer],
     ) -> Result<Outcome, RunFailure> {
         Execution::new(self, system, observers).run()
+    }
+
+    /// Goes on from `checkpoint`, which a [`Pause`](crate::Pause) of the same run of an equal system
+    /// has given, whatever state `system` is in: what follows is the same to the bit as in the run
+    /// that was left, work counts included. The state of the checkpoint is not shown again.
+    ///
+    /// # Errors
+    /// As [`execute`](Self::execute).
+    ///
+    /// # Panics
+    /// If the checkpoint has other numbers of bodies or controls than `system`.
+    pub fn resume(
+        &self,
+        checkpoint: &Checkpoint,
+        system: &mut System,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<Outcome, RunFailure> {
+        Execution::resume(self, checkpoint, system, observers).go_on()
     }
 
     /// Time of a step number (ns).

@@ -73,6 +73,24 @@ impl System {
         &mut self.state
     }
 
+    /// Whether the loads belong to the present positions, so that they need not be evaluated again.
+    pub fn loads_are_current(&self) -> bool {
+        self.loads_are_current
+    }
+
+    /// Puts the system where another one of the same bodies and terms stood, as far as time has
+    /// changed it, work counts included: what follows is the same to the bit.
+    ///
+    /// # Panics
+    /// If `motion` has other numbers of bodies or controls.
+    pub fn restore(&mut self, motion: &State, loads_are_current: bool, force_evaluations: u64) {
+        self.state_mut().copy_motion_from(motion);
+        if loads_are_current {
+            self.loads();
+        }
+        self.force_evaluations = force_evaluations;
+    }
+
     /// The interactions.
     pub fn interactions(&self) -> &[Box<dyn Interaction>] {
         &self.interactions

@@ -69,6 +69,13 @@ impl Vectors {
         self.z.fill(0.0);
     }
 
+    /// Takes over the vectors of `other`, which has as many.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.x.copy_from_slice(&other.x);
+        self.y.copy_from_slice(&other.y);
+        self.z.copy_from_slice(&other.z);
+    }
+
     /// Multiplies every vector by `factor`.
     pub fn scale(&mut self, factor: f64) {
         for component in [&mut self.x, &mut self.y, &mut self.z] {
