@@ -25,9 +25,13 @@ pub use assembly::{
     Assembly, BeyondRange, BodyKind, Clamped, Counts, Drive, FrameInfo, JunctionBond, Part,
     PointInfo, Reaction, Resolution, SectionSpan, Term,
 };
-pub use results::{RunDirectory, RunDirectoryError, RunStatus, StabilitySummary, Summary};
+pub use results::{
+    CheckpointError, Checkpoints, Damage, RunDirectory, RunDirectoryError, RunStatus,
+    StabilitySummary, Summary,
+};
 pub use run::{
-    EquilibriumReport, Estimate, Progress, Record, RunError, RunReport, Trajectory, estimate, run,
+    Arrival, EquilibriumReport, Estimate, Keeper, Kept, PathStanding, Progress, Record, RunError,
+    RunReport, Standing, Trajectory, Unkept, estimate, run, run_kept,
 };
 pub use scene::fitted::laws as fitted_laws;
 pub use scene::{

@@ -96,6 +96,7 @@ pub(super) fn report() -> RunReport {
     RunReport {
         converged: false,
         failed: false,
+        interrupted: false,
         steps: 12,
         force_evaluations: 48,
         time_step_ns: Some(3.5e-3),

@@ -1,14 +1,16 @@
 //! Motion in time: the time step, the run loop and the records.
 
 use super::bound::kinetic_limit;
+use super::keep::{Clock, Keeper, Kept, Standing};
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
 use crate::assembly::Ramp;
 use crate::scene::{Dynamics, Integrator, Problem, RodLaw, StopRule, Task};
-use actin_integrate::{Composition, Drag, Moment, Reason, Run};
-use actin_mechanics::Split;
+use actin_integrate::{
+    Checkpoint, Composition, Drag, Moment, Observer, Outcome, Pause, Reason, Run, RunFailure,
+};
+use actin_mechanics::{Split, System};
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 /// Records of a run, unless the scene says otherwise.
 const DEFAULT_RECORDS: f64 = 100.0;
@@ -118,6 +120,8 @@ fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, Problem> 
 pub(super) fn run(
     assembly: &mut Assembly,
     dynamics: &Dynamics,
+    kept: Option<Kept>,
+    keeper: &mut dyn Keeper,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<(Trajectory, RunReport), RunError> {
     let estimate = estimate_of(assembly, dynamics)?;
@@ -126,52 +130,113 @@ pub(super) fn run(
         .with_kinetic_limit(kinetic_limit(assembly))
         .expect("the limit is positive");
     assembly.resolve(&estimate);
-    let started = Instant::now();
-    let mut trajectory = Trajectory::default();
-    let mut observer = |moment: &mut Moment<'_>| {
-        trajectory.records.push(record(moment));
-        watch(progress(moment, dynamics))
+    let clock = Clock::new(kept.as_ref());
+    let mut recorder = Recorder {
+        trajectory: Trajectory::default(),
+        end_ns: dynamics.duration_ns,
+        clock,
+        is_left: false,
+        keeper,
+        watch,
     };
-    let outcome = plan.execute(&mut assembly.system, &mut [&mut observer]);
-    let report = |converged, steps, force_evaluations| RunReport {
-        converged,
+    let outcome = recorder.execute(&plan, &mut assembly.system, kept);
+    let report = |steps, force_evaluations| RunReport {
+        interrupted: recorder.is_left,
         steps,
         force_evaluations,
-        ..estimate.report(started)
+        ..estimate.report(clock)
     };
     let evaluations = assembly.system.force_evaluations();
     match outcome {
         Ok(end) => {
-            let converged = end.reason == Reason::Converged;
-            Ok((
-                trajectory,
-                report(converged, end.steps, end.force_evaluations),
-            ))
+            let report = RunReport {
+                converged: end.reason == Reason::Converged,
+                ..report(end.steps, end.force_evaluations)
+            };
+            Ok((recorder.trajectory, report))
         }
         Err(failure) => Err(RunError::Failed {
             report: Box::new(RunReport {
                 failed: true,
-                ..report(false, failure.last_good_step, evaluations)
+                ..report(failure.last_good_step, evaluations)
             }),
             body: assembly.describe(failure.body),
             failure: Box::new(failure),
-            trajectory: Box::new(trajectory),
+            trajectory: Box::new(recorder.trajectory),
         }),
     }
 }
 
+/// Records what is observed and lets the keeper keep it.
+struct Recorder<'a> {
+    trajectory: Trajectory,
+    end_ns: f64,
+    clock: Clock,
+    is_left: bool,
+    keeper: &'a mut dyn Keeper,
+    watch: &'a mut dyn FnMut(Progress) -> ControlFlow<()>,
+}
+
+impl Recorder<'_> {
+    /// Executes the plan, from where it was left if it was.
+    fn execute(
+        &mut self,
+        plan: &Run,
+        system: &mut System,
+        kept: Option<Kept>,
+    ) -> Result<Outcome, RunFailure> {
+        let Some(kept) = kept else {
+            return plan.execute(system, &mut [self]);
+        };
+        let Standing::Motion(checkpoint) = kept.standing else {
+            panic!("a path of equilibria is no motion in time");
+        };
+        self.trajectory = kept.trajectory;
+        plan.resume(&checkpoint, system, &mut [self])
+    }
+
+    fn keep(&mut self, checkpoint: Checkpoint) {
+        let standing = Standing::Motion(Box::new(checkpoint));
+        let records = &self.trajectory.records;
+        self.keeper.keep(&standing, records, self.clock.wall_s());
+    }
+}
+
+impl Observer for Recorder<'_> {
+    fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()> {
+        self.trajectory.records.push(record(moment));
+        (self.watch)(progress(moment, self.end_ns))
+    }
+
+    fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
+        self.is_left = self.keeper.is_interrupted();
+        if self.is_left || self.keeper.is_due() {
+            self.keep(pause.checkpoint());
+        }
+        if self.is_left {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn fail(&mut self, last_good: &Checkpoint) {
+        self.keep(last_good.clone());
+    }
+}
+
 impl Estimate {
-    /// The report of a run that began at `started` and has counted nothing yet.
-    fn report(&self, started: Instant) -> RunReport {
+    /// The report of a run that has taken the time of `clock` and has counted nothing yet.
+    fn report(&self, clock: Clock) -> RunReport {
         RunReport {
             converged: false,
             failed: false,
+            interrupted: false,
             steps: 0,
             force_evaluations: 0,
             time_step_ns: Some(self.time_step_ns),
             largest_frequency_rad_per_ns: Some(self.largest_frequency_rad_per_ns),
             equilibrium: None,
-            wall_s: started.elapsed().as_secs_f64(),
+            wall_s: clock.wall_s(),
         }
     }
 }
@@ -240,10 +305,10 @@ impl Assembly {
     }
 }
 
-fn progress(moment: &mut Moment<'_>, dynamics: &Dynamics) -> Progress {
+fn progress(moment: &mut Moment<'_>, end_ns: f64) -> Progress {
     Progress {
         time_ns: moment.time,
-        end_ns: dynamics.duration_ns,
+        end_ns,
         steps: moment.step,
         residual_force_pn: moment.residual().force,
     }

@@ -20,11 +20,7 @@ impl Summary {
         let tip_at_rest_nm = assembly.tip_nm(&assembly.rest, tip);
         Self {
             scene: assembly.scene.title.clone(),
-            status: match (report.failed, report.converged) {
-                (true, _) => RunStatus::Failed,
-                (false, true) => RunStatus::Converged,
-                (false, false) => RunStatus::Completed,
-            },
+            status: RunStatus::of(report),
             counts: assembly.counts(),
             time_ns: last.time_ns,
             time_step_ns: report.time_step_ns,
@@ -50,6 +46,17 @@ impl Summary {
             wall_s: report.wall_s,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             seed: assembly.scene.filament.monomers.seed,
+        }
+    }
+}
+
+impl RunStatus {
+    fn of(report: &RunReport) -> Self {
+        match (report.interrupted, report.failed, report.converged) {
+            (true, ..) => Self::Interrupted,
+            (_, true, _) => Self::Failed,
+            (.., true) => Self::Converged,
+            _ => Self::Completed,
         }
     }
 }

@@ -66,6 +66,8 @@ pub enum RunStatus {
     Completed,
     /// The run broke off; the record is the last good one.
     Failed,
+    /// The run was left and can be resumed; the record is the last one made.
+    Interrupted,
 }
 
 /// What the eigenvalues of the stiffness say of an equilibrium.
