@@ -47,7 +47,9 @@ impl Left {
     /// What is said of the checkpoint; it is read as another process would.
     fn resume(&self, scene: &Scene) -> Result<(), CheckpointError> {
         let mut assembly = build(scene);
-        checkpoints(&self.directory, &mut assembly).resume().map(drop)
+        checkpoints(&self.directory, &mut assembly)
+            .resume()
+            .map(drop)
     }
 
     fn refusal(&self) -> String {
@@ -96,7 +98,10 @@ fn every_truncation_is_found() {
             left.replace(name, &whole[..length]);
             let message = left.refusal();
             let says = ["bytes where its header says", "there is no checkpoint"];
-            assert!(says.iter().any(|s| message.contains(s)), "{length}: {message}");
+            assert!(
+                says.iter().any(|s| message.contains(s)),
+                "{length}: {message}"
+            );
         }
         left.replace(name, &whole);
     }
@@ -134,9 +139,21 @@ fn another_scene_is_refused_with_the_line() {
     println!("{error}");
     assert!(matches!(error.damage, Damage::Scene { .. }));
     let message = error.to_string();
-    assert!(message.contains("0.3,") && message.contains("0.31,"), "{message}");
+    assert!(
+        message.contains("0.3,") && message.contains("0.31,"),
+        "{message}"
+    );
     // Not even the same bodies.
-    assert!(left.resume(&Choice { filament: 0, ..CHOICE }.motion()).is_err());
+    assert!(
+        left.resume(
+            &Choice {
+                filament: 0,
+                ..CHOICE
+            }
+            .motion()
+        )
+        .is_err()
+    );
     assert!(left.resume(&CHOICE.statics()).is_err());
 }
 
@@ -150,11 +167,17 @@ fn other_formats_and_files_are_named() {
     bytes[24..28].copy_from_slice(&checksum.to_le_bytes());
     left.replace("checkpoint.bin", &bytes);
     let message = left.refusal();
-    assert!(message.ends_with("format version 2: this program reads version 1"), "{message}");
+    assert!(
+        message.ends_with("format version 2: this program reads version 1"),
+        "{message}"
+    );
     left.replace("checkpoint.bin", &[b'x'; 4000]);
     assert!(left.refusal().contains("not a checkpoint"));
     fs::remove_file(left.directory.path().join("checkpoint.bin")).unwrap();
-    assert!(left.refusal().contains("there is no checkpoint to resume from"));
+    assert!(
+        left.refusal()
+            .contains("there is no checkpoint to resume from")
+    );
 }
 
 /// A header that promises 2^63 bytes, checksum and all: refused before anything is allocated.

@@ -43,6 +43,8 @@ fn a_failed_checkpoint_leaves_the_last_one() {
     fs::remove_dir(&obstacle).unwrap();
     files.keep(&later, &kept.trajectory.records, 1.0);
     assert!(!files.last_failed());
-    let again = checkpoints(&directory, &mut build(&scene)).resume().unwrap();
+    let again = checkpoints(&directory, &mut build(&scene))
+        .resume()
+        .unwrap();
     assert_eq!(again.standing, later);
 }

@@ -24,7 +24,11 @@ fn bits(record: &Record) -> Vec<u64> {
         record.residual_torque_pn_nm,
     ];
     let energies = record.energies_pn_nm.iter();
-    numbers.iter().chain(energies).map(|v| v.to_bits()).collect()
+    numbers
+        .iter()
+        .chain(energies)
+        .map(|v| v.to_bits())
+        .collect()
 }
 
 fn assert_same(one: &Trajectory, other: &Trajectory) {
@@ -73,7 +77,10 @@ fn compare(scene: &Scene, leave: &[u64]) {
     assert_eq!(timeless(&report), timeless(&resumed));
     pieces.write(&assembly, &trajectory, &resumed).unwrap();
     pieces.remove_checkpoint().unwrap();
-    assert!(files(whole.path()) == files(pieces.path()), "a file differs");
+    assert!(
+        files(whole.path()) == files(pieces.path()),
+        "a file differs"
+    );
 }
 
 fn choice() -> impl Strategy<Value = Choice> {

@@ -30,15 +30,17 @@ const MOTION: &str = "Scene(
     ),
 )";
 
-/// Some hundred equilibria.
+/// A hundred equilibria.
 const PATH: &str = "Scene(
-    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 80.0)]),
+    filament: Filament(
+        sections: [Ellipsoids(from_nm: 0.0, to_nm: 90.0), Rod(from_nm: 90.0, to_nm: 150.0)],
+    ),
     clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
     path: [
         Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 90.0))]),
         Stage(set: [Turn(end: End, turn_deg: (0.0, 30.0, 90.0))]),
     ],
-    task: Equilibrium(largest_step: 0.004, lowest_eigenvalue: true),
+    task: Equilibrium(largest_step: 0.02, lowest_eigenvalue: true),
 )";
 
 /// A folder with one scene.
@@ -281,7 +283,11 @@ fn what_cannot_be_resumed_is_refused() {
         "a is finished (time is up): nothing to resume\n"
     );
     assert!(files(&place.path("a")) == before);
-    fs::write(place.path("a/checkpoint.bin"), "nonsense of some length, at least 28 bytes").unwrap();
+    fs::write(
+        place.path("a/checkpoint.bin"),
+        "nonsense of some length, at least 28 bytes",
+    )
+    .unwrap();
     let damaged = place.actin(&["--out", "a", "--resume"]);
     assert_eq!(code(&damaged), 2);
     assert!(stderr(&damaged).contains("a/checkpoint.bin: not a checkpoint"));
