@@ -26,19 +26,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         RunDirectory::create(&out, arguments.overwrite).map_err(|error| hint(&out, error))?
     };
     let mut checkpoints = checkpoints(arguments, &mut opened, estimate.as_ref(), &directory)?;
-    let kept = if arguments.resume {
-        if let Some(status) = finished(&opened, &directory)? {
-            println!(
-                "{} is finished ({}): nothing to resume",
-                out.display(),
-                in_words(status)
-            );
-            return Ok(());
-        }
-        Some(checkpoints.resume()?)
-    } else {
-        directory.write_scene(&opened.assembly.scene)?;
-        None
+    let kept = match begin(arguments, &opened, &directory, &mut checkpoints)? {
+        Beginning::New => None,
+        Beginning::Kept(kept) => Some(*kept),
+        Beginning::Finished => return Ok(()),
     };
     let (trajectory, report) = advance(&mut opened, kept, &mut checkpoints, &directory)?;
     if report.interrupted {
@@ -56,6 +47,35 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     directory.remove_checkpoint()?;
     print(&summary, &out);
     Ok(())
+}
+
+/// What there is to begin with.
+enum Beginning {
+    /// A new run.
+    New,
+    /// One that was kept.
+    Kept(Box<Kept>),
+    /// One that is finished, which has been said.
+    Finished,
+}
+
+fn begin(
+    arguments: &RunArguments,
+    opened: &Opened,
+    directory: &RunDirectory,
+    checkpoints: &mut Checkpoints,
+) -> Result<Beginning, Failure> {
+    if !arguments.resume {
+        directory.write_scene(&opened.assembly.scene)?;
+        return Ok(Beginning::New);
+    }
+    if let Some(status) = finished(opened, directory)? {
+        let place = directory.path().display();
+        let how = in_words(status);
+        println!("{place} is finished ({how}): nothing to resume");
+        return Ok(Beginning::Finished);
+    }
+    Ok(Beginning::Kept(Box::new(checkpoints.resume()?)))
 }
 
 fn checkpoints(
@@ -123,12 +143,12 @@ fn left(
     (trajectory, report): (&Trajectory, &RunReport),
 ) -> Failure {
     let place = directory.path().display();
-    let mut message = match checkpoints.last_failed() {
-        false => format!("a checkpoint is in {place}"),
-        true if directory.has_checkpoint() => {
-            format!("{place} keeps the last checkpoint that could be written")
-        }
-        true => format!("no checkpoint could be written to {place}"),
+    let mut message = if !checkpoints.last_failed() {
+        format!("a checkpoint is in {place}")
+    } else if directory.has_checkpoint() {
+        format!("{place} keeps the last checkpoint that could be written")
+    } else {
+        format!("no checkpoint could be written to {place}")
     };
     if !trajectory.records.is_empty() {
         match directory.write(&opened.assembly, trajectory, report) {

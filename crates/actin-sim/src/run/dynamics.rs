@@ -124,12 +124,7 @@ pub(super) fn run(
     keeper: &mut dyn Keeper,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<(Trajectory, RunReport), RunError> {
-    let estimate = estimate_of(assembly, dynamics)?;
-    let plan = plan(dynamics, &estimate)?
-        .stopping_from(drive(assembly))
-        .with_kinetic_limit(kinetic_limit(assembly))
-        .expect("the limit is positive");
-    assembly.resolve(&estimate);
+    let (estimate, plan) = prepare(assembly, dynamics)?;
     let clock = Clock::new(kept.as_ref());
     let mut recorder = Recorder {
         trajectory: Trajectory::default(),
@@ -165,6 +160,17 @@ pub(super) fn run(
             trajectory: Box::new(recorder.trajectory),
         }),
     }
+}
+
+/// The run that the scene asks for; the scene is resolved and its path set going.
+fn prepare(assembly: &mut Assembly, dynamics: &Dynamics) -> Result<(Estimate, Run), Problem> {
+    let estimate = estimate_of(assembly, dynamics)?;
+    let plan = plan(dynamics, &estimate)?
+        .stopping_from(drive(assembly))
+        .with_kinetic_limit(kinetic_limit(assembly))
+        .expect("the limit is positive");
+    assembly.resolve(&estimate);
+    Ok((estimate, plan))
 }
 
 /// Records what is observed and lets the keeper keep it.

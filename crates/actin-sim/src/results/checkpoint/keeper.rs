@@ -178,7 +178,7 @@ impl RunDirectory {
     }
 
     fn sync_results(&self) -> Result<(), RunDirectoryError> {
-        for folder in [self.path.clone(), self.path.join("vtk")] {
+        for folder in [self.path.clone(), self.path.join(PICTURES)] {
             let io = || RunDirectoryError::io(&folder);
             for entry in fs::read_dir(&folder).map_err(io())? {
                 let path = entry.map_err(io())?.path();
