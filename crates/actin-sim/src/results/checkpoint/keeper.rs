@@ -4,7 +4,7 @@ use super::file::{Identity, replace, same_scene, sync};
 use super::log::{RecordLog, Tally};
 use super::{CheckpointError, Damage};
 use crate::results::directory::{
-    CHECKPOINT, RECORDS, RunDirectory, SCENE, SUMMARY, remove_if_there,
+    CHECKPOINT, PICTURES, RECORDS, RunDirectory, SCENE, SUMMARY, remove_if_there,
 };
 use crate::results::{RunDirectoryError, RunStatus, Summary};
 use crate::run::{Keeper, Kept, Record, Standing, Trajectory};
