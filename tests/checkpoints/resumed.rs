@@ -91,7 +91,8 @@ fn choice() -> impl Strategy<Value = Choice> {
         prop_oneof![Just(0.0), 0.1..5.0],
         any::<bool>(),
         0.01..0.2,
-        0.1..0.5,
+        // No shorter than the longest path.
+        0.26..0.6,
     )
         .prop_map(
             |(filament, held, integrator, drag, stops, record_every_ns, duration_ns)| Choice {
