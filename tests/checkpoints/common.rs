@@ -38,7 +38,7 @@ const HELD: [&str; 4] = [
             Stage(set: [LoadFactor(load: 0, factor: 0.5)], duration_ns: 0.15)]",
     "clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
      path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 40.0))], duration_ns: 0.2),
-            Stage(set: [Turn(end: End, turn_deg: (0.0, 20.0, 30.0))], duration_ns: 0.05)]",
+            Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 30.0))], duration_ns: 0.05)]",
     "clamps: [Clamp(end: Start)],
      linkers: [Linker(at_nm: 35.0, radius_nm: 1.8, displaced_nm: (3.0, 0.0, 0.0),
                       stiffness_pn_per_nm: 10.0)],
