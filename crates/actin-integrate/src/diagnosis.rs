@@ -1,7 +1,7 @@
 //! Whether a state is sound, and what to blame if it is not.
 
 use crate::{Body, Problem};
-use actin_mechanics::{Interaction, Loads, Split, State, System, Vector3};
+use actin_mechanics::{Agitate, Interaction, Loads, Split, State, System, Vector3, Vectors};
 use std::f64::consts::PI;
 
 /// Kinetic energy may not grow beyond that of all earlier checks by more than this factor.
@@ -117,6 +117,16 @@ impl Split for Probe<'_> {
 
     fn force_evaluations(&self) -> u64 {
         self.system.force_evaluations()
+    }
+}
+
+impl Agitate for Probe<'_> {
+    fn bodies(&self) -> (usize, usize) {
+        self.system.bodies()
+    }
+
+    fn agitate(&mut self, points: &Vectors, frames: &Vectors) {
+        self.system.agitate(points, frames);
     }
 }
 

@@ -1,7 +1,7 @@
 //! A run in progress: advancing, checking, observing, and finding out what broke.
 
 use crate::diagnosis::{Probe, Watch, blame};
-use crate::{Body, Moment, Observer, Outcome, Problem, Reason, Residual, Run, RunFailure, advance};
+use crate::{Body, Moment, Observer, Outcome, Problem, Reason, Residual, Run, RunFailure};
 use actin_mechanics::{Split, State, System};
 
 /// A run in progress.
@@ -65,8 +65,7 @@ impl<'a, 'o> Execution<'a, 'o> {
     }
 
     fn advance_to(&mut self, step: u64) {
-        let run = self.run;
-        advance(self.system, run.scheme, run.h, step - self.step, &run.drag);
+        self.run.advance(self.system, self.step, step - self.step);
         self.step = step;
     }
 
@@ -162,7 +161,9 @@ impl<'a, 'o> Execution<'a, 'o> {
             system: self.system,
             culprit: None,
         };
-        advance(&mut probe, self.run.scheme, self.run.h, 1, &self.run.drag);
+        // A start that is unsound has no step before it.
+        let step = self.step.saturating_sub(1);
+        self.run.advance(&mut probe, step, 1);
         probe.culprit
     }
 }

@@ -1,8 +1,9 @@
-//! Splitting integrators, drag, and a run loop.
+//! Splitting integrators, drag, thermal noise, and a run loop.
 //!
 //! A method is a [`Composition`]: a cited table of coefficients of alternating drifts and kicks.
 //! One loop, [`advance`], serves all of them, and sees of a system only what
-//! [`actin_mechanics::Split`] shows: drift, kick and damp. [`largest_frequency`] and
+//! [`actin_mechanics::Split`] shows: drift, kick and damp; in a [`Bath`], [`advance_in`] also
+//! agitates. [`largest_frequency`] and
 //! [`stable_step`] give the time step. A [`Run`] advances a [`actin_mechanics::System`], shows
 //! synchronised states to [`Observer`]s, and ends by a [`StopRule`], at its last step, when an
 //! observer asks for it, or with a [`RunFailure`] that names what broke.
@@ -14,6 +15,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod bath;
 mod composition;
 mod diagnosis;
 mod drag;
@@ -21,6 +23,7 @@ mod execution;
 mod failure;
 mod frequency;
 mod lanczos;
+mod noise;
 mod observer;
 mod outcome;
 mod run;
@@ -28,7 +31,9 @@ mod schemes;
 mod step;
 mod stepper;
 mod stop;
+mod surroundings;
 
+pub use bath::{Bath, BathError};
 pub use composition::{Composition, Stage, UnknownScheme};
 pub use drag::{Drag, DragError};
 pub use failure::{Body, Problem, RunFailure};
@@ -40,5 +45,5 @@ pub use schemes::{
     FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, SUZUKI_WEIGHT, VEFRL, VELOCITY_VERLET,
 };
 pub use step::{SAFETY, StepError, stable_step};
-pub use stepper::advance;
+pub use stepper::{advance, advance_in};
 pub use stop::{StopRule, StopRuleError};

@@ -114,6 +114,24 @@ impl Frames {
         }
     }
 
+    /// Adds to each component of each body angular momentum `deviates` times the root of the
+    /// moment about that axis; nothing to those of held frames.
+    pub(crate) fn agitate(&mut self, deviates: &Vectors) {
+        let (l, excess) = (&mut self.angular_momentum, &self.excess);
+        for (l, excess, d) in [
+            (&mut l.x, &excess.x, &deviates.x),
+            (&mut l.y, &excess.y, &deviates.y),
+            (&mut l.z, &excess.z, &deviates.z),
+        ] {
+            let tops = excess.iter().zip(&self.inverse_transverse);
+            for (((l, d), m), (excess, inverse)) in
+                l.iter_mut().zip(d).zip(&self.mobility).zip(tops)
+            {
+                *l += m * d / (excess + inverse).sqrt();
+            }
+        }
+    }
+
     /// Kinetic energy of the free frames.
     pub fn kinetic_energy(&self) -> f64 {
         (0..self.len())

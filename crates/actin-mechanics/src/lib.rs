@@ -40,7 +40,7 @@ pub use quaternions::Quaternions;
 pub use slider::Slider;
 pub use state::State;
 pub use stiffness::{Coordinates, SecondOrder, Stiffness};
-pub use system::{Drive, Split, System};
+pub use system::{Agitate, Drive, Split, System};
 pub use vectors::Vectors;
 
 /// A vector of three components.

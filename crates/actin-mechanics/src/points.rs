@@ -81,6 +81,20 @@ impl Points {
         }
     }
 
+    /// Adds to each velocity `deviates / sqrt(mass)`; nothing to those of held points.
+    pub(crate) fn agitate(&mut self, deviates: &Vectors) {
+        let v = &mut self.velocity;
+        for (v, d) in [
+            (&mut v.x, &deviates.x),
+            (&mut v.y, &deviates.y),
+            (&mut v.z, &deviates.z),
+        ] {
+            for ((v, d), m) in v.iter_mut().zip(d).zip(&self.inverse_mass) {
+                *v += m.sqrt() * d;
+            }
+        }
+    }
+
     /// Kinetic energy of the free points.
     pub fn kinetic_energy(&self) -> f64 {
         let moving = |i: &usize| self.is_free(*i);
