@@ -128,7 +128,8 @@ mod tests {
         assert_eq!((all.len(), count), (40, 40));
     }
 
-    /// Moments up to the fourth, and no correlation between components, halves or steps.
+    /// Moments up to the fourth, and no correlation between components, halves, steps or
+    /// neighbours.
     ///
     /// The bounds are 4.5 standard errors; a Box-Muller pair of which one word is used twice
     /// would be correlated, uniform deviates would have a fourth moment of 1.8.
@@ -159,6 +160,8 @@ mod tests {
                     "{k}, {power}: {error}"
                 );
             }
+            let neighbours = mean(&|i| x[i] * x[(i + 1) % bodies]);
+            assert!(neighbours.abs() < 4.5 / n.sqrt(), "{k}: {neighbours}");
             for (l, y) in series[..k].iter().enumerate() {
                 let error = mean(&|i| x[i] * y[i]);
                 assert!(error.abs() < 4.5 / n.sqrt(), "{k}, {l}: {error}");

@@ -8,10 +8,11 @@ mod common;
 use actin_integrate::{
     Bath, Composition, Drag, PEFRL, POSITION_VERLET, Run, VELOCITY_VERLET, advance, advance_in,
 };
+use actin_mechanics::testing::momenta;
 use actin_mechanics::{
     Frame, Inertia, Interaction, Loads, Point, Slider, State, System, UnitQuaternion, Vector3,
 };
-use common::{chain, distance, three_tops};
+use common::{Springs, chain, distance, three_tops};
 
 const KT: f64 = 4.0;
 /// Standard errors that an estimate may be off by.
@@ -140,6 +141,39 @@ fn held_bodies_stay_cold_and_sliding_ones_move_as_one() {
     }
     let mean = energy / samples as f64;
     assert_mean("slider", mean, KT, 2.0 * KT * KT, 20_000);
+}
+
+/// Of a free chain, the momentum of the whole has 3 kT/2 whatever its springs do, since internal
+/// forces cancel and noise of different bodies is independent. Noise that neighbours share would
+/// show here and in no single body.
+#[test]
+fn a_free_chain_moves_as_one_body() {
+    let springs = Springs {
+        name: "springs",
+        pairs: (1..6).map(|i| (i - 1, i)).collect(),
+        stiffness: 4.0,
+        rest: 0.0,
+    };
+    let mut state = State::default();
+    for mass in [1.0, 0.2, 3.0, 0.5, 2.0, 1.0] {
+        let position = Vector3::zeros();
+        state.points.push(Point { position, mass });
+    }
+    let mut system = System::new(state, vec![Box::new(springs)]);
+    let bath = bath(5.0, 5.0, 1e-3, 31);
+    let samples = 10_000;
+    let mut sum = 0.0;
+    for sample in 0..samples {
+        // Correlations of exp(-2 g t) = 5e-5 between samples: none.
+        advance_in(&mut system, &PEFRL, 0.2, 5, &bath, 5 * sample);
+        let points = &system.state().points;
+        let mass: f64 = points.inverse_mass().iter().map(|m| 1.0 / m).sum();
+        let (momentum, _) = momenta(system.state());
+        sum += momentum.norm_squared() / (1e-3 * mass);
+    }
+    let mean = sum / (3 * samples) as f64;
+    println!("whole chain: {mean:.4} kT");
+    assert_mean("whole", mean, 1.0, 2.0, 30_000);
 }
 
 /// Every point on a spring of its own to the origin, energy `k/2 |x|^2`.
