@@ -1,7 +1,7 @@
 //! `actin check`: what a scene resolves to and what it would cost.
 
 use crate::failure::{Failure, Opened};
-use actin_sim::{Assembly, Estimate, Resolution};
+use actin_sim::{Assembly, Estimate, Resolution, Task};
 use std::path::Path;
 
 /// Validates the scene at `path` and prints it with every default, its counts and its cost.
@@ -18,6 +18,7 @@ pub(crate) fn check(path: &Path) -> Result<(), Failure> {
     print_sections(&opened.assembly);
     print_counts(&opened.assembly);
     print_linkers(&opened.assembly);
+    print_thermal(&opened.assembly);
     match &estimate {
         Some(estimate) => print_cost(estimate),
         None => println!("// cost: some tens of Newton iterations for each equilibrium"),
@@ -61,6 +62,20 @@ fn print_counts(assembly: &Assembly) {
         "// counts: {} monomers, {} bonds, {} segments, {} junctions, {} degrees of freedom",
         counts.monomers, counts.bonds, counts.segments, counts.junctions, counts.dofs
     );
+}
+
+fn print_thermal(assembly: &Assembly) {
+    let Task::Dynamics(dynamics) = &assembly.scene.task else {
+        return;
+    };
+    if let Some(thermal) = &dynamics.thermal {
+        let energy = thermal.energy_pn_nm();
+        println!(
+            "// thermal energy {energy:.4} pN nm at {} K, mean kinetic energy {:.2} pN nm",
+            thermal.temperature_k,
+            0.5 * energy * assembly.counts().dofs as f64
+        );
+    }
 }
 
 fn print_cost(estimate: &Estimate) {

@@ -25,14 +25,16 @@ pub use assembly::{
     Assembly, BeyondRange, BodyKind, Clamped, Counts, Drive, FrameInfo, JunctionBond, Part,
     PointInfo, Reaction, Resolution, SectionSpan, Term,
 };
-pub use results::{RunDirectory, RunDirectoryError, RunStatus, StabilitySummary, Summary};
+pub use results::{
+    RunDirectory, RunDirectoryError, RunStatus, StabilitySummary, Summary, ThermalSummary,
+};
 pub use run::{
     EquilibriumReport, Estimate, Progress, Record, RunError, RunReport, Trajectory, estimate, run,
 };
 pub use scene::fitted::laws as fitted_laws;
 pub use scene::{
-    Anchors, BendLaw, Clamp, Drag, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold,
-    Integrator, JunctionModel, JunctionWeight, Linker, Load, Material, Monomers, Problem, RodLaw,
-    RodLaws, RodModel, Scene, SceneError, Section, Setting, ShearLaw, Slides, Stage, StopRule,
-    StretchLaw, Task, TwistLaw, TwistRise, TwistStretchLaw,
+    Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, Drag, Dynamics, End, Equilibrium, Filament,
+    ForceLaw, Hold, Integrator, JunctionModel, JunctionWeight, Linker, Load, Material, Monomers,
+    Problem, RodLaw, RodLaws, RodModel, Scene, SceneError, Section, Setting, ShearLaw, Slides,
+    Stage, StopRule, StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
 };

@@ -27,4 +27,4 @@ mod write;
 
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;
-pub use summary::{RunStatus, StabilitySummary, Summary};
+pub use summary::{RunStatus, StabilitySummary, Summary, ThermalSummary};

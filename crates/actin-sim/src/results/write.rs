@@ -6,7 +6,7 @@ use super::directory::{
 use super::energies::EnergyTable;
 use super::states::States;
 use super::vtk::{Drawing, collection};
-use super::{RunDirectoryError, Summary, profile};
+use super::{RunDirectoryError, Summary, ThermalSummary, profile};
 use crate::shape;
 use crate::{Assembly, Record, RunReport, Scene, Trajectory};
 use std::fs;
@@ -40,6 +40,7 @@ impl RunDirectory {
         let states = records.iter().map(|record| &record.state);
         let summary = Summary {
             beyond_range: assembly.worst_beyond_range(states),
+            thermal: ThermalSummary::new(assembly, records),
             ..Summary::new(assembly, last, report)
         };
         let table = EnergyTable::new(assembly, records);

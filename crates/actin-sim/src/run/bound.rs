@@ -1,7 +1,7 @@
 //! The kinetic energy beyond which a motion is not one: more than its loads can have given it.
 
 use crate::Assembly;
-use crate::scene::{Load, Slides};
+use crate::scene::{Load, Slides, Task};
 use actin_mechanics::Vector3;
 
 /// By how much the limit exceeds the bound: room for errors of the integrator near its stability
@@ -11,11 +11,16 @@ const ROOM: f64 = 2.0;
 /// Added to the limit (pN nm), so that round-off in a filament without loads, 1e-20, is no motion.
 const LEAST: f64 = 1.0;
 
+/// How many times the thermal energy a whole filament may have beyond the mean of its kinetic energy:
+/// more than ever comes up, since its probability falls by a factor e with each.
+const THERMAL_EXCESS: f64 = 50.0;
+
 /// Limit of the kinetic energy (pN nm); infinite where no bound is known.
 ///
 /// A filament that is held fast at one end, and whose controls stay, has at most the energy that
 /// it begins with and the work of its loads, `|F| 2 L` each: nothing on it is ever further from
-/// where it was than twice its length.
+/// where it was than twice its length. In a heat bath it has thermal energy besides, half of `kT` for
+/// each degree of freedom and `THERMAL_EXCESS` of them in all.
 pub(super) fn kinetic_limit(assembly: &Assembly) -> f64 {
     let scene = &assembly.scene;
     let is_fast = |clamp: &crate::Clamped| clamp.slides == Slides::Nowhere;
@@ -26,8 +31,17 @@ pub(super) fn kinetic_limit(assembly: &Assembly) -> f64 {
         Load::EndForce { force_pn, .. } => Vector3::from(*force_pn).norm(),
     });
     let work = forces.sum::<f64>() * 2.0 * assembly.length_nm();
-    let limit = ROOM * (assembly.system.total_energy() + work) + LEAST;
+    let heat = thermal_energy(assembly) * (0.5 * assembly.counts().dofs as f64 + THERMAL_EXCESS);
+    let limit = ROOM * (assembly.system.total_energy() + work + heat) + LEAST;
     if limit.is_nan() { f64::INFINITY } else { limit }
+}
+
+/// The thermal energy `kT` (pN nm); none without a bath.
+fn thermal_energy(assembly: &Assembly) -> f64 {
+    match &assembly.scene.task {
+        Task::Dynamics(dynamics) => dynamics.thermal.map_or(0.0, |t| t.energy_pn_nm()),
+        Task::Equilibrium(_) => 0.0,
+    }
 }
 
 #[cfg(test)]
@@ -36,12 +50,16 @@ mod tests {
     use crate::{Assembly, Scene};
 
     fn limit_of(clamps: &str) -> f64 {
+        limit_in(clamps, "duration_ns: 1.0")
+    }
+
+    fn limit_in(clamps: &str, task: &str) -> f64 {
         let text = format!(
             "Scene(
                 filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)]),
                 clamps: [{clamps}],
                 loads: [EndForce(end: End, force_pn: (3.0, 0.0, 4.0))],
-                task: Dynamics(duration_ns: 1.0),
+                task: Dynamics({task}),
             )"
         );
         let scene = Scene::from_ron(&text).unwrap();
@@ -53,5 +71,15 @@ mod tests {
     fn the_work_of_the_loads_is_bounded_where_an_end_is_fast() {
         assert!((limit_of("Clamp(end: Start)") - 601.0).abs() < 1e-9);
         assert!(limit_of("").is_infinite());
+    }
+
+    /// 18 degrees of freedom (three nodes, three frames) at 300 K: 2 (9 + 50) kT more. Without them
+    /// a thermal filament under no load, whose bound is 1 pN nm, would fail at once.
+    #[test]
+    fn heat_counts() {
+        let task = "duration_ns: 1.0, thermal: (temperature_k: 300.0, seed: 1), \
+                    drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0)";
+        let heat = limit_in("Clamp(end: Start)", task) - limit_of("Clamp(end: Start)");
+        assert!((heat - 118.0 * 300.0 * 0.013_806_49).abs() < 1e-9);
     }
 }

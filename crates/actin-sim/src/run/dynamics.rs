@@ -5,7 +5,7 @@ use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
 use crate::assembly::Ramp;
 use crate::scene::{Dynamics, Integrator, Problem, RodLaw, StopRule, Task};
-use actin_integrate::{Composition, Drag, Moment, Reason, Run};
+use actin_integrate::{Bath, Composition, Drag, Moment, Reason, Run};
 use actin_mechanics::Split;
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -200,8 +200,13 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, Problem> {
     let scheme = dynamics.integrator.composition();
     let run = Run::new(scheme, step, estimate.steps)
         .and_then(|run| run.observing_every(steps_between_records(dynamics, step)))
-        .map_err(|error| refused("time_step_ns", &error))?
-        .with_drag(drag);
+        .map_err(|error| refused("time_step_ns", &error))?;
+    let run = match &dynamics.thermal {
+        None => run.with_drag(drag),
+        Some(thermal) => Bath::new(drag, thermal.energy_pn_nm(), thermal.seed)
+            .map(|bath| run.with_bath(bath))
+            .map_err(|error| refused("thermal.temperature_k", &error))?,
+    };
     let Some(StopRule {
         force_pn,
         torque_pn_nm,

@@ -10,6 +10,7 @@ mod locate;
 mod model;
 mod problem;
 mod read;
+mod thermal;
 mod types;
 mod validate;
 
@@ -19,6 +20,7 @@ pub use law::{
 pub use linker::Linker;
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
 pub use problem::{Problem, SceneError};
+pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
 pub use types::{
     Clamp, Drag, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Load, Scene, Section,
     Setting, Slides, Stage, StopRule, Task,

@@ -1,7 +1,7 @@
 //! What a scene says: filament, clamps, loads and task.
 
-use super::Linker;
 use super::model::{JunctionModel, Monomers, RodModel};
+use super::{Linker, Thermal};
 use actin_mechanics::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -274,6 +274,9 @@ pub struct Dynamics {
     /// Drag rates; none by default.
     #[serde(default)]
     pub drag: Drag,
+    /// Thermal noise, which needs drag; none by default.
+    #[serde(default)]
+    pub thermal: Option<Thermal>,
     /// When to stop early; never by default.
     #[serde(default)]
     pub stop: Option<StopRule>,

@@ -2,7 +2,7 @@
 
 use super::{
     Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Load, Problem, Scene, Section,
-    Setting, Slides, Stage, StopRule, Task, linker,
+    Setting, Slides, Stage, StopRule, Task, linker, thermal,
 };
 use std::fmt::Debug;
 
@@ -381,6 +381,7 @@ fn check_dynamics(dynamics: &Dynamics) -> Result<(), Problem> {
         &key("drag.rotational_per_ns"),
         dynamics.drag.rotational_per_ns,
     )?;
+    thermal::check(dynamics)?;
     dynamics.stop.as_ref().map_or(Ok(()), check_stop)
 }
 

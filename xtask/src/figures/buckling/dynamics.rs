@@ -78,6 +78,7 @@ fn dynamics() -> Dynamics {
             translational_per_ns: DRAG_PER_NS,
             rotational_per_ns: DRAG_PER_NS,
         },
+        thermal: None,
         stop: Some(StopRule {
             force_pn: STOP,
             torque_pn_nm: STOP,

@@ -2,7 +2,7 @@
 
 use super::{
     EndReaction, EndReactions, EnergySummary, LinkerSummary, ResidualSummary, RunStatus,
-    ShapeSummary, StabilitySummary, Summary, WorkSummary,
+    ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
 };
 use crate::results::energies::{Totals, distinct, sum_where};
 use crate::shape::{self, Ribbon};
@@ -41,6 +41,7 @@ impl Summary {
                 force_pn: last.residual_force_pn,
                 torque_pn_nm: last.residual_torque_pn_nm,
             },
+            thermal: ThermalSummary::new(assembly, std::slice::from_ref(last)),
             lowest_stiffness_eigenvalue: equilibrium.and_then(|e| e.lowest_eigenvalue),
             work: WorkSummary {
                 steps: report.steps,

@@ -1,6 +1,9 @@
 //! `summary.json`: the last record of a run in numbers.
 
 mod compute;
+mod thermal;
+
+pub use thermal::ThermalSummary;
 
 use super::{RunDirectoryError, finite::ensure_finite};
 use crate::{BeyondRange, Counts};
@@ -44,6 +47,9 @@ pub struct Summary {
     pub shape: ShapeSummary,
     /// How far from an equilibrium the last record is.
     pub residual: ResidualSummary,
+    /// Thermal motion; none unless the scene has a temperature.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thermal: Option<ThermalSummary>,
     /// Lowest eigenvalue of the stiffness; none unless an equilibrium was asked for it.
     pub lowest_stiffness_eigenvalue: Option<f64>,
     /// What the run cost in work.
@@ -221,6 +227,9 @@ impl Summary {
                 .into_iter()
                 .filter_map(|(k, v)| Some((k.to_owned(), v?))),
         );
+        let thermal = self.thermal.map(|thermal| thermal.kinetic_temperature_k);
+        let key = "thermal.kinetic_temperature_k".to_owned();
+        scalars.extend(thermal.map(|kelvin| (key, kelvin)));
         scalars.extend(self.shape.scalars());
         let eigenvalue = self.lowest_stiffness_eigenvalue.into_iter();
         scalars.extend(eigenvalue.map(|value| ("lowest_stiffness_eigenvalue".to_owned(), value)));
