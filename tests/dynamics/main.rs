@@ -11,3 +11,4 @@ mod order;
 mod paper_balance;
 mod record;
 mod short_bonds;
+mod thermal;
