@@ -7,13 +7,15 @@
 //! `<cos theta> = exp(-s/lp)` and `<phi^2> = s kT/C`, where `theta` tilts the axis and `phi` goes
 //! about it. `near` takes neighbours; `far` takes the slopes between 1/5 and 3/5 of the length,
 //! which the wobble of single monomers does not enter. Errors are standard errors over seeds, by
-//! the jackknife; each seed is another noise and, of monomers, another sampling of anchors.
+//! the jackknife; each seed is another noise and, of monomers, another sampling of anchors. The case
+//! `cost` tells what the bath adds to a step.
 
-use actin_integrate::{Bath, Composition, Drag, PEFRL, POSITION_VERLET, advance_in};
+use actin_integrate::{Bath, Composition, Drag, PEFRL, POSITION_VERLET, advance, advance_in};
 use actin_integrate::{largest_frequency, stable_step};
-use actin_mechanics::{State, UnitQuaternion, rotation};
+use actin_mechanics::{State, System, UnitQuaternion, rotation};
 use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Scene};
 use rayon::prelude::*;
+use std::time::Instant;
 
 /// Temperature (K).
 const ROOM: f64 = 298.0;
@@ -83,12 +85,49 @@ fn main() {
     println!("{seeds} seeds of {SAMPLES} samples, {APART_NS} ns apart, drag {DRAG} per ns");
     println!("lengths in um, rigidities kT lp and C in pN nm^2, U/n in kT per degree of freedom");
     let cases = cases().into_iter();
-    for case in cases.filter(|case| wanted.as_ref().is_none_or(|w| w == case.name)) {
+    let is_wanted = |name: &str| wanted.as_ref().is_none_or(|w| w == name);
+    if is_wanted("cost") {
+        cost("rod, 11 segments", ROD);
+        cost("monomers, 40 of 64 bonds an interface", MONOMERS);
+    }
+    for case in cases.filter(|case| is_wanted(case.name)) {
         let sums: Vec<Sums> = (1..=seeds)
             .into_par_iter()
             .map(|seed| case.measure(seed))
             .collect();
         case.report(&sums);
+    }
+}
+
+/// Prints what a step takes without drag, with drag, and in the bath; the best of many short runs.
+fn cost(name: &str, sections: &'static str) {
+    let (steps, runs) = (20, 1000);
+    let case = Case {
+        sections,
+        ..cases().remove(0)
+    };
+    for scheme in [&POSITION_VERLET, &PEFRL] {
+        let mut system = Assembly::build(&case.scene(1)).expect("a filament").system;
+        let drag = Drag::new(DRAG, DRAG).expect("positive rates");
+        let kt = BOLTZMANN_PN_NM_PER_K * ROOM;
+        let bath = Bath::new(drag, kt, 1).expect("a positive energy");
+        let h = 1e-3;
+        advance_in(&mut system, scheme, h, 1000, &bath, 0);
+        let mut best = |run: &dyn Fn(&mut System)| {
+            let mut once = || {
+                let started = Instant::now();
+                run(&mut system);
+                started.elapsed().as_secs_f64() / steps as f64 * 1e6
+            };
+            (0..runs).map(|_| once()).fold(f64::INFINITY, f64::min)
+        };
+        let heated = best(&|system| advance_in(system, scheme, h, steps, &bath, 0));
+        let damped = best(&|system| advance(system, scheme, h, steps, &drag));
+        let free = best(&|system| advance(system, scheme, h, steps, &Drag::NONE));
+        println!(
+            "{name}, {}: {free:.2} us a step, {damped:.2} with drag, {heated:.2} in the bath",
+            scheme.name
+        );
     }
 }
 
