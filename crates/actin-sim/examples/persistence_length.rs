@@ -1,7 +1,7 @@
 //! Persistence length from thermal motion: of the rod against B/kT, and of the ellipsoid filament,
 //! with error bars, against the time step and against the temperature.
 //!
-//! `cargo run --release -p actin-sim --example persistence_length [SEEDS [CASE]]`
+//! `cargo run --release -p actin-sim --example persistence_length [SEEDS [CASE [FIRST]]]`
 //!
 //! Free filaments in a heat bath; of the turn of one cross-section against another at distance `s`,
 //! `<cos theta> = exp(-s/lp)` and `<phi^2> = s kT/C`, where `theta` tilts the axis and `phi` goes
@@ -82,6 +82,7 @@ fn main() {
     let mut arguments = std::env::args().skip(1);
     let seeds: u64 = arguments.next().map_or(32, |s| s.parse().expect("a count"));
     let wanted = arguments.next();
+    let first: u64 = arguments.next().map_or(1, |s| s.parse().expect("a seed"));
     println!("{seeds} seeds of {SAMPLES} samples, {APART_NS} ns apart, drag {DRAG} per ns");
     println!("lengths in um, rigidities kT lp and C in pN nm^2, U/n in kT per degree of freedom");
     let cases = cases().into_iter();
@@ -91,7 +92,7 @@ fn main() {
         cost("monomers, 40 of 64 bonds an interface", MONOMERS);
     }
     for case in cases.filter(|case| is_wanted(case.name)) {
-        let sums: Vec<Sums> = (1..=seeds)
+        let sums: Vec<Sums> = (first..first + seeds)
             .into_par_iter()
             .map(|seed| case.measure(seed))
             .collect();
