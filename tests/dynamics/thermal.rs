@@ -65,8 +65,8 @@ fn temperatures(assembly: &Assembly, state: &State) -> BTreeMap<String, f64> {
     sums.into_iter().map(share).collect()
 }
 
-/// Equipartition: <m v^2> and <L_a^2/I_a> are kT for monomers, nodes, segments and the frames of
-/// junctions, a hundred times lighter than their neighbours; <P^2/M> is kT for the whole filament.
+/// Equipartition: `m v^2` and `L_a^2/I_a` have the mean kT for monomers, nodes, segments and the
+/// frames of junctions, which are the lightest; so has `P^2/M` for the whole filament.
 /// Noise scaled with the inertia instead of its root would be off by those factors.
 #[test]
 fn every_kind_of_body_has_the_temperature() {

@@ -11,6 +11,7 @@ use actin_integrate::{
 use actin_mechanics::testing::momenta;
 use actin_mechanics::{
     Frame, Inertia, Interaction, Loads, Point, Slider, State, System, UnitQuaternion, Vector3,
+    Vectors,
 };
 use common::{Springs, chain, distance, three_tops};
 
@@ -240,35 +241,38 @@ fn oscillator_has_the_temperature_of_its_scheme() {
         } else if scheme == VELOCITY_VERLET {
             assert!((expected * (1.0 - quarter) - 1.0).abs() < 1e-14);
         }
-        let mut system = crowd(300);
-        let (mass, stiffness): (f64, f64) = (0.07, 30.0);
-        system = System::new(system.state().clone(), vec![Box::new(Traps(stiffness))]);
-        let h = theta * (mass / stiffness).sqrt();
-        // Strong damping: positions are forgotten within a few oscillations.
-        let bath = bath((stiffness / mass).sqrt(), 1.0, KT, 23);
-        // Ten radians at least between samples, which are then independent.
-        let apart = if theta < 1.0 { 20 } else { 7 };
-        advance_in(&mut system, &scheme, h, 3 * apart, &bath, 0);
-        let (mut kinetic, mut potential) = (Vec::new(), Vec::new());
-        for sample in 3..43 {
-            advance_in(&mut system, &scheme, h, apart, &bath, apart * sample);
-            let points = &system.state().points;
-            let squares = |v: &actin_mechanics::Vectors| -> f64 {
-                v.iter().map(|v| v.norm_squared()).sum::<f64>() / 900.0
-            };
-            kinetic.push(mass * squares(&points.velocity) / KT);
-            potential.push(stiffness * squares(&points.position) / KT);
-        }
-        for (what, series, expected) in [
-            ("kinetic", &kinetic, 1.0),
-            ("potential", &potential, expected),
+        let means = oscillator_temperatures(&scheme, theta);
+        for (what, mean, expected) in [
+            ("kinetic", means[0], 1.0),
+            ("potential", means[1], expected),
         ] {
-            let mean = series.iter().sum::<f64>() / 40.0;
             println!("{scheme}, omega h {theta}: {what} {mean:.4}, expected {expected:.4}");
             let variance = 2.0 * expected * expected;
             assert_mean(what, mean, expected, variance, 40 * 900);
         }
     }
+}
+
+/// Means of `m v^2/kT` and `k x^2/kT` over 40 samples of 900 oscillators at `omega h = theta`.
+fn oscillator_temperatures(scheme: &Composition, theta: f64) -> [f64; 2] {
+    let (mass, stiffness): (f64, f64) = (0.07, 30.0);
+    let state = crowd(300).state().clone();
+    let mut system = System::new(state, vec![Box::new(Traps(stiffness))]);
+    let h = theta * (mass / stiffness).sqrt();
+    // Strong damping: positions are forgotten within a few oscillations.
+    let bath = bath((stiffness / mass).sqrt(), 1.0, KT, 23);
+    // Ten radians at least between samples, which are then independent.
+    let apart = if theta < 1.0 { 20 } else { 7 };
+    advance_in(&mut system, scheme, h, 3 * apart, &bath, 0);
+    let mut means = [0.0; 2];
+    for sample in 3..43 {
+        advance_in(&mut system, scheme, h, apart, &bath, apart * sample);
+        let points = &system.state().points;
+        let square = |v: &Vectors| v.iter().map(|v| v.norm_squared()).sum::<f64>() / 900.0;
+        means[0] += mass * square(&points.velocity) / (40.0 * KT);
+        means[1] += stiffness * square(&points.position) / (40.0 * KT);
+    }
+    means
 }
 
 /// The share by which positions are too warm or too cold is of the order of the method.

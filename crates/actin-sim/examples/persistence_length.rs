@@ -60,9 +60,9 @@ fn cases() -> Vec<Case> {
         case("rod", ROD, &POSITION_VERLET, 0.8, ROOM),
         case("rod", ROD, &POSITION_VERLET, 0.4, ROOM),
         case("monomers", MONOMERS, &PEFRL, 0.5, ROOM),
-        case("monomers", MONOMERS, &PEFRL, 0.25, ROOM),
-        case("monomers", MONOMERS, &POSITION_VERLET, 0.4, ROOM),
-        case("monomers", MONOMERS, &POSITION_VERLET, 0.2, ROOM),
+        case("monomers-fine", MONOMERS, &PEFRL, 0.25, ROOM),
+        case("monomers-verlet", MONOMERS, &POSITION_VERLET, 0.4, ROOM),
+        case("monomers-verlet", MONOMERS, &POSITION_VERLET, 0.2, ROOM),
         Case {
             monomers: UNSCALED,
             ..case("monomers-unscaled", MONOMERS, &POSITION_VERLET, 0.4, ROOM)
