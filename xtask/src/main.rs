@@ -1,12 +1,12 @@
 //! Tasks of this workspace: `cargo xtask <task>`.
 
 mod check;
+mod docs;
 mod figures;
 mod fit;
 mod tidy;
 
 use clap::{Parser, Subcommand};
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Tasks of this workspace.
@@ -24,23 +24,17 @@ enum Task {
     /// Fits a rod's laws to tables or to filaments of monomers.
     FitParameters(fit::Options),
     /// Computes figures and tables of the paper and compares them with it.
-    ReproduceFigures {
-        /// Which: fig1 to fig10, table1 to table5. All by default.
-        ids: Vec<String>,
-        /// Where to write pictures, tables and reports.
-        #[arg(long, default_value = "target/figures")]
-        out: PathBuf,
-        /// Fewer resolutions and shorter runs.
-        #[arg(long)]
-        quick: bool,
-    },
+    ReproduceFigures(figures::Options),
+    /// Compares the numbers that the documents mark with a report.
+    CheckDocs(docs::Options),
 }
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Check => check::run(),
         Task::FitParameters(options) => fit::run(&options),
-        Task::ReproduceFigures { ids, out, quick } => figures::reproduce(&ids, &out, quick),
+        Task::ReproduceFigures(options) => figures::reproduce(&options),
+        Task::CheckDocs(options) => docs::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -20,7 +20,6 @@ pub(super) struct Motion {
     pub residual: (f64, f64),
     pub time_ns: f64,
     pub force_evaluations: u64,
-    pub wall_s: f64,
     /// The equilibrium that Newton's method finds from that state.
     pub nearest: Outcome,
 }
@@ -62,7 +61,6 @@ pub(super) fn run(case: &Case) -> Result<Motion, String> {
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
         time_ns: last.time_ns,
         force_evaluations: report.force_evaluations,
-        wall_s: report.wall_s,
         nearest: nearest(case, last)?,
     })
 }
@@ -121,13 +119,12 @@ fn differences(motion: &Motion) -> Vec<Row> {
         let value = (observable.of)(&motion.end) - (observable.of)(&motion.nearest.measured);
         let note = format!(
             "end of damped motion ({:.0} ns, residual {:.1e} pN and {:.1e} pN nm, {} force \
-             evaluations, {:.0} s) minus the equilibrium that Newton's method finds from it; \
+             evaluations) minus the equilibrium that Newton's method finds from it; \
              certified stable: {}",
             motion.time_ns,
             motion.residual.0,
             motion.residual.1,
             motion.force_evaluations,
-            motion.wall_s,
             motion.nearest.is_stable()
         );
         let quantity = format!("dynamics_difference/{}/{name}", observable.name);

@@ -22,7 +22,6 @@ pub(super) struct Outcome {
     /// Newton steps of the whole path, and equilibria on it.
     pub iterations: u64,
     pub points: usize,
-    pub wall_s: f64,
 }
 
 /// What is seen of a state.
@@ -91,7 +90,6 @@ pub(super) fn outcome(case: &Case, assembly: &mut Assembly) -> Result<Outcome, S
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
         iterations: found.newton_iterations,
         points: found.points,
-        wall_s: report.wall_s,
     })
 }
 

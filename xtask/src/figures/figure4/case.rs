@@ -60,7 +60,6 @@ pub(super) struct Result4 {
     pub converged: bool,
     pub time_ns: f64,
     pub force_evaluations: u64,
-    pub wall_s: f64,
 }
 
 /// Drag rates while a filament swings (1/ns): the amplitude decays at half this rate.
@@ -178,7 +177,6 @@ impl Case {
             converged: report.converged,
             time_ns: last.time_ns,
             force_evaluations: report.force_evaluations,
-            wall_s: report.wall_s,
         })
     }
 }

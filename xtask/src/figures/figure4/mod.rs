@@ -8,10 +8,10 @@ mod pictures;
 mod ringdown;
 mod rows;
 
+use super::Run;
 use super::report::Artefact;
 use case::{Case, Result4, Variant};
 use rayon::prelude::*;
-use std::path::Path;
 use std::time::Instant;
 
 /// Lengths of the rod part (nm), as in the paper.
@@ -22,19 +22,23 @@ const QUICK_ROD_LENGTHS: [u32; 3] = [20, 80, 140];
 const SEEDS: u64 = 8;
 
 /// Runs all cases, draws them and compares them.
-pub(super) fn reproduce(out: &Path, quick: bool) -> Result<Artefact, String> {
+pub(super) fn reproduce(run: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
+    let Run {
+        out,
+        quick,
+        progress,
+    } = run;
     let cases = cases(quick);
-    let progress = indicatif::ProgressBar::new(cases.len() as u64);
+    progress.expect(cases.len());
     let results: Vec<Result4> = cases
         .par_iter()
         .map(|case| {
             let result = case.run();
-            progress.inc(1);
+            progress.done();
             result
         })
         .collect::<Result<_, _>>()?;
-    progress.finish_and_clear();
     let pictures = pictures::draw(&results, out)?;
     rows::write_tables(&results, out)?;
     Ok(Artefact {

@@ -210,14 +210,13 @@ pub(super) fn write_tables(results: &[Result4], out: &Path) -> Result<(), String
     write_csv(out, "fig4.csv", &COLUMNS, results.iter().map(columns))
 }
 
-const COLUMNS: [&str; 7] = [
+const COLUMNS: [&str; 6] = [
     "case",
     "tip_drop_nm",
     "residual_pn",
     "residual_pn_nm",
     "time_ns",
     "force_evaluations",
-    "wall_s",
 ];
 
 /// One result under [`COLUMNS`].
@@ -229,7 +228,6 @@ fn columns(r: &Result4) -> Vec<String> {
         number(r.residual.1),
         number(r.time_ns),
         r.force_evaluations.to_string(),
-        format!("{:.2}", r.wall_s),
     ]
 }
 

@@ -4,6 +4,7 @@
 mod case;
 mod rows;
 
+use super::Run;
 use super::plot::{Chart, Series, draw as draw_chart, resolution_colour};
 use super::report::{Artefact, Picture};
 use actin_sim::Hold;
@@ -17,10 +18,23 @@ const SEEDS: u64 = 16;
 const QUICK_SEEDS: u64 = 4;
 
 /// Runs all cases, draws them and compares them.
-pub(super) fn reproduce(out: &Path, quick: bool) -> Result<Artefact, String> {
+pub(super) fn reproduce(run: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
+    let Run {
+        out,
+        quick,
+        progress,
+    } = run;
     let cases = cases(if quick { QUICK_SEEDS } else { SEEDS });
-    let results: Vec<Halves> = cases.par_iter().map(Case::run).collect::<Result<_, _>>()?;
+    progress.expect(cases.len());
+    let results: Vec<Halves> = cases
+        .par_iter()
+        .map(|case| {
+            let halves = case.run();
+            progress.done();
+            halves
+        })
+        .collect::<Result<_, _>>()?;
     rows::write_tables(&results, out)?;
     let worst = |pick: fn(&Halves) -> f64| results.iter().map(pick).fold(0.0, f64::max);
     Ok(Artefact {

@@ -1,5 +1,6 @@
 //! Tables 1 and 2: parameters as published, as the crates hold them, and what follows from them.
 
+use crate::figures::Run;
 use crate::figures::report::{Artefact, Row, write_csv};
 use actin_sim::{Material, Monomers, ellipsoid_constants as monomer, rod_constants as rod};
 use std::f64::consts::PI;
@@ -10,7 +11,7 @@ use std::time::Instant;
 const ROUND_OFF: f64 = 1e-9;
 
 /// Computes Table 1.
-pub(in crate::figures) fn table1(out: &Path, _quick: bool) -> Result<Artefact, String> {
+pub(in crate::figures) fn table1(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
     let mut rows = published_monomers();
     rows.extend(derived_monomers());
@@ -26,7 +27,7 @@ pub(in crate::figures) fn table1(out: &Path, _quick: bool) -> Result<Artefact, S
 }
 
 /// Computes Table 2.
-pub(in crate::figures) fn table2(out: &Path, _quick: bool) -> Result<Artefact, String> {
+pub(in crate::figures) fn table2(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
     let mut rows = published_rod();
     rows.extend(derived_rod());

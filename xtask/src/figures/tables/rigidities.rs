@@ -5,10 +5,10 @@ use super::loads::{AZIMUTHS_DEG, CURVATURES, Measured, PULL_PN};
 use super::paper::{Table, entries};
 use super::parameters::write_rows;
 use super::statistics::Sample;
+use crate::figures::Run;
 use crate::figures::html::significant;
 use crate::figures::report::{Artefact, Row};
 use actin_sim::{Monomers, ellipsoid_constants as monomer};
-use std::path::Path;
 use std::time::Instant;
 
 /// Share of S3 = 3.4e4 pN by which the mean may be off.
@@ -25,18 +25,18 @@ const B3_MIN: f64 = 9.6e3;
 const B3_MAX: f64 = 1.6e4;
 
 /// Computes Table 4.
-pub(in crate::figures) fn table4(out: &Path, quick: bool) -> Result<Artefact, String> {
+pub(in crate::figures) fn table4(run: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
-    let ensemble = ensemble(quick)?;
-    let measured = Measured::run(quick)?;
+    let ensemble = ensemble(run)?;
+    let measured = Measured::run(run)?;
     let mut rows = stretching(&measured);
     rows.extend(bending(&measured));
     rows.extend(shearing(&measured));
     rows.extend(twisting(ensemble)?);
     rows.extend(interfaces());
     rows.extend(persistence(&measured));
-    write_rows("table4", &rows, out)?;
-    measured.write(out)?;
+    write_rows("table4", &rows, run.out)?;
+    measured.write(run.out)?;
     Ok(Artefact {
         id: "table4",
         title: "Rigidities of the multi-resolution model, measured on the monomers",

@@ -4,8 +4,8 @@ use super::ensemble::{Ensemble, Kind, ensemble, turn_deg, value};
 use super::paper::{CURVATURE_ROUNDING, Entry, Table, entries};
 use super::statistics::{rms, sample};
 use super::{lengths, listings, pictures};
+use crate::figures::Run;
 use crate::figures::report::{Artefact, Row};
-use std::path::Path;
 use std::time::Instant;
 
 /// Angles (deg) over which the root mean square is taken.
@@ -16,18 +16,19 @@ const RIGIDITY_RMS: f64 = 0.12;
 const LENGTH_CHANGE_RMS: f64 = 0.0012;
 
 /// Computes Table 3.
-pub(in crate::figures) fn table3(out: &Path, quick: bool) -> Result<Artefact, String> {
-    reproduce(Table::Rigidity, out, quick)
+pub(in crate::figures) fn table3(run: Run<'_>) -> Result<Artefact, String> {
+    reproduce(Table::Rigidity, run)
 }
 
 /// Computes Table 5.
-pub(in crate::figures) fn table5(out: &Path, quick: bool) -> Result<Artefact, String> {
-    reproduce(Table::LengthChange, out, quick)
+pub(in crate::figures) fn table5(run: Run<'_>) -> Result<Artefact, String> {
+    reproduce(Table::LengthChange, run)
 }
 
-fn reproduce(table: Table, out: &Path, quick: bool) -> Result<Artefact, String> {
+fn reproduce(table: Table, run: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
-    let ensemble = ensemble(quick)?;
+    let out = run.out;
+    let ensemble = ensemble(run)?;
     let entries = entries(table)?;
     listings::write(table, ensemble, &entries, out)?;
     let pictures = pictures::draw(table, ensemble, &entries, out)?;
@@ -40,8 +41,8 @@ fn reproduce(table: Table, out: &Path, quick: bool) -> Result<Artefact, String> 
     for kind in ensemble.kinds() {
         rows.push(rms_row(table, ensemble, kind, &entries));
     }
-    if table == Table::Rigidity && !quick {
-        rows.extend(lengths::rows(out)?);
+    if table == Table::Rigidity && !run.quick {
+        rows.extend(lengths::rows(run)?);
     }
     Ok(Artefact {
         id: table.id(),
