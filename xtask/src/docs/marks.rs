@@ -6,9 +6,39 @@
 //!   stands for the star in each column is listed above the table, `_` for a column that is none:
 //!   `<!-- columns: rod, rod-240, ellipsoids -->`, with a unit if one is needed:
 //!   `<!-- columns: 10, 40; in 1e-4 -->`. Of a cell the first number counts; empty ones are none.
-//! - `@paper` after the name is the paper's number.
+//! - `@paper` after the name is the paper's number; `@verdict` is the verdict, `yes` or `no` in the
+//!   place of a number.
 
 use super::number;
+
+/// What of a row is marked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Of {
+    Ours,
+    Paper,
+    Verdict,
+}
+
+impl Of {
+    /// A name without what follows it, and what that means.
+    fn split(name: &str) -> (&str, Self) {
+        let suffixes = [("@paper", Self::Paper), ("@verdict", Self::Verdict)];
+        let found = suffixes
+            .into_iter()
+            .find_map(|(suffix, of)| Some((name.strip_suffix(suffix)?, of)));
+        found.unwrap_or((name, Self::Ours))
+    }
+
+    /// The place in a word of what is marked so, and itself.
+    fn in_word(self, word: &str) -> Option<(usize, &str)> {
+        if self != Self::Verdict {
+            return number::in_word(word);
+        }
+        let bare = word.trim_matches('*');
+        let place = word.len() - word.trim_start_matches('*').len();
+        ["yes", "no"].contains(&bare).then_some((place, bare))
+    }
+}
 
 /// A number of a document, and what it should be.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,15 +50,18 @@ pub(super) struct Mark {
     pub shown: String,
     pub artefact: String,
     pub quantity: String,
-    /// Whether it is the paper's number.
-    pub of_paper: bool,
+    pub of: Of,
     /// What the report's number is divided by.
     pub unit: f64,
 }
 
 impl Mark {
     pub(super) fn name(&self) -> String {
-        let of = if self.of_paper { "@paper" } else { "" };
+        let of = match self.of {
+            Of::Ours => "",
+            Of::Paper => "@paper",
+            Of::Verdict => "@verdict",
+        };
         format!("{}:{}{of}", self.artefact, self.quantity)
     }
 }
@@ -103,16 +136,14 @@ fn read_columns(list: &str) -> Result<Columns, String> {
 
 fn mark(line: usize, (start, shown): (usize, &str), name: &str, unit: f64) -> Mark {
     let (artefact, quantity) = name.split_once(':').unwrap_or((name, ""));
-    let (quantity, of_paper) = quantity
-        .strip_suffix("@paper")
-        .map_or((quantity, false), |quantity| (quantity, true));
+    let (quantity, of) = Of::split(quantity);
     Mark {
         line,
         start,
         shown: shown.to_owned(),
         artefact: artefact.to_owned(),
         quantity: quantity.to_owned(),
-        of_paper,
+        of,
         unit,
     }
 }
@@ -122,7 +153,7 @@ fn single(line: usize, text: &str, comment: usize, name: &str) -> Result<Mark, S
     let before = &text[..comment];
     let words = words(before);
     let found = words.iter().rev().find_map(|&(start, word)| {
-        let (offset, number) = number::in_word(word)?;
+        let (offset, number) = Of::split(name).1.in_word(word)?;
         Some((start + offset, number))
     });
     let (start, number) = found.ok_or_else(|| format!("{name}: no number before the mark"))?;
@@ -150,8 +181,9 @@ fn row(line: usize, text: &str, name: &str, columns: &Columns) -> Result<Vec<Mar
         .zip(&columns.keys)
         .filter(|(_, key)| *key != "_");
     let marks = named.filter_map(|((start, cell), key)| {
+        let name = name.replace('*', key);
         let found = words(cell).into_iter().find_map(|(at, word)| {
-            let (offset, number) = number::in_word(word)?;
+            let (offset, number) = Of::split(&name).1.in_word(word)?;
             Some((start + at + offset, number))
         });
         let unit = if cell.contains('%') {
@@ -159,7 +191,7 @@ fn row(line: usize, text: &str, name: &str, columns: &Columns) -> Result<Vec<Mar
         } else {
             columns.unit
         };
-        Some(mark(line, found?, &name.replace('*', key), unit))
+        Some(mark(line, found?, &name, unit))
     });
     Ok(marks.collect())
 }

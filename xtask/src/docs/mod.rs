@@ -8,7 +8,7 @@ mod number;
 
 use crate::check::workspace_root;
 use crate::figures::report::{self, Row};
-use marks::{Mark, marks};
+use marks::{Mark, Of, marks};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -135,12 +135,15 @@ fn expected(mark: &Mark, rows: &Report) -> Result<String, String> {
     let row = rows
         .get(&(mark.artefact.clone(), mark.quantity.clone()))
         .ok_or("no such row in the report")?;
-    let value = if mark.of_paper {
-        row.paper.ok_or("the paper gives nothing")?
-    } else {
-        row.ours
-    };
-    Ok(number::like(&mark.shown, value / mark.unit))
+    let number = |value: f64| number::like(&mark.shown, value / mark.unit);
+    match mark.of {
+        Of::Ours => Ok(number(row.ours)),
+        Of::Paper => Ok(number(row.paper.ok_or("the paper gives nothing")?)),
+        Of::Verdict => {
+            let pass = row.pass.ok_or("there is no verdict")?;
+            Ok(if pass { "yes" } else { "no" }.to_owned())
+        }
+    }
 }
 
 /// The document with the report's numbers at its marks.

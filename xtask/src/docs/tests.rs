@@ -19,6 +19,9 @@ At most 36.74 nm <!-- fig8:height/rod --> (the paper: 36 <!-- fig8:height/rod@pa
 |---|---|---|---|
 | all <!-- fig8:height/* --> | 3.674 ± 0.1 | 8 | **3.453** |
 | some <!-- fig8:height/* --> | | | 3.5 |
+
+<!-- columns: , @paper, @verdict -->
+| one <!-- fig8:height/rod* --> | 37 | 36 | **yes** |
 ";
 
 fn wrong(text: &str) -> Vec<String> {
@@ -32,14 +35,16 @@ fn wrong(text: &str) -> Vec<String> {
 /// Every kind of mark is read and holds; changed digits are told with their place.
 #[test]
 fn marks_are_held_to_the_report() {
-    assert_eq!(marks("a.md", TEXT).unwrap().len(), 6);
+    assert_eq!(marks("a.md", TEXT).unwrap().len(), 9);
     assert_eq!(wrong(TEXT), Vec::<String>::new());
     let stale = TEXT.replace("36.74", "36.75").replace("3.453", "3.461");
+    let stale = stale.replace("**yes**", "no");
     assert_eq!(
         wrong(&stale),
         [
             "a.md:1: fig8:height/rod reads 36.75, the report says 36.74",
             "a.md:6: fig8:height/ellipsoids reads 3.461, the report says 3.453",
+            "a.md:10: fig8:height/rod@verdict reads no, the report says yes",
         ]
     );
     let unknown = "1 <!-- fig8:height/none -->";
@@ -61,7 +66,7 @@ fn marks_that_mark_nothing_are_errors() {
 /// Writing replaces what is stale and nothing else.
 #[test]
 fn stale_numbers_are_replaced() {
-    let stale = TEXT.replace("36.74", "99.99").replace("3.453", "9.999");
+    let stale = TEXT.replace("36.74", "99.99").replace("**yes**", "**no**");
     assert_eq!(updated("a.md", &stale, &report()).unwrap(), TEXT);
 }
 

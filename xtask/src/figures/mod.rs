@@ -6,6 +6,7 @@
 //! over threads and put together in an order that does not depend on them.
 
 mod buckling;
+mod claims;
 mod figure4;
 mod figure7;
 mod figure9;
@@ -17,6 +18,7 @@ mod progress;
 pub(crate) mod report;
 mod scene3d;
 mod schematics;
+mod settles;
 mod tables;
 
 pub(crate) use tables::paper;
@@ -157,7 +159,8 @@ fn artefact(
             quick: options.quick,
             progress: &progress,
         };
-        let artefact = recipe(run)?;
+        let mut artefact = recipe(run)?;
+        artefact.rows.extend(claims::rows(id, &artefact.rows));
         Ok((artefact, progress.finish()))
     })?;
     println!("{id}: finished, {}", effort(&kept));

@@ -39,7 +39,7 @@ pub(crate) struct Row {
 
 impl Row {
     /// A number with nothing to compare it to.
-    pub(super) fn measured(
+    pub(crate) fn measured(
         artefact: &'static str,
         quantity: impl Into<String>,
         unit: &'static str,
@@ -59,7 +59,7 @@ impl Row {
     }
 
     /// The same number, compared to `paper`.
-    pub(super) fn against(self, paper: f64, tolerance: f64) -> Self {
+    pub(crate) fn against(self, paper: f64, tolerance: f64) -> Self {
         Self {
             paper: Some(paper),
             tolerance: Some(tolerance),

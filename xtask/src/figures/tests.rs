@@ -3,7 +3,28 @@
 use super::*;
 use report::{Picture, save};
 use std::collections::BTreeSet;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+static FOLDERS: AtomicUsize = AtomicUsize::new(0);
+
+/// A folder for one test, which goes with it.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new() -> Self {
+        let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
+        let name = format!("actin-figures-{}-{number}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
 
 /// An artefact with one picture and one table.
 fn drawn(id: &'static str, out: &Path) -> Result<Artefact, String> {
@@ -54,14 +75,14 @@ fn reasons(options: &Options, fingerprint: &str) -> [Option<Reason>; 2] {
 
 #[test]
 fn finished_artefacts_are_kept_to_the_last_bit() {
-    let folder = tempfile::tempdir().unwrap();
-    let options = options(folder.path());
+    let folder = Folder::new();
+    let options = options(&folder.0);
     let first = artefacts(&BOTH, &options).unwrap();
     let again = artefacts(&BOTH, &options).unwrap();
     assert_eq!(first, again);
     assert_eq!(reasons(&options, "other")[0], Some(Reason::Outdated));
     assert_eq!(reasons(&options, "other"), [None, None]);
-    let shelf = Shelf::new(folder.path(), "other".into()).unwrap();
+    let shelf = Shelf::new(&folder.0, "other".into()).unwrap();
     assert_eq!(shelf.find("fig1").unwrap().runs, 3);
 }
 
@@ -69,8 +90,8 @@ fn finished_artefacts_are_kept_to_the_last_bit() {
 /// nothing else.
 #[test]
 fn what_is_amiss_is_computed_again() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path();
+    let folder = Folder::new();
+    let out = folder.0.as_path();
     let options = options(out);
     let all = || reasons(&options, "same");
     assert_eq!(all(), [Some(Reason::NotThere), Some(Reason::NotThere)]);
@@ -107,22 +128,18 @@ fn stops(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
 /// What an ended command left behind is not taken for a result, and what it had finished is kept.
 #[test]
 fn an_ended_command_goes_on_where_it_was() {
-    let folder = tempfile::tempdir().unwrap();
-    let options = options(folder.path());
+    let folder = Folder::new();
+    let options = options(&folder.0);
     let recipes: [Recipe; 2] = [("fig1", one), ("fig2", stops)];
     assert_eq!(artefacts(&recipes, &options).unwrap_err(), "stopped");
     let names = || -> BTreeSet<String> {
-        let entries = fs::read_dir(folder.path()).unwrap();
+        let entries = fs::read_dir(&folder.0).unwrap();
         let names = entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned());
         names.collect()
     };
     let finished = [".artefacts", "fig1.csv", "fig1.svg"];
     assert!(names().iter().eq(finished), "{:?}", names());
-    let shelf = Shelf::new(
-        folder.path(),
-        kept::fingerprint(&options.choices()).unwrap(),
-    )
-    .unwrap();
+    let shelf = Shelf::new(&folder.0, kept::fingerprint(&options.choices()).unwrap()).unwrap();
     let again = recipes.map(|recipe| artefact(recipe, &shelf, &options).unwrap().1);
     assert_eq!(again, [None, Some(Reason::NotThere)]);
     assert!(names().contains("fig2.svg"));

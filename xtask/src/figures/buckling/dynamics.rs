@@ -36,10 +36,14 @@ const LONGEST_NS: f64 = 3000.0;
 /// thrust and energy follow.
 const TOLERANCES: [f64; 4] = [0.02, 0.3, 0.02, 0.05];
 
-/// The cases that are moved in time: one mixed resolution in both directions.
+/// The cases that are moved in time: one mixed resolution in both directions, or none.
 pub(super) fn cases(plan: &Plan) -> Vec<Case> {
     let case = |turn| Case::new(plan.main(), Resolved::Mixed(140), turn, 0);
-    [180, -180].map(case).into()
+    if plan.moving {
+        [180, -180].map(case).into()
+    } else {
+        Vec::new()
+    }
 }
 
 /// Moves the filament along its path in time, then solves from where it came to rest.

@@ -46,6 +46,12 @@ pub(super) struct Result4 {
     pub tip_drop_nm: f64,
     /// Time (ns), elastic plus kinetic energy (pN nm).
     pub energy: Vec<(f64, f64)>,
+    /// The same with the load's potential (pN nm), record by record.
+    pub total: Vec<f64>,
+    /// Whether it was moved in time; the equilibrium was solved for otherwise.
+    pub moved: bool,
+    /// Evaluations of bonds and segments.
+    pub work: f64,
     /// Centre line at the end (nm).
     pub centre_line: Vec<[f64; 3]>,
     /// Monomer centres at the end (nm).
@@ -144,16 +150,21 @@ impl Case {
         }
     }
 
-    /// Runs the case to its end.
-    pub(super) fn run(&self) -> Result<Result4, String> {
+    /// Runs the case to its end, in time if `moving`.
+    pub(super) fn run(&self, moving: bool) -> Result<Result4, String> {
         let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", self.name());
-        let mut assembly = Assembly::build(&self.scene()?).map_err(|e| fail(&e))?;
+        let mut scene = self.scene()?;
+        if !moving {
+            scene.task = Task::Equilibrium(Equilibrium::default());
+        }
+        let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
         let watch = &mut |_| ControlFlow::Continue(());
         let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
         let last = trajectory
             .records
             .last()
             .ok_or_else(|| fail(&"no record"))?;
+        let counts = assembly.counts();
         let drop = |record: &Record| -displacement(&assembly, record);
         let positions = |keep: &dyn Fn(usize) -> Option<[f64; 3]>| -> Vec<[f64; 3]> {
             (0..assembly.points.len()).filter_map(keep).collect()
@@ -166,12 +177,23 @@ impl Case {
                 .iter()
                 .map(|record| (record.time_ns, internal_energy(&assembly, record)))
                 .collect(),
+            total: trajectory
+                .records
+                .iter()
+                .map(|record| record.potential_pn_nm() + record.kinetic_pn_nm)
+                .collect(),
+            moved: moving,
+            work: report.force_evaluations as f64 * (counts.bonds + counts.segments) as f64,
             centre_line: positions(&|i| Some(assembly.centre_line_nm(&last.state, i).into())),
             monomers: positions(&|i| {
                 let monomer = assembly.points[i].frame.is_some();
                 monomer.then(|| last.state.points.position.get(i).into())
             }),
-            ring_down: self.ring_down(drop(last))?,
+            ring_down: if moving {
+                self.ring_down(drop(last))?
+            } else {
+                None
+            },
             newton: self.newton()?,
             residual: (last.residual_force_pn, last.residual_torque_pn_nm),
             converged: report.converged,
@@ -259,10 +281,15 @@ fn internal_energy(assembly: &Assembly, record: &Record) -> f64 {
 pub(super) fn settings(results: &[Result4]) -> String {
     let worst = |pick: fn(&Result4) -> f64| results.iter().map(pick).fold(0.0, f64::max);
     let unfinished = results.iter().filter(|r| !r.converged).count();
+    let how = if results.iter().any(|r| r.moved) {
+        "damped dynamics"
+    } else {
+        "equilibria by Newton's method"
+    };
     format!(
-        "Scenes scenarios/figure-4/*.ron, {} cases, damped dynamics; at the end every force is \
-         below {:.1e} pN and every torque below {:.1e} pN nm; {unfinished} case(s) ended by time. \
-         Seed 0 unless named.",
+        "Scenes scenarios/figure-4/*.ron, {} cases, {how}; at the end every force is below {:.1e} \
+         pN and every torque below {:.1e} pN nm; {unfinished} case(s) ended before. Seed 0 unless \
+         named.",
         results.len(),
         worst(|r| r.residual.0),
         worst(|r| r.residual.1),

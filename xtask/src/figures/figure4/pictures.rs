@@ -68,8 +68,10 @@ fn panels(
         "The same states seen along the unloaded filament.".into(),
         "Elastic and kinetic energy while the damped motion comes to rest.".into(),
     ];
+    let is_moved = results.iter().any(|r| r.moved);
     let charts = [(side, "side"), (end, "end"), (energy, "energy")];
     let drawn = charts.into_iter().zip(captions);
+    let drawn = drawn.filter(|((_, panel), _)| is_moved || *panel != "energy");
     drawn
         .map(|((chart, panel), caption)| {
             let file = format!("fig4_{}_{weight}_{panel}.svg", force.replace(' ', "_"));

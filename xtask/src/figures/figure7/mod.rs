@@ -41,7 +41,7 @@ pub(super) fn reproduce(run: Run<'_>) -> Result<Artefact, String> {
         id: "fig7",
         title: "Turned in the middle: the energy of both halves",
         settings: format!(
-            "Scenes scenarios/figure-7/*.ron, {} equilibria; every force is below {:.1e} pN and \
+            "Scenes scenarios/figure-7/*.ron, {} equilibria, seeds from 0; every force is below {:.1e} pN and \
              every torque below {:.1e} pN nm.",
             results.len(),
             worst(|h| h.residual.0),

@@ -49,7 +49,7 @@ pub(in crate::figures) fn table4(run: Run<'_>) -> Result<Artefact, String> {
 
 fn settings(measured: &Measured) -> String {
     format!(
-        "64 independent bonds per interface. Stretch: {} samplings, {:.2} nm, turn blocked. \
+        "64 independent bonds per interface. Stretch: {} samplings (seeds from 0), {:.2} nm, turn blocked. \
          Bending and shear: {} samplings at azimuths {AZIMUTHS_DEG:?} deg, {:.2} nm, both ends \
          held in orientation, the far one slides freely. Two monomers are held at each end; \
          lengths are those between the inner ones. {} of {} states are not stable beyond doubt; \
