@@ -116,10 +116,10 @@ pub(crate) fn text(mut rows: Vec<Row>) -> Result<String, String> {
         ));
     }
     let is_twice = |w: &&[Row]| (w[0].artefact, &w[0].quantity) == (w[1].artefact, &w[1].quantity);
-    if let Some(twice) = rows.windows(2).find(is_twice) {
+    if let Some([twice, ..]) = rows.windows(2).find(is_twice) {
         let Row {
             artefact, quantity, ..
-        } = &twice[0];
+        } = twice;
         return Err(format!("{artefact} {quantity} is written twice"));
     }
     let lines: Vec<String> = rows

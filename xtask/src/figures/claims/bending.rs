@@ -22,7 +22,7 @@ pub(super) fn cantilever(known: &Known<'_>) -> Vec<Row> {
         let note = "filaments of all resolutions overlap; largest minus smallest tip drop of the \
                     mixed ones, beside the radius of the helix";
         let holds = Holds::AtMost(HELIX_RADIUS_NM);
-        all.push(known.claim("tips_overlap", "nm", high - low, holds, note.into()));
+        all.push(known.claim("tips_overlap", "nm", high - low, holds, note));
         let farthest = f64::max(high / ELASTICA_NM - 1.0, 1.0 - low / ELASTICA_NM);
         let note = format!(
             "all resolutions have the deflection that theory expects; largest relative difference \
@@ -88,7 +88,7 @@ pub(super) fn linkers_all_round(known: &Known<'_>) -> Vec<Row> {
         let note = "agreement is still good; largest distance of two centre lines, beside the \
                     radius of a filament with a section of 38.5 nm^2";
         let holds = Holds::AtMost(FILAMENT_RADIUS_NM);
-        known.claim("node_spread", "nm", spread, holds, note.into())
+        known.claim("node_spread", "nm", spread, holds, note)
     });
     energies_close(known).into_iter().chain(agreement).collect()
 }
@@ -99,5 +99,5 @@ fn energies_close(known: &Known<'_>) -> Option<Row> {
                 what the paper calls a difference in Figure 7";
     let spread = known.get("energy_spread")?;
     let holds = Holds::AtMost(A_DIFFERENCE);
-    Some(known.claim("energies_close", "", spread, holds, note.into()))
+    Some(known.claim("energies_close", "", spread, holds, note))
 }

@@ -37,6 +37,7 @@ enum Holds {
 }
 
 /// The rows that claims are made from.
+#[derive(Debug)]
 struct Known<'a> {
     id: &'static str,
     rows: &'a [Row],
@@ -75,13 +76,13 @@ impl Known<'_> {
         unit: &'static str,
         ours: f64,
         holds: Holds,
-        note: String,
+        note: impl Into<String>,
     ) -> Row {
         let (limit, pass, words) = match holds {
             Holds::AtMost(limit) => (limit, ours <= limit, "holds up to the tolerance"),
             Holds::AtLeast(limit) => (limit, ours >= limit, "holds from the tolerance on"),
         };
-        let note = format!("the paper: {note}; {words}");
+        let note = format!("the paper: {}; {words}", note.into());
         Row {
             tolerance: Some(limit),
             pass: Some(pass),

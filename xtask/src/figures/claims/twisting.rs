@@ -19,7 +19,7 @@ pub(super) fn constant_rods(known: &Known<'_>) -> Vec<Row> {
         let note = "monomers under-twist more easily than they over-twist; couple in under-twist \
                     over that in over-twist, monomers alone; of the rod it is 1";
         let holds = Holds::AtMost(1.0);
-        all.push(known.claim("under_twist_easier", "", under / over, holds, note.into()));
+        all.push(known.claim("under_twist_easier", "", under / over, holds, note));
     }
     all
 }
@@ -144,7 +144,7 @@ pub(super) fn length(known: &Known<'_>) -> Vec<Row> {
                 the next larger angle at which it does";
     let holds = Holds::AtLeast(1.0);
     let shortens = rising(&shortening);
-    let shortens = known.claim("over_twist_shortens", "", shortens, holds, note.into());
+    let shortens = known.claim("over_twist_shortens", "", shortens, holds, note);
     let note = format!(
         "an under-twisted filament lengthens first and contracts then; dL/L at {} deg, beside \
          {:.2e} at {} deg",

@@ -85,15 +85,15 @@ impl Measured {
         }: Run<'_>,
     ) -> Result<Self, String> {
         let (stretch_seeds, bend_seeds) = if quick { (4, 2) } else { (16, 8) };
-        let azimuths = AZIMUTHS_DEG.len();
-        progress.expect(stretch_seeds as usize + bend_seeds as usize * azimuths);
-        let stretched: Vec<Stretched> = (0..stretch_seeds)
-            .into_par_iter()
-            .map(|seed| counted(progress, stretched(seed)))
-            .collect::<Result<_, _>>()?;
+        let seeds: Vec<u64> = (0..stretch_seeds).collect();
         let cases: Vec<(u64, f64)> = (0..bend_seeds)
             .flat_map(|seed| AZIMUTHS_DEG.map(|azimuth| (seed, azimuth)))
             .collect();
+        progress.expect(seeds.len() + cases.len());
+        let stretched: Vec<Stretched> = seeds
+            .into_par_iter()
+            .map(|seed| counted(progress, stretched(seed)))
+            .collect::<Result<_, _>>()?;
         let bent: Vec<Bent> = cases
             .into_par_iter()
             .map(|(seed, azimuth)| counted(progress, bent(seed, azimuth)))
