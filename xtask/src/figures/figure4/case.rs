@@ -150,14 +150,19 @@ impl Case {
         }
     }
 
-    /// Runs the case to its end, in time if `moving`.
-    pub(super) fn run(&self, moving: bool) -> Result<Result4, String> {
-        let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", self.name());
+    /// The scene, whose task is the equilibrium alone if it is not `moving`.
+    fn scene_of(&self, moving: bool) -> Result<Scene, String> {
         let mut scene = self.scene()?;
         if !moving {
             scene.task = Task::Equilibrium(Equilibrium::default());
         }
-        let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
+        Ok(scene)
+    }
+
+    /// Runs the case to its end, in time if `moving`.
+    pub(super) fn run(&self, moving: bool) -> Result<Result4, String> {
+        let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", self.name());
+        let mut assembly = Assembly::build(&self.scene_of(moving)?).map_err(|e| fail(&e))?;
         let watch = &mut |_| ControlFlow::Continue(());
         let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
         let last = trajectory
@@ -172,16 +177,8 @@ impl Case {
         Ok(Result4 {
             case: *self,
             tip_drop_nm: drop(last),
-            energy: trajectory
-                .records
-                .iter()
-                .map(|record| (record.time_ns, internal_energy(&assembly, record)))
-                .collect(),
-            total: trajectory
-                .records
-                .iter()
-                .map(|record| record.potential_pn_nm() + record.kinetic_pn_nm)
-                .collect(),
+            energy: energies(&assembly, &trajectory.records),
+            total: trajectory.records.iter().map(total_energy).collect(),
             moved: moving,
             work: report.force_evaluations as f64 * (counts.bonds + counts.segments) as f64,
             centre_line: positions(&|i| Some(assembly.centre_line_nm(&last.state, i).into())),
@@ -189,11 +186,7 @@ impl Case {
                 let monomer = assembly.points[i].frame.is_some();
                 monomer.then(|| last.state.points.position.get(i).into())
             }),
-            ring_down: if moving {
-                self.ring_down(drop(last))?
-            } else {
-                None
-            },
+            ring_down: self.ring_down(moving, drop(last))?,
             newton: self.newton()?,
             residual: (last.residual_force_pn, last.residual_torque_pn_nm),
             converged: report.converged,
@@ -224,8 +217,8 @@ impl Case {
     }
 
     /// Lets the filament swing about its equilibrium with little drag, the same for all cases.
-    fn ring_down(&self, equilibrium_nm: f64) -> Result<Option<RingDown>, String> {
-        if !self.swings() {
+    fn ring_down(&self, moving: bool, equilibrium_nm: f64) -> Result<Option<RingDown>, String> {
+        if !moving || !self.swings() {
             return Ok(None);
         }
         let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", self.name());
@@ -265,6 +258,11 @@ fn displacement(assembly: &Assembly, record: &Record) -> f64 {
     (assembly.tip_nm(&record.state, End::End) - assembly.tip_nm(&assembly.rest, End::End)).x
 }
 
+/// Energy with the potential of the load (pN nm).
+fn total_energy(record: &Record) -> f64 {
+    record.potential_pn_nm() + record.kinetic_pn_nm
+}
+
 /// Energy without the potential of the load (pN nm).
 fn internal_energy(assembly: &Assembly, record: &Record) -> f64 {
     let elastic: f64 = assembly
@@ -275,6 +273,13 @@ fn internal_energy(assembly: &Assembly, record: &Record) -> f64 {
         .map(|(_, energy)| energy)
         .sum();
     elastic + record.kinetic_pn_nm
+}
+
+/// Time (ns) and [`internal_energy`] of every record.
+fn energies(assembly: &Assembly, records: &[Record]) -> Vec<(f64, f64)> {
+    let each = records.iter();
+    each.map(|record| (record.time_ns, internal_energy(assembly, record)))
+        .collect()
 }
 
 /// How the cases were run, in words.

@@ -60,25 +60,29 @@ fn panels(
         series: energies(results),
         equal_axes: false,
     };
-    let captions = [
-        format!(
-            "Equilibria under {what}. Lines: nodes of the rod, and the centre line of the \
-             monomers; dots: monomer centres. Red is all monomers, blue all rod."
-        ),
-        "The same states seen along the unloaded filament.".into(),
-        "Elastic and kinetic energy while the damped motion comes to rest.".into(),
-    ];
-    let is_moved = results.iter().any(|r| r.moved);
+    let captions = captions(&what);
     let charts = [(side, "side"), (end, "end"), (energy, "energy")];
-    let drawn = charts.into_iter().zip(captions);
-    let drawn = drawn.filter(|((_, panel), _)| is_moved || *panel != "energy");
-    drawn
+    let shown = charts.into_iter().zip(captions);
+    let shown = shown.filter(|((_, panel), _)| *panel != "energy" || results[0].moved);
+    shown
         .map(|((chart, panel), caption)| {
             let file = format!("fig4_{}_{weight}_{panel}.svg", force.replace(' ', "_"));
             draw_chart(&chart, &out.join(&file))?;
             Ok(Picture { file, caption })
         })
         .collect()
+}
+
+/// What is seen on side view, end view and energy.
+fn captions(what: &str) -> [String; 3] {
+    [
+        format!(
+            "Equilibria under {what}. Lines: nodes of the rod, and the centre line of the \
+             monomers; dots: monomer centres. Red is all monomers, blue all rod."
+        ),
+        "The same states seen along the unloaded filament.".into(),
+        "Elastic and kinetic energy while the damped motion comes to rest.".into(),
+    ]
 }
 
 /// Monomer centres as dots under the centre lines, projected by `project`.

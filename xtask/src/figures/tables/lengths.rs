@@ -24,11 +24,8 @@ pub(super) fn rows(Run { out, progress, .. }: Run<'_>) -> Result<Vec<Row>, Strin
     progress.expect(cases.len());
     let curves: Vec<(u32, Curve<TwistPoint>)> = cases
         .into_par_iter()
-        .map(|(rises, seed)| {
-            let curve = measure(rises, seed)?;
-            progress.done();
-            Ok((rises, curve))
-        })
+        .map(|(rises, seed)| Ok((rises, measure(rises, seed)?)))
+        .inspect(|_| progress.done())
         .collect::<Result<_, String>>()?;
     let mut rows = Vec::new();
     let mut lines = Vec::new();
