@@ -33,6 +33,9 @@ enum Task {
         /// Fewer resolutions and shorter runs.
         #[arg(long)]
         quick: bool,
+        /// Colours of pictures and viewer.
+        #[arg(long, value_enum, default_value_t)]
+        palette: figures::Palette,
     },
 }
 
@@ -40,7 +43,15 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Check => check::run(),
         Task::FitParameters(options) => fit::run(&options),
-        Task::ReproduceFigures { ids, out, quick } => figures::reproduce(&ids, &out, quick),
+        Task::ReproduceFigures {
+            ids,
+            out,
+            quick,
+            palette,
+        } => {
+            figures::choose(palette);
+            figures::reproduce(&ids, &out, quick)
+        }
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

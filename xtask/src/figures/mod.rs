@@ -10,12 +10,14 @@ mod figure7;
 mod figure9;
 mod html;
 mod linked;
+pub(crate) mod palette;
 pub(crate) mod plot;
 pub(crate) mod report;
 mod scene3d;
 mod schematics;
 mod tables;
 
+pub(crate) use palette::{Palette, choose};
 pub(crate) use tables::paper;
 
 use report::Artefact;

@@ -7,7 +7,8 @@ use super::outcome::Place;
 use super::plane::in_own_plane;
 use super::results::{OBSERVABLES, Observable, Results};
 use super::rows::artefact;
-use crate::figures::plot::{Chart, Series, draw as draw_chart, resolution_colour};
+use crate::figures::palette;
+use crate::figures::plot::{Chart, Series, draw as draw_chart};
 use crate::figures::report::Picture;
 use std::path::Path;
 
@@ -48,8 +49,8 @@ fn lines(plan: &Plan, results: &Results, turn: i32, out: &Path) -> Result<Vec<Pi
     let captions = [
         format!(
             "Centre lines, seed 0, {law}; every filament is turned about the axis until its own \
-             plane of buckling lies in the page. Red is all monomers, blue all rod. The scales of the \
-             two axes differ."
+             plane of buckling lies in the page. {} The scales of the two axes differ.",
+            palette::chosen().ends()
         ),
         "The same lines from the side: what leaves the plane.".into(),
     ];
@@ -86,7 +87,7 @@ fn view(
     outcomes
         .map(|outcome| Series {
             label: Some(outcome.case.resolved.name()),
-            colour: resolution_colour(outcome.case.resolved.rod_share()),
+            colour: palette::resolution(outcome.case.resolved.rod_share()),
             points: in_own_plane(&outcome.measured.centre_line)
                 .iter()
                 .map(project)
@@ -135,12 +136,12 @@ fn curves(plan: &Plan, results: &Results, observable: Observable, turn: i32) -> 
     let groups = plan.groups();
     let mut series = Vec::new();
     for (i, &(name, group)) in groups.iter().enumerate() {
-        // From blue for the first group to red for the last.
+        // Groups are not resolutions, but as many; the first has the colour of all rod.
         let share = 1.0 - i as f64 / (groups.len() - 1) as f64;
         let points = means(plan, results, (group, turn), observable);
         let curve = |label, points, dots| Series {
             label,
-            colour: resolution_colour(share),
+            colour: palette::resolution(share),
             points,
             dots,
         };

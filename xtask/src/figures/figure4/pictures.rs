@@ -1,7 +1,8 @@
 //! The panels of Figure 4: side view, end view, energy against time.
 
 use super::case::{Resolved, Result4, Variant};
-use crate::figures::plot::{Chart, Series, draw as draw_chart, resolution_colour};
+use crate::figures::palette;
+use crate::figures::plot::{Chart, Series, draw as draw_chart};
 use crate::figures::report::Picture;
 use std::path::Path;
 
@@ -63,7 +64,8 @@ fn panels(
     let captions = [
         format!(
             "Equilibria under {what}. Lines: nodes of the rod, and the centre line of the \
-             monomers; dots: monomer centres. Red is all monomers, blue all rod."
+             monomers; dots: monomer centres. {}",
+            palette::chosen().ends()
         ),
         "The same states seen along the unloaded filament.".into(),
         "Elastic and kinetic energy while the damped motion comes to rest.".into(),
@@ -83,13 +85,13 @@ fn panels(
 fn view(results: &[&Result4], project: fn(&[f64; 3]) -> (f64, f64)) -> Vec<Series> {
     let dots = results.iter().map(|r| Series {
         label: None,
-        colour: resolution_colour(r.case.rod_share()),
+        colour: palette::resolution(r.case.rod_share()),
         points: r.monomers.iter().map(project).collect(),
         dots: true,
     });
     let lines = results.iter().map(|r| Series {
         label: Some(r.case.name()),
-        colour: resolution_colour(r.case.rod_share()),
+        colour: palette::resolution(r.case.rod_share()),
         points: r.centre_line.iter().map(project).collect(),
         dots: false,
     });
@@ -101,7 +103,7 @@ fn energies(results: &[&Result4]) -> Vec<Series> {
         .iter()
         .map(|r| Series {
             label: Some(r.case.name()),
-            colour: resolution_colour(r.case.rod_share()),
+            colour: palette::resolution(r.case.rod_share()),
             points: r.energy.clone(),
             dots: false,
         })

@@ -4,7 +4,8 @@
 mod case;
 mod rows;
 
-use super::plot::{Chart, Series, draw as draw_chart, resolution_colour};
+use super::palette;
+use super::plot::{Chart, Series, draw as draw_chart};
 use super::report::{Artefact, Picture};
 use actin_sim::Hold;
 use case::{Case, Halves, Resolved, Sliding};
@@ -69,7 +70,7 @@ fn picture(results: &[Halves], out: &Path) -> Result<Picture, String> {
         |kind: &str| -> Vec<&Halves> { results.iter().filter(|h| h.case.kind() == kind).collect() };
     let curve = |label: &str, share: f64, halves: &[&Halves]| Series {
         label: Some(label.into()),
-        colour: resolution_colour(share),
+        colour: palette::resolution(share),
         points: mean_profile(halves),
         dots: false,
     };

@@ -3,7 +3,8 @@
 use super::case::{Figure, Variant};
 use super::is_drawn;
 use super::solve::{Motion, Outcome};
-use crate::figures::plot::{Chart, Series, draw as draw_chart, resolution_colour};
+use crate::figures::palette;
+use crate::figures::plot::{Chart, Series, draw as draw_chart};
 use crate::figures::report::Picture;
 use plotters::style::RGBColor;
 use std::path::Path;
@@ -64,8 +65,8 @@ fn views(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Vec<Picture
         draw_chart(&chart, &out.join(&file))?;
         let caption = format!(
             "Certified equilibria, {title}. Lines: nodes of the rod, and the centre line of the \
-             monomers; dots: monomer centres; grey crosses: anchors. Red is all monomers, blue all \
-             rod."
+             monomers; dots: monomer centres; grey crosses: anchors. {}",
+            palette::chosen().ends()
         );
         pictures.push(Picture { file, caption });
     }
@@ -74,7 +75,7 @@ fn views(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Vec<Picture
 
 /// Monomer centres under the centre lines, anchors above them, projected by `project`.
 fn lines(chosen: &[&Outcome], project: fn(&[f64; 3]) -> (f64, f64)) -> Vec<Series> {
-    let colour = |o: &Outcome| resolution_colour(o.case.rod_share());
+    let colour = |o: &Outcome| palette::resolution(o.case.rod_share());
     let dots = chosen.iter().map(|o| Series {
         label: None,
         colour: colour(o),
@@ -144,7 +145,7 @@ fn energies(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Option<P
 /// A line for each motion, and a dotted one for its limit.
 fn curves(moved: &[(&Outcome, &Motion)], top: f64) -> Vec<Series> {
     let series = |(o, motion): &(&Outcome, &Motion)| {
-        let colour = resolution_colour(o.case.rod_share());
+        let colour = palette::resolution(o.case.rod_share());
         let of = |label, points, dots| Series {
             label,
             colour,
@@ -180,18 +181,12 @@ fn against_resolution(
     outcomes: &[Outcome],
     out: &Path,
 ) -> Result<Picture, String> {
-    const COLOURS: [RGBColor; 5] = [
-        RGBColor(190, 25, 35),
-        RGBColor(235, 150, 20),
-        RGBColor(60, 150, 90),
-        RGBColor(30, 70, 180),
-        RGBColor(140, 70, 160),
-    ];
     let length = f64::from(figure.length);
     let series = super::VARIANTS
         .iter()
-        .zip(COLOURS)
-        .flat_map(|(&variant, colour)| {
+        .enumerate()
+        .flat_map(|(k, &variant)| {
+            let colour = palette::line(k);
             let points = by_rod(outcomes, variant, length);
             let series = |label, dots| Series {
                 label,

@@ -83,7 +83,7 @@ impl<'a> Drawn<'a> {
                     continue;
                 }
                 let kind = pair.upper - pair.lower - 1;
-                let stroke = Stroke::solid(style::BONDS[kind], width);
+                let stroke = Stroke::solid(style::bond(kind), width);
                 let lines = bonds.ends_of(pair, self.state);
                 // Anchors lie on surfaces that the ellipsoids' middles are behind.
                 let lines = lines.map(|ends| Item::line(ends, stroke).nearer(style::ON_SURFACE_NM));
@@ -110,7 +110,7 @@ impl<'a> Drawn<'a> {
                 at: self.place(i),
                 pixels: 3.4,
             };
-            Item::new(dot, style::NODE).nearer(2.0 * radius)
+            Item::new(dot, style::of(|t| t.node)).nearer(2.0 * radius)
         }));
         items
     }
@@ -150,7 +150,7 @@ impl<'a> Drawn<'a> {
         let axes = self.matrix(frame);
         let axis = |k: usize| {
             let ends = [at, at + axes.column(k) * length_nm];
-            let stroke = Stroke::solid(style::AXES[k], 2.0);
+            let stroke = Stroke::solid(style::axis(k), 2.0);
             Item::new(Solid::Arrow { ends, stroke }, stroke.colour).nearer(style::INSIDE_NM)
         };
         [0, 1, 2].map(axis).into()
@@ -164,8 +164,8 @@ impl<'a> Drawn<'a> {
     /// Bonds of all junctions.
     pub(super) fn junction_bonds(&self, width: f64) -> Vec<Item> {
         let bonds = self.assembly.junction_bonds().into_iter();
-        let edge = Stroke::solid(style::JUNCTION.darker(0.55), width + 2.0);
-        let core = Stroke::solid(style::JUNCTION, width);
+        let edge = Stroke::solid(style::of(|t| t.junction).darker(0.55), width + 2.0);
+        let core = Stroke::solid(style::of(|t| t.junction), width);
         bonds
             .flat_map(|bond| {
                 let ends = self.ends_of(&bond);
@@ -190,7 +190,7 @@ impl<'a> Drawn<'a> {
                 let plate = Solid::Plate {
                     corners: corners.into(),
                 };
-                Item::new(plate, style::WALL).with_opacity(0.75)
+                Item::new(plate, style::of(|t| t.clamp)).with_opacity(0.75)
             })
             .collect()
     }
@@ -231,13 +231,13 @@ impl<'a> Drawn<'a> {
                 );
                 let stroke = Stroke {
                     dashed: true,
-                    ..Stroke::solid(style::LINKER, 2.2)
+                    ..Stroke::solid(style::of(|t| t.linker), 2.2)
                 };
                 let dot = |at, pixels, colour| Item::new(Solid::Dot { at, pixels }, colour);
                 [
                     Item::line([site, end], stroke).nearer(style::INSIDE_NM),
-                    dot(site, 3.0, style::LINKER).nearer(2.0 * style::INSIDE_NM),
-                    dot(end, 6.0, style::ANCHOR),
+                    dot(site, 3.0, style::of(|t| t.linker)).nearer(2.0 * style::INSIDE_NM),
+                    dot(end, 6.0, style::of(|t| t.anchor)),
                 ]
             })
             .collect()

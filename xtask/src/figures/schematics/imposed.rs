@@ -59,7 +59,7 @@ fn turn(drawn: &Drawn<'_>, end: End, turn_deg: Vector3, radius_nm: f64) -> Vec<I
         centre + rotation::exp(angle) * Vector3::x() * radius_nm
     };
     let pieces = (0..PIECES - 1).map(|k| {
-        let stroke = Stroke::solid(style::FORCE, 2.2);
+        let stroke = Stroke::solid(style::of(|t| t.force), 2.2);
         Item::line([on_arc(k), on_arc(k + 1)], stroke)
     });
     let head = style::arrow([on_arc(PIECES - 3), on_arc(PIECES)]);
