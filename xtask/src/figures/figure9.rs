@@ -36,6 +36,7 @@ pub(super) fn reproduce(out: &Path, _quick: bool) -> Result<Artefact, String> {
         ),
         rows,
         pictures: pictures.collect(),
+        views: Vec::new(),
         wall_s: started.elapsed().as_secs_f64(),
     })
 }

@@ -16,6 +16,7 @@ pub(crate) mod report;
 mod scene3d;
 mod schematics;
 mod tables;
+mod viewer;
 
 pub(crate) use palette::{Palette, choose};
 pub(crate) use tables::paper;
@@ -63,7 +64,7 @@ pub(crate) fn reproduce(ids: &[String], out: &Path, quick: bool) -> Result<(), S
         artefacts.push(recipe(out, quick)?);
     }
     report::write(&artefacts, out)?;
-    html::write(&artefacts, out)?;
+    html::write(&artefacts, out, quick)?;
     println!("written: {}", out.join("report.html").display());
     Ok(())
 }

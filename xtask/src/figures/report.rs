@@ -66,6 +66,15 @@ pub(super) struct Picture {
     pub caption: String,
 }
 
+/// States to be turned in the page's viewer.
+#[derive(Clone, Debug)]
+pub(super) struct View {
+    /// A JSON file in the output folder.
+    pub file: String,
+    /// What is seen.
+    pub caption: String,
+}
+
 /// A figure or table of the paper, computed.
 #[derive(Clone, Debug)]
 pub(super) struct Artefact {
@@ -79,6 +88,8 @@ pub(super) struct Artefact {
     pub rows: Vec<Row>,
     /// Pictures.
     pub pictures: Vec<Picture>,
+    /// States for the viewer.
+    pub views: Vec<View>,
     /// Time that it took (s).
     pub wall_s: f64,
 }

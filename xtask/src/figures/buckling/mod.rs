@@ -64,6 +64,7 @@ fn reproduce(plan: &Plan, out: &Path) -> Result<Artefact, String> {
         settings: settings(plan, &results),
         rows,
         pictures: pictures::draw(plan, &results, out)?,
+        views: vec![pictures::view_in_space(plan, &results, out)?],
         wall_s: started.elapsed().as_secs_f64(),
     })
 }
@@ -115,7 +116,7 @@ fn settings(plan: &Plan, results: &Results) -> String {
     };
     format!(
         "Scene scenarios/{folder}/rod-140.ron and what follows from it: {} equilibria at the end \
-         of paths, {} samplings of the bonds; twist first unless named. Rods are 300 nm long; \
+         of paths, {} samplings of the bonds, seeds from 0; twist first unless named. Rods are 300 nm long; \
          monomers alone 290 nm between the inner held ones, 300 nm where the clamp is Wall. A \
          pull of 1e-3 pN at half the length, towards a point 100 nm aside, breaks the symmetry.",
         results.outcomes.len(),

@@ -2,6 +2,7 @@
 
 use super::ringdown::{self, RingDown};
 use crate::check::workspace_root;
+use crate::figures::viewer::Snapshot;
 use actin_sim::{
     Assembly, Drag, End, Equilibrium, JunctionWeight, Load, Material, Record, Scene, Section, Task,
 };
@@ -18,6 +19,18 @@ pub(super) enum Variant {
     HalfPiconewton,
     /// 2 pN, the preceding paper's rod.
     PrecedingPaper,
+}
+
+impl Variant {
+    /// In words.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Self::Shared => "2 pN, junction shared",
+            Self::Full => "2 pN, junction full",
+            Self::HalfPiconewton => "0.5 pN, junction shared",
+            Self::PrecedingPaper => "2 pN, the preceding paper's rod",
+        }
+    }
 }
 
 /// Which scene of `scenarios/figure-4` a case starts from.
@@ -61,6 +74,8 @@ pub(super) struct Result4 {
     pub time_ns: f64,
     pub force_evaluations: u64,
     pub wall_s: f64,
+    /// The state at the end.
+    pub snapshot: Snapshot,
 }
 
 /// Drag rates while a filament swings (1/ns): the amplitude decays at half this rate.
@@ -179,6 +194,7 @@ impl Case {
             time_ns: last.time_ns,
             force_evaluations: report.force_evaluations,
             wall_s: report.wall_s,
+            snapshot: Snapshot::of(&assembly, &last.state),
         })
     }
 }

@@ -43,6 +43,7 @@ pub(super) fn reproduce(out: &Path, quick: bool) -> Result<Artefact, String> {
         settings: case::settings(&results),
         rows: rows::rows(&results),
         pictures,
+        views: vec![pictures::view_in_space(&results, out)?],
         wall_s: started.elapsed().as_secs_f64(),
     })
 }

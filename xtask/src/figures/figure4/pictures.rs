@@ -3,7 +3,8 @@
 use super::case::{Resolved, Result4, Variant};
 use crate::figures::palette;
 use crate::figures::plot::{Chart, Series, draw as draw_chart};
-use crate::figures::report::Picture;
+use crate::figures::report::{Picture, View};
+use crate::figures::viewer::{self, Attitude, Shown};
 use std::path::Path;
 
 /// Draws all panels.
@@ -30,6 +31,28 @@ fn is_drawn(resolved: Resolved) -> bool {
         resolved,
         Resolved::Mixed(_) | Resolved::Rod(super::case::ROD_SEGMENTS) | Resolved::Ellipsoids(0)
     )
+}
+
+/// The drawn states for the viewer.
+pub(super) fn view_in_space(results: &[Result4], out: &Path) -> Result<View, String> {
+    let mut drawn: Vec<&Result4> = results
+        .iter()
+        .filter(|r| is_drawn(r.case.resolved))
+        .collect();
+    drawn.sort_by(|a, b| a.case.rod_share().total_cmp(&b.case.rod_share()));
+    let shown: Vec<Shown> = drawn
+        .into_iter()
+        .map(|r| Shown {
+            group: r.case.variant.words().into(),
+            name: r.case.name(),
+            share: r.case.rod_share(),
+            snapshot: r.snapshot.clone(),
+        })
+        .collect();
+    let caption = "Where the damped motions came to rest, in space: monomers with their own \
+        semi-axes and orientations, the rod with a stripe along its first axis. The force acts at \
+        the tip.";
+    viewer::write("fig4", Attitude::LYING, &shown, caption.into(), out)
 }
 
 fn panels(

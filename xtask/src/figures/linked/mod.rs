@@ -84,6 +84,7 @@ fn artefact(
         title: figure.title,
         settings: rows::settings(figure, outcomes),
         pictures: pictures::draw(figure, outcomes, out)?,
+        views: vec![pictures::view_in_space(figure, outcomes, out)?],
         rows,
         wall_s: started.elapsed().as_secs_f64(),
     })

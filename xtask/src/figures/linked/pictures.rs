@@ -5,7 +5,8 @@ use super::is_drawn;
 use super::solve::{Motion, Outcome};
 use crate::figures::palette;
 use crate::figures::plot::{Chart, Series, draw as draw_chart};
-use crate::figures::report::Picture;
+use crate::figures::report::{Picture, View};
+use crate::figures::viewer::{self, Attitude, Shown};
 use plotters::style::RGBColor;
 use std::path::Path;
 
@@ -28,12 +29,38 @@ pub(super) fn draw(
     outcomes: &[Outcome],
     out: &Path,
 ) -> Result<Vec<Picture>, String> {
-    let mut chosen: Vec<&Outcome> = outcomes.iter().filter(|o| is_drawn(&o.case)).collect();
-    chosen.sort_by(|a, b| a.case.rod_share().total_cmp(&b.case.rod_share()));
+    let chosen = chosen(outcomes);
     let mut pictures = views(figure, &chosen, out)?;
     pictures.extend(energies(figure, &chosen, out)?);
     pictures.push(against_resolution(figure, outcomes, out)?);
     Ok(pictures)
+}
+
+/// What is drawn, from monomers to rod.
+fn chosen(outcomes: &[Outcome]) -> Vec<&Outcome> {
+    let mut chosen: Vec<&Outcome> = outcomes.iter().filter(|o| is_drawn(&o.case)).collect();
+    chosen.sort_by(|a, b| a.case.rod_share().total_cmp(&b.case.rod_share()));
+    chosen
+}
+
+/// The drawn equilibria for the viewer.
+pub(super) fn view_in_space(
+    figure: &Figure,
+    outcomes: &[Outcome],
+    out: &Path,
+) -> Result<View, String> {
+    let shown: Vec<Shown> = chosen(outcomes)
+        .into_iter()
+        .map(|o| Shown {
+            group: "equilibria".into(),
+            name: o.case.name(),
+            share: o.case.rod_share(),
+            snapshot: o.lowest.snapshot.clone(),
+        })
+        .collect();
+    let caption = "The certified equilibria in space, with their linkers and the fixed anchors. \
+        The stripe along the rod is its first axis.";
+    viewer::write(figure.id, Attitude::LYING, &shown, caption.into(), out)
 }
 
 fn views(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Vec<Picture>, String> {

@@ -291,7 +291,7 @@ pub(super) fn settings(figure: &Figure, outcomes: &[Outcome]) -> String {
     let worst = |pick: fn(&Outcome) -> f64| outcomes.iter().map(pick).fold(0.0, f64::max);
     format!(
         "Scene scenarios/{}, the rod in the middle resolved as named, {} filaments, {} samplings \
-         of the bonds (0 unless named). Equilibria by Newton's method from the built filament \
+         of the bonds (seeds from 0; 0 unless named). Equilibria by Newton's method from the built filament \
          turned by 0, 90, 180 and 270 deg about its axis, residual below {:.1e} pN and {:.1e} \
          pN nm; the lowest counts. Motions: anchors away from the sites at once, drag 0.3 per ns \
          for velocities and for angular momenta.",

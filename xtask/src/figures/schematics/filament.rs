@@ -7,7 +7,7 @@ use actin_sim::{Assembly, BodyKind, JunctionBond, Load};
 
 /// A filament in a state, to be drawn.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drawn<'a> {
+pub(in crate::figures) struct Drawn<'a> {
     pub assembly: &'a Assembly,
     pub state: &'a State,
     /// Arc lengths between which bodies are drawn (nm).
@@ -32,12 +32,20 @@ impl<'a> Drawn<'a> {
         }
     }
 
+    /// The whole filament in another state.
+    pub(in crate::figures) fn in_state(assembly: &'a Assembly, state: &'a State) -> Self {
+        Self {
+            state,
+            ..Self::whole(assembly)
+        }
+    }
+
     fn shows(&self, s_nm: f64) -> bool {
         (self.range_nm[0]..=self.range_nm[1]).contains(&s_nm)
     }
 
     /// Position of a point (nm, lab frame).
-    pub(super) fn place(&self, point: usize) -> Vector3 {
+    pub(in crate::figures) fn place(&self, point: usize) -> Vector3 {
         self.state.points.position.get(point)
     }
 
@@ -47,7 +55,7 @@ impl<'a> Drawn<'a> {
     }
 
     /// Points of a kind that are shown.
-    pub(super) fn points(&self, kind: BodyKind) -> Vec<usize> {
+    pub(in crate::figures) fn points(&self, kind: BodyKind) -> Vec<usize> {
         let points = self.assembly.points.iter().enumerate();
         let shown = points.filter(|(_, info)| info.kind == kind && self.shows(info.s_nm));
         shown.map(|(i, _)| i).collect()
@@ -94,10 +102,15 @@ impl<'a> Drawn<'a> {
         drawn
     }
 
+    /// Radius of the circle that has the area of the rod's cross-section (nm).
+    pub(in crate::figures) fn rod_radius_nm() -> f64 {
+        let area = actin_sim::rod_constants::CROSS_SECTION_AREA;
+        (area / std::f64::consts::PI).sqrt()
+    }
+
     /// Segments as cylinders of the rod's cross-section, their centre line and their nodes.
     pub(super) fn rods(&self, opacity: f64) -> Vec<Item> {
-        let area = actin_sim::rod_constants::CROSS_SECTION_AREA;
-        let radius = (area / std::f64::consts::PI).sqrt();
+        let radius = Self::rod_radius_nm();
         let mut items = Vec::new();
         for ends in self.segments() {
             let cylinder = Item::new(Solid::Cylinder { ends, radius }, style::rod());
@@ -157,7 +170,7 @@ impl<'a> Drawn<'a> {
     }
 
     /// Both ends of a bond of a junction: the monomer's centre, the rod's end (nm, lab frame).
-    pub(super) fn ends_of(&self, bond: &JunctionBond) -> [Vector3; 2] {
+    pub(in crate::figures) fn ends_of(&self, bond: &JunctionBond) -> [Vector3; 2] {
         [bond.monomer, bond.node].map(|i| self.place(i))
     }
 
@@ -178,15 +191,24 @@ impl<'a> Drawn<'a> {
             .collect()
     }
 
-    /// Walls at clamped ends, across the filament's axis there.
-    pub(super) fn walls(&self, half_nm: f64) -> Vec<Item> {
+    /// Corners of a plate at each clamped end, across the filament's axis there (nm, lab frame).
+    pub(in crate::figures) fn plates(&self, half_nm: f64) -> Vec<[Vector3; 4]> {
         let clamps = self.assembly.clamps.iter();
         clamps
             .map(|clamp| {
                 let about = clamp.point_nm(self.state);
                 let turn = self.turn_from_rest(clamp.frames[0]);
                 let corner = |(x, y): (f64, f64)| about + turn * Vector3::new(x, y, 0.0) * half_nm;
-                let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner);
+                [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner)
+            })
+            .collect()
+    }
+
+    /// Walls at clamped ends.
+    pub(super) fn walls(&self, half_nm: f64) -> Vec<Item> {
+        let plates = self.plates(half_nm).into_iter();
+        plates
+            .map(|corners| {
                 let plate = Solid::Plate {
                     corners: corners.into(),
                 };
@@ -202,7 +224,7 @@ impl<'a> Drawn<'a> {
     }
 
     /// Where the force of an end acts, and the force (nm, pN, lab frame).
-    pub(super) fn forces(&self) -> Vec<(Vector3, Vector3)> {
+    pub(in crate::figures) fn forces(&self) -> Vec<(Vector3, Vector3)> {
         let loads = self.assembly.scene.loads.iter();
         loads
             .map(|load| {

@@ -18,7 +18,7 @@ pub(in crate::figures) fn table1(out: &Path, _quick: bool) -> Result<Artefact, S
         "table1",
         "Parameters of the ellipsoid model",
         "The defaults of a scene's monomers against the published numbers, and what follows from \
-         them. Nothing is fitted.",
+         them. Nothing is fitted, nothing is drawn at random.",
         rows,
         out,
         started,
@@ -34,7 +34,7 @@ pub(in crate::figures) fn table2(out: &Path, _quick: bool) -> Result<Artefact, S
         "table2",
         "Parameters of the preceding paper's Cosserat rod",
         "The rod that scenes name PrecedingPaper, with a section of 38.5 nm^2; the paper prints \
-         formulas where it gives no number. None of the figures but the stiff cantilever uses it.",
+         formulas where it gives no number. None of the figures but the stiff cantilever uses it. Nothing is drawn at random.",
         rows,
         out,
         started,
@@ -56,6 +56,7 @@ fn finish(
         settings: settings.to_owned(),
         rows,
         pictures: Vec::new(),
+        views: Vec::new(),
         wall_s: started.elapsed().as_secs_f64(),
     })
 }

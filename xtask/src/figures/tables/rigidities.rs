@@ -43,6 +43,7 @@ pub(in crate::figures) fn table4(out: &Path, quick: bool) -> Result<Artefact, St
         settings: settings(&measured),
         rows,
         pictures: Vec::new(),
+        views: Vec::new(),
         wall_s: started.elapsed().as_secs_f64(),
     })
 }
@@ -52,7 +53,7 @@ fn settings(measured: &Measured) -> String {
         "64 independent bonds per interface. Stretch: {} samplings, {:.2} nm, turn blocked. \
          Bending and shear: {} samplings at azimuths {AZIMUTHS_DEG:?} deg, {:.2} nm, both ends \
          held in orientation, the far one slides freely. Two monomers are held at each end; \
-         lengths are those between the inner ones. {} of {} states are not stable beyond doubt; \
+         lengths are those between the inner ones. Seeds count from 0. {} of {} states are not stable beyond doubt; \
          {} loads were not reached.",
         measured.stretch_samplings,
         RISES * Monomers::default().rise_nm,

@@ -49,6 +49,7 @@ fn reproduce(table: Table, out: &Path, quick: bool) -> Result<Artefact, String> 
         settings: settings(ensemble, &entries),
         rows,
         pictures,
+        views: Vec::new(),
         wall_s: started.elapsed().as_secs_f64(),
     })
 }
@@ -101,7 +102,7 @@ fn settings(ensemble: &Ensemble, entries: &[Entry]) -> String {
     format!(
         "30 monomers, two held at each end, 73.94 nm between the inner held ones; the far pair is \
          turned about the axis and slides along it only; secants at the printed curvatures. {} \
-         samplings of the bonds of each kind; the mean is over those of the default kind, 64 \
+         samplings of the bonds of each kind, seeds from 0; the mean is over those of the default kind, 64 \
          independent bonds. Of the default kind {}. {unreached}",
         ensemble.seeds,
         doubts.describe()
