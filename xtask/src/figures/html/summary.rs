@@ -45,9 +45,9 @@ pub(super) fn write(page: &mut String, artefacts: &[Artefact], quick: bool) {
 
 fn counts(page: &mut String, artefacts: &[Artefact]) {
     page.push_str(
-        "<h2>Verdicts</h2>\n<table><thead><tr><th>figure or table</th><th class=\"n\">agree</th>\
-         <th class=\"n\">missed</th><th class=\"n\">measured only</th><th></th>\
-         <th class=\"n\">time (s)</th></tr></thead><tbody>\n",
+        "<h2>Verdicts</h2>\n<table class=\"verdicts\"><thead><tr><th>figure or table</th><th class=\"n\">agree</th>\
+         <th class=\"n\">missed</th><th class=\"n\">measured only</th>\
+         <th class=\"n\">time (s)</th><th></th></tr></thead><tbody>\n",
     );
     for artefact in artefacts {
         let verdicts = Verdicts::of(&artefact.rows);
@@ -55,18 +55,19 @@ fn counts(page: &mut String, artefacts: &[Artefact]) {
             page,
             format_args!(
                 "<tr><td class=\"wide\"><a href=\"#{id}\">{}</a>: {}</td>\
-                 <td class=\"n pass\" data-label=\"agree\">{}</td>\
+                 <td class=\"n {}\" data-label=\"agree\">{}</td>\
                  <td class=\"n {}\" data-label=\"missed\">{}</td>\
-                 <td class=\"n\" data-label=\"measured only\">{}</td><td class=\"wide\">{}</td>\
-                 <td class=\"n\" data-label=\"time (s)\">{:.1}</td></tr>\n",
+                 <td class=\"n\" data-label=\"measured only\">{}</td>\
+                 <td class=\"n\" data-label=\"time (s)\">{:.1}</td><td class=\"wide\">{}</td></tr>\n",
                 name(artefact.id),
                 escape(artefact.title),
+                if verdicts.agree > 0 { "pass" } else { "open" },
                 verdicts.agree,
                 if verdicts.missed > 0 { "miss" } else { "open" },
                 verdicts.missed,
                 verdicts.measured,
-                bar(verdicts),
                 artefact.wall_s,
+                bar(verdicts),
                 id = artefact.id,
             ),
         );
@@ -133,7 +134,8 @@ fn reading(page: &mut String) {
         format_args!(
             "<h2>How to read this page</h2>\n<p>A row agrees if ours differs from the paper's number \
              by no more than the tolerance; where the note says at most or at least, the tolerance \
-             is the bound itself. Units are nm, pN and ns. Colour is resolution, the share of the \
+             is the bound itself. Units are nm, pN and ns. On a narrow screen wide pictures are scrolled \
+             sideways. Colour is resolution, the share of the \
              filament that is rod:</p>\n<div class=\"ramp\" \
              style=\"background:linear-gradient(to right,{})\"></div><div class=\"ends\"><span>all \
              monomers</span><span>all rod</span></div>\n<p class=\"soft\">Another set of colours: \

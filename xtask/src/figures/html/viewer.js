@@ -358,7 +358,7 @@
         const head = (side) => [tip[0] - 9 * u[0] + side * 5 * u[1], tip[1] - 9 * u[1] - side * 5 * u[0]];
         this.path([head(1), tip, head(-1)]);
       }
-      const inside = Math.min(this.canvas.clientWidth - 26, Math.max(26, tip[0] + 16 * seen[0]));
+      const inside = Math.min(this.canvas.clientWidth - 26, Math.max(26, tip[0] + 30 * seen[0]));
       this.context.fillText(`${Number(size.toPrecision(3))} pN`, inside, tip[1] + 4 - 16 * seen[1]);
     }
 
