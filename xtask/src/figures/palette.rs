@@ -65,7 +65,7 @@ const BESIDE_RED_AND_BLUE: Things = Things {
     node: [255, 255, 255],
     clamp: [165, 165, 165],
     linker: [40, 40, 40],
-    anchor: [220, 30, 40],
+    anchor: [0, 140, 70],
     force: [20, 20, 20],
 };
 /// Colours of things that keep their differences for all kinds of sight.

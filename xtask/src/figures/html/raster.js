@@ -104,7 +104,8 @@ const Raster = (() => {
   }
 
   // The mantle of a cylinder of radius r about the line from p to q, cut by the planes through p
-  // and q across `cuts`. `colourAt(s, n)` is its colour at s nm from p where the normal is n.
+  // and q across `cuts`. `colourAt(s, n, edge)` is its colour at s nm from p along the axis, where the
+  // normal is n and the nearer of both planes is `edge` nm away.
   function mantle(p, q, r, cuts, colourAt, nearer) {
     const along = [q[0] - p[0], q[1] - p[1], q[2] - p[2]];
     const u = unit(along);
@@ -121,12 +122,12 @@ const Raster = (() => {
         const root = g * g * u[2] * u[2] - across * (x * x + y * y - g * g - r * r);
         if (root < 0) continue;
         const z = (g * u[2] + Math.sqrt(root)) / across;
-        if (x * cuts[0][0] + y * cuts[0][1] + z * cuts[0][2] < 0) continue;
-        if ((x - along[0]) * cuts[1][0] + (y - along[1]) * cuts[1][1]
-          + (z - along[2]) * cuts[1][2] > 0) continue;
+        const edge = Math.min(x * cuts[0][0] + y * cuts[0][1] + z * cuts[0][2],
+          (along[0] - x) * cuts[1][0] + (along[1] - y) * cuts[1][1] + (along[2] - z) * cuts[1][2]);
+        if (edge < 0) continue;
         const s = g + z * u[2];
         const n = [(x - s * u[0]) / r, (y - s * u[1]) / r, (z - s * u[2]) / r];
-        paint(row * width + column, p[2] + z, n[0], n[1], n[2], colourAt(s, n), nearer);
+        paint(row * width + column, p[2] + z, n[0], n[1], n[2], colourAt(s, n, edge), nearer);
       }
     }
   }
@@ -160,7 +161,7 @@ const Raster = (() => {
 
   // A rod: straight pieces between nodes, mitred where they meet. `first` and `second` are two
   // axes of each segment's frame; between the middles of segments they turn evenly about the rod,
-  // as its twist does. Colours: the rod, its stripe along the first axis, its seams at nodes.
+  // as its twist does. Colours: the rod, a stripe on either side along the first axis, seams at nodes.
   function rod(nodes, first, second, r, { body, stripe, seam }) {
     const pieces = nodes.slice(1).map((q, i) =>
       unit([q[0] - nodes[i][0], q[1] - nodes[i][1], q[2] - nodes[i][2]]));
@@ -175,12 +176,12 @@ const Raster = (() => {
       const length = Math.hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
       const [before, after] = [turn(i, i - 1), turn(i, i + 1)];
       const [d1, d2] = [first[i], second[i]];
-      const colourAt = (s, n) => {
-        if (s < 0.25 || s > length - 0.25) return seam;
+      const colourAt = (s, n, edge) => {
+        if (edge < 0.2) return seam;
         const t = s / length - 0.5;
         const angle = t < 0 ? -t * before : t * after;
         const seen = dot(n, d1) * Math.cos(angle) + dot(n, d2) * Math.sin(angle);
-        return seen > 0.93 ? stripe : body;
+        return Math.abs(seen) > 0.94 ? stripe : body;
       };
       mantle(p, q, r, [cut(i), cut(i + 1)], colourAt, 0);
     });

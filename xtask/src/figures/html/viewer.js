@@ -380,7 +380,7 @@
         : [
           [state.monomers.length, 'monomers, every other one lighter', palette.monomer],
           [state.rods.length, 'rod', palette.rod],
-          [state.rods.length, 'its first axis', palette.stripe],
+          [state.rods.length, 'first axis of its frames, both sides', palette.stripe],
           [state.junctions.length, 'bonds of the junction, seen through bodies', palette.junction],
           [state.linkers.length, 'linkers', palette.linker],
           [state.linkers.length, 'anchors', palette.anchor],
