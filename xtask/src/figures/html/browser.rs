@@ -95,13 +95,15 @@ fn dumped(browser: &Path, folder: &Path) -> String {
         .spawn()
         .expect("the browser starts");
     let began = Instant::now();
-    while child.try_wait().unwrap().is_none() {
-        if began.elapsed() > LIMIT {
-            child.kill().unwrap();
-            panic!("the browser did not end within {LIMIT:?}");
-        }
+    while child.try_wait().unwrap().is_none() && began.elapsed() < LIMIT {
         std::thread::sleep(Duration::from_millis(50));
     }
+    let ended = child.try_wait().unwrap().is_some();
+    if !ended {
+        child.kill().unwrap();
+    }
+    child.wait().unwrap();
+    assert!(ended, "the browser did not end within {LIMIT:?}");
     fs::read_to_string(dump).unwrap()
 }
 

@@ -66,7 +66,9 @@ fn write_row(page: &mut String, row: &Row, among: Among) {
         let name = super::name(row.artefact);
         push(
             page,
-            format_args!("<td data-label=\"where\" class=\"where\"><a href=\"#{id}\">{name}</a></td>"),
+            format_args!(
+                "<td data-label=\"where\" class=\"where\"><a href=\"#{id}\">{name}</a></td>"
+            ),
         );
     }
     push(
