@@ -55,6 +55,8 @@ pub(super) fn view_in_space(results: &[Result4], out: &Path) -> Result<View, Str
     viewer::write("fig4", Attitude::LYING, &shown, caption.into(), out)
 }
 
+const X_LABEL: &str = "x (nm); the force pulls towards -x";
+
 fn panels(
     results: &[&Result4],
     weight: &str,
@@ -62,18 +64,17 @@ fn panels(
     out: &Path,
 ) -> Result<Vec<Picture>, String> {
     let what = format!("{force}, junction weight {weight}");
-    let x_label = "x (nm); the force pulls towards -x";
     let side = Chart {
         title: &format!("Side view, {what}"),
         x_label: "z along the unloaded filament (nm)",
-        y_label: x_label,
+        y_label: X_LABEL,
         series: view(results, |p| (p[2], p[0])),
         equal_axes: true,
     };
     let end = Chart {
         title: &format!("End view, {what}"),
         x_label: "y (nm)",
-        y_label: x_label,
+        y_label: X_LABEL,
         series: view(results, |p| (p[1], p[0])),
         equal_axes: true,
     };

@@ -19,7 +19,10 @@ fn rendered(markdown: &str) -> String {
     let mut columns = Columns::default();
     let events = Parser::new_ext(markdown, Options::ENABLE_TABLES);
     let mut text = String::new();
-    html::push_html(&mut text, events.map(|event| columns.follow(event)));
+    html::push_html(
+        &mut text,
+        events.map(|event| columns.follow(lowered(event))),
+    );
     text
 }
 
@@ -34,18 +37,6 @@ struct Columns {
 impl Columns {
     fn follow<'a>(&mut self, event: Event<'a>) -> Event<'a> {
         match event {
-            Event::Start(Tag::Heading {
-                level,
-                id,
-                classes,
-                attrs,
-            }) => Event::Start(Tag::Heading {
-                level: lower(level),
-                id,
-                classes,
-                attrs,
-            }),
-            Event::End(TagEnd::Heading(level)) => Event::End(TagEnd::Heading(lower(level))),
             Event::Start(Tag::TableHead) => {
                 (self.heads, self.in_head) = (Vec::new(), true);
                 event
@@ -81,6 +72,25 @@ impl Columns {
         let head = self.heads.get(self.at).map_or("", String::as_str);
         let head = super::escape(head);
         format!("<td class=\"wide\" data-label=\"{head}\">").into()
+    }
+}
+
+/// Headings one level lower, all else as it is.
+fn lowered(event: Event<'_>) -> Event<'_> {
+    match event {
+        Event::Start(Tag::Heading {
+            level,
+            id,
+            classes,
+            attrs,
+        }) => Event::Start(Tag::Heading {
+            level: lower(level),
+            id,
+            classes,
+            attrs,
+        }),
+        Event::End(TagEnd::Heading(level)) => Event::End(TagEnd::Heading(lower(level))),
+        _ => event,
     }
 }
 

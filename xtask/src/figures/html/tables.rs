@@ -90,13 +90,9 @@ fn write_row(page: &mut String, row: &Row, among: Among) {
     push(
         page,
         format_args!(
-            "<td data-label=\"unit\"{}>{}</td><td data-label=\"verdict\" class=\"{}\">{}</td>\
-             <td class=\"note\">{}</td></tr>\n",
-            if row.unit.is_empty() {
-                " class=\"none\""
-            } else {
-                ""
-            },
+            "<td data-label=\"unit\" class=\"{}\">{}</td>\
+             <td data-label=\"verdict\" class=\"{}\">{}</td><td class=\"note\">{}</td></tr>\n",
+            if row.unit.is_empty() { "none" } else { "unit" },
             escape(row.unit),
             class(row.pass),
             word(row.pass),
