@@ -29,6 +29,7 @@ mod stiffness;
 mod system;
 pub mod testing;
 mod vectors;
+pub mod wide;
 
 pub use frames::{Frame, Frames};
 pub use inertia::{Axis, Inertia, InertiaError};
