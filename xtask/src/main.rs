@@ -1,5 +1,6 @@
 //! Tasks of this workspace: `cargo xtask <task>`.
 
+mod bench;
 mod check;
 mod figures;
 mod fit;
@@ -19,6 +20,8 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Task {
+    /// Measures how fast the fixed cases run, beside what was aimed at.
+    Bench(bench::Options),
     /// Formatting, lints as errors, documentation, benches that build, tidiness.
     Check,
     /// Fits a rod's laws to tables or to filaments of monomers.
@@ -38,6 +41,7 @@ enum Task {
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
+        Task::Bench(options) => bench::run(&options),
         Task::Check => check::run(),
         Task::FitParameters(options) => fit::run(&options),
         Task::ReproduceFigures { ids, out, quick } => figures::reproduce(&ids, &out, quick),

@@ -1,7 +1,7 @@
 //! Several bodies at once: one body per lane of a vector register.
 //!
-//! The hot loops of this workspace (the drift of frames, the loads of rods and bonds) do the same
-//! arithmetic for every body. States are structures of arrays so that a loop can take as many
+//! The hot loops (the drift of frames, the loads between neighbours) do the same arithmetic for
+//! every body. States are structures of arrays so that a loop can take as many
 //! bodies at a time as the processor has lanes: four with AVX2, one where there is nothing better.
 //! Which it is, is found out when the program runs; no compiler option is needed.
 //!
@@ -21,7 +21,7 @@
 //! `sin`, `cos` and `atan2` take one number at a time and would cost more than all other
 //! arithmetic of a rod's step. All that is needed of them is even in the angle, so that it is a
 //! function of the angle's square without root or quotient, and the angles are small: between
-//! neighbours of a smooth filament, and over a drift. `functions.rs` holds polynomials for angles
+//! neighbours of a smooth chain, and over a drift. `functions.rs` holds polynomials for angles
 //! up to about 1 rad. A group with a larger angle is handed to the scalar functions, lane by
 //! lane: a branch that is never taken in a sound simulation, and therefore free.
 //!
