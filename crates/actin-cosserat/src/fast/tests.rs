@@ -128,7 +128,7 @@ fn a_rod_at_rest_has_no_loads() {
             .unwrap();
         let mut loads = Loads::zeros(&state);
         add_fast(Arch::new(), &layout, &state, &mut loads);
-        assert_eq!(compare(&loads, &Loads::zeros(&state)).0, 0.0);
+        assert!(compare(&loads, &Loads::zeros(&state)).0 == 0.0);
     }
 }
 

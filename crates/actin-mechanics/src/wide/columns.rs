@@ -40,12 +40,12 @@ impl<'a, S: Simd, const N: usize> Columns<'a, S, N> {
     pub fn get(&self, simd: S, group: usize) -> [S::f64s; N] {
         let mut values = [simd.splat_f64s(0.0); N];
         if group < self.full[0].len() {
-            for k in 0..N {
-                values[k] = self.full[k][group];
+            for (value, full) in values.iter_mut().zip(&self.full) {
+                *value = full[group];
             }
         } else if group == self.full[0].len() {
-            for k in 0..N {
-                values[k] = simd.partial_load_f64s(self.rest[k]);
+            for (value, rest) in values.iter_mut().zip(&self.rest) {
+                *value = simd.partial_load_f64s(rest);
             }
         }
         values
@@ -72,14 +72,15 @@ impl<'a, S: Simd, const N: usize> ColumnsMut<'a, S, N> {
     /// The numbers of a group; zeros beyond the end.
     #[inline(always)]
     pub fn get(&self, simd: S, group: usize) -> [S::f64s; N] {
-        let full = group < self.full[0].len();
         let mut values = [simd.splat_f64s(0.0); N];
-        for k in 0..N {
-            values[k] = if full {
-                self.full[k][group]
-            } else {
-                simd.partial_load_f64s(self.rest[k])
-            };
+        if group < self.full[0].len() {
+            for (value, full) in values.iter_mut().zip(&self.full) {
+                *value = full[group];
+            }
+        } else {
+            for (value, rest) in values.iter_mut().zip(&self.rest) {
+                *value = simd.partial_load_f64s(rest);
+            }
         }
         values
     }
@@ -87,12 +88,13 @@ impl<'a, S: Simd, const N: usize> ColumnsMut<'a, S, N> {
     /// Replaces the numbers of a group.
     #[inline(always)]
     pub fn set(&mut self, simd: S, group: usize, values: [S::f64s; N]) {
-        let full = group < self.full[0].len();
-        for k in 0..N {
-            if full {
-                self.full[k][group] = values[k];
-            } else {
-                simd.partial_store_f64s(self.rest[k], values[k]);
+        if group < self.full[0].len() {
+            for (full, value) in self.full.iter_mut().zip(values) {
+                full[group] = value;
+            }
+        } else {
+            for (rest, value) in self.rest.iter_mut().zip(values) {
+                simd.partial_store_f64s(rest, value);
             }
         }
     }
@@ -133,12 +135,17 @@ impl<S: Simd> ShiftedUp<S> {
     /// The next group.
     #[inline(always)]
     pub fn next(&mut self, simd: S, vectors: Wide3<S>) -> Wide3<S> {
-        let mut shifted = vectors;
-        for k in 0..3 {
-            let turned = simd.rotate_right_f64s(vectors[k], 1);
-            shifted[k] = simd.select_f64s(self.first_lane, self.last[k], turned);
-            self.last[k] = turned;
-        }
-        shifted
+        let [x, y, z] = vectors;
+        let turned = [
+            simd.rotate_right_f64s(x, 1),
+            simd.rotate_right_f64s(y, 1),
+            simd.rotate_right_f64s(z, 1),
+        ];
+        let before = std::mem::replace(&mut self.last, turned);
+        [
+            simd.select_f64s(self.first_lane, before[0], turned[0]),
+            simd.select_f64s(self.first_lane, before[1], turned[1]),
+            simd.select_f64s(self.first_lane, before[2], turned[2]),
+        ]
     }
 }

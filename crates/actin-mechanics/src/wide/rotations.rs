@@ -100,8 +100,8 @@ pub fn log_with_coefficient<S: Simd>(simd: S, q: WideQuaternion<S>) -> (Wide3<S>
         (scale(simd, v, signed), coefficient)
     } else {
         let mut lanes = [[0.0; MOST_LANES]; 4];
-        for k in 0..4 {
-            write(simd, &mut lanes[k], 0, q[k]);
+        for (lanes, component) in lanes.iter_mut().zip(q) {
+            write(simd, lanes, 0, component);
         }
         let [x, y, z, c] = log_of_each(&lanes);
         let theta = [read(simd, &x, 0), read(simd, &y, 0), read(simd, &z, 0)];
@@ -118,10 +118,10 @@ fn log_of_each(q: &[[f64; MOST_LANES]; 4]) -> [[f64; MOST_LANES]; 4] {
         let [w, x, y, z] = q.map(|component| component[lane]);
         let q: UnitQuaternion = Unit::new_unchecked(Quaternion::new(w, x, y, z));
         let theta = rotation::log(q);
-        for k in 0..3 {
-            logs[k][lane] = theta[k];
+        let c = rotation::inverse_jacobian_coefficient(theta.norm_squared());
+        for (log, value) in logs.iter_mut().zip([theta.x, theta.y, theta.z, c]) {
+            log[lane] = value;
         }
-        logs[3][lane] = rotation::inverse_jacobian_coefficient(theta.norm_squared());
     }
     logs
 }
