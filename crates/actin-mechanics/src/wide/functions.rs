@@ -73,21 +73,20 @@ pub(super) fn polynomial<S: Simd, const N: usize>(
     u: S::f64s,
 ) -> S::f64s {
     let squared = simd.mul_f64s(u, u);
-    let last = N - 1;
-    let mut sums = [
-        simd.splat_f64s(coefficients[last]),
-        simd.splat_f64s(coefficients[last - 1]),
-    ];
-    for k in (0..last - 1).rev() {
-        let side = (last - k) % 2;
+    let zero = simd.splat_f64s(0.0);
+    // Sums of even and of odd powers.
+    let mut sums = [zero; 2];
+    for k in (0..N).rev() {
         let c = simd.splat_f64s(coefficients[k]);
-        sums[side] = simd.mul_add_e_f64s(sums[side], squared, c);
+        let highest = k + 2 >= N;
+        let sum = &mut sums[k % 2];
+        *sum = if highest {
+            c
+        } else {
+            simd.mul_add_e_f64s(*sum, squared, c)
+        };
     }
-    let [even, odd] = if last % 2 == 0 {
-        sums
-    } else {
-        [sums[1], sums[0]]
-    };
+    let [even, odd] = sums;
     simd.mul_add_e_f64s(odd, u, even)
 }
 
