@@ -11,8 +11,10 @@ use std::time::Instant;
 const BATCH: usize = 200_000;
 /// Bonds are several times faster than segments.
 const BOND_BATCH: usize = 1_200_000;
-/// Batches.
-const BATCHES: u64 = 1000;
+/// Fewest steps of a batch, so that looking at its end costs next to nothing.
+const FEWEST_STEPS: u64 = 150;
+/// Time that a case takes (s).
+const SECONDS: f64 = 4.0;
 /// Rise of a monomer (nm): places where sections of monomers end.
 const RISE_NM: f64 = 71.2 / 26.0;
 
@@ -24,17 +26,20 @@ pub(super) fn measure(motion: &Motion) -> Result<Measured, String> {
         Filament::Rod { .. } => BATCH,
         Filament::Monomers { .. } => BOND_BATCH,
     };
-    let steps = (batch / elements).max(1) as u64;
+    let steps = ((batch / elements) as u64).max(FEWEST_STEPS);
     let runs: Vec<Run> = all
         .iter()
         .map(|assembly| plan(assembly, steps))
         .collect::<Result<_, _>>()?;
     let mut rates = Vec::new();
-    for batch in 0..BATCHES {
+    let mut first_step = 0;
+    let all_started = Instant::now();
+    while all_started.elapsed().as_secs_f64() < SECONDS {
+        first_step += steps;
         let started = Instant::now();
         for (assembly, run) in all.iter_mut().zip(&runs) {
             // As one long run: its first steps are looked at more closely than the others.
-            run.continuing_from((batch + 1) * steps)
+            run.continuing_from(first_step)
                 .execute(&mut assembly.system, &mut [])
                 .map_err(|failure| failure.to_string())?;
         }
