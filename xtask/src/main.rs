@@ -4,6 +4,7 @@ mod check;
 mod figures;
 mod fit;
 mod tidy;
+mod tradeoff;
 
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
@@ -34,6 +35,8 @@ enum Task {
         #[arg(long)]
         quick: bool,
     },
+    /// Measures what each saving of time costs in accuracy, scene by scene.
+    Tradeoff(tradeoff::Options),
 }
 
 fn main() -> ExitCode {
@@ -41,6 +44,7 @@ fn main() -> ExitCode {
         Task::Check => check::run(),
         Task::FitParameters(options) => fit::run(&options),
         Task::ReproduceFigures { ids, out, quick } => figures::reproduce(&ids, &out, quick),
+        Task::Tradeoff(options) => tradeoff::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

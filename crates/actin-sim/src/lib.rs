@@ -12,7 +12,9 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+pub mod advice;
 mod assembly;
+pub mod cost;
 pub mod measure;
 mod results;
 mod run;

@@ -445,6 +445,15 @@ impl Filament {
 }
 
 impl Scene {
+    /// Checks every rule that does not need the filament to be built; scenes that were read have
+    /// passed.
+    ///
+    /// # Errors
+    /// The first rule that is broken.
+    pub fn validate(&self) -> Result<(), Problem> {
+        validate(self)
+    }
+
     /// What is held at one end; nothing if it is free.
     pub(crate) fn hold(&self, end: End) -> Option<Hold> {
         let clamp = self.clamps.iter().find(|clamp| clamp.end == end);
