@@ -1,6 +1,8 @@
 //! `actin check`: what a scene resolves to and what it would cost.
 
 use crate::failure::{Failure, Opened};
+use actin_sim::advice::Advice;
+use actin_sim::cost::Cost;
 use actin_sim::{Assembly, Estimate, Resolution};
 use std::path::Path;
 
@@ -18,10 +20,15 @@ pub(crate) fn check(path: &Path) -> Result<(), Failure> {
     print_sections(&opened.assembly);
     print_counts(&opened.assembly);
     print_linkers(&opened.assembly);
-    match &estimate {
-        Some(estimate) => print_cost(estimate),
-        None => println!("// cost: some tens of Newton iterations for each equilibrium"),
+    if let Some(estimate) = &estimate {
+        print_step(estimate);
     }
+    print_cost(
+        &Cost::of(&opened.assembly, estimate.as_ref()),
+        estimate.is_some(),
+    );
+    let advice = Advice::of(&opened.assembly.scene).map_err(|problem| opened.refuse(&problem))?;
+    println!("// cheaper: {advice}");
     Ok(())
 }
 
@@ -63,13 +70,41 @@ fn print_counts(assembly: &Assembly) {
     );
 }
 
-fn print_cost(estimate: &Estimate) {
+fn print_step(estimate: &Estimate) {
     println!(
-        "// largest frequency {:.2} rad/ns, stability limit {:.4e} ns, time step {:.4e} ns",
-        estimate.largest_frequency_rad_per_ns, estimate.stability_limit_ns, estimate.time_step_ns
+        "// largest frequency {:.2} rad/ns, stability limit {:.4e} ns, time step {:.4e} ns, at most \
+         {} steps",
+        estimate.largest_frequency_rad_per_ns,
+        estimate.stability_limit_ns,
+        estimate.time_step_ns,
+        estimate.steps
     );
+}
+
+fn print_cost(cost: &Cost, moves: bool) {
+    let (bound, what) = if moves {
+        ("at most", "force evaluations")
+    } else {
+        ("about", "Newton steps")
+    };
     println!(
-        "// cost: at most {} steps, {} force evaluations",
-        estimate.steps, estimate.force_evaluations
+        "// cost: {bound} {} {what}, each of {} bonds and {} elements: {:.1e} evaluations of bonds, \
+         {:.1e} of elements, {} on one core at measured rates",
+        cost.evaluations,
+        cost.work.bonds,
+        cost.work.elements,
+        cost.bond_evaluations(),
+        cost.element_evaluations(),
+        time(cost.seconds)
     );
+}
+
+/// A time in words, to the digits that an estimate has.
+fn time(seconds: f64) -> String {
+    match seconds {
+        s if s < 1.0 => format!("{s:.1e} s"),
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.0} h", s / 3600.0),
+    }
 }

@@ -158,8 +158,9 @@ fn displacement(study: &Study, assembly: &Assembly, profile: &[ProfilePoint]) ->
     };
     match study.displacement {
         Displacement::Tip => from_rest(|assembly, state| assembly.tip_nm(state, End::End)),
-        Displacement::Site => {
-            from_rest(|assembly, state| assembly.linkers[0].site().position(state))
+        Displacement::Axial => {
+            let along = from_rest(|assembly, state| assembly.tip_nm(state, End::End))[0].z;
+            vec![Vector3::z() * along]
         }
         Displacement::Height => {
             let height = Ribbon::new(assembly, state).largest_distance_nm();

@@ -54,11 +54,7 @@ pub(super) fn draw(picture: &Picture<'_>, path: &Path) -> Result<(), String> {
 /// The points of a picture, cheapest first. What has no error at all, the reference, has no place
 /// on a logarithmic axis.
 fn points(picture: &Picture<'_>) -> Vec<Point> {
-    let place = |row: &Row| {
-        row.cost_motion
-            .zip((picture.error)(row))
-            .filter(|p| p.1 > 0.0)
-    };
+    let place = |row: &Row| row.cost_motion.zip((picture.error)(row));
     let rows: Vec<(&Row, (f64, f64))> = picture
         .rows
         .iter()
@@ -68,6 +64,7 @@ fn points(picture: &Picture<'_>) -> Vec<Point> {
     let mut points: Vec<Point> = rows
         .iter()
         .zip(front)
+        .filter(|((_, (_, error)), _)| *error > 0.0)
         .map(|((row, place), on_front)| Point {
             place: *place,
             colour: colour(&row.factor),
@@ -113,7 +110,7 @@ fn render(picture: &Picture<'_>, points: &[Point], root: &Area<'_>) -> Outcome {
         .build_cartesian_2d((x0..x1).log_scale(), (y0..y1).log_scale())?;
     plane
         .configure_mesh()
-        .x_desc("cost of a motion, of the reference as 1")
+        .x_desc("cost of a motion: bonds and elements evaluated, of the reference as 1")
         .y_desc(picture.y_label)
         .x_label_formatter(&|v| format!("{v:.0e}"))
         .y_label_formatter(&|v| format!("{v:.0e}"))

@@ -20,8 +20,18 @@ pub(super) fn table(rows: &[Row]) {
         percent(first.scatter_local),
     );
     println!(
-        "{:>34} {:>8} {:>7} {:>7} {:>9} | {:>7} {:>7} {:>7} {:>7} {:>7} (rms errors, %)",
-        "setting", "cost", "time", "steps", "evals", "displ.", "energy", "force", "torque", "local"
+        "{:>34} {:>8} {:>8} {:>7} {:>7} {:>9} | {:>7} {:>7} {:>7} {:>7} {:>7} (rms errors, %)",
+        "setting",
+        "cost",
+        "motion",
+        "statics",
+        "steps",
+        "evals",
+        "displ.",
+        "energy",
+        "force",
+        "torque",
+        "local"
     );
     let mut sorted: Vec<&Row> = rows.iter().collect();
     let cost = |row: &Row| row.cost_motion.or(row.time_relative).unwrap_or(0.0);
@@ -31,9 +41,10 @@ pub(super) fn table(rows: &[Row]) {
             value.map_or("-".to_owned(), |v| format!("{v:.digits$}"))
         };
         println!(
-            "{:>34} {:>8} {:>7} {:>7} {:>9} | {:>7} {:>7} {:>7} {:>7} {:>7}{}{}",
+            "{:>34} {:>8} {:>8} {:>7} {:>7} {:>9} | {:>7} {:>7} {:>7} {:>7} {:>7}{}{}",
             row.setting,
             number(row.cost_motion, 4),
+            number(row.time_motion, 4),
             number(row.time_relative, 3),
             number(row.newton_steps, 1),
             number(row.force_evaluations, 0),
@@ -43,9 +54,10 @@ pub(super) fn table(rows: &[Row]) {
             percent(row.error_torque),
             percent(row.error_local),
             if row.on_front { " *" } else { "" },
-            match row.doubtful {
-                0 => String::new(),
-                n => format!(" ({n} not certified)"),
+            match (row.doubtful, row.failed) {
+                (0, 0) => String::new(),
+                (n, 0) => format!(" ({n} not certified)"),
+                (n, failed) => format!(" ({n} not certified, {failed} without equilibrium)"),
             }
         );
     }

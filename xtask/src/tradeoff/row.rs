@@ -38,9 +38,11 @@ pub(super) struct Row {
     pub newton_steps: Option<f64>,
     /// Evaluations that 1 ns of motion takes.
     pub evaluations_per_ns: Option<f64>,
-    /// Time of a motion, of the reference as 1: counted work at the stated rates.
+    /// Cost of a motion, of the reference as 1: bonds and elements that are evaluated in a ns.
     pub cost_motion: Option<f64>,
-    /// Newton's time (of a motion: its own), of the reference as 1, measured.
+    /// The same in time, measured on a short motion.
+    pub time_motion: Option<f64>,
+    /// Newton's time of the reference as 1, measured; of a damped motion, that of Newton as 1.
     pub time_relative: Option<f64>,
     pub time_s: Option<f64>,
     pub error_displacement: Option<f64>,
@@ -60,6 +62,8 @@ pub(super) struct Row {
     pub scatter_local: Option<f64>,
     /// Samplings whose equilibrium is not certified as a minimum.
     pub doubtful: usize,
+    /// Samplings without an equilibrium: the path broke off.
+    pub failed: usize,
     /// Whether no other row of the scene has both less cost and less error of the displacement.
     pub on_front: bool,
 }
@@ -87,6 +91,7 @@ impl Row {
     }
 
     /// Every number that is there.
+    #[cfg(test)]
     pub(super) fn numbers(&self) -> Vec<f64> {
         let value = serde_json::to_value(self).unwrap_or_default();
         let entries = value.as_object().into_iter().flatten();

@@ -8,6 +8,11 @@ use actin_sim::{Assembly, Counts, Dynamics, Integrator, Scene, Task};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 
+/// A motion whose time is taken (ns), how long it is repeated (s) and how often: the least counts.
+const TIMED_NS: f64 = 0.1;
+const TIMED_S: f64 = 0.2;
+const TIMED: usize = 40;
+
 /// An equilibrium that was found.
 #[derive(Clone, Debug)]
 pub(super) struct Solved {
@@ -29,40 +34,44 @@ pub(super) struct MotionCost {
     pub work: Work,
     /// Evaluations for a ns at the default step of the default integrator.
     pub evaluations_per_ns: f64,
-    /// Estimated seconds for a ns.
-    pub seconds_per_ns: f64,
+    /// Bonds and elements evaluated in a ns.
+    pub counted_per_ns: f64,
 }
 
 /// The scene of a study in one setting, with a sampling of the bonds.
 pub(super) fn scene(study: &Study, setting: &Setting, seed: u64) -> Scene {
     let mut scene = setting.apply(&study.scene);
     scene.filament.monomers.seed = seed;
+    if study.turned {
+        scene.filament.monomers.azimuth_deg = seed as f64 * 360.0 / study.seeds as f64;
+    }
     scene
 }
 
+/// A filament on its way to an equilibrium: that, or why there is none.
+pub(super) type Attempt = Result<Solved, String>;
+
 /// Equilibria of every setting and sampling, by setting.
-pub(super) fn all(study: &Study) -> Result<Vec<Vec<Solved>>, String> {
-    let settings = study.settings.len();
-    let jobs: Vec<(usize, u64)> = (0..settings)
-        .flat_map(|i| (0..study.seeds).map(move |seed| (i, seed)))
-        .collect();
-    let solved: Result<Vec<Solved>, String> = jobs
+pub(super) fn all(study: &Study) -> Vec<Vec<Attempt>> {
+    let solve_one = |setting, seed| equilibrium(study, setting, seed);
+    study
+        .settings
         .par_iter()
-        .map(|&(i, seed)| equilibrium(study, &study.settings[i].2, seed))
-        .collect();
-    let solved = solved?;
-    let seeds = usize::try_from(study.seeds).map_err(|e| e.to_string())?;
-    Ok(solved.chunks(seeds).map(<[Solved]>::to_vec).collect())
+        .map(|(_, _, setting)| {
+            let seeds = (0..study.seeds).into_par_iter();
+            seeds.map(|seed| solve_one(setting, seed)).collect()
+        })
+        .collect()
 }
 
 /// The lowest equilibrium over the starts of the study.
-pub(super) fn equilibrium(study: &Study, setting: &Setting, seed: u64) -> Result<Solved, String> {
+pub(super) fn equilibrium(study: &Study, setting: &Setting, seed: u64) -> Attempt {
     let scene = scene(study, setting, seed);
     let mut lowest: Option<Solved> = None;
     let (mut steps, mut evaluations, mut wall_s) = (0, 0, 0.0);
     for &start in study.starts_deg {
-        let found = from(study, &scene, start)
-            .map_err(|e| format!("{}, {setting:?}, seed {seed}: {e}", study.name))?;
+        let found =
+            from(study, &scene, start).map_err(|e| format!("{}, seed {seed}: {e}", study.name))?;
         steps += found.newton_steps;
         evaluations += found.evaluations;
         wall_s += found.wall_s;
@@ -103,6 +112,23 @@ fn from(study: &Study, scene: &Scene, start_deg: f64) -> Result<Solved, String> 
     })
 }
 
+/// Least time of a short motion per ns (s), on the first sampling.
+pub(super) fn motion_seconds_per_ns(study: &Study, setting: &Setting) -> Result<f64, String> {
+    let mut scene = scene(study, setting, 0);
+    scene.path.clear();
+    scene.task = Task::Dynamics(motion(TIMED_NS, Integrator::default(), None));
+    let (mut least, mut spent, mut repeats) = (f64::INFINITY, 0.0, 0);
+    while repeats < TIMED && spent < TIMED_S {
+        let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
+        let watch = &mut |_| ControlFlow::Continue(());
+        let (_, report) = actin_sim::run(&mut assembly, watch).map_err(|e| e.to_string())?;
+        least = least.min(report.wall_s / TIMED_NS);
+        spent += report.wall_s;
+        repeats += 1;
+    }
+    Ok(least)
+}
+
 /// What a motion of the scene costs in one setting.
 pub(super) fn motion_cost(study: &Study, setting: &Setting) -> Result<MotionCost, String> {
     let mut scene = scene(study, setting, 0);
@@ -118,7 +144,7 @@ pub(super) fn motion_cost(study: &Study, setting: &Setting) -> Result<MotionCost
         counts: assembly.counts(),
         work: cost.work,
         evaluations_per_ns: cost.evaluations as f64 / duration,
-        seconds_per_ns: cost.seconds / duration,
+        counted_per_ns: (cost.bond_evaluations() + cost.element_evaluations()) / duration,
     })
 }
 

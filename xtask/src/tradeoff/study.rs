@@ -1,6 +1,6 @@
 //! What is asked of each scene, and which settings it is resolved with.
 
-use actin_sim::advice::{Setting, scenes};
+use actin_sim::advice::{Setting, scenes, table};
 use actin_sim::{JunctionWeight, RodLaw, Scene};
 
 /// What is varied; each has a colour of its own.
@@ -61,12 +61,12 @@ impl Factor {
 pub(super) enum Displacement {
     /// The tip's, as a vector.
     Tip,
+    /// That of the far end along the axis.
+    Axial,
     /// The largest distance between centre lines at equal arc length.
     CentreLine,
     /// The largest distance from the axis.
     Height,
-    /// That of the first linker's site, as a vector.
-    Site,
 }
 
 /// What is compared as force and torque.
@@ -102,6 +102,8 @@ pub(super) struct Study {
     pub field: Field,
     /// Where the field is compared (nm).
     pub window: [f64; 2],
+    /// Whether samplings differ in the azimuth of the lattice too, as filaments on a wall do.
+    pub turned: bool,
     /// Turns from which equilibria of a free filament are sought (deg): the lowest counts.
     pub starts_deg: &'static [f64],
     /// The first is the reference.
@@ -254,7 +256,7 @@ fn linked(name: &'static str, reaction: Reaction) -> Question {
 fn twist(name: &'static str, length: f64) -> Question {
     Question {
         name,
-        displacement: Displacement::Tip,
+        displacement: Displacement::Axial,
         reaction: Reaction::EndCouple,
         field: Field::Twist,
         window: [0.5 * length - 10.0, 0.5 * length + 10.0],
@@ -276,7 +278,7 @@ fn twist(name: &'static str, length: f64) -> Question {
 fn mid_linker(name: &'static str, length: f64) -> Question {
     Question {
         name,
-        displacement: Displacement::Site,
+        displacement: Displacement::CentreLine,
         reaction: Reaction::Linkers,
         field: Field::Twist,
         window: [0.5 * length - 15.0, 0.5 * length + 15.0],
@@ -324,6 +326,7 @@ impl Question {
             reaction: self.reaction,
             field: self.field,
             window: self.window,
+            turned: self.displacement == Displacement::Tip,
             starts_deg: if self.free {
                 &[0.0, 90.0, 180.0, 270.0]
             } else {
@@ -378,15 +381,17 @@ impl Question {
             };
             change(Factor::Bonds, format!("bonds-{bonds}"), setting);
         }
-        let law = RodLaw::PublishedExtension;
-        change(
-            Factor::Law,
-            "PublishedExtension".into(),
-            Setting {
-                law,
-                ..default.clone()
-            },
-        );
+        for law in [RodLaw::PublishedExtension, table::constant_shear()] {
+            let name = table::law_name(&law).to_owned();
+            change(
+                Factor::Law,
+                name,
+                Setting {
+                    law,
+                    ..default.clone()
+                },
+            );
+        }
         let weight = JunctionWeight::Full;
         change(
             Factor::Junction,
@@ -429,6 +434,11 @@ impl Question {
                     attached: 1,
                     ..less
                 },
+            ),
+            (
+                Factor::Law,
+                "none/FittedConstantShear".into(),
+                Setting::of(vec![], table::constant_shear()),
             ),
             (
                 Factor::Combination,

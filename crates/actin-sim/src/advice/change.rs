@@ -81,7 +81,7 @@ fn resolved(scene: &Scene, row: &Measured, scale: f64) -> Option<Candidate> {
         } else {
             stretches(&gone)
         };
-        format!("replace {from} by a rod with law {}", row.law)
+        format!("replace {from} by a rod with law {}", in_words(&row.law))
     } else if same_model && gone.is_empty() && to.bonds < from.bonds && same_rods(scene, &from, &to)
     {
         format!("take {} bonds per interface", to.bonds)
@@ -90,6 +90,14 @@ fn resolved(scene: &Scene, row: &Measured, scale: f64) -> Option<Candidate> {
     };
     let expected = Some(Expected { row: row.clone() });
     Some((what, to.apply(scene), expected))
+}
+
+/// A law as the advice names it.
+fn in_words(law: &str) -> &str {
+    match law {
+        "FittedConstantShear" => "Fitted but for its shear",
+        law => law,
+    }
 }
 
 fn stretches(gone: &[[f64; 2]]) -> String {

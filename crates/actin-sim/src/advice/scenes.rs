@@ -22,7 +22,7 @@ pub fn observed(name: &str) -> (&'static str, &'static str) {
         "cantilever-160" | "cantilever-1600" => ("tip", "curvature at the wall"),
         "linkers-planar" | "linkers-round" => ("centre line", "curvature at the linker"),
         "twist" => ("far end", "twist in the middle"),
-        "mid-linker" => ("site of the linker", "twist at the linker"),
+        "mid-linker" => ("centre line", "twist at the linker"),
         _ => ("height", "curvature in the middle"),
     }
 }

@@ -4,7 +4,7 @@
 //! the samplings of bonds, against the same filament with every monomer resolved.
 
 use super::Setting;
-use crate::scene::{JunctionWeight, RodLaw};
+use crate::scene::{JunctionWeight, RodLaw, RodLaws};
 use serde::{Deserialize, Serialize};
 
 /// The table, as committed.
@@ -17,7 +17,8 @@ pub struct Measured {
     pub scene: String,
     /// Stretches of monomers (nm), such as `0-40+120-160.2`; empty for a pure rod.
     pub monomers_nm: String,
-    /// The rod's law: `Constant`, `PublishedExtension` or `Fitted`.
+    /// The rod's law: `Constant`, `PublishedExtension`, `Fitted`, or `FittedConstantShear`, which is `Fitted`
+    /// without its law of shear.
     pub law: String,
     /// Length of segments (nm).
     pub segment_nm: f64,
@@ -66,13 +67,35 @@ impl Measured {
     }
 }
 
+/// The laws of the table, by name.
 fn law(name: &str) -> Option<RodLaw> {
-    Some(match name {
-        "Constant" => RodLaw::Constant,
-        "PublishedExtension" => RodLaw::PublishedExtension,
-        "Fitted" => RodLaw::Fitted,
-        _ => return None,
-    })
+    LAWS.iter()
+        .find(|known| known.0 == name)
+        .map(|known| (known.1)())
+}
+
+/// A law and its name.
+type NamedLaw = (&'static str, fn() -> RodLaw);
+
+const LAWS: [NamedLaw; 4] = [
+    ("Constant", || RodLaw::Constant),
+    ("PublishedExtension", || RodLaw::PublishedExtension),
+    ("Fitted", || RodLaw::Fitted),
+    ("FittedConstantShear", constant_shear),
+];
+
+/// The law `Fitted` with the constant shearing rigidity, for short spans.
+pub fn constant_shear() -> RodLaw {
+    RodLaw::Laws(Box::new(RodLaws {
+        shear: None,
+        ..crate::fitted_laws()
+    }))
+}
+
+/// The name of a law in the table.
+pub fn law_name(law: &RodLaw) -> &'static str {
+    let known = LAWS.iter().find(|known| (known.1)() == *law);
+    known.map_or("Laws", |known| known.0)
 }
 
 /// Stretches of monomers as the table writes them.
