@@ -69,3 +69,68 @@ impl fmt::Display for Advice {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cost::Cost;
+    use crate::{Assembly, RodLaw, Task};
+
+    fn cantilever() -> Scene {
+        scenes::all().remove(0).1
+    }
+
+    /// The advice for the cantilever of Figure 4, every monomer resolved. By the rates, 7616 bonds take
+    /// 1.255 ms of a Newton step, 1856 bonds and 14 elements 0.532 ms.
+    #[test]
+    fn the_advice_for_the_cantilever() {
+        let advice = Advice::of(&cantilever()).unwrap().to_string();
+        assert_eq!(
+            advice,
+            "replace the monomers of 40..160 nm by a rod with law Fitted: 2.4 times cheaper, expected \
+             errors: tip 1.4 %, energy 1.3 %, torque 0.4 %, curvature at the wall 0.7 % (samplings of \
+             the bonds scatter by 3.8 %; measured on cantilever-160)"
+        );
+    }
+
+    /// What is advised is accepted by every rule, can be built, is cheaper, and has what the scene had:
+    /// its loads, linkers, path and length.
+    #[test]
+    fn advice_is_never_refused() {
+        for (name, scene) in scenes::all() {
+            let Advice::Change(change) = Advice::of(&scene).unwrap() else {
+                continue;
+            };
+            change.scene.validate().unwrap();
+            let cost = |scene| Cost::estimated(&Assembly::build(scene).unwrap()).unwrap();
+            assert!(cost(&change.scene).seconds < cost(&scene).seconds, "{name}");
+            assert_eq!(change.scene.loads, scene.loads);
+            assert_eq!(change.scene.linkers, scene.linkers);
+            assert_eq!(change.scene.path, scene.path);
+            let length = |scene: &Scene| scene.filament.sections.last().unwrap().span_nm().1;
+            assert!(
+                (length(&change.scene) - length(&scene)).abs() < 1e-9,
+                "{name}"
+            );
+            let expected = change.expected.and_then(|e| e.row.displacement);
+            assert!(expected.is_some_and(|error| error <= AT_MOST), "{name}");
+        }
+    }
+
+    /// A damped motion that stops at rest is an equilibrium in disguise, and a finer resolution is never
+    /// advised: a pure rod has nothing to replace.
+    #[test]
+    fn advice_only_saves() {
+        let mut scene = Setting::of(vec![], RodLaw::Constant).apply(&cantilever());
+        assert_eq!(
+            Advice::of(&scene).unwrap(),
+            Advice::Nothing {
+                like: "cantilever-160"
+            }
+        );
+        let text = scene.to_ron();
+        assert!(matches!(scene.task, Task::Equilibrium(_)), "{text}");
+        scene.filament.monomers.rise_nm = 2.76;
+        assert_eq!(Advice::of(&scene).unwrap(), Advice::Unknown);
+    }
+}

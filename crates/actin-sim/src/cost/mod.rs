@@ -5,13 +5,14 @@ mod rates;
 
 pub use rates::{
     BONDS_PER_S, ELEMENTS_PER_S, LAW_ELEMENTS_PER_S, NEWTON_BONDS_PER_S, NEWTON_ELEMENTS_PER_S,
+    NEWTON_LAW_ELEMENTS_PER_S,
 };
 
 use crate::scene::{Problem, Task};
 use crate::{Assembly, Estimate};
 
 /// Newton steps of one equilibrium that the estimate takes: the middle of what `cargo xtask
-/// tradeoff` counts, which is 5 to 60.
+/// tradeoff` counts, which is 4 to 70.
 const NEWTON_STEPS: u64 = 20;
 
 /// What one evaluation of the loads evaluates.
@@ -59,7 +60,7 @@ impl Cost {
             ),
             None => (
                 NEWTON_STEPS * equilibria(assembly),
-                bonds / NEWTON_BONDS_PER_S + elements / NEWTON_ELEMENTS_PER_S,
+                bonds / NEWTON_BONDS_PER_S + elements / rates::newton_elements_per_s(law),
             ),
         };
         Self {
