@@ -24,6 +24,8 @@ pub(super) struct Picture<'a> {
 /// Pixels of the picture, and of the plot in it.
 const SIZE: (u32, u32) = (1240, 720);
 const PLOT_WIDTH: u32 = 840;
+/// Font of labels.
+const FONT: (&str, i32) = ("sans-serif", 13);
 /// Height of a line of the list, in pixels.
 const LINE: i32 = 16;
 
@@ -122,27 +124,25 @@ fn render(picture: &Picture<'_>, points: &[Point], root: &Area<'_>) -> Outcome {
     if let Some(level) = scatter.filter(|level| (y0..y1).contains(level)) {
         let line = [(x0, level), (x1, level)];
         plane.draw_series([PathElement::new(line, BLACK.mix(0.35).stroke_width(1))])?;
-        let text = ("sd over samplings of the bonds", ("sans-serif", 13));
-        let label = EmptyElement::at((x0, level)) + Text::new(text.0, (6, -16), text.1);
-        plane.draw_series([label])?;
+        let text = Text::new("sd over samplings of the bonds", (6, -16), FONT);
+        plane.draw_series([EmptyElement::at((x0, level)) + text])?;
     }
     let front = points.iter().filter(|p| p.on_front).map(|p| p.place);
     plane.draw_series(LineSeries::new(front, BLACK.stroke_width(2)))?;
     for (i, point) in points.iter().enumerate() {
-        let style = ("sans-serif", 13).into_font().color(&point.colour);
+        let style = FONT.into_font().color(&point.colour);
         let dot = EmptyElement::at(point.place)
             + Circle::new((0, 0), 4, point.colour.filled())
             + Text::new((i + 1).to_string(), (6, -14), style);
         plane.draw_series([dot])?;
     }
     list(points, &right)?;
-    root.present()?;
-    Ok(())
+    Ok(root.present()?)
 }
 
 /// What the numbers are, cheapest first; those of the front are marked.
 fn list(points: &[Point], area: &Area<'_>) -> Outcome {
-    let black = ("sans-serif", 13).into_font().color(&BLACK);
+    let black = FONT.into_font().color(&BLACK);
     area.draw(&Text::new(
         "line: Pareto front, its points marked *",
         (0, 20),
@@ -151,7 +151,7 @@ fn list(points: &[Point], area: &Area<'_>) -> Outcome {
     for (y, (i, point)) in (0..).map(|k| 44 + k * LINE).zip(points.iter().enumerate()) {
         let mark = if point.on_front { "*" } else { "" };
         let text = format!("{:2}{mark} {}", i + 1, point.name);
-        let style = ("sans-serif", 13).into_font().color(&point.colour);
+        let style = FONT.into_font().color(&point.colour);
         area.draw(&Text::new(text, (0, y), style))?;
     }
     Ok(())

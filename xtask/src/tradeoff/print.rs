@@ -10,6 +10,14 @@ pub(super) fn table(rows: &[Row]) {
     let Some(first) = rows.first() else {
         return;
     };
+    heading(first);
+    let mut sorted: Vec<&Row> = rows.iter().collect();
+    let cost = |row: &Row| row.cost_motion.or(row.time_relative).unwrap_or(0.0);
+    sorted.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
+    sorted.into_iter().for_each(line);
+}
+
+fn heading(first: &Row) {
     println!(
         "{}: sd over samplings in %: displacement {}, energy {}, force {}, torque {}, local {}",
         first.scene,
@@ -19,48 +27,37 @@ pub(super) fn table(rows: &[Row]) {
         percent(first.scatter_torque),
         percent(first.scatter_local),
     );
-    println!(
-        "{:>34} {:>8} {:>8} {:>7} {:>7} {:>9} | {:>7} {:>7} {:>7} {:>7} {:>7} (rms errors, %)",
-        "setting",
-        "cost",
-        "motion",
-        "statics",
-        "steps",
-        "evals",
-        "displ.",
-        "energy",
-        "force",
-        "torque",
-        "local"
-    );
-    let mut sorted: Vec<&Row> = rows.iter().collect();
-    let cost = |row: &Row| row.cost_motion.or(row.time_relative).unwrap_or(0.0);
-    sorted.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
-    for row in sorted {
-        let number = |value: Option<f64>, digits: usize| {
-            value.map_or("-".to_owned(), |v| format!("{v:.digits$}"))
-        };
-        println!(
-            "{:>34} {:>8} {:>8} {:>7} {:>7} {:>9} | {:>7} {:>7} {:>7} {:>7} {:>7}{}{}",
-            row.setting,
-            number(row.cost_motion, 4),
-            number(row.time_motion, 4),
-            number(row.time_relative, 3),
-            number(row.newton_steps, 1),
-            number(row.force_evaluations, 0),
-            percent(row.error_displacement),
-            percent(row.error_energy),
-            percent(row.error_force),
-            percent(row.error_torque),
-            percent(row.error_local),
-            if row.on_front { " *" } else { "" },
-            match (row.doubtful, row.failed) {
-                (0, 0) => String::new(),
-                (n, 0) => format!(" ({n} not certified)"),
-                (n, failed) => format!(" ({n} not certified, {failed} without equilibrium)"),
-            }
-        );
-    }
+    let columns = [
+        "cost", "motion", "statics", "steps", "evals", "displ.", "energy", "force", "torque",
+        "local",
+    ];
+    let columns = columns.map(|name| format!("{name:>9}")).concat();
+    println!("{:>34}{columns} (rms errors, %)", "setting");
+}
+
+fn line(row: &Row) {
+    let number =
+        |value: Option<f64>, digits: usize| value.map_or("-".into(), |v| format!("{v:.digits$}"));
+    let columns = [
+        number(row.cost_motion, 4),
+        number(row.time_motion, 4),
+        number(row.time_relative, 3),
+        number(row.newton_steps, 1),
+        number(row.force_evaluations, 0),
+        percent(row.error_displacement),
+        percent(row.error_energy),
+        percent(row.error_force),
+        percent(row.error_torque),
+        percent(row.error_local),
+    ];
+    let columns = columns.map(|column| format!("{column:>9}")).concat();
+    let front = if row.on_front { " *" } else { "" };
+    let trouble = match (row.doubtful, row.failed) {
+        (0, 0) => String::new(),
+        (n, 0) => format!(" ({n} not certified)"),
+        (n, failed) => format!(" ({n} not certified, {failed} without equilibrium)"),
+    };
+    println!("{:>34}{columns}{front}{trouble}", row.setting);
 }
 
 fn percent(value: Option<f64>) -> String {

@@ -107,9 +107,12 @@ pub(super) struct Study {
     /// Turns from which equilibria of a free filament are sought (deg): the lowest counts.
     pub starts_deg: &'static [f64],
     /// The first is the reference.
-    pub settings: Vec<(Factor, String, Setting)>,
+    pub settings: Vec<Varied>,
     pub seeds: u64,
 }
+
+/// A setting, its name, and what is varied in it.
+pub(super) type Varied = (Factor, String, Setting);
 
 /// Stretches of monomers, with a name.
 type Stretch = (&'static str, Vec<[f64; 2]>);
@@ -339,7 +342,7 @@ impl Question {
     }
 
     /// The reference, shares under both laws, then one change of the default at a time.
-    fn settings(&self, length: f64, quick: bool) -> Vec<(Factor, String, Setting)> {
+    fn settings(&self, length: f64, quick: bool) -> Vec<Varied> {
         let whole = Setting::of(vec![[0.0, length]], RodLaw::Constant);
         let mut all = vec![(Factor::Reference, "all monomers".into(), whole.clone())];
         for (law, factor) in [
@@ -360,106 +363,74 @@ impl Question {
         all
     }
 
-    fn single_changes(&self) -> Vec<(Factor, String, Setting)> {
-        let (default_name, monomers) = &self.shares[self.default];
-        let default = Setting::of(monomers.clone(), RodLaw::Fitted);
-        let mut all = Vec::new();
-        let mut change = |factor, what: String, setting| {
-            all.push((factor, format!("{default_name}/{what}"), setting));
-        };
+    /// The default with one thing changed, and as much resolved elsewhere.
+    fn single_changes(&self) -> Vec<Varied> {
+        let (name, monomers) = &self.shares[self.default];
+        let default = || Setting::of(monomers.clone(), RodLaw::Fitted);
+        let mut changes: Vec<Varied> = Vec::new();
         for segment_nm in SEGMENTS_NM {
-            let setting = Setting {
-                segment_nm,
-                ..default.clone()
-            };
-            change(Factor::Segment, format!("segments-{segment_nm}"), setting);
+            let (mut to, what) = (default(), format!("segments-{segment_nm}"));
+            to.segment_nm = segment_nm;
+            changes.push((Factor::Segment, what, to));
         }
-        for bonds in BONDS {
-            let setting = Setting {
-                bonds,
-                ..default.clone()
-            };
-            change(Factor::Bonds, format!("bonds-{bonds}"), setting);
-        }
+        changes.extend(fewer_bonds(&default()));
         for law in [RodLaw::PublishedExtension, table::constant_shear()] {
-            let name = table::law_name(&law).to_owned();
-            change(
-                Factor::Law,
-                name,
-                Setting {
-                    law,
-                    ..default.clone()
-                },
-            );
+            let (mut to, what) = (default(), table::law_name(&law).to_owned());
+            to.law = law;
+            changes.push((Factor::Law, what, to));
         }
-        let weight = JunctionWeight::Full;
-        change(
-            Factor::Junction,
-            "Full".into(),
-            Setting {
-                weight,
-                ..default.clone()
-            },
-        );
-        let one = Setting {
-            attached: 1,
-            ..default.clone()
-        };
-        change(Factor::Junction, "one-attached".into(), one);
-        for (name, monomers) in &self.places {
+        let mut full = default();
+        full.weight = JunctionWeight::Full;
+        changes.push((Factor::Junction, "Full".into(), full));
+        let mut one = default();
+        one.attached = 1;
+        changes.push((Factor::Junction, "one-attached".into(), one));
+        let mut all = named_after(name, changes);
+        all.extend(self.places.iter().map(|(name, monomers)| {
             let setting = Setting::of(monomers.clone(), RodLaw::Fitted);
-            all.push((Factor::Place, format!("{name}/Fitted"), setting));
-        }
+            (Factor::Place, format!("{name}/Fitted"), setting)
+        }));
         all
     }
 
-    fn combinations(&self, whole: &Setting) -> Vec<(Factor, String, Setting)> {
+    /// Several changes at once, pure rods, and fewer bonds where all is resolved.
+    fn combinations(&self, whole: &Setting) -> Vec<Varied> {
         let (name, monomers) = &self.shares[self.default - 1];
-        let less = Setting::of(monomers.clone(), RodLaw::Fitted);
-        let mut all = vec![
-            (
-                Factor::Combination,
-                format!("{name}/segments-5+bonds-32"),
-                Setting {
-                    segment_nm: 5.0,
-                    bonds: 32,
-                    ..less.clone()
-                },
-            ),
-            (
-                Factor::Combination,
-                format!("{name}/segments-20+one-attached"),
-                Setting {
-                    segment_nm: 20.0,
-                    attached: 1,
-                    ..less
-                },
-            ),
-            (
-                Factor::Law,
-                "none/FittedConstantShear".into(),
-                Setting::of(vec![], table::constant_shear()),
-            ),
-            (
-                Factor::Combination,
-                "none/Fitted+segments-5".into(),
-                Setting {
-                    segment_nm: 5.0,
-                    ..Setting::of(vec![], RodLaw::Fitted)
-                },
-            ),
+        let less = || Setting::of(monomers.clone(), RodLaw::Fitted);
+        let (mut cheap, mut coarse) = (less(), less());
+        (cheap.segment_nm, cheap.bonds) = (5.0, 32);
+        (coarse.segment_nm, coarse.attached) = (20.0, 1);
+        let combined = Factor::Combination;
+        let mixed = vec![
+            (combined, "segments-5+bonds-32".into(), cheap),
+            (combined, "segments-20+one-attached".into(), coarse),
         ];
-        for bonds in BONDS {
-            let setting = Setting {
-                bonds,
-                ..whole.clone()
-            };
-            all.push((
-                Factor::Bonds,
-                format!("all monomers/bonds-{bonds}"),
-                setting,
-            ));
-        }
+        let mut fine = Setting::of(Vec::new(), RodLaw::Fitted);
+        fine.segment_nm = 5.0;
+        let constant_shear = Setting::of(Vec::new(), table::constant_shear());
+        let rods = vec![
+            (Factor::Law, "FittedConstantShear".into(), constant_shear),
+            (combined, "Fitted+segments-5".into(), fine),
+        ];
+        let mut all = named_after(name, mixed);
+        all.extend(named_after("none", rods));
+        all.extend(named_after("all monomers", fewer_bonds(whole)));
         all
     }
+}
+
+/// A setting with other numbers of bonds.
+fn fewer_bonds(setting: &Setting) -> Vec<Varied> {
+    let with = |bonds| Setting {
+        bonds,
+        ..setting.clone()
+    };
+    let each = BONDS.map(|bonds| (Factor::Bonds, format!("bonds-{bonds}"), with(bonds)));
+    each.into()
+}
+
+/// Changes under the name of what they change.
+fn named_after(name: &str, changes: Vec<Varied>) -> Vec<Varied> {
+    let named = |(factor, what, setting)| (factor, format!("{name}/{what}"), setting);
+    changes.into_iter().map(named).collect()
 }
