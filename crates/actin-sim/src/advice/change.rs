@@ -4,7 +4,7 @@ use super::like::length;
 use super::{AT_MOST, Measured, Setting, scenes, table};
 use crate::Assembly;
 use crate::cost::Cost;
-use crate::scene::{Drag, Equilibrium, Problem, Scene, Section, Task};
+use crate::scene::{Drag, Equilibrium, Problem, RodLaw, Scene, Section, Task};
 use std::fmt;
 
 /// Places along a filament closer than this (nm) are one: boundaries move to the lattice.
@@ -81,7 +81,8 @@ fn resolved(scene: &Scene, row: &Measured, scale: f64) -> Option<Candidate> {
         } else {
             stretches(&gone)
         };
-        format!("replace {from} by a rod with law {}", in_words(&row.law))
+        let law = in_words(&row.law);
+        format!("replace {from} by a rod{} with law {law}", segments(row))
     } else if same_model && gone.is_empty() && to.bonds < from.bonds && same_rods(scene, &from, &to)
     {
         format!("take {} bonds per interface", to.bonds)
@@ -98,6 +99,15 @@ fn in_words(law: &str) -> &str {
         "FittedConstantShear" => "Fitted but for its shear",
         law => law,
     }
+}
+
+/// The length of segments, where it is not that of a scene that leaves it out.
+fn segments(row: &Measured) -> String {
+    let default = Setting::of(Vec::new(), RodLaw::default()).segment_nm;
+    if (row.segment_nm - default).abs() < 1e-9 {
+        return String::new();
+    }
+    format!(" of {} nm segments", row.segment_nm)
 }
 
 fn stretches(gone: &[[f64; 2]]) -> String {

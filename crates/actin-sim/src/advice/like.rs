@@ -9,6 +9,9 @@ const FORCE: f64 = 2.0;
 /// How far the direction of a force may be from that of the measured scene, as a cosine.
 const ALONG: f64 = 0.98;
 
+/// How far the azimuth of a site may be from that of the measured scene (deg).
+const AZIMUTH_DEG: f64 = 4.0;
+
 /// Whether `scene` asks what `measured` asks, however it is resolved: the same ends held, the same
 /// loads, linkers and path within a tenth (forces within a factor of two), monomers and rods of the
 /// default parameters but for seed, azimuth and bonds.
@@ -75,10 +78,10 @@ fn same_linker(a: &Linker, b: &Linker) -> bool {
     };
     displaced
         && near(a.at_nm, b.at_nm)
-        && (near(a.radius_nm, b.radius_nm) || a.radius_nm == b.radius_nm)
-        && (a.azimuth_deg - b.azimuth_deg).abs() <= 360.0 * NEAR / 10.0
+        && near(a.radius_nm, b.radius_nm)
+        && (a.azimuth_deg - b.azimuth_deg).abs() <= AZIMUTH_DEG
         && near(a.stiffness_pn_per_nm, b.stiffness_pn_per_nm)
-        && a.rest_length_nm == b.rest_length_nm
+        && near(a.rest_length_nm, b.rest_length_nm)
 }
 
 fn same_stage(a: &Stage, b: &Stage) -> bool {
