@@ -101,7 +101,7 @@ fn scene_key(parameter: &str) -> String {
 
 /// The problem behind an interface that could not be bonded.
 pub(super) fn unbonded(error: &InterfaceError, monomers: &Monomers) -> Problem {
-    let InterfaceError::NoBonds { kind, .. } = error;
+    let (InterfaceError::NoBonds { kind, .. } | InterfaceError::FewBonds { kind, .. }) = error;
     let (key, value) = match kind {
         InterfaceKind::Lateral => ("lateral_max_bond_nm", monomers.lateral_max_bond_nm),
         InterfaceKind::Longitudinal => (
