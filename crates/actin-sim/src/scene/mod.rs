@@ -7,6 +7,7 @@ pub(crate) mod fitted;
 mod law;
 mod linker;
 mod locate;
+mod magnitude;
 mod model;
 mod problem;
 mod read;

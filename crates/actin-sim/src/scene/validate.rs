@@ -2,7 +2,7 @@
 
 use super::{
     Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Load, Problem, Scene, Section,
-    Setting, Slides, Stage, StopRule, Task, linker,
+    Setting, Slides, Stage, StopRule, Task, linker, magnitude,
 };
 use std::fmt::Debug;
 
@@ -23,6 +23,7 @@ pub(crate) const MOST_BONDS: f64 = 1e8;
 /// # Errors
 /// The first rule that is broken.
 pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
+    magnitude::check(scene)?;
     filament(&scene.filament)?;
     for (i, clamp) in scene.clamps.iter().enumerate() {
         check_clamp(scene, i, clamp)?;
