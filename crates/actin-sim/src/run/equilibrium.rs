@@ -2,14 +2,17 @@
 
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
-use crate::scene::{Equilibrium as Settings, Problem};
+use crate::scene::{Equilibrium as Settings, Load, Problem};
 use actin_equilibrium::{
     BodyOrder, Certificate, Equilibrium, Jumps, Layout, Newton, NewtonOptions, Path, PathFailure,
     PathOptions, Residual, Saddles, Work,
 };
-use actin_mechanics::{Loads, State, System};
+use actin_mechanics::{Loads, State, System, Vector3};
 use std::ops::ControlFlow;
 use std::time::Instant;
+
+/// Forces left over that are a larger share of a load hide it.
+const RESOLVED: f64 = 0.01;
 
 /// What is known of an equilibrium.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +66,10 @@ pub(super) fn run(
         wall_s: started.elapsed().as_secs_f64(),
     };
     match failure {
-        None => Ok((trajectory, report)),
+        None => {
+            check_resolved(assembly, &trajectory)?;
+            Ok((trajectory, report))
+        }
         Some(failure) => Err(RunError::Ended {
             place: place(assembly, follower_stage),
             failure,
@@ -71,6 +77,29 @@ pub(super) fn run(
             report: Box::new(report),
         }),
     }
+}
+
+/// Refuses an equilibrium in which a load is lost: the forces that are left, be it by rounding of
+/// places or by a loose tolerance, are no longer small beside it.
+fn check_resolved(assembly: &Assembly, trajectory: &Trajectory) -> Result<(), Problem> {
+    let Some(last) = trajectory.records.last() else {
+        return Ok(());
+    };
+    for (i, load) in assembly.scene.loads.iter().enumerate() {
+        let Load::EndForce { force_pn, .. } = load;
+        // Controls of loads stand first, one for each.
+        let size = Vector3::from(*force_pn).norm() * last.state.controls[i].abs();
+        if size > 0.0 && last.residual_force_pn > RESOLVED * size {
+            let rule = format!(
+                "is lost among forces of {:.1e} pN that are left: places are known to round-off, \
+                 and forces no better; a larger load tells more",
+                last.residual_force_pn
+            );
+            let key = format!("loads[{i}].force_pn");
+            return Err(Problem::new(key, format!("{force_pn:?}"), rule));
+        }
+    }
+    Ok(())
 }
 
 /// Where a path stands after `points` equilibria, in words; nothing where there is no path.

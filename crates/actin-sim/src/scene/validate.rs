@@ -4,6 +4,7 @@ use super::{
     Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Load, Problem, Scene, Section,
     Setting, Slides, Stage, StopRule, Task, linker, magnitude,
 };
+use actin_mechanics::Vector3;
 use std::fmt::Debug;
 
 /// Sections are contiguous if their boundaries agree to this length (nm).
@@ -41,12 +42,15 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
         Task::Dynamics(dynamics) => {
             check_durations(scene, dynamics.duration_ns)?;
             check_swings(scene)?;
-            check_dynamics(dynamics)
+            check_dynamics(dynamics)?;
+            let stop = dynamics.stop.as_ref();
+            stop.map_or(Ok(()), |s| check_tolerance(scene, "task.stop", s.force_pn))
         }
         Task::Equilibrium(equilibrium) => {
             check_potential(&scene.filament)?;
             check_support(scene)?;
-            check_equilibrium(equilibrium)
+            check_equilibrium(equilibrium)?;
+            check_tolerance(scene, "task", equilibrium.force_pn)
         }
     }
 }
@@ -320,6 +324,27 @@ fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), Problem> {
     }
     if equilibrium.iterations == 0 {
         return Err(Problem::new("task.iterations", 0, "must be at least 1"));
+    }
+    Ok(())
+}
+
+/// A tolerance that a load does not exceed is met before the filament has moved. Monomers bear
+/// half the force each.
+fn check_tolerance(scene: &Scene, key: &str, force_pn: f64) -> Result<(), Problem> {
+    for (i, load) in scene.loads.iter().enumerate() {
+        let Load::EndForce { force_pn: load, .. } = load;
+        let size = Vector3::from(*load).norm();
+        if size > 0.0 && size <= 2.0 * force_pn {
+            let rule = format!(
+                "must be below half of loads[{i}], which is {size:e} pN: as it is, the filament \
+                 counts as at rest before it has moved"
+            );
+            return Err(Problem::new(
+                format!("{key}.force_pn"),
+                show(force_pn),
+                rule,
+            ));
+        }
     }
     Ok(())
 }
