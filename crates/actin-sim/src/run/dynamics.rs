@@ -13,6 +13,9 @@ use std::time::Instant;
 /// Records of a run, unless the scene says otherwise.
 const DEFAULT_RECORDS: f64 = 100.0;
 
+/// Most states of bodies that a run may record: at about 100 bytes each, beyond it memory runs out.
+const MOST_RECORDED: f64 = 1e8;
+
 /// What a scene will cost, known before it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
@@ -46,7 +49,7 @@ impl Integrator {
 /// equilibrium, which takes no time steps.
 ///
 /// # Errors
-/// A time step above the stability limit that the scene does not explicitly allow.
+/// A time step above the stability limit that the scene does not explicitly allow, and more steps or records than can be counted or kept.
 pub fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, Problem> {
     match &assembly.scene.task {
         Task::Dynamics(dynamics) => estimate_of(assembly, dynamics).map(Some),
@@ -88,6 +91,7 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Pro
             format!("takes more steps of {wanted:.4e} ns than can be counted, 2^53"),
         )
     })?;
+    check_records(assembly, dynamics, &run)?;
     Ok(Estimate {
         largest_frequency_rad_per_ns: frequency,
         stability_limit_ns: limit,
@@ -95,6 +99,26 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Pro
         steps: run.steps(),
         force_evaluations: run.steps() * scheme.force_evaluations_per_step() as u64,
     })
+}
+
+/// Refuses records that would not fit into memory.
+fn check_records(assembly: &Assembly, dynamics: &Dynamics, run: &Run) -> Result<(), Problem> {
+    let between = steps_between_records(dynamics, run.step());
+    let records = run.steps() / between + 1;
+    let bodies = assembly.points.len() + assembly.frames.len();
+    if records as f64 * bodies as f64 <= MOST_RECORDED {
+        return Ok(());
+    }
+    let every = between as f64 * run.step();
+    Err(Problem::new(
+        "task.record_every_ns",
+        format!("{:?}", dynamics.record_every_ns.unwrap_or(every)),
+        format!(
+            "{records:.2e} records of {bodies} bodies, at most {MOST_RECORDED:e} states of bodies \
+             are kept",
+            records = records as f64
+        ),
+    ))
 }
 
 /// The same filament with rods of constant rigidities, where its rods resist shear only once they
