@@ -15,6 +15,7 @@ mod parts;
 mod ramp;
 mod range;
 mod reaction;
+mod slip;
 
 pub use bonded::JunctionBond;
 pub use drive::Drive;

@@ -49,7 +49,8 @@ impl Integrator {
 /// equilibrium, which takes no time steps.
 ///
 /// # Errors
-/// A time step above the stability limit that the scene does not explicitly allow, and more steps or records than can be counted or kept.
+/// A time step above the stability limit that the scene does not explicitly allow, a turn that its
+/// segments cannot follow, and more steps or records than can be counted or kept.
 pub fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, Problem> {
     match &assembly.scene.task {
         Task::Dynamics(dynamics) => estimate_of(assembly, dynamics).map(Some),
@@ -58,6 +59,7 @@ pub fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, Problem> {
 }
 
 fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Problem> {
+    assembly.check_slip()?;
     let scheme = dynamics.integrator.composition();
     let refused = |what: String| Problem::new("filament", what, "has no stable time step");
     let frequency_of = |assembly: &Assembly| {
