@@ -76,15 +76,7 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Pro
         .time_step_ns
         .unwrap_or(limit * dynamics.step_safety);
     if wanted > limit && !dynamics.allow_unstable_step {
-        return Err(Problem::new(
-            "task.time_step_ns",
-            format!("{wanted:?}"),
-            format!(
-                "above the stability limit of {limit:.4e} ns ({} at the largest frequency, \
-                 {frequency:.1} rad/ns); allow_unstable_step: true runs it all the same",
-                scheme.name
-            ),
-        ));
+        return Err(unstable(scheme, wanted, limit, frequency));
     }
     let run = Run::over(scheme, wanted, dynamics.duration_ns).map_err(|_| {
         Problem::new(
@@ -101,6 +93,19 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Pro
         steps: run.steps(),
         force_evaluations: run.steps() * scheme.force_evaluations_per_step() as u64,
     })
+}
+
+/// A time step (ns) above the limit (ns) at a frequency (rad/ns).
+fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Problem {
+    Problem::new(
+        "task.time_step_ns",
+        format!("{wanted:?}"),
+        format!(
+            "above the stability limit of {limit:.4e} ns ({} at the largest frequency, \
+             {frequency:.1} rad/ns); allow_unstable_step: true runs it all the same",
+            scheme.name
+        ),
+    )
 }
 
 /// Refuses records that would not fit into memory.

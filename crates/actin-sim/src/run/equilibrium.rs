@@ -66,10 +66,7 @@ pub(super) fn run(
         wall_s: started.elapsed().as_secs_f64(),
     };
     match failure {
-        None => {
-            check_resolved(assembly, &trajectory)?;
-            Ok((trajectory, report))
-        }
+        None => Ok(check_resolved(assembly, &trajectory).map(|()| (trajectory, report))?),
         Some(failure) => Err(RunError::Ended {
             place: place(assembly, follower_stage),
             failure,
