@@ -1,6 +1,7 @@
 //! Tasks of this workspace: `cargo xtask <task>`.
 
 mod check;
+mod extremes;
 mod figures;
 mod fit;
 mod tidy;
@@ -21,6 +22,8 @@ struct Arguments {
 enum Task {
     /// Formatting, lints as errors, documentation, benches that build, tidiness.
     Check,
+    /// Takes every number of a scene to where it breaks and writes what becomes of it.
+    Extremes(extremes::Options),
     /// Fits a rod's laws to tables or to filaments of monomers.
     FitParameters(fit::Options),
     /// Computes figures and tables of the paper and compares them with it.
@@ -39,6 +42,7 @@ enum Task {
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Check => check::run(),
+        Task::Extremes(options) => extremes::run(&options),
         Task::FitParameters(options) => fit::run(&options),
         Task::ReproduceFigures { ids, out, quick } => figures::reproduce(&ids, &out, quick),
     };
