@@ -20,7 +20,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Task {
-    /// Formatting, lints as errors, documentation, benches that build, tidiness.
+    /// Formatting, lints as errors, documentation, benches that build, random input, tidiness.
     Check,
     /// Takes every number of a scene to where it breaks and writes what becomes of it.
     Extremes(extremes::Options),
