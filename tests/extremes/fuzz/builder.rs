@@ -21,19 +21,21 @@ fn factor() -> impl Strategy<Value = f64> {
 fn sections() -> impl Strategy<Value = String> {
     let length = prop_oneof![4 => 3.0..40.0f64, 1 => 0.01..3.0f64];
     let rod = prop::option::of(1usize..6);
-    (any::<bool>(), prop::collection::vec((length, rod), 1..5)).prop_map(|(rod_first, parts)| {
+    let parts = prop::collection::vec((length, rod), 1..5);
+    (any::<bool>(), parts).prop_map(|(rod_first, parts)| {
         let mut from = 0.0;
-        let mut text = String::new();
+        let mut all = Vec::new();
         for (i, (length, segments)) in parts.into_iter().enumerate() {
             let to = from + length;
             let segments = segments.map_or(String::new(), |n| format!(", segments: {n}"));
-            text += &match (i % 2 == 0) == rod_first {
-                true => format!("Rod(from_nm: {from:?}, to_nm: {to:?}{segments}), "),
-                false => format!("Ellipsoids(from_nm: {from:?}, to_nm: {to:?}), "),
-            };
+            all.push(if (i % 2 == 0) == rod_first {
+                format!("Rod(from_nm: {from:?}, to_nm: {to:?}{segments}), ")
+            } else {
+                format!("Ellipsoids(from_nm: {from:?}, to_nm: {to:?}), ")
+            });
             from = to;
         }
-        text
+        all.concat()
     })
 }
 

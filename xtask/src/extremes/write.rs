@@ -24,16 +24,19 @@ pub(super) fn csv(rows: &[Row], out: &Path) -> Result<(), String> {
 
 /// Writes `extremes.md`: a table for each number that was varied.
 pub(super) fn markdown(rows: &[Row], out: &Path) -> Result<(), String> {
-    let mut text = String::new();
-    let mut varied = "";
-    for row in rows {
-        if row.varied != varied {
-            varied = row.varied;
-            text += &format!("\n### {varied}\n\n| case | outcome |\n|---|---|\n");
-        }
-        let outcome = row.outcome.words().replace('|', "\\|").replace('\n', " ");
-        text += &format!("| {} | {outcome} |\n", row.case);
-    }
+    let groups = rows.chunk_by(|a, b| a.varied == b.varied);
+    let text: String = groups.map(table).collect();
     let path = out.join("extremes.md");
     fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+/// Heading and table of the rows of one number.
+fn table(rows: &[Row]) -> String {
+    let line = |row: &Row| {
+        let outcome = row.outcome.words().replace('|', "\\|").replace('\n', " ");
+        format!("| {} | {outcome} |\n", row.case)
+    };
+    let lines: String = rows.iter().map(line).collect();
+    let varied = rows.first().map_or("", |row| row.varied);
+    format!("\n### {varied}\n\n| case | outcome |\n|---|---|\n{lines}")
 }
