@@ -125,7 +125,7 @@ fn mean_of_turned(theta: Vector3, v: Vector3) -> Vector3 {
 
 /// Adds rigid motion: flight with `velocity` (nm/ns) and a turn about the origin with `omega`
 /// (rad/ns), both in the lab frame.
-fn fly(state: &mut State, velocity: Vector3, omega: Vector3) {
+pub(crate) fn fly(state: &mut State, velocity: Vector3, omega: Vector3) {
     for i in 0..state.points.len() {
         let v = velocity + omega.cross(&state.points.position.get(i));
         state.points.velocity.add(i, v);

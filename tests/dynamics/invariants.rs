@@ -7,7 +7,7 @@ use actin_mechanics::testing::momenta;
 use actin_mechanics::{State, System};
 
 /// The step at `share` of the stability limit.
-fn step(system: &System, scheme: &Composition, share: f64) -> f64 {
+pub(crate) fn step(system: &System, scheme: &Composition, share: f64) -> f64 {
     stable_step(scheme, largest_frequency(system).unwrap(), share).unwrap()
 }
 
@@ -43,7 +43,7 @@ fn time_reversal() {
 }
 
 /// Sums of the norms of momenta and of their moments: what round-off is relative to.
-fn scales(state: &State) -> (f64, f64) {
+pub(crate) fn scales(state: &State) -> (f64, f64) {
     let momentum = |i: usize| state.points.velocity.get(i).norm() / state.points.inverse_mass()[i];
     let points = 0..state.points.len();
     let moment = |i: usize| state.points.position.get(i).norm() * momentum(i);

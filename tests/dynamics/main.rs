@@ -5,9 +5,11 @@
 mod energy;
 mod filaments;
 mod invariants;
+mod joined;
 mod laws;
 mod modes;
 mod order;
 mod paper_balance;
 mod record;
 mod short_bonds;
+mod thermal;

@@ -39,6 +39,26 @@ impl Modes {
         }
     }
 
+    /// Twice the potential energy of each mode that moves, ascending in frequency, in a state near
+    /// the one at `rest`: the square of frequency times amplitude.
+    pub(crate) fn energies(&self, rest: &State, state: &State) -> Vec<f64> {
+        let (x, q) = (&state.points.position, &state.frames.orientation);
+        let moved = (0..x.len()).map(|i| x.get(i) - rest.points.position.get(i));
+        let turn = |i| rest.frames.orientation.get(i).inverse() * q.get(i);
+        let turned = (0..state.frames.len()).map(|i| rotation::log(turn(i)));
+        let flat: Vec<f64> = moved
+            .chain(turned)
+            .flat_map(|v| [v.x, v.y, v.z])
+            .zip(self.weights.iter())
+            .map(|(c, weight)| if *weight > 0.0 { c / weight } else { 0.0 })
+            .collect();
+        let amplitudes = self.shapes.tr_mul(&DVector::from_vec(flat));
+        let all = self.frequencies.iter().zip(amplitudes.iter());
+        all.filter(|(frequency, _)| **frequency > 1e-3)
+            .map(|(frequency, amplitude)| (frequency * amplitude).powi(2))
+            .collect()
+    }
+
     /// The largest frequency (rad/ns).
     pub(crate) fn largest(&self) -> f64 {
         self.frequencies[self.frequencies.len() - 1]

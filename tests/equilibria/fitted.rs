@@ -89,24 +89,24 @@ fn rod_and_monomers_twist_and_shorten_alike() {
 /// Mean tip deflection (nm) of mixed cantilevers of 160 nm with this much rod at the tip.
 fn tip(rod_nm: f64, force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
     let boundary = 160.0 - rod_nm;
+    let sections = vec![
+        Section::Ellipsoids {
+            from_nm: 0.0,
+            to_nm: boundary,
+        },
+        Section::Rod {
+            from_nm: boundary,
+            to_nm: 160.0,
+            segments: None,
+        },
+    ];
     let specimen = Specimen::new(Filament {
-        sections: vec![
-            Section::Ellipsoids {
-                from_nm: 0.0,
-                to_nm: boundary,
-            },
-            Section::Rod {
-                from_nm: boundary,
-                to_nm: 160.0,
-                segments: None,
-            },
-        ],
-        monomers: Monomers::default(),
         rod: rod(law.clone()),
         junction: JunctionModel {
             weight,
             ..JunctionModel::default()
         },
+        ..Filament::new(sections)
     });
     let bend = |s: &Specimen| bend_by_tip_force(s, &[force], 180.0);
     let curves = over_samplings(&specimen, &SEEDS[..4], bend).unwrap();

@@ -1,4 +1,5 @@
-//! `cargo xtask check`: everything that must hold before a commit, short of the tests.
+//! `cargo xtask check`: everything that must hold before a commit, of the tests only those
+//! with random input.
 
 use crate::tidy;
 use std::path::{Path, PathBuf};
@@ -12,7 +13,7 @@ struct Step {
     variable: Option<(&'static str, &'static str)>,
 }
 
-const STEPS: [Step; 4] = [
+const STEPS: [Step; 5] = [
     Step {
         purpose: "formatting",
         arguments: &["fmt", "--all", "--check"],
@@ -39,6 +40,18 @@ const STEPS: [Step; 4] = [
         purpose: "benches build",
         arguments: &["bench", "--workspace", "--no-run"],
         variable: None,
+    },
+    Step {
+        purpose: "random input",
+        arguments: &[
+            "test",
+            "--package",
+            "actin-sim",
+            "--test",
+            "extremes",
+            "fuzz::",
+        ],
+        variable: Some(("ACTIN_FUZZ_CASES", "100")),
     },
 ];
 

@@ -1,12 +1,15 @@
 //! Tasks of this workspace: `cargo xtask <task>`.
 
+mod bench;
 mod check;
+mod docs;
+mod extremes;
 mod figures;
 mod fit;
 mod tidy;
+mod tradeoff;
 
 use clap::{Parser, Subcommand};
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Tasks of this workspace.
@@ -19,28 +22,31 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Task {
-    /// Formatting, lints as errors, documentation, benches that build, tidiness.
+    /// Measures how fast the fixed cases run, beside what was aimed at.
+    Bench(bench::Options),
+    /// Formatting, lints as errors, documentation, benches that build, random input, tidiness.
     Check,
+    /// Takes every number of a scene to where it breaks and writes what becomes of it.
+    Extremes(extremes::Options),
     /// Fits a rod's laws to tables or to filaments of monomers.
     FitParameters(fit::Options),
     /// Computes figures and tables of the paper and compares them with it.
-    ReproduceFigures {
-        /// Which: fig1 to fig10, table1 to table5. All by default.
-        ids: Vec<String>,
-        /// Where to write pictures, tables and reports.
-        #[arg(long, default_value = "target/figures")]
-        out: PathBuf,
-        /// Fewer resolutions and shorter runs.
-        #[arg(long)]
-        quick: bool,
-    },
+    ReproduceFigures(figures::Options),
+    /// Compares the numbers that the documents mark with a report.
+    CheckDocs(docs::Options),
+    /// Measures what each saving of time costs in accuracy, scene by scene.
+    Tradeoff(tradeoff::Options),
 }
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
+        Task::Bench(options) => bench::run(&options),
         Task::Check => check::run(),
+        Task::Extremes(options) => extremes::run(&options),
         Task::FitParameters(options) => fit::run(&options),
-        Task::ReproduceFigures { ids, out, quick } => figures::reproduce(&ids, &out, quick),
+        Task::ReproduceFigures(options) => figures::reproduce(&options),
+        Task::CheckDocs(options) => docs::run(&options),
+        Task::Tradeoff(options) => tradeoff::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,7 +1,9 @@
 //! `actin check`: what a scene resolves to and what it would cost.
 
 use crate::failure::{Failure, Opened};
-use actin_sim::{Assembly, Estimate, Resolution};
+use actin_sim::advice::Advice;
+use actin_sim::cost::Cost;
+use actin_sim::{Assembly, Estimate, Resolution, SectionSpan, Task};
 use std::path::Path;
 
 /// Validates the scene at `path` and prints it with every default, its counts and its cost.
@@ -18,39 +20,61 @@ pub(crate) fn check(path: &Path) -> Result<(), Failure> {
     print_sections(&opened.assembly);
     print_counts(&opened.assembly);
     print_linkers(&opened.assembly);
-    match &estimate {
-        Some(estimate) => print_cost(estimate),
-        None => println!("// cost: some tens of Newton iterations for each equilibrium"),
+    print_thermal(&opened.assembly);
+    if let Some(estimate) = &estimate {
+        print_step(estimate);
     }
+    print_cost(
+        &Cost::of(&opened.assembly, estimate.as_ref()),
+        estimate.is_some(),
+    );
+    let advice = Advice::of(&opened.assembly.scene).map_err(|problem| opened.refuse(&problem))?;
+    println!("// cheaper: {advice}");
     Ok(())
 }
 
 fn print_sections(assembly: &Assembly) {
     println!("// sections, as resolved on the lattice of monomers:");
-    for section in &assembly.sections {
-        let what = match section.resolution {
-            Resolution::Ellipsoids { bonds, .. } => {
-                format!("{} monomers, {bonds} bonds", section.points.len())
-            }
-            Resolution::Rod { segment_nm } => {
-                format!("{} segments of {segment_nm:.4} nm", section.frames.len())
-            }
-        };
-        println!(
-            "//   {:9.4} to {:9.4} nm: {what}",
-            section.from_nm, section.to_nm
-        );
+    for filament in 0..assembly.filaments.len() {
+        if assembly.filaments.len() > 1 {
+            let span = &assembly.filaments[filament];
+            let (from, along) = (place(span.origin_nm.into()), place(span.axis().into()));
+            println!("//   filament {filament} from {from} nm along {along}:");
+        }
+        for section in assembly.sections_of(filament) {
+            print_section(section);
+        }
     }
+}
+
+fn print_section(section: &SectionSpan) {
+    let what = match section.resolution {
+        Resolution::Ellipsoids { bonds, .. } => {
+            format!("{} monomers, {bonds} bonds", section.points.len())
+        }
+        Resolution::Rod { segment_nm } => {
+            format!("{} segments of {segment_nm:.4} nm", section.frames.len())
+        }
+    };
+    println!(
+        "//   {:9.4} to {:9.4} nm: {what}",
+        section.from_nm, section.to_nm
+    );
+}
+
+fn place([x, y, z]: [f64; 3]) -> String {
+    format!("({x:.4}, {y:.4}, {z:.4})")
 }
 
 fn print_linkers(assembly: &Assembly) {
     for (i, linker) in assembly.linkers.iter().enumerate() {
-        let place = |[x, y, z]: [f64; 3]| format!("({x:.4}, {y:.4}, {z:.4})");
+        let other = assembly.linked_to(i);
         println!(
-            "// linker {i}: from {} nm on {} to {} nm",
+            "// linker {i}: from {} nm on {} to {} nm{}",
             place(linker.site().position(&assembly.rest).into()),
             assembly.linked(i),
             place(linker.end_position(&assembly.rest).into()),
+            other.map_or_else(String::new, |body| format!(" on {body}")),
         );
     }
 }
@@ -63,13 +87,55 @@ fn print_counts(assembly: &Assembly) {
     );
 }
 
-fn print_cost(estimate: &Estimate) {
+fn print_thermal(assembly: &Assembly) {
+    let Task::Dynamics(dynamics) = &assembly.scene.task else {
+        return;
+    };
+    if let Some(thermal) = &dynamics.thermal {
+        let energy = thermal.energy_pn_nm();
+        println!(
+            "// thermal energy {energy:.4} pN nm at {} K, mean kinetic energy {:.2} pN nm",
+            thermal.temperature_k,
+            0.5 * energy * assembly.counts().dofs as f64
+        );
+    }
+}
+
+fn print_step(estimate: &Estimate) {
     println!(
-        "// largest frequency {:.2} rad/ns, stability limit {:.4e} ns, time step {:.4e} ns",
-        estimate.largest_frequency_rad_per_ns, estimate.stability_limit_ns, estimate.time_step_ns
+        "// largest frequency {:.2} rad/ns, stability limit {:.4e} ns, time step {:.4e} ns, at most \
+         {} steps",
+        estimate.largest_frequency_rad_per_ns,
+        estimate.stability_limit_ns,
+        estimate.time_step_ns,
+        estimate.steps
     );
+}
+
+fn print_cost(cost: &Cost, moves: bool) {
+    let (bound, what) = if moves {
+        ("at most", "force evaluations")
+    } else {
+        ("about", "Newton steps")
+    };
     println!(
-        "// cost: at most {} steps, {} force evaluations",
-        estimate.steps, estimate.force_evaluations
+        "// cost: {bound} {} {what}, each of {} bonds and {} elements: {:.1e} evaluations of bonds, \
+         {:.1e} of elements, {} on one core at measured rates",
+        cost.evaluations,
+        cost.work.bonds,
+        cost.work.elements,
+        cost.bond_evaluations(),
+        cost.element_evaluations(),
+        time(cost.seconds)
     );
+}
+
+/// A time in words, to the digits that an estimate has.
+fn time(seconds: f64) -> String {
+    match seconds {
+        s if s < 1.0 => format!("{s:.1e} s"),
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.0} h", s / 3600.0),
+    }
 }

@@ -1,6 +1,6 @@
 //! Why the program ends without a result.
 
-use actin_sim::{Assembly, Scene, SceneError};
+use actin_sim::{Assembly, CheckpointError, RunDirectoryError, Scene, SceneError};
 use std::fmt;
 use std::path::Path;
 use std::process::ExitCode;
@@ -12,6 +12,8 @@ pub(crate) enum Failure {
     Input(String),
     /// The computation broke down: exit code 3.
     Numerical(String),
+    /// A signal asked for the end: exit code 130.
+    Interrupted(String),
 }
 
 impl Failure {
@@ -19,14 +21,32 @@ impl Failure {
         match self {
             Self::Input(_) => ExitCode::from(2),
             Self::Numerical(_) => ExitCode::from(3),
+            // What a shell reports of a program that SIGINT, 2, has ended: 128 + 2.
+            Self::Interrupted(_) => ExitCode::from(130),
         }
+    }
+}
+
+impl From<RunDirectoryError> for Failure {
+    fn from(error: RunDirectoryError) -> Self {
+        match error {
+            RunDirectoryError::NotFinite { .. } => Self::Numerical(error.to_string()),
+            _ => Self::Input(error.to_string()),
+        }
+    }
+}
+
+impl From<CheckpointError> for Failure {
+    fn from(error: CheckpointError) -> Self {
+        Self::Input(error.to_string())
     }
 }
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Input(message) | Self::Numerical(message) => f.write_str(message),
+            Self::Input(message) | Self::Numerical(message) => write!(f, "error: {message}"),
+            Self::Interrupted(message) => write!(f, "interrupted: {message}"),
         }
     }
 }

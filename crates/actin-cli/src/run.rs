@@ -1,39 +1,166 @@
 //! `actin run`: a scene to its end, and everything it gave into a run directory.
 
+use crate::RunArguments;
 use crate::failure::{Failure, Opened};
 use crate::progress::Progress;
-use actin_sim::{RunDirectory, RunDirectoryError, RunError, RunStatus, StabilitySummary, Summary};
+use crate::signals;
+use actin_sim::{
+    Checkpoints, Estimate, Kept, RunDirectory, RunError, RunReport, RunStatus, StabilitySummary,
+    Summary, Trajectory,
+};
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
-/// Runs the scene at `path` into `out`.
-pub(crate) fn run(path: &Path, out: Option<PathBuf>, overwrite: bool) -> Result<(), Failure> {
+/// Runs a scene, or what is left of it, into its directory.
+pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    let path = &arguments.scene;
     let mut opened = Opened::open(path)?;
-    actin_sim::estimate(&opened.assembly).map_err(|problem| opened.refuse(&problem))?;
-    let out = out.unwrap_or_else(|| Path::new("runs").join(path.file_stem().unwrap_or_default()));
-    let unusable = |error: RunDirectoryError| match error {
-        RunDirectoryError::NotFinite { .. } => Failure::Numerical(error.to_string()),
-        _ => Failure::Input(error.to_string()),
+    let estimate =
+        actin_sim::estimate(&opened.assembly).map_err(|problem| opened.refuse(&problem))?;
+    let by_default = || Path::new("runs").join(path.file_stem().unwrap_or_default());
+    let out = arguments.out.clone().unwrap_or_else(by_default);
+    let directory = if arguments.resume {
+        RunDirectory::existing(&out)
+    } else {
+        RunDirectory::create(&out, arguments.overwrite).map_err(|error| hint(&out, error))?
     };
-    let directory = RunDirectory::create(&out, overwrite).map_err(unusable)?;
-    directory
-        .write_scene(&opened.assembly.scene)
-        .map_err(unusable)?;
+    let mut checkpoints = checkpoints(arguments, &mut opened, estimate.as_ref(), &directory)?;
+    let kept = match begin(arguments, &opened, &directory, &mut checkpoints)? {
+        Beginning::New => None,
+        Beginning::Kept(kept) => Some(*kept),
+        Beginning::Finished => return Ok(()),
+    };
+    let (trajectory, report) = advance(&mut opened, kept, &mut checkpoints, &directory)?;
+    if report.interrupted {
+        return Err(left(
+            arguments,
+            &opened,
+            &directory,
+            &checkpoints,
+            (&trajectory, &report),
+        ));
+    }
+    let summary = directory
+        .write(&opened.assembly, &trajectory, &report)
+        .map_err(|error| hint(&out, error))?;
+    directory.remove_checkpoint()?;
+    print(&summary, &out);
+    Ok(())
+}
 
+/// What there is to begin with.
+enum Beginning {
+    /// A new run.
+    New,
+    /// One that was kept.
+    Kept(Box<Kept>),
+    /// One that is finished, which has been said.
+    Finished,
+}
+
+fn begin(
+    arguments: &RunArguments,
+    opened: &Opened,
+    directory: &RunDirectory,
+    checkpoints: &mut Checkpoints,
+) -> Result<Beginning, Failure> {
+    if !arguments.resume {
+        directory.write_scene(&opened.assembly.scene)?;
+        return Ok(Beginning::New);
+    }
+    if let Some(status) = finished(opened, directory)? {
+        let place = directory.path().display();
+        let how = in_words(status);
+        println!("{place} is finished ({how}): nothing to resume");
+        return Ok(Beginning::Finished);
+    }
+    Ok(Beginning::Kept(Box::new(checkpoints.resume()?)))
+}
+
+fn checkpoints(
+    arguments: &RunArguments,
+    opened: &mut Opened,
+    estimate: Option<&Estimate>,
+    directory: &RunDirectory,
+) -> Result<Checkpoints, Failure> {
+    let interrupted = signals::interruption()
+        .map_err(|error| Failure::Input(format!("signals cannot be listened to: {error}")))?;
+    Ok(Checkpoints::new(
+        directory,
+        &mut opened.assembly,
+        estimate,
+        arguments.checkpoint_every,
+        interrupted,
+        |error| eprintln!("warning: no checkpoint: {error}; the run goes on"),
+    ))
+}
+
+/// How the run has ended whose checkpoint is gone, if it has.
+fn finished(opened: &Opened, directory: &RunDirectory) -> Result<Option<RunStatus>, Failure> {
+    if directory.has_checkpoint() {
+        return Ok(None);
+    }
+    Ok(directory.ending(&opened.assembly)?)
+}
+
+/// An error of the directory; where it keeps a checkpoint, what can be done with that.
+fn hint(out: &Path, error: actin_sim::RunDirectoryError) -> Failure {
+    let failure = Failure::from(error);
+    match failure {
+        Failure::Input(message) if RunDirectory::existing(out).has_checkpoint() => Failure::Input(
+            format!("{message}; it keeps a checkpoint, from which --resume goes on"),
+        ),
+        failure => failure,
+    }
+}
+
+/// The run itself.
+fn advance(
+    opened: &mut Opened,
+    kept: Option<Kept>,
+    checkpoints: &mut Checkpoints,
+    directory: &RunDirectory,
+) -> Result<(Trajectory, RunReport), Failure> {
     let progress = Progress::new();
     let started = Instant::now();
-    let outcome = actin_sim::run(&mut opened.assembly, &mut |at| {
-        progress.show(&at, at.steps as f64 / started.elapsed().as_secs_f64());
+    let mut first = None;
+    let outcome = actin_sim::run_kept(&mut opened.assembly, kept, checkpoints, &mut |at| {
+        let made = at.steps - *first.get_or_insert(at.steps);
+        progress.show(&at, made as f64 / started.elapsed().as_secs_f64());
         ControlFlow::Continue(())
     });
     progress.finish();
-    let (trajectory, report) = outcome.map_err(|error| broken(&opened, &directory, error))?;
-    let summary = directory
-        .write(&opened.assembly, &trajectory, &report)
-        .map_err(unusable)?;
-    print(&summary, &out);
-    Ok(())
+    outcome.map_err(|error| broken(opened, directory, error))
+}
+
+/// Writes what an interrupted run has recorded, and says how to go on.
+fn left(
+    arguments: &RunArguments,
+    opened: &Opened,
+    directory: &RunDirectory,
+    checkpoints: &Checkpoints,
+    (trajectory, report): (&Trajectory, &RunReport),
+) -> Failure {
+    let place = directory.path().display();
+    let mut message = if !checkpoints.last_failed() {
+        format!("a checkpoint is in {place}")
+    } else if directory.has_checkpoint() {
+        format!("{place} keeps the last checkpoint that could be written")
+    } else {
+        format!("no checkpoint could be written to {place}")
+    };
+    if !trajectory.records.is_empty() {
+        match directory.write(&opened.assembly, trajectory, report) {
+            Ok(_) => message += ", with everything recorded so far",
+            Err(error) => message = format!("{message}, but {error}"),
+        }
+    }
+    if directory.has_checkpoint() {
+        let scene = arguments.scene.display();
+        message = format!("{message}; to go on: actin run {scene} --out {place} --resume");
+    }
+    Failure::Interrupted(message)
 }
 
 /// Keeps what a broken run has recorded, and says why it broke.
@@ -69,7 +196,6 @@ fn broken(opened: &Opened, directory: &RunDirectory, error: RunError) -> Failure
 }
 
 fn print(summary: &Summary, out: &Path) {
-    let [x, y, z] = summary.tip_displacement_nm;
     let work = &summary.work;
     match &summary.stability {
         Some(stability) => println!(
@@ -81,18 +207,14 @@ fn print(summary: &Summary, out: &Path) {
         ),
         None => println!(
             "{} after {:.1} ns: {} steps, {} force evaluations, {:.1} s",
-            match summary.status {
-                RunStatus::Converged => "stop rule met",
-                RunStatus::Completed => "time is up",
-                RunStatus::Failed => "broken off",
-            },
+            in_words(summary.status),
             summary.time_ns,
             work.steps,
             work.force_evaluations,
             summary.wall_s
         ),
     }
-    println!("tip displacement ({x:.4}, {y:.4}, {z:.4}) nm");
+    print_tips(summary);
     println!(
         "energy {:.6} pN nm, of it elastic {:.6}; residual {:.1e} pN, {:.1e} pN nm",
         summary.energy_pn_nm.total,
@@ -100,13 +222,39 @@ fn print(summary: &Summary, out: &Path) {
         summary.residual.force_pn,
         summary.residual.torque_pn_nm
     );
+    print_beyond(summary);
+    println!("written to {}", out.display());
+}
+
+fn print_tips(summary: &Summary) {
+    let [x, y, z] = summary.tip_displacement_nm;
+    println!("tip displacement ({x:.4}, {y:.4}, {z:.4}) nm");
+    for (i, filament) in summary.filaments.iter().enumerate().skip(1) {
+        let [x, y, z] = filament.tip_displacement_nm;
+        println!("  of filament {i} ({x:.4}, {y:.4}, {z:.4}) nm");
+    }
+}
+
+fn print_beyond(summary: &Summary) {
     for beyond in &summary.beyond_range {
+        let of = match beyond.filament {
+            0 => String::new(),
+            filament => format!(" of filament {filament}"),
+        };
         println!(
-            "beyond the data of its law: {} {:.4} rad/nm at s = {:.1} nm, data reach {:.4}",
+            "beyond the data of its law: {} {:.4} rad/nm at s = {:.1} nm{of}, data reach {:.4}",
             beyond.quantity, beyond.value_per_nm, beyond.s_nm, beyond.range_per_nm
         );
     }
-    println!("written to {}", out.display());
+}
+
+fn in_words(status: RunStatus) -> &'static str {
+    match status {
+        RunStatus::Converged => "stop rule met",
+        RunStatus::Completed => "time is up",
+        RunStatus::Failed => "broken off",
+        RunStatus::Interrupted => "interrupted",
+    }
 }
 
 fn stability_in_words(stability: &StabilitySummary) -> String {

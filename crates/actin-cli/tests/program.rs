@@ -263,8 +263,8 @@ fn what_check_prints_is_the_scene() {
     let open: Vec<&str> = open.map(str::trim).collect();
     assert_eq!(
         open,
-        ["stop: None,"],
-        "no rule to stop; all else is resolved"
+        ["thermal: None,", "stop: None,"],
+        "no heat, no rule to stop; all else is resolved"
     );
     fs::write(place.path("resolved.ron"), printed).unwrap();
     let again = place.actin(&["check", "resolved.ron"]);
@@ -305,5 +305,36 @@ fn a_rod_beyond_the_data_of_its_law_is_reported() {
             usize::from(beyond)
         );
         assert_eq!(summary.contains("\"quantity\": \"twist\""), beyond);
+    }
+}
+
+/// `check` says what a scene costs and what would make it cheaper; of a scene unlike any measured one
+/// it says that it does not know.
+#[test]
+fn check_tells_cost_and_advice() {
+    let cantilever = |force: &str| {
+        format!(
+            "Scene(
+                filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 160.2)]),
+                clamps: [Clamp(end: Start)],
+                loads: [EndForce(end: End, force_pn: ({force}, 0.0, 0.0))],
+                task: Equilibrium(),
+            )"
+        )
+    };
+    for (force, advice) in [
+        (
+            "-2.0",
+            "// cheaper: replace the monomers of 40..160 nm by a rod with law Fitted: ",
+        ),
+        ("-50.0", "// cheaper: nothing like this scene was measured"),
+    ] {
+        let place = Workplace::with(&cantilever(force));
+        let output = place.actin(&["check", "scene.ron"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let printed = stdout(&output);
+        let cost = "// cost: about 20 Newton steps, each of 7616 bonds and 0 elements: ";
+        assert!(printed.contains(cost), "{printed}");
+        assert!(printed.contains(advice), "{printed}");
     }
 }

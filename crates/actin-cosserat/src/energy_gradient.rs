@@ -1,6 +1,7 @@
 //! The force law that is the gradient of an energy.
 
 use crate::extended::ExtendedSegments;
+use crate::fast::ConstantRod;
 use crate::{BendingElement, RodLayout, RodMaterial, SegmentCurvature, SegmentLaw, ShearElement};
 use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness};
 
@@ -18,12 +19,15 @@ pub struct EnergyGradient {
     layout: RodLayout,
     material: RodMaterial,
     extended: Option<ExtendedSegments>,
+    /// Constant rigidities, where there is nothing else.
+    fast: Option<ConstantRod>,
 }
 
 impl EnergyGradient {
     /// The law on a rod.
     pub fn new(layout: RodLayout, material: RodMaterial) -> Self {
         Self {
+            fast: ConstantRod::new(&layout, &material),
             layout,
             material,
             extended: None,
@@ -38,6 +42,7 @@ impl EnergyGradient {
     pub fn with_extension(self, law: SegmentLaw, curvature: SegmentCurvature) -> Self {
         Self {
             extended: Some(ExtendedSegments { law, curvature }),
+            fast: None,
             ..self
         }
     }
@@ -85,6 +90,15 @@ pub(crate) fn write_bending_energies(
 }
 
 impl EnergyGradient {
+    /// The loads of any law, one element after the other; the reference of the fast path.
+    fn add_scalar_loads(&self, state: &State, loads: &mut Loads) {
+        match &self.extended {
+            None => self.add_shear_loads(state, loads),
+            Some(segments) => segments.add_loads(self.rod(), state, loads),
+        }
+        self.add_bending_loads(state, loads);
+    }
+
     fn add_shear_loads(&self, state: &State, loads: &mut Loads) {
         let lengths = self.layout.segment_lengths().iter();
         let bodies = self.layout.points().zip(self.layout.frames());
@@ -142,11 +156,10 @@ impl Interaction for EnergyGradient {
     }
 
     fn add_loads(&self, state: &State, loads: &mut Loads) {
-        match &self.extended {
-            None => self.add_shear_loads(state, loads),
-            Some(segments) => segments.add_loads(self.rod(), state, loads),
+        match &self.fast {
+            Some(rod) => rod.add_loads(&self.layout, state, loads),
+            None => self.add_scalar_loads(state, loads),
         }
-        self.add_bending_loads(state, loads);
     }
 
     fn elements(&self) -> usize {

@@ -25,6 +25,7 @@ mod cross_section;
 mod energy_gradient;
 mod error;
 mod extended;
+mod fast;
 mod law;
 mod layout;
 mod material;

@@ -10,8 +10,8 @@ mod sums;
 use crate::kernel::AddLoads;
 use crate::table::{BondTable, Relative};
 use crate::{Bond, EllipsoidModel, InterfaceError, InterfaceKind, Monomers};
+use actin_mechanics::wide::Arch;
 use actin_mechanics::{Interaction, Loads, Matrix3, SecondOrder, State, Vector3};
-use pulp::Arch;
 
 /// The harmonic bonds of a run of consecutive monomers: term `bonds`, one element per interface.
 ///

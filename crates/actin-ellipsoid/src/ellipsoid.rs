@@ -142,7 +142,7 @@ mod tests {
     /// Chi-square of the points that `draw` gives, against uniform shares.
     fn chi_square(ellipsoid: &Ellipsoid, draw: impl Fn(&mut Stream) -> Vector3) -> f64 {
         const POINTS: usize = 100_000;
-        let mut stream = Stream::new(11, 0);
+        let mut stream = Stream::new(11, 0, 0);
         let mut counts = vec![0.0; SLICES * SECTORS];
         for _ in 0..POINTS {
             counts[bin(ellipsoid, draw(&mut stream))] += 1.0;
@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn sphere_keeps_every_direction() {
         let sphere = Ellipsoid::new([2.0; 3]);
-        let (mut points, mut directions) = (Stream::new(3, 0), Stream::new(3, 0));
+        let (mut points, mut directions) = (Stream::new(3, 0, 0), Stream::new(3, 0, 0));
         for _ in 0..1000 {
             let direction = directions.direction();
             directions.uniform();
@@ -201,7 +201,7 @@ mod tests {
     #[test]
     fn samples_lie_on_the_surface() {
         let ellipsoid = Ellipsoid::new([1.9, 2.7, 2.7]);
-        let mut stream = Stream::new(5, 0);
+        let mut stream = Stream::new(5, 0, 0);
         for _ in 0..1000 {
             let point = ellipsoid.sample(&mut stream);
             // The normal is the gradient of half the level, so this is 1 on the surface.

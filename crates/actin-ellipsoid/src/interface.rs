@@ -12,6 +12,10 @@ use thiserror::Error;
 /// accepts a fraction 1e-5 of the lower monomer's surface is given up by mistake once in 2e4.
 const MAXIMUM_ATTEMPTS: u64 = 1_000_000;
 
+/// Points that are drawn for each bond of an interface, beyond the above, before it is given up: a
+/// thousandth of the surface is little to hold on by, and drawing from less of it takes ever longer.
+const ATTEMPTS_PER_BOND: u64 = 1_000;
+
 /// The two kinds of interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum InterfaceKind {
@@ -71,7 +75,7 @@ pub enum InterfaceError {
     /// No bond was short enough.
     #[error(
         "bond limit that leaves an interface without bonds: no {kind} bond of at most \
-         {maximum_nm} nm among {attempts} drawn points"
+         {maximum_nm:?} nm among {attempts} drawn points"
     )]
     NoBonds {
         /// Kind of the interface.
@@ -79,6 +83,23 @@ pub enum InterfaceError {
         /// Longest bond that would have been accepted (nm).
         maximum_nm: f64,
         /// Points drawn since the last bond.
+        attempts: u64,
+    },
+    /// Too few bonds were short enough.
+    #[error(
+        "bond limit that leaves an interface short of bonds: {found} of {wanted} {kind} bonds of \
+         at most {maximum_nm:?} nm among {attempts} drawn points"
+    )]
+    FewBonds {
+        /// Kind of the interface.
+        kind: InterfaceKind,
+        /// Longest bond that would have been accepted (nm).
+        maximum_nm: f64,
+        /// Bonds that were found.
+        found: usize,
+        /// Bonds that were wanted.
+        wanted: usize,
+        /// Points drawn in all.
         attempts: u64,
     },
 }
@@ -110,11 +131,11 @@ pub struct Interface {
 impl Interface {
     /// Draws the interface of the given kind whose lower monomer has the given lattice index.
     ///
-    /// The draws depend on the seed, the kind and the index only (on seed and kind only where
+    /// The draws depend on seed and sampling, the kind and the index only (not on the index where
     /// anchors are identical), so the same monomers have the same anchors in whatever run.
     ///
     /// # Errors
-    /// [`InterfaceError::NoBonds`] if no bond is short enough.
+    /// [`InterfaceError`] if no bond is short enough, or too small a part of the surface has any.
     ///
     /// # Source
     /// arXiv 2203.01284, Appendix A.
@@ -129,11 +150,23 @@ impl Interface {
             maximum: kind.parameters(parameters).maximum_length,
         };
         let number = kind.stream_number(parameters.anchors, index);
-        let mut stream = Stream::new(parameters.seed, number);
+        let mut stream = Stream::new(parameters.seed, parameters.sampling, number);
         let mut attempts = 0;
-        let bonds = (0..kind.parameters(parameters).bonds)
-            .map(|_| gap.draw_bond(kind, &mut stream, &mut attempts))
-            .collect::<Result<_, _>>()?;
+        let wanted = kind.parameters(parameters).bonds;
+        let most = MAXIMUM_ATTEMPTS + ATTEMPTS_PER_BOND * wanted as u64;
+        let mut bonds = Vec::with_capacity(wanted);
+        while bonds.len() < wanted {
+            bonds.push(gap.draw_bond(kind, &mut stream, &mut attempts)?);
+            if attempts > most {
+                return Err(InterfaceError::FewBonds {
+                    kind,
+                    maximum_nm: gap.maximum,
+                    found: bonds.len(),
+                    wanted,
+                    attempts,
+                });
+            }
+        }
         Ok(Self {
             kind,
             neighbour: gap.neighbour,

@@ -9,9 +9,8 @@
 
 use crate::Monomers;
 use crate::table::{BondTable, GROUP, Record};
-use crate::wide::{self, Wide3, WideMatrix};
+use actin_mechanics::wide::{self, Simd, Wide3, WideMatrix, WithSimd};
 use actin_mechanics::{Loads, State};
-use pulp::{Simd, WithSimd};
 use std::ops::Range;
 
 /// Added to squared lengths: without it a bond of no length would divide zero by zero. It is

@@ -27,7 +27,6 @@ mod monomers;
 mod parameters;
 mod stream;
 mod table;
-mod wide;
 
 pub use bonds::{Bonds, Pair};
 pub use ellipsoid::Ellipsoid;

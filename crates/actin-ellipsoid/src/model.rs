@@ -74,7 +74,7 @@ impl EllipsoidModel {
     /// The interface of the given kind whose lower monomer has the given lattice index.
     ///
     /// # Errors
-    /// [`InterfaceError::NoBonds`] if no bond is short enough.
+    /// [`InterfaceError`] if no bond is short enough, or hardly any.
     pub fn interface(&self, kind: InterfaceKind, index: i64) -> Result<Interface, InterfaceError> {
         Interface::draw(&self.parameters, kind, index)
     }
@@ -82,7 +82,7 @@ impl EllipsoidModel {
     /// All bonds within a run of monomers.
     ///
     /// # Errors
-    /// [`InterfaceError::NoBonds`] if no bond of a kind is short enough.
+    /// [`InterfaceError`] if no bond of a kind is short enough, or hardly any.
     pub fn bonds(&self, monomers: &Monomers) -> Result<Bonds, InterfaceError> {
         Bonds::new(self, *monomers)
     }

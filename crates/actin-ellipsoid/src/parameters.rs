@@ -34,6 +34,8 @@ pub struct EllipsoidParameters {
     pub anchors: Anchors,
     /// Seed of the anchors.
     pub seed: u64,
+    /// Which of the independent samplings of this seed: one for each filament of a scene.
+    pub sampling: u64,
     /// Mass of a monomer (pN ns^2/nm = 1e-21 kg).
     pub mass: f64,
 }
@@ -102,6 +104,7 @@ impl Default for EllipsoidParameters {
             },
             anchors: Anchors::default(),
             seed: 0,
+            sampling: 0,
             mass: constants::MASS,
         }
     }

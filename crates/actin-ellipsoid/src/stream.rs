@@ -7,16 +7,17 @@ use actin_mechanics::Vector3;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// A stream of `ChaCha8`: its key is the seed (little endian, then zeros), its number the given
-/// one, so that streams of different numbers are independent and need no order.
+/// A stream of `ChaCha8`: its key is seed and sampling (little endian, then zeros), its number the
+/// given one, so that streams of different numbers are independent and need no order.
 #[derive(Clone, Debug)]
 pub(crate) struct Stream(ChaCha8Rng);
 
 impl Stream {
-    /// Stream `number` of `seed`.
-    pub(crate) fn new(seed: u64, number: u64) -> Self {
+    /// Stream `number` of a sampling of `seed`.
+    pub(crate) fn new(seed: u64, sampling: u64, number: u64) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
+        key[8..16].copy_from_slice(&sampling.to_le_bytes());
         let mut generator = ChaCha8Rng::from_seed(key);
         generator.set_stream(number);
         Self(generator)
@@ -57,7 +58,7 @@ mod tests {
     /// every filament that was ever seeded.
     #[test]
     fn numbers_are_those_of_the_first_release() {
-        let mut stream = Stream::new(7, 5);
+        let mut stream = Stream::new(7, 0, 5);
         let first: Vec<f64> = (0..3).map(|_| stream.uniform()).collect();
         assert_eq!(first, GOLDEN);
     }
@@ -68,13 +69,16 @@ mod tests {
         0.091_969_896_764_874_88,
     ];
 
-    /// Seeds and numbers both matter, in their highest bits too.
+    /// Seeds, samplings and numbers all matter, in their highest bits too.
     #[test]
     fn streams_differ() {
-        let numbers = [(0, 0), (1, 0), (0, 1), (1 << 63, 0), (0, 1 << 63)];
+        let high = 1 << 63;
+        let numbers = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)];
+        let highest = [(high, 0, 0), (0, high, 0), (0, 0, high)];
+        let numbers = [&numbers[..], &highest].concat();
         let mut first: Vec<f64> = numbers
             .iter()
-            .map(|&(seed, number)| Stream::new(seed, number).uniform())
+            .map(|&(seed, sampling, number)| Stream::new(seed, sampling, number).uniform())
             .collect();
         first.sort_by(f64::total_cmp);
         first.dedup();

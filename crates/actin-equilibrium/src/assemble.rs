@@ -53,7 +53,7 @@ impl Assembly {
             .is_some_and(|pattern| pattern.fits(&self.blocks));
         if is_new {
             self.pattern = Some(Pattern::new(&self.blocks, layout));
-            self.ties = Ties::new(self.blocks.blocks(), self.turn_length);
+            self.ties = Ties::new(self.blocks.blocks(), self.turn_length, layout);
             let (points, frames) = (state.points.len(), state.frames.len());
             self.chain = Chain::new(layout, &self.ties, points, frames);
             self.tie_places.clear();

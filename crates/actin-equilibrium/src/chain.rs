@@ -40,7 +40,7 @@ impl Chain {
         let frame_ties = neighbours(ties.frames());
         let point_ties = neighbours(ties.seen().flat_map(|(i, j, f)| [(i, (j, f)), (j, (i, f))]));
         let mut links = Vec::new();
-        for k in 0..layout.len() {
+        for (rank, &k) in layout.sequence().iter().enumerate() {
             let latest = match layout.node(k) {
                 Node::Group(_) => None,
                 Node::Frame(to) => frame_ties
@@ -65,8 +65,8 @@ impl Chain {
             links.extend(latest);
             match layout.node(k) {
                 Node::Group(_) => {}
-                Node::Point(i) => place.points[i] = Some(k + 1),
-                Node::Frame(i) => place.frames[i] = Some(k + 1),
+                Node::Point(i) => place.points[i] = Some(rank + 1),
+                Node::Frame(i) => place.frames[i] = Some(rank + 1),
             }
         }
         Self(links)
@@ -109,7 +109,7 @@ impl Chain {
     }
 }
 
-/// When each body is placed, counted along the layout; held ones and groups at zero.
+/// When each body is placed, counted along the sequence of the layout; held ones and groups at zero.
 struct Places {
     points: Vec<Option<usize>>,
     frames: Vec<Option<usize>>,

@@ -188,8 +188,10 @@ impl Solver {
                 .max(shift + self.beyond_curvature())
                 .max(guess)
                 .max(least);
-            // A shift that is not a number fails, too.
-            if shift.is_nan() || shift > LIMIT * largest / lightest {
+            // Of a stiffness that is zero or has overflowed no multiple makes anything definite,
+            // and the search would not end. Written so that a shift that is not a number fails.
+            let is_worth_trying = shift > 0.0 && shift <= LIMIT * largest / lightest;
+            if !(is_worth_trying && shift.is_finite()) {
                 return Err(Trouble::NotFactorizable(shift));
             }
             inertia = if with_ties {

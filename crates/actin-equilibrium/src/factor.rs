@@ -1,6 +1,7 @@
 //! `K + shift M = L D L^T` without pivoting, and what its pivots say.
 //!
-//! The order of elimination is that of the unknowns, so that the factor keeps the band. Without
+//! The order of elimination is that of the unknowns, so that the factor of a chain keeps the band;
+//! bodies that are coupled across it are reordered before (see `layout`). Without
 //! pivoting the factor of an indefinite matrix can lose accuracy; how much is seen afterwards:
 //! the computed factors are exact for a matrix that differs from `K` by about
 //! `eps (|L| |D| |L^T|)_ij`, which by Cauchy and Schwarz is at most `eps` times the largest
@@ -34,6 +35,19 @@ impl Inertia {
     pub(crate) fn is_positive(&self) -> bool {
         self.negative == 0 && self.doubtful == 0
     }
+}
+
+/// Multiplications that factorising a matrix with this upper triangle takes: half the sum of the
+/// squared numbers of entries in each column of the factor.
+pub(crate) fn factor_operations(upper: SymbolicSparseColMatRef<'_, usize>) -> usize {
+    let n = upper.ncols();
+    let (mut tree, mut counts) = (vec![0isize; n], vec![0usize; n]);
+    let scratch =
+        simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(n, upper.row_idx().len());
+    let mut memory = MemBuffer::new(scratch);
+    let stack = MemStack::new(&mut memory);
+    simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, upper, stack);
+    counts.iter().map(|count| count * count).sum::<usize>() / 2
 }
 
 /// The factors of one pattern, with the memory they need.

@@ -4,6 +4,7 @@
 
 use crate::group::{Group, orthonormal};
 use actin_mechanics::{Coordinates, State, Vector3};
+use std::collections::BTreeSet;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -105,7 +106,22 @@ pub struct Layout {
     point_node: Vec<Option<usize>>,
     frame_node: Vec<Option<usize>>,
     groups: Vec<Group>,
-    ordered: bool,
+    order: Order,
+    /// Places of the nodes in the order in which bodies follow one another.
+    sequence: Vec<usize>,
+    /// Pairs of bodies that are coupled but no neighbours, the lesser first.
+    loose: BTreeSet<(Coordinates, Coordinates)>,
+}
+
+/// Where the order of unknowns comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// By minimum degree, once the stiffness is seen.
+    Sought,
+    /// As it is, or by minimum degree if that fills less, once the stiffness is seen.
+    Compared,
+    /// As it is.
+    Settled,
 }
 
 impl Layout {
@@ -143,10 +159,44 @@ impl Layout {
             point_node: vec![None; state.points.len()],
             frame_node: vec![None; state.frames.len()],
             groups,
-            ordered: order.is_some(),
+            order: match order {
+                Some(_) => Order::Settled,
+                None => Order::Sought,
+            },
+            sequence: Vec::new(),
+            loose: BTreeSet::new(),
         };
+        layout.sequence = (0..layout.nodes.len()).collect();
         layout.number();
         Ok(layout)
+    }
+
+    /// The same bodies, eliminated in the order given or, if its factor costs less, in one found by
+    /// minimum degree: for bodies that are not coupled along the order only. Which it is shows at
+    /// the first solve and depends on which bodies are coupled, not on numbers.
+    ///
+    /// Bodies follow one another in the order given whichever it is.
+    #[must_use]
+    pub fn with_least_fill(mut self) -> Self {
+        if self.order == Order::Settled {
+            self.order = Order::Compared;
+        }
+        self
+    }
+
+    /// The same, where these pairs of bodies are coupled but no neighbours: what they do to each
+    /// other is not stiffened to regularise a step, and no strain that would limit it. They swing
+    /// about a soft coupling as far as a step leads them; the energy judges.
+    #[must_use]
+    pub fn with_loose(mut self, pairs: impl IntoIterator<Item = [Coordinates; 2]>) -> Self {
+        let pairs = pairs.into_iter().map(|[a, b]| (a.min(b), a.max(b)));
+        self.loose.extend(pairs);
+        self
+    }
+
+    /// Whether two coupled bodies are no neighbours.
+    pub(crate) fn is_loose(&self, a: Coordinates, b: Coordinates) -> bool {
+        self.loose.contains(&(a.min(b), a.max(b)))
     }
 
     /// Number of unknowns.
@@ -225,14 +275,29 @@ impl Layout {
         }
     }
 
-    /// Whether the order is settled.
-    pub(crate) fn is_ordered(&self) -> bool {
-        self.ordered
+    /// Where the order comes from.
+    pub(crate) fn order(&self) -> Order {
+        self.order
+    }
+
+    /// Keeps the order for good.
+    pub(crate) fn settle(&mut self) {
+        self.order = Order::Settled;
+    }
+
+    /// Places of all nodes in the order in which bodies follow one another.
+    pub(crate) fn sequence(&self) -> &[usize] {
+        &self.sequence
     }
 
     /// Puts node `order[k]` in place `k`, for good.
     pub(crate) fn reorder(&mut self, order: &[usize]) {
-        self.ordered = true;
+        if self.order == Order::Compared {
+            for (place, &node) in order.iter().enumerate() {
+                self.sequence[node] = place;
+            }
+        }
+        self.order = Order::Settled;
         self.nodes = order.iter().map(|&k| self.nodes[k]).collect();
         self.number();
     }

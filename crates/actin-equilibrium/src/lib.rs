@@ -13,6 +13,7 @@ struct Readme;
 mod assemble;
 mod certificate;
 mod chain;
+mod companion;
 mod descent;
 mod direction;
 mod evaluation;
@@ -33,6 +34,7 @@ mod saddle;
 mod ties;
 
 pub use certificate::{Certificate, Stability};
+pub use companion::{Companion, Waypoint};
 pub use group::{Group, Pivot};
 pub use history::{Iteration, Verdict, Work};
 pub use layout::{BodyOrder, Layout, LayoutError};

@@ -76,6 +76,12 @@ impl Newton {
         self.solver.work
     }
 
+    /// Counts on from what an earlier solver has done that this one continues. The symbolic
+    /// factorisation that it has to repeat counts once more.
+    pub fn count_on(&mut self, work: Work) {
+        self.solver.work = work;
+    }
+
     /// Moves `state` to an equilibrium near it.
     ///
     /// Held bodies and controls stay as they are, velocities are not looked at.

@@ -4,12 +4,13 @@
 //! none. At a limit point, beyond which there is no equilibrium near by, the steps shrink to the
 //! smallest and the path ends with a report of the last equilibrium.
 
+use crate::companion::{Companion, Waypoint};
 use crate::evaluation::Evaluation;
 use crate::history::Work;
 use crate::motion::Extent;
 use crate::newton::Newton;
 use crate::options::OptionsError;
-use crate::outcome::{Equilibrium, NewtonFailure};
+use crate::outcome::{Equilibrium, NewtonFailure, Trouble};
 use crate::path_options::{Jumps, PathOptions, Saddles};
 use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
@@ -39,6 +40,10 @@ pub struct PathPoint<'a> {
     pub moved: Extent,
     /// Whether the point is further from the last one than the options allow.
     pub jumped: bool,
+    /// What the solver has done so far.
+    pub work: Work,
+    /// What the rest of the path depends on besides the state.
+    pub waypoint: &'a Waypoint,
 }
 
 /// The end of a path that was followed to parameter 1.
@@ -126,10 +131,36 @@ impl Path {
         set: &mut dyn FnMut(&mut State, f64),
         observe: &mut dyn FnMut(&PathPoint<'_>) -> ControlFlow<()>,
     ) -> Result<PathEnd, Box<PathFailure>> {
+        self.follow_from(None, newton, state, interactions, set, &mut &mut *observe)
+    }
+
+    /// The same with a companion who may end the path within a solve, too, and from `waypoint` on
+    /// if there is one: `state` is then the equilibrium there, which is not shown again. What
+    /// follows is the same to the bit as in the path that was left.
+    ///
+    /// Work and the number of points count on from the waypoint; `newton` counts from where it
+    /// stands (see [`Newton::count_on`]).
+    ///
+    /// # Errors
+    /// If the path cannot be followed to its end; `state` is then the last equilibrium.
+    pub fn follow_from(
+        &self,
+        waypoint: Option<&Waypoint>,
+        newton: &mut Newton,
+        state: &mut State,
+        interactions: &[Box<dyn Interaction>],
+        set: &mut dyn FnMut(&mut State, f64),
+        companion: &mut dyn Companion,
+    ) -> Result<PathEnd, Box<PathFailure>> {
         let before = newton.work();
-        let mut walk = Walk::new(&self.0, newton, interactions);
-        let result = walk.finish(state, set, observe);
-        let (points, refused, parameter) = (walk.points, walk.refused, walk.parameter);
+        let mut walk = Walk::new(&self.0, waypoint, newton, interactions);
+        let result = walk.finish(state, set, companion);
+        let Waypoint {
+            points,
+            refused,
+            parameter,
+            ..
+        } = walk.at;
         let last = walk.last.take();
         let work = walk.newton.work().since(&before);
         match (result, last) {
@@ -153,27 +184,20 @@ impl Path {
 }
 
 type Set<'a> = &'a mut dyn FnMut(&mut State, f64);
-type Observe<'a> = &'a mut dyn FnMut(&PathPoint<'_>) -> ControlFlow<()>;
 
 /// A path while it is followed.
 struct Walk<'a> {
     options: &'a PathOptions,
     newton: &'a mut Newton,
     interactions: &'a [Box<dyn Interaction>],
-    parameter: f64,
-    step: f64,
+    at: Waypoint,
     last: Option<Equilibrium>,
-    /// The equilibrium before the last, with its parameter.
-    previous: Option<(State, f64)>,
-    /// Motion per parameter in the last step.
-    rate: Option<f64>,
-    points: usize,
-    refused: usize,
 }
 
 impl<'a> Walk<'a> {
     fn new(
         options: &'a PathOptions,
+        waypoint: Option<&Waypoint>,
         newton: &'a mut Newton,
         interactions: &'a [Box<dyn Interaction>],
     ) -> Self {
@@ -181,13 +205,8 @@ impl<'a> Walk<'a> {
             options,
             newton,
             interactions,
-            parameter: 0.0,
-            step: options.first_step,
+            at: waypoint.map_or_else(|| Waypoint::start(options), Waypoint::clone),
             last: None,
-            previous: None,
-            rate: None,
-            points: 0,
-            refused: 0,
         }
     }
 
@@ -195,14 +214,18 @@ impl<'a> Walk<'a> {
         &mut self,
         state: &mut State,
         set: Set<'_>,
-        observe: Observe<'_>,
+        companion: &mut dyn Companion,
     ) -> Result<(), (f64, PathTrouble)> {
-        let mut first = state.clone();
-        set(&mut first, 0.0);
-        let equilibrium = self.solve(&mut first).map_err(|trouble| (0.0, trouble))?;
-        self.arrive(state, first, 0.0, equilibrium, false, observe)?;
-        while self.parameter < 1.0 {
-            self.advance(state, set, observe)?;
+        if self.at.points == 0 {
+            let mut first = state.clone();
+            set(&mut first, 0.0);
+            let equilibrium = self
+                .solve(&mut first, companion)
+                .map_err(|trouble| (0.0, trouble))?;
+            self.arrive(state, first, 0.0, equilibrium, false, companion)?;
+        }
+        while self.at.parameter < 1.0 {
+            self.advance(state, set, companion)?;
         }
         Ok(())
     }
@@ -212,13 +235,13 @@ impl<'a> Walk<'a> {
         &mut self,
         state: &mut State,
         set: Set<'_>,
-        observe: Observe<'_>,
+        companion: &mut dyn Companion,
     ) -> Result<(), (f64, PathTrouble)> {
         loop {
             let next = self.next_parameter();
             let mut trial = self.predict(state, next, set);
-            let is_smallest = self.step <= self.options.smallest_step;
-            let trouble = match self.solve(&mut trial) {
+            let is_smallest = self.at.step <= self.options.smallest_step;
+            let trouble = match self.solve(&mut trial, companion) {
                 Ok(equilibrium) => {
                     let moved = self.moved(state, &trial);
                     let far = moved.rotation > self.options.largest_turn
@@ -227,17 +250,18 @@ impl<'a> Walk<'a> {
                     let accepted = is_smallest && self.options.jumps == Jumps::Accept;
                     if !far || accepted {
                         self.adapt(&equilibrium);
-                        return self.arrive(state, trial, next, equilibrium, far, observe);
+                        return self.arrive(state, trial, next, equilibrium, far, companion);
                     }
                     PathTrouble::Jump(moved)
                 }
                 Err(trouble) => trouble,
             };
-            if is_smallest {
+            if is_smallest || trouble == PathTrouble::Interrupted {
                 return Err((next, trouble));
             }
-            self.refused += 1;
-            self.step = (0.5 * (next - self.parameter)).max(self.options.smallest_step);
+            let at = &mut self.at;
+            at.refused += 1;
+            at.step = (0.5 * (next - at.parameter)).max(self.options.smallest_step);
         }
     }
 
@@ -246,7 +270,7 @@ impl<'a> Walk<'a> {
     /// Off a saddle the way is always long at first, so that says nothing.
     fn is_sudden(&self, equilibrium: &Equilibrium, moved: &Extent, next: f64) -> bool {
         let motion = motion(moved);
-        let expected = self.rate.map(|rate| rate * (next - self.parameter));
+        let expected = self.at.rate.map(|rate| rate * (next - self.at.parameter));
         equilibrium.saddles_left == 0
             && motion > SMALL_MOTION
             && expected.is_some_and(|expected| motion > SUDDEN * expected)
@@ -254,7 +278,7 @@ impl<'a> Walk<'a> {
 
     /// The parameter of the next step; a rest shorter than the smallest step is added to it.
     fn next_parameter(&self) -> f64 {
-        let next = self.parameter + self.step;
+        let next = self.at.parameter + self.at.step;
         if next > 1.0 - self.options.smallest_step {
             1.0
         } else {
@@ -266,13 +290,13 @@ impl<'a> Walk<'a> {
     fn predict(&self, state: &State, next: f64, set: Set<'_>) -> State {
         let mut plain = state.clone();
         set(&mut plain, next);
-        let Some((previous, at)) = self.previous.as_ref().filter(|_| self.options.extrapolate)
-        else {
+        let known = self.at.previous.as_ref();
+        let Some((previous, before)) = known.filter(|_| self.options.extrapolate) else {
             return plain;
         };
         let layout = self.newton.layout();
         let motion = layout.difference(previous, state);
-        let factor = (next - self.parameter) / (self.parameter - at);
+        let factor = (next - self.at.parameter) / (self.at.parameter - before);
         let mut extrapolated = plain.clone();
         layout.apply(&mut extrapolated, &motion, factor);
         let with = Evaluation::new(self.interactions, &extrapolated);
@@ -284,15 +308,24 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn solve(&mut self, state: &mut State) -> Result<Equilibrium, PathTrouble> {
+    fn solve(
+        &mut self,
+        state: &mut State,
+        companion: &mut dyn Companion,
+    ) -> Result<Equilibrium, PathTrouble> {
         let attempts = match self.options.saddles {
             Saddles::Leave(attempts) => attempts,
             Saddles::Stop | Saddles::Keep => 0,
         };
         let equilibrium = self
             .newton
-            .minimize(state, self.interactions, attempts)
-            .map_err(PathTrouble::NoEquilibrium)?;
+            .minimize_observed(state, self.interactions, attempts, &mut |step| {
+                companion.iterate(step)
+            })
+            .map_err(|failure| match failure.trouble {
+                Trouble::Interrupted => PathTrouble::Interrupted,
+                _ => PathTrouble::NoEquilibrium(failure),
+            })?;
         match equilibrium.certificate {
             Some(certificate)
                 if equilibrium.is_saddle() && self.options.saddles != Saddles::Keep =>
@@ -315,13 +348,14 @@ impl<'a> Walk<'a> {
 
     fn adapt(&mut self, equilibrium: &Equilibrium) {
         let iterations = equilibrium.history.len();
+        let step = &mut self.at.step;
         if iterations <= self.options.easy {
-            self.step *= 2.0;
+            *step *= 2.0;
         } else if iterations > self.options.hard {
-            self.step *= 0.5;
+            *step *= 0.5;
         }
         let (smallest, largest) = (self.options.smallest_step, self.options.largest_step);
-        self.step = self.step.clamp(smallest, largest);
+        *step = step.clamp(smallest, largest);
     }
 
     fn arrive(
@@ -331,23 +365,26 @@ impl<'a> Walk<'a> {
         next: f64,
         equilibrium: Equilibrium,
         jumped: bool,
-        observe: Observe<'_>,
+        companion: &mut dyn Companion,
     ) -> Result<(), (f64, PathTrouble)> {
         let moved = self.moved(state, &next_state);
         let left = std::mem::replace(state, next_state);
-        self.rate = (self.points > 0 && !jumped).then(|| motion(&moved) / (next - self.parameter));
+        let at = &mut self.at;
+        let goes_on = at.points > 0 && !jumped;
+        at.rate = goes_on.then(|| motion(&moved) / (next - at.parameter));
         // Across a jump there is nothing to extrapolate.
-        self.previous = (self.points > 0 && !jumped).then_some((left, self.parameter));
-        self.parameter = next;
-        self.points += 1;
-        let point = PathPoint {
+        at.previous = goes_on.then_some((left, at.parameter));
+        at.parameter = next;
+        at.points += 1;
+        let flow = companion.arrive(&PathPoint {
             parameter: next,
             state,
             equilibrium: &equilibrium,
             moved,
             jumped,
-        };
-        let flow = observe(&point);
+            work: self.newton.work(),
+            waypoint: at,
+        });
         self.last = Some(equilibrium);
         // At the end there is nothing left to break off.
         if flow.is_break() && next < 1.0 {

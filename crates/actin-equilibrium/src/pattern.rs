@@ -3,7 +3,8 @@
 //! The matrix is kept as its upper triangle by columns, rows sorted, which is what the
 //! factorisation reads. All places are found once; values are the business of `assemble`.
 
-use crate::layout::Layout;
+use crate::factor::factor_operations;
+use crate::layout::{Layout, Order};
 use actin_mechanics::{Coordinates, Matrix3, Stiffness};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
@@ -50,13 +51,12 @@ pub(crate) struct Pattern {
 }
 
 impl Pattern {
-    /// The pattern of `stiffness`. Orders the nodes of `layout` if nobody has.
+    /// The pattern of `stiffness`. Settles the order of the nodes of `layout`.
     pub(crate) fn new(stiffness: &Stiffness, layout: &mut Layout) -> Self {
         let blocks = stiffness.blocks();
         let mut neighbours = neighbours(blocks, layout);
-        if !layout.is_ordered() {
-            layout.reorder(&minimum_degree(&neighbours));
-            neighbours = self::neighbours(blocks, layout);
+        if layout.order() != Order::Settled {
+            neighbours = settle(neighbours, blocks, layout);
         }
         let starts: Vec<Vec<usize>> = neighbours
             .iter()
@@ -105,6 +105,25 @@ fn neighbours(blocks: &[Block], layout: &Layout) -> Vec<Vec<usize>> {
         rows.dedup();
     }
     neighbours
+}
+
+/// Settles the order of a layout whose nodes are coupled as `present` says; returns how they are
+/// coupled then.
+fn settle(present: Vec<Vec<usize>>, blocks: &[Block], layout: &mut Layout) -> Vec<Vec<usize>> {
+    let mut sought = layout.clone();
+    sought.reorder(&minimum_degree(&present));
+    let reordered = neighbours(blocks, &sought);
+    let cost = |neighbours: &[Vec<usize>], layout: &Layout| {
+        factor_operations(upper_triangle(neighbours, layout).as_ref())
+    };
+    let is_as_good =
+        layout.order() == Order::Compared && cost(&present, layout) <= cost(&reordered, &sought);
+    if is_as_good {
+        layout.settle();
+        return present;
+    }
+    *layout = sought;
+    reordered
 }
 
 /// The order of nodes found by approximate minimum degree.

@@ -1,11 +1,13 @@
 //! The way off a saddle: along the direction of negative curvature, downhill, and on.
 
 use crate::evaluation::Evaluation;
+use crate::history::Iteration;
 use crate::mode::{self, Mode};
 use crate::motion::Extent;
 use crate::newton::Newton;
 use crate::outcome::{Equilibrium, NewtonFailure, Trouble};
 use actin_mechanics::{Interaction, State};
+use std::ops::ControlFlow;
 
 /// Extent (nm and rad) of the first displacement off a saddle.
 const FIRST: f64 = 1e-3;
@@ -88,8 +90,24 @@ impl Newton {
         interactions: &[Box<dyn Interaction>],
         attempts: usize,
     ) -> Result<Equilibrium, Box<NewtonFailure>> {
+        self.minimize_observed(state, interactions, attempts, &mut |_| {
+            ControlFlow::Continue(())
+        })
+    }
+
+    /// The same, with a callback after every step that may break it off.
+    ///
+    /// # Errors
+    /// If a solve fails or the observer breaks off; `state` is then the best state reached.
+    pub fn minimize_observed(
+        &mut self,
+        state: &mut State,
+        interactions: &[Box<dyn Interaction>],
+        attempts: usize,
+        observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Equilibrium, Box<NewtonFailure>> {
         let before = self.work();
-        let mut equilibrium = self.solve(state, interactions)?;
+        let mut equilibrium = self.solve_observed(state, interactions, observe)?;
         for _ in 0..attempts {
             if !equilibrium.is_saddle() {
                 break;
@@ -99,7 +117,7 @@ impl Newton {
             if !matches!(left, Ok(Some(_))) {
                 break;
             }
-            let mut next = self.solve(state, interactions)?;
+            let mut next = self.solve_observed(state, interactions, observe)?;
             equilibrium.history.append(&mut next.history);
             next.history = equilibrium.history;
             next.saddles_left = equilibrium.saddles_left + 1;

@@ -16,6 +16,9 @@ use crate::layout::Layout;
 use actin_mechanics::{Coordinates, Matrix3, State, Stiffness, Vector3, Vectors, rotation};
 use std::collections::BTreeSet;
 
+/// Points closer than this (nm) have no distance that a motion could be measured by.
+const COINCIDENT: f64 = 1e-9;
+
 /// A pair of bodies with a relative motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Tie {
@@ -35,13 +38,18 @@ pub(crate) struct Ties {
 }
 
 impl Ties {
-    /// The ties of bodies that share a block.
-    pub(crate) fn new(blocks: &[(Coordinates, Coordinates, Matrix3)], turn_length: f64) -> Self {
+    /// The ties of bodies that share a block and are not loose in the layout.
+    pub(crate) fn new(
+        blocks: &[(Coordinates, Coordinates, Matrix3)],
+        turn_length: f64,
+        layout: &Layout,
+    ) -> Self {
         use Coordinates::{Frame, Point};
         let mut points = BTreeSet::new();
         let mut frames = BTreeSet::new();
         let mut seen = BTreeSet::new();
-        for &(a, b, _) in blocks {
+        let tied = blocks.iter().filter(|(a, b, _)| !layout.is_loose(*a, *b));
+        for &(a, b, _) in tied {
             match (a, b) {
                 (Point(i), Point(j)) if i != j => points.insert((i.min(j), i.max(j))),
                 (Frame(i), Frame(j)) if i != j => frames.insert((i.min(j), i.max(j))),
@@ -132,11 +140,11 @@ impl Ties {
         let of = |tie: &Tie| match *tie {
             Tie::Points(i, j) => {
                 let d = between(from, i, j);
-                (between(to, i, j) - d).norm() / d.norm()
+                (between(to, i, j) - d).norm() / self.length(d)
             }
             Tie::Seen(i, j, f) => {
                 let d = between(from, i, j);
-                (between(to, i, j) - turn(f) * d).norm() / d.norm()
+                (between(to, i, j) - turn(f) * d).norm() / self.length(d)
             }
             Tie::Frames(a, b) => rotation::log(turn(b) * turn(a).inverse()).norm(),
         };
@@ -144,13 +152,24 @@ impl Ties {
     }
 
     /// The motion (nm) that counts as a strain of one: the distance of two points, or the turn
-    /// length.
+    /// length for turns and for points that stand at one place, as those of two chains may that
+    /// cross where they are joined.
     pub(crate) fn lengths(&self, state: &State) -> Vec<f64> {
         let of = |tie: &Tie| match *tie {
-            Tie::Points(i, j) | Tie::Seen(i, j, _) => between(state, i, j).norm(),
+            Tie::Points(i, j) | Tie::Seen(i, j, _) => self.length(between(state, i, j)),
             Tie::Frames(..) => self.turn_length,
         };
         self.ties.iter().map(of).collect()
+    }
+
+    /// What counts as the distance of two points at `d` from each other (nm).
+    fn length(&self, d: Vector3) -> f64 {
+        let length = d.norm();
+        if length > COINCIDENT {
+            length
+        } else {
+            self.turn_length
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Whether a state is sound, and what to blame if it is not.
 
 use crate::{Body, Problem};
-use actin_mechanics::{Interaction, Loads, Split, State, System, Vector3};
+use actin_mechanics::{Agitate, Interaction, Loads, Split, State, System, Vector3, Vectors};
 use std::f64::consts::PI;
 
 /// Kinetic energy may not grow beyond that of all earlier checks by more than this factor.
@@ -19,16 +19,16 @@ pub(crate) struct Watch {
     /// Kinetic energy (pN nm) that no sound state has.
     pub(crate) kinetic_limit: f64,
     /// Largest kinetic energy seen so far.
-    largest_kinetic: f64,
+    pub(crate) largest_kinetic: f64,
 }
 
 impl Watch {
-    /// A watch that has seen nothing yet.
-    pub(crate) fn new(h: f64, kinetic_limit: f64) -> Self {
+    /// A watch that has seen kinetic energies up to `largest_kinetic`; zero at the start.
+    pub(crate) fn new(h: f64, kinetic_limit: f64, largest_kinetic: f64) -> Self {
         Self {
             h: h.abs(),
             kinetic_limit,
-            largest_kinetic: 0.0,
+            largest_kinetic,
         }
     }
 
@@ -117,6 +117,16 @@ impl Split for Probe<'_> {
 
     fn force_evaluations(&self) -> u64 {
         self.system.force_evaluations()
+    }
+}
+
+impl Agitate for Probe<'_> {
+    fn bodies(&self) -> (usize, usize) {
+        self.system.bodies()
+    }
+
+    fn agitate(&mut self, points: &Vectors, frames: &Vectors) {
+        self.system.agitate(points, frames);
     }
 }
 

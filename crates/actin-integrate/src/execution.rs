@@ -1,8 +1,12 @@
 //! A run in progress: advancing, checking, observing, and finding out what broke.
 
 use crate::diagnosis::{Probe, Watch, blame};
-use crate::{Body, Moment, Observer, Outcome, Problem, Reason, Residual, Run, RunFailure, advance};
+use crate::{
+    Body, Checkpoint, Mark, Moment, Observer, Outcome, Pause, Problem, Reason, Residual, Run,
+    RunFailure,
+};
 use actin_mechanics::{Split, State, System};
+use std::ops::ControlFlow;
 
 /// A run in progress.
 pub(crate) struct Execution<'a, 'o> {
@@ -11,7 +15,10 @@ pub(crate) struct Execution<'a, 'o> {
     observers: &'a mut [&'o mut dyn Observer],
     watch: Watch,
     step: u64,
-    last_good: (u64, State),
+    /// The last state that was observed, or the start.
+    last_good: Mark,
+    /// The state at the last check, from which a failure is retraced.
+    sound: (u64, State),
     evaluations_before: u64,
 }
 
@@ -21,36 +28,80 @@ impl<'a, 'o> Execution<'a, 'o> {
         system: &'a mut System,
         observers: &'a mut [&'o mut dyn Observer],
     ) -> Self {
+        let start = Mark::new(run.first_step, system, 0.0);
+        let checkpoint = Checkpoint {
+            evaluations_before: start.force_evaluations,
+            last_good: start.clone(),
+            here: start,
+        };
+        Self::standing(run, &checkpoint, system, observers)
+    }
+
+    /// The run where it was left.
+    pub(crate) fn resume(
+        run: &'a Run,
+        checkpoint: &Checkpoint,
+        system: &'a mut System,
+        observers: &'a mut [&'o mut dyn Observer],
+    ) -> Self {
+        checkpoint.here.restore(system);
+        Self::standing(run, checkpoint, system, observers)
+    }
+
+    fn standing(
+        run: &'a Run,
+        checkpoint: &Checkpoint,
+        system: &'a mut System,
+        observers: &'a mut [&'o mut dyn Observer],
+    ) -> Self {
+        let here = &checkpoint.here;
         Self {
             run,
-            watch: Watch::new(run.h, run.kinetic_limit),
-            step: run.first_step,
-            last_good: (run.first_step, system.state().clone()),
-            evaluations_before: system.force_evaluations(),
+            watch: Watch::new(run.h, run.kinetic_limit, here.largest_kinetic),
+            step: here.step,
+            last_good: checkpoint.last_good.clone(),
+            sound: (here.step, system.state().clone()),
+            evaluations_before: checkpoint.evaluations_before,
             system,
             observers,
         }
     }
 
     pub(crate) fn run(mut self) -> Result<Outcome, RunFailure> {
-        let end = self.run.first_step + self.run.steps;
         // What the start moves at says nothing about what the loads will do to it.
         if let Some(problem) = self.watch.inspect(self.system.state()) {
             return Err(self.fail(problem));
         }
-        let mut ended = if self.run.first_step == 0 || self.run.steps == 0 {
-            self.observe(end)
-        } else {
-            None
-        };
+        if (self.run.first_step == 0 || self.run.steps == 0)
+            && let Some(reason) = self.observe()
+        {
+            return Ok(self.outcome(reason));
+        }
+        if self.pause().is_break() {
+            return Ok(self.outcome(Reason::Interrupted));
+        }
+        self.go_on()
+    }
+
+    /// Goes on from a pause.
+    pub(crate) fn go_on(mut self) -> Result<Outcome, RunFailure> {
+        let end = self.end();
+        let mut ended = (self.step >= end).then_some(Reason::Completed);
         while ended.is_none() {
             self.advance_to(self.next_check(end));
             self.check()?;
             if self.step == end || self.step.is_multiple_of(self.run.observe_every) {
-                ended = self.observe(end);
+                ended = self.observe();
+            }
+            if ended.is_none() && self.pause().is_break() {
+                ended = Some(Reason::Interrupted);
             }
         }
         Ok(self.outcome(ended.unwrap_or(Reason::Completed)))
+    }
+
+    fn end(&self) -> u64 {
+        self.run.first_step + self.run.steps
     }
 
     /// The next step number at which the state is to be looked at.
@@ -65,25 +116,24 @@ impl<'a, 'o> Execution<'a, 'o> {
     }
 
     fn advance_to(&mut self, step: u64) {
-        let run = self.run;
-        advance(self.system, run.scheme, run.h, step - self.step, &run.drag);
+        self.run.advance(self.system, self.step, step - self.step);
         self.step = step;
     }
 
     /// Fails if the state is unsound.
     fn check(&mut self) -> Result<(), RunFailure> {
-        match self.watch.inspect(self.system.state()) {
-            None => {
-                self.watch.remember(self.system.state());
-                Ok(())
-            }
-            Some(problem) => Err(self.fail(problem)),
+        let state = self.system.state();
+        if let Some(problem) = self.watch.inspect(state) {
+            return Err(self.fail(problem));
         }
+        self.watch.remember(state);
+        self.sound.0 = self.step;
+        self.sound.1.copy_motion_from(state);
+        Ok(())
     }
 
     /// Shows the state to everyone and says whether the run ends here.
-    fn observe(&mut self, end: u64) -> Option<Reason> {
-        self.last_good = (self.step, self.system.state().clone());
+    fn observe(&mut self) -> Option<Reason> {
         let mut moment = Moment::new(self.step, self.run.time(self.step), self.system);
         let mut interrupted = false;
         for observer in self.observers.iter_mut() {
@@ -94,13 +144,33 @@ impl<'a, 'o> Execution<'a, 'o> {
             .stop
             .filter(|_| moment.time >= self.run.stop_from)
             .is_some_and(|rule| rule.is_met(moment.residual(), moment.kinetic_energy()));
+        self.last_good = Mark::new(self.step, self.system, self.watch.largest_kinetic);
         if at_rest {
             Some(Reason::Converged)
-        } else if self.step == end {
+        } else if self.step == self.end() {
             Some(Reason::Completed)
         } else {
             interrupted.then_some(Reason::Interrupted)
         }
+    }
+
+    /// Lets everyone keep what is needed to go on from here, or leave.
+    fn pause(&mut self) -> ControlFlow<()> {
+        let pause = Pause {
+            step: self.step,
+            time: self.run.time(self.step),
+            system: self.system,
+            largest_kinetic: self.watch.largest_kinetic,
+            evaluations_before: self.evaluations_before,
+            last_good: &self.last_good,
+        };
+        let mut flow = ControlFlow::Continue(());
+        for observer in self.observers.iter_mut() {
+            if observer.pause(&pause).is_break() {
+                flow = ControlFlow::Break(());
+            }
+        }
+        flow
     }
 
     fn outcome(self, reason: Reason) -> Outcome {
@@ -122,27 +192,34 @@ impl<'a, 'o> Execution<'a, 'o> {
         let (body, term) = self
             .probe(&before)
             .unwrap_or_else(|| blame(self.system.interactions(), &broken, &before));
-        let (last_good_step, last_good) = &self.last_good;
-        self.system.state_mut().clone_from(last_good);
+        self.last_good.restore(self.system);
+        let last_good = Checkpoint {
+            here: self.last_good.clone(),
+            last_good: self.last_good.clone(),
+            evaluations_before: self.evaluations_before,
+        };
+        for observer in self.observers.iter_mut() {
+            observer.fail(&last_good);
+        }
         RunFailure {
             problem,
             step: self.step,
             time: self.run.time(self.step),
             body,
             term,
-            last_good_step: *last_good_step,
-            last_good_time: self.run.time(*last_good_step),
+            last_good_step: self.last_good.step,
+            last_good_time: self.run.time(self.last_good.step),
         }
     }
 
-    /// Repeats the way from the last good state step by step, up to the first unsound state, so
-    /// that the report names the step at which it broke. Returns what is wrong and the state one
+    /// Repeats the way from the last check step by step, up to the first unsound state, so that
+    /// the report names the step at which it broke. Returns what is wrong and the state one
     /// step before; leaves the system and `self.step` at the break.
     fn replay(&mut self, found: Problem) -> (Problem, State) {
         let (found_step, broken) = (self.step, self.system.state().clone());
-        self.step = self.last_good.0;
-        self.system.state_mut().clone_from(&self.last_good.1);
-        let mut before = self.last_good.1.clone();
+        self.step = self.sound.0;
+        self.system.state_mut().clone_from(&self.sound.1);
+        let mut before = self.sound.1.clone();
         while self.step < found_step {
             before.clone_from(self.system.state());
             self.advance_to(self.step + 1);
@@ -162,7 +239,9 @@ impl<'a, 'o> Execution<'a, 'o> {
             system: self.system,
             culprit: None,
         };
-        advance(&mut probe, self.run.scheme, self.run.h, 1, &self.run.drag);
+        // A start that is unsound has no step before it.
+        let step = self.step.saturating_sub(1);
+        self.run.advance(&mut probe, step, 1);
         probe.culprit
     }
 }

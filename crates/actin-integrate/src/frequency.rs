@@ -17,7 +17,7 @@ const EXCURSION: f64 = 1e-4;
 /// `M^-1/2 K M^-1/2`; `M` holds masses and moments of inertia, so that trial motions are
 /// orthogonal in kinetic energy, and `K` is the symmetric part of the derivative of the loads
 /// (the Hessian of the energy in displacements `x + u`, `Q exp(phi)`). Held bodies stay put.
-/// Zero if nothing is free or nothing resists.
+/// Zero if nothing is free or nothing resists, not a number if stiffness overflows.
 ///
 /// The estimate is never above the truth by more than 1e-6 relative, and below it by less than
 /// 1 % but for a chance of `1.65 sqrt(n) exp(-0.141 (2 k - 1))` over the (fixed) random start,
@@ -52,7 +52,13 @@ pub fn largest_frequency_with(system: &System, vectors: usize) -> Result<f64, Fr
     let coordinates = trial.weights.len();
     let free = trial.weights.iter().filter(|w| **w > 0.0).count();
     let eigenvalue = largest_eigenvalue(coordinates, vectors.min(free), |v, w| trial.apply(v, w))?;
-    Ok(eigenvalue.max(0.0).sqrt())
+    // `max` would take what is not a number for no stiffness.
+    let eigenvalue = if eigenvalue > 0.0 || eigenvalue.is_nan() {
+        eigenvalue
+    } else {
+        0.0
+    };
+    Ok(eigenvalue.sqrt())
 }
 
 /// Loads that could not be differenced.

@@ -10,7 +10,8 @@ const NOISE: f64 = 1e-6;
 ///
 /// `apply` writes `A v` into its second argument. Every new vector is made orthogonal to all
 /// earlier ones (Arnoldi; for a symmetric operator this is Lanczos without loss of
-/// orthogonality), so that an operator that is not symmetric does no harm. Returns 0 for `n = 0`.
+/// orthogonality), so that an operator that is not symmetric does no harm. Returns 0 for `n = 0`, and
+/// not a number for an operator that overflows.
 ///
 /// # Errors
 /// Those of `apply`.
@@ -29,6 +30,10 @@ pub(crate) fn largest_eigenvalue<E>(
     for j in 0..size {
         let mut next = vec![0.0; n];
         apply(&basis[j], &mut next)?;
+        if !norm(&next).is_finite() {
+            // Neither has what the operator is made of any eigenvalues.
+            return Ok(f64::NAN);
+        }
         scale = scale.max(norm(&next));
         orthogonalise(&basis, &mut next, |k, overlap| projected[(k, j)] += overlap);
         let remainder = norm(&next);
@@ -128,6 +133,13 @@ mod tests {
     fn of_an_unsymmetric_operator_the_symmetric_part_counts() {
         let a = [[3.0, 4.0], [0.0, 3.0]];
         assert!((largest(2, 60, |i, j| a[i][j]) - 5.0).abs() < 1e-12);
+    }
+
+    /// What overflows has no largest eigenvalue: neither 0 nor an endless search for it.
+    #[test]
+    fn an_operator_that_overflows_has_none() {
+        assert!(largest(5, 60, |_, _| 1e308).is_nan());
+        assert!(largest(5, 60, |_, _| f64::NAN).is_nan());
     }
 
     #[test]

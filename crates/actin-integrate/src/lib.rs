@@ -1,11 +1,13 @@
-//! Splitting integrators, drag, and a run loop.
+//! Splitting integrators, drag, thermal noise, and a run loop.
 //!
 //! A method is a [`Composition`]: a cited table of coefficients of alternating drifts and kicks.
 //! One loop, [`advance`], serves all of them, and sees of a system only what
-//! [`actin_mechanics::Split`] shows: drift, kick and damp. [`largest_frequency`] and
+//! [`actin_mechanics::Split`] shows: drift, kick and damp; in a [`Bath`], [`advance_in`] also
+//! agitates. [`largest_frequency`] and
 //! [`stable_step`] give the time step. A [`Run`] advances a [`actin_mechanics::System`], shows
 //! synchronised states to [`Observer`]s, and ends by a [`StopRule`], at its last step, when an
-//! observer asks for it, or with a [`RunFailure`] that names what broke.
+//! observer asks for it, or with a [`RunFailure`] that names what broke. At a [`Pause`] it can be left
+//! with a [`Checkpoint`], from which [`Run::resume`] goes on to the same bits.
 //!
 //! This crate knows nothing of what the bodies stand for, and never solves for an equilibrium.
 //! Times are in ns, lengths in nm, forces in pN, rates in 1/ns.
@@ -14,6 +16,8 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod bath;
+mod checkpoint;
 mod composition;
 mod diagnosis;
 mod drag;
@@ -21,6 +25,7 @@ mod execution;
 mod failure;
 mod frequency;
 mod lanczos;
+mod noise;
 mod observer;
 mod outcome;
 mod run;
@@ -28,7 +33,10 @@ mod schemes;
 mod step;
 mod stepper;
 mod stop;
+mod surroundings;
 
+pub use bath::{Bath, BathError};
+pub use checkpoint::{Checkpoint, Mark, Pause};
 pub use composition::{Composition, Stage, UnknownScheme};
 pub use drag::{Drag, DragError};
 pub use failure::{Body, Problem, RunFailure};
@@ -40,5 +48,5 @@ pub use schemes::{
     FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, SUZUKI_WEIGHT, VEFRL, VELOCITY_VERLET,
 };
 pub use step::{SAFETY, StepError, stable_step};
-pub use stepper::advance;
+pub use stepper::{advance, advance_in};
 pub use stop::{StopRule, StopRuleError};

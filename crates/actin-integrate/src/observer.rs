@@ -1,6 +1,6 @@
 //! Those who look on: what they are shown and when.
 
-use crate::Residual;
+use crate::{Checkpoint, Pause, Residual};
 use actin_mechanics::{Interaction, State, System};
 use std::ops::ControlFlow;
 
@@ -60,6 +60,16 @@ impl<'a> Moment<'a> {
 pub trait Observer {
     /// Looks at a moment; [`ControlFlow::Break`] ends the run there.
     fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()>;
+
+    /// Is there at every check of the state, after the observation if there is one at that step:
+    /// the places at which a run can be left and taken up again. [`ControlFlow::Break`] ends the
+    /// run there.
+    fn pause(&mut self, _pause: &Pause<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    /// Is told that the run has failed, and where the last good state was.
+    fn fail(&mut self, _last_good: &Checkpoint) {}
 }
 
 impl<F: FnMut(&mut Moment<'_>) -> ControlFlow<()>> Observer for F {

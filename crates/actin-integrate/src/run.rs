@@ -1,8 +1,11 @@
 //! A run: which method, which step, how long. Carrying it out is in `execution`.
 
 use crate::execution::Execution;
-use crate::{Composition, Drag, Observer, Outcome, RunFailure, StopRule};
-use actin_mechanics::System;
+use crate::{
+    Bath, Checkpoint, Composition, Drag, Observer, Outcome, RunFailure, StopRule, advance,
+    advance_in,
+};
+use actin_mechanics::{Agitate, System};
 use thiserror::Error;
 
 /// Steps between two moments shown to observers, unless the caller says otherwise.
@@ -20,7 +23,8 @@ pub struct Run {
     pub(crate) h: f64,
     pub(crate) steps: u64,
     pub(crate) first_step: u64,
-    pub(crate) drag: Drag,
+    drag: Drag,
+    bath: Option<Bath>,
     pub(crate) observe_every: u64,
     pub(crate) check_every: u64,
     pub(crate) kinetic_limit: f64,
@@ -60,6 +64,7 @@ impl Run {
             steps,
             first_step: 0,
             drag: Drag::NONE,
+            bath: None,
             observe_every: DEFAULT_OBSERVE_EVERY,
             check_every: DEFAULT_CHECK_EVERY,
             kinetic_limit: f64::INFINITY,
@@ -92,10 +97,27 @@ impl Run {
         Self::new(scheme, duration / steps, steps as u64)
     }
 
-    /// The same with drag.
+    /// The same with drag, and without noise.
     #[must_use]
     pub fn with_drag(self, drag: Drag) -> Self {
-        Self { drag, ..self }
+        Self {
+            drag,
+            bath: None,
+            ..self
+        }
+    }
+
+    /// The same in a heat bath, with its drag.
+    ///
+    /// The noise goes by the number of the step, so that a run
+    /// [continued](Self::continuing_from) meets what it would have met.
+    #[must_use]
+    pub fn with_bath(self, bath: Bath) -> Self {
+        Self {
+            drag: *bath.drag(),
+            bath: Some(bath),
+            ..self
+        }
     }
 
     /// The same, ending early when `rule` is met at an observation.
@@ -197,6 +219,33 @@ impl Run {
         observers: &mut [&mut dyn Observer],
     ) -> Result<Outcome, RunFailure> {
         Execution::new(self, system, observers).run()
+    }
+
+    /// Goes on from `checkpoint`, which a [`Pause`](crate::Pause) of the same run of an equal system
+    /// has given, whatever state `system` is in: what follows is the same to the bit as in the run
+    /// that was left, work counts included. The state of the checkpoint is not shown again.
+    ///
+    /// # Errors
+    /// As [`execute`](Self::execute).
+    ///
+    /// # Panics
+    /// If the checkpoint has other numbers of bodies or controls than `system`.
+    pub fn resume(
+        &self,
+        checkpoint: &Checkpoint,
+        system: &mut System,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<Outcome, RunFailure> {
+        Execution::resume(self, checkpoint, system, observers).go_on()
+    }
+
+    /// Advances `system` by `steps` steps, the first of which has the number `first_step`.
+    pub(crate) fn advance(&self, system: &mut impl Agitate, first_step: u64, steps: u64) {
+        let (scheme, h) = (self.scheme, self.h);
+        match &self.bath {
+            None => advance(system, scheme, h, steps, &self.drag),
+            Some(bath) => advance_in(system, scheme, h, steps, bath, first_step),
+        }
     }
 
     /// Time of a step number (ns).

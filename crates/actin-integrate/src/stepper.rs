@@ -1,7 +1,8 @@
 //! The one loop that all methods share.
 
-use crate::{Composition, Drag, Stage};
-use actin_mechanics::Split;
+use crate::surroundings::{Dragging, Heating, Nothing, Surroundings};
+use crate::{Bath, Composition, Drag, Stage};
+use actin_mechanics::{Agitate, Split};
 
 /// Advances a system by `steps` steps of `h` (ns), and leaves it with positions and momenta at
 /// the same time.
@@ -26,6 +27,42 @@ pub fn advance<S: Split + ?Sized>(
     steps: u64,
     drag: &Drag,
 ) {
+    if drag.is_none() {
+        integrate(system, scheme, h, steps, &mut Nothing);
+    } else {
+        integrate(system, scheme, h, steps, &mut Dragging::over(drag, h));
+    }
+}
+
+/// [`advance`] in a heat bath, from the step with the number `first_step` on.
+///
+/// Each step is: the Ornstein-Uhlenbeck process of `bath` over `h/2`, the stages of `scheme`, the
+/// process over `h/2`. Nothing is merged between steps: splitting a run into two calls, the second
+/// with the number of the step that it begins with, changes no bit.
+///
+/// Where there are no loads, momenta have their exact law at every step. Where there are, the
+/// stationary law of positions differs from Boltzmann's by the error of `scheme` in the energy
+/// that it conserves: of order 2 in `h` for the Verlet methods, of order 4 for the others.
+pub fn advance_in<S: Agitate + ?Sized>(
+    system: &mut S,
+    scheme: &Composition,
+    h: f64,
+    steps: u64,
+    bath: &Bath,
+    first_step: u64,
+) {
+    let mut heating = Heating::over(bath, h, first_step, system.bodies());
+    integrate(system, scheme, h, steps, &mut heating);
+}
+
+/// The loop: steps of `scheme`, with what happens around them.
+fn integrate<S: Split + ?Sized>(
+    system: &mut S,
+    scheme: &Composition,
+    h: f64,
+    steps: u64,
+    surroundings: &mut impl Surroundings<S>,
+) {
     let [outer, inner @ .., _] = scheme.coefficients else {
         return;
     };
@@ -33,27 +70,17 @@ pub fn advance<S: Split + ?Sized>(
         return;
     }
     let (first, second) = (scheme.first, scheme.first.other());
+    // The table being a palindrome, its last coefficient is its first.
     let outer = outer * h;
-    let half = Damping::over(drag, 0.5 * h);
-    let whole = Damping::over(drag, h);
-    half.apply(system);
-    apply(system, first, outer);
+    surroundings.before(system);
+    first.apply(system, outer);
     for _ in 1..steps {
         apply_inner(system, second, inner, h);
-        join(system, first, outer, whole);
+        surroundings.between(system, first, outer);
     }
     apply_inner(system, second, inner, h);
-    apply(system, first, outer);
-    half.apply(system);
-}
-
-/// Applies one stage for a time `t`.
-#[inline]
-fn apply<S: Split + ?Sized>(system: &mut S, stage: Stage, t: f64) {
-    match stage {
-        Stage::Drift => system.drift(t),
-        Stage::Kick => system.kick(t),
-    }
+    first.apply(system, outer);
+    surroundings.after(system);
 }
 
 /// Everything between the first and the last stage of a step.
@@ -61,38 +88,7 @@ fn apply<S: Split + ?Sized>(system: &mut S, stage: Stage, t: f64) {
 fn apply_inner<S: Split + ?Sized>(system: &mut S, first: Stage, inner: &[f64], h: f64) {
     let mut stage = first;
     for coefficient in inner {
-        apply(system, stage, coefficient * h);
+        stage.apply(system, coefficient * h);
         stage = stage.other();
-    }
-}
-
-/// What lies between the inner stages of two steps; the table being a palindrome, its last
-/// coefficient is its first.
-#[inline]
-fn join<S: Split + ?Sized>(system: &mut S, stage: Stage, outer: f64, damping: Damping) {
-    if damping.0.is_none() {
-        apply(system, stage, 2.0 * outer);
-    } else {
-        apply(system, stage, outer);
-        damping.apply(system);
-        apply(system, stage, outer);
-    }
-}
-
-/// Factors on velocities and angular momenta, if there is drag at all.
-#[derive(Clone, Copy)]
-struct Damping(Option<(f64, f64)>);
-
-impl Damping {
-    /// The effect of `drag` over a time `t`.
-    fn over(drag: &Drag, t: f64) -> Self {
-        Self((!drag.is_none()).then(|| drag.factors(t)))
-    }
-
-    #[inline]
-    fn apply<S: Split + ?Sized>(self, system: &mut S) {
-        if let Some((translational, rotational)) = self.0 {
-            system.damp(translational, rotational);
-        }
     }
 }

@@ -1,6 +1,9 @@
-//! Frames: orientations with an inertia.
+//! Frames: orientations with an inertia. The loop of their free rotation is in `frames/drift.rs`.
 
-use crate::{Inertia, Quaternions, UnitQuaternion, Vector3, Vectors};
+mod drift;
+
+use crate::{Inertia, Quaternions, UnitQuaternion, Vector3, Vectors, vectors, wide};
+use drift::Drift;
 
 /// One frame, as it enters a [`Frames`].
 #[derive(Clone, Copy, Debug)]
@@ -22,8 +25,6 @@ pub struct Frames {
     inverse_transverse: Vec<f64>,
     /// (1 / axial - 1 / transverse) times the unit vector of the axis of symmetry.
     excess: Vectors,
-    /// Unit vector of the axis of symmetry.
-    axis: Vectors,
     /// 1 where torques turn the frame, 0 where it is held.
     mobility: Vec<f64>,
 }
@@ -51,7 +52,6 @@ impl Frames {
         self.inverse_transverse.push(1.0 / transverse);
         self.excess
             .push(axis.unit() * (1.0 / axial - 1.0 / transverse));
-        self.axis.push(axis.unit());
         self.mobility.push(1.0);
         self.len() - 1
     }
@@ -85,31 +85,28 @@ impl Frames {
     /// The quaternions are brought back to unit length to first order, which keeps them there to
     /// round-off over any number of steps.
     pub fn drift(&mut self, h: f64) {
-        for i in 0..self.len() {
-            let l = self.angular_momentum.get(i);
-            let axis = self.axis.get(i);
-            // One component of the excess differs from zero, so this is its rate about the axis.
-            let angle = h * l.dot(&self.excess.get(i));
-            let spin = axis_turn(axis, angle);
-            let precession = crate::rotation::exp(l * (h * self.inverse_transverse[i]));
-            let q = self.orientation.get(i) * precession * spin;
-            let correction = 1.5 - 0.5 * q.norm_squared();
-            let q = nalgebra::Unit::new_unchecked(q.into_inner() * correction);
-            self.orientation.set(i, q);
-            self.angular_momentum.set(i, turn_about(axis, -angle, l));
-        }
+        wide::dispatch(Drift { frames: self, h });
     }
 
     /// Applies the body torques `torque` for a time `h`.
     pub fn kick(&mut self, torque: &Vectors, h: f64) {
-        let l = &mut self.angular_momentum;
-        for (l, t) in [
-            (&mut l.x, &torque.x),
-            (&mut l.y, &torque.y),
-            (&mut l.z, &torque.z),
+        vectors::add_scaled(&mut self.angular_momentum, torque, &self.mobility, h);
+    }
+
+    /// Adds to each component of each body angular momentum `deviates` times the root of the
+    /// moment about that axis; nothing to those of held frames.
+    pub(crate) fn agitate(&mut self, deviates: &Vectors) {
+        let (l, excess) = (&mut self.angular_momentum, &self.excess);
+        for (l, excess, d) in [
+            (&mut l.x, &excess.x, &deviates.x),
+            (&mut l.y, &excess.y, &deviates.y),
+            (&mut l.z, &excess.z, &deviates.z),
         ] {
-            for ((l, t), m) in l.iter_mut().zip(t).zip(&self.mobility) {
-                *l += h * m * t;
+            let tops = excess.iter().zip(&self.inverse_transverse);
+            for (((l, d), m), (excess, inverse)) in
+                l.iter_mut().zip(d).zip(&self.mobility).zip(tops)
+            {
+                *l += m * d / (excess + inverse).sqrt();
             }
         }
     }
@@ -126,43 +123,55 @@ impl Frames {
     }
 }
 
-/// Rotation by `angle` about the unit vector `axis`.
-fn axis_turn(axis: Vector3, angle: f64) -> UnitQuaternion {
-    let (sin, cos) = (0.5 * angle).sin_cos();
-    let v = sin * axis;
-    nalgebra::Unit::new_unchecked(nalgebra::Quaternion::new(cos, v.x, v.y, v.z))
-}
-
-/// `l` turned by `angle` about the unit vector `axis` (Rodrigues).
-fn turn_about(axis: Vector3, angle: f64, l: Vector3) -> Vector3 {
-    let (sin, cos) = angle.sin_cos();
-    let along = axis * axis.dot(&l);
-    along + (l - along) * cos + axis.cross(&l) * sin
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::rotation;
+    use crate::testing::Noise;
+    use crate::wide::Arch;
 
-    /// The flow over all frames is the reference flow of each, whichever axis it has.
+    /// The flow over all frames is the reference flow of each, whichever axis it has, for numbers
+    /// of frames that fill the lanes and that do not, with one lane and with as many as there are,
+    /// for short times and for many turns.
     #[test]
     fn drift_is_the_free_flow_of_each_top() {
-        let q = rotation::exp(Vector3::new(0.2, 0.5, -0.9));
-        let l = Vector3::new(0.3, -0.8, 0.4);
-        for moments in [[2.0, 1.0, 1.0], [1.0, 2.0, 1.0], [1.0, 1.0, 2.0]] {
-            let inertia = Inertia::from_moments(moments).unwrap();
-            let mut frames = Frames::default();
-            frames.push(Frame {
-                orientation: q,
-                inertia,
-            });
-            frames.angular_momentum.set(0, l);
-            frames.drift(0.7);
-            let (q_expected, l_expected) = inertia.free_flow(q, l, 0.7);
-            assert!((frames.orientation.get(0).coords - q_expected.coords).norm() < 1e-15);
-            assert!((frames.angular_momentum.get(0) - l_expected).norm() < 1e-15);
+        let tops = [[2.0, 1.0, 1.0], [1.0, 2.0, 1.0], [1.0, 1.0, 2.0], [1.5; 3]]
+            .map(|moments| Inertia::from_moments(moments).unwrap());
+        for count in [1, 2, 4, 7, 13] {
+            for h in [0.0, 1e-9, 0.01, -0.3, 0.7, 100.0] {
+                for arch in [Arch::Scalar, Arch::new()] {
+                    let (before, mut frames) = spinning(&tops, count);
+                    let all = &mut frames;
+                    arch.dispatch(Drift { frames: all, h });
+                    for (i, (q, l)) in before.into_iter().enumerate() {
+                        let (q, l) = tops[i % 4].free_flow(q, l, h);
+                        let turned = frames.orientation.get(i).coords - q.coords;
+                        // Rounding of the angle itself, for the longest time.
+                        let tolerance = 1e-15 * (1.0 + h.abs());
+                        assert!(turned.norm() < tolerance, "{count} frames, h = {h}");
+                        let momentum = frames.angular_momentum.get(i) - l;
+                        assert!(momentum.norm() < 2.0 * tolerance, "{count} frames, h = {h}");
+                    }
+                }
+            }
         }
+    }
+
+    /// Frames of all the tops in turn, at random; also their orientations and momenta.
+    fn spinning(tops: &[Inertia], count: usize) -> (Vec<(UnitQuaternion, Vector3)>, Frames) {
+        let mut noise = Noise::new(5);
+        let mut frames = Frames::default();
+        let motion = (0..count).map(|i| {
+            let orientation = rotation::exp(noise.vector() * 3.0);
+            frames.push(Frame {
+                orientation,
+                inertia: tops[i % tops.len()],
+            });
+            let l = noise.vector();
+            frames.angular_momentum.set(i, l);
+            (orientation, l)
+        });
+        (motion.collect(), frames)
     }
 
     /// Without the correction the length would wander as the square root of the step count.

@@ -29,6 +29,7 @@ mod stiffness;
 mod system;
 pub mod testing;
 mod vectors;
+pub mod wide;
 
 pub use frames::{Frame, Frames};
 pub use inertia::{Axis, Inertia, InertiaError};
@@ -40,7 +41,7 @@ pub use quaternions::Quaternions;
 pub use slider::Slider;
 pub use state::State;
 pub use stiffness::{Coordinates, SecondOrder, Stiffness};
-pub use system::{Drive, Split, System};
+pub use system::{Agitate, Drive, Split, System};
 pub use vectors::Vectors;
 
 /// A vector of three components.

@@ -1,6 +1,6 @@
 //! Points: positions with a mass.
 
-use crate::{Vector3, Vectors};
+use crate::{Vector3, Vectors, vectors};
 
 /// One point, as it enters a [`Points`].
 #[derive(Clone, Copy, Debug)]
@@ -59,24 +59,24 @@ impl Points {
 
     /// Moves every point along its velocity for a time `h`.
     pub fn drift(&mut self, h: f64) {
-        let (x, v) = (&mut self.position, &self.velocity);
-        for (x, v) in [(&mut x.x, &v.x), (&mut x.y, &v.y), (&mut x.z, &v.z)] {
-            for (x, v) in x.iter_mut().zip(v) {
-                *x += h * v;
-            }
-        }
+        vectors::add_product(&mut self.position, &self.velocity, h);
     }
 
     /// Applies the forces `force` for a time `h`.
     pub fn kick(&mut self, force: &Vectors, h: f64) {
+        vectors::add_scaled(&mut self.velocity, force, &self.inverse_mass, h);
+    }
+
+    /// Adds to each velocity `deviates / sqrt(mass)`; nothing to those of held points.
+    pub(crate) fn agitate(&mut self, deviates: &Vectors) {
         let v = &mut self.velocity;
-        for (v, f) in [
-            (&mut v.x, &force.x),
-            (&mut v.y, &force.y),
-            (&mut v.z, &force.z),
+        for (v, d) in [
+            (&mut v.x, &deviates.x),
+            (&mut v.y, &deviates.y),
+            (&mut v.z, &deviates.z),
         ] {
-            for ((v, f), m) in v.iter_mut().zip(f).zip(&self.inverse_mass) {
-                *v += h * m * f;
+            for ((v, d), m) in v.iter_mut().zip(d).zip(&self.inverse_mass) {
+                *v += m.sqrt() * d;
             }
         }
     }

@@ -50,6 +50,14 @@ impl Quaternions {
         self.z.push(q.k);
     }
 
+    /// Takes over the quaternions of `other`, which has as many.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.w.copy_from_slice(&other.w);
+        self.x.copy_from_slice(&other.x);
+        self.y.copy_from_slice(&other.y);
+        self.z.copy_from_slice(&other.z);
+    }
+
     /// The quaternions in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = UnitQuaternion> + '_ {
         (0..self.len()).map(|i| self.get(i))

@@ -30,7 +30,7 @@ pub fn exp(theta: Vector3) -> UnitQuaternion {
 
 /// `sin(a) / a`.
 #[inline]
-fn sinc(a: f64) -> f64 {
+pub(crate) fn sinc(a: f64) -> f64 {
     if a < SMALL_ANGLE {
         let a2 = a * a;
         1.0 - a2 / 6.0 * (1.0 - a2 / 20.0 * (1.0 - a2 / 42.0))

@@ -51,6 +51,17 @@ impl Slider {
         }
     }
 
+    /// Adds to the velocity along the `k`-th direction component `k` of the first point's
+    /// `deviates` over the root of the whole mass.
+    pub(crate) fn agitate(&self, velocity: &mut Vectors, deviates: &Vectors) {
+        let deviate = deviates.get(self.points[0]);
+        let along = self.directions.iter().zip(deviate.iter());
+        let gain: Vector3 = along.map(|(d, xi)| d * (xi / self.mass.sqrt())).sum();
+        for &i in &self.points {
+            velocity.add(i, gain);
+        }
+    }
+
     /// Kinetic energy of the sliding motion.
     pub(crate) fn kinetic_energy(&self, state: &State) -> f64 {
         let v = self.sliding_velocity(&state.points.velocity);

@@ -42,6 +42,29 @@ impl State {
             .all(|c| c.is_finite())
     }
 
+    /// Takes over everything that time changes from `other`, a state of the same bodies: places,
+    /// motion, controls and time. Allocates nothing.
+    ///
+    /// # Panics
+    /// If `other` has other numbers of bodies or controls.
+    pub fn copy_motion_from(&mut self, other: &Self) {
+        // Named one by one, so that whoever adds to a state decides here whether it moves.
+        let Self {
+            points,
+            frames,
+            controls,
+            sliders: _,
+            time,
+        } = self;
+        points.position.copy_from(&other.points.position);
+        points.velocity.copy_from(&other.points.velocity);
+        frames.orientation.copy_from(&other.frames.orientation);
+        let momentum = &other.frames.angular_momentum;
+        frames.angular_momentum.copy_from(momentum);
+        controls.copy_from_slice(&other.controls);
+        *time = other.time;
+    }
+
     /// Stops every free body; held bodies keep their prescribed motion.
     pub fn stop(&mut self) {
         for i in 0..self.points.len() {
@@ -57,5 +80,36 @@ impl State {
                 self.frames.angular_momentum.set(i, crate::Vector3::zeros());
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::testing::{Noise, perturb, set_in_motion};
+    use crate::{Frame, Inertia, Point, State, UnitQuaternion, Vector3};
+
+    /// Whatever of a state moves is copied; a part that is left out would differ.
+    #[test]
+    fn motion_is_copied_whole() {
+        let mut state = State::default();
+        for _ in 0..3 {
+            state.points.push(Point {
+                position: Vector3::zeros(),
+                mass: 1.0,
+            });
+            state.frames.push(Frame {
+                orientation: UnitQuaternion::identity(),
+                inertia: Inertia::from_moments([1.0, 1.0, 2.0]).unwrap(),
+            });
+        }
+        state.controls = vec![0.0; 2];
+        let mut moved = state.clone();
+        let mut noise = Noise::new(3);
+        perturb(&mut moved, &mut noise, 1.0, 1.0);
+        set_in_motion(&mut moved, &mut noise, 1.0, 1.0);
+        moved.controls = vec![0.25, -1.0];
+        moved.time = 7.0;
+        state.copy_motion_from(&moved);
+        assert_eq!(state, moved);
     }
 }

@@ -1,6 +1,6 @@
 //! A state with its interactions, split into drift and kick.
 
-use crate::{Interaction, Loads, State};
+use crate::{Interaction, Loads, State, Vectors};
 
 /// What an integrator may do to a system: nothing else is visible to it.
 pub trait Split {
@@ -15,6 +15,20 @@ pub trait Split {
 
     /// How often the loads have been evaluated so far.
     fn force_evaluations(&self) -> u64;
+}
+
+/// What a heat bath may do to a system besides damping it.
+pub trait Agitate: Split {
+    /// Number of points and of frames, held ones included.
+    fn bodies(&self) -> (usize, usize);
+
+    /// Adds thermal impulses, scaled to the inertia of what they meet.
+    ///
+    /// With deviates `d` in the root of an energy, one vector per point and one per frame, each
+    /// velocity gains `d / sqrt(m)` (lab frame) and each angular momentum `d_a sqrt(I_a)` about its
+    /// body axis `a`. Held bodies gain nothing; a body that slides gains, along its `k`-th
+    /// direction, component `k` of its first point's `d` over the root of its whole mass.
+    fn agitate(&mut self, points: &Vectors, frames: &Vectors);
 }
 
 /// What moves held bodies and controls as time goes.
@@ -71,6 +85,24 @@ impl System {
     pub fn state_mut(&mut self) -> &mut State {
         self.loads_are_current = false;
         &mut self.state
+    }
+
+    /// Whether the loads belong to the present positions, so that they need not be evaluated again.
+    pub fn loads_are_current(&self) -> bool {
+        self.loads_are_current
+    }
+
+    /// Puts the system where another one of the same bodies and terms stood, as far as time has
+    /// changed it, work counts included: what follows is the same to the bit.
+    ///
+    /// # Panics
+    /// If `motion` has other numbers of bodies or controls.
+    pub fn restore(&mut self, motion: &State, loads_are_current: bool, force_evaluations: u64) {
+        self.state_mut().copy_motion_from(motion);
+        if loads_are_current {
+            self.loads();
+        }
+        self.force_evaluations = force_evaluations;
     }
 
     /// The interactions.
@@ -147,6 +179,21 @@ impl Split for System {
     }
 }
 
+impl Agitate for System {
+    fn bodies(&self) -> (usize, usize) {
+        (self.state.points.len(), self.state.frames.len())
+    }
+
+    fn agitate(&mut self, points: &Vectors, frames: &Vectors) {
+        let state = &mut self.state;
+        state.points.agitate(points);
+        for slider in &state.sliders {
+            slider.agitate(&mut state.points.velocity, points);
+        }
+        state.frames.agitate(frames);
+    }
+}
+
 /// Scales the motion of the free bodies.
 fn damp_free(state: &mut State, translational: f64, rotational: f64) {
     let points = &mut state.points;
@@ -165,5 +212,55 @@ fn damp_free(state: &mut State, translational: f64, rotational: f64) {
             let l = frames.angular_momentum.get(i);
             frames.angular_momentum.set(i, l * rotational);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Frame, Inertia, Point, Slider, UnitQuaternion, Vector3};
+
+    /// Two points of mass 4, the second held; a pair of held points that slides along z as one
+    /// body of mass 16; two tops of moments (1, 1, 9), the second held.
+    fn bodies() -> System {
+        let mut state = State::default();
+        for mass in [4.0, 4.0, 2.0, 2.0] {
+            state.points.push(Point {
+                position: Vector3::zeros(),
+                mass,
+            });
+        }
+        (1..4).for_each(|i| state.points.hold(i));
+        state.sliders.push(Slider {
+            points: vec![2, 3],
+            directions: vec![Vector3::z()],
+            mass: 16.0,
+        });
+        for _ in 0..2 {
+            state.frames.push(Frame {
+                orientation: UnitQuaternion::identity(),
+                inertia: Inertia::from_moments([1.0, 1.0, 9.0]).unwrap(),
+            });
+        }
+        state.frames.hold(1);
+        System::new(state, Vec::new())
+    }
+
+    /// Impulses go as the root of the inertia, so that energies do not: each component that
+    /// is free has 1/2. Held bodies that answered would carry heat through the wall.
+    #[test]
+    fn impulses_meet_the_free_bodies_by_the_root_of_their_inertia() {
+        let mut system = bodies();
+        let ones: Vectors = (0..4).map(|_| Vector3::repeat(1.0)).collect();
+        system.agitate(&ones, &ones);
+        let state = system.state();
+        let v = |i| state.points.velocity.get(i);
+        assert_eq!((v(0), v(1)), (Vector3::repeat(0.5), Vector3::zeros()));
+        assert_eq!((v(2), v(3)), (Vector3::z() * 0.25, Vector3::z() * 0.25));
+        let l = |i| state.frames.angular_momentum.get(i);
+        assert!((l(0) - Vector3::new(1.0, 1.0, 3.0)).norm() < 1e-15);
+        assert_eq!(l(1), Vector3::zeros());
+        // Three components of a point, one of the slider, three of a frame.
+        assert!((state.kinetic_energy() - 3.5).abs() < 1e-14);
     }
 }

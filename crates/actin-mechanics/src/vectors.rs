@@ -1,6 +1,11 @@
 //! Many three-vectors, stored component by component.
+#![allow(
+    clippy::inline_always,
+    reason = "vector code must be compiled into the function that enables the instructions"
+)]
 
 use crate::Vector3;
+use crate::wide::{self, Simd, WithSimd};
 
 /// `n` three-vectors as three arrays of `n` components, so that loops over them vectorise.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -69,6 +74,13 @@ impl Vectors {
         self.z.fill(0.0);
     }
 
+    /// Takes over the vectors of `other`, which has as many.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.x.copy_from_slice(&other.x);
+        self.y.copy_from_slice(&other.y);
+        self.z.copy_from_slice(&other.z);
+    }
+
     /// Multiplies every vector by `factor`.
     pub fn scale(&mut self, factor: f64) {
         for component in [&mut self.x, &mut self.y, &mut self.z] {
@@ -89,5 +101,64 @@ impl FromIterator<Vector3> for Vectors {
         let mut all = Self::default();
         vectors.into_iter().for_each(|v| all.push(v));
         all
+    }
+}
+
+/// `sum += h terms`.
+pub(crate) fn add_product(sum: &mut Vectors, terms: &Vectors, h: f64) {
+    wide::dispatch(AddProduct { sum, terms, h });
+}
+
+/// `sum += h factors terms`, with a factor for each vector.
+pub(crate) fn add_scaled(sum: &mut Vectors, terms: &Vectors, factors: &[f64], h: f64) {
+    wide::dispatch(AddScaled {
+        sum,
+        terms,
+        factors,
+        h,
+    });
+}
+
+/// The loop of [`add_product`]; nothing in it but plain arithmetic, which the compiler spreads over
+/// the lanes by itself.
+struct AddProduct<'a> {
+    sum: &'a mut Vectors,
+    terms: &'a Vectors,
+    h: f64,
+}
+
+impl WithSimd for AddProduct<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let (x, v) = (self.sum, self.terms);
+        for (x, v) in [(&mut x.x, &v.x), (&mut x.y, &v.y), (&mut x.z, &v.z)] {
+            for (x, v) in x.iter_mut().zip(v) {
+                *x += self.h * v;
+            }
+        }
+    }
+}
+
+/// The loop of [`add_scaled`].
+struct AddScaled<'a> {
+    sum: &'a mut Vectors,
+    terms: &'a Vectors,
+    factors: &'a [f64],
+    h: f64,
+}
+
+impl WithSimd for AddScaled<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let (x, f) = (self.sum, self.terms);
+        for (x, f) in [(&mut x.x, &f.x), (&mut x.y, &f.y), (&mut x.z, &f.z)] {
+            for ((x, f), m) in x.iter_mut().zip(f).zip(self.factors) {
+                *x += self.h * m * f;
+            }
+        }
     }
 }

@@ -1,9 +1,9 @@
 //! Figure 9: how twisting rigidity and length depend on twist, fitted.
 
+use super::Run;
 use super::report::{Artefact, Picture, Row};
 use crate::fit::{TwistData, TwistFits, draw};
 use actin_cosserat::{PolynomialStretch, TanhTwist};
-use std::path::Path;
 use std::time::Instant;
 
 const ID: &str = "fig9";
@@ -15,7 +15,7 @@ const B3_RMS: f64 = 265.0;
 const PUBLISHED_B3_RMS: (f64, f64) = (349.0, 1.0);
 
 /// Fits the paper's rows and draws data, published and fitted curves.
-pub(super) fn reproduce(out: &Path, _quick: bool) -> Result<Artefact, String> {
+pub(super) fn reproduce(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
     let data = TwistData::from_paper(false)?;
     let fits = TwistFits::new(&data)?;
@@ -36,6 +36,7 @@ pub(super) fn reproduce(out: &Path, _quick: bool) -> Result<Artefact, String> {
         ),
         rows,
         pictures: pictures.collect(),
+        views: Vec::new(),
         wall_s: started.elapsed().as_secs_f64(),
     })
 }

@@ -2,28 +2,78 @@
 //!
 //! Each artefact is a function that runs simulations, writes its pictures and tables into a
 //! folder and returns rows that set our number beside the paper's. Nothing here is drawn from
-//! anything but a simulation of that run.
+//! anything but a simulation of that run. Artefacts follow one another; the runs of each are spread
+//! over threads and put together in an order that does not depend on them.
 
 mod buckling;
+mod claims;
 mod figure4;
 mod figure7;
 mod figure9;
 mod html;
+mod kept;
 mod linked;
+pub(crate) mod palette;
 pub(crate) mod plot;
+mod progress;
 pub(crate) mod report;
 mod scene3d;
 mod schematics;
+mod settles;
 mod tables;
+mod viewer;
 
+pub(crate) use palette::Palette;
 pub(crate) use tables::paper;
 
-use report::Artefact;
+use kept::{Kept, Reason, Shelf};
+use progress::Progress;
+use report::{Artefact, Row};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// An artefact: its name, and what computes it into a folder.
-type Recipe = (&'static str, fn(&Path, bool) -> Result<Artefact, String>);
+/// What is computed, and how.
+#[derive(clap::Args, Clone, Debug)]
+pub(crate) struct Options {
+    /// Which: fig1 to fig10, table1 to table5. All by default.
+    ids: Vec<String>,
+    /// Where to write pictures, tables and reports.
+    #[arg(long, default_value = "target/figures")]
+    out: PathBuf,
+    /// Fewer resolutions and samplings, and equilibria only.
+    #[arg(long)]
+    quick: bool,
+    /// Number of threads; one for each core by default. The results do not depend on it.
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// Computes again also what an earlier run has finished.
+    #[arg(long)]
+    fresh: bool,
+    /// Colours of pictures and viewer.
+    #[arg(long, value_enum, default_value_t)]
+    palette: Palette,
+}
+
+impl Options {
+    /// All that changes an artefact.
+    fn choices(&self) -> String {
+        format!("quick: {}, palette: {:?}", self.quick, self.palette)
+    }
+}
+
+/// What a recipe is given.
+#[derive(Clone, Copy, Debug)]
+struct Run<'a> {
+    /// Folder for pictures and tables.
+    out: &'a Path,
+    /// Fewer resolutions and samplings, and equilibria only.
+    quick: bool,
+    /// Counts its runs.
+    progress: &'a Progress,
+}
+
+/// An artefact: its name, and what computes it.
+type Recipe = (&'static str, fn(Run<'_>) -> Result<Artefact, String>);
 
 /// The artefacts that exist.
 const RECIPES: [Recipe; 15] = [
@@ -44,24 +94,90 @@ const RECIPES: [Recipe; 15] = [
     ("table5", tables::table5),
 ];
 
-/// Computes the artefacts named `ids` (all if none is named) into `out`.
-pub(crate) fn reproduce(ids: &[String], out: &Path, quick: bool) -> Result<(), String> {
+/// Computes the artefacts that are asked for, or takes them from an earlier run, and reports.
+pub(crate) fn reproduce(options: &Options) -> Result<(), String> {
     let known: Vec<&str> = RECIPES.iter().map(|(id, _)| *id).collect();
-    if let Some(unknown) = ids.iter().find(|id| !known.contains(&id.as_str())) {
+    let is_known = |id: &&String| known.contains(&id.as_str());
+    if let Some(unknown) = options.ids.iter().find(|id| !is_known(id)) {
         return Err(format!(
             "no artefact `{unknown}`: there is {}",
             known.join(", ")
         ));
     }
-    fs::create_dir_all(out).map_err(|e| format!("{}: {e}", out.display()))?;
-    let chosen = |id: &str| ids.is_empty() || ids.iter().any(|wanted| wanted == id);
-    let mut artefacts = Vec::new();
-    for (id, recipe) in RECIPES.into_iter().filter(|(id, _)| chosen(id)) {
-        println!("{id}:");
-        artefacts.push(recipe(out, quick)?);
-    }
+    palette::choose(options.palette);
+    let artefacts = on_threads(options.threads, || artefacts(&RECIPES, options))?;
+    let out = &options.out;
     report::write(&artefacts, out)?;
-    html::write(&artefacts, out)?;
+    html::write(&artefacts, out, options.quick)?;
     println!("written: {}", out.join("report.html").display());
+    if !options.quick {
+        let rows: Vec<Row> = artefacts.into_iter().flat_map(|a| a.rows).collect();
+        crate::docs::tell_differences(&rows)?;
+    }
     Ok(())
 }
+
+/// Does `work` on so many threads.
+fn on_threads<T: Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> Result<T, String> + Send,
+) -> Result<T, String> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
+    pool.build().map_err(|e| e.to_string())?.install(work)
+}
+
+/// The chosen artefacts, in the order of the recipes.
+fn artefacts(recipes: &[Recipe], options: &Options) -> Result<Vec<Artefact>, String> {
+    fs::create_dir_all(&options.out).map_err(|e| format!("{}: {e}", options.out.display()))?;
+    let shelf = Shelf::new(&options.out, kept::fingerprint(&options.choices())?)?;
+    let chosen = |id: &str| options.ids.is_empty() || options.ids.iter().any(|wanted| wanted == id);
+    let chosen = recipes.iter().filter(|(id, _)| chosen(id));
+    chosen
+        .map(|&recipe| {
+            let (kept, _) = artefact(recipe, &shelf, options)?;
+            Ok(kept.artefact)
+        })
+        .collect()
+}
+
+/// One artefact, and why it was computed if it was.
+fn artefact(
+    (id, recipe): Recipe,
+    shelf: &Shelf<'_>,
+    options: &Options,
+) -> Result<(Kept, Option<Reason>), String> {
+    let found = if options.fresh {
+        Err(Reason::Asked)
+    } else {
+        shelf.find(id)
+    };
+    let reason = match found {
+        Ok(kept) => {
+            println!("{id}: kept from an earlier run ({})", effort(&kept));
+            return Ok((kept, None));
+        }
+        Err(reason) => reason,
+    };
+    println!("{id}: started, {reason}");
+    let kept = shelf.compute(id, |out| {
+        let progress = Progress::new(id);
+        let run = Run {
+            out,
+            quick: options.quick,
+            progress: &progress,
+        };
+        let mut artefact = recipe(run)?;
+        artefact.rows.extend(claims::rows(id, &artefact.rows));
+        Ok((artefact, progress.finish()))
+    })?;
+    println!("{id}: finished, {}", effort(&kept));
+    Ok((kept, Some(reason)))
+}
+
+/// Runs and time of an artefact, in words.
+fn effort(kept: &Kept) -> String {
+    format!("{} runs in {:.1} s", kept.runs, kept.artefact.wall_s)
+}
+
+#[cfg(test)]
+mod tests;

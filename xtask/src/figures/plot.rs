@@ -32,28 +32,6 @@ const SIZE: (u32, u32) = (900, 560);
 /// Pixels of the plane inside labels and margins, used to make scales equal.
 const PLANE: (f64, f64) = (800.0, 450.0);
 
-/// The colour of a share of rod between 0 (all monomers, red) and 1 (all rod, blue), through
-/// yellow as in the paper.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a place between the first and the last stop, and a mean of two bytes"
-)]
-pub(super) fn resolution_colour(share: f64) -> RGBColor {
-    const STOPS: [[f64; 3]; 5] = [
-        [190.0, 25.0, 35.0],
-        [235.0, 110.0, 40.0],
-        [235.0, 180.0, 0.0],
-        [90.0, 165.0, 215.0],
-        [30.0, 70.0, 180.0],
-    ];
-    let place = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
-    let i = (place as usize).min(STOPS.len() - 2);
-    let t = place - i as f64;
-    let mix = |k: usize| (STOPS[i][k] + t * (STOPS[i + 1][k] - STOPS[i][k])) as u8;
-    RGBColor(mix(0), mix(1), mix(2))
-}
-
 /// Draws `chart` into the SVG file `path`.
 ///
 /// # Errors

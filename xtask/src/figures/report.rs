@@ -1,18 +1,30 @@
 //! `report.json`: what the paper says, what we compute, and whether the two agree.
 
-use serde::Serialize;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::fs;
 use std::path::Path;
 
+/// A text that recipes write as a literal; read from a file it lives as long as the program, which
+/// reads each artefact once.
+pub(super) type Literal = &'static str;
+
+fn literal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Literal, D::Error> {
+    Ok(Box::leak(
+        String::deserialize(deserializer)?.into_boxed_str(),
+    ))
+}
+
 /// One number of an artefact.
-#[derive(Clone, Debug, Serialize)]
-pub(super) struct Row {
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub(crate) struct Row {
     /// Which figure or table.
-    pub artefact: &'static str,
+    #[serde(deserialize_with = "literal")]
+    pub artefact: Literal,
     /// Path of the quantity.
     pub quantity: String,
     /// Unit; empty for a ratio.
-    pub unit: &'static str,
+    #[serde(deserialize_with = "literal")]
+    pub unit: Literal,
     /// What the paper (or, where the note says so, a theory) gives.
     pub paper: Option<f64>,
     /// What this run computed.
@@ -27,7 +39,7 @@ pub(super) struct Row {
 
 impl Row {
     /// A number with nothing to compare it to.
-    pub(super) fn measured(
+    pub(crate) fn measured(
         artefact: &'static str,
         quantity: impl Into<String>,
         unit: &'static str,
@@ -47,7 +59,7 @@ impl Row {
     }
 
     /// The same number, compared to `paper`.
-    pub(super) fn against(self, paper: f64, tolerance: f64) -> Self {
+    pub(crate) fn against(self, paper: f64, tolerance: f64) -> Self {
         Self {
             paper: Some(paper),
             tolerance: Some(tolerance),
@@ -58,7 +70,7 @@ impl Row {
 }
 
 /// A picture with its caption.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(super) struct Picture {
     /// File name in the output folder.
     pub file: String,
@@ -66,34 +78,79 @@ pub(super) struct Picture {
     pub caption: String,
 }
 
+/// States to be turned in the page's viewer.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub(super) struct View {
+    /// A JSON file in the output folder.
+    pub file: String,
+    /// What is seen.
+    pub caption: String,
+}
+
 /// A figure or table of the paper, computed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(super) struct Artefact {
     /// Which.
-    pub id: &'static str,
+    #[serde(deserialize_with = "literal")]
+    pub id: Literal,
     /// Its title, in our words.
-    pub title: &'static str,
+    #[serde(deserialize_with = "literal")]
+    pub title: Literal,
     /// How it was made: scenes, stop rule, seeds.
     pub settings: String,
     /// Numbers.
     pub rows: Vec<Row>,
     /// Pictures.
     pub pictures: Vec<Picture>,
+    /// States for the viewer.
+    pub views: Vec<View>,
     /// Time that it took (s).
     pub wall_s: f64,
 }
 
-/// Writes `report.json` and `report.csv`.
+/// Writes `report.json`: all rows, sorted, one a line.
 pub(super) fn write(artefacts: &[Artefact], out: &Path) -> Result<(), String> {
-    let rows: Vec<&Row> = artefacts.iter().flat_map(|a| &a.rows).collect();
+    let rows = artefacts.iter().flat_map(|a| a.rows.clone()).collect();
+    write_atomically(&out.join("report.json"), &text(rows)?)
+}
+
+/// The text of a report.
+///
+/// # Errors
+/// A row whose number is not finite, and two rows of one quantity.
+pub(crate) fn text(mut rows: Vec<Row>) -> Result<String, String> {
+    rows.sort_by(|a, b| (a.artefact, &a.quantity).cmp(&(b.artefact, &b.quantity)));
     if let Some(bad) = rows.iter().find(|row| !row.ours.is_finite()) {
         return Err(format!(
             "{} {} is {}: nothing non-finite is written",
             bad.artefact, bad.quantity, bad.ours
         ));
     }
-    let json = serde_json::to_string_pretty(&rows).map_err(|e| e.to_string())?;
-    save(out, "report.json", &json)
+    let is_twice = |w: &&[Row]| (w[0].artefact, &w[0].quantity) == (w[1].artefact, &w[1].quantity);
+    if let Some([twice, ..]) = rows.windows(2).find(is_twice) {
+        let Row {
+            artefact, quantity, ..
+        } = twice;
+        return Err(format!("{artefact} {quantity} is written twice"));
+    }
+    let lines: Vec<String> = rows
+        .iter()
+        .map(|row| serde_json::to_string(row).map_err(|e| e.to_string()))
+        .collect::<Result<_, _>>()?;
+    Ok(format!("[\n{}\n]\n", lines.join(",\n")))
+}
+
+/// Reads a report.
+pub(crate) fn read(path: &Path) -> Result<Vec<Row>, String> {
+    let text = fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
+    serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+/// Writes a text under another name and renames it, so that the file is whole or not there.
+pub(super) fn write_atomically(path: &Path, text: &str) -> Result<(), String> {
+    let unfinished = path.with_extension("unfinished");
+    fs::write(&unfinished, text).map_err(|e| format!("{}: {e}", unfinished.display()))?;
+    fs::rename(&unfinished, path).map_err(|e| format!("{}: {e}", path.display()))
 }
 
 /// Writes a table of numbers under a header.

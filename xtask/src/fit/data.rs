@@ -141,6 +141,7 @@ fn number(text: &str, column: usize, line: u64) -> Result<Option<f64>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     fn read(text: &str) -> Result<TwistData, String> {
         let folder = std::env::temp_dir().join(format!("fit-data-{}", std::process::id()));
@@ -194,6 +195,32 @@ mod tests {
         ] {
             let message = read(text).unwrap_err();
             assert!(message.contains(expected), "{message}");
+        }
+    }
+
+    proptest! {
+        /// Tables of anything: numbers or a message, never a panic. Rows of other lengths, quotes
+        /// that are not closed and bytes that are no text come as they come.
+        #[test]
+        fn spoilt_tables_are_read_or_refused(
+            header in prop::sample::subsequence(vec!["kappa3_rad_per_nm", "b3_pn_nm2", "dl_over_l", "x"], 0..=4),
+            rows in prop::collection::vec("[-+0-9.eEinfNa,\" #]{0,24}", 0..14),
+            noise in prop::collection::vec(any::<u8>(), 0..6),
+        ) {
+            let mut table = format!("{}\n{}\n", header.join(","), rows.join("\n")).into_bytes();
+            table.extend(noise);
+            let name = format!("fit-data-spoilt-{}.csv", std::process::id());
+            let file = std::env::temp_dir().join(name);
+            std::fs::write(&file, table).unwrap();
+            let data = TwistData::from_csv(&file);
+            std::fs::remove_file(&file).unwrap();
+            match data {
+                Err(message) => prop_assert!(!message.is_empty()),
+                Ok(data) => {
+                    let all = data.rigidity.value.iter().chain(&data.length.value);
+                    prop_assert!(all.chain(&data.rigidity.twist).all(|x| x.is_finite()));
+                }
+            }
         }
     }
 }

@@ -2,15 +2,15 @@
 
 use super::data::{Column, TwistData};
 use super::twist::TwistFits;
+use crate::figures::palette;
 use crate::figures::plot::{Chart, Series, draw as draw_chart};
 use actin_cosserat::{PolynomialStretch, TanhTwist};
-use plotters::style::RGBColor;
 use std::path::Path;
 
-const DATA: RGBColor = RGBColor(20, 20, 20);
-const PUBLISHED: RGBColor = RGBColor(200, 60, 40);
-const SAME_FORM: RGBColor = RGBColor(230, 160, 0);
-const SMALLEST: RGBColor = RGBColor(30, 90, 190);
+/// Lines of the published parameters, of the same form refitted, and of a smaller form.
+const PUBLISHED: usize = 0;
+const SAME_FORM: usize = 1;
+const SMALLEST: usize = 3;
 /// Points of a curve.
 const CURVE: i32 = 300;
 
@@ -89,14 +89,14 @@ fn length(data: &TwistData, fits: &TwistFits) -> Chart<'static> {
     }
 }
 
-fn curve(label: &str, colour: RGBColor, range: f64, law: impl Fn(f64) -> f64) -> Series {
+fn curve(label: &str, line: usize, range: f64, law: impl Fn(f64) -> f64) -> Series {
     let points = (-CURVE..=CURVE).map(|i| {
         let k = range * f64::from(i) / f64::from(CURVE);
         (k, law(k))
     });
     Series {
         label: Some(label.to_owned()),
-        colour,
+        colour: palette::line(line),
         points: points.collect(),
         dots: false,
     }
@@ -106,7 +106,7 @@ fn dots(column: &Column, label: &str, scale: f64) -> Series {
     let points = column.twist.iter().zip(&column.value);
     Series {
         label: Some(label.to_owned()),
-        colour: DATA,
+        colour: palette::DATA,
         points: points.map(|(k, v)| (*k, v * scale)).collect(),
         dots: true,
     }

@@ -35,6 +35,7 @@ const ALLOWED: [(&str, &[&str]); 10] = [
             "actin-sim",
             "actin-cosserat",
             "actin-fit",
+            "actin-integrate",
         ],
     ),
 ];

@@ -8,9 +8,8 @@ use super::Bonds;
 use super::sums::Relatives;
 use crate::kernel::{Ends, place_of};
 use crate::table::{BondTable, GROUP, Record};
-use crate::wide;
 use actin_mechanics::State;
-use pulp::{Simd, WithSimd};
+use actin_mechanics::wide::{self, Simd, WithSimd};
 
 /// The loop over bonds, to be compiled for whatever instructions the machine has; returns
 /// `sum (|d| - L)^2` of each pair.

@@ -8,8 +8,7 @@
 
 use crate::kernel::{Ends, GUARD, place_of};
 use crate::table::{GROUP, Record, Relative};
-use crate::wide::{self, Wide3, WideMatrix};
-use pulp::{Simd, WithSimd};
+use actin_mechanics::wide::{self, Simd, Wide3, WideMatrix, WithSimd};
 
 /// One number for each pair of a group.
 type Lanes = [f64; GROUP];

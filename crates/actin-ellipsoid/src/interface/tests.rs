@@ -54,7 +54,7 @@ fn published_rule_accepts_the_same_points() {
         let gap = gap(kind);
         let Neighbour { rotation, offset } = gap.neighbour;
         let direction = offset.normalize();
-        let mut stream = Stream::new(9, 0);
+        let mut stream = Stream::new(9, 0, 0);
         let mut accepted = 0;
         for _ in 0..50_000 {
             let point = gap.ellipsoid.sample(&mut stream);
@@ -141,6 +141,32 @@ fn a_limit_below_the_gap_is_an_error() {
     );
     let message = error.to_string();
     assert!(message.starts_with("bond limit that leaves an interface without bonds"));
+}
+
+/// A bond limit that leaves two points in ten thousand: an interface of many bonds is given up after
+/// a bounded number of draws, however steadily they succeed.
+#[test]
+fn a_limit_that_leaves_hardly_any_bonds_is_an_error() {
+    let gap = gap(Lateral);
+    let mut stream = Stream::new(4, 0, 0);
+    let points = (0..100_000).map(|_| gap.ellipsoid.sample(&mut stream));
+    let mut lengths: Vec<f64> = points
+        .filter_map(|point| gap.bond_from(point))
+        .map(|bond| bond.rest_length)
+        .collect();
+    lengths.sort_by(f64::total_cmp);
+    let mut parameters = with_bonds(1000);
+    parameters.lateral.maximum_length = lengths[20];
+    let error = Interface::draw(&parameters, Lateral, 0).unwrap_err();
+    let InterfaceError::FewBonds {
+        found, attempts, ..
+    } = error
+    else {
+        panic!("{error}");
+    };
+    // 2e6 draws, of which 2e-4 succeed; five standard deviations of the 20 that say so.
+    assert!((1..1000).contains(&found), "{found}");
+    assert!(attempts < 2_000_000 + MAXIMUM_ATTEMPTS);
 }
 
 /// Where the ellipsoids overlap no bond starts inside the neighbour: with the absolute value

@@ -1,7 +1,7 @@
 //! Who is bonded to whom, for whoever draws or measures bonds: those between monomers and those of
 //! a junction. What the bonds do is in the crates of the models.
 
-use super::{Assembly, BodyKind, Resolution, SectionSpan, models};
+use super::{Assembly, BodyKind, Resolution, models};
 use actin_ellipsoid::{Bonds, Monomers};
 use std::ops::Range;
 
@@ -40,7 +40,8 @@ impl Assembly {
             first_index,
             count: span.points.len(),
         };
-        let model = models::ellipsoids(&self.scene.filament.monomers)
+        let filament = self.filament_of_section(section);
+        let model = models::ellipsoids(self.monomers_of(filament), filament)
             .expect("the assembly was built with these parameters");
         let bonds = model.bonds(&monomers);
         Some(bonds.expect("the assembly was built with these bonds"))
@@ -48,22 +49,19 @@ impl Assembly {
 
     /// The bonds of all junctions in filament order.
     pub fn junction_bonds(&self) -> Vec<JunctionBond> {
-        let pairs = self.sections.windows(2).enumerate();
-        pairs
-            .flat_map(|(junction, pair)| self.bonds_between(junction, &pair[0], &pair[1]))
-            .collect()
+        let junctions = self.filaments.iter().map(|f| f.sections.clone());
+        let junctions = junctions.flat_map(|sections| sections.start..sections.end - 1);
+        junctions.flat_map(|i| self.bonds_of_junction(i)).collect()
     }
 
-    /// The bonds of the junction between two sections.
-    fn bonds_between(
-        &self,
-        junction: usize,
-        before: &SectionSpan,
-        after: &SectionSpan,
-    ) -> Vec<JunctionBond> {
+    /// The bonds of the junction between a section and the next.
+    fn bonds_of_junction(&self, junction: usize) -> Vec<JunctionBond> {
+        let (before, after) = (&self.sections[junction], &self.sections[junction + 1]);
         let frames = (before.frames.end..after.frames.start)
             .filter(|&frame| self.frames[frame].kind == BodyKind::Junction);
-        let attached = self.scene.filament.junction.attached_monomers;
+        let filament = self.scene.filament_at(self.filament_of_section(junction));
+        let filament = filament.expect("the scene has the filament of each section");
+        let attached = filament.junction.attached_monomers;
         let (monomers, node) = if before.is_ellipsoids() {
             (before, after.points.start)
         } else {

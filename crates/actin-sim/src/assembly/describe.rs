@@ -1,14 +1,22 @@
-//! Bodies in words, for messages.
+//! Bodies and parts in words, for messages and files.
 
-use super::{Assembly, BodyKind};
+use super::{Assembly, BodyKind, FrameInfo, Part, PointInfo};
+use actin_coupling::LinkerEnd;
 use actin_integrate::Body;
 
 impl Assembly {
-    /// What a body is and where it stands at rest, such as `the node at s = 80.79 nm`.
+    /// What a body is and where it stands at rest, such as `the node at s = 80.79 nm`, and of which
+    /// filament if there are several.
     pub fn describe(&self, body: Body) -> String {
-        let (kind, s_nm) = match body {
-            Body::Point(i) => (self.points[i].kind, self.points[i].s_nm),
-            Body::Frame(i) => (self.frames[i].kind, self.frames[i].s_nm),
+        let (kind, s_nm, filament) = match body {
+            Body::Point(i) => {
+                let PointInfo { kind, s_nm, .. } = self.points[i];
+                (kind, s_nm, self.filament_of_point(i))
+            }
+            Body::Frame(i) => {
+                let FrameInfo { kind, s_nm } = self.frames[i];
+                (kind, s_nm, self.filament_of_frame(i))
+            }
         };
         let name = match kind {
             BodyKind::Monomer => "monomer",
@@ -17,11 +25,48 @@ impl Assembly {
             BodyKind::Junction => "junction frame",
             BodyKind::Wall => "wall",
         };
-        format!("the {name} at s = {s_nm:.2} nm")
+        match self.filaments.len() {
+            1 => format!("the {name} at s = {s_nm:.2} nm"),
+            _ => format!("the {name} at s = {s_nm:.2} nm of filament {filament}"),
+        }
     }
 
     /// What linker `i` holds on to, such as `the segment at s = 75.00 nm`.
     pub fn linked(&self, i: usize) -> String {
         self.describe(Body::Frame(self.linkers[i].site().frame()))
+    }
+
+    /// What linker `i` holds on to at its other end; none if that is an anchor.
+    pub fn linked_to(&self, i: usize) -> Option<String> {
+        match self.linkers[i].end() {
+            LinkerEnd::Anchor(_) => None,
+            LinkerEnd::Site(site) => Some(self.describe(Body::Frame(site.frame()))),
+        }
+    }
+
+    /// Name of a part in files: sections by their index in the filament, such as `section_0`, and
+    /// `filament_1_section_0` of filaments but the first.
+    pub fn name_of(&self, part: Part) -> String {
+        let within = |section: usize| {
+            let filament = self.filament_of_section(section);
+            let i = section - self.filaments[filament].sections.start;
+            let prefix = match filament {
+                0 => String::new(),
+                _ => format!("filament_{filament}_"),
+            };
+            (prefix, i)
+        };
+        match part {
+            Part::Section(section) => {
+                let (prefix, i) = within(section);
+                format!("{prefix}section_{i}")
+            }
+            Part::Junction(section) => {
+                let (prefix, i) = within(section);
+                format!("{prefix}junction_{i}_{}", i + 1)
+            }
+            Part::Load(i) => format!("load_{i}"),
+            Part::Linker(i) => format!("linker_{i}"),
+        }
     }
 }

@@ -54,6 +54,7 @@ struct HeldEnd {
     frames: Vec<(usize, UnitQuaternion)>,
     about: Vector3,
     slides: Slides,
+    axis: Vector3,
 }
 
 impl Drive {
@@ -65,14 +66,23 @@ impl Drive {
             }
             _ => None,
         };
+        let is_at = |clamp: usize, filament, end| {
+            (clamps[clamp].filament, clamps[clamp].end) == (filament, end)
+        };
         let shift = |clamp: usize, setting: &Setting| match *setting {
-            Setting::Shift { end, shift_nm } if end == clamps[clamp].end => Some(shift_nm.into()),
+            Setting::Shift {
+                filament,
+                end,
+                shift_nm,
+            } if is_at(clamp, filament, end) => Some(shift_nm.into()),
             _ => None,
         };
         let turn = |clamp: usize, setting: &Setting| match *setting {
-            Setting::Turn { end, turn_deg } if end == clamps[clamp].end => {
-                Some(turn_deg.map(f64::to_radians).into())
-            }
+            Setting::Turn {
+                filament,
+                end,
+                turn_deg,
+            } if is_at(clamp, filament, end) => Some(turn_deg.map(f64::to_radians).into()),
             _ => None,
         };
         let anchor = |index: usize, setting: &Setting| match *setting {
@@ -168,6 +178,7 @@ impl HeldEnd {
             frames: clamp.frames.iter().map(frame).collect(),
             about: clamp.about_nm,
             slides: clamp.slides,
+            axis: clamp.axis,
         }
     }
 
@@ -204,7 +215,11 @@ impl HeldEnd {
     fn unless_sliding(&self, prescribed: Vector3, present: Vector3) -> Vector3 {
         match self.slides {
             Slides::Nowhere => prescribed,
-            Slides::AlongAxis => Vector3::new(prescribed.x, prescribed.y, present.z),
+            Slides::AlongAxis => {
+                let axis = self.axis;
+                // In this order components across an axis of the lab stay as they are to the bit.
+                prescribed - axis * axis.dot(&prescribed) + axis * axis.dot(&present)
+            }
             Slides::Freely => present,
         }
     }

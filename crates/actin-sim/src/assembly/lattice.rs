@@ -5,7 +5,7 @@
 //! and 1. Which of the two holds depends on the clamps alone, not on what is resolved, so that
 //! resolving more does not move a monomer.
 
-use crate::scene::{End, MOST_BODIES, MOST_BONDS, Problem, Scene, Section};
+use crate::scene::{Filament, MOST_BODIES, MOST_BONDS, Problem, Section};
 
 /// Monomers and places of one section.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,14 +28,10 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// The lattice of a scene's filament.
-    pub(super) fn of(scene: &Scene) -> Self {
-        let rise_nm = scene.filament.monomers.rise_nm;
-        let origin_nm = if scene.is_clamped(End::Start) {
-            0.0
-        } else {
-            -0.5 * rise_nm
-        };
+    /// The lattice of a filament whose start and end are held or not.
+    pub(super) fn of(filament: &Filament, [start, _]: [bool; 2]) -> Self {
+        let rise_nm = filament.monomers.rise_nm;
+        let origin_nm = if start { 0.0 } else { -0.5 * rise_nm };
         Self { origin_nm, rise_nm }
     }
 
@@ -59,21 +55,21 @@ impl Lattice {
     }
 }
 
-/// Resolves every section of a scene.
+/// Resolves every section of a filament whose start and end are held or not.
 ///
 /// # Errors
 /// Places beyond those that are counted, a section that is left with fewer than two monomers, or a
 /// rod that is left with no length.
-pub(super) fn resolve(scene: &Scene) -> Result<Vec<Resolved>, Problem> {
-    let lattice = Lattice::of(scene);
-    let sections = &scene.filament.sections;
+pub(super) fn resolve(filament: &Filament, is_held: [bool; 2]) -> Result<Vec<Resolved>, Problem> {
+    let lattice = Lattice::of(filament, is_held);
+    let sections = &filament.sections;
     let last = sections.len() - 1;
     (0..sections.len())
         .map(|i| {
-            check_reach(scene, &lattice, i)?;
+            check_reach(filament, &lattice, i)?;
             let resolved = match sections[i] {
                 Section::Ellipsoids { from_nm, to_nm } => {
-                    monomers(scene, &lattice, (i, last), (from_nm, to_nm))
+                    monomers(&lattice, is_held, (i, last), (from_nm, to_nm))
                 }
                 Section::Rod { from_nm, to_nm, .. } => rod(&lattice, (i, last), (from_nm, to_nm)),
             };
@@ -84,8 +80,8 @@ pub(super) fn resolve(scene: &Scene) -> Result<Vec<Resolved>, Problem> {
 
 /// Refuses a boundary that more monomers reach, or a section that has more bonds, than memory
 /// would hold.
-fn check_reach(scene: &Scene, lattice: &Lattice, i: usize) -> Result<(), Problem> {
-    let sections = &scene.filament.sections;
+fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), Problem> {
+    let sections = &filament.sections;
     let (from_nm, to_nm) = sections[i].span_nm();
     let has_monomers = matches!(sections[i], Section::Ellipsoids { .. });
     let refuse = |count: f64, what: &str, most: f64| {
@@ -99,7 +95,7 @@ fn check_reach(scene: &Scene, lattice: &Lattice, i: usize) -> Result<(), Problem
     if reach > MOST_BODIES && (has_monomers || sections.len() > 1) {
         return refuse(reach, "monomers reach this far", MOST_BODIES);
     }
-    let monomers = &scene.filament.monomers;
+    let monomers = &filament.monomers;
     let each = monomers.lateral_bonds + monomers.longitudinal_bonds;
     let bonds = (to_nm - from_nm) / lattice.rise_nm * each as f64;
     if has_monomers && bonds > MOST_BONDS {
@@ -109,13 +105,13 @@ fn check_reach(scene: &Scene, lattice: &Lattice, i: usize) -> Result<(), Problem
 }
 
 fn monomers(
-    scene: &Scene,
     lattice: &Lattice,
+    [start_held, end_held]: [bool; 2],
     (i, last): (usize, usize),
     span: (f64, f64),
 ) -> Resolved {
     let half = 0.5 * lattice.rise_nm;
-    let (first, from_nm) = match (i == 0, scene.is_clamped(End::Start)) {
+    let (first, from_nm) = match (i == 0, start_held) {
         (true, true) => (-1, 0.0),
         (true, false) => (0, 0.0),
         (false, _) => {
@@ -123,7 +119,7 @@ fn monomers(
             (before + 1, lattice.s_nm(before) + half)
         }
     };
-    let (end, to_nm) = match (i == last, scene.is_clamped(End::End)) {
+    let (end, to_nm) = match (i == last, end_held) {
         (true, true) => {
             let inner = lattice.nearest(span.1);
             (inner + 1, lattice.s_nm(inner))

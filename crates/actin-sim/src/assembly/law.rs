@@ -114,6 +114,11 @@ fn written(parameter: &str) -> &str {
         "S1" | "S2" => "linear_pn",
         "cubic_shear" => "cubic_pn",
         "S3" => "rigidity_pn",
+        "tension" => "tension_pn",
+        "compression" => "compression_pn",
+        "slope" => "slope_nm",
+        "bend" => "bend_nm",
+        "cubic" => "cubic_nm3",
         other => other,
     }
 }
@@ -129,6 +134,7 @@ fn published(material: RodMaterial, law: TwistStretch) -> Result<Parts, Problem>
 
 fn with_laws(mut material: RodMaterial, laws: &RodLaws) -> Result<Parts, Problem> {
     if let Some(bend) = laws.bend {
+        check_written(bend)?;
         material = (material.with_bend(bend.into())).map_err(refused("law.bend"))?;
     }
     if let Some(twist) = laws.twist {
@@ -145,6 +151,26 @@ fn with_laws(mut material: RodMaterial, laws: &RodLaws) -> Result<Parts, Problem
         law.validate().map_err(refused("law.twist_stretch"))?;
     }
     Ok((material, twist_stretch))
+}
+
+/// An infinite curvature, twist or strain is how the material says that there is none; a scene leaves
+/// the key out.
+fn check_written(law: scene::BendLaw) -> Result<(), Problem> {
+    let scene::BendLaw::Stiffening {
+        twist_per_nm,
+        shear,
+        ..
+    } = law;
+    for (key, value) in [("twist_per_nm", twist_per_nm), ("shear", shear)] {
+        if value.is_some_and(f64::is_infinite) {
+            return Err(Problem::new(
+                format!("filament.rod.law.bend.{key}"),
+                value.map_or_else(String::new, |v| format!("{v:?}")),
+                "must be finite; left out, it has no effect",
+            ));
+        }
+    }
+    Ok(())
 }
 
 impl From<scene::BendLaw> for BendLaw {

@@ -1,8 +1,8 @@
 //! From a scene to bodies and interactions.
 //!
 //! [`Assembly::build`] is the one place that decides by kind of model; everything after it sees
-//! points, frames and terms. Bodies stand in filament order: monomers, junction frames, rod
-//! nodes and segments follow one another as they do along the filament.
+//! points, frames and terms. Bodies stand filament by filament and in filament order: monomers,
+//! junction frames, rod nodes and segments follow one another as they do along the filament.
 
 mod bonded;
 mod build;
@@ -15,18 +15,23 @@ mod parts;
 mod ramp;
 mod range;
 mod reaction;
+mod slip;
 
 pub use bonded::JunctionBond;
 pub use drive::Drive;
-pub use parts::{BodyKind, Counts, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term};
+pub(crate) use parts::Rod;
+pub use parts::{
+    BodyKind, Counts, FilamentSpan, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term,
+};
 pub(crate) use ramp::Ramp;
 pub use range::BeyondRange;
 pub use reaction::{Clamped, Reaction};
 
-use crate::scene::{End, Scene};
-use actin_cosserat::RodLayout;
+use crate::scene::{End, Monomers, Scene};
 use actin_coupling::Linker;
 use actin_mechanics::{State, System, UnitQuaternion, Vector3};
+use nalgebra::Unit;
+use std::ops::Range;
 
 /// A scene, ready to run.
 #[derive(Debug)]
@@ -41,20 +46,18 @@ pub struct Assembly {
     pub points: Vec<PointInfo>,
     /// What each frame is.
     pub frames: Vec<FrameInfo>,
-    /// Sections as resolved, in order.
+    /// Sections as resolved, in order, those of one filament after those of another.
     pub sections: Vec<SectionSpan>,
-    /// Rods: the index of the section and what it is made of.
-    pub(crate) rods: Vec<(usize, RodLayout)>,
-    /// Largest twist of the data behind their laws (rad/nm), if these have data.
-    pub(crate) twist_range: Option<f64>,
-    /// Largest curvature of such data (rad/nm).
-    pub(crate) bend_range: Option<f64>,
+    /// The filaments, in the order of the scene.
+    pub filaments: Vec<FilamentSpan>,
+    /// The rods among the sections.
+    pub(crate) rods: Vec<Rod>,
     /// The ends that are held.
     pub clamps: Vec<Clamped>,
     /// The linkers, in the order of the scene.
     pub linkers: Vec<Linker>,
     /// For each term the arc lengths (nm) between which each of its elements lies; empty for loads
-    /// and linkers, which are no part of the filament.
+    /// and linkers, which are no part of a filament.
     pub(crate) spans: Vec<Vec<[f64; 2]>>,
     /// What the path of the scene moves.
     pub drive: Drive,
@@ -63,79 +66,183 @@ pub struct Assembly {
 }
 
 impl Assembly {
-    /// Number of bodies and elements of each kind.
+    /// Number of bodies and elements of each kind, in all filaments.
     pub fn counts(&self) -> Counts {
-        let points = |kind| self.points.iter().filter(|p| p.kind == kind).count();
-        let frames = |kind| self.frames.iter().filter(|f| f.kind == kind).count();
+        let (points, frames) = (0..self.points.len(), 0..self.frames.len());
+        self.counts_in(0..self.filaments.len(), points, frames)
+    }
+
+    /// The same of one filament.
+    ///
+    /// # Panics
+    /// If there is no such filament.
+    pub fn counts_of(&self, filament: usize) -> Counts {
+        let span = &self.filaments[filament];
+        let (points, frames) = (span.points.clone(), span.frames.clone());
+        self.counts_in(filament..filament + 1, points, frames)
+    }
+
+    fn counts_in(
+        &self,
+        filaments: Range<usize>,
+        points: Range<usize>,
+        frames: Range<usize>,
+    ) -> Counts {
         let state = self.system.state();
-        let free_points = (0..self.points.len()).filter(|&i| state.points.is_free(i));
-        let free_frames = (0..self.frames.len()).filter(|&i| state.frames.is_free(i));
+        let free_points = points.clone().filter(|&i| state.points.is_free(i));
+        let free_frames = frames.clone().filter(|&i| state.frames.is_free(i));
+        let sliders = state.sliders.iter();
+        let sliders = sliders.filter(|s| s.points.iter().any(|i| points.contains(i)));
+        let kinds = |kind| {
+            let points = self.points[points.clone()].iter().map(|p| p.kind);
+            points.filter(|k| *k == kind).count()
+        };
+        let segments = self.frames[frames.clone()].iter();
+        let sections = self.filaments[filaments].iter().map(|f| f.sections.clone());
         Counts {
-            monomers: points(BodyKind::Monomer),
-            bonds: self.sections.iter().map(SectionSpan::bonds).sum(),
-            segments: frames(BodyKind::Segment),
-            junctions: self.sections.len() - 1,
+            monomers: kinds(BodyKind::Monomer),
+            segments: segments.filter(|f| f.kind == BodyKind::Segment).count(),
+            bonds: sections
+                .clone()
+                .flat_map(|sections| &self.sections[sections])
+                .map(SectionSpan::bonds)
+                .sum(),
+            junctions: sections.map(|sections| sections.len() - 1).sum(),
             dofs: 3 * (free_points.count() + free_frames.count())
-                + state
-                    .sliders
-                    .iter()
-                    .map(|s| s.directions.len())
-                    .sum::<usize>(),
+                + sliders.map(|s| s.directions.len()).sum::<usize>(),
         }
     }
 
-    /// Resolved length of the filament (nm), from arc length 0 to the tip or the inner held
-    /// monomer at its end.
+    /// Resolved length of filament 0 (nm), from arc length 0 to the tip or the inner held monomer
+    /// at its end.
     pub fn length_nm(&self) -> f64 {
-        self.sections.last().map_or(0.0, |section| section.to_nm)
+        self.length_of(0)
     }
 
-    /// Points whose mean is the tip at `end`: the last node of a rod, or the last two monomers
-    /// (of a held monomer end: the inner one).
+    /// The same of any filament.
+    ///
+    /// # Panics
+    /// If there is no such filament.
+    pub fn length_of(&self, filament: usize) -> f64 {
+        let sections = self.sections_of(filament);
+        sections.last().map_or(0.0, |section| section.to_nm)
+    }
+
+    /// The sections of one filament.
+    ///
+    /// # Panics
+    /// If there is no such filament.
+    pub fn sections_of(&self, filament: usize) -> &[SectionSpan] {
+        &self.sections[self.filaments[filament].sections.clone()]
+    }
+
+    /// The filament that a section belongs to.
+    ///
+    /// # Panics
+    /// If there is no such section.
+    pub fn filament_of_section(&self, section: usize) -> usize {
+        let has = |f: &FilamentSpan| f.sections.contains(&section);
+        self.filaments
+            .iter()
+            .position(has)
+            .expect("every section belongs to a filament")
+    }
+
+    /// The filament that a point belongs to; points of one filament stand together.
+    pub fn filament_of_point(&self, point: usize) -> usize {
+        self.filaments.partition_point(|f| f.points.end <= point)
+    }
+
+    /// The filament that a frame belongs to.
+    pub fn filament_of_frame(&self, frame: usize) -> usize {
+        self.filaments.partition_point(|f| f.frames.end <= frame)
+    }
+
+    /// The clamp at one end of a filament; none if it is free.
+    pub fn clamp_at(&self, filament: usize, end: End) -> Option<&Clamped> {
+        let is_there = |clamp: &&Clamped| (clamp.filament, clamp.end) == (filament, end);
+        self.clamps.iter().find(is_there)
+    }
+
+    /// Points whose mean is the tip of filament 0 at `end`: the last node of a rod, or the last two
+    /// monomers (of a held monomer end: the inner one).
     pub fn tip_points(&self, end: End) -> &[usize] {
+        self.tip_points_of(0, end)
+    }
+
+    /// The same of any filament.
+    ///
+    /// # Panics
+    /// If there is no such filament.
+    pub fn tip_points_of(&self, filament: usize, end: End) -> &[usize] {
+        let sections = self.sections_of(filament);
         let section = match end {
-            End::Start => self.sections.first(),
-            End::End => self.sections.last(),
+            End::Start => sections.first(),
+            End::End => sections.last(),
         };
         section.map_or(&[], |section| section.tip_points(end))
     }
 
-    /// Position of the tip at `end` in `state` (nm, lab frame).
+    /// Position of the tip of filament 0 at `end` in `state` (nm, lab frame).
     pub fn tip_nm(&self, state: &State, end: End) -> Vector3 {
-        let points = self.tip_points(end);
+        self.tip_of(0, state, end)
+    }
+
+    /// The same of any filament.
+    ///
+    /// # Panics
+    /// If there is no such filament.
+    pub fn tip_of(&self, filament: usize, state: &State, end: End) -> Vector3 {
+        let points = self.tip_points_of(filament, end);
         let sum: Vector3 = points.iter().map(|&i| state.points.position.get(i)).sum();
         sum / points.len() as f64
     }
 
     /// Point `i` brought to the centre line: a node as it is, a monomer's centre moved inward
     /// along its radial axis by the radius of the helix (nm, lab frame).
+    ///
+    /// # Panics
+    /// If there is no such point.
     pub fn centre_line_nm(&self, state: &State, i: usize) -> Vector3 {
         let position = state.points.position.get(i);
         match self.points[i].frame {
             Some(frame) => {
                 let radial = state.frames.orientation.get(frame) * Vector3::x();
-                position - radial * self.scene.filament.monomers.radius_nm
+                position - radial * self.monomers_of(self.filament_of_point(i)).radius_nm
             }
             None => position,
         }
     }
 
-    /// Turns a free filament as it stands about lab z, along which it is built, by `angle` (rad):
+    /// Parameters of the monomers of one filament.
+    ///
+    /// # Panics
+    /// If there is no such filament.
+    pub fn monomers_of(&self, filament: usize) -> &Monomers {
+        let filament = self.scene.filament_at(filament);
+        &filament.expect("the scene has this filament").monomers
+    }
+
+    /// Turns every filament as it stands about the axis along which it is built, by `angle` (rad):
     /// another start for the same equilibria. Anchors and loads stay.
     ///
     /// # Panics
     /// If an end is clamped.
     pub fn roll(&mut self, angle: f64) {
         assert!(self.clamps.is_empty(), "a clamped end does not roll");
-        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle);
         let state = self.system.state_mut();
-        for i in 0..state.points.len() {
-            let place = turn * state.points.position.get(i);
-            state.points.position.set(i, place);
-        }
-        for i in 0..state.frames.len() {
-            let orientation = turn * state.frames.orientation.get(i);
-            state.frames.orientation.set(i, orientation);
+        for filament in &self.filaments {
+            let axis = Unit::new_normalize(filament.axis());
+            let turn = UnitQuaternion::from_axis_angle(&axis, angle);
+            for i in filament.points.clone() {
+                let arm = state.points.position.get(i) - filament.origin_nm;
+                let place = filament.origin_nm + turn * arm;
+                state.points.position.set(i, place);
+            }
+            for i in filament.frames.clone() {
+                let orientation = turn * state.frames.orientation.get(i);
+                state.frames.orientation.set(i, orientation);
+            }
         }
     }
 }

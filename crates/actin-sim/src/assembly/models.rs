@@ -36,6 +36,7 @@ impl From<&Monomers> for EllipsoidParameters {
             },
             anchors: m.anchors.into(),
             seed: m.seed,
+            sampling: 0,
             mass: m.mass_ag,
         }
     }
@@ -65,9 +66,14 @@ impl From<&EllipsoidParameters> for Monomers {
     }
 }
 
-/// The monomers' model; what it refuses is named by the scene's keys.
-pub(super) fn ellipsoids(monomers: &Monomers) -> Result<EllipsoidModel, Problem> {
-    EllipsoidModel::new(monomers.into()).map_err(|error| match error {
+/// The monomers' model of filament `index`, whose bonds are sampled independently of those of
+/// other filaments; what it refuses is named by the scene's keys.
+pub(super) fn ellipsoids(monomers: &Monomers, index: usize) -> Result<EllipsoidModel, Problem> {
+    let parameters = EllipsoidParameters {
+        sampling: index as u64,
+        ..monomers.into()
+    };
+    EllipsoidModel::new(parameters).map_err(|error| match error {
         ParameterError::OutOfRange { key, value, rule } => {
             Problem::new(scene_key(key), value, format!("must be {rule}"))
         }
@@ -101,7 +107,7 @@ fn scene_key(parameter: &str) -> String {
 
 /// The problem behind an interface that could not be bonded.
 pub(super) fn unbonded(error: &InterfaceError, monomers: &Monomers) -> Problem {
-    let InterfaceError::NoBonds { kind, .. } = error;
+    let (InterfaceError::NoBonds { kind, .. } | InterfaceError::FewBonds { kind, .. }) = error;
     let (key, value) = match kind {
         InterfaceKind::Lateral => ("lateral_max_bond_nm", monomers.lateral_max_bond_nm),
         InterfaceKind::Longitudinal => (

@@ -1,7 +1,8 @@
 //! What bodies, sections and terms are, for whoever writes or draws them.
 
 use crate::scene::End;
-use std::fmt;
+use actin_cosserat::RodLayout;
+use actin_mechanics::{UnitQuaternion, Vector3};
 use std::ops::Range;
 
 /// What a point or a frame stands for. The numbers are those written to files.
@@ -39,7 +40,7 @@ pub struct FrameInfo {
     pub s_nm: f64,
 }
 
-/// The part of the filament that a term belongs to.
+/// What a term belongs to. Sections are counted through all filaments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// A section, by its index.
@@ -52,15 +53,45 @@ pub enum Part {
     Linker(usize),
 }
 
-impl fmt::Display for Part {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Section(i) => write!(f, "section_{i}"),
-            Self::Junction(i) => write!(f, "junction_{i}_{}", i + 1),
-            Self::Load(i) => write!(f, "load_{i}"),
-            Self::Linker(i) => write!(f, "linker_{i}"),
-        }
+/// Where the parts of a filament stand among those of all, and where it was built.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilamentSpan {
+    /// Its sections.
+    pub sections: Range<usize>,
+    /// Its points, contiguous.
+    pub points: Range<usize>,
+    /// Its frames, contiguous; those of junctions and walls included.
+    pub frames: Range<usize>,
+    /// Where arc length begins (nm, lab frame).
+    pub origin_nm: Vector3,
+    /// The turn from a filament along lab +z.
+    pub rotation: UnitQuaternion,
+}
+
+impl FilamentSpan {
+    /// Unit vector along the filament as built (lab frame).
+    pub fn axis(&self) -> Vector3 {
+        self.rotation * Vector3::z()
     }
+
+    /// A place (nm, lab frame) as seen if the filament had been built along lab +z from the origin.
+    pub fn seen_along_z(&self, place: Vector3) -> Vector3 {
+        let relative = place - self.origin_nm;
+        self.rotation.inverse_transform_vector(&relative)
+    }
+}
+
+/// A rod, and how far the data behind its laws reach.
+#[derive(Debug)]
+pub(crate) struct Rod {
+    /// Index of its section.
+    pub section: usize,
+    /// What it is made of.
+    pub layout: RodLayout,
+    /// Largest twist of these data (rad/nm), if there are data.
+    pub twist_range: Option<f64>,
+    /// Largest curvature of such data (rad/nm).
+    pub bend_range: Option<f64>,
 }
 
 /// One interaction of the assembled system.

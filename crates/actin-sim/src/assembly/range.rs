@@ -1,6 +1,6 @@
 //! Where a state leaves the data behind a rod's fitted laws.
 
-use super::Assembly;
+use super::{Assembly, Rod};
 use actin_cosserat::BendingElement;
 use actin_mechanics::{State, Vector3};
 use serde::{Deserialize, Serialize};
@@ -8,7 +8,10 @@ use serde::{Deserialize, Serialize};
 /// A rod goes further than the data that one of its laws was fitted to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeyondRange {
-    /// Index of the section.
+    /// Index of the filament.
+    #[serde(default)]
+    pub filament: usize,
+    /// Index of the section in its filament.
     pub section: usize,
     /// `twist` or `curvature`.
     pub quantity: String,
@@ -28,17 +31,19 @@ impl Assembly {
         let twist = |kappa: Vector3| kappa.z;
         let bend = |kappa: Vector3| kappa.xy().norm();
         let mut found = Vec::new();
-        for rod in 0..self.rods.len() {
+        for rod in &self.rods {
+            let filament = self.filament_of_section(rod.section);
             let ranges = [
-                ("twist", self.twist_range, twist as fn(Vector3) -> f64),
-                ("curvature", self.bend_range, bend),
+                ("twist", rod.twist_range, twist as fn(Vector3) -> f64),
+                ("curvature", rod.bend_range, bend),
             ];
             for (quantity, range, measure) in ranges {
                 let Some(range_per_nm) = range else { continue };
                 let (s_nm, value_per_nm) = self.furthest(rod, state, measure);
                 if value_per_nm.abs() > range_per_nm {
                     found.push(BeyondRange {
-                        section: self.rods[rod].0,
+                        filament,
+                        section: rod.section - self.filaments[filament].sections.start,
                         quantity: quantity.to_owned(),
                         s_nm,
                         value_per_nm,
@@ -61,7 +66,8 @@ impl Assembly {
             .flat_map(|state| self.beyond_range(state))
         {
             let place = |b: &&mut BeyondRange| {
-                (b.section, &b.quantity) == (beyond.section, &beyond.quantity)
+                (b.filament, b.section, &b.quantity)
+                    == (beyond.filament, beyond.section, &beyond.quantity)
             };
             match worst.iter_mut().find(place) {
                 Some(known) if known.value_per_nm.abs() >= beyond.value_per_nm.abs() => {}
@@ -73,8 +79,10 @@ impl Assembly {
     }
 
     /// Where in a rod `measure` of the curvature is largest, and what it is there.
-    fn furthest(&self, rod: usize, state: &State, measure: fn(Vector3) -> f64) -> (f64, f64) {
-        let (section, layout) = &self.rods[rod];
+    fn furthest(&self, rod: &Rod, state: &State, measure: fn(Vector3) -> f64) -> (f64, f64) {
+        let Rod {
+            section, layout, ..
+        } = rod;
         let q = &state.frames.orientation;
         let positions = layout.element_positions();
         let nodes = positions[layout.segments()..].iter();

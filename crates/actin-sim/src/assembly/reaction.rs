@@ -6,6 +6,8 @@ use actin_mechanics::{Loads, State, UnitQuaternion, Vector3};
 /// A held end: which bodies are held, and the point about which torques are taken.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clamped {
+    /// Index of the filament.
+    pub filament: usize,
     /// Which end.
     pub end: End,
     /// Held points.
@@ -16,6 +18,8 @@ pub struct Clamped {
     pub about_nm: Vector3,
     /// Along which directions the end slides.
     pub slides: Slides,
+    /// Unit vector along the filament as built (lab frame).
+    pub(super) axis: Vector3,
     /// Position of the first held point minus the clamped point, as built (nm, lab frame).
     pub(super) arm_nm: Vector3,
     /// Orientation of the first held frame as built.

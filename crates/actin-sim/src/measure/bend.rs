@@ -40,6 +40,7 @@ pub fn bend_by_tip_force(
     let direction = across(azimuth_deg);
     let scene = |forces: &[f64]| {
         let unit = Load::EndForce {
+            filament: 0,
             end: End::End,
             force_pn: direction.into(),
         };

@@ -53,6 +53,7 @@ pub fn bend_by_couples(
 fn turns(specimen: &Specimen, axis: &Vector3, turns_rad: &[f64]) -> Scene {
     let stage = |turn: &f64| Stage {
         set: vec![Setting::Turn {
+            filament: 0,
             end: End::End,
             turn_deg: (axis * turn.to_degrees()).into(),
         }],

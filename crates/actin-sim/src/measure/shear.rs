@@ -46,6 +46,7 @@ pub fn shear_by_force(
     let direction = across(azimuth_deg);
     let scene = |forces: &[f64]| {
         let unit = Load::EndForce {
+            filament: 0,
             end: End::End,
             force_pn: direction.into(),
         };

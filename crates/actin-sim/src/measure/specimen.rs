@@ -1,8 +1,8 @@
 //! What is measured.
 
 use crate::scene::{
-    Clamp, End, Equilibrium, Filament, Hold, JunctionModel, Load, Monomers, RodModel, Scene,
-    Section, Slides, Stage, Task,
+    Clamp, End, Equilibrium, Filament, Hold, Load, Monomers, RodModel, Scene, Section, Slides,
+    Stage, Task,
 };
 
 /// A filament to be measured, how it is held and how far equilibria are solved.
@@ -55,10 +55,9 @@ impl Specimen {
 
     fn of_one_section(section: Section, monomers: Monomers, rod: RodModel) -> Self {
         Self::new(Filament {
-            sections: vec![section],
             monomers,
             rod,
-            junction: JunctionModel::default(),
+            ..Filament::new(vec![section])
         })
     }
 
@@ -75,6 +74,7 @@ impl Specimen {
         Scene {
             title: title.to_owned(),
             filament: self.filament.clone(),
+            further: Vec::new(),
             clamps,
             loads,
             linkers: Vec::new(),
@@ -91,6 +91,11 @@ impl Specimen {
         };
         let is_rod = matches!(section, Some(Section::Rod { .. }));
         let hold = if is_rod { self.hold } else { Hold::Wall };
-        Clamp { end, hold, slides }
+        Clamp {
+            filament: 0,
+            end,
+            hold,
+            slides,
+        }
     }
 }

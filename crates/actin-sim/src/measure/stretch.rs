@@ -34,6 +34,7 @@ pub fn stretch_by_force(
 ) -> Result<Curve<StretchPoint>, MeasureError> {
     let scene = |forces: &[f64]| {
         let unit = Load::EndForce {
+            filament: 0,
             end: End::End,
             force_pn: [0.0, 0.0, 1.0],
         };
@@ -85,6 +86,7 @@ pub(super) fn factors(factors: &[f64]) -> Vec<Stage> {
 fn shifts(specimen: &Specimen, shifts_nm: &[f64]) -> Scene {
     let stage = |&shift: &f64| Stage {
         set: vec![Setting::Shift {
+            filament: 0,
             end: End::End,
             shift_nm: [0.0, 0.0, shift],
         }],

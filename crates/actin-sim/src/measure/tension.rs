@@ -174,12 +174,17 @@ fn pulled(specimen: &Specimen, controls: &[(f64, f64)]) -> Scene {
         Stage {
             set: vec![
                 Setting::LoadFactor { load: 0, factor },
-                Setting::Turn { end, turn_deg },
+                Setting::Turn {
+                    filament: 0,
+                    end,
+                    turn_deg,
+                },
             ],
             duration_ns: None,
         }
     };
     let unit = Load::EndForce {
+        filament: 0,
         end,
         force_pn: [0.0, 0.0, 1.0],
     };

@@ -4,9 +4,7 @@ use super::follow::follow;
 use super::sweep::{far_end_shift, reaction};
 use super::*;
 use crate::scene::{End, Load, Setting, Slides, Stage};
-use crate::{
-    Assembly, Filament, ForceLaw, Hold, JunctionModel, Monomers, RodModel, Scene, Section, Summary,
-};
+use crate::{Assembly, Filament, ForceLaw, Hold, Monomers, RodModel, Scene, Section, Summary};
 use std::f64::consts::PI;
 
 /// Rise and distance from the axis (nm), turn (rad) of the default monomers.
@@ -157,6 +155,7 @@ fn pulling_and_turning_are_reciprocal() {
         let path = vec![Stage {
             set: vec![
                 Setting::Turn {
+                    filament: 0,
                     end: End::End,
                     turn_deg: [0.0, 0.0, turn],
                 },
@@ -168,6 +167,7 @@ fn pulling_and_turning_are_reciprocal() {
             duration_ns: None,
         }];
         let unit = Load::EndForce {
+            filament: 0,
             end: End::End,
             force_pn: [0.0, 0.0, 1.0],
         };
@@ -193,22 +193,17 @@ fn pulling_and_turning_are_reciprocal() {
 /// twists as much as its parts in series.
 #[test]
 fn mixed_filaments_are_measured_like_any_other() {
-    let mixed = Specimen::new(Filament {
-        sections: vec![
-            Section::Ellipsoids {
-                from_nm: 0.0,
-                to_nm: 40.0,
-            },
-            Section::Rod {
-                from_nm: 40.0,
-                to_nm: 80.0,
-                segments: Some(4),
-            },
-        ],
-        monomers: Monomers::default(),
-        rod: RodModel::default(),
-        junction: JunctionModel::default(),
-    });
+    let mixed = Specimen::new(Filament::new(vec![
+        Section::Ellipsoids {
+            from_nm: 0.0,
+            to_nm: 40.0,
+        },
+        Section::Rod {
+            from_nm: 40.0,
+            to_nm: 80.0,
+            segments: Some(4),
+        },
+    ]));
     let curve = twist(&mixed, &[60.0, 120.0]).unwrap();
     for point in &curve.points {
         assert!((point.torque_pn_nm + point.near_torque_pn_nm).abs() < 1e-5);

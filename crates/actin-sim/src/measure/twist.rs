@@ -58,7 +58,11 @@ fn scene(specimen: &Specimen, turns_deg: &[f64]) -> Scene {
         let turn_deg = [0.0, 0.0, turn];
         let end = End::End;
         Stage {
-            set: vec![Setting::Turn { end, turn_deg }],
+            set: vec![Setting::Turn {
+                filament: 0,
+                end,
+                turn_deg,
+            }],
             duration_ns: None,
         }
     };

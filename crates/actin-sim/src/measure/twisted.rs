@@ -119,6 +119,7 @@ fn composed(tilt: Vector3, twist: Vector3) -> Vector3 {
 fn helix(specimen: &Specimen, turns: &[Vector3]) -> Scene {
     let stage = |turn: &Vector3| Stage {
         set: vec![Setting::Turn {
+            filament: 0,
             end: End::End,
             turn_deg: turn.map(f64::to_degrees).into(),
         }],
@@ -212,6 +213,7 @@ fn pulled_rigidity(secant: f64, force: f64, length: f64) -> f64 {
 
 fn opposed(specimen: &Specimen, force_pn: f64, halves: &[Vector3]) -> Scene {
     let turn = |end, half: Vector3| Setting::Turn {
+        filament: 0,
         end,
         turn_deg: half.map(f64::to_degrees).into(),
     };
@@ -227,6 +229,7 @@ fn opposed(specimen: &Specimen, force_pn: f64, halves: &[Vector3]) -> Scene {
         duration_ns: None,
     };
     let unit = Load::EndForce {
+        filament: 0,
         end: End::End,
         force_pn: [0.0, 0.0, 1.0],
     };

@@ -12,12 +12,13 @@ pub(super) const ENERGIES: &str = "energies.csv";
 pub(super) const PROFILE: &str = "profile.csv";
 pub(super) const STATES: &str = "states.npz";
 pub(super) const COLLECTION: &str = "run.pvd";
-const CHECKPOINT: &str = "checkpoint.bin";
+pub(super) const CHECKPOINT: &str = "checkpoint.bin";
+pub(super) const RECORDS: &str = "records.bin";
 pub(super) const PICTURES: &str = "vtk";
 
 /// Everything that a run directory holds beside its pictures.
-const FILES: [&str; 7] = [
-    SCENE, SUMMARY, ENERGIES, PROFILE, STATES, COLLECTION, CHECKPOINT,
+const FILES: [&str; 8] = [
+    SCENE, SUMMARY, ENERGIES, PROFILE, STATES, COLLECTION, CHECKPOINT, RECORDS,
 ];
 
 /// Appended to the name of a file that is not whole yet.
@@ -26,8 +27,8 @@ const UNFINISHED: &str = ".part";
 /// A directory that holds the results of one run.
 ///
 /// Each file is written under another name and renamed when it is whole, so that a run that is
-/// interrupted, or a disk that is full, leaves no half file under a final name. (A loss of power
-/// is not guarded against.) `summary.json` comes last: where it is, the rest is complete.
+/// interrupted, or a disk that is full, leaves no half file under a final name. (Only checkpoints
+/// are guarded against a loss of power.) `summary.json` comes last: where it is, the rest is complete.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RunDirectory {
     pub(super) path: PathBuf,
@@ -76,7 +77,7 @@ impl RunDirectory {
         fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> Result<(), RunDirectoryError> {
         let path = self.path.join(name);
-        let unfinished = self.path.join(format!("{name}{UNFINISHED}"));
+        let unfinished = unfinished(&path);
         let written = File::create(&unfinished)
             .map(BufWriter::new)
             .and_then(|mut out| {
@@ -113,6 +114,13 @@ impl RunDirectory {
         }
         Ok(())
     }
+}
+
+/// The name under which a file is written until it is whole.
+pub(super) fn unfinished(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(UNFINISHED);
+    name.into()
 }
 
 /// Removes a file that need not exist.

@@ -65,7 +65,7 @@ impl EnergyTable {
         let names = distinct(terms, |term| term.name);
         let parts = distinct(terms, |term| term.part);
         Self {
-            header: header(&names, &parts),
+            header: header(assembly, &names, &parts),
             rows: records
                 .iter()
                 .map(|record| row(terms, &names, &parts, record))
@@ -99,12 +99,12 @@ impl EnergyTable {
     }
 }
 
-fn header(names: &[&str], parts: &[Part]) -> Vec<String> {
+fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
     let energies = ["total", "potential", "elastic", "kinetic"]
         .into_iter()
         .map(str::to_owned)
         .chain(names.iter().map(ToString::to_string))
-        .chain(parts.iter().map(ToString::to_string))
+        .chain(parts.iter().map(|part| assembly.name_of(*part)))
         .map(|name| format!("{name}_pn_nm"));
     let residuals = ["residual_force_pn", "residual_torque_pn_nm"].map(str::to_owned);
     std::iter::once("time_ns".to_owned())
@@ -198,6 +198,27 @@ mod tests {
         }
     }
 
+    /// Parts of filament 0 keep their names; those of others carry the index of their filament.
+    #[test]
+    fn parts_of_further_filaments_are_told_apart() {
+        let assembly = fixture::pair();
+        let (header, rows) = table_of(&assembly, &fixture::trajectory(&assembly).records);
+        let parts = [
+            "section_0",
+            "junction_0_1",
+            "section_1",
+            "filament_1_section_0",
+            "filament_1_junction_0_1",
+            "filament_1_section_1",
+            "linker_0",
+        ];
+        let values = parts.map(|name| *column(&header, &rows[0], &format!("{name}_pn_nm")));
+        let elastic = *column(&header, &rows[0], "elastic_pn_nm");
+        // A few additions in another order.
+        assert!((values.iter().sum::<f64>() / elastic - 1.0).abs() < 1e-13);
+        assert!(values.iter().all(|v| *v > 0.0));
+    }
+
     /// Single numbers come back bit for bit: fewer digits would be enough for a plot, but not for
     /// an energy error of 1e-8.
     #[test]
@@ -237,7 +258,7 @@ mod tests {
         let (header, rows) = table_of(&assembly, &fixture::trajectory(&assembly).records);
         let names = distinct(&assembly.terms, |term| term.name.to_owned());
         let parts = distinct(&assembly.terms, |term| term.part);
-        let parts: Vec<String> = parts.iter().map(ToString::to_string).collect();
+        let parts: Vec<String> = parts.iter().map(|part| assembly.name_of(*part)).collect();
         for row in &rows {
             let of = |name: &str| *column(&header, row, &format!("{name}_pn_nm"));
             let sum = |names: &[String]| names.iter().map(|name| of(name)).sum::<f64>();

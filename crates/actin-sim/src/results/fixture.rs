@@ -1,6 +1,6 @@
 //! A small mixed filament and a made-up run of it, for the tests of this module.
 
-use crate::{Assembly, Linker, Record, RunReport, Scene, Trajectory};
+use crate::{Assembly, Linker, LinkerSite, Record, RunReport, Scene, Trajectory};
 use actin_mechanics::testing::{Noise, perturb, set_in_motion};
 use actin_mechanics::{Loads, State};
 
@@ -38,11 +38,40 @@ pub(super) fn clamped_start() -> Assembly {
 pub(super) fn linked() -> Assembly {
     let mut scene = Scene::from_ron(CLAMPED_START).unwrap();
     scene.linkers.push(Linker {
+        filament: 0,
+        to: None,
         at_nm: 25.0,
         radius_nm: 1.8,
         azimuth_deg: 30.0,
         anchor_nm: None,
         displaced_nm: Some([1.0, 0.5, -0.3]),
+        stiffness_pn_per_nm: 3.0,
+        rest_length_nm: 0.4,
+    });
+    Assembly::build(&scene).unwrap()
+}
+
+/// The filament of [`clamped_start`] and a mixed one beside it, joined by a linker.
+pub(super) fn pair() -> Assembly {
+    let mut scene = Scene::from_ron(CLAMPED_START).unwrap();
+    let mut beside = scene.filament.clone();
+    beside.at_nm = [9.0, 0.0, 2.0];
+    beside.direction = [0.2, 0.0, 1.0];
+    beside.monomers.semi_axes_nm = [2.0, 2.0, 2.0];
+    scene.further.push(beside);
+    scene.linkers.push(Linker {
+        filament: 1,
+        to: Some(LinkerSite {
+            filament: 0,
+            at_nm: 25.0,
+            radius_nm: 1.8,
+            azimuth_deg: 30.0,
+        }),
+        at_nm: 8.0,
+        radius_nm: 1.8,
+        azimuth_deg: 0.0,
+        anchor_nm: None,
+        displaced_nm: None,
         stiffness_pn_per_nm: 3.0,
         rest_length_nm: 0.4,
     });
@@ -96,6 +125,7 @@ pub(super) fn report() -> RunReport {
     RunReport {
         converged: false,
         failed: false,
+        interrupted: false,
         steps: 12,
         force_evaluations: 48,
         time_step_ns: Some(3.5e-3),

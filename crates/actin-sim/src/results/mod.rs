@@ -4,15 +4,17 @@
 //! |---|---|---|
 //! | `scene.ron` | the scene, every default written out | `actin run` |
 //! | `energies.csv` | energies and residuals of every record | anything |
-//! | `profile.csv` | the last record along the filament: place, curvature, twist, energy | anything |
+//! | `profile.csv` | the last record along each filament: place, curvature, twist, energy | anything |
 //! | `states.npz` | every record's state | numpy |
 //! | `vtk/NNNN.vtp`, `run.pvd` | every record as a picture | `ParaView`, pyvista |
 //! | `summary.json` | the last record in numbers | anything |
+//! | `checkpoint.bin`, `records.bin` | a run that has not ended | `actin run --resume` |
 //!
 //! Only this module knows file formats; nothing here computes physics beyond sums: shapes come from
 //! [`crate::shape`]. Nothing that
 //! is not finite is ever written.
 
+mod checkpoint;
 mod directory;
 mod energies;
 mod error;
@@ -25,6 +27,7 @@ mod summary;
 mod vtk;
 mod write;
 
+pub use checkpoint::{CheckpointError, Checkpoints, Damage};
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;
-pub use summary::{RunStatus, StabilitySummary, Summary};
+pub use summary::{FilamentSummary, RunStatus, StabilitySummary, Summary, ThermalSummary};

@@ -1,4 +1,4 @@
-//! `profile.csv`: local fields of the last record along the filament.
+//! `profile.csv`: local fields of the last record along each filament.
 
 use super::{RunDirectoryError, finite::ensure_finite};
 use crate::shape::ProfilePoint;
@@ -29,37 +29,42 @@ fn numbers(point: &ProfilePoint) -> [f64; 7] {
     ]
 }
 
-/// Refuses numbers that are not finite.
+/// Refuses numbers that are not finite; `points` are those of each filament in turn.
 ///
 /// # Errors
 /// The first such number, with its column and the index of its row.
 pub(super) fn ensure_all_finite(
-    points: &[ProfilePoint],
+    points: &[Vec<ProfilePoint>],
     file: &str,
 ) -> Result<(), RunDirectoryError> {
+    let count = points.iter().map(Vec::len).sum();
     for (column, name) in COLUMNS.iter().enumerate() {
-        let values = points.iter().map(|point| numbers(point)[column]);
-        ensure_finite(file, name, &[points.len()], values)?;
+        let values = points.iter().flatten().map(|point| numbers(point)[column]);
+        ensure_finite(file, name, &[count], values)?;
     }
     Ok(())
 }
 
-/// Writes the table: a header and a row for each point, the kind of its section last. Numbers have
-/// as many digits as bring them back exactly.
+/// Writes the table: a header and a row for each point, the kind of its section and the index of
+/// its filament last. Numbers have as many digits as bring them back exactly.
 ///
 /// # Errors
 /// Those of `out`.
-pub(super) fn write(points: &[ProfilePoint], out: &mut impl Write) -> io::Result<()> {
+pub(super) fn write(points: &[Vec<ProfilePoint>], out: &mut impl Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
-    writer.write_record(COLUMNS.into_iter().chain(["section"]))?;
-    for point in points {
-        let section = if point.is_ellipsoids {
-            "ellipsoids"
-        } else {
-            "rod"
-        };
-        let row = numbers(point).map(|value| format!("{value:?}"));
-        writer.write_record(row.iter().map(String::as_str).chain([section]))?;
+    writer.write_record(COLUMNS.into_iter().chain(["section", "filament"]))?;
+    for (filament, points) in points.iter().enumerate() {
+        let filament = filament.to_string();
+        for point in points {
+            let section = if point.is_ellipsoids {
+                "ellipsoids"
+            } else {
+                "rod"
+            };
+            let row = numbers(point).map(|value| format!("{value:?}"));
+            let what = [section, &filament];
+            writer.write_record(row.iter().map(String::as_str).chain(what))?;
+        }
     }
     writer.flush()
 }

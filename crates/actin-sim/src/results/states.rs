@@ -7,13 +7,14 @@
 //! | `quaternion` | [T, frames, 4] | orientation, body to lab, in order w, x, y, z |
 //! | `angular_momentum` | [T, frames, 3] | body frame, pN nm ns |
 //! | `s_nm`, `kind` | [points] | arc length at rest, code of [`BodyKind`](crate::BodyKind) |
-//! | `frame_s_nm`, `frame_kind` | [frames] | the same for frames |
+//! | `filament` | [points] | index of the filament |
+//! | `frame_s_nm`, `frame_kind`, `frame_filament` | [frames] | the same for frames |
 //!
 //! Entries are deflated, which numpy undoes by itself. One array holds at most 4 GiB (the
 //! archive's 32-bit sizes); beyond that writing fails with an error that says so.
 
 use super::{RunDirectoryError, finite::ensure_finite};
-use crate::{Assembly, Record};
+use crate::{Assembly, FilamentSpan, Record};
 use actin_mechanics::State;
 use npyz::WriterBuilder;
 use std::io::{self, Seek, Write};
@@ -94,6 +95,21 @@ impl<'a> States<'a> {
         ]
     }
 
+    /// Indices of filaments.
+    fn filaments(&self) -> [(&'static str, Vec<u64>); 2] {
+        let spans = &self.assembly.filaments;
+        let indices = |count_of: fn(&FilamentSpan) -> usize| {
+            let counts = spans.iter().map(count_of).enumerate();
+            counts
+                .flat_map(|(i, count)| vec![i as u64; count])
+                .collect()
+        };
+        [
+            ("filament", indices(|span| span.points.len())),
+            ("frame_filament", indices(|span| span.frames.len())),
+        ]
+    }
+
     /// Refuses numbers that are not finite.
     ///
     /// # Errors
@@ -119,6 +135,9 @@ impl<'a> States<'a> {
             write_array(&mut archive, name, &[values.len()], values)?;
         }
         for (name, values) in self.kinds() {
+            write_array(&mut archive, name, &[values.len()], values)?;
+        }
+        for (name, values) in self.filaments() {
             write_array(&mut archive, name, &[values.len()], values)?;
         }
         for field in self.fields() {
@@ -268,6 +287,25 @@ mod tests {
         assert_eq!(kinds.len(), assembly.points.len());
         let (_, frame_kinds) = read::<u8>(&mut archive, "frame_kind");
         assert!(frame_kinds.contains(&0) && frame_kinds.contains(&2) && frame_kinds.contains(&3));
-        assert_eq!(archive.len(), 9);
+        let (_, filaments) = read::<u64>(&mut archive, "filament");
+        assert_eq!(filaments, vec![0; assembly.points.len()]);
+        assert_eq!(archive.len(), 11);
+    }
+
+    /// Each body says which filament it belongs to: as many of the second as of the first here.
+    #[test]
+    fn bodies_belong_to_filaments() {
+        let assembly = fixture::pair();
+        let mut archive = archive(&assembly, &fixture::trajectory(&assembly));
+        for (name, count) in [
+            ("filament", assembly.points.len()),
+            ("frame_filament", assembly.frames.len()),
+        ] {
+            let (_, filaments) = read::<u64>(&mut archive, name);
+            // The first is clamped and has a monomer more, outside of its length.
+            let first = filaments.iter().filter(|f| **f == 0).count();
+            assert_eq!((filaments.len(), first), (count, count.div_ceil(2)));
+            assert!(filaments.is_sorted());
+        }
     }
 }

@@ -6,7 +6,7 @@ use super::directory::{
 use super::energies::EnergyTable;
 use super::states::States;
 use super::vtk::{Drawing, collection};
-use super::{RunDirectoryError, Summary, profile};
+use super::{RunDirectoryError, Summary, ThermalSummary, profile};
 use crate::shape;
 use crate::{Assembly, Record, RunReport, Scene, Trajectory};
 use std::fs;
@@ -40,11 +40,15 @@ impl RunDirectory {
         let states = records.iter().map(|record| &record.state);
         let summary = Summary {
             beyond_range: assembly.worst_beyond_range(states),
+            thermal: ThermalSummary::new(assembly, records),
             ..Summary::new(assembly, last, report)
         };
         let table = EnergyTable::new(assembly, records);
         let states = States::new(assembly, records);
-        let along = shape::profile(assembly, &last.state);
+        let filaments = 0..assembly.filaments.len();
+        let along: Vec<_> = filaments
+            .map(|filament| shape::profile_of(assembly, filament, &last.state))
+            .collect();
         summary.ensure_finite(SUMMARY)?;
         table.ensure_finite(ENERGIES)?;
         states.ensure_finite(STATES)?;
@@ -145,9 +149,9 @@ mod tests {
         assert_eq!(read(ENERGIES).lines().count(), 1 + trajectory.records.len());
         let profile = read(PROFILE);
         let header = "s_nm,x_nm,y_nm,z_nm,curvature_rad_per_nm,twist_rad_per_nm,\
-                      energy_per_length_pn,section";
+                      energy_per_length_pn,section,filament";
         assert_eq!(profile.lines().next(), Some(header));
-        assert!(profile.contains(",ellipsoids\n") && profile.contains(",rod\n"));
+        assert!(profile.contains(",ellipsoids,0\n") && profile.contains(",rod,0\n"));
         assert_eq!(read(COLLECTION).matches("<DataSet ").count(), 3);
         let states = fs::File::open(folder.path().join(STATES)).unwrap();
         let mut states = zip::ZipArchive::new(states).unwrap();

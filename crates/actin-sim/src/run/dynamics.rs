@@ -1,17 +1,22 @@
 //! Motion in time: the time step, the run loop and the records.
 
 use super::bound::kinetic_limit;
+use super::keep::{Clock, Keeper, Kept, Standing};
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
 use crate::assembly::Ramp;
 use crate::scene::{Dynamics, Integrator, Problem, RodLaw, StopRule, Task};
-use actin_integrate::{Composition, Drag, Moment, Reason, Run};
-use actin_mechanics::Split;
+use actin_integrate::{
+    Bath, Checkpoint, Composition, Drag, Moment, Observer, Outcome, Pause, Reason, Run, RunFailure,
+};
+use actin_mechanics::{Split, System};
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 /// Records of a run, unless the scene says otherwise.
 const DEFAULT_RECORDS: f64 = 100.0;
+
+/// Most states of bodies that a run may record: at about 100 bytes each, beyond it memory runs out.
+const MOST_RECORDED: f64 = 1e8;
 
 /// What a scene will cost, known before it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +51,8 @@ impl Integrator {
 /// equilibrium, which takes no time steps.
 ///
 /// # Errors
-/// A time step above the stability limit that the scene does not explicitly allow.
+/// A time step above the stability limit that the scene does not explicitly allow, a turn that its
+/// segments cannot follow, and more steps or records than can be counted or kept.
 pub fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, Problem> {
     match &assembly.scene.task {
         Task::Dynamics(dynamics) => estimate_of(assembly, dynamics).map(Some),
@@ -55,6 +61,7 @@ pub fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, Problem> {
 }
 
 fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Problem> {
+    assembly.check_slip()?;
     let scheme = dynamics.integrator.composition();
     let refused = |what: String| Problem::new("filament", what, "has no stable time step");
     let frequency_of = |assembly: &Assembly| {
@@ -71,15 +78,7 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Pro
         .time_step_ns
         .unwrap_or(limit * dynamics.step_safety);
     if wanted > limit && !dynamics.allow_unstable_step {
-        return Err(Problem::new(
-            "task.time_step_ns",
-            format!("{wanted:?}"),
-            format!(
-                "above the stability limit of {limit:.4e} ns ({} at the largest frequency, \
-                 {frequency:.1} rad/ns); allow_unstable_step: true runs it all the same",
-                scheme.name
-            ),
-        ));
+        return Err(unstable(scheme, wanted, limit, frequency));
     }
     let run = Run::over(scheme, wanted, dynamics.duration_ns).map_err(|_| {
         Problem::new(
@@ -88,6 +87,7 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Pro
             format!("takes more steps of {wanted:.4e} ns than can be counted, 2^53"),
         )
     })?;
+    check_records(assembly, dynamics, &run)?;
     Ok(Estimate {
         largest_frequency_rad_per_ns: frequency,
         stability_limit_ns: limit,
@@ -97,20 +97,58 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Pro
     })
 }
 
-/// The same filament with rods of constant rigidities, where its rods resist shear only once they
+/// A time step (ns) above the limit (ns) at a frequency (rad/ns).
+fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Problem {
+    Problem::new(
+        "task.time_step_ns",
+        format!("{wanted:?}"),
+        format!(
+            "above the stability limit of {limit:.4e} ns ({} at the largest frequency, \
+             {frequency:.1} rad/ns); allow_unstable_step: true runs it all the same",
+            scheme.name
+        ),
+    )
+}
+
+/// Refuses records that would not fit into memory.
+fn check_records(assembly: &Assembly, dynamics: &Dynamics, run: &Run) -> Result<(), Problem> {
+    let between = steps_between_records(dynamics, run.step());
+    let records = run.steps() / between + 1;
+    let bodies = assembly.points.len() + assembly.frames.len();
+    if records as f64 * bodies as f64 <= MOST_RECORDED {
+        return Ok(());
+    }
+    let every = between as f64 * run.step();
+    Err(Problem::new(
+        "task.record_every_ns",
+        format!("{:?}", dynamics.record_every_ns.unwrap_or(every)),
+        format!(
+            "{records:.2e} records of {bodies} bodies, at most {MOST_RECORDED:e} states of bodies \
+             are kept",
+            records = records as f64
+        ),
+    ))
+}
+
+/// The same filaments with rods of constant rigidities, where rods resist shear only once they
 /// are sheared: what they show at rest is not what a motion meets.
 fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, Problem> {
-    let rod = &assembly.scene.filament.rod;
-    let shears_softly = match &rod.law {
+    let shears_softly = |law: &RodLaw| match law {
         RodLaw::Constant | RodLaw::PublishedExtension | RodLaw::CouplingEnergy => false,
         RodLaw::Fitted => true,
         RodLaw::Laws(laws) => laws.shear.is_some(),
     };
-    if !shears_softly || assembly.counts().segments == 0 {
+    let mut scene = assembly.scene.clone();
+    let mut changes = false;
+    for (i, filament) in scene.filaments_mut().enumerate() {
+        if shears_softly(&filament.rod.law) && assembly.counts_of(i).segments > 0 {
+            filament.rod.law = RodLaw::Constant;
+            changes = true;
+        }
+    }
+    if !changes {
         return Ok(None);
     }
-    let mut scene = assembly.scene.clone();
-    scene.filament.rod.law = RodLaw::Constant;
     Assembly::build(&scene).map(Some)
 }
 
@@ -118,60 +156,129 @@ fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, Problem> 
 pub(super) fn run(
     assembly: &mut Assembly,
     dynamics: &Dynamics,
+    kept: Option<Kept>,
+    keeper: &mut dyn Keeper,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<(Trajectory, RunReport), RunError> {
+    let (estimate, plan) = prepare(assembly, dynamics)?;
+    let clock = Clock::new(kept.as_ref());
+    let mut recorder = Recorder {
+        trajectory: Trajectory::default(),
+        end_ns: dynamics.duration_ns,
+        clock,
+        is_left: false,
+        keeper,
+        watch,
+    };
+    let outcome = recorder.execute(&plan, &mut assembly.system, kept);
+    let report = |steps, force_evaluations| RunReport {
+        interrupted: recorder.is_left,
+        steps,
+        force_evaluations,
+        ..estimate.report(clock)
+    };
+    let evaluations = assembly.system.force_evaluations();
+    match outcome {
+        Ok(end) => {
+            let report = RunReport {
+                converged: end.reason == Reason::Converged,
+                ..report(end.steps, end.force_evaluations)
+            };
+            Ok((recorder.trajectory, report))
+        }
+        Err(failure) => Err(RunError::Failed {
+            report: Box::new(RunReport {
+                failed: true,
+                ..report(failure.last_good_step, evaluations)
+            }),
+            body: assembly.describe(failure.body),
+            failure: Box::new(failure),
+            trajectory: Box::new(recorder.trajectory),
+        }),
+    }
+}
+
+/// The run that the scene asks for; the scene is resolved and its path set going.
+fn prepare(assembly: &mut Assembly, dynamics: &Dynamics) -> Result<(Estimate, Run), Problem> {
     let estimate = estimate_of(assembly, dynamics)?;
     let plan = plan(dynamics, &estimate)?
         .stopping_from(drive(assembly))
         .with_kinetic_limit(kinetic_limit(assembly))
         .expect("the limit is positive");
     assembly.resolve(&estimate);
-    let started = Instant::now();
-    let mut trajectory = Trajectory::default();
-    let mut observer = |moment: &mut Moment<'_>| {
-        trajectory.records.push(record(moment));
-        watch(progress(moment, dynamics))
-    };
-    let outcome = plan.execute(&mut assembly.system, &mut [&mut observer]);
-    let report = |converged, steps, force_evaluations| RunReport {
-        converged,
-        steps,
-        force_evaluations,
-        ..estimate.report(started)
-    };
-    let evaluations = assembly.system.force_evaluations();
-    match outcome {
-        Ok(end) => {
-            let converged = end.reason == Reason::Converged;
-            Ok((
-                trajectory,
-                report(converged, end.steps, end.force_evaluations),
-            ))
+    Ok((estimate, plan))
+}
+
+/// Records what is observed and lets the keeper keep it.
+struct Recorder<'a> {
+    trajectory: Trajectory,
+    end_ns: f64,
+    clock: Clock,
+    is_left: bool,
+    keeper: &'a mut dyn Keeper,
+    watch: &'a mut dyn FnMut(Progress) -> ControlFlow<()>,
+}
+
+impl Recorder<'_> {
+    /// Executes the plan, from where it was left if it was.
+    fn execute(
+        &mut self,
+        plan: &Run,
+        system: &mut System,
+        kept: Option<Kept>,
+    ) -> Result<Outcome, RunFailure> {
+        let Some(kept) = kept else {
+            return plan.execute(system, &mut [self]);
+        };
+        let Standing::Motion(checkpoint) = kept.standing else {
+            panic!("a path of equilibria is no motion in time");
+        };
+        self.trajectory = kept.trajectory;
+        plan.resume(&checkpoint, system, &mut [self])
+    }
+
+    fn keep(&mut self, checkpoint: Checkpoint) {
+        let standing = Standing::Motion(Box::new(checkpoint));
+        let records = &self.trajectory.records;
+        self.keeper.keep(&standing, records, self.clock.wall_s());
+    }
+}
+
+impl Observer for Recorder<'_> {
+    fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()> {
+        self.trajectory.records.push(record(moment));
+        (self.watch)(progress(moment, self.end_ns))
+    }
+
+    fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
+        self.is_left = self.keeper.is_interrupted();
+        if self.is_left || self.keeper.is_due() {
+            self.keep(pause.checkpoint());
         }
-        Err(failure) => Err(RunError::Failed {
-            report: Box::new(RunReport {
-                failed: true,
-                ..report(false, failure.last_good_step, evaluations)
-            }),
-            body: assembly.describe(failure.body),
-            failure: Box::new(failure),
-            trajectory: Box::new(trajectory),
-        }),
+        if self.is_left {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn fail(&mut self, last_good: &Checkpoint) {
+        self.keep(last_good.clone());
     }
 }
 
 impl Estimate {
-    /// The report of a run that began at `started` and has counted nothing yet.
-    fn report(&self, started: Instant) -> RunReport {
+    /// The report of a run that has taken the time of `clock` and has counted nothing yet.
+    fn report(&self, clock: Clock) -> RunReport {
         RunReport {
             converged: false,
             failed: false,
+            interrupted: false,
             steps: 0,
             force_evaluations: 0,
             time_step_ns: Some(self.time_step_ns),
             largest_frequency_rad_per_ns: Some(self.largest_frequency_rad_per_ns),
             equilibrium: None,
-            wall_s: started.elapsed().as_secs_f64(),
+            wall_s: clock.wall_s(),
         }
     }
 }
@@ -200,8 +307,13 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, Problem> {
     let scheme = dynamics.integrator.composition();
     let run = Run::new(scheme, step, estimate.steps)
         .and_then(|run| run.observing_every(steps_between_records(dynamics, step)))
-        .map_err(|error| refused("time_step_ns", &error))?
-        .with_drag(drag);
+        .map_err(|error| refused("time_step_ns", &error))?;
+    let run = match &dynamics.thermal {
+        None => run.with_drag(drag),
+        Some(thermal) => Bath::new(drag, thermal.energy_pn_nm(), thermal.seed)
+            .map(|bath| run.with_bath(bath))
+            .map_err(|error| refused("thermal.temperature_k", &error))?,
+    };
     let Some(StopRule {
         force_pn,
         torque_pn_nm,
@@ -240,10 +352,10 @@ impl Assembly {
     }
 }
 
-fn progress(moment: &mut Moment<'_>, dynamics: &Dynamics) -> Progress {
+fn progress(moment: &mut Moment<'_>, end_ns: f64) -> Progress {
     Progress {
         time_ns: moment.time,
-        end_ns: dynamics.duration_ns,
+        end_ns,
         steps: moment.step,
         residual_force_pn: moment.residual().force,
     }

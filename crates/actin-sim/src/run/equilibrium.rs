@@ -1,15 +1,26 @@
 //! Equilibria: Newton from the built state, or along the path of the scene.
 
+use super::keep::{Arrival, Clock, Keeper, Kept, PathStanding, Standing};
 use super::{Progress, Record, RunError, RunReport, Trajectory};
-use crate::Assembly;
-use crate::scene::{Equilibrium as Settings, Problem};
+use crate::scene::{Equilibrium as Settings, Load, Problem};
+use crate::{Assembly, Resolution};
+use actin_coupling::{LinkerEnd, Site};
 use actin_equilibrium::{
-    BodyOrder, Certificate, Equilibrium, Jumps, Layout, Newton, NewtonOptions, Path, PathFailure,
-    PathOptions, Residual, Saddles, Work,
+    BodyOrder, Certificate, Companion, Equilibrium, Iteration, Jumps, Layout, Newton,
+    NewtonOptions, Path, PathFailure, PathOptions, PathPoint, Residual, Saddles, Work,
 };
-use actin_mechanics::{Loads, State, System};
+use actin_mechanics::{Coordinates, Loads, State, System, Vector3};
 use std::ops::ControlFlow;
-use std::time::Instant;
+
+/// What is added to arc lengths from one filament to the next (nm), more than any rise or segment
+/// reaches beyond an end, so that filaments do not interleave.
+const BETWEEN_FILAMENTS_NM: f64 = 1e3;
+
+/// How many segments or rises a bond or segment reaches at most, with room.
+const REACH: f64 = 3.0;
+
+/// Forces left over that are a larger share of a load hide it.
+const RESOLVED: f64 = 0.01;
 
 /// What is known of an equilibrium.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,46 +42,67 @@ pub struct EquilibriumReport {
 pub(super) fn run(
     assembly: &mut Assembly,
     settings: &Settings,
+    kept: Option<Kept>,
+    keeper: &mut dyn Keeper,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<(Trajectory, RunReport), RunError> {
-    let started = Instant::now();
+    let clock = Clock::new(kept.as_ref());
     let mut newton = newton(assembly, settings)?;
     let mut state = assembly.system.state().clone();
-    let mut follower = Follower {
-        assembly,
-        settings,
-        watch,
-        trajectory: Trajectory::default(),
-        last: None,
-        points: 0,
-        stages_done: 0,
-    };
+    let mut follower = Follower::new(assembly, settings, kept, (keeper, watch), clock);
     let failure = follower.follow(&mut newton, &mut state)?;
-    let follower_stage = follower.stages_done;
-    let (trajectory, last, points) = (follower.trajectory, follower.last, follower.points);
+    let stage = follower.standing.stage;
+    // What was left at its very end is done.
+    let interrupted = follower.is_left && failure.is_some();
+    let (trajectory, standing) = (follower.trajectory, follower.standing);
     *assembly.system.state_mut() = state;
-    let wanted = settings.lowest_eigenvalue && last.is_some();
+    let wanted = settings.lowest_eigenvalue && standing.last.is_some() && !interrupted;
     let lowest = wanted.then(|| lowest_eigenvalue(&mut newton, &assembly.system));
     let work = newton.work();
     let report = RunReport {
         converged: failure.is_none(),
-        failed: failure.is_some(),
+        failed: failure.is_some() && !interrupted,
+        interrupted,
         steps: 0,
         force_evaluations: work.evaluations,
         time_step_ns: None,
         largest_frequency_rad_per_ns: None,
-        equilibrium: last.and_then(|last| report(&last, lowest.flatten(), work, points)),
-        wall_s: started.elapsed().as_secs_f64(),
+        equilibrium: report(standing, lowest.flatten(), work),
+        wall_s: clock.wall_s(),
     };
     match failure {
-        None => Ok((trajectory, report)),
-        Some(failure) => Err(RunError::Ended {
-            place: place(assembly, follower_stage),
+        None => Ok(check_resolved(assembly, &trajectory).map(|()| (trajectory, report))?),
+        Some(failure) if !interrupted => Err(RunError::Ended {
+            place: place(assembly, stage),
             failure,
             trajectory: Box::new(trajectory),
             report: Box::new(report),
         }),
+        Some(_) => Ok((trajectory, report)),
     }
+}
+
+/// Refuses an equilibrium in which a load is lost: the forces that are left, be it by rounding of
+/// places or by a loose tolerance, are no longer small beside it.
+fn check_resolved(assembly: &Assembly, trajectory: &Trajectory) -> Result<(), Problem> {
+    let Some(last) = trajectory.records.last() else {
+        return Ok(());
+    };
+    for (i, load) in assembly.scene.loads.iter().enumerate() {
+        let Load::EndForce { force_pn, .. } = load;
+        // Controls of loads stand first, one for each.
+        let size = Vector3::from(*force_pn).norm() * last.state.controls[i].abs();
+        if size > 0.0 && last.residual_force_pn > RESOLVED * size {
+            let rule = format!(
+                "is lost among forces of {:.1e} pN that are left: places are known to round-off, \
+                 and forces no better; a larger load tells more",
+                last.residual_force_pn
+            );
+            let key = format!("loads[{i}].force_pn");
+            return Err(Problem::new(key, format!("{force_pn:?}"), rule));
+        }
+    }
+    Ok(())
 }
 
 /// Where a path stands after `points` equilibria, in words; nothing where there is no path.
@@ -81,16 +113,21 @@ fn place(assembly: &Assembly, stages_done: usize) -> String {
     }
 }
 
-/// What may move, in the order of arc length, and how far it is to be solved.
+/// What may move, filament by filament in the order of arc length, and how far it is to be solved.
+///
+/// Where linkers join sites, unknowns are eliminated in an order that fills less if there is one, and
+/// joined bodies swing about each other as they will.
 pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, Problem> {
-    let order = BodyOrder {
-        points: assembly.points.iter().map(|p| p.s_nm).collect(),
-        frames: assembly.frames.iter().map(|f| f.s_nm).collect(),
-    };
     let refused =
         |key: &str, error: &dyn std::error::Error| Problem::new(key, "", error.to_string());
-    let layout = Layout::new(assembly.system.state(), Some(&order), Vec::new())
+    let layout = Layout::new(assembly.system.state(), Some(&order(assembly)), Vec::new())
         .map_err(|error| refused("filament", &error))?;
+    let loose = loose_pairs(assembly);
+    let layout = if loose.is_empty() {
+        layout
+    } else {
+        layout.with_least_fill().with_loose(loose)
+    };
     let options = NewtonOptions {
         tolerance: Residual {
             force: settings.force_pn,
@@ -100,6 +137,64 @@ pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton,
         ..NewtonOptions::default()
     };
     Newton::new(layout, options).map_err(|error| refused("task", &error))
+}
+
+/// Bodies that linkers join and nothing else does: those of different filaments, or far apart in one.
+fn loose_pairs(assembly: &Assembly) -> Vec<[Coordinates; 2]> {
+    let joined = assembly
+        .linkers
+        .iter()
+        .filter_map(|linker| match linker.end() {
+            LinkerEnd::Anchor(_) => None,
+            LinkerEnd::Site(other) => Some((bodies_of(linker.site()), bodies_of(other))),
+        });
+    let pairs = joined.flat_map(|(site, other)| {
+        let with_all = |a| other.iter().map(move |&b| [a, b]).collect::<Vec<_>>();
+        site.iter().flat_map(|&a| with_all(a)).collect::<Vec<_>>()
+    });
+    pairs.filter(|&[a, b]| are_apart(assembly, a, b)).collect()
+}
+
+/// The bodies that a site follows.
+fn bodies_of(site: &Site) -> Vec<Coordinates> {
+    let points = site.shares().iter().map(|&(i, _)| Coordinates::Point(i));
+    points.chain([Coordinates::Frame(site.frame())]).collect()
+}
+
+/// Whether no bond or segment couples two bodies.
+fn are_apart(assembly: &Assembly, a: Coordinates, b: Coordinates) -> bool {
+    let place = |body| match body {
+        Coordinates::Point(i) => (assembly.filament_of_point(i), assembly.points[i].s_nm),
+        Coordinates::Frame(i) => (assembly.filament_of_frame(i), assembly.frames[i].s_nm),
+    };
+    let ((f, s_a), (g, s_b)) = (place(a), place(b));
+    let longest = assembly
+        .sections_of(f)
+        .iter()
+        .map(|section| match section.resolution {
+            Resolution::Rod { segment_nm } => segment_nm,
+            Resolution::Ellipsoids { .. } => assembly.monomers_of(f).rise_nm,
+        });
+    // Monomers reach the next but one, bending elements from middle to middle.
+    let reach = REACH * longest.fold(0.0, f64::max);
+    f != g || (s_a - s_b).abs() > reach
+}
+
+/// Each filament's arc lengths behind those of the one before.
+pub(crate) fn order(assembly: &Assembly) -> BodyOrder {
+    let mut order = BodyOrder::default();
+    let mut behind = 0.0;
+    for filament in &assembly.filaments {
+        let points = assembly.points[filament.points.clone()].iter();
+        let frames = assembly.frames[filament.frames.clone()].iter();
+        let first = order.points.len();
+        order.points.extend(points.map(|p| behind + p.s_nm));
+        order.frames.extend(frames.map(|f| behind + f.s_nm));
+        let furthest = order.points[first..].iter().copied().fold(behind, f64::max);
+        // Held monomers of the next stand a rise before its arc length 0.
+        behind = furthest + BETWEEN_FILAMENTS_NM;
+    }
+    order
 }
 
 fn path(settings: &Settings) -> Result<Path, Problem> {
@@ -126,44 +221,97 @@ struct Follower<'a> {
     assembly: &'a Assembly,
     settings: &'a Settings,
     watch: &'a mut dyn FnMut(Progress) -> ControlFlow<()>,
+    keeper: &'a mut dyn Keeper,
+    clock: Clock,
     trajectory: Trajectory,
-    last: Option<Equilibrium>,
-    points: usize,
-    stages_done: usize,
+    /// Where the run could be taken up again.
+    standing: PathStanding,
+    /// Whether the keeper wanted the run to be left.
+    is_left: bool,
 }
 
-impl Follower<'_> {
-    /// Follows all stages, or solves once where there is none. Returns why it ended early.
+type Guards<'a> = (
+    &'a mut dyn Keeper,
+    &'a mut dyn FnMut(Progress) -> ControlFlow<()>,
+);
+
+impl<'a> Follower<'a> {
+    fn new(
+        assembly: &'a Assembly,
+        settings: &'a Settings,
+        kept: Option<Kept>,
+        (keeper, watch): Guards<'a>,
+        clock: Clock,
+    ) -> Self {
+        let start = PathStanding {
+            stage: 0,
+            waypoint: None,
+            state: assembly.system.state().clone(),
+            points: 0,
+            last: None,
+            work: Work::default(),
+        };
+        let (standing, trajectory) = match kept {
+            None => (start, Trajectory::default()),
+            Some(Kept {
+                standing: Standing::Path(standing),
+                trajectory,
+                ..
+            }) => (*standing, trajectory),
+            Some(_) => panic!("a motion in time is no path of equilibria"),
+        };
+        Self {
+            assembly,
+            settings,
+            watch,
+            keeper,
+            clock,
+            trajectory,
+            standing,
+            is_left: false,
+        }
+    }
+
+    /// Follows all stages that are left, or solves once where there is none. Returns why it ended
+    /// early.
     fn follow(
         &mut self,
         newton: &mut Newton,
         state: &mut State,
     ) -> Result<Option<Box<PathFailure>>, Problem> {
-        if self.assembly.drive.is_still() {
-            return Ok(self.solve(newton, state).err());
+        state.copy_motion_from(&self.standing.state);
+        newton.count_on(self.standing.work);
+        let result = if self.assembly.drive.is_still() {
+            self.solve(newton, state)
+        } else {
+            let path = path(self.settings)?;
+            (self.standing.stage..self.assembly.drive.stages())
+                .try_for_each(|stage| self.stage(&path, newton, state, stage))
+        };
+        if result.is_err() {
+            self.keep();
         }
-        let path = path(self.settings)?;
-        for stage in 0..self.assembly.drive.stages() {
-            if let Err(failure) = self.stage(&path, newton, state, stage) {
-                return Ok(Some(failure));
-            }
-            self.stages_done += 1;
-        }
-        Ok(None)
+        Ok(result.err())
     }
 
     fn solve(&mut self, newton: &mut Newton, state: &mut State) -> Result<(), Box<PathFailure>> {
+        if self.standing.points > 0 {
+            return Ok(());
+        }
         let interactions = self.assembly.system.interactions();
         let attempts = self.settings.leave_saddles;
-        match newton.minimize(state, interactions, attempts) {
+        let solved = newton.minimize_observed(state, interactions, attempts, &mut |_| self.go_on());
+        match solved {
             Ok(equilibrium) => {
-                self.arrive(0.0, state, equilibrium);
+                self.record(0.0, state, &equilibrium);
                 Ok(())
             }
             Err(failure) => {
-                // The best state that was reached is worth keeping.
-                let best = record(&self.assembly.system, 0.0, state);
-                self.trajectory.records.push(best);
+                if !self.is_left {
+                    // The best state that was reached is worth keeping.
+                    let best = record(&self.assembly.system, 0.0, state);
+                    self.trajectory.records.push(best);
+                }
                 Err(Box::new(PathFailure {
                     parameter: 0.0,
                     attempted: 0.0,
@@ -185,38 +333,83 @@ impl Follower<'_> {
     ) -> Result<(), Box<PathFailure>> {
         let assembly = self.assembly;
         let mut set = |state: &mut State, t: f64| assembly.drive.place(state, stage as f64 + t);
-        let mut arrivals = Vec::new();
-        let end = path.follow(
+        let interactions = assembly.system.interactions();
+        let waypoint = self.standing.waypoint.clone();
+        path.follow_from(
+            waypoint.as_ref(),
             newton,
             state,
-            assembly.system.interactions(),
+            interactions,
             &mut set,
-            &mut |point| {
-                let u = stage as f64 + point.parameter;
-                // The start of a later stage is the end of the one before.
-                if stage == 0 || point.parameter > 0.0 {
-                    arrivals.push((u, point.state.clone(), point.equilibrium.clone()));
-                }
-                (self.watch)(Progress {
-                    time_ns: u,
-                    end_ns: assembly.drive.stages() as f64,
-                    steps: arrivals.len() as u64,
-                    residual_force_pn: point.equilibrium.residual.force,
-                })
-            },
-        );
-        for (u, state, equilibrium) in arrivals {
-            self.arrive(u, &state, equilibrium);
-        }
-        end.map(drop)
+            self,
+        )
+        .map(drop)
     }
 
-    fn arrive(&mut self, u: f64, state: &State, equilibrium: Equilibrium) {
+    fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) {
         self.trajectory
             .records
             .push(record(&self.assembly.system, u, state));
-        self.last = Some(equilibrium);
-        self.points += 1;
+        self.standing.points += 1;
+        self.standing.last = Some(Arrival {
+            certificate: equilibrium.certificate,
+            history: equilibrium
+                .history
+                .iter()
+                .map(|step| (step.residual.force, step.residual.torque))
+                .collect(),
+        });
+    }
+
+    /// Notes where the path can be taken up again: at `point`, or at the beginning of the next
+    /// stage.
+    fn note(&mut self, point: &PathPoint<'_>) {
+        let is_end = point.parameter >= 1.0;
+        let standing = &mut self.standing;
+        standing.stage += usize::from(is_end);
+        standing.waypoint = (!is_end).then(|| point.waypoint.clone());
+        standing.state.copy_motion_from(point.state);
+        standing.work = point.work;
+    }
+
+    fn keep(&mut self) {
+        let standing = Standing::Path(Box::new(self.standing.clone()));
+        let records = &self.trajectory.records;
+        self.keeper.keep(&standing, records, self.clock.wall_s());
+    }
+
+    fn go_on(&mut self) -> ControlFlow<()> {
+        self.is_left = self.keeper.is_interrupted();
+        if self.is_left {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl Companion for Follower<'_> {
+    fn arrive(&mut self, point: &PathPoint<'_>) -> ControlFlow<()> {
+        let stage = self.standing.stage;
+        let u = stage as f64 + point.parameter;
+        // The start of a later stage is the end of the one before.
+        if stage == 0 || point.parameter > 0.0 {
+            self.record(u, point.state, point.equilibrium);
+        }
+        self.note(point);
+        let flow = (self.watch)(Progress {
+            time_ns: u,
+            end_ns: self.assembly.drive.stages() as f64,
+            steps: self.standing.points as u64,
+            residual_force_pn: point.equilibrium.residual.force,
+        });
+        if self.keeper.is_due() {
+            self.keep();
+        }
+        if flow.is_break() { flow } else { self.go_on() }
+    }
+
+    fn iterate(&mut self, _step: &Iteration) -> ControlFlow<()> {
+        self.go_on()
     }
 }
 
@@ -246,20 +439,16 @@ fn lowest_eigenvalue(newton: &mut Newton, system: &System) -> Option<f64> {
 }
 
 fn report(
-    last: &Equilibrium,
+    standing: PathStanding,
     lowest_eigenvalue: Option<f64>,
     work: Work,
-    points: usize,
 ) -> Option<EquilibriumReport> {
+    let last = standing.last?;
     last.certificate.map(|certificate| EquilibriumReport {
         certificate,
         lowest_eigenvalue,
         newton_iterations: work.iterations,
-        points,
-        history: last
-            .history
-            .iter()
-            .map(|step| (step.residual.force, step.residual.torque))
-            .collect(),
+        points: standing.points,
+        history: last.history,
     })
 }

@@ -3,10 +3,12 @@
 mod bound;
 mod dynamics;
 mod equilibrium;
+mod keep;
 
 pub use dynamics::{Estimate, estimate};
 pub use equilibrium::EquilibriumReport;
 pub(crate) use equilibrium::newton as solver;
+pub use keep::{Arrival, Keeper, Kept, PathStanding, Standing, Unkept};
 
 use crate::Assembly;
 use crate::scene::{Problem, Task};
@@ -54,6 +56,8 @@ pub struct RunReport {
     pub converged: bool,
     /// Whether the run broke off: a state exploded or a path ended early.
     pub failed: bool,
+    /// Whether the run was left at the wish of its keeper, to be taken up again.
+    pub interrupted: bool,
     /// Steps taken.
     pub steps: u64,
     /// Load evaluations.
@@ -125,8 +129,28 @@ pub fn run(
     assembly: &mut Assembly,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<(Trajectory, RunReport), RunError> {
+    run_kept(assembly, None, &mut Unkept, watch)
+}
+
+/// The same under the eyes of a `keeper`, and from where it was left if it was.
+///
+/// A run that was left and taken up again, any number of times, gives the records and the report
+/// of one that was not, to the bit, but for the time that it took. `assembly` is then as built, of
+/// the same scene by the same program.
+///
+/// # Errors
+/// As [`run`].
+///
+/// # Panics
+/// If what was kept belongs to another task or other numbers of bodies.
+pub fn run_kept(
+    assembly: &mut Assembly,
+    kept: Option<Kept>,
+    keeper: &mut dyn Keeper,
+    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<(Trajectory, RunReport), RunError> {
     match assembly.scene.task.clone() {
-        Task::Dynamics(dynamics) => dynamics::run(assembly, &dynamics, watch),
-        Task::Equilibrium(equilibrium) => equilibrium::run(assembly, &equilibrium, watch),
+        Task::Dynamics(dynamics) => dynamics::run(assembly, &dynamics, kept, keeper, watch),
+        Task::Equilibrium(settings) => equilibrium::run(assembly, &settings, kept, keeper, watch),
     }
 }

@@ -17,6 +17,13 @@ pub(super) fn position(text: &str, path: &str) -> (usize, usize) {
     search.best.1
 }
 
+/// Whether the key `path` is written.
+pub(super) fn is_written(text: &str, path: &str) -> bool {
+    let mut search = Search::new(text, steps(path));
+    search.scan();
+    search.best.0 == search.target.len()
+}
+
 /// Path of the innermost key or list element that begins at or before a line and column and is
 /// not closed before it; empty outside of all.
 pub(super) fn path_at(text: &str, place: (usize, usize)) -> String {

@@ -7,18 +7,25 @@ pub(crate) mod fitted;
 mod law;
 mod linker;
 mod locate;
+mod magnitude;
 mod model;
+mod place;
 mod problem;
 mod read;
+mod support;
+mod thermal;
 mod types;
 mod validate;
+mod written;
 
 pub use law::{
     BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw,
 };
-pub use linker::Linker;
+pub use linker::{Linker, LinkerSite};
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
 pub use problem::{Problem, SceneError};
+pub(crate) use support::is_across;
+pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
 pub use types::{
     Clamp, Drag, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Load, Scene, Section,
     Setting, Slides, Stage, StopRule, Task,

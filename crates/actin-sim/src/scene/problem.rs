@@ -23,6 +23,17 @@ impl Problem {
             rule: rule.into(),
         }
     }
+
+    /// The same with `filament`, which its key begins with, under another key.
+    pub(crate) fn with_filament(self, key: &str) -> Self {
+        match self.key.strip_prefix("filament") {
+            Some(rest) if rest.is_empty() || rest.starts_with('.') => Self {
+                key: format!("{key}{rest}"),
+                ..self
+            },
+            _ => self,
+        }
+    }
 }
 
 impl fmt::Display for Problem {
@@ -52,6 +63,14 @@ impl SceneError {
     /// Places a problem in the text of its scene: at its key, or at the innermost key above it
     /// that is written there.
     pub fn locate(problem: &Problem, text: &str) -> Self {
+        // Filament 0 of a scene may stand in a list of one.
+        let is_listed =
+            !locate::is_written(text, "filament") && locate::is_written(text, "filaments");
+        let problem = if is_listed {
+            problem.clone().with_filament("filaments[0]")
+        } else {
+            problem.clone()
+        };
         let (line, column) = locate::position(text, &problem.key);
         Self {
             line,

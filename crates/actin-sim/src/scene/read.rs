@@ -1,6 +1,7 @@
 //! Reading and writing scenes as RON.
 
-use super::{RodLaw, RodLaws, Scene, SceneError, locate, validate::validate};
+use super::{Problem, RodLaw, RodLaws, Scene, SceneError, locate};
+use super::{validate::validate, written::Written};
 use ron::error::{Error as RonError, SpannedError};
 use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
@@ -39,11 +40,15 @@ impl Scene {
                 message: "the scene is empty: it must begin with Scene(".into(),
             });
         }
-        let scene: Self = options()
+        let written: Written = options()
             .from_str(text)
             .map_err(|error| explain(&error, text))?;
-        validate(&scene).map_err(|problem| SceneError::locate(&problem, text))?;
-        Ok(scene)
+        let read = || {
+            let scene = Self::try_from(written)?;
+            validate(&scene)?;
+            Ok(scene)
+        };
+        read().map_err(|problem: Problem| SceneError::locate(&problem, text))
     }
 
     /// The scene as RON with every default written out.

@@ -1,30 +1,30 @@
-//! What a scene says: filament, clamps, loads and task.
+//! What a scene says: filaments, clamps, loads and task. Where filaments are is in `place.rs`.
 
-use super::Linker;
 use super::model::{JunctionModel, Monomers, RodModel};
-use actin_mechanics::Vector3;
+use super::{Linker, Thermal, written::Written};
 use serde::{Deserialize, Serialize};
 
-/// A scene: one filament, what holds it, what loads and links it, and what is asked of it.
+/// A scene: filaments, what holds, loads and links them, and what is asked of them.
+///
+/// Its text has one filament under `filament`, or any number as a list under `filaments`. Clamps,
+/// loads, linkers and settings name a filament by its index, 0 where they name none. Nothing but
+/// linkers joins filaments: they pass through each other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(try_from = "Written", into = "Written")]
 pub struct Scene {
     /// What the scene shows, in words.
-    #[serde(default)]
     pub title: String,
-    /// The filament.
+    /// Filament 0, which every scene has.
     pub filament: Filament,
-    /// What holds its ends. Ends that are not named are free.
-    #[serde(default)]
+    /// Filaments 1, 2 and so on.
+    pub further: Vec<Filament>,
+    /// What holds ends of filaments. Ends that are not named are free.
     pub clamps: Vec<Clamp>,
-    /// What loads it.
-    #[serde(default)]
+    /// What loads them.
     pub loads: Vec<Load>,
-    /// Springs that hold it to points outside of it.
-    #[serde(default)]
+    /// Springs from sites to points outside of all filaments, or to other sites.
     pub linkers: Vec<Linker>,
     /// How controls are moved, stage by stage: loads, shifts and turns of held ends, anchors.
-    #[serde(default)]
     pub path: Vec<Stage>,
     /// What is asked.
     pub task: Task,
@@ -58,6 +58,9 @@ pub enum Setting {
     },
     /// Displacement of a clamped end from where it was built.
     Shift {
+        /// Index of the filament.
+        #[serde(default)]
+        filament: usize,
         /// Which end.
         end: End,
         /// Displacement in the lab frame (nm); components along which the clamp slides are
@@ -66,13 +69,17 @@ pub enum Setting {
     },
     /// Turn of a clamped end from how it was built, about the clamped point.
     Turn {
+        /// Index of the filament.
+        #[serde(default)]
+        filament: usize,
         /// Which end.
         end: End,
-        /// Rotation vector in the lab frame (deg), of any length; z is the filament's axis.
+        /// Rotation vector in the lab frame (deg), of any length; lab z is the axis of a filament
+        /// that is built without a direction of its own.
         turn_deg: [f64; 3],
     },
     /// Displacement of a linker's anchor from where the linker puts it, by the linker's index in
-    /// `linkers`.
+    /// `linkers`. A linker between two sites has no anchor.
     Anchor {
         /// Which linker.
         linker: usize,
@@ -81,7 +88,7 @@ pub enum Setting {
     },
 }
 
-/// A filament: sections in order of arc length, and the models that resolve them.
+/// A filament: sections in order of arc length, the models that resolve them, and its place.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Filament {
@@ -96,6 +103,20 @@ pub struct Filament {
     /// Parameters of the junctions between monomers and rod.
     #[serde(default)]
     pub junction: JunctionModel,
+    /// Where arc length begins (nm, lab frame); the origin by default.
+    #[serde(default)]
+    pub at_nm: [f64; 3],
+    /// Along which direction it is built (lab frame), of any length but zero; lab +z by default.
+    #[serde(default = "along_z")]
+    pub direction: [f64; 3],
+    /// Turn about its axis (deg, right-handed). Where it is zero, azimuth 0 is what the shortest
+    /// turn from lab z to the direction makes of lab +x.
+    #[serde(default)]
+    pub roll_deg: f64,
+}
+
+pub(super) fn along_z() -> [f64; 3] {
+    [0.0, 0.0, 1.0]
 }
 
 /// A stretch of filament resolved in one way.
@@ -146,6 +167,9 @@ pub enum End {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Clamp {
+    /// Index of the filament.
+    #[serde(default)]
+    pub filament: usize,
     /// Which end.
     pub end: End,
     /// What is held there.
@@ -162,7 +186,7 @@ pub enum Slides {
     /// Not at all.
     #[default]
     Nowhere,
-    /// Along lab z, the axis of the filament as built.
+    /// Along the axis of the filament as built, lab z unless it has a direction of its own.
     AlongAxis,
     /// Along all three axes: the end is held in orientation only.
     Freely,
@@ -181,24 +205,16 @@ pub enum Hold {
     TwoNodesAndFrame,
 }
 
-impl Slides {
-    /// The directions, orthonormal (lab frame).
-    pub fn directions(self) -> Vec<Vector3> {
-        match self {
-            Self::Nowhere => Vec::new(),
-            Self::AlongAxis => vec![Vector3::z()],
-            Self::Freely => vec![Vector3::x(), Vector3::y(), Vector3::z()],
-        }
-    }
-}
-
-/// A load on the filament.
+/// A load on a filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Load {
     /// A constant force on a free end: on the last node of a rod, or half on each of the last two
     /// monomers. On an end that slides it acts on the inner held body.
     EndForce {
+        /// Index of the filament.
+        #[serde(default)]
+        filament: usize,
         /// Which end.
         end: End,
         /// Force in the lab frame (pN).
@@ -274,6 +290,9 @@ pub struct Dynamics {
     /// Drag rates; none by default.
     #[serde(default)]
     pub drag: Drag,
+    /// Thermal noise, which needs drag; none by default.
+    #[serde(default)]
+    pub thermal: Option<Thermal>,
     /// When to stop early; never by default.
     #[serde(default)]
     pub stop: Option<StopRule>,

@@ -1,9 +1,11 @@
 //! The rules that numbers of a scene have to satisfy.
 
+use super::support::{check_support, check_swings};
 use super::{
     Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Load, Problem, Scene, Section,
-    Setting, Slides, Stage, StopRule, Task, linker,
+    Setting, Slides, Stage, StopRule, Task, linker, magnitude, thermal,
 };
+use actin_mechanics::Vector3;
 use std::fmt::Debug;
 
 /// Sections are contiguous if their boundaries agree to this length (nm).
@@ -23,7 +25,12 @@ pub(crate) const MOST_BONDS: f64 = 1e8;
 /// # Errors
 /// The first rule that is broken.
 pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
-    filament(&scene.filament)?;
+    magnitude::check(scene)?;
+    for (i, one) in scene.filaments().enumerate() {
+        let named = |problem: Problem| problem.with_filament(&scene.filament_key(i));
+        filament(one).map_err(named)?;
+        check_place(one).map_err(named)?;
+    }
     for (i, clamp) in scene.clamps.iter().enumerate() {
         check_clamp(scene, i, clamp)?;
     }
@@ -40,12 +47,17 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
         Task::Dynamics(dynamics) => {
             check_durations(scene, dynamics.duration_ns)?;
             check_swings(scene)?;
-            check_dynamics(dynamics)
+            check_dynamics(dynamics)?;
+            let stop = dynamics.stop.as_ref();
+            stop.map_or(Ok(()), |s| check_tolerance(scene, "task.stop", s.force_pn))
         }
         Task::Equilibrium(equilibrium) => {
-            check_potential(&scene.filament)?;
+            for (i, one) in scene.filaments().enumerate() {
+                check_potential(one).map_err(|p| p.with_filament(&scene.filament_key(i)))?;
+            }
             check_support(scene)?;
-            check_equilibrium(equilibrium)
+            check_equilibrium(equilibrium)?;
+            check_tolerance(scene, "task", equilibrium.force_pn)
         }
     }
 }
@@ -65,6 +77,20 @@ fn filament(filament: &Filament) -> Result<(), Problem> {
         check_boundary(i, section, previous)?;
     }
     check_model(filament)
+}
+
+fn check_place(filament: &Filament) -> Result<(), Problem> {
+    all_finite("filament.at_nm", filament.at_nm)?;
+    all_finite("filament.direction", filament.direction)?;
+    if filament.direction.iter().all(|d| d.abs() <= 0.0) {
+        let rule = "a filament lies along some direction: must not be zero";
+        return Err(Problem::new(
+            "filament.direction",
+            show(filament.direction),
+            rule,
+        ));
+    }
+    finite("filament.roll_deg", filament.roll_deg)
 }
 
 fn check_span(i: usize, section: &Section) -> Result<(), Problem> {
@@ -172,18 +198,19 @@ fn check_bonds(key: &str, bonds: usize) -> Result<(), Problem> {
 
 fn check_clamp(scene: &Scene, i: usize, clamp: &Clamp) -> Result<(), Problem> {
     let key = format!("clamps[{i}]");
-    if scene.clamps[..i].iter().any(|c| c.end == clamp.end) {
+    let filament = scene.named_filament(&format!("{key}.filament"), clamp.filament)?;
+    let place = (clamp.filament, clamp.end);
+    if scene.clamps[..i]
+        .iter()
+        .any(|c| (c.filament, c.end) == place)
+    {
         return Err(Problem::new(
             format!("{key}.end"),
             show(clamp.end),
             "this end is clamped already",
         ));
     }
-    let is_rod = matches!(
-        scene.filament.sections[scene.filament.end_index(clamp.end)],
-        Section::Rod { .. }
-    );
-    if !is_rod && clamp.hold != Hold::Wall {
+    if !filament.is_rod_at(clamp.end) && clamp.hold != Hold::Wall {
         return Err(Problem::new(
             format!("{key}.hold"),
             show(clamp.hold),
@@ -195,8 +222,13 @@ fn check_clamp(scene: &Scene, i: usize, clamp: &Clamp) -> Result<(), Problem> {
 }
 
 fn check_load(scene: &Scene, i: usize, load: &Load) -> Result<(), Problem> {
-    let Load::EndForce { end, force_pn } = load;
+    let Load::EndForce {
+        filament,
+        end,
+        force_pn,
+    } = load;
     let key = format!("loads[{i}]");
+    scene.named_filament(&format!("{key}.filament"), *filament)?;
     if force_pn.iter().any(|f| !f.is_finite()) {
         return Err(Problem::new(
             format!("{key}.force_pn"),
@@ -204,11 +236,8 @@ fn check_load(scene: &Scene, i: usize, load: &Load) -> Result<(), Problem> {
             "must be finite",
         ));
     }
-    if scene
-        .clamps
-        .iter()
-        .any(|c| c.end == *end && c.slides == Slides::Nowhere)
-    {
+    let clamp = scene.clamp_at(*filament, *end);
+    if clamp.is_some_and(|c| c.slides == Slides::Nowhere) {
         return Err(Problem::new(
             format!("{key}.end"),
             show(end),
@@ -235,56 +264,6 @@ fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Problem> {
             show(duration_ns),
             format!("ends before the path does, whose stages take {whole:?} ns"),
         ));
-    }
-    Ok(())
-}
-
-/// In time, the inertia of an end that slides is that of its motion along straight lines: a turn must
-/// not swing it along them.
-fn check_swings(scene: &Scene) -> Result<(), Problem> {
-    for (i, stage) in scene.path.iter().enumerate() {
-        for (k, setting) in stage.set.iter().enumerate() {
-            let Setting::Turn { end, turn_deg } = *setting else {
-                continue;
-            };
-            let slides = scene.clamps.iter().find(|c| c.end == end).map(|c| c.slides);
-            let tilts = turn_deg[0] != 0.0 || turn_deg[1] != 0.0;
-            if slides == Some(Slides::Freely) || (slides == Some(Slides::AlongAxis) && tilts) {
-                return Err(Problem::new(
-                    format!("path[{i}].set[{k}].turn_deg"),
-                    show(turn_deg),
-                    "in Dynamics an end that slides turns about its axis only, and one that slides \
-                     Freely not at all: Equilibrium follows such paths",
-                ));
-            }
-        }
-    }
-    Ok(())
-}
-
-/// A load along a direction in which nothing is held has no equilibrium. A linker holds against
-/// every force: it follows its site around the anchor until it points along it.
-fn check_support(scene: &Scene) -> Result<(), Problem> {
-    if !scene.linkers.is_empty() {
-        return Ok(());
-    }
-    for (i, load) in scene.loads.iter().enumerate() {
-        let Load::EndForce { force_pn, .. } = load;
-        let unheld = |direction: usize| {
-            let is_free = |clamp: &Clamp| match clamp.slides {
-                Slides::Nowhere => false,
-                Slides::AlongAxis => direction == 2,
-                Slides::Freely => true,
-            };
-            scene.clamps.iter().all(is_free)
-        };
-        if (0..3).any(|d| force_pn[d] != 0.0 && unheld(d)) {
-            return Err(Problem::new(
-                format!("loads[{i}].force_pn"),
-                show(force_pn),
-                "nothing holds the filament against this force: it has no equilibrium",
-            ));
-        }
     }
     Ok(())
 }
@@ -323,6 +302,27 @@ fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), Problem> {
     Ok(())
 }
 
+/// A tolerance that a load does not exceed is met before the filament has moved. Monomers bear
+/// half the force each.
+fn check_tolerance(scene: &Scene, key: &str, force_pn: f64) -> Result<(), Problem> {
+    for (i, load) in scene.loads.iter().enumerate() {
+        let Load::EndForce { force_pn: load, .. } = load;
+        let size = Vector3::from(*load).norm();
+        if size > 0.0 && size <= 2.0 * force_pn {
+            let rule = format!(
+                "must be below half of loads[{i}], which is {size:e} pN: as it is, the filament \
+                 counts as at rest before it has moved"
+            );
+            return Err(Problem::new(
+                format!("{key}.force_pn"),
+                show(force_pn),
+                rule,
+            ));
+        }
+    }
+    Ok(())
+}
+
 fn check_stage(scene: &Scene, i: usize, stage: &Stage) -> Result<(), Problem> {
     for (k, setting) in stage.set.iter().enumerate() {
         let key = |name: &str| format!("path[{i}].set[{k}].{name}");
@@ -331,28 +331,48 @@ fn check_stage(scene: &Scene, i: usize, stage: &Stage) -> Result<(), Problem> {
             let missing = || Problem::new(key(name), index, rule);
             (index < count).then_some(()).ok_or_else(missing)
         };
-        let (end, name, value) = match *setting {
+        match *setting {
             Setting::LoadFactor { load, factor } => {
                 exists("load", load, scene.loads.len())?;
                 finite(&key("factor"), factor)?;
-                continue;
             }
             Setting::Anchor { linker, shift_nm } => {
                 exists("linker", linker, scene.linkers.len())?;
-                (None, "shift_nm", shift_nm)
+                if scene.linkers[linker].to.is_some() {
+                    let rule = "this linker joins two sites: it has no anchor to be moved";
+                    return Err(Problem::new(key("linker"), linker, rule));
+                }
+                all_finite(&key("shift_nm"), shift_nm)?;
             }
-            Setting::Shift { end, shift_nm } => (Some(end), "shift_nm", shift_nm),
-            Setting::Turn { end, turn_deg } => (Some(end), "turn_deg", turn_deg),
-        };
-        if value.iter().any(|v| !v.is_finite()) {
-            return Err(Problem::new(key(name), show(value), "must be finite"));
-        }
-        if let Some(end) = end.filter(|end| !scene.is_clamped(*end)) {
-            let rule = "this end is free: only a clamped end is moved from outside";
-            return Err(Problem::new(key("end"), show(end), rule));
+            Setting::Shift {
+                filament,
+                end,
+                shift_nm,
+            } => {
+                all_finite(&key("shift_nm"), shift_nm)?;
+                check_held(scene, &key(""), filament, end)?;
+            }
+            Setting::Turn {
+                filament,
+                end,
+                turn_deg,
+            } => {
+                all_finite(&key("turn_deg"), turn_deg)?;
+                check_held(scene, &key(""), filament, end)?;
+            }
         }
     }
     Ok(())
+}
+
+/// What a setting moves from outside is held; its keys begin with `prefix`.
+fn check_held(scene: &Scene, prefix: &str, filament: usize, end: End) -> Result<(), Problem> {
+    scene.named_filament(&format!("{prefix}filament"), filament)?;
+    if scene.is_clamped(filament, end) {
+        return Ok(());
+    }
+    let rule = "this end is free: only a clamped end is moved from outside";
+    Err(Problem::new(format!("{prefix}end"), show(end), rule))
 }
 
 fn check_dynamics(dynamics: &Dynamics) -> Result<(), Problem> {
@@ -381,6 +401,7 @@ fn check_dynamics(dynamics: &Dynamics) -> Result<(), Problem> {
         &key("drag.rotational_per_ns"),
         dynamics.drag.rotational_per_ns,
     )?;
+    thermal::check(dynamics)?;
     dynamics.stop.as_ref().map_or(Ok(()), check_stop)
 }
 
@@ -423,6 +444,13 @@ pub(super) fn non_negative(key: &str, value: f64) -> Result<(), Problem> {
     ))
 }
 
+fn all_finite(key: &str, values: [f64; 3]) -> Result<(), Problem> {
+    if values.iter().all(|v| v.is_finite()) {
+        return Ok(());
+    }
+    Err(Problem::new(key, show(values), "must be finite"))
+}
+
 fn each_positive(key: &str, values: [f64; 3]) -> Result<(), Problem> {
     if values.iter().all(|v| v.is_finite() && *v > 0.0) {
         return Ok(());
@@ -434,25 +462,13 @@ fn each_positive(key: &str, values: [f64; 3]) -> Result<(), Problem> {
     ))
 }
 
-impl Filament {
-    /// Index of the section at one end.
-    pub(crate) fn end_index(&self, end: End) -> usize {
-        match end {
-            End::Start => 0,
-            End::End => self.sections.len() - 1,
-        }
-    }
-}
-
 impl Scene {
-    /// What is held at one end; nothing if it is free.
-    pub(crate) fn hold(&self, end: End) -> Option<Hold> {
-        let clamp = self.clamps.iter().find(|clamp| clamp.end == end);
-        clamp.map(|clamp| clamp.hold)
-    }
-
-    /// Whether an end is held.
-    pub(crate) fn is_clamped(&self, end: End) -> bool {
-        self.hold(end).is_some()
+    /// Checks every rule that does not need the filament to be built; scenes that were read have
+    /// passed.
+    ///
+    /// # Errors
+    /// The first rule that is broken.
+    pub fn validate(&self) -> Result<(), Problem> {
+        validate(self)
     }
 }

@@ -9,8 +9,8 @@ mod ribbon;
 mod twist;
 mod writhe;
 
-pub use link::link;
-pub use profile::{ProfilePoint, profile};
+pub use link::{link, link_of};
+pub use profile::{ProfilePoint, profile, profile_of};
 pub use ribbon::Ribbon;
 pub use twist::twist;
 pub use writhe::{closed_writhe, extended_writhe};

@@ -1,7 +1,7 @@
 //! Local fields along a filament: place, curvature, twist and energy per length.
 
 use super::Ribbon;
-use crate::Assembly;
+use crate::{Assembly, Part};
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 
 /// Frames closer than this along the filament (nm) are one and the same.
@@ -25,7 +25,7 @@ pub struct ProfilePoint {
     pub is_ellipsoids: bool,
 }
 
-/// The fields at each vertex of the filament's [`Ribbon`] in `state`.
+/// The fields at each vertex of the [`Ribbon`] of filament 0 in `state`.
 ///
 /// Of a rod, curvature and twist are those of its bending elements. Of monomers they come from the
 /// rotation of one monomer against the next, the helix's own taken out, with weights 1/4, 1/2, 1/4
@@ -35,9 +35,17 @@ pub struct ProfilePoint {
 /// Energies are those of the elements of sections and junctions, each spread evenly over what it
 /// spans of the filament, so that their sum is kept; loads and linkers are left out.
 pub fn profile(assembly: &Assembly, state: &State) -> Vec<ProfilePoint> {
-    let ribbon = Ribbon::new(assembly, state);
+    profile_of(assembly, 0, state)
+}
+
+/// The same of any filament.
+///
+/// # Panics
+/// If there is no such filament.
+pub fn profile_of(assembly: &Assembly, filament: usize, state: &State) -> Vec<ProfilePoint> {
+    let ribbon = Ribbon::of(assembly, filament, state);
     let curvatures = ribbon.curvatures();
-    let energies = energy_per_length(assembly, state, &ribbon.cells());
+    let energies = energy_per_length(assembly, filament, state, &ribbon.cells());
     (0..ribbon.s_nm.len())
         .map(|i| ProfilePoint {
             s_nm: ribbon.s_nm[i],
@@ -105,11 +113,23 @@ fn smoothed(values: &[Vector3], between_monomers: &[bool]) -> Vec<Vector3> {
     (0..values.len()).map(one).collect()
 }
 
-/// Energy per length (pN) of each cell between two of the ascending places `cells` (nm).
-fn energy_per_length(assembly: &Assembly, state: &State, cells: &[f64]) -> Vec<f64> {
+/// Energy per length (pN) of each cell of a filament between two of the ascending places `cells`
+/// (nm).
+fn energy_per_length(
+    assembly: &Assembly,
+    filament: usize,
+    state: &State,
+    cells: &[f64],
+) -> Vec<f64> {
     let mut energies = vec![0.0; cells.len() - 1];
-    let terms = assembly.system.interactions().iter().zip(&assembly.spans);
-    for (interaction, spans) in terms.filter(|(_, spans)| !spans.is_empty()) {
+    let sections = &assembly.filaments[filament].sections;
+    let is_part = |part: Part| match part {
+        Part::Section(i) | Part::Junction(i) => sections.contains(&i),
+        Part::Load(_) | Part::Linker(_) => false,
+    };
+    let terms = assembly.terms.iter().zip(&assembly.spans);
+    let terms = assembly.system.interactions().iter().zip(terms);
+    for (interaction, (_, spans)) in terms.filter(|(_, (term, _))| is_part(term.part)) {
         let mut elements = vec![0.0; interaction.elements()];
         interaction.write_energies(state, &mut elements);
         for (energy, span) in elements.iter().zip(spans) {

@@ -32,21 +32,33 @@ pub struct Ribbon {
     /// The outermost held frames at start and end, in the same axes, each with its arc length at
     /// rest (nm); none at a free end.
     pub ends: [Option<(f64, UnitQuaternion)>; 2],
+    /// Distance of each vertex from the axis of the filament as built (nm).
+    distance_nm: Vec<f64>,
 }
 
 impl Ribbon {
-    /// The ribbon of an assembly's filament in `state`.
+    /// The ribbon of an assembly's filament 0 in `state`.
     pub fn new(assembly: &Assembly, state: &State) -> Self {
+        Self::of(assembly, 0, state)
+    }
+
+    /// The same of any filament.
+    ///
+    /// # Panics
+    /// If there is no such filament.
+    pub fn of(assembly: &Assembly, filament: usize, state: &State) -> Self {
         let mut ribbon = Self {
             s_nm: Vec::new(),
             points_nm: Vec::new(),
             between_monomers: Vec::new(),
             frame_s_nm: Vec::new(),
             frames: Vec::new(),
-            ends: [End::Start, End::End].map(|end| held_frame(assembly, state, end)),
+            ends: [End::Start, End::End].map(|end| held_frame(assembly, filament, state, end)),
+            distance_nm: Vec::new(),
         };
-        let last = assembly.sections.len() - 1;
-        for (i, section) in assembly.sections.iter().enumerate() {
+        let sections = assembly.sections_of(filament);
+        let last = sections.len() - 1;
+        for (i, section) in sections.iter().enumerate() {
             let centre = |k: usize| (assembly.points[k].s_nm, assembly.centre_line_nm(state, k));
             let mut frames = section.frames.clone();
             if section.is_ellipsoids() {
@@ -68,6 +80,9 @@ impl Ribbon {
                 ribbon.frames.push(from_rest(assembly, state, frame));
             }
         }
+        let span = &assembly.filaments[filament];
+        let seen = ribbon.points_nm.iter().map(|&p| span.seen_along_z(p));
+        ribbon.distance_nm = seen.map(|p| p.x.hypot(p.y)).collect();
         ribbon
     }
 
@@ -116,12 +131,12 @@ impl Ribbon {
         few.then(|| extended_writhe(&self.points_nm, [first, last]))
     }
 
-    /// Largest distance of the centre line from lab z, the axis of the filament as built (nm).
+    /// Largest distance of the centre line from the axis of the filament as built (nm).
     ///
     /// Taken as the top of the parabola through the vertex that is furthest and its neighbours: of
     /// a rod of segments `h` the vertices alone may miss `kappa h^2 / 8`, 0.25 nm at 0.02 rad/nm.
     pub fn largest_distance_nm(&self) -> f64 {
-        let distance: Vec<f64> = self.points_nm.iter().map(|p| p.x.hypot(p.y)).collect();
+        let distance = &self.distance_nm;
         let furthest = (0..distance.len()).max_by(|&i, &j| distance[i].total_cmp(&distance[j]));
         let Some(top) = furthest.filter(|&i| i > 0 && i + 1 < distance.len()) else {
             return furthest.map_or(0.0, |i| distance[i]);
@@ -143,14 +158,21 @@ fn top_of_parabola(x: [f64; 3], y: [f64; 3]) -> f64 {
     y[1] - 0.5 * slope * slope / curvature
 }
 
-/// How frame `i` has turned since it was built.
+/// The axes in which the filament of frame `i` was built, turned as the frame since then.
 fn from_rest(assembly: &Assembly, state: &State, i: usize) -> UnitQuaternion {
-    state.frames.orientation.get(i) * assembly.rest.frames.orientation.get(i).inverse()
+    let turned =
+        state.frames.orientation.get(i) * assembly.rest.frames.orientation.get(i).inverse();
+    turned * assembly.filaments[assembly.filament_of_frame(i)].rotation
 }
 
 /// The outermost frame that a clamp holds.
-fn held_frame(assembly: &Assembly, state: &State, end: End) -> Option<(f64, UnitQuaternion)> {
-    let clamp = assembly.clamps.iter().find(|clamp| clamp.end == end)?;
+fn held_frame(
+    assembly: &Assembly,
+    filament: usize,
+    state: &State,
+    end: End,
+) -> Option<(f64, UnitQuaternion)> {
+    let clamp = assembly.clamp_at(filament, end)?;
     let frame = match end {
         End::Start => *clamp.frames.first()?,
         End::End => *clamp.frames.last()?,

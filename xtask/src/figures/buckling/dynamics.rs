@@ -20,7 +20,6 @@ pub(super) struct Motion {
     pub residual: (f64, f64),
     pub time_ns: f64,
     pub force_evaluations: u64,
-    pub wall_s: f64,
     /// The equilibrium that Newton's method finds from that state.
     pub nearest: Outcome,
 }
@@ -37,10 +36,14 @@ const LONGEST_NS: f64 = 3000.0;
 /// thrust and energy follow.
 const TOLERANCES: [f64; 4] = [0.02, 0.3, 0.02, 0.05];
 
-/// The cases that are moved in time: one mixed resolution in both directions.
+/// The cases that are moved in time: one mixed resolution in both directions, or none.
 pub(super) fn cases(plan: &Plan) -> Vec<Case> {
     let case = |turn| Case::new(plan.main(), Resolved::Mixed(140), turn, 0);
-    [180, -180].map(case).into()
+    if plan.moving {
+        [180, -180].map(case).into()
+    } else {
+        Vec::new()
+    }
 }
 
 /// Moves the filament along its path in time, then solves from where it came to rest.
@@ -62,7 +65,6 @@ pub(super) fn run(case: &Case) -> Result<Motion, String> {
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
         time_ns: last.time_ns,
         force_evaluations: report.force_evaluations,
-        wall_s: report.wall_s,
         nearest: nearest(case, last)?,
     })
 }
@@ -78,6 +80,7 @@ fn dynamics() -> Dynamics {
             translational_per_ns: DRAG_PER_NS,
             rotational_per_ns: DRAG_PER_NS,
         },
+        thermal: None,
         stop: Some(StopRule {
             force_pn: STOP,
             torque_pn_nm: STOP,
@@ -121,13 +124,12 @@ fn differences(motion: &Motion) -> Vec<Row> {
         let value = (observable.of)(&motion.end) - (observable.of)(&motion.nearest.measured);
         let note = format!(
             "end of damped motion ({:.0} ns, residual {:.1e} pN and {:.1e} pN nm, {} force \
-             evaluations, {:.0} s) minus the equilibrium that Newton's method finds from it; \
+             evaluations) minus the equilibrium that Newton's method finds from it; \
              certified stable: {}",
             motion.time_ns,
             motion.residual.0,
             motion.residual.1,
             motion.force_evaluations,
-            motion.wall_s,
             motion.nearest.is_stable()
         );
         let quantity = format!("dynamics_difference/{}/{name}", observable.name);

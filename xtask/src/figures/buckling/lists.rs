@@ -15,6 +15,8 @@ pub(super) struct Plan {
     /// Starts from which every resolution of the main group is solved, and at which turns.
     pub starts: Vec<Start>,
     pub started: Vec<i32>,
+    /// Whether filaments are also moved along their path in time.
+    pub moving: bool,
 }
 
 /// Bonds per interface of the numbers to compare with.
@@ -29,6 +31,7 @@ impl Plan {
             seeds: if quick { 2 } else { 8 },
             starts: if quick { orders() } else { starts() },
             started: vec![180, -180],
+            moving: !quick,
         }
     }
 
@@ -40,6 +43,7 @@ impl Plan {
             starts: starts(),
             started: if quick { vec![360] } else { vec![360, -360] },
             resolved: resolved(quick),
+            moving: !quick,
         }
     }
 

@@ -16,6 +16,8 @@ mod rows;
 mod starts;
 mod tables;
 
+use super::Run;
+use super::progress::Progress;
 use super::report::Artefact;
 use case::{Case, Figure};
 use dynamics::Motion;
@@ -23,17 +25,16 @@ use lists::Plan;
 use outcome::Outcome;
 use rayon::prelude::*;
 use results::Results;
-use std::path::Path;
 use std::time::Instant;
 
 /// Figure 8: rods of constant rigidities.
-pub(super) fn figure8(out: &Path, quick: bool) -> Result<Artefact, String> {
-    reproduce(&Plan::eight(quick), out)
+pub(super) fn figure8(run: Run<'_>) -> Result<Artefact, String> {
+    reproduce(&Plan::eight(run.quick), run)
 }
 
 /// Figure 10: rods with the published twist extensions.
-pub(super) fn figure10(out: &Path, quick: bool) -> Result<Artefact, String> {
-    reproduce(&Plan::ten(quick), out)
+pub(super) fn figure10(run: Run<'_>) -> Result<Artefact, String> {
+    reproduce(&Plan::ten(run.quick), run)
 }
 
 /// One piece of work, and what comes out of it.
@@ -48,9 +49,9 @@ enum Done {
 }
 
 /// Runs all cases, draws them and compares them.
-fn reproduce(plan: &Plan, out: &Path) -> Result<Artefact, String> {
+fn reproduce(plan: &Plan, Run { out, progress, .. }: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
-    let (results, motions) = compute(plan);
+    let (results, motions) = compute(plan, progress);
     let mut rows = rows::rows(plan, &results);
     rows.extend(starts::rows(plan, &results));
     rows.extend(dynamics::rows(plan, &results, &motions));
@@ -64,17 +65,18 @@ fn reproduce(plan: &Plan, out: &Path) -> Result<Artefact, String> {
         settings: settings(plan, &results),
         rows,
         pictures: pictures::draw(plan, &results, out)?,
+        views: vec![pictures::view_in_space(plan, &results, out)?],
         wall_s: started.elapsed().as_secs_f64(),
     })
 }
 
 /// Runs the dynamics, which takes longest, and all equilibria.
-fn compute(plan: &Plan) -> (Results, Vec<Motion>) {
+fn compute(plan: &Plan, progress: &Progress) -> (Results, Vec<Motion>) {
     let moved = dynamics::cases(plan).into_iter().map(Job::Dynamics);
     let jobs: Vec<Job> = moved
         .chain(plan.cases().into_iter().map(Job::Statics))
         .collect();
-    let progress = indicatif::ProgressBar::new(jobs.len() as u64);
+    progress.expect(jobs.len());
     let done: Vec<Result<Done, String>> = jobs
         .par_iter()
         .with_max_len(1)
@@ -83,11 +85,10 @@ fn compute(plan: &Plan) -> (Results, Vec<Motion>) {
                 Job::Statics(case) => outcome::solve(case).map(|o| Done::Statics(Box::new(o))),
                 Job::Dynamics(case) => dynamics::run(case).map(|m| Done::Dynamics(Box::new(m))),
             };
-            progress.inc(1);
+            progress.done();
             done
         })
         .collect();
-    progress.finish_and_clear();
     sort(done)
 }
 
@@ -115,7 +116,7 @@ fn settings(plan: &Plan, results: &Results) -> String {
     };
     format!(
         "Scene scenarios/{folder}/rod-140.ron and what follows from it: {} equilibria at the end \
-         of paths, {} samplings of the bonds; twist first unless named. Rods are 300 nm long; \
+         of paths, {} samplings of the bonds, seeds from 0; twist first unless named. Rods are 300 nm long; \
          monomers alone 290 nm between the inner held ones, 300 nm where the clamp is Wall. A \
          pull of 1e-3 pN at half the length, towards a point 100 nm aside, breaks the symmetry.",
         results.outcomes.len(),

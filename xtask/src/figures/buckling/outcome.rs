@@ -2,6 +2,7 @@
 //! plane in which the filament happens to buckle.
 
 use super::case::Case;
+use crate::figures::viewer::Snapshot;
 use actin_sim::shape::Ribbon;
 use actin_sim::{Assembly, End, Part};
 use std::ops::ControlFlow;
@@ -22,7 +23,8 @@ pub(super) struct Outcome {
     /// Newton steps of the whole path, and equilibria on it.
     pub iterations: u64,
     pub points: usize,
-    pub wall_s: f64,
+    /// The state, without the pull that breaks the symmetry.
+    pub snapshot: Snapshot,
 }
 
 /// What is seen of a state.
@@ -91,7 +93,7 @@ pub(super) fn outcome(case: &Case, assembly: &mut Assembly) -> Result<Outcome, S
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
         iterations: found.newton_iterations,
         points: found.points,
-        wall_s: report.wall_s,
+        snapshot: Snapshot::of(assembly, &last.state).without_linkers(),
     })
 }
 

@@ -3,12 +3,14 @@
 
 use super::case::{Case, Figure, Group, Resolved};
 use super::lists::Plan;
-use super::outcome::Place;
+use super::outcome::{Outcome, Place};
 use super::plane::in_own_plane;
 use super::results::{OBSERVABLES, Observable, Results};
 use super::rows::artefact;
-use crate::figures::plot::{Chart, Series, draw as draw_chart, resolution_colour};
-use crate::figures::report::Picture;
+use crate::figures::palette;
+use crate::figures::plot::{Chart, Series, draw as draw_chart};
+use crate::figures::report::{Picture, View};
+use crate::figures::viewer::{self, Attitude, Shown};
 use std::path::Path;
 
 /// Draws all pictures.
@@ -48,8 +50,8 @@ fn lines(plan: &Plan, results: &Results, turn: i32, out: &Path) -> Result<Vec<Pi
     let captions = [
         format!(
             "Centre lines, seed 0, {law}; every filament is turned about the axis until its own \
-             plane of buckling lies in the page. Red is all monomers, blue all rod. The scales of the \
-             two axes differ."
+             plane of buckling lies in the page. {} The scales of the two axes differ.",
+            palette::chosen().ends()
         ),
         "The same lines from the side: what leaves the plane.".into(),
     ];
@@ -75,18 +77,47 @@ fn rods(figure: Figure) -> &'static str {
     }
 }
 
+/// What is drawn at a turn, from monomers to rod.
+fn drawn<'a>(plan: &Plan, results: &'a Results, turn: i32) -> Vec<&'a Outcome> {
+    let cases = plan.resolved.iter().rev();
+    let outcomes = cases.filter_map(|&r| results.of(Case::new(plan.main(), r, turn, 0)));
+    outcomes.collect()
+}
+
+/// The drawn states for the viewer.
+pub(super) fn view_in_space(plan: &Plan, results: &Results, out: &Path) -> Result<View, String> {
+    let turns = plan.turns.iter();
+    let shown: Vec<Shown> = turns
+        .flat_map(|&turn| {
+            drawn(plan, results, turn)
+                .into_iter()
+                .map(move |o| (turn, o))
+        })
+        .map(|(turn, o)| Shown {
+            group: format!("{} deg of {}", turn.abs(), direction(turn > 0)),
+            name: o.case.resolved.name(),
+            share: o.case.resolved.rod_share(),
+            snapshot: o.snapshot.clone(),
+        })
+        .collect();
+    let caption = "The equilibria of seed 0 in space, each in the plane in which it buckled; the \
+        stripe along rods is their first axis and shows the twist. The weak pull that breaks the \
+        symmetry is left out.";
+    let id = artefact(plan.figure);
+    viewer::write(id, Attitude::LYING, &shown, caption.into(), out)
+}
+
 fn view(
     plan: &Plan,
     results: &Results,
     turn: i32,
     project: fn(&Place) -> (f64, f64),
 ) -> Vec<Series> {
-    let cases = plan.resolved.iter().rev();
-    let outcomes = cases.filter_map(|&r| results.of(Case::new(plan.main(), r, turn, 0)));
-    outcomes
+    drawn(plan, results, turn)
+        .into_iter()
         .map(|outcome| Series {
             label: Some(outcome.case.resolved.name()),
-            colour: resolution_colour(outcome.case.resolved.rod_share()),
+            colour: palette::resolution(outcome.case.resolved.rod_share()),
             points: in_own_plane(&outcome.measured.centre_line)
                 .iter()
                 .map(project)
@@ -135,12 +166,12 @@ fn curves(plan: &Plan, results: &Results, observable: Observable, turn: i32) -> 
     let groups = plan.groups();
     let mut series = Vec::new();
     for (i, &(name, group)) in groups.iter().enumerate() {
-        // From blue for the first group to red for the last.
+        // Groups are not resolutions, but as many; the first has the colour of all rod.
         let share = 1.0 - i as f64 / (groups.len() - 1) as f64;
         let points = means(plan, results, (group, turn), observable);
         let curve = |label, points, dots| Series {
             label,
-            colour: resolution_colour(share),
+            colour: palette::resolution(share),
             points,
             dots,
         };

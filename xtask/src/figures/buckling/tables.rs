@@ -8,7 +8,7 @@ use super::rows::artefact;
 use crate::figures::report::write_csv;
 use std::path::Path;
 
-const COLUMNS: [&str; 24] = [
+const COLUMNS: [&str; 23] = [
     "rods",
     "clamp",
     "bonds_per_interface",
@@ -32,7 +32,6 @@ const COLUMNS: [&str; 24] = [
     "newton_iterations",
     "equilibria_on_path",
     "rod_nm",
-    "wall_s",
 ];
 
 /// Writes `figN.csv` and `figN_centre_lines.csv`.
@@ -106,7 +105,6 @@ fn columns(o: &Outcome) -> Vec<String> {
         o.iterations.to_string(),
         o.points.to_string(),
         number(o.case.resolved.rod_nm()),
-        format!("{:.3}", o.wall_s),
     ]);
     row
 }

@@ -2,6 +2,7 @@
 
 use super::ringdown::{self, RingDown};
 use crate::check::workspace_root;
+use crate::figures::viewer::Snapshot;
 use actin_sim::{
     Assembly, Drag, End, Equilibrium, JunctionWeight, Load, Material, Record, Scene, Section, Task,
 };
@@ -18,6 +19,18 @@ pub(super) enum Variant {
     HalfPiconewton,
     /// 2 pN, the preceding paper's rod.
     PrecedingPaper,
+}
+
+impl Variant {
+    /// In words.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Self::Shared => "2 pN, junction shared",
+            Self::Full => "2 pN, junction full",
+            Self::HalfPiconewton => "0.5 pN, junction shared",
+            Self::PrecedingPaper => "2 pN, the preceding paper's rod",
+        }
+    }
 }
 
 /// Which scene of `scenarios/figure-4` a case starts from.
@@ -46,6 +59,12 @@ pub(super) struct Result4 {
     pub tip_drop_nm: f64,
     /// Time (ns), elastic plus kinetic energy (pN nm).
     pub energy: Vec<(f64, f64)>,
+    /// The same with the load's potential (pN nm), record by record.
+    pub total: Vec<f64>,
+    /// Whether it was moved in time; the equilibrium was solved for otherwise.
+    pub moved: bool,
+    /// Evaluations of bonds and segments.
+    pub work: f64,
     /// Centre line at the end (nm).
     pub centre_line: Vec<[f64; 3]>,
     /// Monomer centres at the end (nm).
@@ -60,7 +79,8 @@ pub(super) struct Result4 {
     pub converged: bool,
     pub time_ns: f64,
     pub force_evaluations: u64,
-    pub wall_s: f64,
+    /// The state at the end.
+    pub snapshot: Snapshot,
 }
 
 /// Drag rates while a filament swings (1/ns): the amplitude decays at half this rate.
@@ -145,16 +165,26 @@ impl Case {
         }
     }
 
-    /// Runs the case to its end.
-    pub(super) fn run(&self) -> Result<Result4, String> {
+    /// The scene, whose task is the equilibrium alone if it is not `moving`.
+    fn scene_of(&self, moving: bool) -> Result<Scene, String> {
+        let mut scene = self.scene()?;
+        if !moving {
+            scene.task = Task::Equilibrium(Equilibrium::default());
+        }
+        Ok(scene)
+    }
+
+    /// Runs the case to its end, in time if `moving`.
+    pub(super) fn run(&self, moving: bool) -> Result<Result4, String> {
         let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", self.name());
-        let mut assembly = Assembly::build(&self.scene()?).map_err(|e| fail(&e))?;
+        let mut assembly = Assembly::build(&self.scene_of(moving)?).map_err(|e| fail(&e))?;
         let watch = &mut |_| ControlFlow::Continue(());
         let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
         let last = trajectory
             .records
             .last()
             .ok_or_else(|| fail(&"no record"))?;
+        let counts = assembly.counts();
         let drop = |record: &Record| -displacement(&assembly, record);
         let positions = |keep: &dyn Fn(usize) -> Option<[f64; 3]>| -> Vec<[f64; 3]> {
             (0..assembly.points.len()).filter_map(keep).collect()
@@ -162,23 +192,22 @@ impl Case {
         Ok(Result4 {
             case: *self,
             tip_drop_nm: drop(last),
-            energy: trajectory
-                .records
-                .iter()
-                .map(|record| (record.time_ns, internal_energy(&assembly, record)))
-                .collect(),
+            energy: energies(&assembly, &trajectory.records),
+            total: trajectory.records.iter().map(total_energy).collect(),
+            moved: moving,
+            work: report.force_evaluations as f64 * (counts.bonds + counts.segments) as f64,
             centre_line: positions(&|i| Some(assembly.centre_line_nm(&last.state, i).into())),
             monomers: positions(&|i| {
                 let monomer = assembly.points[i].frame.is_some();
                 monomer.then(|| last.state.points.position.get(i).into())
             }),
-            ring_down: self.ring_down(drop(last))?,
+            ring_down: self.ring_down(moving, drop(last))?,
             newton: self.newton()?,
             residual: (last.residual_force_pn, last.residual_torque_pn_nm),
             converged: report.converged,
             time_ns: last.time_ns,
             force_evaluations: report.force_evaluations,
-            wall_s: report.wall_s,
+            snapshot: Snapshot::of(&assembly, &last.state),
         })
     }
 }
@@ -204,8 +233,8 @@ impl Case {
     }
 
     /// Lets the filament swing about its equilibrium with little drag, the same for all cases.
-    fn ring_down(&self, equilibrium_nm: f64) -> Result<Option<RingDown>, String> {
-        if !self.swings() {
+    fn ring_down(&self, moving: bool, equilibrium_nm: f64) -> Result<Option<RingDown>, String> {
+        if !moving || !self.swings() {
             return Ok(None);
         }
         let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", self.name());
@@ -245,6 +274,11 @@ fn displacement(assembly: &Assembly, record: &Record) -> f64 {
     (assembly.tip_nm(&record.state, End::End) - assembly.tip_nm(&assembly.rest, End::End)).x
 }
 
+/// Energy with the potential of the load (pN nm).
+fn total_energy(record: &Record) -> f64 {
+    record.potential_pn_nm() + record.kinetic_pn_nm
+}
+
 /// Energy without the potential of the load (pN nm).
 fn internal_energy(assembly: &Assembly, record: &Record) -> f64 {
     let elastic: f64 = assembly
@@ -257,14 +291,26 @@ fn internal_energy(assembly: &Assembly, record: &Record) -> f64 {
     elastic + record.kinetic_pn_nm
 }
 
+/// Time (ns) and [`internal_energy`] of every record.
+fn energies(assembly: &Assembly, records: &[Record]) -> Vec<(f64, f64)> {
+    let each = records.iter();
+    each.map(|record| (record.time_ns, internal_energy(assembly, record)))
+        .collect()
+}
+
 /// How the cases were run, in words.
 pub(super) fn settings(results: &[Result4]) -> String {
     let worst = |pick: fn(&Result4) -> f64| results.iter().map(pick).fold(0.0, f64::max);
     let unfinished = results.iter().filter(|r| !r.converged).count();
+    let how = if results.iter().any(|r| r.moved) {
+        "damped dynamics"
+    } else {
+        "equilibria by Newton's method"
+    };
     format!(
-        "Scenes scenarios/figure-4/*.ron, {} cases, damped dynamics; at the end every force is \
-         below {:.1e} pN and every torque below {:.1e} pN nm; {unfinished} case(s) ended by time. \
-         Seed 0 unless named.",
+        "Scenes scenarios/figure-4/*.ron, {} cases, {how}; at the end every force is below {:.1e} \
+         pN and every torque below {:.1e} pN nm; {unfinished} case(s) ended before. Seed 0 unless \
+         named.",
         results.len(),
         worst(|r| r.residual.0),
         worst(|r| r.residual.1),

@@ -1,17 +1,18 @@
 //! Figure 4: the multi-resolution cantilever at seven resolutions.
 //!
 //! Every case is damped dynamics to a stated residual. The same trajectory gives the equilibrium
-//! (its end), and the first flexural mode with its decay (its approach).
+//! (its end), and the first flexural mode with its decay (its approach). `--quick` solves for the
+//! equilibria alone.
 
 mod case;
 mod pictures;
 mod ringdown;
 mod rows;
 
+use super::Run;
 use super::report::Artefact;
 use case::{Case, Result4, Variant};
 use rayon::prelude::*;
-use std::path::Path;
 use std::time::Instant;
 
 /// Lengths of the rod part (nm), as in the paper.
@@ -22,19 +23,23 @@ const QUICK_ROD_LENGTHS: [u32; 3] = [20, 80, 140];
 const SEEDS: u64 = 8;
 
 /// Runs all cases, draws them and compares them.
-pub(super) fn reproduce(out: &Path, quick: bool) -> Result<Artefact, String> {
+pub(super) fn reproduce(run: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
+    let Run {
+        out,
+        quick,
+        progress,
+    } = run;
     let cases = cases(quick);
-    let progress = indicatif::ProgressBar::new(cases.len() as u64);
+    progress.expect(cases.len());
     let results: Vec<Result4> = cases
         .par_iter()
         .map(|case| {
-            let result = case.run();
-            progress.inc(1);
+            let result = case.run(!quick);
+            progress.done();
             result
         })
         .collect::<Result<_, _>>()?;
-    progress.finish_and_clear();
     let pictures = pictures::draw(&results, out)?;
     rows::write_tables(&results, out)?;
     Ok(Artefact {
@@ -43,6 +48,7 @@ pub(super) fn reproduce(out: &Path, quick: bool) -> Result<Artefact, String> {
         settings: case::settings(&results),
         rows: rows::rows(&results),
         pictures,
+        views: vec![pictures::view_in_space(&results, out)?],
         wall_s: started.elapsed().as_secs_f64(),
     })
 }

@@ -2,6 +2,7 @@
 
 use super::case::{Case, Resolved, Result4, SWING_DRAG_PER_NS, Variant};
 use crate::figures::report::{Row, write_csv};
+use crate::figures::settles::energy_decays;
 use std::path::Path;
 
 /// Exact inextensible elastica of 160 nm under 2 pN with B = 3.9e4 pN nm^2 (nm).
@@ -25,7 +26,25 @@ pub(super) fn rows(results: &[Result4]) -> Vec<Row> {
     all.extend(newton_rows(results));
     all.extend(sampling(results));
     all.extend(results.iter().flat_map(ring_down));
+    all.extend(moved(results));
     all
+}
+
+/// What only motions show: that their energies fall, and what they cost.
+fn moved(results: &[Result4]) -> Vec<Row> {
+    let moved: Vec<&Result4> = results.iter().filter(|r| r.moved).collect();
+    if moved.is_empty() {
+        return Vec::new();
+    }
+    let energies = moved.iter().map(|r| r.total.iter().copied());
+    let mut rows = vec![energy_decays("fig4", energies)];
+    let shared = moved.iter().filter(|r| r.case.variant == Variant::Shared);
+    rows.extend(shared.map(|r| {
+        let note = "evaluations of bonds and segments until the stop rule is met";
+        let quantity = format!("work/{}", path_of(&r.case));
+        Row::measured("fig4", quantity, "", r.work, note)
+    }));
+    rows
 }
 
 fn path_of(case: &Case) -> String {
@@ -41,7 +60,9 @@ fn path_of(case: &Case) -> String {
 
 fn tip_drop(result: &Result4) -> Row {
     let quantity = format!("tip_drop/{}", path_of(&result.case));
-    let end = if result.converged {
+    let end = if !result.moved {
+        "by Newton's method"
+    } else if result.converged {
         "stop rule met"
     } else {
         "ended by time"
@@ -210,14 +231,13 @@ pub(super) fn write_tables(results: &[Result4], out: &Path) -> Result<(), String
     write_csv(out, "fig4.csv", &COLUMNS, results.iter().map(columns))
 }
 
-const COLUMNS: [&str; 7] = [
+const COLUMNS: [&str; 6] = [
     "case",
     "tip_drop_nm",
     "residual_pn",
     "residual_pn_nm",
     "time_ns",
     "force_evaluations",
-    "wall_s",
 ];
 
 /// One result under [`COLUMNS`].
@@ -229,7 +249,6 @@ fn columns(r: &Result4) -> Vec<String> {
         number(r.residual.1),
         number(r.time_ns),
         r.force_evaluations.to_string(),
-        format!("{:.2}", r.wall_s),
     ]
 }
 

@@ -1,6 +1,7 @@
 //! One filament turned in its middle: its scene, and what its two halves store.
 
 use crate::check::workspace_root;
+use crate::figures::viewer::Snapshot;
 use actin_sim::shape::{ProfilePoint, Ribbon, profile};
 use actin_sim::{Assembly, Hold, Part, Scene, Slides};
 use std::ops::ControlFlow;
@@ -53,6 +54,7 @@ pub(super) struct Halves {
     pub residual: (f64, f64),
     /// Arc length from the middle (nm), towards the over-twisted half, and energy per length (pN).
     pub profile: Vec<(f64, f64)>,
+    pub snapshot: Snapshot,
 }
 
 impl Halves {
@@ -169,6 +171,7 @@ impl Case {
             doubtful: 0,
             residual: (0.0, 0.0),
             profile,
+            snapshot: Snapshot::of(assembly, assembly.system.state()),
         }
     }
 }

@@ -4,8 +4,11 @@
 mod case;
 mod rows;
 
-use super::plot::{Chart, Series, draw as draw_chart, resolution_colour};
-use super::report::{Artefact, Picture};
+use super::Run;
+use super::palette;
+use super::plot::{Chart, Series, draw as draw_chart};
+use super::report::{Artefact, Picture, View};
+use super::viewer::{self, Attitude, Shown};
 use actin_sim::Hold;
 use case::{Case, Halves, Resolved, Sliding};
 use rayon::prelude::*;
@@ -17,17 +20,31 @@ const SEEDS: u64 = 16;
 const QUICK_SEEDS: u64 = 4;
 
 /// Runs all cases, draws them and compares them.
-pub(super) fn reproduce(out: &Path, quick: bool) -> Result<Artefact, String> {
+pub(super) fn reproduce(run: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
+    let Run {
+        out,
+        quick,
+        progress,
+    } = run;
     let cases = cases(if quick { QUICK_SEEDS } else { SEEDS });
-    let results: Vec<Halves> = cases.par_iter().map(Case::run).collect::<Result<_, _>>()?;
+    progress.expect(cases.len());
+    let results: Vec<Halves> = cases
+        .par_iter()
+        .map(|case| {
+            let halves = case.run();
+            progress.done();
+            halves
+        })
+        .collect::<Result<_, _>>()?;
     rows::write_tables(&results, out)?;
     let worst = |pick: fn(&Halves) -> f64| results.iter().map(pick).fold(0.0, f64::max);
     Ok(Artefact {
         id: "fig7",
         title: "Turned in the middle: the energy of both halves",
         settings: format!(
-            "Scenes scenarios/figure-7/*.ron, {} equilibria; every force is below {:.1e} pN and \
+            "Scenes scenarios/figure-7/*.ron, {} equilibria; seeds of the bonds from 0, each pulled both \
+             ways; every force is below {:.1e} pN and \
              every torque below {:.1e} pN nm.",
             results.len(),
             worst(|h| h.residual.0),
@@ -35,6 +52,7 @@ pub(super) fn reproduce(out: &Path, quick: bool) -> Result<Artefact, String> {
         ),
         rows: rows::rows(&results),
         pictures: vec![picture(&results, out)?],
+        views: vec![view(&results, out)?],
         wall_s: started.elapsed().as_secs_f64(),
     })
 }
@@ -69,7 +87,7 @@ fn picture(results: &[Halves], out: &Path) -> Result<Picture, String> {
         |kind: &str| -> Vec<&Halves> { results.iter().filter(|h| h.case.kind() == kind).collect() };
     let curve = |label: &str, share: f64, halves: &[&Halves]| Series {
         label: Some(label.into()),
-        colour: resolution_colour(share),
+        colour: palette::resolution(share),
         points: mean_profile(halves),
         dots: false,
     };
@@ -95,6 +113,31 @@ fn picture(results: &[Halves], out: &Path) -> Result<Picture, String> {
                   directions of the pull."
             .into(),
     })
+}
+
+/// The pure cases with both ends held, the first sampling, for the viewer.
+fn view(results: &[Halves], out: &Path) -> Result<View, String> {
+    let first = results
+        .iter()
+        .filter(|h| h.case.seed == 0 && !h.case.reversed);
+    let shown: Vec<Shown> = first
+        .filter_map(|h| {
+            let kind = h.case.kind();
+            let share = match kind.as_str() {
+                "rod" => 1.0,
+                "ellipsoid" => 0.0,
+                _ => return None,
+            };
+            Some(Shown {
+                group: "both ends held".into(),
+                name: kind,
+                share,
+                snapshot: h.snapshot.clone(),
+            })
+        })
+        .collect();
+    let caption = "The equilibria in space, with the linker that turns the middle.";
+    viewer::write("fig7", Attitude::LYING, &shown, caption.into(), out)
 }
 
 /// Mean over profiles that are known at the same places, within the mirror image.

@@ -11,6 +11,7 @@ mod rows;
 mod solve;
 mod spread;
 
+use super::Run;
 use super::report::Artefact;
 use case::{Case, Figure, Resolved, STANDARD, VARIANTS, Variant};
 use rayon::prelude::*;
@@ -44,9 +45,9 @@ static FIGURE_6: Figure = Figure {
 };
 
 /// Figure 5: linkers in one plane.
-pub(super) fn figure5(out: &Path, quick: bool) -> Result<Artefact, String> {
+pub(super) fn figure5(run: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
-    let outcomes = solve(&FIGURE_5, quick, !quick)?;
+    let outcomes = solve(&FIGURE_5, run, !run.quick)?;
     let mut rows = rows::of_figure(&FIGURE_5, &outcomes);
     rows.extend(rows::bending_claim(&FIGURE_5, &outcomes));
     rows.extend(rows::in_plane(&Case {
@@ -55,20 +56,20 @@ pub(super) fn figure5(out: &Path, quick: bool) -> Result<Artefact, String> {
         variant: STANDARD,
         seed: 0,
     })?);
-    artefact(&FIGURE_5, &outcomes, rows, out, started)
+    artefact(&FIGURE_5, &outcomes, rows, run.out, started)
 }
 
 /// Figure 6: linkers all round, compared with those in one plane.
-pub(super) fn figure6(out: &Path, quick: bool) -> Result<Artefact, String> {
+pub(super) fn figure6(run: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
-    let outcomes = solve(&FIGURE_6, quick, !quick)?;
-    let planar = solve(&FIGURE_5, quick, false)?;
+    let outcomes = solve(&FIGURE_6, run, !run.quick)?;
+    let planar = solve(&FIGURE_5, run, false)?;
     let mut rows = rows::of_figure(&FIGURE_6, &outcomes);
     rows.extend(rows::larger_claims(
         (&FIGURE_6, &outcomes),
         (&FIGURE_5, &planar),
     ));
-    artefact(&FIGURE_6, &outcomes, rows, out, started)
+    artefact(&FIGURE_6, &outcomes, rows, run.out, started)
 }
 
 fn artefact(
@@ -84,25 +85,24 @@ fn artefact(
         title: figure.title,
         settings: rows::settings(figure, outcomes),
         pictures: pictures::draw(figure, outcomes, out)?,
+        views: vec![pictures::view_in_space(figure, outcomes, out)?],
         rows,
         wall_s: started.elapsed().as_secs_f64(),
     })
 }
 
 /// Solves all cases of a figure, side by side; follows the motions that are drawn if `moving`.
-fn solve(figure: &'static Figure, quick: bool, moving: bool) -> Result<Vec<Outcome>, String> {
-    let cases = cases(figure, quick);
-    let progress = indicatif::ProgressBar::new(cases.len() as u64);
-    let outcomes = cases
+fn solve(figure: &'static Figure, run: Run<'_>, moving: bool) -> Result<Vec<Outcome>, String> {
+    let cases = cases(figure, run.quick);
+    run.progress.expect(cases.len());
+    cases
         .par_iter()
         .map(|case| {
             let outcome = Outcome::of(case, moving && is_drawn(case));
-            progress.inc(1);
+            run.progress.done();
             outcome
         })
-        .collect();
-    progress.finish_and_clear();
-    outcomes
+        .collect()
 }
 
 /// The paper's rod and the first sampling of the bonds are drawn; all else is numbers.

@@ -3,8 +3,10 @@
 use super::case::{Figure, Variant};
 use super::is_drawn;
 use super::solve::{Motion, Outcome};
-use crate::figures::plot::{Chart, Series, draw as draw_chart, resolution_colour};
-use crate::figures::report::Picture;
+use crate::figures::palette;
+use crate::figures::plot::{Chart, Series, draw as draw_chart};
+use crate::figures::report::{Picture, View};
+use crate::figures::viewer::{self, Attitude, Shown};
 use plotters::style::RGBColor;
 use std::path::Path;
 
@@ -27,12 +29,38 @@ pub(super) fn draw(
     outcomes: &[Outcome],
     out: &Path,
 ) -> Result<Vec<Picture>, String> {
-    let mut chosen: Vec<&Outcome> = outcomes.iter().filter(|o| is_drawn(&o.case)).collect();
-    chosen.sort_by(|a, b| a.case.rod_share().total_cmp(&b.case.rod_share()));
+    let chosen = chosen(outcomes);
     let mut pictures = views(figure, &chosen, out)?;
     pictures.extend(energies(figure, &chosen, out)?);
     pictures.push(against_resolution(figure, outcomes, out)?);
     Ok(pictures)
+}
+
+/// What is drawn, from monomers to rod.
+fn chosen(outcomes: &[Outcome]) -> Vec<&Outcome> {
+    let mut chosen: Vec<&Outcome> = outcomes.iter().filter(|o| is_drawn(&o.case)).collect();
+    chosen.sort_by(|a, b| a.case.rod_share().total_cmp(&b.case.rod_share()));
+    chosen
+}
+
+/// The drawn equilibria for the viewer.
+pub(super) fn view_in_space(
+    figure: &Figure,
+    outcomes: &[Outcome],
+    out: &Path,
+) -> Result<View, String> {
+    let shown: Vec<Shown> = chosen(outcomes)
+        .into_iter()
+        .map(|o| Shown {
+            group: "equilibria".into(),
+            name: o.case.name(),
+            share: o.case.rod_share(),
+            snapshot: o.lowest.snapshot.clone(),
+        })
+        .collect();
+    let caption = "The certified equilibria in space, with their linkers and the fixed anchors. \
+        The stripe along the rod is its first axis.";
+    viewer::write(figure.id, Attitude::LYING, &shown, caption.into(), out)
 }
 
 fn views(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Vec<Picture>, String> {
@@ -64,8 +92,8 @@ fn views(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Vec<Picture
         draw_chart(&chart, &out.join(&file))?;
         let caption = format!(
             "Certified equilibria, {title}. Lines: nodes of the rod, and the centre line of the \
-             monomers; dots: monomer centres; grey crosses: anchors. Red is all monomers, blue all \
-             rod."
+             monomers; dots: monomer centres; grey crosses: anchors. {}",
+            palette::chosen().ends()
         );
         pictures.push(Picture { file, caption });
     }
@@ -74,7 +102,7 @@ fn views(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Vec<Picture
 
 /// Monomer centres under the centre lines, anchors above them, projected by `project`.
 fn lines(chosen: &[&Outcome], project: fn(&[f64; 3]) -> (f64, f64)) -> Vec<Series> {
-    let colour = |o: &Outcome| resolution_colour(o.case.rod_share());
+    let colour = |o: &Outcome| palette::resolution(o.case.rod_share());
     let dots = chosen.iter().map(|o| Series {
         label: None,
         colour: colour(o),
@@ -144,7 +172,7 @@ fn energies(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Option<P
 /// A line for each motion, and a dotted one for its limit.
 fn curves(moved: &[(&Outcome, &Motion)], top: f64) -> Vec<Series> {
     let series = |(o, motion): &(&Outcome, &Motion)| {
-        let colour = resolution_colour(o.case.rod_share());
+        let colour = palette::resolution(o.case.rod_share());
         let of = |label, points, dots| Series {
             label,
             colour,
@@ -180,18 +208,12 @@ fn against_resolution(
     outcomes: &[Outcome],
     out: &Path,
 ) -> Result<Picture, String> {
-    const COLOURS: [RGBColor; 5] = [
-        RGBColor(190, 25, 35),
-        RGBColor(235, 150, 20),
-        RGBColor(60, 150, 90),
-        RGBColor(30, 70, 180),
-        RGBColor(140, 70, 160),
-    ];
     let length = f64::from(figure.length);
     let series = super::VARIANTS
         .iter()
-        .zip(COLOURS)
-        .flat_map(|(&variant, colour)| {
+        .enumerate()
+        .flat_map(|(k, &variant)| {
+            let colour = palette::line(k);
             let points = by_rod(outcomes, variant, length);
             let series = |label, dots| Series {
                 label,

@@ -4,6 +4,7 @@ use super::case::{Case, Figure, STANDARD, VARIANTS, Variant};
 use super::solve::{self, Outcome, SAME_PN_NM};
 use super::spread::Spread;
 use crate::figures::report::{Row, write_csv};
+use crate::figures::settles::energy_decays;
 use std::path::Path;
 
 /// Centre lines closer than the radius of the helix (nm) lie within one another's filament.
@@ -185,6 +186,10 @@ fn motions(figure: &Figure, outcomes: &[Outcome]) -> Vec<Row> {
         row("newton_difference/energy", "pN nm", energy, note.clone()),
         row("newton_difference/node", "nm", node, note),
         row("motions_to_a_higher_equilibrium", "", elsewhere, to),
+        energy_decays(
+            figure.id,
+            moved.iter().map(|(_, m)| m.energy.iter().map(|e| e[1])),
+        ),
     ]
 }
 
@@ -291,7 +296,7 @@ pub(super) fn settings(figure: &Figure, outcomes: &[Outcome]) -> String {
     let worst = |pick: fn(&Outcome) -> f64| outcomes.iter().map(pick).fold(0.0, f64::max);
     format!(
         "Scene scenarios/{}, the rod in the middle resolved as named, {} filaments, {} samplings \
-         of the bonds (0 unless named). Equilibria by Newton's method from the built filament \
+         of the bonds (seeds from 0; 0 unless named). Equilibria by Newton's method from the built filament \
          turned by 0, 90, 180 and 270 deg about its axis, residual below {:.1e} pN and {:.1e} \
          pN nm; the lowest counts. Motions: anchors away from the sites at once, drag 0.3 per ns \
          for velocities and for angular momenta.",

@@ -2,6 +2,7 @@
 
 use super::case::Case;
 use super::centre_line::CentreLine;
+use crate::figures::viewer::Snapshot;
 use actin_sim::{Assembly, Equilibrium, Record, RunReport, Scene, Task};
 use std::ops::ControlFlow;
 
@@ -32,6 +33,7 @@ pub(super) struct Balance {
     pub forces: Vec<f64>,
     /// Turn of the body that holds the second linker, from how it was built (deg).
     pub roll: f64,
+    pub snapshot: Snapshot,
 }
 
 /// A damped motion that has come to rest.
@@ -160,6 +162,7 @@ fn describe(assembly: &Assembly, last: &Record, report: &RunReport) -> Balance {
             .map(|l| l.force(&last.state).norm())
             .collect(),
         roll: turned.angle().to_degrees(),
+        snapshot: Snapshot::of(assembly, &last.state),
     }
 }
 

@@ -4,11 +4,11 @@
 use super::filament::Drawn;
 use super::solved::Solved;
 use super::{artefact, imposed, style};
+use crate::figures::Run;
 use crate::figures::report::{Artefact, Row};
 use crate::figures::scene3d::{Item, Label, Panel, Sheet, View};
 use actin_mechanics::Vector3;
 use actin_sim::shape::Ribbon;
-use std::path::Path;
 use std::time::Instant;
 
 const ID: &str = "fig3";
@@ -20,7 +20,7 @@ const ARC_NM: f64 = 6.0;
 const NM_PER_PN: f64 = 3.5;
 
 /// Solves the scenes, draws them and says what is seen.
-pub(in crate::figures) fn reproduce(out: &Path, _quick: bool) -> Result<Artefact, String> {
+pub(in crate::figures) fn reproduce(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
     let names = [
         "figure-3/cantilever",

@@ -7,7 +7,7 @@ use actin_sim::{Assembly, BodyKind, JunctionBond, Load};
 
 /// A filament in a state, to be drawn.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drawn<'a> {
+pub(in crate::figures) struct Drawn<'a> {
     pub assembly: &'a Assembly,
     pub state: &'a State,
     /// Arc lengths between which bodies are drawn (nm).
@@ -32,12 +32,20 @@ impl<'a> Drawn<'a> {
         }
     }
 
+    /// The whole filament in another state.
+    pub(in crate::figures) fn in_state(assembly: &'a Assembly, state: &'a State) -> Self {
+        Self {
+            state,
+            ..Self::whole(assembly)
+        }
+    }
+
     fn shows(&self, s_nm: f64) -> bool {
         (self.range_nm[0]..=self.range_nm[1]).contains(&s_nm)
     }
 
     /// Position of a point (nm, lab frame).
-    pub(super) fn place(&self, point: usize) -> Vector3 {
+    pub(in crate::figures) fn place(&self, point: usize) -> Vector3 {
         self.state.points.position.get(point)
     }
 
@@ -47,7 +55,7 @@ impl<'a> Drawn<'a> {
     }
 
     /// Points of a kind that are shown.
-    pub(super) fn points(&self, kind: BodyKind) -> Vec<usize> {
+    pub(in crate::figures) fn points(&self, kind: BodyKind) -> Vec<usize> {
         let points = self.assembly.points.iter().enumerate();
         let shown = points.filter(|(_, info)| info.kind == kind && self.shows(info.s_nm));
         shown.map(|(i, _)| i).collect()
@@ -83,7 +91,7 @@ impl<'a> Drawn<'a> {
                     continue;
                 }
                 let kind = pair.upper - pair.lower - 1;
-                let stroke = Stroke::solid(style::BONDS[kind], width);
+                let stroke = Stroke::solid(style::bond(kind), width);
                 let lines = bonds.ends_of(pair, self.state);
                 // Anchors lie on surfaces that the ellipsoids' middles are behind.
                 let lines = lines.map(|ends| Item::line(ends, stroke).nearer(style::ON_SURFACE_NM));
@@ -94,10 +102,15 @@ impl<'a> Drawn<'a> {
         drawn
     }
 
+    /// Radius of the circle that has the area of the rod's cross-section (nm).
+    pub(in crate::figures) fn rod_radius_nm() -> f64 {
+        let area = actin_sim::rod_constants::CROSS_SECTION_AREA;
+        (area / std::f64::consts::PI).sqrt()
+    }
+
     /// Segments as cylinders of the rod's cross-section, their centre line and their nodes.
     pub(super) fn rods(&self, opacity: f64) -> Vec<Item> {
-        let area = actin_sim::rod_constants::CROSS_SECTION_AREA;
-        let radius = (area / std::f64::consts::PI).sqrt();
+        let radius = Self::rod_radius_nm();
         let mut items = Vec::new();
         for ends in self.segments() {
             let cylinder = Item::new(Solid::Cylinder { ends, radius }, style::rod());
@@ -110,7 +123,7 @@ impl<'a> Drawn<'a> {
                 at: self.place(i),
                 pixels: 3.4,
             };
-            Item::new(dot, style::NODE).nearer(2.0 * radius)
+            Item::new(dot, style::of(|t| t.node)).nearer(2.0 * radius)
         }));
         items
     }
@@ -150,22 +163,22 @@ impl<'a> Drawn<'a> {
         let axes = self.matrix(frame);
         let axis = |k: usize| {
             let ends = [at, at + axes.column(k) * length_nm];
-            let stroke = Stroke::solid(style::AXES[k], 2.0);
+            let stroke = Stroke::solid(style::axis(k), 2.0);
             Item::new(Solid::Arrow { ends, stroke }, stroke.colour).nearer(style::INSIDE_NM)
         };
         [0, 1, 2].map(axis).into()
     }
 
     /// Both ends of a bond of a junction: the monomer's centre, the rod's end (nm, lab frame).
-    pub(super) fn ends_of(&self, bond: &JunctionBond) -> [Vector3; 2] {
+    pub(in crate::figures) fn ends_of(&self, bond: &JunctionBond) -> [Vector3; 2] {
         [bond.monomer, bond.node].map(|i| self.place(i))
     }
 
     /// Bonds of all junctions.
     pub(super) fn junction_bonds(&self, width: f64) -> Vec<Item> {
         let bonds = self.assembly.junction_bonds().into_iter();
-        let edge = Stroke::solid(style::JUNCTION.darker(0.55), width + 2.0);
-        let core = Stroke::solid(style::JUNCTION, width);
+        let edge = Stroke::solid(style::of(|t| t.junction).darker(0.55), width + 2.0);
+        let core = Stroke::solid(style::of(|t| t.junction), width);
         bonds
             .flat_map(|bond| {
                 let ends = self.ends_of(&bond);
@@ -178,19 +191,28 @@ impl<'a> Drawn<'a> {
             .collect()
     }
 
-    /// Walls at clamped ends, across the filament's axis there.
-    pub(super) fn walls(&self, half_nm: f64) -> Vec<Item> {
+    /// Corners of a plate at each clamped end, across the filament's axis there (nm, lab frame).
+    pub(in crate::figures) fn plates(&self, half_nm: f64) -> Vec<[Vector3; 4]> {
         let clamps = self.assembly.clamps.iter();
         clamps
             .map(|clamp| {
                 let about = clamp.point_nm(self.state);
                 let turn = self.turn_from_rest(clamp.frames[0]);
                 let corner = |(x, y): (f64, f64)| about + turn * Vector3::new(x, y, 0.0) * half_nm;
-                let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner);
+                [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner)
+            })
+            .collect()
+    }
+
+    /// Walls at clamped ends.
+    pub(super) fn walls(&self, half_nm: f64) -> Vec<Item> {
+        let plates = self.plates(half_nm).into_iter();
+        plates
+            .map(|corners| {
                 let plate = Solid::Plate {
                     corners: corners.into(),
                 };
-                Item::new(plate, style::WALL).with_opacity(0.75)
+                Item::new(plate, style::of(|t| t.clamp)).with_opacity(0.75)
             })
             .collect()
     }
@@ -202,11 +224,11 @@ impl<'a> Drawn<'a> {
     }
 
     /// Where the force of an end acts, and the force (nm, pN, lab frame).
-    pub(super) fn forces(&self) -> Vec<(Vector3, Vector3)> {
+    pub(in crate::figures) fn forces(&self) -> Vec<(Vector3, Vector3)> {
         let loads = self.assembly.scene.loads.iter();
         loads
             .map(|load| {
-                let Load::EndForce { end, force_pn } = load;
+                let Load::EndForce { end, force_pn, .. } = load;
                 (self.assembly.tip_nm(self.state, *end), (*force_pn).into())
             })
             .collect()
@@ -231,13 +253,13 @@ impl<'a> Drawn<'a> {
                 );
                 let stroke = Stroke {
                     dashed: true,
-                    ..Stroke::solid(style::LINKER, 2.2)
+                    ..Stroke::solid(style::of(|t| t.linker), 2.2)
                 };
                 let dot = |at, pixels, colour| Item::new(Solid::Dot { at, pixels }, colour);
                 [
                     Item::line([site, end], stroke).nearer(style::INSIDE_NM),
-                    dot(site, 3.0, style::LINKER).nearer(2.0 * style::INSIDE_NM),
-                    dot(end, 6.0, style::ANCHOR),
+                    dot(site, 3.0, style::of(|t| t.linker)).nearer(2.0 * style::INSIDE_NM),
+                    dot(end, 6.0, style::of(|t| t.anchor)),
                 ]
             })
             .collect()

@@ -22,8 +22,8 @@ pub(super) fn arrows(drawn: &Drawn<'_>, radius_nm: f64) -> Vec<Item> {
         .flat_map(|stage| &stage.set);
     settings
         .flat_map(|setting| match setting {
-            Setting::Shift { end, shift_nm } => shift(drawn, *end, (*shift_nm).into()),
-            Setting::Turn { end, turn_deg } => turn(drawn, *end, (*turn_deg).into(), radius_nm),
+            Setting::Shift { end, shift_nm, .. } => shift(drawn, *end, (*shift_nm).into()),
+            Setting::Turn { end, turn_deg, .. } => turn(drawn, *end, (*turn_deg).into(), radius_nm),
             // A load is drawn as it acts, an anchor where it ends.
             Setting::LoadFactor { .. } | Setting::Anchor { .. } => Vec::new(),
         })
@@ -59,7 +59,7 @@ fn turn(drawn: &Drawn<'_>, end: End, turn_deg: Vector3, radius_nm: f64) -> Vec<I
         centre + rotation::exp(angle) * Vector3::x() * radius_nm
     };
     let pieces = (0..PIECES - 1).map(|k| {
-        let stroke = Stroke::solid(style::FORCE, 2.2);
+        let stroke = Stroke::solid(style::of(|t| t.force), 2.2);
         Item::line([on_arc(k), on_arc(k + 1)], stroke)
     });
     let head = style::arrow([on_arc(PIECES - 3), on_arc(PIECES)]);

@@ -3,11 +3,11 @@
 use super::filament::Drawn;
 use super::solved::Solved;
 use super::{artefact, style};
+use crate::figures::Run;
 use crate::figures::report::{Artefact, Row};
 use crate::figures::scene3d::{Item, Label, Panel, Sheet, View};
 use actin_mechanics::Vector3;
 use actin_sim::JunctionBond;
-use std::path::Path;
 use std::time::Instant;
 
 const ID: &str = "fig2";
@@ -22,7 +22,7 @@ const OFFSETS: [[[f64; 2]; 2]; 2] = [
 ];
 
 /// Solves the scene, draws its junction and measures it.
-pub(in crate::figures) fn reproduce(out: &Path, _quick: bool) -> Result<Artefact, String> {
+pub(in crate::figures) fn reproduce(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
     let solved = [Solved::new("figure-2/junction")?];
     let sheet = sheet(&solved[0]);

@@ -13,8 +13,11 @@ pub(super) use examples::reproduce as figure3;
 pub(super) use joint::reproduce as figure2;
 pub(super) use models::reproduce as figure1;
 
+pub(in crate::figures) use filament::Drawn;
+
 use super::report::{Artefact, Picture, Row, save};
 use super::scene3d::Sheet;
+use super::viewer::{self, Attitude, Shown, Snapshot};
 use solved::Solved;
 use std::path::Path;
 use std::time::Instant;
@@ -29,12 +32,35 @@ fn artefact(
 ) -> Result<Artefact, String> {
     let file = format!("{id}.svg");
     save(out, &file, &sheet.svg())?;
+    let shown: Vec<Shown> = solved.iter().map(shown).collect();
+    let attitude = if id == "fig1" {
+        Attitude::STANDING
+    } else {
+        Attitude::LYING
+    };
+    let view = viewer::write(id, attitude, &shown, VIEW.into(), out)?;
     Ok(Artefact {
         id,
         title,
         settings: solved::settings(solved),
         rows,
         pictures: vec![Picture { file, caption }],
+        views: vec![view],
         wall_s: started.elapsed().as_secs_f64(),
     })
+}
+
+const VIEW: &str = "The same equilibria, to be turned. Bonds between monomers are left out.";
+
+/// A solved scene under the name of its file.
+fn shown(solved: &Solved) -> Shown {
+    let counts = solved.assembly.counts();
+    let rods = counts.segments as f64;
+    Shown {
+        group: "all".into(),
+        name: solved.name.rsplit('/').next().unwrap_or(solved.name).into(),
+        // Monomers are 2.7 nm apart, segments 10 nm long or less: of what there is more.
+        share: rods / (rods + counts.monomers as f64),
+        snapshot: Snapshot::of(&solved.assembly, solved.assembly.system.state()),
+    }
 }

@@ -4,10 +4,10 @@
 use super::filament::Drawn;
 use super::solved::Solved;
 use super::{artefact, style};
+use crate::figures::Run;
 use crate::figures::report::{Artefact, Row};
 use crate::figures::scene3d::{Item, Label, Panel, Sheet, View};
 use actin_mechanics::Vector3;
-use std::path::Path;
 use std::time::Instant;
 
 const ID: &str = "fig1";
@@ -21,7 +21,7 @@ const WALL_NM: f64 = 6.0;
 const NEAR_NM: [f64; 2] = [20.0, 33.0];
 
 /// Solves the scenes, draws them and says what is seen.
-pub(in crate::figures) fn reproduce(out: &Path, _quick: bool) -> Result<Artefact, String> {
+pub(in crate::figures) fn reproduce(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
     let names = ["figure-1/monomers", "figure-1/coupled", "figure-1/rod"];
     let solved: Vec<Solved> = names

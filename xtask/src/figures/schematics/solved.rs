@@ -85,6 +85,16 @@ impl Solved {
     }
 }
 
+/// Seeds of the bonds that the scenes name.
+fn seeds(solved: &[Solved]) -> String {
+    let seeds = solved
+        .iter()
+        .map(|s| s.assembly.scene.filament.monomers.seed);
+    let unique: std::collections::BTreeSet<u64> = seeds.collect();
+    let words: Vec<String> = unique.iter().map(u64::to_string).collect();
+    words.join(", ")
+}
+
 /// How a figure's states were found.
 pub(super) fn settings(solved: &[Solved]) -> String {
     let names: Vec<String> = solved.iter().map(|s| format!("{}.ron", s.name)).collect();
@@ -93,10 +103,12 @@ pub(super) fn settings(solved: &[Solved]) -> String {
     format!(
         "Scenes scenarios/: {}. Each is drawn in its equilibrium: every force below {:.1e} pN, every \
          torque below {:.1e} pN nm, {stable} of {} certified stable. Places, orientations, semi-axes \
-         and ends of bonds are those of the state; the scale bar holds at the middle of the scene.",
+         and ends of bonds are those of the state; the scale bar holds at the middle of the scene. \
+         Seed of the bonds: {}.",
         names.join(", "),
         worst(|s| s.residual_pn),
         worst(|s| s.residual_pn_nm),
         solved.len(),
+        seeds(solved),
     )
 }

@@ -2,6 +2,7 @@
 
 use super::paper::{Entry, Table, entries};
 use super::statistics::{Sample, sample};
+use crate::figures::Run;
 use actin_sim::measure::{
     Curve, MeasureError, Specimen, Stability, TwistPoint, twist, twist_in_order,
 };
@@ -110,33 +111,36 @@ pub(super) struct Doubts {
 static ENSEMBLE: OnceLock<Result<Ensemble, String>> = OnceLock::new();
 
 /// The ensemble, computed once for the tables that share it.
-pub(super) fn ensemble(quick: bool) -> Result<&'static Ensemble, String> {
+pub(super) fn ensemble(run: Run<'_>) -> Result<&'static Ensemble, String> {
     ENSEMBLE
-        .get_or_init(|| Ensemble::run(quick))
+        .get_or_init(|| Ensemble::run(run))
         .as_ref()
         .map_err(Clone::clone)
 }
 
 impl Ensemble {
-    fn run(quick: bool) -> Result<Self, String> {
+    fn run(
+        Run {
+            quick, progress, ..
+        }: Run<'_>,
+    ) -> Result<Self, String> {
         let turns = turns_deg()?;
         let seeds = if quick { QUICK_SEEDS } else { SEEDS };
         let cases: Vec<(Kind, u64)> = kinds(quick)
             .into_iter()
             .flat_map(|kind| (0..seeds).map(move |seed| (kind, seed)))
             .collect();
-        let progress = indicatif::ProgressBar::new(cases.len() as u64);
+        progress.expect(cases.len());
         let samplings = cases
             .into_par_iter()
             .map(|(kind, seed)| {
                 let curve = kind
                     .twist(seed, &turns)
                     .map_err(|error| format!("{}, seed {seed}: {error}", kind.name()))?;
-                progress.inc(1);
+                progress.done();
                 Ok(Sampling { kind, seed, curve })
             })
             .collect::<Result<_, String>>()?;
-        progress.finish_and_clear();
         Ok(Self { samplings, seeds })
     }
 

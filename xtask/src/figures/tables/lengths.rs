@@ -2,11 +2,11 @@
 
 use super::ensemble::Kind;
 use super::statistics::sample;
+use crate::figures::Run;
 use crate::figures::report::{Row, write_csv};
 use actin_sim::Monomers;
 use actin_sim::measure::{Curve, Specimen, TwistPoint, twist};
 use rayon::prelude::*;
-use std::path::Path;
 
 /// Rises between the inner held monomers; 27 is the length of the tables, 28 the next to it.
 const RISES: [u32; 5] = [14, 27, 28, 55, 109];
@@ -16,14 +16,16 @@ const CURVATURES: [(f64, f64); 4] = [(1e-4, 0.0), (0.0023, 10.0), (0.0185, 80.0)
 const SEEDS: u64 = 8;
 
 /// Measures every length; rows for the secant rigidity, a table with the change of length too.
-pub(super) fn rows(out: &Path) -> Result<Vec<Row>, String> {
+pub(super) fn rows(Run { out, progress, .. }: Run<'_>) -> Result<Vec<Row>, String> {
     let cases: Vec<(u32, u64)> = RISES
         .into_iter()
         .flat_map(|rises| (0..SEEDS).map(move |seed| (rises, seed)))
         .collect();
+    progress.expect(cases.len());
     let curves: Vec<(u32, Curve<TwistPoint>)> = cases
         .into_par_iter()
         .map(|(rises, seed)| Ok((rises, measure(rises, seed)?)))
+        .inspect(|_| progress.done())
         .collect::<Result<_, String>>()?;
     let mut rows = Vec::new();
     let mut lines = Vec::new();

@@ -2,6 +2,8 @@
 
 use super::ensemble::{Kind, RISES};
 use super::statistics::{Sample, sample};
+use crate::figures::Run;
+use crate::figures::progress::Progress;
 use crate::figures::report::write_csv;
 use actin_sim::measure::{
     CouplePoint, Curve, Evidence, ShearPoint, Specimen, StretchPoint, TipForcePoint,
@@ -77,18 +79,24 @@ struct Bent {
 
 impl Measured {
     /// Measures 16 samplings in stretch, 8 in bending and shear; 4 and 2 if `quick`.
-    pub(super) fn run(quick: bool) -> Result<Self, String> {
+    pub(super) fn run(
+        Run {
+            quick, progress, ..
+        }: Run<'_>,
+    ) -> Result<Self, String> {
         let (stretch_seeds, bend_seeds) = if quick { (4, 2) } else { (16, 8) };
-        let stretched: Vec<Stretched> = (0..stretch_seeds)
-            .into_par_iter()
-            .map(stretched)
-            .collect::<Result<_, _>>()?;
+        let seeds: Vec<u64> = (0..stretch_seeds).collect();
         let cases: Vec<(u64, f64)> = (0..bend_seeds)
             .flat_map(|seed| AZIMUTHS_DEG.map(|azimuth| (seed, azimuth)))
             .collect();
+        progress.expect(seeds.len() + cases.len());
+        let stretched: Vec<Stretched> = seeds
+            .into_par_iter()
+            .map(|seed| counted(progress, stretched(seed)))
+            .collect::<Result<_, _>>()?;
         let bent: Vec<Bent> = cases
             .into_par_iter()
-            .map(|(seed, azimuth)| bent(seed, azimuth))
+            .map(|(seed, azimuth)| counted(progress, bent(seed, azimuth)))
             .collect::<Result<_, _>>()?;
         let length = bent[0].couples.length_nm;
         let rod = Specimen::rod(length, None, RodModel::default());
@@ -151,6 +159,12 @@ impl Measured {
         ];
         write_csv(out, "table4_samplings.csv", &header, self.lines.clone())
     }
+}
+
+/// What came out of a run, which is done.
+fn counted<T>(progress: &Progress, outcome: T) -> T {
+    progress.done();
+    outcome
 }
 
 fn stretched(seed: u64) -> Result<Stretched, String> {

@@ -1,5 +1,6 @@
 //! Tables 1 and 2: parameters as published, as the crates hold them, and what follows from them.
 
+use crate::figures::Run;
 use crate::figures::report::{Artefact, Row, write_csv};
 use actin_sim::{Material, Monomers, ellipsoid_constants as monomer, rod_constants as rod};
 use std::f64::consts::PI;
@@ -10,7 +11,7 @@ use std::time::Instant;
 const ROUND_OFF: f64 = 1e-9;
 
 /// Computes Table 1.
-pub(in crate::figures) fn table1(out: &Path, _quick: bool) -> Result<Artefact, String> {
+pub(in crate::figures) fn table1(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
     let mut rows = published_monomers();
     rows.extend(derived_monomers());
@@ -18,7 +19,7 @@ pub(in crate::figures) fn table1(out: &Path, _quick: bool) -> Result<Artefact, S
         "table1",
         "Parameters of the ellipsoid model",
         "The defaults of a scene's monomers against the published numbers, and what follows from \
-         them. Nothing is fitted.",
+         them. Nothing is fitted, nothing is drawn at random.",
         rows,
         out,
         started,
@@ -26,7 +27,7 @@ pub(in crate::figures) fn table1(out: &Path, _quick: bool) -> Result<Artefact, S
 }
 
 /// Computes Table 2.
-pub(in crate::figures) fn table2(out: &Path, _quick: bool) -> Result<Artefact, String> {
+pub(in crate::figures) fn table2(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
     let mut rows = published_rod();
     rows.extend(derived_rod());
@@ -34,7 +35,7 @@ pub(in crate::figures) fn table2(out: &Path, _quick: bool) -> Result<Artefact, S
         "table2",
         "Parameters of the preceding paper's Cosserat rod",
         "The rod that scenes name PrecedingPaper, with a section of 38.5 nm^2; the paper prints \
-         formulas where it gives no number. None of the figures but the stiff cantilever uses it.",
+         formulas where it gives no number. None of the figures but the stiff cantilever uses it. Nothing is drawn at random.",
         rows,
         out,
         started,
@@ -56,6 +57,7 @@ fn finish(
         settings: settings.to_owned(),
         rows,
         pictures: Vec::new(),
+        views: Vec::new(),
         wall_s: started.elapsed().as_secs_f64(),
     })
 }
@@ -244,6 +246,8 @@ fn published_rod() -> Vec<Row> {
             "the paper: 40 to 75 in Table 2, 38.5 in Appendix B; diameters of 5 to 7 nm give 20 to \
              38",
         ),
+        area_of_diameter("least", 5.0).against(40.0, AREA_ROUNDING),
+        area_of_diameter("most", 7.0).against(75.0, AREA_ROUNDING),
         Row::measured(
             "table2",
             "young_modulus",
@@ -272,28 +276,56 @@ fn published_rod() -> Vec<Row> {
     ]
 }
 
+/// Half a unit of the last digit of the areas in Table 2 (nm^2), which end in 0 and 5.
+const AREA_ROUNDING: f64 = 2.5;
+
+/// The circular section of a diameter (nm) that Appendix A names.
+fn area_of_diameter(which: &str, diameter: f64) -> Row {
+    let note = format!(
+        "section of a circle of {diameter} nm, from which Table 2 is said to follow: an erratum"
+    );
+    let area = PI * diameter * diameter / 4.0;
+    Row::measured("table2", format!("area/{which}"), "nm^2", area, note)
+}
+
 fn derived_rod() -> Vec<Row> {
     let rigidities = Material::PrecedingPaper.rigidities();
     let area = rod::CROSS_SECTION_AREA;
     let inertia = area * area / (4.0 * PI);
+    let shear = 4.0 / 3.0 * modulus() * area;
+    let stretch = rod::PRECEDING_PAPER_YOUNG_MODULUS * area;
+    let (bend, twist) = (
+        rod::PRECEDING_PAPER_YOUNG_MODULUS * inertia,
+        2.0 * modulus() * inertia,
+    );
     let row = |name: &str, unit, ours, note: &str| Row::measured("table2", name, unit, ours, note);
     vec![
-        row("i1", "nm^4", inertia, "A^2/4pi; Appendix B rounds to 120"),
+        row(
+            "i1",
+            "nm^4",
+            inertia,
+            "A^2/4pi; Appendix B and Section 4.1 round to 120, tolerance half a digit",
+        )
+        .against(120.0, 5.0),
         row("i3", "nm^4", 2.0 * inertia, "A^2/2pi"),
-        row("s1", "pN", rigidities.shear.x, "4 G A/3"),
-        row("s3", "pN", rigidities.shear.z, "E A"),
+        row("s1", "pN", rigidities.shear.x, "the paper gives 4 G A/3")
+            .against(shear, ROUND_OFF * shear),
+        row("s3", "pN", rigidities.shear.z, "the paper gives E A")
+            .against(stretch, ROUND_OFF * stretch),
         row(
             "b1",
             "pN nm^2",
             rigidities.bend.x,
-            "E I1: six times the 3.9e4 of Table 4",
-        ),
+            "the paper gives E I1: six times the 3.9e4 of Table 4",
+        )
+        .against(bend, ROUND_OFF * bend),
         row(
             "b3",
             "pN nm^2",
             rigidities.bend.z,
-            "G I3: thirteen times the 1.3e4 of Appendix B",
-        ),
+            "the paper gives G I3: thirteen times the 1.3e4 of Appendix B",
+        )
+        .against(twist, ROUND_OFF * twist),
     ]
 }
 

@@ -2,7 +2,8 @@
 
 use super::ensemble::{Ensemble, Kind};
 use super::paper::{Entry, Table};
-use crate::figures::plot::{Chart, Series, draw as draw_chart, resolution_colour};
+use crate::figures::palette;
+use crate::figures::plot::{Chart, Series, draw as draw_chart};
 use crate::figures::report::Picture;
 use actin_sim::Anchors;
 use plotters::style::RGBColor;
@@ -10,7 +11,6 @@ use std::path::Path;
 
 /// Half the width of the cap of an error bar (rad/nm).
 const CAP: f64 = 3.5e-4;
-const PAPER: RGBColor = RGBColor(20, 20, 20);
 
 /// Draws the default kind with error bars, and all kinds if there are more.
 pub(super) fn draw(
@@ -36,14 +36,16 @@ pub(super) fn draw(
         ),
     )?];
     if ensemble.kinds().len() > 2 {
+        let [few, many] = palette::chosen().end_names();
         pictures.push(save(
             table,
             &out.join(format!("{}_bonds.svg", table.id())),
             &format!("{symbol} for other numbers and patterns of bonds"),
             of_kinds(table, ensemble, entries),
-            "Means for 12 (red) to 160 (blue) independent bonds, and mean with 2 sd for one \
-             pattern of 40 bonds on all interfaces (grey)."
-                .into(),
+            format!(
+                "Means for 12 ({few}) to 160 ({many}) independent bonds, and mean with 2 sd for one \
+                 pattern of 40 bonds on all interfaces (grey)."
+            ),
         )?);
     }
     Ok(pictures)
@@ -76,18 +78,22 @@ fn save(
 }
 
 fn of_default(table: Table, ensemble: &Ensemble, entries: &[Entry]) -> Vec<Series> {
-    let blue = resolution_colour(1.0);
+    let blue = palette::resolution(1.0);
     let mut series = bars(table, ensemble, Kind::DEFAULT, entries, blue);
     let mean = means(table, ensemble, Kind::DEFAULT, entries);
     series.push(line("mean, 2 sd", blue, mean));
     let back = means(table, ensemble, Kind::RETURNING, entries);
-    series.push(line("mean, on the way back", resolution_colour(0.75), back));
+    series.push(line(
+        "mean, on the way back",
+        palette::resolution(0.75),
+        back,
+    ));
     let seed_0 = entries.iter().filter_map(|entry| {
         let points = ensemble.points(Kind::DEFAULT, entry);
         let (_, point) = points.into_iter().find(|(seed, _)| *seed == 0)?;
         Some((entry.curvature, super::ensemble::value(&point, table)))
     });
-    series.push(line("seed 0", resolution_colour(0.25), seed_0.collect()));
+    series.push(line("seed 0", palette::resolution(0.25), seed_0.collect()));
     series.extend(paper(entries));
     series
 }
@@ -98,7 +104,7 @@ fn of_kinds(table: Table, ensemble: &Ensemble, entries: &[Entry]) -> Vec<Series>
         bonds: 40,
         returning: false,
     };
-    let grey = RGBColor(130, 130, 130);
+    let grey = palette::GREY;
     let mut series = bars(table, ensemble, pattern, entries, grey);
     let mean = means(table, ensemble, pattern, entries);
     series.push(line("one pattern of 40", grey, mean));
@@ -108,7 +114,7 @@ fn of_kinds(table: Table, ensemble: &Ensemble, entries: &[Entry]) -> Vec<Series>
         .filter(|kind| kind.anchors == Anchors::Independent && !kind.returning)
         .collect();
     for (i, kind) in independent.iter().enumerate() {
-        let colour = resolution_colour(i as f64 / (independent.len() - 1).max(1) as f64);
+        let colour = palette::resolution(i as f64 / (independent.len() - 1).max(1) as f64);
         let label = format!("{} independent", kind.bonds);
         series.push(line(&label, colour, means(table, ensemble, *kind, entries)));
     }
@@ -179,8 +185,8 @@ fn scaled(series: Series, table: Table) -> Series {
 /// The paper's entries as dots.
 fn paper(entries: &[Entry]) -> [Series; 2] {
     [
-        (true, "paper", PAPER),
-        (false, "paper, unreliable", RGBColor(165, 165, 165)),
+        (true, "paper", palette::DATA),
+        (false, "paper, unreliable", palette::LIGHT_GREY),
     ]
     .map(|(reliable, label, colour)| Series {
         label: Some(label.to_owned()),

@@ -5,10 +5,10 @@ use super::loads::{AZIMUTHS_DEG, CURVATURES, Measured, PULL_PN};
 use super::paper::{Table, entries};
 use super::parameters::write_rows;
 use super::statistics::Sample;
+use crate::figures::Run;
 use crate::figures::html::significant;
 use crate::figures::report::{Artefact, Row};
 use actin_sim::{Monomers, ellipsoid_constants as monomer};
-use std::path::Path;
 use std::time::Instant;
 
 /// Share of S3 = 3.4e4 pN by which the mean may be off.
@@ -25,34 +25,35 @@ const B3_MIN: f64 = 9.6e3;
 const B3_MAX: f64 = 1.6e4;
 
 /// Computes Table 4.
-pub(in crate::figures) fn table4(out: &Path, quick: bool) -> Result<Artefact, String> {
+pub(in crate::figures) fn table4(run: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
-    let ensemble = ensemble(quick)?;
-    let measured = Measured::run(quick)?;
+    let ensemble = ensemble(run)?;
+    let measured = Measured::run(run)?;
     let mut rows = stretching(&measured);
     rows.extend(bending(&measured));
     rows.extend(shearing(&measured));
     rows.extend(twisting(ensemble)?);
     rows.extend(interfaces());
     rows.extend(persistence(&measured));
-    write_rows("table4", &rows, out)?;
-    measured.write(out)?;
+    write_rows("table4", &rows, run.out)?;
+    measured.write(run.out)?;
     Ok(Artefact {
         id: "table4",
         title: "Rigidities of the multi-resolution model, measured on the monomers",
         settings: settings(&measured),
         rows,
         pictures: Vec::new(),
+        views: Vec::new(),
         wall_s: started.elapsed().as_secs_f64(),
     })
 }
 
 fn settings(measured: &Measured) -> String {
     format!(
-        "64 independent bonds per interface. Stretch: {} samplings, {:.2} nm, turn blocked. \
+        "64 independent bonds per interface. Stretch: {} samplings (seeds from 0), {:.2} nm, turn blocked. \
          Bending and shear: {} samplings at azimuths {AZIMUTHS_DEG:?} deg, {:.2} nm, both ends \
          held in orientation, the far one slides freely. Two monomers are held at each end; \
-         lengths are those between the inner ones. {} of {} states are not stable beyond doubt; \
+         lengths are those between the inner ones. Seeds count from 0. {} of {} states are not stable beyond doubt; \
          {} loads were not reached.",
         measured.stretch_samplings,
         RISES * Monomers::default().rise_nm,

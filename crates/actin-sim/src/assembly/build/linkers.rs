@@ -1,9 +1,9 @@
 //! From a scene's linkers to sites on what resolves them.
 
-use super::{Body, Builder};
+use super::{Body, Builder, Strand};
 use crate::assembly::Part;
 use crate::assembly::lattice::Resolved;
-use crate::scene::{self, Problem};
+use crate::scene::{self, LinkerSite, Problem};
 use actin_cosserat::RodLayout;
 use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, Site};
 use actin_ellipsoid::Monomers;
@@ -16,12 +16,15 @@ const NODE_TOLERANCE_NM: f64 = 1e-9;
 const SHUT_NM: f64 = 1e-9;
 
 impl Builder<'_> {
-    /// Pushes the linkers, the controls of each anchor behind those of the loads.
+    /// Pushes the linkers, three controls of each behind those of the loads: those of its anchor,
+    /// without effect where it has none.
     pub(super) fn push_linkers(&mut self) -> Result<(), Problem> {
         for (i, linker) in self.scene.linkers.iter().enumerate() {
-            let linker = self.linker(i, linker, self.state.controls.len())?;
-            self.state.controls.extend([0.0; 3]);
-            self.push_term(Box::new(linker.clone()), Part::Linker(i));
+            let control = self.stock.state.controls.len();
+            self.stock.state.controls.extend([0.0; 3]);
+            let linker = self.linker(i, linker, control)?;
+            self.stock
+                .push_term(Box::new(linker.clone()), Part::Linker(i));
             self.linkers.push(linker);
         }
         Ok(())
@@ -30,66 +33,80 @@ impl Builder<'_> {
     /// Linker `i` of a scene, whose anchor is moved by three controls from `control` on.
     ///
     /// # Errors
-    /// A linker that would have a direction but has none, its anchor standing at its site.
+    /// A linker that would have a direction but has none, both ends standing at one place.
     fn linker(&self, i: usize, linker: &scene::Linker, control: usize) -> Result<Linker, Problem> {
         let refused =
             |error: LinkerError| Problem::new(format!("linkers[{i}]"), "", error.to_string());
-        let site = self.site(linker).map_err(refused)?;
-        let at = site.position(&self.state);
-        let place = match (linker.anchor_nm, linker.displaced_nm) {
-            (Some(place), _) => Vector3::from(place),
-            (None, displaced) => at + displaced.map_or_else(Vector3::zeros, Vector3::from),
+        let site = self.site(&linker.site()).map_err(refused)?;
+        let end = match &linker.to {
+            Some(other) => LinkerEnd::Site(self.site(other).map_err(refused)?),
+            None => LinkerEnd::Anchor(Anchor {
+                position: self.anchor(linker, &site),
+                control: Some(control),
+            }),
         };
-        if linker.rest_length_nm > 0.0 && (place - at).norm() < SHUT_NM {
-            let key = linker.anchor_key();
-            let value = linker.anchor_nm.or(linker.displaced_nm);
+        let (stiffness, rest_length) = (linker.stiffness_pn_per_nm, linker.rest_length_nm);
+        let built = Linker::new(site, end, stiffness, rest_length).map_err(refused)?;
+        let length = built.extension(&self.stock.state) + rest_length;
+        if rest_length > 0.0 && length < SHUT_NM {
+            let value = linker.anchor();
             return Err(Problem::new(
-                format!("linkers[{i}].{key}"),
+                format!("linkers[{i}].{}", linker.end_key()),
                 value.map_or_else(String::new, |v| format!("{v:?}")),
                 "stands at the site: a linker with a rest length needs a direction",
             ));
         }
-        let anchor = LinkerEnd::Anchor(Anchor {
-            position: place,
-            control: Some(control),
-        });
-        let (stiffness, rest_length) = (linker.stiffness_pn_per_nm, linker.rest_length_nm);
-        Linker::new(site, anchor, stiffness, rest_length).map_err(refused)
+        Ok(built)
     }
 
-    /// The site at the arc length, radius and azimuth of a linker.
-    fn site(&self, linker: &scene::Linker) -> Result<Site, LinkerError> {
-        let s_nm = linker.at_nm;
+    /// Where the anchor of a linker from `site` stands (nm, lab frame).
+    fn anchor(&self, linker: &scene::Linker, site: &Site) -> Vector3 {
+        let displaced = |d: [f64; 3]| site.position(&self.stock.state) + Vector3::from(d);
+        let place = linker.anchor_nm.map(Vector3::from);
+        place.unwrap_or_else(|| displaced(linker.displaced_nm.unwrap_or_default()))
+    }
+
+    /// The site at an arc length, radius and azimuth of a filament.
+    fn site(&self, at: &LinkerSite) -> Result<Site, LinkerError> {
+        let strand = &self.strands[at.filament];
+        let s_nm = at.at_nm;
         // A boundary belongs to the section before it; what monomers leave over at the end, to the
         // last section.
         let within = |r: &Resolved| s_nm <= r.to_nm;
-        let last = self.resolved.len() - 1;
-        let section = self.resolved.iter().position(within).unwrap_or(last);
-        let azimuth = linker.azimuth_deg.to_radians();
-        match &self.bodies[section] {
+        let last = strand.resolved.len() - 1;
+        let section = strand.resolved.iter().position(within).unwrap_or(last);
+        let azimuth = at.azimuth_deg.to_radians();
+        match &strand.bodies[section] {
             Body::Rod(layout) => {
-                let place = on_segment(layout, s_nm - self.resolved[section].from_nm);
-                Site::on_rod(layout, place, linker.radius_nm, azimuth)
+                let place = on_segment(layout, s_nm - strand.resolved[section].from_nm);
+                Site::on_rod(layout, place, at.radius_nm, azimuth)
             }
             Body::Monomers(monomers) => {
                 let (sin, cos) = azimuth.sin_cos();
-                let radius = linker.radius_nm;
-                self.on_monomer(monomers, Vector3::new(radius * cos, radius * sin, s_nm))
+                let place = Vector3::new(at.radius_nm * cos, at.radius_nm * sin, s_nm);
+                self.on_monomer(strand, monomers, place)
             }
         }
     }
 
-    /// The site at a place of the filament as built (nm, lab frame), fixed in the nearest monomer.
-    fn on_monomer(&self, monomers: &Monomers, place: Vector3) -> Result<Site, LinkerError> {
-        let distance = |k: usize| (self.lattice.s_nm(monomers.index(k)) - place.z).abs();
+    /// The site at a place of a filament, seen as if it were along lab +z from the origin (nm),
+    /// fixed in the nearest monomer.
+    fn on_monomer(
+        &self,
+        strand: &Strand<'_>,
+        monomers: &Monomers,
+        place: Vector3,
+    ) -> Result<Site, LinkerError> {
+        let distance = |k: usize| (strand.lattice.s_nm(monomers.index(k)) - place.z).abs();
         // The first of equals: of two monomers equally near the lower one.
         let nearest = (0..monomers.count)
             .min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
             .expect("a section has at least two monomers");
         let (point, frame) = (monomers.point(nearest), monomers.frame(nearest));
-        let centre = self.state.points.position.get(point);
-        let q = self.state.frames.orientation.get(frame);
-        Site::on_monomer(point, frame, q.inverse_transform_vector(&(place - centre)))
+        let state = &self.stock.state;
+        let arm = strand.place(place) - state.points.position.get(point);
+        let q = state.frames.orientation.get(frame);
+        Site::on_monomer(point, frame, q.inverse_transform_vector(&arm))
     }
 }
 

@@ -1,23 +1,40 @@
 //! Which stretch of the filament each element of an interaction spans.
 
-use super::{Body, Builder};
+use super::{Body, Builder, Strand};
 use crate::assembly::Part;
 use actin_cosserat::{RodEnd, RodLayout};
 use actin_ellipsoid::{InterfaceKind, Monomers};
 
 impl Builder<'_> {
     /// Arc lengths (nm) from where to where each element of each term reaches, in their order;
-    /// empty for what is no part of the filament.
+    /// empty for what is no part of a filament.
     pub(super) fn spans(&self) -> Vec<Vec<[f64; 2]>> {
+        let strand_of = |section: usize| {
+            let past = self.strands.partition_point(|s| s.first_section <= section);
+            let strand = &self.strands[past - 1];
+            (strand, section - strand.first_section)
+        };
         let of = |part: Part| match part {
-            Part::Section(i) => match &self.bodies[i] {
-                Body::Rod(layout) => rod(layout, self.resolved[i].from_nm),
-                Body::Monomers(monomers) => self.interfaces(monomers),
-            },
-            Part::Junction(i) => self.junction_bonds(i),
+            Part::Section(section) => {
+                let (strand, i) = strand_of(section);
+                strand.section_spans(i)
+            }
+            Part::Junction(section) => {
+                let (strand, i) = strand_of(section);
+                strand.junction_bonds(i)
+            }
             Part::Load(_) | Part::Linker(_) => Vec::new(),
         };
-        self.terms.iter().map(|term| of(term.part)).collect()
+        self.stock.terms.iter().map(|term| of(term.part)).collect()
+    }
+}
+
+impl Strand<'_> {
+    fn section_spans(&self, i: usize) -> Vec<[f64; 2]> {
+        match &self.bodies[i] {
+            Body::Rod(layout) => rod(layout, self.resolved[i].from_nm),
+            Body::Monomers(monomers) => self.interfaces(monomers),
+        }
     }
 
     /// From monomer to monomer: for each lower one the lateral, then the longitudinal interface.

@@ -1,12 +1,13 @@
 //! The numbers of a summary, from the last record of a run.
 
 use super::{
-    EndReaction, EndReactions, EnergySummary, LinkerSummary, ResidualSummary, RunStatus,
-    ShapeSummary, StabilitySummary, Summary, WorkSummary,
+    EndReaction, EndReactions, EnergySummary, FilamentSummary, LinkerSummary, ResidualSummary,
+    RunStatus, ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
 };
 use crate::results::energies::{Totals, distinct, sum_where};
+use crate::scene;
 use crate::shape::{self, Ribbon};
-use crate::{Assembly, End, Reaction, Record, RunReport};
+use crate::{Assembly, End, Part, Reaction, Record, RunReport, Term};
 use actin_coupling::Linker;
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, State, Vector3};
@@ -14,33 +15,29 @@ use actin_mechanics::{Loads, State, Vector3};
 impl Summary {
     /// The summary of a run of `assembly` that ended with the record `last`.
     pub fn new(assembly: &Assembly, last: &Record, report: &RunReport) -> Self {
-        let tip = reported_tip(assembly);
         let equilibrium = report.equilibrium.as_ref();
-        let tip_nm = assembly.tip_nm(&last.state, tip);
-        let tip_at_rest_nm = assembly.tip_nm(&assembly.rest, tip);
+        let filaments = FilamentSummary::all(assembly, last);
+        let first = &filaments[0];
         Self {
             scene: assembly.scene.title.clone(),
-            status: match (report.failed, report.converged) {
-                (true, _) => RunStatus::Failed,
-                (false, true) => RunStatus::Converged,
-                (false, false) => RunStatus::Completed,
-            },
+            status: RunStatus::of(report),
             counts: assembly.counts(),
             time_ns: last.time_ns,
             time_step_ns: report.time_step_ns,
             largest_frequency_rad_per_ns: report.largest_frequency_rad_per_ns,
             stability: equilibrium.map(|e| StabilitySummary::new(&e.certificate)),
             energy_pn_nm: EnergySummary::new(assembly, last),
-            tip_nm: tip_nm.into(),
-            tip_displacement_nm: (tip_nm - tip_at_rest_nm).into(),
-            end_reactions: EndReactions::new(assembly, &last.state),
+            tip_nm: first.tip_nm,
+            tip_displacement_nm: first.tip_displacement_nm,
+            end_reactions: first.end_reactions,
             beyond_range: assembly.beyond_range(&last.state),
             linkers: LinkerSummary::all(assembly, &last.state),
-            shape: ShapeSummary::new(assembly, last),
+            shape: first.shape,
             residual: ResidualSummary {
                 force_pn: last.residual_force_pn,
                 torque_pn_nm: last.residual_torque_pn_nm,
             },
+            thermal: ThermalSummary::new(assembly, std::slice::from_ref(last)),
             lowest_stiffness_eigenvalue: equilibrium.and_then(|e| e.lowest_eigenvalue),
             work: WorkSummary {
                 steps: report.steps,
@@ -49,7 +46,53 @@ impl Summary {
             },
             wall_s: report.wall_s,
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            seed: assembly.scene.filament.monomers.seed,
+            seed: first.seed,
+            filaments,
+        }
+    }
+}
+
+impl FilamentSummary {
+    fn all(assembly: &Assembly, last: &Record) -> Vec<Self> {
+        // The system's own loads belong to its present state, which need not be the record's.
+        let mut loads = Loads::zeros(&last.state);
+        for interaction in assembly.system.interactions() {
+            interaction.add_loads(&last.state, &mut loads);
+        }
+        let filaments = 0..assembly.filaments.len();
+        filaments
+            .map(|filament| Self::new(assembly, filament, last, &loads))
+            .collect()
+    }
+
+    fn new(assembly: &Assembly, filament: usize, last: &Record, loads: &Loads) -> Self {
+        let tip = reported_tip(assembly, filament);
+        let tip_nm = assembly.tip_of(filament, &last.state, tip);
+        let tip_at_rest_nm = assembly.tip_of(filament, &assembly.rest, tip);
+        let sections = &assembly.filaments[filament].sections;
+        let is_part = |term: &Term| match term.part {
+            Part::Section(i) | Part::Junction(i) => sections.contains(&i),
+            Part::Load(_) | Part::Linker(_) => false,
+        };
+        Self {
+            counts: assembly.counts_of(filament),
+            tip_nm: tip_nm.into(),
+            tip_displacement_nm: (tip_nm - tip_at_rest_nm).into(),
+            end_reactions: EndReactions::new(assembly, filament, &last.state, loads),
+            elastic_pn_nm: sum_where(&assembly.terms, last, is_part),
+            shape: ShapeSummary::new(assembly, filament, last),
+            seed: assembly.monomers_of(filament).seed,
+        }
+    }
+}
+
+impl RunStatus {
+    fn of(report: &RunReport) -> Self {
+        match (report.interrupted, report.failed, report.converged) {
+            (true, ..) => Self::Interrupted,
+            (_, true, _) => Self::Failed,
+            (.., true) => Self::Converged,
+            _ => Self::Completed,
         }
     }
 }
@@ -85,15 +128,10 @@ impl EnergySummary {
 }
 
 impl EndReactions {
-    fn new(assembly: &Assembly, state: &State) -> Self {
-        // The system's own loads belong to its present state, which need not be the record's.
-        let mut loads = Loads::zeros(state);
-        for interaction in assembly.system.interactions() {
-            interaction.add_loads(state, &mut loads);
-        }
+    fn new(assembly: &Assembly, filament: usize, state: &State, loads: &Loads) -> Self {
         let at = |end| {
-            let clamp = assembly.clamps.iter().find(|clamp| clamp.end == end)?;
-            Some(clamp.reaction(state, &loads).into())
+            let clamp = assembly.clamp_at(filament, end)?;
+            Some(clamp.reaction(state, loads).into())
         };
         Self {
             start: at(End::Start),
@@ -103,12 +141,12 @@ impl EndReactions {
 }
 
 impl ShapeSummary {
-    fn new(assembly: &Assembly, record: &Record) -> Self {
-        let ribbon = Ribbon::new(assembly, &record.state);
+    fn new(assembly: &Assembly, filament: usize, record: &Record) -> Self {
+        let ribbon = Ribbon::of(assembly, filament, &record.state);
         Self {
             twist_turns: ribbon.twist(),
             writhe: ribbon.writhe(),
-            link_turns: shape::link(assembly, record.time_ns),
+            link_turns: shape::link_of(assembly, filament, record.time_ns),
             largest_distance_nm: ribbon.largest_distance_nm(),
         }
     }
@@ -116,12 +154,17 @@ impl ShapeSummary {
 
 impl LinkerSummary {
     fn all(assembly: &Assembly, state: &State) -> Vec<Self> {
-        let linkers = assembly.linkers.iter();
-        linkers.map(|linker| Self::new(linker, state)).collect()
+        let written = &assembly.scene.linkers;
+        let linkers = written.iter().zip(&assembly.linkers);
+        linkers
+            .map(|(written, linker)| Self::new(written, linker, state))
+            .collect()
     }
 
-    fn new(linker: &Linker, state: &State) -> Self {
+    fn new(written: &scene::Linker, linker: &Linker, state: &State) -> Self {
         Self {
+            filament: written.filament,
+            to_filament: written.to.map(|site| site.filament),
             site_nm: linker.site().position(state).into(),
             anchor_nm: linker.end_position(state).into(),
             force_pn: linker.force(state).into(),
@@ -141,8 +184,8 @@ impl From<Reaction> for EndReaction {
 }
 
 /// The end whose tip is reported: the last, unless it is clamped and the first is free.
-fn reported_tip(assembly: &Assembly) -> End {
-    let is_clamped = |end| assembly.clamps.iter().any(|clamp| clamp.end == end);
+fn reported_tip(assembly: &Assembly, filament: usize) -> End {
+    let is_clamped = |end| assembly.clamp_at(filament, end).is_some();
     if is_clamped(End::End) && !is_clamped(End::Start) {
         End::Start
     } else {
@@ -251,6 +294,33 @@ mod tests {
         let at_rest = assembly.linkers[0].site().position(&assembly.rest);
         assert!((Vector3::from(linker.site_nm) - at_rest).norm() > 1e-3);
         assert!(last.energies_pn_nm.len() == assembly.terms.len());
+    }
+
+    /// Each filament has its own tip, counts and energy; what linkers store belongs to none, and the
+    /// keys of the whole are those of filament 0.
+    #[test]
+    fn filaments_are_reported_one_by_one() {
+        let assembly = fixture::pair();
+        let (last, summary) = last_summary(&assembly);
+        let [first, second] = &summary.filaments[..] else {
+            panic!("two filaments, found {}", summary.filaments.len());
+        };
+        let tip = last.state.points.position.get(assembly.points.len() - 1);
+        assert_eq!(Vector3::from(second.tip_nm), tip);
+        assert_eq!((summary.tip_nm, summary.shape), (first.tip_nm, first.shape));
+        assert!(first.end_reactions.start.is_some() && second.end_reactions.start.is_none());
+        let (all, one, other) = (summary.counts, first.counts, second.counts);
+        assert_eq!(all.monomers, one.monomers + other.monomers);
+        assert_eq!(all.bonds, one.bonds + other.bonds);
+        assert_eq!(all.segments, one.segments + other.segments);
+        assert_eq!(all.junctions, one.junctions + other.junctions);
+        assert_eq!(all.dofs, one.dofs + other.dofs);
+        let energy = &summary.energy_pn_nm;
+        let parts = first.elastic_pn_nm + second.elastic_pn_nm + energy.terms["linker"];
+        // A few additions in another order.
+        assert!((parts / energy.elastic - 1.0).abs() < 1e-13);
+        let linker = &summary.linkers[0];
+        assert_eq!((linker.filament, linker.to_filament), (1, Some(0)));
     }
 
     #[test]

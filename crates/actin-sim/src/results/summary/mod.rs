@@ -1,6 +1,9 @@
 //! `summary.json`: the last record of a run in numbers.
 
 mod compute;
+mod thermal;
+
+pub use thermal::ThermalSummary;
 
 use super::{RunDirectoryError, finite::ensure_finite};
 use crate::{BeyondRange, Counts};
@@ -27,23 +30,29 @@ pub struct Summary {
     pub stability: Option<StabilitySummary>,
     /// Energies.
     pub energy_pn_nm: EnergySummary,
-    /// Position of the tip (nm, lab frame): that of the filament's end, or that of its start if
+    /// Position of the tip of filament 0 (nm, lab frame): that of its end, or that of its start if
     /// the end is clamped and the start is free.
     pub tip_nm: [f64; 3],
-    /// Displacement of the tip from the state as built (nm, lab frame).
+    /// Displacement of that tip from the state as built (nm, lab frame).
     pub tip_displacement_nm: [f64; 3],
-    /// What holds the clamped ends.
+    /// What holds the clamped ends of filament 0.
     pub end_reactions: EndReactions,
+    /// The same of every filament, in the order of the scene.
+    #[serde(default)]
+    pub filaments: Vec<FilamentSummary>,
     /// Where rods left the data behind their laws, the worst of all records in a run's summary (of
     /// the last record in one computed alone); there the numbers rest on the laws' continuation.
     pub beyond_range: Vec<BeyondRange>,
     /// What the linkers do, in the order of the scene.
     #[serde(default)]
     pub linkers: Vec<LinkerSummary>,
-    /// Twist, writhe, link and distance from the axis.
+    /// Twist, writhe, link and distance from the axis of filament 0.
     pub shape: ShapeSummary,
     /// How far from an equilibrium the last record is.
     pub residual: ResidualSummary,
+    /// Thermal motion; none unless the scene has a temperature.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thermal: Option<ThermalSummary>,
     /// Lowest eigenvalue of the stiffness; none unless an equilibrium was asked for it.
     pub lowest_stiffness_eigenvalue: Option<f64>,
     /// What the run cost in work.
@@ -52,7 +61,27 @@ pub struct Summary {
     pub wall_s: f64,
     /// Version of this crate.
     pub version: String,
-    /// Seed of the bond anchors.
+    /// Seed of the bond anchors of filament 0.
+    pub seed: u64,
+}
+
+/// What one filament of a scene ended with.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FilamentSummary {
+    /// Number of its bodies and elements.
+    #[serde(with = "CountKeys")]
+    pub counts: Counts,
+    /// Position of its tip (nm, lab frame).
+    pub tip_nm: [f64; 3],
+    /// Displacement of its tip from the state as built (nm, lab frame).
+    pub tip_displacement_nm: [f64; 3],
+    /// What holds its clamped ends.
+    pub end_reactions: EndReactions,
+    /// Elastic energy of its sections and junctions (pN nm); linkers belong to no filament.
+    pub elastic_pn_nm: f64,
+    /// Its shape.
+    pub shape: ShapeSummary,
+    /// Seed of its bond anchors.
     pub seed: u64,
 }
 
@@ -66,6 +95,8 @@ pub enum RunStatus {
     Completed,
     /// The run broke off; the record is the last good one.
     Failed,
+    /// The run was left and can be resumed; the record is the last one made.
+    Interrupted,
 }
 
 /// What the eigenvalues of the stiffness say of an equilibrium.
@@ -134,11 +165,17 @@ pub struct ShapeSummary {
 /// What a linker does.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LinkerSummary {
+    /// Index of the filament that has the site.
+    #[serde(default)]
+    pub filament: usize,
+    /// Index of the filament that has the site at the other end; none if that is an anchor.
+    #[serde(default)]
+    pub to_filament: Option<usize>,
     /// Position of the site (nm, lab frame).
     pub site_nm: [f64; 3],
-    /// Position of the anchor (nm, lab frame).
+    /// Position of the other end: of the anchor, or of the other site (nm, lab frame).
     pub anchor_nm: [f64; 3],
-    /// Force on the filament (pN, lab frame).
+    /// Force on the filament at the site (pN, lab frame); the opposite acts at the other end.
     pub force_pn: [f64; 3],
     /// Length beyond the rest length (nm); negative where the linker is shorter.
     pub extension_nm: f64,
@@ -184,8 +221,11 @@ impl Summary {
         for (key, value) in self.scalars() {
             ensure_finite(file, &key, &[], [value])?;
         }
-        for (key, vector) in self.vectors() {
+        for (key, vector) in vectors(self.tip_nm, self.tip_displacement_nm, &self.end_reactions) {
             ensure_finite(file, key, &[3], vector)?;
+        }
+        for (i, filament) in self.filaments.iter().enumerate() {
+            filament.ensure_finite(file, &format!("filaments[{i}]"))?;
         }
         for (i, linker) in self.linkers.iter().enumerate() {
             linker.ensure_finite(file, &format!("linkers[{i}]"))?;
@@ -221,27 +261,48 @@ impl Summary {
                 .into_iter()
                 .filter_map(|(k, v)| Some((k.to_owned(), v?))),
         );
+        let thermal = self.thermal.map(|thermal| thermal.kinetic_temperature_k);
+        let key = "thermal.kinetic_temperature_k".to_owned();
+        scalars.extend(thermal.map(|kelvin| (key, kelvin)));
         scalars.extend(self.shape.scalars());
         let eigenvalue = self.lowest_stiffness_eigenvalue.into_iter();
         scalars.extend(eigenvalue.map(|value| ("lowest_stiffness_eigenvalue".to_owned(), value)));
         scalars
     }
+}
 
-    fn vectors(&self) -> Vec<(&'static str, [f64; 3])> {
-        let mut vectors = vec![
-            ("tip_nm", self.tip_nm),
-            ("tip_displacement_nm", self.tip_displacement_nm),
-        ];
-        if let Some(start) = self.end_reactions.start {
-            vectors.push(("end_reactions.start.force_pn", start.force_pn));
-            vectors.push(("end_reactions.start.torque_pn_nm", start.torque_pn_nm));
+impl FilamentSummary {
+    fn ensure_finite(&self, file: &str, key: &str) -> Result<(), RunDirectoryError> {
+        for (name, vector) in vectors(self.tip_nm, self.tip_displacement_nm, &self.end_reactions) {
+            ensure_finite(file, &format!("{key}.{name}"), &[3], vector)?;
         }
-        if let Some(end) = self.end_reactions.end {
-            vectors.push(("end_reactions.end.force_pn", end.force_pn));
-            vectors.push(("end_reactions.end.torque_pn_nm", end.torque_pn_nm));
+        let energy = ("elastic_pn_nm".to_owned(), self.elastic_pn_nm);
+        for (name, value) in self.shape.scalars().chain([energy]) {
+            ensure_finite(file, &format!("{key}.{name}"), &[], [value])?;
         }
-        vectors
+        Ok(())
     }
+}
+
+/// Vectors of a filament under their keys.
+fn vectors(
+    tip_nm: [f64; 3],
+    tip_displacement_nm: [f64; 3],
+    reactions: &EndReactions,
+) -> Vec<(&'static str, [f64; 3])> {
+    let mut vectors = vec![
+        ("tip_nm", tip_nm),
+        ("tip_displacement_nm", tip_displacement_nm),
+    ];
+    if let Some(start) = reactions.start {
+        vectors.push(("end_reactions.start.force_pn", start.force_pn));
+        vectors.push(("end_reactions.start.torque_pn_nm", start.torque_pn_nm));
+    }
+    if let Some(end) = reactions.end {
+        vectors.push(("end_reactions.end.force_pn", end.force_pn));
+        vectors.push(("end_reactions.end.torque_pn_nm", end.torque_pn_nm));
+    }
+    vectors
 }
 
 impl ShapeSummary {
@@ -287,7 +348,7 @@ mod tests {
         Summary::new(&assembly, &last, &fixture::report())
     }
 
-    const KEYS: [&str; 39] = [
+    const KEYS: [&str; 48] = [
         "/scene",
         "/status",
         "/counts/monomers",
@@ -311,6 +372,15 @@ mod tests {
         "/shape/writhe",
         "/shape/link_turns",
         "/shape/largest_distance_nm",
+        "/filaments/0/counts/monomers",
+        "/filaments/0/tip_nm/2",
+        "/filaments/0/tip_displacement_nm/2",
+        "/filaments/0/end_reactions/start/force_pn/2",
+        "/filaments/0/elastic_pn_nm",
+        "/filaments/0/shape/twist_turns",
+        "/filaments/0/seed",
+        "/linkers/0/filament",
+        "/linkers/0/to_filament",
         "/linkers/0/site_nm/2",
         "/linkers/0/anchor_nm/2",
         "/linkers/0/force_pn/2",

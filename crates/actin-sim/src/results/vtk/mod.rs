@@ -66,7 +66,7 @@ impl<'a> Drawing<'a> {
         })
     }
 
-    fn fixed_arrays(&self) -> [Array; 4] {
+    fn fixed_arrays(&self) -> [Array; 5] {
         let points = &self.assembly.points;
         let section = |i: &Option<usize>| i.map_or(-1, poly_data::to_i64);
         [
@@ -80,6 +80,7 @@ impl<'a> Drawing<'a> {
                 1,
                 Values::Int64(self.section.iter().map(section).collect()),
             ),
+            array("filament", 1, Values::Int64(self.filaments())),
             array(
                 "s_nm",
                 1,
@@ -89,15 +90,28 @@ impl<'a> Drawing<'a> {
         ]
     }
 
+    /// Index of the filament of each point.
+    fn filaments(&self) -> Vec<i64> {
+        let spans = self.assembly.filaments.iter().enumerate();
+        spans
+            .flat_map(|(i, span)| vec![poly_data::to_i64(i); span.points.len()])
+            .collect()
+    }
+
     /// Semi-axes along d1, d2 and d3; zero for nodes.
     fn semi_axes_nm(&self) -> Vec<f64> {
-        let monomer = self.assembly.scene.filament.monomers.semi_axes_nm;
-        let semi_axes = |kind| match kind {
-            BodyKind::Monomer => monomer,
-            _ => [0.0; 3],
-        };
-        let points = self.assembly.points.iter();
-        points.flat_map(|point| semi_axes(point.kind)).collect()
+        let assembly = self.assembly;
+        let spans = assembly.filaments.iter().enumerate();
+        spans
+            .flat_map(|(i, span)| {
+                let monomer = assembly.monomers_of(i).semi_axes_nm;
+                let points = assembly.points[span.points.clone()].iter();
+                points.flat_map(move |point| match point.kind {
+                    BodyKind::Monomer => monomer,
+                    _ => [0.0; 3],
+                })
+            })
+            .collect()
     }
 
     fn vertices(&self) -> Vec<usize> {

@@ -138,6 +138,25 @@ fn only_monomers_have_an_extent() {
     }
 }
 
+/// Each filament is drawn by itself: no line runs from one to the other, and monomers have the
+/// extent of their own filament's.
+#[test]
+fn filaments_are_drawn_apart() {
+    let assembly = fixture::pair();
+    let drawing = Drawing::new(&assembly);
+    let first = assembly.filaments[0].points.end;
+    for line in drawing.lines() {
+        assert!(line.end <= first || line.start >= first);
+    }
+    assert_eq!(drawing.lines().len(), 2);
+    let filaments = drawing.filaments();
+    assert_eq!((filaments[first - 1], filaments[first]), (0, 1));
+    let semi_axes = drawing.semi_axes_nm();
+    let expected = [0, 1].map(|f| assembly.monomers_of(f).semi_axes_nm);
+    assert_eq!(semi_axes[..3], expected[0]);
+    assert_eq!(semi_axes[3 * first..3 * first + 3], expected[1]);
+}
+
 /// Names the quantity, the point and the component.
 #[test]
 fn a_picture_that_is_not_finite_is_refused() {

@@ -1,0 +1,315 @@
+//! Runs that are interrupted, killed or refused by the disk, and resumed: from the arguments to the
+//! exit code and the bytes of the files.
+#![cfg(unix)]
+
+use std::fs;
+use std::os::unix::process::ExitStatusExt;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// A second or so of monomers, a junction and a rod under a load that is ramped up.
+const MOTION: &str = "Scene(
+    title: \"kept\",
+    filament: Filament(
+        sections: [
+            Ellipsoids(from_nm: 0.0, to_nm: 10.0),
+            Rod(from_nm: 10.0, to_nm: 30.0),
+        ],
+        monomers: Monomers(lateral_bonds: 8, longitudinal_bonds: 8),
+    ),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+    path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)], duration_ns: 50.0)],
+    task: Dynamics(
+        duration_ns: 150.0,
+        record_every_ns: 1.5,
+        drag: (translational_per_ns: 0.01, rotational_per_ns: 0.01),
+    ),
+)";
+
+/// A hundred equilibria.
+const PATH: &str = "Scene(
+    filament: Filament(
+        sections: [Ellipsoids(from_nm: 0.0, to_nm: 90.0), Rod(from_nm: 90.0, to_nm: 150.0)],
+    ),
+    clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
+    path: [
+        Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 90.0))]),
+        Stage(set: [Turn(end: End, turn_deg: (0.0, 30.0, 90.0))]),
+    ],
+    task: Equilibrium(largest_step: 0.02, lowest_eigenvalue: true),
+)";
+
+/// A folder with one scene.
+struct Workplace {
+    folder: TempDir,
+}
+
+impl Workplace {
+    fn with(scene: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("scene.ron"), scene).unwrap();
+        Self { folder }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_actin"));
+        command.args(["run", "scene.ron"]).args(arguments);
+        command.current_dir(self.folder.path());
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+    }
+
+    fn actin(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().unwrap()
+    }
+
+    /// Starts a run and waits until its directory holds `name`.
+    fn start(&self, arguments: &[&str], name: &str) -> Child {
+        let child = self.command(arguments).spawn().unwrap();
+        let patience = Instant::now();
+        while !self.path(name).exists() {
+            assert!(patience.elapsed() < Duration::from_mins(2), "no {name}");
+            sleep(Duration::from_millis(2));
+        }
+        child
+    }
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().unwrap_or(-1)
+}
+
+fn stderr(output: &Output) -> &str {
+    std::str::from_utf8(&output.stderr).unwrap()
+}
+
+fn signal(child: &Child, name: &str) {
+    let id = child.id().to_string();
+    let sent = Command::new("kill").args([name, &id]).status().unwrap();
+    assert!(sent.success());
+}
+
+/// Every file of a run directory; of the summary all lines but the time it took.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut files = Vec::new();
+    for folder in [folder.to_owned(), folder.join("vtk")] {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if !path.is_file() {
+                continue;
+            }
+            let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+            let mut bytes = fs::read(&path).unwrap();
+            if name == "summary.json" {
+                let text = String::from_utf8(bytes).unwrap();
+                let lines = text.lines().filter(|line| !line.contains("\"wall_s\""));
+                bytes = lines.collect::<String>().into_bytes();
+            }
+            files.push((name, bytes));
+        }
+    }
+    files.sort();
+    files
+}
+
+fn assert_same_files(one: &Path, other: &Path) {
+    let (one, other) = (files(one), files(other));
+    let names = |files: &[(String, Vec<u8>)]| -> Vec<String> {
+        files.iter().map(|(name, _)| name.clone()).collect()
+    };
+    assert_eq!(names(&one), names(&other));
+    for ((name, a), (_, b)) in one.iter().zip(&other) {
+        assert!(a == b, "{name} differs");
+    }
+}
+
+/// The first signal: 130, a checkpoint, what was recorded, and the command that goes on; which then
+/// gives every byte of a run that was not interrupted. A motion and a path, SIGINT and SIGTERM.
+#[test]
+fn an_interrupted_run_goes_on_to_the_same_bytes() {
+    for (scene, name) in [(MOTION, "-INT"), (PATH, "-TERM")] {
+        let place = Workplace::with(scene);
+        assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+        let every = ["--out", "parts", "--checkpoint-every", "0.01"];
+        let child = place.start(&every, "parts/checkpoint.bin");
+        signal(&child, name);
+        let output = child.wait_with_output().unwrap();
+        println!("{}", stderr(&output));
+        assert_eq!(code(&output), 130);
+        assert!(stderr(&output).contains("actin run scene.ron --out parts --resume"));
+        let summary = fs::read_to_string(place.path("parts/summary.json")).unwrap();
+        assert!(summary.contains("\"status\": \"interrupted\""));
+        let energies = fs::read_to_string(place.path("parts/energies.csv")).unwrap();
+        assert!(energies.lines().count() > 1);
+        let output = place.actin(&["--out", "parts", "--resume"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        assert_same_files(&place.path("whole"), &place.path("parts"));
+    }
+}
+
+/// Both signals wait while the program is stopped: when it goes on, the second kills it at once.
+#[test]
+fn a_second_signal_kills() {
+    let place = Workplace::with(MOTION);
+    let child = place.start(&["--out", "a"], "a/scene.ron");
+    for name in ["-STOP", "-INT", "-TERM", "-CONT"] {
+        signal(&child, name);
+    }
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), None, "{}", stderr(&output));
+    assert!(matches!(output.status.signal(), Some(2 | 15)));
+}
+
+/// Numbers that look random and are the same every time.
+fn next(seed: &mut u64) -> u64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+    *seed >> 33
+}
+
+/// Kills a run after random times until it gets to its end; returns the number of kills.
+fn kill_until_done(place: &Workplace, most_ms: u64, seed: &mut u64) -> usize {
+    let mut kills = 0;
+    loop {
+        let go_on = if place.path("a/checkpoint.bin").exists() {
+            "--resume"
+        } else {
+            "--overwrite"
+        };
+        let mut command = place.command(&["--out", "a", "--checkpoint-every", "0.02", go_on]);
+        command.env("RAYON_NUM_THREADS", (1 + kills % 4).to_string());
+        let mut child = command.spawn().unwrap();
+        let patience = Duration::from_millis(20 + next(seed) % most_ms);
+        let started = Instant::now();
+        let ended = loop {
+            if let Some(status) = child.try_wait().unwrap() {
+                break Some(status);
+            }
+            if started.elapsed() > patience {
+                child.kill().unwrap();
+                child.wait().unwrap();
+                break None;
+            }
+            sleep(Duration::from_millis(1));
+        };
+        let Some(status) = ended else {
+            kills += 1;
+            continue;
+        };
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(status.code(), Some(0), "{}", stderr(&output));
+        return kills;
+    }
+}
+
+/// SIGKILL cannot be caught: whatever is on the disk then must do. The runs go on to the bytes of
+/// one that was not killed.
+fn assert_survives(scenes: &[&str], rounds: usize, most_ms: u64) {
+    let mut seed = 8;
+    let mut kills = 0;
+    for round in 0..rounds {
+        let place = Workplace::with(scenes[round % scenes.len()]);
+        assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+        kills += kill_until_done(&place, most_ms, &mut seed);
+        assert_same_files(&place.path("whole"), &place.path("a"));
+    }
+    println!("{kills} kills survived in {rounds} runs");
+}
+
+#[test]
+fn a_killed_run_goes_on_to_the_same_bytes() {
+    assert_survives(&[MOTION], 1, 400);
+}
+
+/// The same some hundred times, in a minute or more.
+#[test]
+#[ignore = "takes a minute; run by hand with --ignored --nocapture"]
+fn many_killed_runs_go_on_to_the_same_bytes() {
+    assert_survives(&[MOTION, PATH], 20, 250);
+}
+
+/// A limit on the size of files is a disk that is full for some: records do not fit any more. The
+/// run goes on with a warning, the results cannot be written either, and the last checkpoint that
+/// fitted is there when there is room again.
+#[test]
+fn a_full_disk_loses_no_checkpoint() {
+    let place = Workplace::with(MOTION);
+    assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+    let actin = env!("CARGO_BIN_EXE_actin");
+    let limited = format!(
+        "trap '' XFSZ; ulimit -f 64; exec {actin} run scene.ron --out a --checkpoint-every 0.01"
+    );
+    let output = Command::new("sh")
+        .args(["-c", &limited])
+        .current_dir(place.folder.path())
+        .output()
+        .unwrap();
+    println!("{}", stderr(&output));
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("warning: no checkpoint: a/records.bin: "));
+    assert!(stderr(&output).contains("it keeps a checkpoint, from which --resume goes on"));
+    let output = place.actin(&["--out", "a", "--resume"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_same_files(&place.path("whole"), &place.path("a"));
+}
+
+/// Nothing to go on from, another scene, a damaged file, arguments without meaning: exit code 2 and
+/// the reason. A run that is finished says so and is left alone.
+#[test]
+fn what_cannot_be_resumed_is_refused() {
+    let place = Workplace::with(&MOTION.replace("150.0", "1.0").replace("50.0", "0.5"));
+    let absent = place.actin(&["--out", "a", "--resume"]);
+    assert_eq!(code(&absent), 2);
+    assert_eq!(
+        stderr(&absent),
+        "error: a/checkpoint.bin: there is no checkpoint to resume from; run without --resume to \
+         begin\n"
+    );
+    assert!(!place.path("a").exists());
+    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
+    assert!(!place.path("a/checkpoint.bin").exists());
+    let before = files(&place.path("a"));
+    let finished = place.actin(&["--out", "a", "--resume"]);
+    assert_eq!(code(&finished), 0);
+    assert_eq!(
+        std::str::from_utf8(&finished.stdout).unwrap(),
+        "a is finished (time is up): nothing to resume\n"
+    );
+    assert!(files(&place.path("a")) == before);
+    fs::write(
+        place.path("a/checkpoint.bin"),
+        "nonsense of some length, at least 28 bytes",
+    )
+    .unwrap();
+    let damaged = place.actin(&["--out", "a", "--resume"]);
+    assert_eq!(code(&damaged), 2);
+    assert!(stderr(&damaged).contains("a/checkpoint.bin: not a checkpoint"));
+    for arguments in [
+        ["--resume", "--overwrite"],
+        ["--checkpoint-every", "-1"],
+        ["--checkpoint-every", "NaN"],
+    ] {
+        assert_eq!(code(&place.actin(&arguments)), 2);
+    }
+}
+
+/// Thrice the stability limit: exit code 3 with a checkpoint of the last good state, from which the
+/// run fails again in the same words.
+#[test]
+fn a_failed_run_fails_again_in_the_same_words() {
+    let unstable = "duration_ns: 100.0, time_step_ns: 0.0105, allow_unstable_step: true";
+    let scene = MOTION.replace("duration_ns: 150.0", unstable);
+    let place = Workplace::with(&scene.replace("duration_ns: 50.0", "duration_ns: 5.0"));
+    let first = place.actin(&["--out", "a"]);
+    assert_eq!(code(&first), 3);
+    assert!(place.path("a/checkpoint.bin").exists());
+    let again = place.actin(&["--out", "a", "--resume"]);
+    assert_eq!((code(&again), stderr(&again)), (3, stderr(&first)));
+}

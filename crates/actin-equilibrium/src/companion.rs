@@ -1,0 +1,58 @@
+//! Who goes along a path, and where it can be left and taken up again.
+
+use crate::history::Iteration;
+use crate::path::PathPoint;
+use crate::path_options::PathOptions;
+use actin_mechanics::State;
+use std::ops::ControlFlow;
+
+/// Someone who goes along a path and may ask for its end.
+///
+/// Implemented by every closure that looks at the points.
+pub trait Companion {
+    /// Sees an equilibrium; [`ControlFlow::Break`] ends the path there.
+    fn arrive(&mut self, point: &PathPoint<'_>) -> ControlFlow<()>;
+
+    /// Sees a Newton step on the way to the next equilibrium; [`ControlFlow::Break`] gives that one
+    /// up and ends the path at the last.
+    fn iterate(&mut self, _step: &Iteration) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+impl<F: FnMut(&PathPoint<'_>) -> ControlFlow<()>> Companion for F {
+    fn arrive(&mut self, point: &PathPoint<'_>) -> ControlFlow<()> {
+        self(point)
+    }
+}
+
+/// Where a path stands at an equilibrium: all that its rest depends on besides the state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Waypoint {
+    /// The path parameter.
+    pub parameter: f64,
+    /// The next step of the parameter.
+    pub step: f64,
+    /// The equilibrium before, with its parameter, if the path came here without a jump.
+    pub previous: Option<(State, f64)>,
+    /// Motion per parameter in the last step, if there was one without a jump.
+    pub rate: Option<f64>,
+    /// Equilibria so far, this one included.
+    pub points: usize,
+    /// Steps that were tried and made again with a smaller one.
+    pub refused: usize,
+}
+
+impl Waypoint {
+    /// Before the first equilibrium.
+    pub(crate) fn start(options: &PathOptions) -> Self {
+        Self {
+            parameter: 0.0,
+            step: options.first_step,
+            previous: None,
+            rate: None,
+            points: 0,
+            refused: 0,
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! The hot loop of free rotation: several tops at a time, one per lane.
+#![allow(
+    clippy::inline_always,
+    reason = "vector code must be compiled into the function that enables the instructions"
+)]
+
+use super::Frames;
+use crate::wide::{self, Columns, ColumnsMut, Simd, Wide3, WideQuaternion, WithSimd};
+
+/// The free flow of all frames for a time `h`, to be compiled for whatever instructions the
+/// machine has.
+#[derive(Debug)]
+pub(super) struct Drift<'a> {
+    /// The frames.
+    pub(super) frames: &'a mut Frames,
+    /// Duration.
+    pub(super) h: f64,
+}
+
+impl WithSimd for Drift<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Frames {
+            orientation: q,
+            angular_momentum: l,
+            inverse_transverse,
+            excess,
+            ..
+        } = self.frames;
+        let mut q = ColumnsMut::<S, 4>::new([&mut q.w, &mut q.x, &mut q.y, &mut q.z]);
+        let mut l = ColumnsMut::<S, 3>::new([&mut l.x, &mut l.y, &mut l.z]);
+        let inertia = Columns::<S, 4>::new([inverse_transverse, &excess.x, &excess.y, &excess.z]);
+        let half = simd.splat_f64s(0.5 * self.h);
+        for group in 0..q.groups() {
+            let [transverse, ex, ey, ez] = inertia.get(simd, group);
+            let momentum = l.get(simd, group);
+            let precession = wide::scale(simd, momentum, simd.mul_f64s(half, transverse));
+            let spin = wide::mul_each(simd, wide::scale(simd, momentum, half), [ex, ey, ez]);
+            let [precession, spin] = turns(simd, [precession, spin]);
+            let turn = wide::product(simd, precession, spin);
+            let turned = wide::product(simd, q.get(simd, group), turn);
+            q.set(simd, group, to_unit_length(simd, turned));
+            l.set(simd, group, turn_back(simd, spin, momentum));
+        }
+    }
+}
+
+/// The turns by twice the vectors `half` (rad).
+#[inline(always)]
+fn turns<S: Simd>(simd: S, half: [Wide3<S>; 2]) -> [WideQuaternion<S>; 2] {
+    let squared = [
+        wide::dot(simd, half[0], half[0]),
+        wide::dot(simd, half[1], half[1]),
+    ];
+    let [[c0, s0], [c1, s1]] = wide::cosine_and_sinc(simd, squared);
+    let [x0, y0, z0] = wide::scale(simd, half[0], s0);
+    let [x1, y1, z1] = wide::scale(simd, half[1], s1);
+    [[c0, x0, y0, z0], [c1, x1, y1, z1]]
+}
+
+/// `q` brought back to unit length to first order.
+#[inline(always)]
+fn to_unit_length<S: Simd>(simd: S, q: WideQuaternion<S>) -> WideQuaternion<S> {
+    let [w, x, y, z] = q;
+    let v = [x, y, z];
+    let squared = wide::dot_add(simd, v, v, simd.mul_f64s(w, w));
+    let minus_half = simd.splat_f64s(-0.5);
+    let correction = simd.mul_add_e_f64s(minus_half, squared, simd.splat_f64s(1.5));
+    let [x, y, z] = wide::scale(simd, v, correction);
+    [simd.mul_f64s(w, correction), x, y, z]
+}
+
+/// `l` as seen from a body that has turned by `turn`: `l - 2 w v x l + 2 v x (v x l)`.
+#[inline(always)]
+fn turn_back<S: Simd>(simd: S, [w, x, y, z]: WideQuaternion<S>, l: Wide3<S>) -> Wide3<S> {
+    let v = [x, y, z];
+    let twice = wide::cross(simd, wide::add(simd, v, v), l);
+    let along = wide::scale_add(simd, twice, simd.neg_f64s(w), l);
+    wide::cross_add(simd, v, twice, along)
+}

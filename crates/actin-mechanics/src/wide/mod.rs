@@ -1,0 +1,63 @@
+//! Several bodies at once: one body per lane of a vector register.
+//!
+//! The hot loops (the drift of frames, the loads between neighbours) do the same arithmetic for
+//! every body. States are structures of arrays so that a loop can take as many
+//! bodies at a time as the processor has lanes: four with AVX2, one where there is nothing better.
+//! Which it is, is found out when the program runs; no compiler option is needed.
+//!
+//! # How to read a wide function
+//! It is written once, generic over `S: Simd`, for bodies that stand in the lanes of `S::f64s`.
+//! Its formulas are those of a scalar function, the *reference*, which its documentation names
+//! and against which a test holds it on random states. A loop is a value that implements
+//! [`WithSimd`] and is handed to [`dispatch`], which compiles it for each kind of processor and
+//! calls the right one; everything that it calls must be inlined into it, because only there are
+//! the instructions enabled.
+//!
+//! [`Columns`] are the arrays that a loop reads, [`ColumnsMut`] those that it writes, cut into
+//! groups of as many bodies as there are lanes. The last group may be short: lanes without a body
+//! read zeros and write nothing. The reference of a formula is therefore defined at zero.
+//!
+//! # Functions instead of calls
+//! `sin`, `cos` and `atan2` take one number at a time and would cost more than all other
+//! arithmetic of a rod's step. All that is needed of them is even in the angle, so that it is a
+//! function of the angle's square without root or quotient, and the angles are small: between
+//! neighbours of a smooth chain, and over a drift. `functions.rs` holds polynomials for angles
+//! up to about 1 rad. A group with a larger angle is handed to the scalar functions, lane by
+//! lane: a branch that is never taken in a sound simulation, and therefore free.
+//!
+//! # Accuracy
+//! The polynomials are accurate to round-off. Products are fused with sums where the machine can,
+//! so results may differ in the last digits from one kind of processor to another, and do from
+//! the reference.
+#![allow(
+    clippy::inline_always,
+    reason = "vector code must be compiled into the function that enables the instructions"
+)]
+
+mod columns;
+mod functions;
+mod rotations;
+mod vectors;
+
+pub use columns::{Columns, ColumnsMut, ShiftedUp};
+pub use functions::cosine_and_sinc;
+pub use pulp::{Arch, Simd, WithSimd};
+pub use rotations::{
+    WideQuaternion, log_with_coefficient, matrix, product, relative, transpose_mul,
+};
+pub use vectors::{
+    Wide3, WideMatrix, add, add3, cross, cross_add, dot, dot_add, load, load_quaternions, load3,
+    mul, mul_add, mul_each, neg, read, scale, scale_add, sub, transpose, write,
+};
+
+/// More lanes than any processor has.
+const MOST_LANES: usize = 16;
+
+/// Runs `loop_` with as many lanes as this processor has.
+#[inline]
+pub fn dispatch<L: WithSimd>(loop_: L) -> L::Output {
+    Arch::new().dispatch(loop_)
+}
+
+#[cfg(test)]
+mod tests;

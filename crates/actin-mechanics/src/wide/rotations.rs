@@ -1,0 +1,127 @@
+//! Unit quaternions of several bodies, and their logarithms.
+
+use super::MOST_LANES;
+use super::functions::{JACOBIAN, TWICE_ARCSINE, polynomial};
+use super::vectors::{
+    Wide3, WideMatrix, cross_add, dot, dot_add, less, more, mul, read, scale, scale_add, sub,
+    transpose, write,
+};
+use crate::{UnitQuaternion, rotation};
+use nalgebra::{Quaternion, Unit};
+use pulp::Simd;
+
+/// Largest square of the sine of half an angle for which the logarithm needs no call: angles up to
+/// pi/3.
+const LARGEST_SQUARED_SINE: f64 = 0.25;
+
+/// Quaternions, scalar part first.
+pub type WideQuaternion<S> = [<S as Simd>::f64s; 4];
+
+/// `p q`: first the turn `q` as seen from the body `p`.
+#[inline(always)]
+pub fn product<S: Simd>(simd: S, p: WideQuaternion<S>, q: WideQuaternion<S>) -> WideQuaternion<S> {
+    let ([pw, px, py, pz], [qw, qx, qy, qz]) = (p, q);
+    let (p, q) = ([px, py, pz], [qx, qy, qz]);
+    let [x, y, z] = cross_add(simd, p, q, scale_add(simd, q, pw, scale(simd, p, qw)));
+    let w = simd.negate_mul_add_e_f64s(px, qx, simd.mul_f64s(pw, qw));
+    let w = simd.negate_mul_add_e_f64s(py, qy, w);
+    [simd.negate_mul_add_e_f64s(pz, qz, w), x, y, z]
+}
+
+/// `p* q`: the rotation `q` as seen from the body `p`.
+#[inline(always)]
+pub fn relative<S: Simd>(simd: S, p: WideQuaternion<S>, q: WideQuaternion<S>) -> WideQuaternion<S> {
+    let ([pw, px, py, pz], [qw, qx, qy, qz]) = (p, q);
+    let w = simd.mul_f64s(pw, qw);
+    let (p, q) = ([px, py, pz], [qx, qy, qz]);
+    // The imaginary part is pw q - qw p - p x q.
+    let along = sub(simd, scale(simd, q, pw), scale(simd, p, qw));
+    let [x, y, z] = cross_add(simd, q, p, along);
+    [dot_add(simd, p, q, w), x, y, z]
+}
+
+/// The matrices of unit quaternions.
+#[inline(always)]
+pub fn matrix<S: Simd>(simd: S, q: WideQuaternion<S>) -> WideMatrix<S> {
+    let [w, x, y, z] = q;
+    let (one, two) = (simd.splat_f64s(1.0), simd.splat_f64s(2.0));
+    let (x2, y2, z2) = (
+        simd.mul_f64s(two, x),
+        simd.mul_f64s(two, y),
+        simd.mul_f64s(two, z),
+    );
+    let (xy, xz, yz) = (
+        simd.mul_f64s(x2, y),
+        simd.mul_f64s(x2, z),
+        simd.mul_f64s(y2, z),
+    );
+    let (without_x, without_y) = (less(simd, x2, x, one), less(simd, y2, y, one));
+    [
+        [
+            less(simd, z2, z, without_y),
+            less(simd, z2, w, xy),
+            more(simd, y2, w, xz),
+        ],
+        [
+            more(simd, z2, w, xy),
+            less(simd, z2, z, without_x),
+            less(simd, x2, w, yz),
+        ],
+        [
+            less(simd, y2, w, xz),
+            more(simd, x2, w, yz),
+            less(simd, y2, y, without_x),
+        ],
+    ]
+}
+
+/// `M^T v`.
+#[inline(always)]
+pub fn transpose_mul<S: Simd>(simd: S, m: &WideMatrix<S>, v: Wide3<S>) -> Wide3<S> {
+    mul(simd, &transpose::<S>(m), v)
+}
+
+/// Rotation vectors (rad) of unit quaternions, and the coefficients of their inverse Jacobians.
+///
+/// Accurate to round-off at every angle. The references are [`rotation::log`] and
+/// [`rotation::inverse_jacobian_coefficient`], which the groups with an angle above pi/3 are
+/// handed to.
+#[inline(always)]
+pub fn log_with_coefficient<S: Simd>(simd: S, q: WideQuaternion<S>) -> (Wide3<S>, S::f64s) {
+    let [w, x, y, z] = q;
+    let v = [x, y, z];
+    let u = dot(simd, v, v);
+    if simd.reduce_max_f64s(u) <= LARGEST_SQUARED_SINE {
+        let factor = polynomial(simd, &TWICE_ARCSINE, u);
+        let negative = simd.less_than_f64s(w, simd.splat_f64s(0.0));
+        let signed = simd.select_f64s(negative, simd.neg_f64s(factor), factor);
+        let squared = simd.mul_f64s(u, simd.mul_f64s(factor, factor));
+        let coefficient = polynomial(simd, &JACOBIAN, squared);
+        (scale(simd, v, signed), coefficient)
+    } else {
+        let mut lanes = [[0.0; MOST_LANES]; 4];
+        for (lanes, component) in lanes.iter_mut().zip(q) {
+            write(simd, lanes, 0, component);
+        }
+        let [x, y, z, c] = log_of_each(&lanes);
+        let theta = [read(simd, &x, 0), read(simd, &y, 0), read(simd, &z, 0)];
+        (theta, read(simd, &c, 0))
+    }
+}
+
+/// The scalar functions, one lane after the other.
+#[cold]
+#[inline(never)]
+fn log_of_each(q: &[[f64; MOST_LANES]; 4]) -> [[f64; MOST_LANES]; 4] {
+    let mut logs = [[0.0; MOST_LANES]; 4];
+    for lane in 0..MOST_LANES {
+        let [w, x, y, z] = q.map(|component| component[lane]);
+        let q: UnitQuaternion = Unit::new_unchecked(Quaternion::new(w, x, y, z));
+        let theta = rotation::log(q);
+        let c = rotation::inverse_jacobian_coefficient(theta.norm_squared());
+        for (log, value) in logs.iter_mut().zip([theta.x, theta.y, theta.z, c]) {
+            log[lane] = value;
+        }
+    }
+    logs
+}

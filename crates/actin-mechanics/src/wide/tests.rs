@@ -1,0 +1,192 @@
+//! The wide functions against their scalar references, with one lane and with as many as there are.
+
+use super::*;
+use crate::testing::Noise;
+use crate::{UnitQuaternion, Vector3, rotation};
+use nalgebra::Unit;
+use std::f64::consts::PI;
+
+/// Numbers of bodies that fill the lanes, and numbers that leave a rest.
+const COUNTS: [usize; 9] = [0, 1, 2, 3, 4, 5, 8, 15, 33];
+
+/// Angles (rad): zero, the smallest numbers, both sides of every switch, nearly half a turn.
+const ANGLES: [f64; 16] = [
+    0.0,
+    5e-324,
+    1e-310,
+    1e-160,
+    1e-12,
+    1e-8,
+    1e-3,
+    0.019,
+    0.021,
+    0.3,
+    0.99,
+    1.01,
+    1.046,
+    1.048,
+    2.0,
+    PI - 1e-6,
+];
+
+/// Logarithms and coefficients of all `q`.
+struct Logs<'a>(&'a [UnitQuaternion]);
+
+impl WithSimd for Logs<'_> {
+    type Output = Vec<(Vector3, f64)>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let part = |k: usize| self.0.iter().map(|q| q.as_vector()[k]).collect::<Vec<_>>();
+        // nalgebra puts the scalar part last.
+        let (w, x, y, z) = (part(3), part(0), part(1), part(2));
+        let mut out = [w.clone(), w.clone(), w.clone(), w.clone()];
+        let q = Columns::<S, 4>::new([&w, &x, &y, &z]);
+        let mut logs = ColumnsMut::<S, 4>::new(out.each_mut().map(Vec::as_mut_slice));
+        for group in 0..q.groups() {
+            let ([x, y, z], c) = log_with_coefficient(simd, q.get(simd, group));
+            logs.set(simd, group, [x, y, z, c]);
+        }
+        let log = |i: usize| (Vector3::new(out[0][i], out[1][i], out[2][i]), out[3][i]);
+        (0..w.len()).map(log).collect()
+    }
+}
+
+/// Cosine and sinc of angles whose squares these are.
+struct Turns<'a>(&'a [f64]);
+
+impl WithSimd for Turns<'_> {
+    type Output = [Vec<f64>; 2];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let mut out = [self.0.to_vec(), self.0.to_vec()];
+        let squared = Columns::<S, 1>::new([self.0]);
+        let mut results = ColumnsMut::<S, 2>::new(out.each_mut().map(Vec::as_mut_slice));
+        for group in 0..squared.groups() {
+            let [u] = squared.get(simd, group);
+            let [result, _] = cosine_and_sinc(simd, [u, simd.splat_f64s(0.0)]);
+            results.set(simd, group, result);
+        }
+        out
+    }
+}
+
+/// Vectors 1, 2, 3, ... moved up by one body.
+struct Shift(usize);
+
+impl WithSimd for Shift {
+    type Output = Vec<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let mut numbers: Vec<f64> = (1..=self.0).map(|i| i as f64).collect();
+        let (mut y, mut z) = (numbers.clone(), numbers.clone());
+        let mut columns = ColumnsMut::<S, 3>::new([&mut numbers, &mut y, &mut z]);
+        let mut shift = ShiftedUp::new(simd);
+        for group in 0..columns.groups() {
+            let shifted = shift.next(simd, columns.get(simd, group));
+            columns.set(simd, group, shifted);
+        }
+        assert!(numbers == y && numbers == z);
+        numbers
+    }
+}
+
+fn architectures() -> [Arch; 2] {
+    [Arch::Scalar, Arch::new()]
+}
+
+/// Random axes with all angles, both quaternions of each rotation.
+fn rotations() -> Vec<UnitQuaternion> {
+    let mut noise = Noise::new(3);
+    let mut all = Vec::new();
+    for _ in 0..20 {
+        for angle in ANGLES {
+            let q = rotation::exp(noise.vector().normalize() * angle);
+            all.extend([q, Unit::new_unchecked(-q.into_inner())]);
+        }
+    }
+    all
+}
+
+/// A sign or a lane mixed up, a term too few: errors far above the 3e-15 that rounding leaves
+/// (the reference itself is accurate to 1e-14).
+fn assert_logs_agree(q: &[UnitQuaternion]) {
+    for arch in architectures() {
+        for (q, (theta, c)) in q.iter().zip(arch.dispatch(Logs(q))) {
+            let expected = rotation::log(*q);
+            let error = (theta - expected).norm();
+            assert!(error <= 3e-15 * expected.norm(), "{expected}: {error:e}");
+            let expected = rotation::inverse_jacobian_coefficient(expected.norm_squared());
+            assert!((c / expected - 1.0).abs() < 1e-14, "{c} for {expected}");
+        }
+    }
+}
+
+/// Groups whose lanes all hold small angles, and groups in which one angle is large.
+#[test]
+fn logarithms_are_those_of_the_reference() {
+    let all = rotations();
+    let small = |q: &&UnitQuaternion| q.w.abs() > 0.87;
+    assert_logs_agree(&all);
+    assert_logs_agree(&all.iter().filter(small).copied().collect::<Vec<_>>());
+    for count in COUNTS {
+        assert_logs_agree(&all[..count]);
+    }
+}
+
+#[test]
+fn cosine_and_sinc_are_those_of_the_standard_library() {
+    let mut small: Vec<f64> = (0..=1000).map(|i| 0.25 * f64::from(i) / 1000.0).collect();
+    small.extend([5e-324, 1e-310, 1e-200, 1e-20]);
+    let large: Vec<f64> = (1..100).map(|i| 0.3 * f64::from(i * i)).collect();
+    for squared in [&small, &large] {
+        for arch in architectures() {
+            let [cosine, sinc] = arch.dispatch(Turns(squared));
+            for (i, u) in squared.iter().enumerate() {
+                let angle = u.sqrt();
+                // Numbers near 1, where 2.2e-16 is one unit in the last place; the square root
+                // of the reference costs another.
+                assert!((cosine[i] - angle.cos()).abs() < 3e-16, "{angle}");
+                let expected = if angle > 0.0 {
+                    angle.sin() / angle
+                } else {
+                    1.0
+                };
+                assert!((sinc[i] - expected).abs() < 3e-16, "{angle}");
+            }
+        }
+    }
+}
+
+/// What is not a number stays where it is: one broken body must not hide which one it is.
+#[test]
+fn lanes_do_not_leak() {
+    let mut q = rotations();
+    q.truncate(13);
+    let whole = Arch::new().dispatch(Logs(&q));
+    q[6] = Unit::new_unchecked(nalgebra::Quaternion::new(f64::NAN, 0.0, 0.0, 0.0) + *q[6]);
+    let broken = Arch::new().dispatch(Logs(&q));
+    for (i, (a, b)) in whole.iter().zip(&broken).enumerate() {
+        if i != 6 {
+            assert!((a.0 - b.0).norm() <= 3e-15 * a.0.norm(), "body {i}");
+        }
+    }
+    let turns = Arch::new().dispatch(Turns(&[0.1, f64::NAN, 0.2]));
+    assert!(
+        turns
+            .iter()
+            .all(|t| t[0] < 1.0 && t[1].is_nan() && t[2] < 1.0)
+    );
+}
+
+#[test]
+fn each_body_receives_what_the_one_before_had() {
+    for arch in architectures() {
+        for count in COUNTS {
+            let expected: Vec<f64> = (0..count).map(|i| i as f64).collect();
+            assert_eq!(arch.dispatch(Shift(count)), expected);
+        }
+    }
+}

@@ -1,0 +1,280 @@
+//! Persistence length from thermal motion: of the rod against B/kT, and of the ellipsoid filament,
+//! with error bars, against the time step and against the temperature.
+//!
+//! `cargo run --release -p actin-sim --example persistence_length [SEEDS [CASE [FIRST]]]`
+//!
+//! Free filaments in a heat bath; of the turn of one cross-section against another at distance `s`,
+//! `<cos theta> = exp(-s/lp)` and `<phi^2> = s kT/C`, where `theta` tilts the axis and `phi` goes
+//! about it. `near` takes neighbours; `far` takes the slopes between 1/5 and 3/5 of the length,
+//! which the wobble of single monomers does not enter. Errors are standard errors over seeds, by
+//! the jackknife; each seed is another noise and, of monomers, another sampling of anchors. The case
+//! `cost` tells what the bath adds to a step.
+
+use actin_integrate::{Bath, Composition, Drag, PEFRL, POSITION_VERLET, advance, advance_in};
+use actin_integrate::{largest_frequency, stable_step};
+use actin_mechanics::{State, System, UnitQuaternion, rotation};
+use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Scene};
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// Temperature (K).
+const ROOM: f64 = 298.0;
+/// Drag rate (1/ns): near critical for the slowest bending of 110 nm, 2.3 rad/ns.
+const DRAG: f64 = 5.0;
+/// Motion before the first sample (ns), ten times the slowest relaxation.
+const WARM_UP_NS: f64 = 5.0;
+/// Time between samples (ns).
+const APART_NS: f64 = 0.25;
+/// Samples of one seed.
+const SAMPLES: usize = 400;
+
+/// What is measured, and how.
+struct Case {
+    name: &'static str,
+    sections: &'static str,
+    monomers: &'static str,
+    scheme: &'static Composition,
+    /// Time step as a share of the stability limit.
+    share: f64,
+    temperature: f64,
+}
+
+const ROD: &str = "Rod(from_nm: 0.0, to_nm: 110.0, segments: 11)";
+const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 110.0)";
+
+/// Interfaces of the published rigidity, 392.0 and 582.4 kT/nm^2 (pN/nm), without the factor 1.4.
+const UNSCALED: &str =
+    "lateral_rigidity_pn_per_nm: 1612.7, longitudinal_rigidity_pn_per_nm: 2396.0";
+
+fn cases() -> Vec<Case> {
+    let case = |name, sections, scheme, share, temperature| Case {
+        name,
+        sections,
+        monomers: "",
+        scheme,
+        share,
+        temperature,
+    };
+    vec![
+        case("rod", ROD, &PEFRL, 0.5, ROOM),
+        case("rod", ROD, &POSITION_VERLET, 0.8, ROOM),
+        case("rod", ROD, &POSITION_VERLET, 0.4, ROOM),
+        case("monomers", MONOMERS, &PEFRL, 0.5, ROOM),
+        case("monomers-fine", MONOMERS, &PEFRL, 0.25, ROOM),
+        case("monomers-verlet", MONOMERS, &POSITION_VERLET, 0.4, ROOM),
+        case("monomers-verlet", MONOMERS, &POSITION_VERLET, 0.2, ROOM),
+        Case {
+            monomers: UNSCALED,
+            ..case("monomers-unscaled", MONOMERS, &POSITION_VERLET, 0.4, ROOM)
+        },
+        case("monomers-cold", MONOMERS, &POSITION_VERLET, 0.4, 0.1 * ROOM),
+        case(
+            "monomers-cold",
+            MONOMERS,
+            &POSITION_VERLET,
+            0.4,
+            0.01 * ROOM,
+        ),
+    ]
+}
+
+fn main() {
+    let mut arguments = std::env::args().skip(1);
+    let seeds: u64 = arguments.next().map_or(32, |s| s.parse().expect("a count"));
+    let wanted = arguments.next();
+    let first: u64 = arguments.next().map_or(1, |s| s.parse().expect("a seed"));
+    println!("{seeds} seeds of {SAMPLES} samples, {APART_NS} ns apart, drag {DRAG} per ns");
+    println!("lengths in um, rigidities kT lp and C in pN nm^2, U/n in kT per degree of freedom");
+    let cases = cases().into_iter();
+    let is_wanted = |name: &str| wanted.as_ref().is_none_or(|w| w == name);
+    if is_wanted("cost") {
+        cost("rod, 11 segments", ROD);
+        cost("monomers, 40 of 64 bonds an interface", MONOMERS);
+    }
+    for case in cases.filter(|case| is_wanted(case.name)) {
+        let sums: Vec<Sums> = (first..first + seeds)
+            .into_par_iter()
+            .map(|seed| case.measure(seed))
+            .collect();
+        case.report(&sums);
+    }
+}
+
+/// Prints what a step takes without drag, with drag, and in the bath; the best of many short runs.
+fn cost(name: &str, sections: &'static str) {
+    let (steps, runs) = (20, 1000);
+    let case = Case {
+        sections,
+        ..cases().remove(0)
+    };
+    for scheme in [&POSITION_VERLET, &PEFRL] {
+        let mut system = Assembly::build(&case.scene(1)).expect("a filament").system;
+        let drag = Drag::new(DRAG, DRAG).expect("positive rates");
+        let kt = BOLTZMANN_PN_NM_PER_K * ROOM;
+        let bath = Bath::new(drag, kt, 1).expect("a positive energy");
+        let h = 1e-3;
+        advance_in(&mut system, scheme, h, 1000, &bath, 0);
+        let mut best = |run: &dyn Fn(&mut System)| {
+            let mut once = || {
+                let started = Instant::now();
+                run(&mut system);
+                started.elapsed().as_secs_f64() / steps as f64 * 1e6
+            };
+            (0..runs).map(|_| once()).fold(f64::INFINITY, f64::min)
+        };
+        let heated = best(&|system| advance_in(system, scheme, h, steps, &bath, 0));
+        let damped = best(&|system| advance(system, scheme, h, steps, &drag));
+        let free = best(&|system| advance(system, scheme, h, steps, &Drag::NONE));
+        println!(
+            "{name}, {}: {free:.2} us a step, {damped:.2} with drag, {heated:.2} in the bath",
+            scheme.name
+        );
+    }
+}
+
+/// Means over one seed, by separation of frames.
+struct Sums {
+    /// `<cos theta>`.
+    cosine: Vec<f64>,
+    /// `<phi^2>` (rad^2).
+    twist: Vec<f64>,
+    /// Potential energy per degree of freedom (kT).
+    energy: f64,
+    /// Distance of neighbouring frames along the axis (nm).
+    spacing: f64,
+    /// Time step (ns).
+    step: f64,
+}
+
+impl Case {
+    fn scene(&self, seed: u64) -> Scene {
+        let (sections, monomers) = (self.sections, self.monomers);
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [{sections}], monomers: (seed: {seed}, {monomers})),
+                task: Dynamics(duration_ns: 1.0),
+            )"
+        );
+        Scene::from_ron(&text).unwrap_or_else(|error| panic!("{}:{error}", self.name))
+    }
+
+    fn measure(&self, seed: u64) -> Sums {
+        let mut assembly = Assembly::build(&self.scene(seed)).expect("a filament");
+        let system = &mut assembly.system;
+        let frequency = largest_frequency(system).expect("finite loads");
+        let h = stable_step(self.scheme, frequency, self.share).expect("a stable step");
+        let kt = BOLTZMANN_PN_NM_PER_K * self.temperature;
+        let drag = Drag::new(DRAG, DRAG).expect("positive rates");
+        let bath = Bath::new(drag, kt, seed).expect("a positive energy");
+        let (warm_up, apart) = (steps(WARM_UP_NS, h), steps(APART_NS, h));
+        advance_in(system, self.scheme, h, warm_up, &bath, 0);
+        let rest = assembly.rest.clone();
+        let count = rest.frames.len();
+        let dofs = 3.0 * (rest.points.len() + count) as f64;
+        let mut sums = Sums {
+            cosine: vec![0.0; count],
+            twist: vec![0.0; count],
+            energy: 0.0,
+            spacing: assembly.frames[1].s_nm - assembly.frames[0].s_nm,
+            step: h,
+        };
+        for sample in 0..SAMPLES as u64 {
+            let system = &mut assembly.system;
+            let first = warm_up + sample * apart;
+            advance_in(system, self.scheme, h, apart, &bath, first);
+            sums.add(&rest, system.state());
+            sums.energy += system.potential_energy() / (kt * dofs * SAMPLES as f64);
+        }
+        sums
+    }
+
+    fn report(&self, sums: &[Sums]) {
+        let kt = BOLTZMANN_PN_NM_PER_K * self.temperature;
+        let count = sums[0].cosine.len();
+        let (near, far) = ((0, 1), (count / 5, 3 * count / 5));
+        let spacing = sums[0].spacing;
+        let of = |&(a, b): &(usize, usize), get: fn(&Sums) -> &Vec<f64>, log: bool| {
+            jackknife(sums, |chosen| {
+                let at = |k: usize| {
+                    let mean = chosen.iter().map(|s| get(s)[k]).sum::<f64>() / chosen.len() as f64;
+                    if log { -mean.ln() } else { mean }
+                };
+                (b - a) as f64 * spacing / (at(b) - at(a))
+            })
+        };
+        let (bend, bend_error) = of(&near, |s| &s.cosine, true);
+        let (long, long_error) = of(&far, |s| &s.cosine, true);
+        let (turn, turn_error) = of(&far, |s| &s.twist, false);
+        let (energy, energy_error) = jackknife(sums, |chosen| {
+            chosen.iter().map(|s| s.energy).sum::<f64>() / chosen.len() as f64
+        });
+        println!(
+            "{:18} {:5.1} K {:15} h {:.2e} ns ({:.2} of the limit): near {:6.2} +- {:.2}, far \
+             {:6.2} +- {:.2}; kT lp {:.2e} +- {:.0e}, C {:.2e} +- {:.0e}; U/n {:.4} +- {:.4}",
+            self.name,
+            self.temperature,
+            self.scheme.name,
+            sums[0].step,
+            self.share,
+            bend / 1000.0,
+            bend_error / 1000.0,
+            long / 1000.0,
+            long_error / 1000.0,
+            kt * long,
+            kt * long_error,
+            kt * turn,
+            kt * turn_error,
+            energy,
+            energy_error
+        );
+    }
+}
+
+impl Sums {
+    /// Adds a sample: the mean over all pairs of frames at each separation.
+    fn add(&mut self, rest: &State, state: &State) {
+        let (q0, q) = (&rest.frames.orientation, &state.frames.orientation);
+        // Turns from rest, in the axes of the filament at rest: z is its axis.
+        let turns: Vec<UnitQuaternion> = (0..q.len())
+            .map(|i| q.get(i) * q0.get(i).inverse())
+            .collect();
+        for k in 0..turns.len() {
+            let pairs = turns.iter().zip(&turns[k..]);
+            let weight = 1.0 / (pairs.len() * SAMPLES) as f64;
+            for (a, b) in pairs {
+                let relative = a.inverse() * b;
+                let (x, y) = (relative.i, relative.j);
+                // Of a rotation, the element (3, 3) of its matrix.
+                self.cosine[k] += weight * (1.0 - 2.0 * (x * x + y * y));
+                self.twist[k] += weight * rotation::log(relative).z.powi(2);
+            }
+        }
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a few ns in steps of a thousandth"
+)]
+fn steps(duration: f64, h: f64) -> u64 {
+    (duration / h).ceil() as u64
+}
+
+/// An estimate from all seeds, with its standard error.
+fn jackknife(sums: &[Sums], estimate: impl Fn(&[&Sums]) -> f64) -> (f64, f64) {
+    let all: Vec<&Sums> = sums.iter().collect();
+    let whole = estimate(&all);
+    let n = all.len() as f64;
+    let square: f64 = (0..all.len())
+        .map(|leave| {
+            let rest: Vec<&Sums> = all[..leave]
+                .iter()
+                .chain(&all[leave + 1..])
+                .copied()
+                .collect();
+            (estimate(&rest) - whole).powi(2)
+        })
+        .sum();
+    (whole, (square * (n - 1.0) / n).sqrt())
+}

@@ -1,0 +1,247 @@
+//! The change of a scene that saves most, out of those whose error was measured.
+
+use super::like::length;
+use super::{AT_MOST, Measured, Setting, scenes, table};
+use crate::Assembly;
+use crate::cost::Cost;
+use crate::scene::{Drag, Equilibrium, Problem, RodLaw, Scene, Section, Task};
+use std::fmt;
+
+/// Places along a filament closer than this (nm) are one: boundaries move to the lattice.
+const SAME_NM: f64 = 1.5;
+
+/// A change of a scene and what it would bring.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// What to do, in words.
+    pub what: String,
+    /// The scene after it, accepted by every rule.
+    pub scene: Scene,
+    /// Estimated time before over that after.
+    pub times_cheaper: f64,
+    /// Expected errors; none where the state at rest is the same.
+    pub expected: Option<Expected>,
+}
+
+/// Errors to expect, relative, against all monomers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expected {
+    /// The row of the table that they are from.
+    pub row: Measured,
+}
+
+/// The change that saves most, if any saves at all.
+///
+/// # Errors
+/// A scene that cannot be built, or whose time step is refused.
+pub(super) fn best(scene: &Scene, like: &str, at: f64) -> Result<Option<Change>, Problem> {
+    let seconds = seconds(scene)?;
+    let measured = table::measured().into_iter();
+    let rows = measured.filter(|row| row.scene == like && is_small(row.displacement));
+    let resolved = rows.filter_map(|row| resolved(scene, &row, length(scene) / at));
+    let all = resolved.chain(at_rest(scene));
+    // What is refused is no advice.
+    let timed = all.filter_map(|(what, changed, expected)| {
+        let times_cheaper = seconds / self::seconds(&changed).ok()?;
+        Some(Change {
+            what,
+            scene: changed,
+            times_cheaper,
+            expected,
+        })
+    });
+    let saving = timed.filter(|change| change.times_cheaper > 1.0);
+    Ok(saving.max_by(|a, b| a.times_cheaper.total_cmp(&b.times_cheaper)))
+}
+
+/// What to do, the changed scene, and the errors it brings.
+type Candidate = (String, Scene, Option<Expected>);
+
+fn is_small(error: Option<f64>) -> bool {
+    error.is_some_and(|error| error <= AT_MOST)
+}
+
+fn seconds(scene: &Scene) -> Result<f64, Problem> {
+    scene.validate()?;
+    Ok(Cost::estimated(&Assembly::build(scene)?)?.seconds)
+}
+
+/// The scene resolved as `row` says, if that is one change and no finer anywhere; places of the row
+/// are stretched by `scale`.
+fn resolved(scene: &Scene, row: &Measured, scale: f64) -> Option<Candidate> {
+    let mut to = row.setting()?;
+    to.monomers.iter_mut().flatten().for_each(|s| *s *= scale);
+    let from = present(scene)?;
+    let gone = without(&from.monomers, &to.monomers)?;
+    let same_model = (from.weight, from.attached) == (to.weight, to.attached);
+    let what = if same_model && from.bonds == to.bonds && !gone.is_empty() {
+        let all = to.monomers.is_empty();
+        let from = if all {
+            "all monomers".into()
+        } else {
+            stretches(&gone)
+        };
+        let law = in_words(&row.law);
+        format!("replace {from} by a rod{} with law {law}", segments(row))
+    } else if same_model && gone.is_empty() && to.bonds < from.bonds && same_rods(scene, &from, &to)
+    {
+        format!("take {} bonds per interface", to.bonds)
+    } else {
+        return None;
+    };
+    let expected = Some(Expected { row: row.clone() });
+    Some((what, to.apply(scene), expected))
+}
+
+/// A law as the advice names it.
+fn in_words(law: &str) -> &str {
+    match law {
+        "FittedConstantShear" => "Fitted but for its shear",
+        law => law,
+    }
+}
+
+/// The length of segments, where it is not that of a scene that leaves it out.
+fn segments(row: &Measured) -> String {
+    let default = Setting::of(Vec::new(), RodLaw::default()).segment_nm;
+    if (row.segment_nm - default).abs() < 1e-9 {
+        return String::new();
+    }
+    format!(" of {} nm segments", row.segment_nm)
+}
+
+fn stretches(gone: &[[f64; 2]]) -> String {
+    let each: Vec<String> = gone
+        .iter()
+        .map(|[a, b]| format!("{a:.0}..{b:.0} nm"))
+        .collect();
+    format!("the monomers of {}", each.join(" and "))
+}
+
+/// Whether rods, if there are any, stay what they are.
+fn same_rods(scene: &Scene, from: &Setting, to: &Setting) -> bool {
+    let is_rod = |section: &Section| matches!(section, Section::Rod { .. });
+    !scene.filament.sections.iter().any(is_rod) || from.law == to.law
+}
+
+/// How a scene is resolved; `None` if not as a setting can say.
+fn present(scene: &Scene) -> Option<Setting> {
+    let filament = &scene.filament;
+    let monomers = filament
+        .sections
+        .iter()
+        .filter_map(|section| match *section {
+            Section::Ellipsoids { from_nm, to_nm } => Some([from_nm, to_nm]),
+            Section::Rod { .. } => None,
+        });
+    let bonds = filament.monomers.lateral_bonds;
+    (filament.monomers.longitudinal_bonds == bonds).then(|| Setting {
+        bonds,
+        weight: filament.junction.weight,
+        attached: filament.junction.attached_monomers,
+        ..Setting::of(monomers.collect(), filament.rod.law.clone())
+    })
+}
+
+/// What is left of stretches without others that lie inside of them; `None` if some do not.
+fn without(stretches: &[[f64; 2]], others: &[[f64; 2]]) -> Option<Vec<[f64; 2]>> {
+    let is_inside = |[a, b]: &[f64; 2]| {
+        stretches
+            .iter()
+            .any(|[from, to]| *a >= from - SAME_NM && *b <= to + SAME_NM)
+    };
+    if !others.iter().all(is_inside) {
+        return None;
+    }
+    let mut left = Vec::new();
+    for &[from, to] in stretches {
+        let mut at = from;
+        for &[a, b] in others.iter().filter(|[a, b]| *b > from && *a < to) {
+            left.push([at, a]);
+            at = b;
+        }
+        left.push([at, to]);
+    }
+    left.retain(|[a, b]| b - a > SAME_NM);
+    Some(left)
+}
+
+/// The equilibrium instead of a damped motion that stops at it.
+fn at_rest(scene: &Scene) -> Option<Candidate> {
+    let Task::Dynamics(dynamics) = &scene.task else {
+        return None;
+    };
+    if dynamics.stop.is_none() || dynamics.drag == Drag::default() {
+        return None;
+    }
+    let mut changed = scene.clone();
+    changed.task = Task::Equilibrium(Equilibrium::default());
+    let what = "ask for Equilibrium if only the state at rest is wanted".into();
+    Some((what, changed, None))
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}: {:.1} times cheaper, ",
+            self.what, self.times_cheaper
+        )?;
+        match &self.expected {
+            Some(expected) => write!(f, "{expected}"),
+            None => f.write_str("the same state"),
+        }
+    }
+}
+
+impl fmt::Display for Expected {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let row = &self.row;
+        let (displacement, site) = scenes::observed(&row.scene);
+        let errors = [
+            (displacement, row.displacement),
+            ("energy", row.energy),
+            ("force", row.force),
+            ("torque", row.torque),
+            (site, row.local),
+        ];
+        let known = errors
+            .into_iter()
+            .filter_map(|(what, error)| Some((what, error?)));
+        let each: Vec<String> = known
+            .map(|(what, e)| format!("{what} {:.1} %", 100.0 * e))
+            .collect();
+        write!(f, "expected errors: {}", each.join(", "))?;
+        if let Some(scatter) = row.scatter {
+            write!(
+                f,
+                " (samplings of the bonds scatter by {:.1} %",
+                100.0 * scatter
+            )?;
+            write!(f, "; measured on {})", row.scene)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_goes_is_what_is_not_kept() {
+        let left = |from: &[[f64; 2]], kept: &[[f64; 2]]| without(from, kept);
+        assert_eq!(left(&[[0.0, 160.0]], &[]), Some(vec![[0.0, 160.0]]));
+        assert_eq!(
+            left(&[[0.0, 160.0]], &[[0.0, 40.0]]),
+            Some(vec![[40.0, 160.0]])
+        );
+        assert_eq!(
+            left(&[[0.0, 160.0]], &[[60.0, 100.0]]),
+            Some(vec![[0.0, 60.0], [100.0, 160.0]])
+        );
+        // Nothing goes within the lattice's own width; what is finer than before is no saving.
+        assert_eq!(left(&[[0.0, 41.0]], &[[0.0, 40.0]]), Some(vec![]));
+        assert_eq!(left(&[[0.0, 40.0]], &[[0.0, 80.0]]), None);
+    }
+}

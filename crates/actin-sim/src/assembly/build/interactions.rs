@@ -1,0 +1,89 @@
+//! What acts within one filament: sections and the junctions between them.
+
+use super::Stock;
+use super::strand::{Body, Strand, junction_problem};
+use crate::assembly::{Part, Resolution, models};
+use crate::scene::Problem;
+use actin_cosserat::JoinedElement;
+use actin_coupling::{AttachedMonomer, Junction, JunctionSide};
+use actin_ellipsoid::Monomers;
+use actin_mechanics::Interaction;
+
+impl Strand<'_> {
+    /// Pushes the interactions of all sections and junctions, in filament order.
+    pub(super) fn push_interactions(&self, stock: &mut Stock) -> Result<(), Problem> {
+        let junctions: Vec<Junction> = (1..self.bodies.len())
+            .map(|i| self.junction(i - 1, stock))
+            .collect::<Result<_, _>>()?;
+        let joined =
+            |junction: Option<&Junction>| junction.map_or_else(Vec::new, Junction::joined_elements);
+        for i in 0..self.bodies.len() {
+            let before = i.checked_sub(1).map(|k| &junctions[k]);
+            let around = [joined(before), joined(junctions.get(i))];
+            if let Some(junction) = before {
+                let part = Part::Junction(self.first_section + i - 1);
+                stock.push_term(Box::new(junction.clone()), part);
+            }
+            let interaction = self.interaction_of(i, &around, stock)?;
+            stock.push_term(interaction, Part::Section(self.first_section + i));
+        }
+        Ok(())
+    }
+
+    /// The interaction of section `i`, whose start and end the elements `around` join to others.
+    fn interaction_of(
+        &self,
+        i: usize,
+        around: &[Vec<JoinedElement>; 2],
+        stock: &mut Stock,
+    ) -> Result<Box<dyn Interaction>, Problem> {
+        Ok(match &self.bodies[i] {
+            Body::Monomers(monomers) => {
+                let bonds = self
+                    .model
+                    .bonds(monomers)
+                    .map_err(|e| models::unbonded(&e, &self.filament.monomers))?;
+                if let Resolution::Ellipsoids { bonds: count, .. } =
+                    &mut stock.sections[self.first_section + i].resolution
+                {
+                    *count = bonds.number_of_bonds();
+                }
+                Box::new(bonds)
+            }
+            Body::Rod(layout) => self.law.interaction(layout, around),
+        })
+    }
+
+    /// The junction between section `i` and the next.
+    fn junction(&self, i: usize, stock: &Stock) -> Result<Junction, Problem> {
+        let n = self.attached();
+        let attach = |monomers: &Monomers, from: usize| -> Vec<AttachedMonomer> {
+            (from..from + n)
+                .map(|k| AttachedMonomer {
+                    point: monomers.point(k),
+                    frame: monomers.frame(k),
+                })
+                .collect()
+        };
+        let (side, attached, layout) = match (&self.bodies[i], &self.bodies[i + 1]) {
+            (Body::Monomers(m), Body::Rod(layout)) => {
+                (JunctionSide::MonomersFirst, attach(m, m.count - n), layout)
+            }
+            (Body::Rod(layout), Body::Monomers(m)) => {
+                (JunctionSide::RodFirst, attach(m, 0), layout)
+            }
+            _ => unreachable!("validation refuses neighbouring sections of one kind"),
+        };
+        let weight = self.filament.junction.weight.into();
+        let frames = self.junction_frames[i].clone();
+        Junction::new(
+            &stock.state,
+            (side, weight),
+            &attached,
+            frames,
+            layout,
+            self.law.material,
+        )
+        .map_err(|error| junction_problem(&error))
+    }
+}

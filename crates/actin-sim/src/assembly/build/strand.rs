@@ -1,0 +1,294 @@
+//! One filament under construction: its bodies and interactions, section by section.
+
+use super::Stock;
+use crate::assembly::lattice::{Lattice, Resolved, resolve};
+use crate::assembly::{BodyKind, FilamentSpan, FrameInfo, PointInfo, Resolution, SectionSpan};
+use crate::assembly::{law, models};
+use crate::scene::{End, Filament, Hold, MOST_BODIES, Problem, Scene, Section};
+use actin_cosserat::{CrossSection, RodLayout, StraightRod, Walls};
+use actin_coupling::push_junction_frames;
+use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
+use actin_mechanics::Vector3;
+use std::ops::Range;
+
+/// Length of a rod's segments where the scene does not say how many there are (nm).
+const DEFAULT_SEGMENT_NM: f64 = 10.0;
+
+/// What a section has become.
+pub(super) enum Body {
+    Monomers(Monomers),
+    Rod(RodLayout),
+}
+
+/// A filament under construction. Problems name its keys as those of `filament`.
+pub(super) struct Strand<'a> {
+    scene: &'a Scene,
+    pub(super) filament: &'a Filament,
+    /// Its index in the scene.
+    pub(super) index: usize,
+    /// Index of its first section among those of all filaments.
+    pub(super) first_section: usize,
+    /// Where arc length begins, and the turn from a filament along lab +z.
+    pub(super) placement: Placement,
+    pub(super) resolved: Vec<Resolved>,
+    pub(super) lattice: Lattice,
+    pub(super) model: EllipsoidModel,
+    pub(super) law: law::Law,
+    cross_section: CrossSection,
+    pub(super) bodies: Vec<Body>,
+    /// Frames of the junction between section i and the next.
+    pub(super) junction_frames: Vec<Range<usize>>,
+}
+
+impl<'a> Strand<'a> {
+    /// Filament `index` of a scene, whose sections stand behind `first_section` others.
+    pub(super) fn new(
+        scene: &'a Scene,
+        (index, filament): (usize, &'a Filament),
+        first_section: usize,
+    ) -> Result<Self, Problem> {
+        let monomers = &filament.monomers;
+        let density = monomers.mass_ag / monomers.rise_nm;
+        let area = actin_cosserat::constants::CROSS_SECTION_AREA;
+        let is_held = [End::Start, End::End].map(|end| scene.is_clamped(index, end));
+        Ok(Self {
+            scene,
+            filament,
+            index,
+            first_section,
+            placement: Placement {
+                rotation: filament.rotation(),
+                translation: filament.at_nm.into(),
+            },
+            resolved: resolve(filament, is_held)?,
+            lattice: Lattice::of(filament, is_held),
+            model: models::ellipsoids(monomers, index)?,
+            law: law::Law::new(&filament.rod)?,
+            cross_section: CrossSection::new(density, area).map_err(|error| {
+                let key = format!("filament.rod.{}", error.key);
+                Problem::new(key, error.value, format!("must be {}", error.rule))
+            })?,
+            bodies: Vec::new(),
+            junction_frames: Vec::new(),
+        })
+    }
+
+    /// Place of the point of the axis at arc length `s_nm` as built (nm, lab frame).
+    pub(super) fn axis_at(&self, s_nm: f64) -> Vector3 {
+        self.place(Vector3::z() * s_nm)
+    }
+
+    /// Where a place of a filament along lab +z from the origin is in this one (nm, lab frame).
+    pub(super) fn place(&self, of_straight: Vector3) -> Vector3 {
+        self.placement.translation + self.placement.rotation * of_straight
+    }
+
+    /// Pushes the bodies of all sections and of the junctions between them.
+    pub(super) fn push_bodies(&mut self, stock: &mut Stock) -> Result<FilamentSpan, Problem> {
+        let first = (stock.points.len(), stock.frames.len());
+        for i in 0..self.filament.sections.len() {
+            self.push_section(i, stock)?;
+        }
+        Ok(FilamentSpan {
+            sections: self.first_section..stock.sections.len(),
+            points: first.0..stock.points.len(),
+            frames: first.1..stock.frames.len(),
+            origin_nm: self.placement.translation,
+            rotation: self.placement.rotation,
+        })
+    }
+
+    /// Pushes the junction to the section before, then the bodies of section `i`.
+    fn push_section(&mut self, i: usize, stock: &mut Stock) -> Result<(), Problem> {
+        if i > 0 {
+            self.push_junction_frames(i - 1, stock)?;
+        }
+        match self.resolved[i].monomers {
+            Some((first, last)) => {
+                self.push_monomers(i, (first, last), stock);
+                Ok(())
+            }
+            None => self.push_rod(i, stock),
+        }
+    }
+
+    fn push_monomers(&mut self, i: usize, (first, last): (i64, i64), stock: &mut Stock) {
+        let placement = Placement {
+            translation: self.axis_at(self.lattice.origin_nm),
+            ..self.placement
+        };
+        let count = usize::try_from(last - first + 1).expect("resolve leaves at least two");
+        let monomers = self.model.build(&mut stock.state, &placement, first, count);
+        for k in 0..count {
+            let s_nm = self.lattice.s_nm(monomers.index(k));
+            let kind = BodyKind::Monomer;
+            let frame = Some(monomers.frame(k));
+            stock.points.push(PointInfo { kind, s_nm, frame });
+            stock.frames.push(FrameInfo { kind, s_nm });
+        }
+        let (from, to) = (monomers.first_point, monomers.first_point + count);
+        let resolution = Resolution::Ellipsoids {
+            first_index: first,
+            bonds: 0,
+        };
+        let frames = monomers.first_frame..monomers.first_frame + count;
+        let tips = |end, held: usize, free: [usize; 2]| {
+            if self.scene.is_clamped(self.index, end) {
+                vec![held]
+            } else {
+                free.to_vec()
+            }
+        };
+        let first_tip = tips(End::Start, from + 1, [from, from + 1]);
+        let last_tip = tips(End::End, to - 2, [to - 2, to - 1]);
+        let bodies = (from..to, frames);
+        self.push_span(i, resolution, bodies, (first_tip, last_tip), stock);
+        self.bodies.push(Body::Monomers(monomers));
+    }
+
+    fn push_rod(&mut self, i: usize, stock: &mut Stock) -> Result<(), Problem> {
+        let Resolved { from_nm, to_nm, .. } = self.resolved[i];
+        let segments = self.segments(i)?;
+        let length = (to_nm - from_nm) / segments as f64;
+        let wall = |end| {
+            let at_this_end = i == self.filament.end_index(end);
+            at_this_end && self.scene.hold(self.index, end) == Some(Hold::Wall)
+        };
+        let rod = StraightRod {
+            start: self.axis_at(from_nm),
+            orientation: self.placement.rotation,
+            segment_lengths: vec![length; segments],
+            cross_section: self.cross_section,
+            walls: Walls {
+                start: wall(End::Start),
+                end: wall(End::End),
+            },
+        };
+        let layout = rod.push(&mut stock.state).map_err(|error| {
+            let key = format!("filament.sections[{i}].segments");
+            Problem::new(key, segments, error.to_string())
+        })?;
+        self.describe_rod(i, &layout, length, stock);
+        self.bodies.push(Body::Rod(layout));
+        Ok(())
+    }
+
+    /// Number of segments of rod section `i`: as written, or as near to the default length as fits.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "checked to lie between 1 and the most bodies"
+    )]
+    fn segments(&self, i: usize) -> Result<usize, Problem> {
+        let Resolved { from_nm, to_nm, .. } = self.resolved[i];
+        let written = match self.filament.sections[i] {
+            Section::Rod { segments, .. } => segments,
+            Section::Ellipsoids { .. } => None,
+        };
+        let (key, value, count) = if let Some(segments) = written {
+            ("segments", segments.to_string(), segments as f64)
+        } else {
+            let count = ((to_nm - from_nm) / DEFAULT_SEGMENT_NM).round().max(1.0);
+            ("to_nm", format!("{to_nm:?}"), count)
+        };
+        if count <= MOST_BODIES {
+            return Ok(count as usize);
+        }
+        Err(Problem::new(
+            format!("filament.sections[{i}].{key}"),
+            value,
+            format!(
+                "{count:.2e} segments are in this section, at most {MOST_BODIES:e} are allowed"
+            ),
+        ))
+    }
+
+    fn describe_rod(&self, i: usize, layout: &RodLayout, length: f64, stock: &mut Stock) {
+        let Resolved { from_nm, to_nm, .. } = self.resolved[i];
+        let node = |k: usize| from_nm + k as f64 * length;
+        for k in 0..layout.points().len() {
+            stock.points.push(PointInfo {
+                kind: BodyKind::Node,
+                s_nm: node(k),
+                frame: None,
+            });
+        }
+        let wall = |s_nm| FrameInfo {
+            kind: BodyKind::Wall,
+            s_nm,
+        };
+        let walls = [actin_cosserat::RodEnd::Start, actin_cosserat::RodEnd::End]
+            .map(|end| layout.wall(end).is_some());
+        stock.frames.extend(walls[0].then(|| wall(from_nm)));
+        stock
+            .frames
+            .extend((0..layout.segments()).map(|k| FrameInfo {
+                kind: BodyKind::Segment,
+                s_nm: node(k) + 0.5 * length,
+            }));
+        stock.frames.extend(walls[1].then(|| wall(to_nm)));
+        let Range { start, end } = layout.points();
+        let resolution = Resolution::Rod { segment_nm: length };
+        let bodies = (layout.points(), layout.frames());
+        self.push_span(i, resolution, bodies, (vec![start], vec![end - 1]), stock);
+    }
+
+    fn push_span(
+        &self,
+        i: usize,
+        resolution: Resolution,
+        (points, frames): (Range<usize>, Range<usize>),
+        (first_tip, last_tip): (Vec<usize>, Vec<usize>),
+        stock: &mut Stock,
+    ) {
+        stock.sections.push(SectionSpan {
+            resolution,
+            from_nm: self.resolved[i].from_nm,
+            to_nm: self.resolved[i].to_nm,
+            points,
+            frames,
+            first_tip,
+            last_tip,
+        });
+    }
+
+    /// Number of monomers of section `i` that a junction attaches to.
+    pub(super) fn attached(&self) -> usize {
+        self.filament.junction.attached_monomers
+    }
+
+    /// Pushes the frames of the junction between section `i` and the next, in filament order.
+    fn push_junction_frames(&mut self, i: usize, stock: &mut Stock) -> Result<(), Problem> {
+        let rise = self.lattice.rise_nm;
+        let boundary = self.resolved[i].to_nm;
+        let monomers_first = self.resolved[i].monomers.is_some();
+        // The monomers stand half a rise from the boundary, then each a rise further.
+        let mut distances: Vec<f64> = (0..self.attached())
+            .map(|k| (k as f64 + 0.5) * rise)
+            .collect();
+        if monomers_first {
+            distances.reverse();
+        }
+        let orientation = self.placement.rotation;
+        let frames = push_junction_frames(
+            &mut stock.state,
+            orientation,
+            &distances,
+            &self.cross_section,
+        )
+        .map_err(|error| junction_problem(&error))?;
+        let side = if monomers_first { -0.5 } else { 0.5 };
+        stock
+            .frames
+            .extend(distances.iter().map(|distance| FrameInfo {
+                kind: BodyKind::Junction,
+                s_nm: boundary + side * distance,
+            }));
+        self.junction_frames.push(frames);
+        Ok(())
+    }
+}
+
+pub(super) fn junction_problem(error: &actin_coupling::JunctionError) -> Problem {
+    Problem::new("filament.junction", "", error.to_string())
+}

@@ -1,0 +1,190 @@
+//! Checkpoints of a run in its directory: when they are written, and what is left at the end.
+
+use super::file::{Identity, replace, same_scene, sync};
+use super::log::{RecordLog, Tally};
+use super::{CheckpointError, Damage};
+use crate::results::directory::{
+    CHECKPOINT, PICTURES, RECORDS, RunDirectory, SCENE, SUMMARY, remove_if_there,
+};
+use crate::results::{RunDirectoryError, RunStatus, Summary};
+use crate::run::{Keeper, Kept, Record, Standing, Trajectory};
+use crate::{Assembly, Estimate};
+use std::fs;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Writes the checkpoints of one run, at an interval of time and when the run is left.
+///
+/// A checkpoint that cannot be written leaves the one before as it was and is tried again after the
+/// interval.
+#[derive(Debug)]
+pub struct Checkpoints {
+    path: PathBuf,
+    identity: Identity,
+    log: RecordLog,
+    every: Duration,
+    last: Instant,
+    interrupted: Arc<AtomicBool>,
+    written: u64,
+    warn: fn(&CheckpointError),
+    last_failed: bool,
+}
+
+impl Checkpoints {
+    /// Checkpoints in `directory` of a run of `assembly`, whose time steps `estimate` knows, every
+    /// `every`. The run is left as soon as `interrupted` is set; `warn` is told of checkpoints that
+    /// cannot be written.
+    pub fn new(
+        directory: &RunDirectory,
+        assembly: &mut Assembly,
+        estimate: Option<&Estimate>,
+        every: Duration,
+        interrupted: Arc<AtomicBool>,
+        warn: fn(&CheckpointError),
+    ) -> Self {
+        if let Some(estimate) = estimate {
+            assembly.resolve(estimate);
+        }
+        let identity = Identity::of(assembly);
+        let records = directory.path.join(RECORDS);
+        Self {
+            path: directory.path.join(CHECKPOINT),
+            log: RecordLog::new(records, Tally::default(), &identity.like, identity.terms),
+            identity,
+            every,
+            last: Instant::now(),
+            interrupted,
+            written: 0,
+            warn,
+            last_failed: false,
+        }
+    }
+
+    /// Reads what the directory keeps of this run, and goes on from there.
+    ///
+    /// # Errors
+    /// If there is no checkpoint, or one that is damaged, of another scene or of another program.
+    pub fn resume(&mut self) -> Result<Kept, CheckpointError> {
+        let contents = self
+            .identity
+            .read(&self.path)
+            .map_err(|damage| damage.of(&self.path))?;
+        let Identity { like, terms, .. } = &self.identity;
+        let path = self.path.with_file_name(RECORDS);
+        self.log = RecordLog::new(path.clone(), contents.records, like, *terms);
+        let records = if contents.records.count == 0 {
+            Vec::new()
+        } else {
+            let read = self.log.read(like, *terms);
+            read.map_err(|damage| damage.of(&path))?
+        };
+        Ok(Kept {
+            standing: contents.standing,
+            trajectory: Trajectory { records },
+            wall_s: contents.wall_s,
+        })
+    }
+
+    /// Checkpoints written so far.
+    pub fn written(&self) -> u64 {
+        self.written
+    }
+
+    /// Whether the last attempt to write a checkpoint failed.
+    pub fn last_failed(&self) -> bool {
+        self.last_failed
+    }
+
+    fn write(
+        &mut self,
+        standing: &Standing,
+        records: &[Record],
+        wall_s: f64,
+    ) -> Result<(), CheckpointError> {
+        let log = self.path.with_file_name(RECORDS);
+        let appended = self.log.append(records);
+        appended.map_err(|error| Damage::from(error).of(&log))?;
+        let bytes = self.identity.encode(standing, self.log.tally, wall_s);
+        replace(&self.path, &bytes).map_err(|error| Damage::from(error).of(&self.path))
+    }
+}
+
+impl Keeper for Checkpoints {
+    fn is_interrupted(&mut self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+
+    fn is_due(&mut self) -> bool {
+        self.last.elapsed() >= self.every
+    }
+
+    fn keep(&mut self, standing: &Standing, records: &[Record], wall_s: f64) {
+        let outcome = self.write(standing, records, wall_s);
+        self.last_failed = outcome.is_err();
+        match outcome {
+            Ok(()) => self.written += 1,
+            Err(error) => (self.warn)(&error),
+        }
+        self.last = Instant::now();
+    }
+}
+
+impl RunDirectory {
+    /// The directory of a run that is to be resumed; nothing in it is touched.
+    pub fn existing(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into() }
+    }
+
+    /// Whether the directory keeps a checkpoint.
+    pub fn has_checkpoint(&self) -> bool {
+        self.path.join(CHECKPOINT).exists()
+    }
+
+    /// How the run of this assembly ended whose results are in the directory, if it has ended.
+    ///
+    /// # Errors
+    /// If they are those of another scene.
+    pub fn ending(&self, assembly: &Assembly) -> Result<Option<RunStatus>, CheckpointError> {
+        let read = |name| fs::read_to_string(self.path.join(name)).ok();
+        let (Some(summary), Some(scene)) = (read(SUMMARY), read(SCENE)) else {
+            return Ok(None);
+        };
+        let Ok(summary) = serde_json::from_str::<Summary>(&summary) else {
+            return Ok(None);
+        };
+        if summary.status == RunStatus::Interrupted {
+            return Ok(None);
+        }
+        let path = self.path.join(SCENE);
+        same_scene(&scene, &assembly.scene.to_ron()).map_err(|damage| damage.of(&path))?;
+        Ok(Some(summary.status))
+    }
+
+    /// Removes the checkpoint of a run that has ended, once its results are on the disk.
+    ///
+    /// # Errors
+    /// A refusal of the file system.
+    pub fn remove_checkpoint(&self) -> Result<(), RunDirectoryError> {
+        if self.has_checkpoint() {
+            self.sync_results()?;
+        }
+        for name in [CHECKPOINT, RECORDS] {
+            remove_if_there(&self.path.join(name))?;
+        }
+        Ok(())
+    }
+
+    fn sync_results(&self) -> Result<(), RunDirectoryError> {
+        for folder in [self.path.clone(), self.path.join(PICTURES)] {
+            let io = || RunDirectoryError::io(&folder);
+            for entry in fs::read_dir(&folder).map_err(io())? {
+                let path = entry.map_err(io())?.path();
+                sync(&path).map_err(RunDirectoryError::io(&path))?;
+            }
+            sync(&folder).map_err(io())?;
+        }
+        Ok(())
+    }
+}

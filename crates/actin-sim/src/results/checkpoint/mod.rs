@@ -1,0 +1,21 @@
+//! `checkpoint.bin` and `records.bin`: a run that can be taken up again.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `checkpoint.bin` | program, scene, where the run stands, how many records there are |
+//! | `records.bin` | the records made so far, one after the other; only ever appended to |
+//!
+//! Everything is little-endian; floating-point numbers are their bits. `checkpoint.bin` is replaced
+//! as a whole, after the records that it counts have reached the disk, so that a run that is killed
+//! at any moment leaves the last checkpoint or the one before. What each byte is stands in
+//! `docs/numerics.md`.
+
+mod bytes;
+mod error;
+mod file;
+mod keeper;
+mod log;
+mod standing;
+
+pub use error::{CheckpointError, Damage};
+pub use keeper::Checkpoints;

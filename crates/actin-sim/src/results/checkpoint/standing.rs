@@ -1,0 +1,236 @@
+//! States, records and standings as bytes.
+
+use super::Damage;
+use super::bytes::{Reader, Writer};
+use crate::run::{Arrival, PathStanding, Record, Standing};
+use actin_equilibrium::{Certificate, Waypoint, Work};
+use actin_integrate::{Checkpoint, Mark};
+use actin_mechanics::State;
+
+const MOTION: u64 = 1;
+const PATH: u64 = 2;
+
+/// What time changes of a state, array by array.
+fn arrays(state: &State) -> [&[f64]; 14] {
+    let (x, v) = (&state.points.position, &state.points.velocity);
+    let (q, l) = (&state.frames.orientation, &state.frames.angular_momentum);
+    let time = std::slice::from_ref(&state.time);
+    [
+        &x.x, &x.y, &x.z, &v.x, &v.y, &v.z, &q.w, &q.x, &q.y, &q.z, &l.x, &l.y, &l.z, time,
+    ]
+}
+
+fn arrays_mut(state: &mut State) -> [&mut [f64]; 14] {
+    let (x, v) = (&mut state.points.position, &mut state.points.velocity);
+    let (q, l) = (
+        &mut state.frames.orientation,
+        &mut state.frames.angular_momentum,
+    );
+    let time = std::slice::from_mut(&mut state.time);
+    [
+        &mut x.x, &mut x.y, &mut x.z, &mut v.x, &mut v.y, &mut v.z, &mut q.w, &mut q.x, &mut q.y,
+        &mut q.z, &mut l.x, &mut l.y, &mut l.z, time,
+    ]
+}
+
+/// Writes what time changes of a state.
+fn write_state(writer: &mut Writer, state: &State) {
+    for array in arrays(state) {
+        writer.numbers(array);
+    }
+    writer.numbers(&state.controls);
+}
+
+/// Reads what time changes into a copy of `like`, from which the rest is.
+fn read_state(reader: &mut Reader<'_>, like: &State) -> Result<State, Damage> {
+    let mut state = like.clone();
+    for array in arrays_mut(&mut state) {
+        reader.numbers(array)?;
+    }
+    reader.numbers(&mut state.controls)?;
+    Ok(state)
+}
+
+/// Bytes of a record of a run with `terms` energies.
+pub(super) fn record_length(like: &State, terms: usize) -> usize {
+    let state: usize = arrays(like).iter().map(|array| array.len()).sum();
+    8 * (4 + terms + state + like.controls.len())
+}
+
+pub(super) fn write_record(writer: &mut Writer, record: &Record) {
+    let Record {
+        time_ns,
+        state,
+        energies_pn_nm,
+        kinetic_pn_nm,
+        residual_force_pn,
+        residual_torque_pn_nm,
+    } = record;
+    writer.numbers(&[
+        *time_ns,
+        *kinetic_pn_nm,
+        *residual_force_pn,
+        *residual_torque_pn_nm,
+    ]);
+    writer.numbers(energies_pn_nm);
+    write_state(writer, state);
+}
+
+pub(super) fn read_record(
+    reader: &mut Reader<'_>,
+    like: &State,
+    terms: usize,
+) -> Result<Record, Damage> {
+    let mut numbers = [0.0; 4];
+    reader.numbers(&mut numbers)?;
+    let [
+        time_ns,
+        kinetic_pn_nm,
+        residual_force_pn,
+        residual_torque_pn_nm,
+    ] = numbers;
+    let mut energies_pn_nm = vec![0.0; terms];
+    reader.numbers(&mut energies_pn_nm)?;
+    Ok(Record {
+        time_ns,
+        state: read_state(reader, like)?,
+        energies_pn_nm,
+        kinetic_pn_nm,
+        residual_force_pn,
+        residual_torque_pn_nm,
+    })
+}
+
+pub(super) fn write_standing(writer: &mut Writer, standing: &Standing) {
+    match standing {
+        Standing::Motion(checkpoint) => {
+            writer.count(MOTION);
+            write_mark(writer, &checkpoint.here);
+            write_mark(writer, &checkpoint.last_good);
+            writer.count(checkpoint.evaluations_before);
+        }
+        Standing::Path(standing) => {
+            writer.count(PATH);
+            write_path(writer, standing);
+        }
+    }
+}
+
+pub(super) fn read_standing(reader: &mut Reader<'_>, like: &State) -> Result<Standing, Damage> {
+    match reader.count()? {
+        MOTION => Ok(Standing::Motion(Box::new(Checkpoint {
+            here: read_mark(reader, like)?,
+            last_good: read_mark(reader, like)?,
+            evaluations_before: reader.count()?,
+        }))),
+        PATH => read_path(reader, like).map(|standing| Standing::Path(Box::new(standing))),
+        other => Err(Damage::Contents(format!("a task of kind {other}"))),
+    }
+}
+
+fn write_mark(writer: &mut Writer, mark: &Mark) {
+    writer.count(mark.step);
+    write_state(writer, &mark.state);
+    writer.flag(mark.loads_are_current);
+    writer.count(mark.force_evaluations);
+    writer.number(mark.largest_kinetic);
+}
+
+fn read_mark(reader: &mut Reader<'_>, like: &State) -> Result<Mark, Damage> {
+    Ok(Mark {
+        step: reader.count()?,
+        state: read_state(reader, like)?,
+        loads_are_current: reader.flag()?,
+        force_evaluations: reader.count()?,
+        largest_kinetic: reader.number()?,
+    })
+}
+
+fn write_path(writer: &mut Writer, standing: &PathStanding) {
+    writer.size(standing.stage);
+    writer.optional(standing.waypoint.as_ref(), write_waypoint);
+    write_state(writer, &standing.state);
+    writer.size(standing.points);
+    writer.optional(standing.last.as_ref(), write_arrival);
+    let work = &standing.work;
+    for count in [
+        work.iterations,
+        work.evaluations,
+        work.assemblies,
+        work.factorizations,
+        work.symbolic_factorizations,
+        work.factor_entries,
+    ] {
+        writer.count(count);
+    }
+}
+
+fn read_path(reader: &mut Reader<'_>, like: &State) -> Result<PathStanding, Damage> {
+    Ok(PathStanding {
+        stage: reader.size()?,
+        waypoint: reader.optional(|reader| read_waypoint(reader, like))?,
+        state: read_state(reader, like)?,
+        points: reader.size()?,
+        last: reader.optional(read_arrival)?,
+        work: Work {
+            iterations: reader.count()?,
+            evaluations: reader.count()?,
+            assemblies: reader.count()?,
+            factorizations: reader.count()?,
+            symbolic_factorizations: reader.count()?,
+            factor_entries: reader.count()?,
+        },
+    })
+}
+
+fn write_waypoint(writer: &mut Writer, waypoint: &Waypoint) {
+    writer.number(waypoint.parameter);
+    writer.number(waypoint.step);
+    writer.optional(waypoint.previous.as_ref(), |writer, (state, parameter)| {
+        write_state(writer, state);
+        writer.number(*parameter);
+    });
+    writer.optional(waypoint.rate, Writer::number);
+    writer.size(waypoint.points);
+    writer.size(waypoint.refused);
+}
+
+fn read_waypoint(reader: &mut Reader<'_>, like: &State) -> Result<Waypoint, Damage> {
+    Ok(Waypoint {
+        parameter: reader.number()?,
+        step: reader.number()?,
+        previous: reader.optional(|reader| Ok((read_state(reader, like)?, reader.number()?)))?,
+        rate: reader.optional(Reader::number)?,
+        points: reader.size()?,
+        refused: reader.size()?,
+    })
+}
+
+fn write_arrival(writer: &mut Writer, arrival: &Arrival) {
+    writer.optional(arrival.certificate, |writer, certificate| {
+        writer.size(certificate.negative);
+        writer.size(certificate.unresolved);
+        writer.number(certificate.resolution);
+        writer.size(certificate.negative_pivots);
+    });
+    writer.size(arrival.history.len());
+    for &(force, torque) in &arrival.history {
+        writer.numbers(&[force, torque]);
+    }
+}
+
+fn read_arrival(reader: &mut Reader<'_>) -> Result<Arrival, Damage> {
+    let certificate = reader.optional(|reader| {
+        Ok(Certificate {
+            negative: reader.size()?,
+            unresolved: reader.size()?,
+            resolution: reader.number()?,
+            negative_pivots: reader.size()?,
+        })
+    })?;
+    let history = reader.list(16, |reader| Ok((reader.number()?, reader.number()?)))?;
+    Ok(Arrival {
+        certificate,
+        history,
+    })
+}

@@ -1,0 +1,198 @@
+//! Which filament a scene means by an index, and where each is built.
+
+use super::types::along_z;
+use super::{
+    Clamp, End, Filament, Hold, JunctionModel, Monomers, Problem, RodModel, Scene, Section, Slides,
+};
+use actin_mechanics::{UnitQuaternion, Vector3};
+use nalgebra::Quaternion;
+
+impl Filament {
+    /// A filament of these sections along lab +z from the origin, every parameter the default.
+    pub fn new(sections: Vec<Section>) -> Self {
+        Self {
+            sections,
+            monomers: Monomers::default(),
+            rod: RodModel::default(),
+            junction: JunctionModel::default(),
+            at_nm: [0.0; 3],
+            direction: along_z(),
+            roll_deg: 0.0,
+        }
+    }
+
+    /// Unit vector along the filament as built (lab frame).
+    pub fn axis(&self) -> Vector3 {
+        let direction = Vector3::from(self.direction);
+        // Scaled first, so that squares neither overflow nor underflow.
+        (direction / direction.amax()).normalize()
+    }
+
+    /// The turn that takes a filament along lab +z, its azimuth 0 at +x, to where it is built: by
+    /// `roll_deg` about lab z, then by the shortest turn that takes lab z to the axis (where they
+    /// are opposite: half a turn about lab x).
+    pub fn rotation(&self) -> UnitQuaternion {
+        let axis = self.axis();
+        let (sine, cosine) = (Vector3::z().cross(&axis), axis.z);
+        // Sine and cosine of half the angle, the smaller of the two from the larger.
+        let larger = (0.5 * (1.0 + cosine.abs())).sqrt();
+        let smaller = 0.5 * sine.norm() / larger;
+        let about = sine.try_normalize(0.0).unwrap_or_else(Vector3::x);
+        let (cos, sin) = if cosine < 0.0 {
+            (smaller, larger)
+        } else {
+            (larger, smaller)
+        };
+        let tilt = Quaternion::from_parts(cos, about * sin);
+        let tilt = UnitQuaternion::from_quaternion(tilt);
+        let roll = self.roll_deg.to_radians();
+        tilt * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), roll)
+    }
+
+    /// Index of the section at one end.
+    pub(crate) fn end_index(&self, end: End) -> usize {
+        match end {
+            End::Start => 0,
+            End::End => self.sections.len() - 1,
+        }
+    }
+
+    /// Arc length at its end, as written (nm).
+    pub(crate) fn length_nm(&self) -> f64 {
+        self.sections.last().map_or(0.0, |s| s.span_nm().1)
+    }
+
+    /// Whether a rod is at one end.
+    pub(crate) fn is_rod_at(&self, end: End) -> bool {
+        matches!(self.sections[self.end_index(end)], Section::Rod { .. })
+    }
+}
+
+impl Scene {
+    /// All filaments in the order of their indices.
+    pub fn filaments(&self) -> impl Iterator<Item = &Filament> {
+        std::iter::once(&self.filament).chain(&self.further)
+    }
+
+    /// All filaments, to be changed.
+    pub fn filaments_mut(&mut self) -> impl Iterator<Item = &mut Filament> {
+        std::iter::once(&mut self.filament).chain(&mut self.further)
+    }
+
+    /// Number of filaments.
+    pub fn number_of_filaments(&self) -> usize {
+        1 + self.further.len()
+    }
+
+    /// Filament `index`, if there is one.
+    pub(crate) fn filament_at(&self, index: usize) -> Option<&Filament> {
+        match index.checked_sub(1) {
+            None => Some(&self.filament),
+            Some(further) => self.further.get(further),
+        }
+    }
+
+    /// The key of filament `index` in a scene's text.
+    pub(crate) fn filament_key(&self, index: usize) -> String {
+        if self.further.is_empty() {
+            "filament".to_owned()
+        } else {
+            format!("filaments[{index}]")
+        }
+    }
+
+    /// The filament that `key` names by its index.
+    ///
+    /// # Errors
+    /// An index beyond the last.
+    pub(super) fn named_filament(&self, key: &str, index: usize) -> Result<&Filament, Problem> {
+        self.filament_at(index).ok_or_else(|| {
+            let rule = match self.number_of_filaments() {
+                1 => "there is one filament, which is 0".to_owned(),
+                count => format!("there are {count} filaments, counted from 0"),
+            };
+            Problem::new(key, index, rule)
+        })
+    }
+
+    /// The clamp at one end of a filament; none if it is free.
+    pub(crate) fn clamp_at(&self, filament: usize, end: End) -> Option<&Clamp> {
+        let is_there = |clamp: &&Clamp| (clamp.filament, clamp.end) == (filament, end);
+        self.clamps.iter().find(is_there)
+    }
+
+    /// What is held at one end; nothing if it is free.
+    pub(crate) fn hold(&self, filament: usize, end: End) -> Option<Hold> {
+        self.clamp_at(filament, end).map(|clamp| clamp.hold)
+    }
+
+    /// Whether an end is held.
+    pub(crate) fn is_clamped(&self, filament: usize, end: End) -> bool {
+        self.clamp_at(filament, end).is_some()
+    }
+}
+
+impl Slides {
+    /// The directions, orthonormal (lab frame), at a filament whose axis as built is `axis`.
+    pub fn directions(self, axis: Vector3) -> Vec<Vector3> {
+        match self {
+            Self::Nowhere => Vec::new(),
+            Self::AlongAxis => vec![axis],
+            Self::Freely => vec![Vector3::x(), Vector3::y(), Vector3::z()],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn along(direction: [f64; 3], roll_deg: f64) -> Filament {
+        Filament {
+            direction,
+            roll_deg,
+            ..Filament::new(Vec::new())
+        }
+    }
+
+    /// By default nothing is turned, to the last bit: results of scenes that place nothing stay.
+    #[test]
+    fn the_default_turns_nothing() {
+        assert_eq!(
+            along([0.0, 0.0, 1.0], 0.0).rotation(),
+            UnitQuaternion::identity()
+        );
+        assert_eq!(
+            along([0.0, 0.0, 7e200], 0.0).rotation(),
+            UnitQuaternion::identity()
+        );
+    }
+
+    /// Lab z goes to the direction, of any length and opposite to z too; the roll is about it.
+    #[test]
+    fn the_axis_and_the_azimuth_go_where_they_are_sent() {
+        for direction in [
+            [3.0, 0.0, 4.0],
+            [0.0, -2.0, -1e-9],
+            [1e-200, 0.0, 0.0],
+            [1e-9, 0.0, -1.0],
+            [0.0, 0.0, -1.0],
+        ] {
+            let filament = along(direction, 90.0);
+            let axis = filament.axis();
+            assert!((axis.norm() - 1.0).abs() < 1e-15);
+            let unrolled = along(direction, 0.0).rotation();
+            // Rounding of square roots and a rotation.
+            assert!(
+                (unrolled * Vector3::z() - axis).norm() < 1e-15,
+                "{direction:?}"
+            );
+            let (x, y) = (unrolled * Vector3::x(), unrolled * Vector3::y());
+            assert!((filament.rotation() * Vector3::x() - y).norm() < 1e-15);
+            assert!(x.cross(&y).dot(&axis) > 0.999);
+        }
+        // The shortest turn from z to x takes x to -z.
+        let turned = along([1.0, 0.0, 0.0], 0.0).rotation() * Vector3::x();
+        assert!((turned + Vector3::z()).norm() < 1e-15);
+    }
+}

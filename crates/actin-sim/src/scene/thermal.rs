@@ -1,0 +1,66 @@
+//! Thermal noise in a scene: its temperature, its seed, and what it needs.
+
+use super::{Dynamics, Problem, validate};
+use serde::{Deserialize, Serialize};
+
+/// Boltzmann's constant (pN nm / K), exact by definition of the kelvin.
+///
+/// # Source
+/// Bureau International des Poids et Mesures, The International System of Units, 9th edition
+/// (2019).
+pub const BOLTZMANN_PN_NM_PER_K: f64 = 0.013_806_49;
+
+/// Thermal noise, the counterpart of drag: together they keep the filament at a temperature.
+///
+/// The noise is a function of the seed, the number of the step and the index of the body; see
+/// [`actin_integrate::Bath`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Thermal {
+    /// Temperature (K).
+    pub temperature_k: f64,
+    /// Seed of the noise.
+    pub seed: u64,
+}
+
+impl Thermal {
+    /// The thermal energy `kT` (pN nm).
+    ///
+    /// ```
+    /// let thermal = actin_sim::Thermal { temperature_k: 300.0, seed: 1 };
+    /// assert!((thermal.energy_pn_nm() - 4.142).abs() < 1e-3);
+    /// ```
+    pub fn energy_pn_nm(&self) -> f64 {
+        BOLTZMANN_PN_NM_PER_K * self.temperature_k
+    }
+}
+
+/// Checks a temperature against the rest of the task.
+pub(super) fn check(dynamics: &Dynamics) -> Result<(), Problem> {
+    let Some(thermal) = &dynamics.thermal else {
+        return Ok(());
+    };
+    validate::positive("task.thermal.temperature_k", thermal.temperature_k)?;
+    let drag = &dynamics.drag;
+    for (name, rate) in [
+        ("translational_per_ns", drag.translational_per_ns),
+        ("rotational_per_ns", drag.rotational_per_ns),
+    ] {
+        if rate == 0.0 {
+            return Err(Problem::new(
+                format!("task.drag.{name}"),
+                format!("{rate:?}"),
+                "must be greater than 0 where there is thermal noise, which is the counterpart of \
+                 drag: without it this motion would never take up the temperature",
+            ));
+        }
+    }
+    if dynamics.stop.is_some() {
+        return Err(Problem::new(
+            "task.stop",
+            "",
+            "a filament in thermal motion never comes to rest: leave out stop or thermal",
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,83 @@
+//! A scene as its text has it: one `filament` or a list of `filaments`.
+
+use super::{Clamp, Filament, Linker, Load, Problem, Scene, Stage, Task};
+use serde::{Deserialize, Serialize};
+
+/// The keys of a scene. [`Scene`] says what they mean.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename = "Scene")]
+pub(super) struct Written {
+    #[serde(default)]
+    title: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    filament: Option<Filament>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    filaments: Option<Vec<Filament>>,
+    #[serde(default)]
+    clamps: Vec<Clamp>,
+    #[serde(default)]
+    loads: Vec<Load>,
+    #[serde(default)]
+    linkers: Vec<Linker>,
+    #[serde(default)]
+    path: Vec<Stage>,
+    task: Task,
+}
+
+impl TryFrom<Written> for Scene {
+    type Error = Problem;
+
+    /// Takes the filaments from the one key or the other.
+    fn try_from(written: Written) -> Result<Self, Problem> {
+        let (filament, further) = match (written.filament, written.filaments) {
+            (Some(filament), None) => (filament, Vec::new()),
+            (None, Some(filaments)) => first_and_others(filaments)?,
+            (None, None) => {
+                let rule = "is missing: a scene has a filament, or several as filaments";
+                return Err(Problem::new("filament", "", rule));
+            }
+            (Some(_), Some(_)) => {
+                let rule = "the filament is given by filament already: write one of the two";
+                return Err(Problem::new("filaments", "", rule));
+            }
+        };
+        Ok(Self {
+            title: written.title,
+            filament,
+            further,
+            clamps: written.clamps,
+            loads: written.loads,
+            linkers: written.linkers,
+            path: written.path,
+            task: written.task,
+        })
+    }
+}
+
+fn first_and_others(filaments: Vec<Filament>) -> Result<(Filament, Vec<Filament>), Problem> {
+    let mut filaments = filaments.into_iter();
+    let none = || Problem::new("filaments", "[]", "a scene has at least one filament");
+    let first = filaments.next().ok_or_else(none)?;
+    Ok((first, filaments.collect()))
+}
+
+impl From<Scene> for Written {
+    fn from(scene: Scene) -> Self {
+        let (filament, filaments) = if scene.further.is_empty() {
+            (Some(scene.filament), None)
+        } else {
+            let all = std::iter::once(scene.filament).chain(scene.further);
+            (None, Some(all.collect()))
+        };
+        Self {
+            title: scene.title,
+            filament,
+            filaments,
+            clamps: scene.clamps,
+            loads: scene.loads,
+            linkers: scene.linkers,
+            path: scene.path,
+            task: scene.task,
+        }
+    }
+}

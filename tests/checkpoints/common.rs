@@ -1,0 +1,136 @@
+//! Small scenes of every kind, and a keeper that leaves a run at a given moment.
+
+use actin_sim::{
+    Assembly, CheckpointError, Checkpoints, Keeper, Kept, Record, RunDirectory, RunReport, Scene,
+    Standing, Trajectory, estimate, run_kept,
+};
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+/// What a scene is made of, by number.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Choice {
+    pub(crate) filament: usize,
+    pub(crate) held: usize,
+    pub(crate) integrator: usize,
+    pub(crate) drag: f64,
+    pub(crate) stops: bool,
+    pub(crate) record_every_ns: f64,
+    pub(crate) duration_ns: f64,
+}
+
+const FILAMENTS: [&str; 3] = [
+    "sections: [Rod(from_nm: 0.0, to_nm: 40.0)]",
+    "sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0), Rod(from_nm: 12.0, to_nm: 42.0)],
+     monomers: Monomers(lateral_bonds: 6, longitudinal_bonds: 6)",
+    "sections: [Rod(from_nm: 0.0, to_nm: 40.0)], rod: RodModel(law: Fitted)",
+];
+
+/// A force at once, a force by a ramp, an end that turns and slides, a linker whose anchor moves.
+const HELD: [&str; 4] = [
+    "clamps: [Clamp(end: Start)],
+     loads: [EndForce(end: End, force_pn: (-12.0, 3.0, 0.0))]",
+    "clamps: [Clamp(end: Start)],
+     loads: [EndForce(end: End, force_pn: (-20.0, 0.0, 3.0))],
+     path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)], duration_ns: 0.1),
+            Stage(set: [LoadFactor(load: 0, factor: 0.5)], duration_ns: 0.15)]",
+    "clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
+     path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 40.0))], duration_ns: 0.2),
+            Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 30.0))], duration_ns: 0.05)]",
+    "clamps: [Clamp(end: Start)],
+     linkers: [Linker(at_nm: 35.0, radius_nm: 1.8, displaced_nm: (3.0, 0.0, 0.0),
+                      stiffness_pn_per_nm: 10.0)],
+     path: [Stage(set: [Anchor(linker: 0, shift_nm: (0.0, 2.0, 1.0))], duration_ns: 0.1)]",
+];
+
+const INTEGRATORS: [&str; 5] = ["PositionVerlet", "Pefrl", "Vefrl", "ForestRuth", "Suzuki"];
+
+impl Choice {
+    fn scene(&self, task: &str) -> Scene {
+        let (filament, held) = (FILAMENTS[self.filament], HELD[self.held]);
+        let text = format!("Scene(filament: Filament({filament}), {held}, task: {task})");
+        Scene::from_ron(&text).unwrap()
+    }
+
+    /// The scene as a motion in time.
+    pub(crate) fn motion(&self) -> Scene {
+        let stop = if self.stops {
+            "stop: (force_pn: 5.0, torque_pn_nm: 5.0, kinetic_pn_nm: 1.0),"
+        } else {
+            ""
+        };
+        self.scene(&format!(
+            "Dynamics(duration_ns: {:?}, integrator: {}, record_every_ns: {:?}, {stop}
+             drag: (translational_per_ns: {:?}, rotational_per_ns: {:?}))",
+            self.duration_ns,
+            INTEGRATORS[self.integrator],
+            self.record_every_ns,
+            self.drag,
+            0.5 * self.drag
+        ))
+    }
+
+    /// The scene as equilibria along its path, or as a single one.
+    pub(crate) fn statics(&self) -> Scene {
+        self.scene("Equilibrium(largest_step: 0.1, lowest_eigenvalue: true)")
+    }
+}
+
+pub(crate) fn build(scene: &Scene) -> Assembly {
+    Assembly::build(scene).unwrap()
+}
+
+/// The files of checkpoints of an assembly in `directory`.
+pub(crate) fn checkpoints(directory: &RunDirectory, assembly: &mut Assembly) -> Checkpoints {
+    let estimate = estimate(assembly).unwrap();
+    let never = Arc::new(AtomicBool::new(false));
+    let hour = Duration::from_hours(1);
+    Checkpoints::new(directory, assembly, estimate.as_ref(), hour, never, report)
+}
+
+fn report(error: &CheckpointError) {
+    println!("{error}");
+}
+
+/// Leaves a run when it has been asked `left` times whether to.
+pub(crate) struct Leaving<'a> {
+    pub(crate) checkpoints: &'a mut Checkpoints,
+    pub(crate) left: u64,
+}
+
+impl Keeper for Leaving<'_> {
+    fn is_interrupted(&mut self) -> bool {
+        self.left = self.left.saturating_sub(1);
+        self.left == 0
+    }
+
+    fn is_due(&mut self) -> bool {
+        // Every other time, so that the log grows in steps.
+        self.left.is_multiple_of(2)
+    }
+
+    fn keep(&mut self, standing: &Standing, records: &[Record], wall_s: f64) {
+        self.checkpoints.keep(standing, records, wall_s);
+    }
+}
+
+/// Runs a scene to where it is left, from what was kept.
+pub(crate) fn advance(
+    scene: &Scene,
+    directory: &RunDirectory,
+    resumes: bool,
+    left: u64,
+) -> (Assembly, Trajectory, RunReport) {
+    let mut assembly = build(scene);
+    let mut checkpoints = checkpoints(directory, &mut assembly);
+    let kept: Option<Kept> = resumes.then(|| checkpoints.resume().unwrap());
+    let mut keeper = Leaving {
+        checkpoints: &mut checkpoints,
+        left,
+    };
+    let watch = &mut |_| ControlFlow::Continue(());
+    let (trajectory, report) = run_kept(&mut assembly, kept, &mut keeper, watch).unwrap();
+    (assembly, trajectory, report)
+}

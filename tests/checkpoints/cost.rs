@@ -1,0 +1,116 @@
+//! What checks and checkpoints cost in time. Nothing is asserted: the tables of `docs/numerics.md`
+//! are what this prints.
+
+use crate::common::{build, checkpoints};
+use actin_integrate::{DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Run, advance, stable_step};
+use actin_mechanics::System;
+use actin_sim::{Keeper, RunDirectory, Scene, Standing};
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+/// Filaments by name.
+const FILAMENTS: [(&str, &str); 4] = [
+    (
+        "rod, 16 segments",
+        "Rod(from_nm: 0.0, to_nm: 160.0, segments: 16)",
+    ),
+    (
+        "rod, 64 segments",
+        "Rod(from_nm: 0.0, to_nm: 640.0, segments: 64)",
+    ),
+    (
+        "rod, 1024 segments",
+        "Rod(from_nm: 0.0, to_nm: 10240.0, segments: 1024)",
+    ),
+    ("60 monomers", "Ellipsoids(from_nm: 0.0, to_nm: 163.0)"),
+];
+
+fn scene(section: &str) -> Scene {
+    let text = format!(
+        "Scene(filament: Filament(sections: [{section}]), clamps: [Clamp(end: Start)],
+         loads: [EndForce(end: End, force_pn: (-0.1, 0.0, 0.0))],
+         task: Dynamics(duration_ns: 1.0, integrator: PositionVerlet))"
+    );
+    Scene::from_ron(&text).unwrap()
+}
+
+/// The least time (s) of some repetitions: what other programs do only adds to it.
+fn least(mut work: impl FnMut()) -> f64 {
+    let once = |work: &mut dyn FnMut()| {
+        let start = Instant::now();
+        work();
+        start.elapsed().as_secs_f64()
+    };
+    let times = (0..15).map(|_| once(&mut work));
+    times.fold(f64::INFINITY, f64::min)
+}
+
+fn steps_with(system: &mut System, h: f64, steps: u64, every: u64) -> f64 {
+    let run = Run::new(&actin_integrate::POSITION_VERLET, h, steps)
+        .and_then(|run| run.checking_every(every))
+        .and_then(|run| run.observing_every(u64::MAX / 2))
+        .unwrap();
+    least(|| {
+        let outcome = run.execute(system, &mut []);
+        assert!(outcome.is_ok());
+    })
+}
+
+/// A step, a check, and the share of checks in a run that checks as often as it does by default.
+#[test]
+#[ignore = "prints times; run by hand with --ignored --nocapture"]
+fn cost_of_checks() {
+    for (name, section) in FILAMENTS {
+        let mut assembly = build(&scene(section));
+        let system = &mut assembly.system;
+        let frequency = actin_integrate::largest_frequency(system).unwrap();
+        let h = stable_step(&actin_integrate::POSITION_VERLET, frequency, 0.5).unwrap();
+        let steps = 400_000 / system.state().frames.len() as u64;
+        let none = actin_integrate::Drag::NONE;
+        let bare = least(|| advance(system, &actin_integrate::POSITION_VERLET, h, steps, &none));
+        let often = steps_with(system, h, steps, 1);
+        let usual = steps_with(system, h, steps, DEFAULT_CHECK_EVERY);
+        let (step, check) = (bare / steps as f64, (often - bare) / steps as f64);
+        println!(
+            "| {name} | {:.2} | {:.2} | {:.2} % | {:.2} % |",
+            1e6 * step,
+            1e6 * check,
+            100.0 * check / (step * DEFAULT_CHECK_EVERY as f64),
+            100.0 * (usual / bare - 1.0)
+        );
+    }
+}
+
+/// Keeps the first pause of a run.
+struct First(Option<Standing>);
+
+impl Observer for First {
+    fn observe(&mut self, _: &mut Moment<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
+        self.0 = Some(Standing::Motion(Box::new(pause.checkpoint())));
+        ControlFlow::Break(())
+    }
+}
+
+/// Bytes and time of a checkpoint, with nothing new to record.
+#[test]
+#[ignore = "prints times; run by hand with --ignored --nocapture"]
+fn cost_of_checkpoints() {
+    for (name, section) in FILAMENTS {
+        let folder = tempfile::tempdir().unwrap();
+        let directory = RunDirectory::create(folder.path().join("run"), false).unwrap();
+        let mut assembly = build(&scene(section));
+        let mut files = checkpoints(&directory, &mut assembly);
+        let run = Run::new(&actin_integrate::POSITION_VERLET, 1e-3, 1000).unwrap();
+        let mut first = First(None);
+        let outcome = run.execute(&mut assembly.system, &mut [&mut first]);
+        assert!(outcome.is_ok());
+        let standing = first.0.unwrap();
+        let time = least(|| files.keep(&standing, &[], 0.0));
+        let bytes = std::fs::metadata(directory.path().join("checkpoint.bin")).unwrap();
+        println!("| {name} | {} | {:.2} |", bytes.len(), 1e3 * time);
+    }
+}

@@ -1,0 +1,217 @@
+//! Checkpoints with a byte changed, a piece cut off or another owner: refused, in words, and never
+//! with a panic.
+
+use crate::common::{Choice, advance, build, checkpoints};
+use actin_sim::{CheckpointError, Damage, RunDirectory, Scene};
+use std::fs;
+use tempfile::TempDir;
+
+const CHOICE: Choice = Choice {
+    filament: 1,
+    held: 1,
+    integrator: 1,
+    drag: 0.3,
+    stops: false,
+    record_every_ns: 0.05,
+    duration_ns: 0.4,
+};
+
+/// A run that was left, in its directory.
+struct Left {
+    _folder: TempDir,
+    directory: RunDirectory,
+    scene: Scene,
+}
+
+impl Left {
+    fn of(scene: Scene) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let directory = RunDirectory::create(folder.path().join("run"), false).unwrap();
+        let (.., report) = advance(&scene, &directory, false, 9);
+        assert!(report.interrupted);
+        Self {
+            _folder: folder,
+            directory,
+            scene,
+        }
+    }
+
+    fn bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.directory.path().join(name)).unwrap()
+    }
+
+    fn replace(&self, name: &str, bytes: &[u8]) {
+        fs::write(self.directory.path().join(name), bytes).unwrap();
+    }
+
+    /// What is said of the checkpoint; it is read as another process would.
+    fn resume(&self, scene: &Scene) -> Result<(), CheckpointError> {
+        let mut assembly = build(scene);
+        checkpoints(&self.directory, &mut assembly)
+            .resume()
+            .map(drop)
+    }
+
+    fn refusal(&self) -> String {
+        self.resume(&self.scene).unwrap_err().to_string()
+    }
+}
+
+/// Places in a file: all of its first bytes, and a thousand spread over the rest.
+fn places(length: usize) -> impl Iterator<Item = usize> {
+    let stride = (length / 1000).max(1);
+    (0..length.min(64)).chain((64..length).step_by(stride))
+}
+
+/// Both files of a motion and of a path, each place with one bit and with all bits flipped.
+#[test]
+fn every_flipped_byte_is_found() {
+    let mut flipped = 0;
+    for scene in [CHOICE.motion(), CHOICE.statics()] {
+        let left = Left::of(scene);
+        let mut files = checkpoints(&left.directory, &mut build(&left.scene));
+        for name in ["checkpoint.bin", "records.bin"] {
+            let whole = left.bytes(name);
+            for place in places(whole.len()) {
+                for mask in [1, 0xff] {
+                    let mut bytes = whole.clone();
+                    bytes[place] ^= mask;
+                    left.replace(name, &bytes);
+                    let message = files.resume().unwrap_err().to_string();
+                    assert!(message.contains(name), "{place}: {message}");
+                    flipped += 1;
+                }
+            }
+            left.replace(name, &whole);
+            files.resume().unwrap();
+        }
+    }
+    println!("{flipped} flipped bytes were found");
+}
+
+/// Every short length of the header, and some hundred of the rest; a byte too many is found, too.
+#[test]
+fn every_truncation_is_found() {
+    let left = Left::of(CHOICE.motion());
+    for name in ["checkpoint.bin", "records.bin"] {
+        let whole = left.bytes(name);
+        for length in places(whole.len()) {
+            left.replace(name, &whole[..length]);
+            let message = left.refusal();
+            let says = ["bytes where its header says", "there is no checkpoint"];
+            assert!(
+                says.iter().any(|s| message.contains(s)),
+                "{length}: {message}"
+            );
+        }
+        left.replace(name, &whole);
+    }
+    let mut longer = left.bytes("checkpoint.bin");
+    longer.push(0);
+    left.replace("checkpoint.bin", &longer);
+    assert!(left.refusal().contains("appended"));
+}
+
+/// Records behind those that the checkpoint counts were not yet part of it: they are made again.
+#[test]
+fn records_that_no_checkpoint_counts_are_ignored() {
+    let left = Left::of(CHOICE.motion());
+    let mut longer = left.bytes("records.bin");
+    longer.extend_from_slice(&[0xab; 777]);
+    left.replace("records.bin", &longer);
+    let (_, trajectory, _) = advance(&left.scene, &left.directory, true, u64::MAX);
+    let one = Left::of(CHOICE.motion());
+    let (_, expected, _) = advance(&one.scene, &one.directory, true, u64::MAX);
+    assert_eq!(trajectory.records.len(), expected.records.len());
+    for (a, b) in trajectory.records.iter().zip(&expected.records) {
+        assert_eq!(a.state, b.state);
+    }
+}
+
+/// The first line of the resolved scene that differs is shown, old and new.
+#[test]
+fn another_scene_is_refused_with_the_line() {
+    let left = Left::of(CHOICE.motion());
+    let other = Choice {
+        drag: 0.31,
+        ..CHOICE
+    };
+    let error = left.resume(&other.motion()).unwrap_err();
+    println!("{error}");
+    assert!(matches!(error.damage, Damage::Scene { .. }));
+    let message = error.to_string();
+    assert!(
+        message.contains("0.3,") && message.contains("0.31,"),
+        "{message}"
+    );
+    // Not even the same bodies.
+    assert!(
+        left.resume(
+            &Choice {
+                filament: 0,
+                ..CHOICE
+            }
+            .motion()
+        )
+        .is_err()
+    );
+    assert!(left.resume(&CHOICE.statics()).is_err());
+}
+
+/// A format to come, whose header is whole, is named as such; what is no checkpoint as well.
+#[test]
+fn other_formats_and_files_are_named() {
+    let left = Left::of(CHOICE.motion());
+    let mut bytes = left.bytes("checkpoint.bin");
+    bytes[8] = 2;
+    let checksum = crc32fast::hash(&bytes[..24]);
+    bytes[24..28].copy_from_slice(&checksum.to_le_bytes());
+    left.replace("checkpoint.bin", &bytes);
+    let message = left.refusal();
+    assert!(
+        message.ends_with("format version 2: this program reads version 1"),
+        "{message}"
+    );
+    left.replace("checkpoint.bin", &[b'x'; 4000]);
+    assert!(left.refusal().contains("not a checkpoint"));
+    fs::remove_file(left.directory.path().join("checkpoint.bin")).unwrap();
+    assert!(
+        left.refusal()
+            .contains("there is no checkpoint to resume from")
+    );
+}
+
+/// A header that promises 2^63 bytes, checksum and all: refused before anything is allocated.
+#[test]
+fn a_huge_length_is_refused() {
+    let left = Left::of(CHOICE.motion());
+    let mut bytes = left.bytes("checkpoint.bin");
+    bytes[12..20].copy_from_slice(&(1_u64 << 63).to_le_bytes());
+    let checksum = crc32fast::hash(&bytes[..24]);
+    bytes[24..28].copy_from_slice(&checksum.to_le_bytes());
+    left.replace("checkpoint.bin", &bytes);
+    assert!(left.refusal().contains("truncated"));
+}
+
+/// Contents changed at random under right checksums, as no accident does: refused or taken for
+/// another place of the same run, but never a panic, and nothing is allocated for what is not there.
+#[test]
+fn forged_contents_do_no_harm() {
+    let mut refused = 0;
+    for scene in [CHOICE.motion(), CHOICE.statics()] {
+        let left = Left::of(scene);
+        let whole = left.bytes("checkpoint.bin");
+        for place in places(whole.len()).filter(|&place| place >= 28) {
+            let mut bytes = whole.clone();
+            bytes[place] = bytes[place].wrapping_add(0x7f);
+            let body = crc32fast::hash(&bytes[28..]);
+            bytes[20..24].copy_from_slice(&body.to_le_bytes());
+            let header = crc32fast::hash(&bytes[..24]);
+            bytes[24..28].copy_from_slice(&header.to_le_bytes());
+            left.replace("checkpoint.bin", &bytes);
+            refused += usize::from(left.resume(&left.scene).is_err());
+        }
+    }
+    println!("{refused} forgeries were refused");
+    assert!(refused > 0);
+}

@@ -1,0 +1,50 @@
+//! A disk that refuses: the last checkpoint stays, the run goes on, and the next attempt succeeds.
+
+use crate::common::{Choice, advance, build, checkpoints};
+use actin_sim::{Keeper, RunDirectory, Standing};
+use std::fs;
+
+const CHOICE: Choice = Choice {
+    filament: 0,
+    held: 0,
+    integrator: 0,
+    drag: 0.0,
+    stops: false,
+    record_every_ns: 0.05,
+    duration_ns: 0.4,
+};
+
+/// What stands where the file is to be written refuses it, as a full disk would: first the
+/// checkpoint, then the records.
+#[test]
+fn a_failed_checkpoint_leaves_the_last_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let directory = RunDirectory::create(folder.path().join("run"), false).unwrap();
+    let scene = CHOICE.motion();
+    advance(&scene, &directory, false, 5);
+    let path = directory.path().join("checkpoint.bin");
+    let before = fs::read(&path).unwrap();
+
+    let mut assembly = build(&scene);
+    let mut files = checkpoints(&directory, &mut assembly);
+    let kept = files.resume().unwrap();
+    let Standing::Motion(checkpoint) = &kept.standing else {
+        panic!("a motion");
+    };
+    let mut later = checkpoint.clone();
+    later.here.step += 1;
+    let later = Standing::Motion(later);
+    let obstacle = directory.path().join("checkpoint.bin.part");
+    fs::create_dir(&obstacle).unwrap();
+    files.keep(&later, &kept.trajectory.records, 1.0);
+    assert!(files.last_failed());
+    assert_eq!(fs::read(&path).unwrap(), before);
+
+    fs::remove_dir(&obstacle).unwrap();
+    files.keep(&later, &kept.trajectory.records, 1.0);
+    assert!(!files.last_failed());
+    let again = checkpoints(&directory, &mut build(&scene))
+        .resume()
+        .unwrap();
+    assert_eq!(again.standing, later);
+}

@@ -1,0 +1,134 @@
+//! A run that was left and taken up again gives what a run gives that was not.
+
+use crate::common::{Choice, advance};
+use actin_sim::{Record, RunDirectory, RunReport, Scene, Trajectory};
+use proptest::prelude::*;
+use std::fs;
+use std::path::Path;
+
+/// A report without the time that it took, which is the one thing that differs.
+fn timeless(report: &RunReport) -> String {
+    let report = RunReport {
+        wall_s: 0.0,
+        ..report.clone()
+    };
+    format!("{report:?}")
+}
+
+/// The bits of every number of a record.
+fn bits(record: &Record) -> Vec<u64> {
+    let numbers = [
+        record.time_ns,
+        record.kinetic_pn_nm,
+        record.residual_force_pn,
+        record.residual_torque_pn_nm,
+    ];
+    let energies = record.energies_pn_nm.iter();
+    numbers
+        .iter()
+        .chain(energies)
+        .map(|v| v.to_bits())
+        .collect()
+}
+
+fn assert_same(one: &Trajectory, other: &Trajectory) {
+    assert_eq!(one.records.len(), other.records.len());
+    for (i, (a, b)) in one.records.iter().zip(&other.records).enumerate() {
+        assert_eq!(bits(a), bits(b), "record {i}");
+        assert_eq!(a.state, b.state, "record {i}");
+    }
+}
+
+/// Every file but the summary, whose time differs.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut files = Vec::new();
+    for folder in [folder.to_owned(), folder.join("vtk")] {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+            if path.is_file() && name != "summary.json" {
+                files.push((name, fs::read(&path).unwrap()));
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+/// Runs a scene in one piece and in pieces, and compares what they leave.
+fn compare(scene: &Scene, leave: &[u64]) {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = RunDirectory::create(folder.path().join("whole"), false).unwrap();
+    let pieces = RunDirectory::create(folder.path().join("pieces"), false).unwrap();
+    let (assembly, expected, report) = advance(scene, &whole, false, u64::MAX);
+    whole.write(&assembly, &expected, &report).unwrap();
+    whole.remove_checkpoint().unwrap();
+
+    let (mut resumes, mut pending) = (false, leave.iter().copied());
+    let (assembly, trajectory, resumed) = loop {
+        let left = pending.next().unwrap_or(u64::MAX);
+        let (assembly, trajectory, report) = advance(scene, &pieces, resumes, left);
+        resumes = true;
+        if !report.interrupted {
+            break (assembly, trajectory, report);
+        }
+    };
+    assert_same(&expected, &trajectory);
+    assert_eq!(timeless(&report), timeless(&resumed));
+    pieces.write(&assembly, &trajectory, &resumed).unwrap();
+    pieces.remove_checkpoint().unwrap();
+    assert!(
+        files(whole.path()) == files(pieces.path()),
+        "a file differs"
+    );
+}
+
+fn choice() -> impl Strategy<Value = Choice> {
+    (
+        0_usize..3,
+        0_usize..4,
+        0_usize..5,
+        prop_oneof![Just(0.0), 0.1..5.0],
+        any::<bool>(),
+        0.01..0.2,
+        // No shorter than the longest path.
+        0.26..0.6,
+    )
+        .prop_map(
+            |(filament, held, integrator, drag, stops, record_every_ns, duration_ns)| Choice {
+                filament,
+                held,
+                integrator,
+                drag,
+                stops,
+                record_every_ns,
+                duration_ns,
+            },
+        )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..Default::default() })]
+
+    /// Motions: every integrator, ramp, drag, stop rule and interval of records, left up to thrice.
+    #[test]
+    fn motions_go_on_to_the_same_bits(
+        choice in choice(),
+        leave in proptest::collection::vec(1_u64..12, 1..4),
+    ) {
+        compare(&choice.motion(), &leave);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 30, failure_persistence: None, ..Default::default() })]
+
+    /// Equilibria, alone and along paths, left within a solve or between two.
+    #[test]
+    fn paths_of_equilibria_go_on_to_the_same_bits(
+        choice in choice(),
+        leave in proptest::collection::vec(1_u64..60, 1..4),
+    ) {
+        compare(&choice.statics(), &leave);
+    }
+}

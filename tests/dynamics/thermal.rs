@@ -1,0 +1,183 @@
+//! Filaments in a heat bath: every kind of body and every mode takes its share.
+//!
+//! Estimates are held to 4.5 standard errors, found from the scatter of blocks that are long
+//! against the slowest relaxation that matters; seeds are fixed.
+
+use crate::filaments::{FILAMENTS, KBT, assemble};
+use crate::modes::Modes;
+use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
+use actin_mechanics::testing::momenta;
+use actin_mechanics::{State, System};
+use actin_sim::{Assembly, ForceLaw, Scene};
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+const ERRORS: f64 = 4.5;
+
+fn bath(rate: f64, kt: f64, seed: u64) -> Bath {
+    Bath::new(Drag::new(rate, rate).unwrap(), kt, seed).unwrap()
+}
+
+/// The step at a quarter of the stability limit of PEFRL, where its error in the temperature of
+/// the fastest mode is 3e-4.
+fn step(system: &System) -> f64 {
+    stable_step(&PEFRL, largest_frequency(system).unwrap(), 0.25).unwrap()
+}
+
+/// Mean of `blocks` and its standard error.
+fn estimate(blocks: &[f64]) -> (f64, f64) {
+    let n = blocks.len() as f64;
+    let mean = blocks.iter().sum::<f64>() / n;
+    let square: f64 = blocks.iter().map(|b| (b - mean).powi(2)).sum();
+    (mean, (square / (n * (n - 1.0))).sqrt())
+}
+
+fn assert_is_one(what: &str, blocks: &[f64]) {
+    let (mean, error) = estimate(blocks);
+    println!("{what}: {mean:.4} +- {error:.4}");
+    assert!((mean - 1.0).abs() < ERRORS * error, "{what}");
+    // Scatter that hides everything would pass as well.
+    assert!(error < 0.05, "{what}: {error}");
+}
+
+/// Twice the kinetic energy per degree of freedom in units of kT, for points and frames of each
+/// kind, and for the motion of the whole.
+fn temperatures(assembly: &Assembly, state: &State) -> BTreeMap<String, f64> {
+    let mut sums: BTreeMap<String, (f64, f64)> = BTreeMap::new();
+    let mut add = |key: String, energy: f64| {
+        let sum = sums.entry(key).or_default();
+        *sum = (sum.0 + energy, sum.1 + 3.0 * KBT);
+    };
+    for (i, info) in assembly.points.iter().enumerate() {
+        let v = state.points.velocity.get(i);
+        let energy = v.norm_squared() / state.points.inverse_mass()[i];
+        add(format!("point of {:?}", info.kind), energy);
+    }
+    for (i, info) in assembly.frames.iter().enumerate() {
+        let l = state.frames.angular_momentum.get(i);
+        let energy = l.dot(&state.frames.angular_velocity(i, l));
+        add(format!("frame of {:?}", info.kind), energy);
+    }
+    let mass: f64 = state.points.inverse_mass().iter().map(|m| 1.0 / m).sum();
+    let (momentum, _) = momenta(state);
+    add("whole".to_owned(), momentum.norm_squared() / mass);
+    let share = |(key, (sum, whole))| (key, sum / whole);
+    sums.into_iter().map(share).collect()
+}
+
+/// Equipartition: `m v^2` and `L_a^2/I_a` have the mean kT for monomers, nodes, segments and the
+/// frames of junctions, which are the lightest; so has `P^2/M` for the whole filament.
+/// Noise scaled with the inertia instead of its root would be off by those factors.
+#[test]
+fn every_kind_of_body_has_the_temperature() {
+    for (filament, kinds) in FILAMENTS.into_iter().zip([3, 3, 6, 6]) {
+        let mut assembly = assemble(filament, ForceLaw::EnergyGradient);
+        let h = step(&assembly.system);
+        // Momenta are forgotten in 1/60 ns, some ten steps.
+        let bath = bath(60.0, KBT, 3);
+        let mut now = 0;
+        let mut advance = |assembly: &mut Assembly, steps| {
+            advance_in(&mut assembly.system, &PEFRL, h, steps, &bath, now);
+            now += steps;
+        };
+        advance(&mut assembly, 500);
+        let mut blocks: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+        for _ in 0..40 {
+            let mut sums: BTreeMap<String, f64> = BTreeMap::new();
+            for _ in 0..40 {
+                advance(&mut assembly, 15);
+                for (key, value) in temperatures(&assembly, assembly.system.state()) {
+                    *sums.entry(key).or_default() += value / 40.0;
+                }
+            }
+            for (key, value) in sums {
+                blocks.entry(key).or_default().push(value);
+            }
+        }
+        // Points and frames of monomers, nodes, segments and frames of junctions, and the whole.
+        assert_eq!(blocks.len(), kinds, "{:?}", blocks.keys());
+        for (what, blocks) in blocks {
+            assert_is_one(&format!("{}, {what}", filament.0), &blocks);
+        }
+    }
+}
+
+/// Every mode of a rod on a wall has kT/2 of potential energy, slow bending and fast shear alike.
+/// It is cold enough (kT/100) for its energy to be that of its modes; a bath inside the stages, or
+/// halves on one side only, would cool the fast modes.
+#[test]
+fn every_mode_of_a_clamped_rod_has_its_share() {
+    let text = "Scene(
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)]),
+        clamps: [Clamp(end: Start)],
+        task: Dynamics(duration_ns: 1.0),
+    )";
+    let scene = Scene::from_ron(text).unwrap();
+    let mut system = Assembly::build(&scene).unwrap().system;
+    let rest = system.state().clone();
+    let modes = Modes::of(&system);
+    let kt = 0.01 * KBT;
+    let h = step(&system);
+    // Critical for the slowest mode, 2.7 rad/ns, which then relaxes within 0.4 ns.
+    let bath = bath(5.0, kt, 8);
+    advance_in(&mut system, &PEFRL, h, 2000, &bath, 0);
+    let (blocks, samples, apart) = (40, 50, 60);
+    let mut now = 2000;
+    // Slow, middle and fast thirds of the modes, and all.
+    let mut shares = [(); 4].map(|()| Vec::new());
+    for _ in 0..blocks {
+        let mut sums = [0.0; 4];
+        for _ in 0..samples {
+            advance_in(&mut system, &PEFRL, h, apart, &bath, now);
+            now += apart;
+            let energies = modes.energies(&rest, system.state());
+            let third = energies.len() / 3;
+            for (k, energy) in energies.iter().enumerate() {
+                let share = energy / (kt * f64::from(samples));
+                sums[k / third] += share / third as f64;
+                sums[3] += share / energies.len() as f64;
+            }
+        }
+        for (shares, sum) in shares.iter_mut().zip(sums) {
+            shares.push(sum);
+        }
+    }
+    for (what, blocks) in ["slow", "middle", "fast", "all"].iter().zip(&shares) {
+        assert_is_one(what, blocks);
+    }
+}
+
+/// The state at the end of a scene's run, recorded every so many ns.
+fn end_of_scene(seed: u64, record_every_ns: f64) -> State {
+    let text = format!(
+        "Scene(
+            filament: Filament(
+                sections: [
+                    Ellipsoids(from_nm: 0.0, to_nm: 30.0),
+                    Rod(from_nm: 30.0, to_nm: 60.0),
+                ],
+                monomers: (lateral_bonds: 16, longitudinal_bonds: 16),
+            ),
+            clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
+            task: Dynamics(
+                duration_ns: 0.2,
+                drag: (translational_per_ns: 1.0, rotational_per_ns: 2.0),
+                thermal: (temperature_k: 300.0, seed: {seed}),
+                record_every_ns: {record_every_ns:?},
+            ),
+        )"
+    );
+    let scene = Scene::from_ron(&text).unwrap();
+    let mut assembly = Assembly::build(&scene).unwrap();
+    actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())).unwrap();
+    assembly.system.state().clone()
+}
+
+/// From the scene to the last bit: when records are taken changes nothing, another seed does.
+#[test]
+fn a_scene_with_a_seed_is_one_run() {
+    let reference = end_of_scene(1, 0.2);
+    assert_eq!(end_of_scene(1, 0.005), reference);
+    assert_eq!(end_of_scene(1, 0.03), reference);
+    assert!(end_of_scene(2, 0.2).points.position != reference.points.position);
+}

@@ -1,0 +1,55 @@
+//! What is taken to the extreme, each number in a file of its own, and what became of it.
+
+pub(crate) mod contrast;
+pub(crate) mod drag;
+pub(crate) mod drift;
+pub(crate) mod fields;
+pub(crate) mod forces;
+pub(crate) mod guards;
+pub(crate) mod lengths;
+pub(crate) mod origin;
+pub(crate) mod row;
+pub(crate) mod scenes;
+pub(crate) mod sizes;
+pub(crate) mod stability;
+pub(crate) mod text;
+pub(crate) mod turns;
+pub(crate) mod verdict;
+
+use row::Row;
+
+/// The whole table, in the order in which it is printed; `long` with the rows that take minutes.
+pub(crate) fn table(long: bool) -> Vec<Row> {
+    let groups: [(&str, &dyn Fn() -> Vec<Row>); 13] = [
+        ("time steps", &|| stability::rows(&stability::INTEGRATORS)),
+        ("time steps of scenes", &stability::asked_for),
+        ("stiffness contrast", &contrast::rows),
+        ("twist", &|| turns::twist(true)),
+        ("turns of a segment", &turns::one_segment),
+        ("segments", &lengths::segments),
+        ("bonds", &lengths::bonds),
+        ("forces", &forces::rows),
+        ("sizes", &|| {
+            let mut rows = sizes::smallest();
+            rows.extend(sizes::largest(if long { 100_000 } else { 1_000 }));
+            rows
+        }),
+        ("drag", &drag::rows),
+        ("undamped motion", &|| {
+            drift::rows(if long { 10_000_000 } else { 100_000 })
+        }),
+        ("origin", &origin::rows),
+        ("fields and guards", &|| {
+            let mut rows = fields::rows();
+            rows.extend(guards::rows());
+            rows
+        }),
+    ];
+    let mut table = Vec::new();
+    for (name, rows) in groups {
+        let clock = std::time::Instant::now();
+        table.extend(rows());
+        println!("{name}: {:.1} s", clock.elapsed().as_secs_f64());
+    }
+    table
+}

@@ -1,0 +1,75 @@
+//! One row of the table: what was taken to the extreme, and what became of it.
+
+/// What became of an extreme.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Outcome {
+    /// The result agrees with what is known of it.
+    Correct {
+        /// What was compared with what.
+        what: &'static str,
+        /// The largest relative error that was found, or absolute where `what` names a unit.
+        error: f64,
+        /// What it may be.
+        bound: f64,
+    },
+    /// The scene was refused with this message before it ran.
+    Refused(String),
+    /// The run ended early with this message.
+    Fails(String),
+    /// Neither right nor refused: a defect.
+    Wrong(String),
+}
+
+impl Outcome {
+    /// A result with the error that was found.
+    pub(crate) fn correct(what: &'static str, error: f64, bound: f64) -> Self {
+        Self::Correct { what, error, bound }
+    }
+
+    /// Whether it is right or says that it is not.
+    pub(crate) fn is_sound(&self) -> bool {
+        match self {
+            // Written so that an error that is not a number is no correct result.
+            Self::Correct { error, bound, .. } => error <= bound,
+            Self::Refused(_) | Self::Fails(_) => true,
+            Self::Wrong(_) => false,
+        }
+    }
+
+    /// The outcome in words.
+    pub(crate) fn words(&self) -> String {
+        match self {
+            Self::Correct { what, error, bound } if error <= bound => {
+                format!("correct to {error:.0e}: {what}")
+            }
+            Self::Correct { what, error, bound } => {
+                format!("WRONG by {error:.1e}, more than {bound:.0e}: {what}")
+            }
+            Self::Refused(message) => format!("refused: {message}"),
+            Self::Fails(message) => format!("fails with: {message}"),
+            Self::Wrong(message) => format!("WRONG: {message}"),
+        }
+    }
+}
+
+/// A row of the table.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Row {
+    /// Which number was taken to the extreme.
+    pub(crate) varied: &'static str,
+    /// The model, and the value.
+    pub(crate) case: String,
+    /// What became of it.
+    pub(crate) outcome: Outcome,
+}
+
+impl Row {
+    /// A row.
+    pub(crate) fn new(varied: &'static str, case: impl Into<String>, outcome: Outcome) -> Self {
+        Self {
+            varied,
+            case: case.into(),
+            outcome,
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Scenes as text, how they end, and the balance of the equilibria that they reach.
+
+use super::row::Outcome;
+use actin_mechanics::Vector3;
+use actin_sim::{Assembly, End, Load, Problem, RunError, RunReport, Scene, SceneError};
+use std::ops::ControlFlow;
+
+/// Parts of a scene; what is empty is left out.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Parts {
+    /// Sections.
+    pub(crate) sections: String,
+    /// Keys of the filament behind its sections and its monomers.
+    pub(crate) models: String,
+    /// Clamps, loads and so on.
+    pub(crate) rest: String,
+    /// The task.
+    pub(crate) task: String,
+}
+
+/// Bonds per interface: enough for a filament that holds together.
+const BONDS: usize = 16;
+
+impl Parts {
+    /// A filament on a wall under a force on its tip (pN), in equilibrium to a share of 1e-6 of it.
+    pub(crate) fn pulled(sections: &str, [x, y, z]: [f64; 3]) -> Self {
+        let force = Vector3::new(x, y, z).norm();
+        let (tolerance, torque) = (1e-6 * force, 1e-5 * force);
+        Self {
+            sections: sections.to_owned(),
+            models: String::new(),
+            rest: format!(
+                "clamps: [Clamp(end: Start)],
+                 loads: [EndForce(end: End, force_pn: ({x:?}, {y:?}, {z:?}))],"
+            ),
+            task: format!("Equilibrium(force_pn: {tolerance:?}, torque_pn_nm: {torque:?})"),
+        }
+    }
+
+    /// The text of the scene.
+    pub(crate) fn text(&self) -> String {
+        let Self {
+            sections,
+            models,
+            rest,
+            task,
+        } = self;
+        format!(
+            "Scene(
+                filament: Filament(
+                    sections: [{sections}],
+                    monomers: Monomers(lateral_bonds: {BONDS}, longitudinal_bonds: {BONDS}),
+                    {models}
+                ),
+                {rest}
+                task: {task},
+            )"
+        )
+    }
+
+    /// The scene, read and built.
+    pub(crate) fn build(&self) -> Result<Assembly, Outcome> {
+        build(&self.text())
+    }
+
+    /// The scene, run to its end.
+    pub(crate) fn run(&self) -> Result<Ran, Outcome> {
+        run(&self.text())
+    }
+}
+
+/// A scene that ran to its end; the assembly is in its last state.
+#[derive(Debug)]
+pub(crate) struct Ran {
+    pub(crate) assembly: Assembly,
+    pub(crate) report: RunReport,
+}
+
+/// The assembly of a scene.
+pub(crate) fn build(text: &str) -> Result<Assembly, Outcome> {
+    let scene = Scene::from_ron(text).map_err(|error| Outcome::Refused(error.to_string()))?;
+    Assembly::build(&scene).map_err(|problem| refused(&problem, text))
+}
+
+/// A scene, run to its end.
+pub(crate) fn run(text: &str) -> Result<Ran, Outcome> {
+    let mut assembly = build(text)?;
+    let run = actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(()));
+    match run {
+        Ok((_, report)) => Ok(Ran { assembly, report }),
+        Err(RunError::Refused(problem)) => Err(refused(&problem, text)),
+        Err(error) => Err(Outcome::Fails(error.to_string())),
+    }
+}
+
+fn refused(problem: &Problem, text: &str) -> Outcome {
+    Outcome::Refused(SceneError::locate(problem, text).to_string())
+}
+
+/// The outcome of `result`, whichever way it went.
+pub(crate) fn either(result: Result<Outcome, Outcome>) -> Outcome {
+    result.unwrap_or_else(|outcome| outcome)
+}
+
+impl Ran {
+    /// By how much the wall's reaction misses the forces on the tip and their moment, relative to
+    /// them. A state that is not the equilibrium of these loads misses them; so does one in which
+    /// a load was lost.
+    pub(crate) fn imbalance(&mut self) -> f64 {
+        let loads = self.assembly.system.loads().clone();
+        let state = self.assembly.system.state();
+        let clamp = &self.assembly.clamps[0];
+        let reaction = clamp.reaction(state, &loads);
+        let arm = self.assembly.tip_nm(state, End::End) - clamp.point_nm(state);
+        let applied: Vector3 = self.assembly.scene.loads.iter().map(force_of).sum();
+        let moment = arm.cross(&applied);
+        let force = (reaction.force_pn + applied).norm() / applied.norm();
+        // Of a force along the filament the moment is zero, and its lever the measure.
+        let whole = arm.norm() * applied.norm();
+        force.max((reaction.torque_pn_nm + moment).norm() / whole)
+    }
+
+    /// Displacement of the tip from where it was built (nm).
+    pub(crate) fn tip_displacement(&self) -> Vector3 {
+        let (assembly, state) = (&self.assembly, self.assembly.system.state());
+        assembly.tip_nm(state, End::End) - assembly.tip_nm(&assembly.rest, End::End)
+    }
+}
+
+fn force_of(load: &Load) -> Vector3 {
+    let Load::EndForce { force_pn, .. } = load;
+    (*force_pn).into()
+}

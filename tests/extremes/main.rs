@@ -1,0 +1,197 @@
+//! Every number that a user can write, taken to where it breaks: the result is right to a stated
+//! accuracy, or a message says why there is none.
+//!
+//! `cases` holds what is measured; `cargo xtask extremes` makes the table of `docs/extremes.md` of the
+//! same, with the rows that take longer. `fuzz` tries random input.
+
+#[expect(
+    dead_code,
+    reason = "the table takes some rows that are too long for tests"
+)]
+mod cases;
+mod fuzz;
+
+use cases::row::{Outcome, Row};
+use cases::stability::{INTEGRATORS, MODELS, SHARES, energy_error, free};
+use cases::verdict::Verdict;
+use cases::{
+    contrast, drag, drift, fields, forces, guards, lengths, origin, sizes, stability, turns,
+};
+
+/// Prints the rows and refuses any that is neither right nor says that it is not.
+fn assert_sound(rows: &[Row]) {
+    for row in rows {
+        let line = format!("{}, {}: {}", row.varied, row.case, row.outcome.words());
+        println!("{line}");
+        assert!(row.outcome.is_sound(), "{line}");
+    }
+}
+
+fn is_correct(row: &Row) -> bool {
+    matches!(row.outcome, Outcome::Correct { .. }) && row.outcome.is_sound()
+}
+
+/// A wrong mass, a frequency that misses the stiffest term or a table with a wrong limit would each
+/// move one of the two.
+#[test]
+fn motion_grows_where_the_limit_says() {
+    let rows = stability::rows(&INTEGRATORS);
+    assert_sound(&rows);
+    assert!(rows.iter().all(is_correct));
+}
+
+/// Below the limit the energy wavers, by less the shorter the step: 81 times less at a third of it,
+/// for a method of order four.
+#[test]
+fn energy_wavers_with_the_order_of_the_method() {
+    for (model, sections) in MODELS {
+        let mut system = free(sections).unwrap();
+        let [.., coarse, _, _, _, _, _] = SHARES;
+        let [pefrl, vefrl] = [1, 2].map(|i| {
+            let (_, integrator) = INTEGRATORS[i];
+            let [a, b] = [coarse, coarse / 3.0].map(|s| energy_error(&mut system, integrator, s));
+            println!("{model}: {a:e} and {b:e}");
+            (a / b).log(3.0)
+        });
+        // The next order takes part, and the largest of 100 samples scatters.
+        assert!(
+            pefrl > 3.0 && vefrl > 3.0,
+            "{model}: orders {pefrl} and {vefrl}"
+        );
+    }
+}
+
+/// A step above the limit is refused, and breaks with a report if it is insisted on.
+#[test]
+fn steps_above_the_limit_are_refused_or_break() {
+    let rows = stability::asked_for();
+    assert_sound(&rows);
+    for row in &rows {
+        let (above, allowed) = (!row.case.contains("0.001"), row.case.contains("allowed"));
+        let expected = match (above, allowed) {
+            (false, _) => is_correct(row),
+            (true, false) => matches!(row.outcome, Outcome::Refused(_)),
+            (true, true) => matches!(row.outcome, Outcome::Fails(_)),
+        };
+        assert!(expected, "{row:?}");
+    }
+}
+
+#[test]
+fn stiffness_apart_by_a_million_is_solved() {
+    let rows = contrast::rows();
+    assert_sound(&rows);
+    assert!(rows.iter().all(is_correct));
+}
+
+/// Up to half a turn in a joint everything is right, past it nothing pretends to be.
+#[test]
+fn turns_are_right_up_to_half_a_turn_of_a_joint() {
+    assert_sound(&turns::twist(false));
+    let rows = turns::one_segment();
+    assert_sound(&rows);
+    for row in &rows {
+        let degrees: f64 = row.case.split(' ').next().unwrap().parse().unwrap();
+        assert_eq!(is_correct(row), degrees < 180.0, "{row:?}");
+    }
+}
+
+/// From a tenth of a nm to a micrometre.
+#[test]
+fn segments_of_all_lengths_bend_as_they_should() {
+    let rows = lengths::segments();
+    assert_sound(&rows);
+    assert!(rows.iter().all(is_correct));
+    let bonds = lengths::bonds();
+    assert_sound(&bonds);
+    assert!(is_correct(&bonds[0]));
+}
+
+/// From 1e-6 to 1e4 pN all is right; below, what rounding hides is said to be hidden.
+#[test]
+fn forces_over_eighteen_decades_are_right_or_said_to_be_lost() {
+    let rows = forces::rows();
+    assert_sound(&rows);
+    for row in &rows {
+        let (_, size) = row.case.rsplit_once(", ").unwrap();
+        let size: f64 = size.strip_suffix(" pN").unwrap().parse().unwrap();
+        if (1e-6..=1e4).contains(&size) {
+            assert!(is_correct(row), "{row:?}");
+        }
+    }
+}
+
+#[test]
+fn the_smallest_filaments_move_and_smaller_ones_are_refused() {
+    let rows = sizes::smallest();
+    assert_sound(&rows);
+    assert_eq!(rows.iter().map(is_correct).filter(|is| *is).count(), 3);
+    assert_sound(&sizes::largest(1000));
+}
+
+#[test]
+fn drag_takes_momentum_exactly_at_any_rate() {
+    let rows = drag::rows();
+    assert_sound(&rows);
+    assert!(rows.iter().all(is_correct));
+}
+
+/// Of the ten million steps of the table two hundred thousandths.
+#[test]
+fn undamped_motion_keeps_energy_and_momenta() {
+    let rows = drift::rows(50_000);
+    assert_sound(&rows);
+    assert!(rows.iter().all(is_correct));
+}
+
+/// Loads depend on differences of places alone: what the origin costs is their rounding.
+#[test]
+fn the_origin_costs_no_more_than_rounding() {
+    let rows = origin::rows();
+    assert_sound(&rows);
+    assert!(rows.iter().all(is_correct));
+}
+
+#[test]
+fn what_no_machine_holds_is_refused_at_once() {
+    let rows = guards::rows();
+    assert_sound(&rows);
+    assert!(
+        rows.iter()
+            .all(|row| matches!(row.outcome, Outcome::Refused(_)))
+    );
+}
+
+/// What is not finite, overflows or is denormal is refused wherever it stands, with its key and the
+/// line and column of that key; 0, -1 and large and small numbers are refused or run to finite
+/// results. Data without bound are data: their range may be infinite.
+#[test]
+fn no_field_takes_what_is_no_number() {
+    let refused_anywhere = ["NaN", "inf", "-inf", "1e400", "1e308", "-1e308", "1e-310"];
+    for text in fields::scenes() {
+        for value in fields::VALUES {
+            for trial in fields::trials(&text, value) {
+                let (key, verdict) = (&trial.number.key, &trial.verdict);
+                assert!(
+                    !matches!(verdict, Verdict::NotFinite(_)),
+                    "{key} = {value}: {verdict:?}"
+                );
+                let unbounded = key == "range_per_nm" && ["inf", "1e400"].contains(&value);
+                let Verdict::Refused(error) = verdict else {
+                    assert!(
+                        unbounded || !refused_anywhere.contains(&value),
+                        "{key} = {value}: {verdict:?}"
+                    );
+                    continue;
+                };
+                let line = trial.text.lines().nth(error.line - 1).unwrap();
+                assert!(error.column <= line.chars().count() + 1, "{error}");
+                if refused_anywhere.contains(&value) {
+                    // Of a whole number RON says what it expected, at the number itself.
+                    let says = error.message.contains(key.as_str()) || line.contains(value);
+                    assert!(says, "{key} = {value}: {error}");
+                }
+            }
+        }
+    }
+}

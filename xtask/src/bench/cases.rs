@@ -1,0 +1,99 @@
+//! The cases: what runs, and how fast it should be on one core at 3 GHz.
+
+/// One case.
+pub(super) struct Case {
+    /// Its name.
+    pub(super) name: &'static str,
+    /// What it runs.
+    pub(super) work: Work,
+    /// The rate that was aimed at (elements per second), where one was set.
+    pub(super) target: Option<f64>,
+}
+
+/// What a case runs.
+#[derive(Clone, Copy)]
+pub(super) enum Work {
+    /// Whole time steps.
+    Motion(Motion),
+    /// From the straight state, every monomer resolved, to the equilibrium under a tip force.
+    Equilibrium {
+        /// Length of the filament (nm).
+        length_nm: f64,
+    },
+}
+
+/// Undamped motion of clamped filaments, straight at first, under 2 pN across the tip.
+#[derive(Clone, Copy)]
+pub(super) struct Motion {
+    /// What each filament is made of.
+    pub(super) filament: Filament,
+    /// How many there are. Independent filaments are scenes of their own: one after the other
+    /// makes the steps of a batch.
+    pub(super) copies: usize,
+    /// The scene's integrator.
+    pub(super) integrator: &'static str,
+}
+
+/// What a filament is made of.
+#[derive(Clone, Copy)]
+pub(super) enum Filament {
+    /// A rod of 160 nm with constant rigidities; an element is a segment.
+    Rod { segments: usize },
+    /// Monomers with 10 bonds per interface; an element is a bond.
+    Monomers { count: usize },
+}
+
+const fn rod(segments: usize, copies: usize, integrator: &'static str) -> Work {
+    Work::Motion(Motion {
+        filament: Filament::Rod { segments },
+        copies,
+        integrator,
+    })
+}
+
+const fn monomers(count: usize) -> Work {
+    Work::Motion(Motion {
+        filament: Filament::Monomers { count },
+        copies: 1,
+        integrator: VERLET,
+    })
+}
+
+const VERLET: &str = "PositionVerlet";
+
+const fn case(name: &'static str, work: Work, target: Option<f64>) -> Case {
+    Case { name, work, target }
+}
+
+const fn equilibrium(name: &'static str, length_nm: f64) -> Case {
+    case(name, Work::Equilibrium { length_nm }, None)
+}
+
+/// All cases.
+pub(super) const CASES: [Case; 11] = [
+    case("rod-pv-16", rod(16, 1, VERLET), None),
+    case("rod-pv-64", rod(64, 1, VERLET), Some(50e6)),
+    case("rod-pv-256", rod(256, 1, VERLET), Some(50e6)),
+    case("rod-pv-1024", rod(1024, 1, VERLET), Some(45e6)),
+    case("rod-pv-64x64", rod(64, 64, VERLET), Some(60e6)),
+    case("rod-pefrl-64", rod(64, 1, "Pefrl"), None),
+    case("ellipsoid-pv-60", monomers(60), Some(300e6)),
+    case("ellipsoid-pv-1000", monomers(1000), Some(300e6)),
+    equilibrium("equilibrium-ellipsoid-160nm", 160.0),
+    equilibrium("equilibrium-ellipsoid-1600nm", 1600.0),
+    equilibrium("equilibrium-ellipsoid-16000nm", 16_000.0),
+];
+
+impl Case {
+    /// Unit of what is measured.
+    pub(super) fn unit(&self) -> &'static str {
+        match self.work {
+            Work::Motion(Motion {
+                filament: Filament::Rod { .. },
+                ..
+            }) => "element-steps/s",
+            Work::Motion(_) => "bonds/s",
+            Work::Equilibrium { .. } => "s",
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! `cargo xtask bench`: how fast the fixed cases run, beside what was aimed at.
+//!
+//! Every case goes the way of a user: a scene is assembled, and its system is stepped or solved.
+//! All run on one thread, without linkers, drag or observers. What the cases are is in `cases.rs`,
+//! how motions are timed in `motion.rs`, and equilibria in `equilibrium.rs`.
+
+mod cases;
+mod equilibrium;
+mod motion;
+mod table;
+
+use cases::{CASES, Case, Work};
+use serde::Serialize;
+use std::process::Command;
+
+/// Which cases, and how they are printed.
+#[derive(clap::Args, Debug)]
+pub(crate) struct Options {
+    /// Which; all by default.
+    #[arg(value_name = "CASE")]
+    cases: Vec<String>,
+    /// Prints an array of `case`, `rate`, `unit` instead of a table.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What was measured of a case.
+pub(super) struct Measured {
+    /// Best of the repeats: other work on the machine only ever slows one down.
+    pub(super) best: f64,
+    /// Median of the repeats.
+    pub(super) median: f64,
+    /// What a reader has to know.
+    pub(super) note: String,
+}
+
+/// One entry of the machine-readable output.
+#[derive(Serialize)]
+struct Entry {
+    case: &'static str,
+    rate: f64,
+    unit: &'static str,
+}
+
+/// Measures and prints.
+pub(crate) fn run(options: &Options) -> Result<(), String> {
+    if cfg!(debug_assertions) {
+        return run_optimised(options);
+    }
+    let mut entries = Vec::new();
+    if !options.json {
+        table::head();
+    }
+    for case in chosen(&options.cases)? {
+        let measured = match case.work {
+            Work::Motion(motion) => motion::measure(&motion),
+            Work::Equilibrium { length_nm } => equilibrium::measure(length_nm),
+        }
+        .map_err(|error| format!("{}: {error}", case.name))?;
+        if !options.json {
+            table::row(case, &measured);
+        }
+        entries.push(Entry {
+            case: case.name,
+            rate: measured.best,
+            unit: case.unit(),
+        });
+    }
+    if options.json {
+        let text = serde_json::to_string_pretty(&entries).map_err(|error| error.to_string())?;
+        println!("{text}");
+    }
+    Ok(())
+}
+
+/// The cases of these names, in the order of the list.
+fn chosen(names: &[String]) -> Result<Vec<&'static Case>, String> {
+    for name in names {
+        if !CASES.iter().any(|case| case.name == name) {
+            let known: Vec<_> = CASES.iter().map(|case| case.name).collect();
+            return Err(format!(
+                "no case is called {name:?}; known are {}",
+                known.join(", ")
+            ));
+        }
+    }
+    let wanted = |case: &&Case| names.is_empty() || names.iter().any(|name| case.name == name);
+    Ok(CASES.iter().filter(wanted).collect())
+}
+
+/// Does the same in a program that is compiled as a user's is.
+fn run_optimised(options: &Options) -> Result<(), String> {
+    let mut command = Command::new("cargo");
+    command.args(["run", "--quiet", "--release", "--package", "xtask", "--"]);
+    command.arg("bench").args(&options.cases);
+    if options.json {
+        command.arg("--json");
+    }
+    let status = command
+        .current_dir(crate::check::workspace_root())
+        .status()
+        .map_err(|error| format!("cargo did not start: {error}"))?;
+    status
+        .success()
+        .then_some(())
+        .ok_or_else(|| "the optimised program failed".to_owned())
+}
+
+/// Median of some numbers.
+///
+/// # Panics
+/// If there are none.
+pub(super) fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cases_are_chosen_by_name_in_their_own_order() {
+        let names = ["rod-pv-64", "rod-pv-16"].map(str::to_owned);
+        let found: Vec<_> = chosen(&names).unwrap().iter().map(|c| c.name).collect();
+        assert_eq!(found, ["rod-pv-16", "rod-pv-64"]);
+        assert_eq!(chosen(&[]).unwrap().len(), CASES.len());
+        assert!(chosen(&["rod-pv-17".to_owned()]).is_err());
+    }
+
+    /// What the names promise is what is built: elements of a step, and bonds.
+    #[test]
+    fn scenes_hold_what_their_names_say() {
+        for (name, elements) in [
+            ("rod-pv-16", 16),
+            ("rod-pv-64x64", 4096),
+            ("ellipsoid-pv-60", 1170),
+            ("ellipsoid-pv-1000", 19_970),
+        ] {
+            let case = CASES.iter().find(|case| case.name == name).unwrap();
+            let Work::Motion(motion) = case.work else {
+                panic!("{name} is a motion");
+            };
+            let systems = motion::assemble(&motion).unwrap();
+            assert_eq!(motion::elements(&systems), elements, "{name}");
+        }
+    }
+}

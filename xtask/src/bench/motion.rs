@@ -1,0 +1,115 @@
+//! Rates of whole time steps.
+
+use super::cases::{Filament, Motion};
+use super::{Measured, median};
+use actin_integrate::Run;
+use actin_sim::{Assembly, Integrator, Scene, Task, estimate};
+use std::time::Instant;
+
+/// Element-steps of one batch: some three milliseconds, so short that some batches are over
+/// before anything else on the machine interrupts them.
+const BATCH: usize = 200_000;
+/// Bonds are several times faster than segments.
+const BOND_BATCH: usize = 1_200_000;
+/// Fewest steps of a batch, so that looking at its end costs next to nothing.
+const FEWEST_STEPS: u64 = 150;
+/// Time that a case takes (s).
+const SECONDS: f64 = 4.0;
+/// Rise of a monomer (nm): places where sections of monomers end.
+const RISE_NM: f64 = 71.2 / 26.0;
+
+/// The rate of a case.
+pub(super) fn measure(motion: &Motion) -> Result<Measured, String> {
+    let mut all = assemble(motion)?;
+    let elements = elements(&all);
+    let batch = match motion.filament {
+        Filament::Rod { .. } => BATCH,
+        Filament::Monomers { .. } => BOND_BATCH,
+    };
+    let steps = ((batch / elements) as u64).max(FEWEST_STEPS);
+    let runs: Vec<Run> = all
+        .iter()
+        .map(|assembly| plan(assembly, steps))
+        .collect::<Result<_, _>>()?;
+    let mut rates = Vec::new();
+    let mut first_step = 0;
+    let all_started = Instant::now();
+    while all_started.elapsed().as_secs_f64() < SECONDS {
+        first_step += steps;
+        let started = Instant::now();
+        for (assembly, run) in all.iter_mut().zip(&runs) {
+            // As one long run: its first steps are looked at more closely than the others.
+            run.continuing_from(first_step)
+                .execute(&mut assembly.system, &mut [])
+                .map_err(|failure| failure.to_string())?;
+        }
+        let work = elements as f64 * steps as f64;
+        rates.push(work / started.elapsed().as_secs_f64());
+    }
+    Ok(Measured {
+        best: rates.iter().copied().fold(0.0, f64::max),
+        median: median(rates),
+        note: format!("{steps} steps of {:.2e} ns a batch", runs[0].step()),
+    })
+}
+
+/// The filaments of a case.
+pub(super) fn assemble(motion: &Motion) -> Result<Vec<Assembly>, String> {
+    let scene = Scene::from_ron(&scene(motion)).map_err(|error| error.to_string())?;
+    let build = |_| Assembly::build(&scene).map_err(|error| error.to_string());
+    (0..motion.copies).map(build).collect()
+}
+
+/// Segments, or bonds.
+pub(super) fn elements(all: &[Assembly]) -> usize {
+    let of = |assembly: &Assembly| {
+        let counts = assembly.counts();
+        counts.segments + counts.bonds
+    };
+    all.iter().map(of).sum()
+}
+
+/// A batch, with the time step that the scene gets by default.
+fn plan(assembly: &Assembly, steps: u64) -> Result<Run, String> {
+    let estimate = estimate(assembly).map_err(|error| error.to_string())?;
+    let estimate = estimate.ok_or("a motion has time steps")?;
+    let scheme = integrator(assembly)?.composition();
+    let run = Run::new(scheme, estimate.time_step_ns, steps);
+    // Observers would see the ends of a batch, and there are none.
+    run.and_then(|run| run.observing_every(steps))
+        .map_err(|error| error.to_string())
+}
+
+fn integrator(assembly: &Assembly) -> Result<Integrator, String> {
+    match &assembly.scene.task {
+        Task::Dynamics(dynamics) => Ok(dynamics.integrator),
+        Task::Equilibrium(_) => Err("an equilibrium has no integrator".to_owned()),
+    }
+}
+
+fn scene(motion: &Motion) -> String {
+    let (section, monomers) = match motion.filament {
+        Filament::Rod { segments } => (
+            format!("Rod(from_nm: 0.0, to_nm: 160.0, segments: {segments})"),
+            "()",
+        ),
+        Filament::Monomers { count } => {
+            // Two monomers are held, the outer one before arc length 0, the inner one at it; the tip
+            // is midway between the last two.
+            let length = (count as f64 - 2.5) * RISE_NM;
+            (
+                format!("Ellipsoids(from_nm: 0.0, to_nm: {length:?})"),
+                "(lateral_bonds: 10, longitudinal_bonds: 10)",
+            )
+        }
+    };
+    let integrator = motion.integrator;
+    format!(
+        "Scene(
+            filament: Filament(sections: [{section}], monomers: {monomers}),
+            clamps: [Clamp(end: Start)],
+            loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+            task: Dynamics(duration_ns: 1.0, integrator: {integrator}),
+        )"
+    )
+}

@@ -1,0 +1,133 @@
+//! `docs/errata.md` as a section of the page.
+
+use crate::check::workspace_root;
+use pulldown_cmark::{CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd, html};
+
+/// Writes the section.
+pub(super) fn write(page: &mut String) -> Result<(), String> {
+    let path = workspace_root().join("docs/errata.md");
+    let text = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    page.push_str("<section id=\"errata\">\n");
+    page.push_str(&rendered(&text));
+    page.push_str("</section>\n");
+    Ok(())
+}
+
+/// Markdown as HTML one level of headings lower; cells of tables name their column, so that a
+/// narrow screen can show a row as a card.
+fn rendered(markdown: &str) -> String {
+    let mut columns = Columns::default();
+    let events = Parser::new_ext(markdown, Options::ENABLE_TABLES);
+    let mut text = String::new();
+    html::push_html(
+        &mut text,
+        events.map(|event| columns.follow(lowered(event))),
+    );
+    text
+}
+
+/// Where in a table the text is.
+#[derive(Default)]
+struct Columns {
+    heads: Vec<String>,
+    in_head: bool,
+    at: usize,
+}
+
+impl Columns {
+    fn follow<'a>(&mut self, event: Event<'a>) -> Event<'a> {
+        match event {
+            Event::Start(Tag::TableHead) => {
+                (self.heads, self.in_head) = (Vec::new(), true);
+                event
+            }
+            Event::End(TagEnd::TableHead) => {
+                self.in_head = false;
+                event
+            }
+            Event::Start(Tag::TableRow) => {
+                self.at = 0;
+                event
+            }
+            Event::Start(Tag::TableCell) if self.in_head => {
+                self.heads.push(String::new());
+                event
+            }
+            Event::Start(Tag::TableCell) => Event::InlineHtml(self.cell()),
+            Event::End(TagEnd::TableCell) if !self.in_head => {
+                self.at += 1;
+                Event::InlineHtml("</td>".into())
+            }
+            Event::Text(ref words) if self.in_head => {
+                if let Some(head) = self.heads.last_mut() {
+                    head.push_str(words);
+                }
+                event
+            }
+            _ => event,
+        }
+    }
+
+    fn cell<'a>(&self) -> CowStr<'a> {
+        let head = self.heads.get(self.at).map_or("", String::as_str);
+        let head = super::escape(head);
+        format!("<td class=\"wide\" data-label=\"{head}\">").into()
+    }
+}
+
+/// Headings one level lower, all else as it is.
+fn lowered(event: Event<'_>) -> Event<'_> {
+    match event {
+        Event::Start(Tag::Heading {
+            level,
+            id,
+            classes,
+            attrs,
+        }) => Event::Start(Tag::Heading {
+            level: lower(level),
+            id,
+            classes,
+            attrs,
+        }),
+        Event::End(TagEnd::Heading(level)) => Event::End(TagEnd::Heading(lower(level))),
+        _ => event,
+    }
+}
+
+fn lower(level: HeadingLevel) -> HeadingLevel {
+    match level {
+        HeadingLevel::H1 => HeadingLevel::H2,
+        HeadingLevel::H2 => HeadingLevel::H3,
+        HeadingLevel::H3 => HeadingLevel::H4,
+        HeadingLevel::H4 => HeadingLevel::H5,
+        HeadingLevel::H5 | HeadingLevel::H6 => HeadingLevel::H6,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_becomes_cells_that_name_their_column() {
+        let text = rendered("# A\n\n| place | `b` |\n|---|---|\n| 1 < 2 | `x` |\n| 3 | 4 |\n");
+        assert!(text.contains("<h2>A</h2>"), "{text}");
+        assert!(text.contains("<th>place</th>"));
+        assert!(text.contains("<td class=\"wide\" data-label=\"place\">1 &lt; 2</td>"));
+        assert!(text.contains("<code>x</code></td>"));
+        assert_eq!(text.matches("data-label=\"place\"").count(), 2);
+        assert_eq!(text.matches("<td").count(), text.matches("</td>").count());
+    }
+
+    /// Every row of the errata is on the page.
+    #[test]
+    fn all_errata_are_shown() {
+        let mut page = String::new();
+        write(&mut page).unwrap();
+        let path = workspace_root().join("docs/errata.md");
+        let lines = std::fs::read_to_string(path).unwrap();
+        let rows = lines.lines().filter(|line| line.starts_with("| ")).count();
+        // The head is one of them.
+        assert_eq!(page.matches("data-label=\"finding\"").count(), rows - 1);
+    }
+}

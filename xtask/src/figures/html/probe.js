@@ -1,0 +1,117 @@
+// Put at the beginning of a copy of the page by the tests: listens for everything that goes wrong,
+// looks at all pictures, turns every view, and tells the page around it what it found.
+
+(() => {
+  'use strict';
+  const errors = [];
+  const note = (what) => errors.push(String(what));
+  window.addEventListener('error', (event) => {
+    const { target } = event;
+    note(target && target.tagName ? `${target.tagName} ${target.src || target.href} did not load` : event.message);
+  }, true);
+  window.addEventListener('unhandledrejection', (event) => note(`rejected: ${event.reason}`));
+  const { error } = console;
+  console.error = (...words) => {
+    note(`console: ${words.join(' ')}`);
+    error(...words);
+  };
+
+  // Frames come by the clock: under virtual time on a busy machine those of the display may not come
+  // at all while a test waits for them.
+  window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 16);
+
+  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+  const pixels = (canvas) =>
+    canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+
+  // Pixels that are not the background, which is transparent.
+  const painted = (data) => {
+    let count = 0;
+    for (let i = 3; i < data.length; i += 4) if (data[i] > 0) count += 1;
+    return count;
+  };
+  const differing = (a, b) => {
+    if (a.length !== b.length) return -1;
+    let count = 0;
+    for (let i = 0; i < a.length; i += 4) {
+      if (a[i] !== b[i] || a[i + 1] !== b[i + 1] || a[i + 2] !== b[i + 2] || a[i + 3] !== b[i + 3]) count += 1;
+    }
+    return count;
+  };
+
+  // Does something to a view, and waits until it has been drawn anew.
+  async function redrawn(canvas, act) {
+    const before = canvas.dataset.drawn;
+    act();
+    for (let i = 0; i < 100 && canvas.dataset.drawn === before; i += 1) await wait(20);
+    return pixels(canvas);
+  }
+
+  function drag(canvas, x, y) {
+    const box = canvas.getBoundingClientRect();
+    const at = (type, dx, dy) => canvas.dispatchEvent(new PointerEvent(type, {
+      bubbles: true, pointerId: 7, clientX: box.left + 90 + dx, clientY: box.top + 90 + dy }));
+    at('pointerdown', 0, 0);
+    for (let k = 1; k <= 5; k += 1) at('pointermove', (x * k) / 5, (y * k) / 5);
+    at('pointerup', x, y);
+  }
+
+  async function view(figure) {
+    const canvas = figure.querySelector('canvas');
+    for (let i = 0; i < 100 && !canvas.dataset.drawn; i += 1) await wait(20);
+    const first = pixels(canvas);
+    const turned = await redrawn(canvas, () => drag(canvas, 60, 30));
+    const zoomed = await redrawn(canvas, () => canvas.dispatchEvent(
+      new WheelEvent('wheel', { deltaY: -40, ctrlKey: true, cancelable: true })));
+    const keyed = await redrawn(canvas, () => canvas.dispatchEvent(
+      new KeyboardEvent('keydown', { key: 'ArrowRight', cancelable: true })));
+    const buttons = [...figure.querySelectorAll('button')];
+    const reset = await redrawn(canvas, () => buttons.at(-1).click());
+    const lines = await redrawn(canvas, () => buttons[0].click());
+    await redrawn(canvas, () => buttons[0].click());
+    const states = [];
+    for (const menu of figure.querySelectorAll('select:not([hidden])')) {
+      for (let i = 0; i < menu.options.length; i += 1) {
+        menu.selectedIndex = i;
+        const data = await redrawn(canvas, () => menu.dispatchEvent(new Event('change')));
+        states.push(painted(data));
+      }
+    }
+    return {
+      size: [canvas.width, canvas.height], painted: painted(first), turned: differing(first, turned),
+      zoomed: differing(turned, zoomed), keyed: differing(zoomed, keyed),
+      after_reset: differing(first, reset), lines: painted(lines),
+      compared: differing(reset, lines), states,
+      legend: figure.querySelectorAll('.legend li').length,
+    };
+  }
+
+  async function verdict() {
+    const pictures = [...document.querySelectorAll('figure svg, img')].map((picture) => {
+      const { width, height } = picture.getBoundingClientRect();
+      const loaded = picture.tagName === 'IMG' ? picture.complete && picture.naturalWidth > 0
+        : picture.childElementCount > 0;
+      return { width, height, loaded };
+    });
+    const views = [];
+    for (const figure of document.querySelectorAll('figure.viewer')) views.push(await view(figure));
+    const { scrollWidth } = document.documentElement;
+    const reach = [...document.querySelectorAll('body *')].filter((element) => {
+      const right = element.getBoundingClientRect().right;
+      return right > window.innerWidth + 1 && !element.closest('.scroll, svg, thead');
+    }).map((element) => `${element.tagName}.${element.className}`);
+    return { errors, pictures, views, scrollWidth, innerWidth: window.innerWidth, beyond: reach };
+  }
+
+  window.addEventListener('load', async () => {
+    let found;
+    // The browser tells of a promise that nobody keeps in a task of its own.
+    await wait(500);
+    try {
+      found = await verdict();
+    } catch (failure) {
+      found = { errors: [...errors, `probe: ${failure.stack || failure}`] };
+    }
+    window.parent.postMessage({ name: window.name, found }, '*');
+  });
+})();

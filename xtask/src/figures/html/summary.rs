@@ -1,0 +1,146 @@
+//! What a reader sees first: how many numbers agree, artefact by artefact, and every one that does
+//! not, with its note.
+
+use super::tables::{self, Among};
+use super::verdicts::Verdicts;
+use super::{TITLE, escape, name, push, version};
+use crate::figures::palette;
+use crate::figures::report::{Artefact, Row};
+
+/// Writes title, counts, misses, and how to read the page.
+pub(super) fn write(page: &mut String, artefacts: &[Artefact], quick: bool) {
+    let all: Verdicts = artefacts.iter().map(|a| Verdicts::of(&a.rows)).sum();
+    push(
+        page,
+        format_args!(
+            "<h1 id=\"summary\">{TITLE}</h1>\n<p class=\"soft\">Gunaratne, Floyd, Ni, Papoian and \
+             Erban, arXiv 2203.01284. Version {}.</p>\n",
+            escape(&version())
+        ),
+    );
+    if quick {
+        page.push_str(
+            "<p class=\"quick\">This was a quick run: fewer resolutions and samplings, equilibria \
+             more often than motions. The full run leaves <code>--quick</code> out.</p>\n",
+        );
+    }
+    push(
+        page,
+        format_args!(
+            "<p class=\"lead\">Of {} numbers that the paper, or a theory named in the note, gives or \
+             bounds, <span class=\"pass\">{} agree</span> within the tolerance beside them and \
+             <span class=\"miss\">{} do not</span>. {} more were measured with nothing to compare them \
+             with. All numbers and pictures come from simulations of the run that wrote this page; \
+             nothing is fitted to meet the paper unless a row says so.</p>\n",
+            all.compared(),
+            all.agree,
+            all.missed,
+            all.measured
+        ),
+    );
+    counts(page, artefacts);
+    misses(page, artefacts);
+    reading(page);
+}
+
+fn counts(page: &mut String, artefacts: &[Artefact]) {
+    page.push_str(
+        "<h2>Verdicts</h2>\n<table class=\"verdicts\"><thead><tr><th>figure or table</th><th class=\"n\">agree</th>\
+         <th class=\"n\">missed</th><th class=\"n\">measured only</th>\
+         <th class=\"n\">time (s)</th><th></th></tr></thead><tbody>\n",
+    );
+    for artefact in artefacts {
+        let verdicts = Verdicts::of(&artefact.rows);
+        push(
+            page,
+            format_args!(
+                "<tr><td class=\"wide\"><a href=\"#{id}\">{}</a>: {}</td>\
+                 <td class=\"n {}\" data-label=\"agree\">{}</td>\
+                 <td class=\"n {}\" data-label=\"missed\">{}</td>\
+                 <td class=\"n\" data-label=\"measured only\">{}</td>\
+                 <td class=\"n\" data-label=\"time (s)\">{:.1}</td><td class=\"wide\">{}</td></tr>\n",
+                name(artefact.id),
+                escape(artefact.title),
+                if verdicts.agree > 0 { "pass" } else { "open" },
+                verdicts.agree,
+                if verdicts.missed > 0 { "miss" } else { "open" },
+                verdicts.missed,
+                verdicts.measured,
+                artefact.wall_s,
+                bar(verdicts),
+                id = artefact.id,
+            ),
+        );
+    }
+    page.push_str("</tbody></table>\n");
+}
+
+/// Shares of what agrees and what does not; nothing where nothing is compared.
+fn bar(verdicts: Verdicts) -> String {
+    if verdicts.compared() == 0 {
+        return String::new();
+    }
+    let share = |count: usize| 100.0 * count as f64 / verdicts.compared() as f64;
+    format!(
+        "<div class=\"bar\" role=\"img\" aria-label=\"{} of {} agree\"><div class=\"good\" \
+         style=\"width:{:.1}%\"></div><div class=\"bad\" style=\"width:{:.1}%\"></div></div>",
+        verdicts.agree,
+        verdicts.compared(),
+        share(verdicts.agree),
+        share(verdicts.missed),
+    )
+}
+
+/// Misses beyond this number are folded away.
+const MOST: usize = 40;
+
+fn misses(page: &mut String, artefacts: &[Artefact]) {
+    let rows = artefacts.iter().flat_map(|a| &a.rows);
+    let missed: Vec<&Row> = rows.filter(|row| row.pass == Some(false)).collect();
+    page.push_str("<h2>What was missed, and why</h2>\n");
+    if missed.is_empty() {
+        page.push_str("<p>Nothing that was compared.</p>\n");
+        return;
+    }
+    page.push_str(
+        "<p>Every comparison that failed. The note says how the number came about and, where it is \
+         known, why it differs; the <a href=\"#errata\">errata</a> say where the paper itself is open \
+         or contradicts itself.</p>\n",
+    );
+    let (first, rest) = missed.split_at(missed.len().min(MOST));
+    tables::table(page, first, Among::All);
+    if !rest.is_empty() {
+        push(
+            page,
+            format_args!(
+                "<details><summary class=\"miss\">{} more</summary>\n",
+                rest.len()
+            ),
+        );
+        tables::table(page, rest, Among::All);
+        page.push_str("</details>\n");
+    }
+}
+
+fn reading(page: &mut String) {
+    let palette = palette::chosen();
+    let stops: Vec<String> = palette
+        .stops()
+        .iter()
+        .map(|[red, green, blue]| format!("rgb({red},{green},{blue})"))
+        .collect();
+    push(
+        page,
+        format_args!(
+            "<h2>How to read this page</h2>\n<p>A row agrees if ours differs from the paper's number \
+             by no more than the tolerance; where the note says at most or at least, the tolerance \
+             is the bound itself. Units are nm, pN and ns. On a narrow screen wide pictures are scrolled \
+             sideways. Colour is resolution, the share of the \
+             filament that is rod:</p>\n<div class=\"ramp\" \
+             style=\"background:linear-gradient(to right,{})\"></div><div class=\"ends\"><span>all \
+             monomers</span><span>all rod</span></div>\n<p class=\"soft\">Another set of colours: \
+             <code>--palette paper</code> or <code>--palette colour-blind</code>.</p>\n",
+            stops.join(",")
+        ),
+    );
+}

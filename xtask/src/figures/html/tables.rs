@@ -1,0 +1,185 @@
+//! Numbers as tables: paper, ours, difference, verdict; what was missed first.
+
+use super::{escape, push};
+use crate::figures::report::Row;
+
+/// Longer tables are folded away, unless they show what was missed.
+const LONG: usize = 12;
+
+/// Whether a row stands among others of its artefact, or names its artefact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Among {
+    Own,
+    All,
+}
+
+/// Writes the rows of an artefact in up to three tables.
+pub(super) fn write(page: &mut String, rows: &[Row]) {
+    let groups = [
+        (Some(false), "Missed"),
+        (Some(true), "Agree"),
+        (None, "Measured, with nothing to compare"),
+    ];
+    page.push_str("<h3>Numbers</h3>\n");
+    for (verdict, title) in groups {
+        let chosen: Vec<&Row> = rows.iter().filter(|row| row.pass == verdict).collect();
+        if chosen.is_empty() {
+            continue;
+        }
+        let open = if chosen.len() <= LONG || verdict == Some(false) {
+            " open"
+        } else {
+            ""
+        };
+        push(
+            page,
+            format_args!(
+                "<details{open}><summary class=\"{}\">{title}: {}</summary>\n",
+                class(verdict),
+                chosen.len()
+            ),
+        );
+        table(page, &chosen, Among::Own);
+        page.push_str("</details>\n");
+    }
+}
+
+/// One table of rows.
+pub(super) fn table(page: &mut String, rows: &[&Row], among: Among) {
+    page.push_str("<table><thead><tr>");
+    if among == Among::All {
+        page.push_str("<th>where</th>");
+    }
+    page.push_str(
+        "<th>quantity</th><th class=\"n\">paper</th><th class=\"n\">ours</th>\
+         <th class=\"n\">difference</th><th class=\"n\">tolerance</th><th>unit</th>\
+         <th>verdict</th><th>note</th></tr></thead><tbody>\n",
+    );
+    for row in rows {
+        write_row(page, row, among);
+    }
+    page.push_str("</tbody></table>\n");
+}
+
+fn write_row(page: &mut String, row: &Row, among: Among) {
+    page.push_str("<tr>");
+    if among == Among::All {
+        let id = escape(row.artefact);
+        let name = super::name(row.artefact);
+        push(
+            page,
+            format_args!(
+                "<td data-label=\"where\" class=\"where\"><a href=\"#{id}\">{name}</a></td>"
+            ),
+        );
+    }
+    push(
+        page,
+        format_args!(
+            "<td class=\"path\"><code>{}</code></td>",
+            escape(&row.quantity)
+        ),
+    );
+    let numbers = [
+        ("paper", row.paper),
+        ("ours", Some(row.ours)),
+        ("difference", row.paper.map(|paper| row.ours - paper)),
+        ("tolerance", row.tolerance),
+    ];
+    for (label, value) in numbers {
+        number(page, label, value);
+    }
+    push(
+        page,
+        format_args!(
+            "<td data-label=\"unit\" class=\"{}\">{}</td>\
+             <td data-label=\"verdict\" class=\"{}\">{}</td><td class=\"note\">{}</td></tr>\n",
+            if row.unit.is_empty() { "none" } else { "unit" },
+            escape(row.unit),
+            class(row.pass),
+            word(row.pass),
+            escape(&row.note),
+        ),
+    );
+}
+
+fn number(page: &mut String, label: &str, value: Option<f64>) {
+    let (class, text) = value.map_or(("n none", "–".to_owned()), |v| ("n", significant(v)));
+    push(
+        page,
+        format_args!("<td data-label=\"{label}\" class=\"{class}\">{text}</td>"),
+    );
+}
+
+fn class(verdict: Option<bool>) -> &'static str {
+    match verdict {
+        Some(true) => "pass",
+        Some(false) => "miss",
+        None => "open",
+    }
+}
+
+fn word(verdict: Option<bool>) -> &'static str {
+    match verdict {
+        Some(true) => "✓ agrees",
+        Some(false) => "✗ missed",
+        None => "measured",
+    }
+}
+
+/// Five significant digits, in the shorter of the two notations.
+pub(in crate::figures) fn significant(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e6).contains(&magnitude) {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between 0 and 7: the magnitude lies between 1e-3 and 1e6"
+        )]
+        let decimals = (4.0 - magnitude.log10().floor()).max(0.0) as usize;
+        let text = format!("{value:.decimals$}");
+        if text.contains('.') {
+            let text = text.trim_end_matches('0');
+            text.trim_end_matches('.').to_owned()
+        } else {
+            text
+        }
+    } else {
+        format!("{value:.4e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_five_digits() {
+        assert_eq!(significant(61.234_567), "61.235");
+        assert_eq!(significant(0.123_456_7), "0.12346");
+        assert_eq!(significant(123_456.0), "123456");
+        assert_eq!(significant(120.0), "120");
+        assert_eq!(significant(2.5), "2.5");
+        assert_eq!(significant(-1.5e-7), "-1.5000e-7");
+        assert_eq!(significant(0.0), "0");
+    }
+
+    /// What was missed comes first and is never folded away; a long list of what agrees is.
+    #[test]
+    fn misses_come_first_and_long_tables_are_folded() {
+        let row = |i: usize| Row::measured("fig1", format!("q/{i}"), "nm", 1.0, "a < b");
+        let mut rows: Vec<Row> = (0..40).map(|i| row(i).against(1.0, 0.1)).collect();
+        rows.extend((40..60).map(|i| row(i).against(3.0, 0.1)));
+        let mut page = String::new();
+        write(&mut page, &rows);
+        let place = |text: &str| page.find(text).unwrap();
+        assert!(place("Missed: 20") < place("Agree: 40"));
+        assert!(page.contains("<details open><summary class=\"miss\">Missed"));
+        assert!(page.contains("<details><summary class=\"pass\">Agree"));
+        assert_eq!(page.matches("<tr><td").count(), rows.len());
+        assert_eq!(page.matches("✗ missed").count(), 20);
+        assert!(page.contains("a &lt; b") && !page.contains("Measured"));
+    }
+}

@@ -1,0 +1,84 @@
+//! How many numbers agree, how many do not, and how many have nothing to be compared with.
+
+use crate::figures::report::Row;
+use std::iter::Sum;
+use std::ops::Add;
+
+/// Counts of verdicts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Verdicts {
+    pub agree: usize,
+    pub missed: usize,
+    /// Without a verdict.
+    pub measured: usize,
+}
+
+impl Verdicts {
+    pub(super) fn of(rows: &[Row]) -> Self {
+        let count = |verdict| rows.iter().filter(|row| row.pass == verdict).count();
+        Self {
+            agree: count(Some(true)),
+            missed: count(Some(false)),
+            measured: count(None),
+        }
+    }
+
+    pub(super) fn compared(self) -> usize {
+        self.agree + self.missed
+    }
+
+    /// In a few words, for a list.
+    pub(super) fn in_words(self) -> String {
+        match (self.agree, self.missed) {
+            (0, 0) => format!("{} measured", self.measured),
+            (agree, 0) => format!("{agree} agree"),
+            (agree, missed) => format!("{agree} agree, {missed} missed"),
+        }
+    }
+}
+
+impl Add for Verdicts {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            agree: self.agree + other.agree,
+            missed: self.missed + other.missed,
+            measured: self.measured + other.measured,
+        }
+    }
+}
+
+impl Sum for Verdicts {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        all.fold(Self::default(), Add::add)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One that agrees, two that do not, one alone; a number without a verdict is not a success.
+    #[test]
+    fn verdicts_are_counted() {
+        let row = |ours| Row::measured("fig1", "q", "nm", ours, "");
+        let rows = [
+            row(1.0).against(1.1, 0.2),
+            row(1.0).against(2.0, 0.2),
+            row(1.0).against(f64::NAN, 0.2),
+            row(1.0),
+        ];
+        let counted = Verdicts::of(&rows);
+        let expected = Verdicts {
+            agree: 1,
+            missed: 2,
+            measured: 1,
+        };
+        assert_eq!(counted, expected);
+        assert_eq!(counted.compared(), 3);
+        assert_eq!(counted.in_words(), "1 agree, 2 missed");
+        let twice: Verdicts = [counted, counted].into_iter().sum();
+        assert_eq!(twice.missed, 4);
+    }
+}

@@ -1,0 +1,151 @@
+//! A state of an assembly as the viewer draws it: plain numbers, taken from the state alone.
+
+use crate::figures::schematics::Drawn;
+use actin_mechanics::{State, Vector3};
+use actin_sim::{Assembly, BodyKind};
+use serde::Serialize;
+
+/// Places are kept to 0.01 nm, a hundredth of the least that is seen at full zoom.
+const PER_NM: f64 = 1e2;
+/// Components of quaternions are kept to 1e-4, a turn of 0.01 deg.
+const PER_UNIT: f64 = 1e4;
+
+/// Bodies and what holds and pulls them (nm, pN, lab frame).
+#[derive(Clone, Debug, Default, Serialize)]
+pub(crate) struct Snapshot {
+    /// Semi-axes of every monomer along its own frame.
+    pub semi_axes: [f64; 3],
+    /// Centre, then quaternion (w, x, y, z; body to lab) of each monomer.
+    pub monomers: Vec<[f64; 7]>,
+    /// Radius of the cross-section of rods.
+    pub rod_radius: f64,
+    pub rods: Vec<Rod>,
+    /// Monomer's centre and rod's end of each bond of a junction.
+    pub junctions: Vec<[f64; 6]>,
+    /// Site and anchor of each linker.
+    pub linkers: Vec<[f64; 6]>,
+    /// Corners of a plate at each held end.
+    pub clamps: Vec<[f64; 12]>,
+    /// Where each force acts, and the force (pN).
+    pub forces: Vec<[f64; 6]>,
+    /// Centre line.
+    pub line: Vec<[f64; 3]>,
+}
+
+/// A section of n segments: n + 1 nodes, n frames.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Rod {
+    pub nodes: Vec<[f64; 3]>,
+    /// Quaternion (w, x, y, z; body to lab) of each segment.
+    pub frames: Vec<[f64; 4]>,
+}
+
+/// Half the width of the plate at a held end (nm).
+const PLATE_NM: f64 = 6.0;
+
+impl Snapshot {
+    /// What is seen of `state`.
+    pub(crate) fn of(assembly: &Assembly, state: &State) -> Self {
+        let drawn = Drawn::in_state(assembly, state);
+        let monomers = drawn.points(BodyKind::Monomer).into_iter();
+        let bodies = monomers.filter_map(|i| Some((i, assembly.points[i].frame?)));
+        let points = 0..assembly.points.len();
+        let junctions = assembly.junction_bonds();
+        let linkers = assembly.linkers.iter();
+        Self {
+            semi_axes: assembly.scene.filament.monomers.semi_axes_nm,
+            monomers: bodies
+                .map(|(i, frame)| join(place(drawn.place(i)), quaternion(state, frame)))
+                .collect(),
+            rod_radius: rounded(Drawn::rod_radius_nm(), PER_NM),
+            rods: rods(assembly, state),
+            junctions: junctions
+                .iter()
+                .map(|bond| pair(drawn.ends_of(bond)))
+                .collect(),
+            linkers: linkers
+                .map(|l| pair([l.site().position(state), l.end_position(state)]))
+                .collect(),
+            clamps: drawn.plates(PLATE_NM).into_iter().map(plate).collect(),
+            forces: drawn
+                .forces()
+                .into_iter()
+                .map(<_>::into)
+                .map(pair)
+                .collect(),
+            line: points
+                .map(|i| place(assembly.centre_line_nm(state, i)))
+                .collect(),
+        }
+    }
+
+    /// The same without linkers.
+    pub(crate) fn without_linkers(self) -> Self {
+        Self {
+            linkers: Vec::new(),
+            ..self
+        }
+    }
+
+    /// Whether every number is one.
+    pub(super) fn is_finite(&self) -> bool {
+        let rods = self.rods.iter();
+        let bodies = self.monomers.iter().flatten();
+        let ends = [&self.junctions, &self.linkers, &self.forces];
+        bodies
+            .chain(&self.semi_axes)
+            .chain([&self.rod_radius])
+            .chain(rods.clone().flat_map(|rod| rod.nodes.iter().flatten()))
+            .chain(rods.flat_map(|rod| rod.frames.iter().flatten()))
+            .chain(ends.into_iter().flatten().flatten())
+            .chain(self.clamps.iter().flatten())
+            .chain(self.line.iter().flatten())
+            .all(|x| x.is_finite())
+    }
+}
+
+fn rods(assembly: &Assembly, state: &State) -> Vec<Rod> {
+    let sections = assembly.sections.iter().filter(|s| !s.is_ellipsoids());
+    let rod = |section: &actin_sim::SectionSpan| Rod {
+        nodes: section
+            .points
+            .clone()
+            .map(|i| place(state.points.position.get(i)))
+            .collect(),
+        frames: section
+            .frames
+            .clone()
+            .map(|i| quaternion(state, i))
+            .collect(),
+    };
+    sections.map(rod).collect()
+}
+
+/// To the nearest of so many steps per unit; zero without a sign.
+fn rounded(x: f64, per_unit: f64) -> f64 {
+    (x * per_unit).round() / per_unit + 0.0
+}
+
+fn place(p: Vector3) -> [f64; 3] {
+    [p.x, p.y, p.z].map(|x| rounded(x, PER_NM))
+}
+
+fn quaternion(state: &State, frame: usize) -> [f64; 4] {
+    let q = state.frames.orientation.get(frame);
+    [q.w, q.i, q.j, q.k].map(|x| rounded(x, PER_UNIT))
+}
+
+fn join([x, y, z]: [f64; 3], [a, b, c, d]: [f64; 4]) -> [f64; 7] {
+    [x, y, z, a, b, c, d]
+}
+
+fn pair(ends: [Vector3; 2]) -> [f64; 6] {
+    let [[a, b, c], [d, e, f]] = ends.map(place);
+    [a, b, c, d, e, f]
+}
+
+fn plate(corners: [Vector3; 4]) -> [f64; 12] {
+    let [a, b, c, d] = corners;
+    let ([a, b, c, d, e, f], [g, h, i, j, k, l]) = (pair([a, b]), pair([c, d]));
+    [a, b, c, d, e, f, g, h, i, j, k, l]
+}

@@ -1,0 +1,125 @@
+//! `cargo xtask tradeoff`: what a user gives up in accuracy for each saving in time.
+//!
+//! For each scene of `actin_sim::advice::scenes` the settings that a user can vary, one at a time and
+//! some together, against the same filament with every monomer resolved; then integrators, steps and
+//! damped motion on the cantilever. The advice drawn from it is in `docs/tradeoff.md`.
+
+mod motions;
+mod observe;
+mod pareto;
+mod picture;
+mod print;
+mod rates;
+mod row;
+mod solve;
+mod statics;
+mod study;
+#[cfg(test)]
+mod tests;
+
+use clap::Args;
+use picture::Picture;
+use row::Row;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The name under which rates are measured, which no run of all does.
+const RATES: &str = "rates";
+
+/// Options of the command.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct Options {
+    /// Which: names of scenes, `vibration`, `rest`; all by default. `rates` measures how fast loads
+    /// and Newton steps go.
+    scenes: Vec<String>,
+    /// Where to write tables and pictures.
+    #[arg(long, default_value = "target/tradeoff")]
+    out: PathBuf,
+    /// Fewer settings and samplings.
+    #[arg(long)]
+    quick: bool,
+}
+
+/// Measures, writes, draws and prints.
+pub(crate) fn run(options: &Options) -> Result<(), String> {
+    let known: Vec<&str> = study::names()
+        .into_iter()
+        .chain([motions::VIBRATION, motions::REST, RATES])
+        .collect();
+    if let Some(unknown) = options
+        .scenes
+        .iter()
+        .find(|name| !known.contains(&name.as_str()))
+    {
+        return Err(format!(
+            "no scene `{unknown}`: there is {}",
+            known.join(", ")
+        ));
+    }
+    if options.scenes.iter().any(|name| name == RATES) {
+        return rates::print();
+    }
+    let out = &options.out;
+    fs::create_dir_all(out).map_err(|e| format!("{}: {e}", out.display()))?;
+    let rows = rows(options)?;
+    row::write(&rows, out)?;
+    print::write_advice(&rows, out)?;
+    println!("written: {}", out.join("tradeoff.json").display());
+    Ok(())
+}
+
+/// All rows that are asked for, printed and drawn scene by scene.
+fn rows(options: &Options) -> Result<Vec<Row>, String> {
+    let names = &options.scenes;
+    let wanted = |name: &str| names.is_empty() || names.iter().any(|n| n == name);
+    let mut all = Vec::new();
+    for study in study::studies(names, options.quick) {
+        let rows = statics::rows(&study)?;
+        show(&rows, &options.out)?;
+        all.extend(rows);
+    }
+    for (name, measure) in [
+        (motions::VIBRATION, motions::vibration as fn(bool) -> _),
+        (motions::REST, motions::rest),
+    ] {
+        if wanted(name) {
+            let rows: Vec<Row> = measure(options.quick)?;
+            show(&rows, &options.out)?;
+            all.extend(rows);
+        }
+    }
+    Ok(all)
+}
+
+fn show(rows: &[Row], out: &Path) -> Result<(), String> {
+    print::table(rows);
+    let Some(first) = rows.first() else {
+        return Ok(());
+    };
+    let (name, samplings) = (&first.scene, first.seeds);
+    let title = |what: &str| format!("{name}: {what}, rms over {samplings} sampling(s)");
+    let displacement = Picture {
+        title: &title("error of the displacement"),
+        y_label: "relative error of the displacement",
+        rows,
+        error: |row| row.error_displacement,
+        scatter: |row| row.scatter_displacement,
+    };
+    picture::draw(&displacement, &out.join(format!("{name}.svg")))?;
+    let energy = Picture {
+        title: &title("error of the energy"),
+        y_label: "relative error of the elastic energy",
+        error: |row| row.error_energy,
+        scatter: |row| row.scatter_energy,
+        ..displacement
+    };
+    picture::draw(&energy, &out.join(format!("{name}_energy.svg")))?;
+    let local = Picture {
+        title: &title("error of the local field"),
+        y_label: "relative error of curvature or twist at the site",
+        error: |row| row.error_local,
+        scatter: |row| row.scatter_local,
+        ..displacement
+    };
+    picture::draw(&local, &out.join(format!("{name}_local.svg")))
+}

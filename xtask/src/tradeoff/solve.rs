@@ -1,0 +1,168 @@
+//! Equilibria of a study's settings: what they look like and what they cost.
+
+use super::observe::Observed;
+use super::study::Study;
+use actin_sim::advice::Setting;
+use actin_sim::cost::{Cost, Work};
+use actin_sim::{Assembly, Counts, Dynamics, Integrator, Scene, Task};
+use rayon::prelude::*;
+use std::ops::ControlFlow;
+
+/// A motion whose time is taken (ns), how long it is repeated (s) and how often: the least counts.
+const TIMED_NS: f64 = 0.1;
+const TIMED_S: f64 = 0.2;
+const TIMED: usize = 40;
+
+/// An equilibrium that was found.
+#[derive(Clone, Debug)]
+pub(super) struct Solved {
+    pub observed: Observed,
+    /// Newton steps and evaluations, over all starts.
+    pub newton_steps: u64,
+    pub evaluations: u64,
+    /// Time of Newton's method (s).
+    pub wall_s: f64,
+    /// Energies that are not positive beyond doubt.
+    pub doubtful: usize,
+    potential: f64,
+}
+
+/// What one setting evaluates and how far one evaluation brings a motion.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MotionCost {
+    pub counts: Counts,
+    pub work: Work,
+    /// Evaluations for a ns at the default step of the default integrator.
+    pub evaluations_per_ns: f64,
+    /// Bonds and elements evaluated in a ns.
+    pub counted_per_ns: f64,
+}
+
+/// The scene of a study in one setting, with a sampling of the bonds.
+pub(super) fn scene(study: &Study, setting: &Setting, seed: u64) -> Scene {
+    let mut scene = setting.apply(&study.scene);
+    scene.filament.monomers.seed = seed;
+    if study.turned {
+        scene.filament.monomers.azimuth_deg = seed as f64 * 360.0 / study.seeds as f64;
+    }
+    scene
+}
+
+/// A filament on its way to an equilibrium: that, or why there is none.
+pub(super) type Attempt = Result<Solved, String>;
+
+/// Equilibria of every setting and sampling, by setting.
+pub(super) fn all(study: &Study) -> Vec<Vec<Attempt>> {
+    let solve_one = |setting, seed| equilibrium(study, setting, seed);
+    study
+        .settings
+        .par_iter()
+        .map(|(_, _, setting)| {
+            let seeds = (0..study.seeds).into_par_iter();
+            seeds.map(|seed| solve_one(setting, seed)).collect()
+        })
+        .collect()
+}
+
+/// The lowest equilibrium over the starts of the study.
+pub(super) fn equilibrium(study: &Study, setting: &Setting, seed: u64) -> Attempt {
+    let scene = scene(study, setting, seed);
+    let mut lowest: Option<Solved> = None;
+    let (mut steps, mut evaluations, mut wall_s) = (0, 0, 0.0);
+    for &start in study.starts_deg {
+        let found =
+            from(study, &scene, start).map_err(|e| format!("{}, seed {seed}: {e}", study.name))?;
+        steps += found.newton_steps;
+        evaluations += found.evaluations;
+        wall_s += found.wall_s;
+        if lowest
+            .as_ref()
+            .is_none_or(|low| found.potential < low.potential)
+        {
+            lowest = Some(found);
+        }
+    }
+    lowest
+        .map(|low| Solved {
+            newton_steps: steps,
+            evaluations,
+            wall_s,
+            ..low
+        })
+        .ok_or_else(|| format!("{}: no start", study.name))
+}
+
+/// The equilibrium from one start.
+fn from(study: &Study, scene: &Scene, start_deg: f64) -> Result<Solved, String> {
+    let mut assembly = Assembly::build(scene).map_err(|e| e.to_string())?;
+    if start_deg != 0.0 {
+        assembly.roll(start_deg.to_radians());
+    }
+    let watch = &mut |_| ControlFlow::Continue(());
+    let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| e.to_string())?;
+    let last = trajectory.records.last().ok_or("no record")?;
+    let found = report.equilibrium.ok_or("no certificate")?;
+    Ok(Solved {
+        potential: last.potential_pn_nm(),
+        observed: Observed::of(study, &mut assembly),
+        newton_steps: found.newton_iterations,
+        evaluations: report.force_evaluations,
+        wall_s: report.wall_s,
+        doubtful: found.certificate.negative + found.certificate.unresolved,
+    })
+}
+
+/// Least time of a short motion per ns (s), on the first sampling.
+pub(super) fn motion_seconds_per_ns(study: &Study, setting: &Setting) -> Result<f64, String> {
+    let mut scene = scene(study, setting, 0);
+    scene.path.clear();
+    scene.task = Task::Dynamics(motion(TIMED_NS, Integrator::default(), None));
+    let (mut least, mut spent, mut repeats) = (f64::INFINITY, 0.0, 0);
+    while repeats < TIMED && spent < TIMED_S {
+        let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
+        let watch = &mut |_| ControlFlow::Continue(());
+        let (_, report) = actin_sim::run(&mut assembly, watch).map_err(|e| e.to_string())?;
+        least = least.min(report.wall_s / TIMED_NS);
+        spent += report.wall_s;
+        repeats += 1;
+    }
+    Ok(least)
+}
+
+/// What a motion of the scene costs in one setting.
+pub(super) fn motion_cost(study: &Study, setting: &Setting) -> Result<MotionCost, String> {
+    let mut scene = scene(study, setting, 0);
+    scene.path.clear();
+    scene.task = Task::Dynamics(motion(1.0, Integrator::default(), None));
+    let assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
+    let estimate = actin_sim::estimate(&assembly)
+        .map_err(|e| e.to_string())?
+        .ok_or("a motion has an estimate")?;
+    let cost = Cost::of(&assembly, Some(&estimate));
+    let duration = estimate.steps as f64 * estimate.time_step_ns;
+    Ok(MotionCost {
+        counts: assembly.counts(),
+        work: cost.work,
+        evaluations_per_ns: cost.evaluations as f64 / duration,
+        counted_per_ns: (cost.bond_evaluations() + cost.element_evaluations()) / duration,
+    })
+}
+
+/// A motion without drag, recorded at its end alone.
+pub(super) fn motion(
+    duration_ns: f64,
+    integrator: Integrator,
+    time_step_ns: Option<f64>,
+) -> Dynamics {
+    Dynamics {
+        duration_ns,
+        integrator,
+        time_step_ns,
+        step_safety: 0.5,
+        allow_unstable_step: false,
+        drag: actin_sim::Drag::default(),
+        thermal: None,
+        stop: None,
+        record_every_ns: Some(duration_ns),
+    }
+}
