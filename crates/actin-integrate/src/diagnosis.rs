@@ -11,6 +11,10 @@ use std::f64::consts::PI;
 /// in every step.
 const LARGEST_GROWTH: f64 = 1e8;
 
+/// Kinetic energy (pN nm) that counts as rest: far above what rounding moves a filament that nothing
+/// moves (1e-26), far below any motion of interest.
+const STILL: f64 = 1e-12;
+
 /// Watches over the states of one run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Watch {
@@ -42,7 +46,8 @@ impl Watch {
             return Some(Problem::TurnsTooFar(turn));
         }
         let kinetic = state.kinetic_energy();
-        let grown = self.largest_kinetic > 0.0 && kinetic > LARGEST_GROWTH * self.largest_kinetic;
+        let before = self.largest_kinetic.max(STILL);
+        let grown = self.largest_kinetic > 0.0 && kinetic > LARGEST_GROWTH * before;
         // Written so that an overflow to infinity or NaN is found.
         let sound = kinetic <= self.kinetic_limit && kinetic.is_finite() && !grown;
         (!sound).then_some(Problem::TooFast(kinetic))

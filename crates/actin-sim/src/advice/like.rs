@@ -1,6 +1,8 @@
 //! Whether a scene is like one that was measured, so that what was found there may be expected here.
 
-use crate::scene::{Clamp, ForceLaw, Linker, Load, Material, Monomers, Scene, Setting, Stage};
+use crate::scene::{
+    Clamp, ForceLaw, Linker, Load, Material, Monomers, Scene, Setting, Stage, Task,
+};
 
 /// How far a length, a displacement or a turn may be from that of the measured scene.
 const NEAR: f64 = 0.1;
@@ -17,6 +19,8 @@ const AZIMUTH_DEG: f64 = 4.0;
 /// default parameters but for seed, azimuth and bonds. More than one filament was not measured.
 pub(super) fn is_like(scene: &Scene, measured: &Scene) -> bool {
     scene.further.is_empty()
+        && comes_to_rest(&scene.task)
+        && (scene.linkers.is_empty() || scene.filament.roll_deg.abs() <= AZIMUTH_DEG)
         && scene.filament.axis() == measured.filament.axis()
         && near(length(scene), length(measured))
         && pairwise(&scene.clamps, &measured.clamps, same_clamp)
@@ -24,6 +28,14 @@ pub(super) fn is_like(scene: &Scene, measured: &Scene) -> bool {
         && pairwise(&scene.linkers, &measured.linkers, same_linker)
         && pairwise(&scene.path, &measured.path, same_stage)
         && has_default_models(scene)
+}
+
+/// All measured errors are those of states at rest.
+fn comes_to_rest(task: &Task) -> bool {
+    match task {
+        Task::Equilibrium(_) => true,
+        Task::Dynamics(dynamics) => dynamics.stop.is_some() && dynamics.thermal.is_none(),
+    }
 }
 
 /// Length of a scene's filament as written (nm).
@@ -53,7 +65,7 @@ fn near_vector(a: [f64; 3], b: [f64; 3]) -> bool {
 }
 
 fn same_clamp(a: &Clamp, b: &Clamp) -> bool {
-    (a.end, a.slides) == (b.end, b.slides)
+    (a.end, a.slides, a.hold) == (b.end, b.slides, b.hold)
 }
 
 /// Across a filament that stands on a wall all directions are one.

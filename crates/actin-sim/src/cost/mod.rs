@@ -8,7 +8,7 @@ pub use rates::{
     NEWTON_LAW_ELEMENTS_PER_S,
 };
 
-use crate::scene::{Problem, Task};
+use crate::scene::{Problem, RodLaw, Task};
 use crate::{Assembly, Estimate};
 
 /// Newton steps of one equilibrium that the estimate takes: the middle of what `cargo xtask
@@ -16,7 +16,7 @@ use crate::{Assembly, Estimate};
 const NEWTON_STEPS: u64 = 20;
 
 /// What one evaluation of the loads evaluates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
     /// Bonds between monomers.
     pub bonds: usize,
@@ -38,8 +38,18 @@ pub struct Cost {
 impl Work {
     /// Of an assembled scene.
     pub fn of(assembly: &Assembly) -> Self {
-        let counts = assembly.counts();
-        let attached = assembly.scene.filament.junction.attached_monomers;
+        let each = (0..assembly.filaments.len()).map(|filament| Self::of_one(assembly, filament));
+        each.fold(Self::default(), |sum, one| Self {
+            bonds: sum.bonds + one.bonds,
+            elements: sum.elements + one.elements,
+        })
+    }
+
+    /// Of one filament.
+    fn of_one(assembly: &Assembly, filament: usize) -> Self {
+        let counts = assembly.counts_of(filament);
+        let scene = assembly.scene.filaments().nth(filament);
+        let attached = scene.map_or(0, |one| one.junction.attached_monomers);
         Self {
             bonds: counts.bonds,
             elements: counts.segments + counts.junctions * attached,
@@ -51,16 +61,21 @@ impl Cost {
     /// Of an assembled scene; `estimate` is that of its motion, none of an equilibrium.
     pub fn of(assembly: &Assembly, estimate: Option<&Estimate>) -> Self {
         let work = Work::of(assembly);
-        let (bonds, elements) = (work.bonds as f64, work.elements as f64);
-        let law = &assembly.scene.filament.rod.law;
+        let of_elements = |rate: fn(&RodLaw) -> f64| -> f64 {
+            let filaments = assembly.scene.filaments().enumerate();
+            filaments
+                .map(|(i, one)| Work::of_one(assembly, i).elements as f64 / rate(&one.rod.law))
+                .sum()
+        };
+        let bonds = work.bonds as f64;
         let (evaluations, seconds) = match estimate {
             Some(estimate) => (
                 estimate.force_evaluations,
-                bonds / BONDS_PER_S + elements / rates::elements_per_s(law),
+                bonds / BONDS_PER_S + of_elements(rates::elements_per_s),
             ),
             None => (
                 NEWTON_STEPS * equilibria(assembly),
-                bonds / NEWTON_BONDS_PER_S + elements / rates::newton_elements_per_s(law),
+                bonds / NEWTON_BONDS_PER_S + of_elements(rates::newton_elements_per_s),
             ),
         };
         Self {

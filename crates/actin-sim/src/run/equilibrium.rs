@@ -298,6 +298,8 @@ impl<'a> Follower<'a> {
         if self.standing.points > 0 {
             return Ok(());
         }
+        // An earlier attempt that failed has left the best state that it reached.
+        self.trajectory.records.clear();
         let interactions = self.assembly.system.interactions();
         let attempts = self.settings.leave_saddles;
         let solved = newton.minimize_observed(state, interactions, attempts, &mut |_| self.go_on());
