@@ -262,7 +262,7 @@ fn a_killed_run_goes_on_to_the_same_bytes() {
 #[test]
 #[ignore = "takes a minute; run by hand with --ignored --nocapture"]
 fn many_killed_runs_go_on_to_the_same_bytes() {
-    assert_survives(&[MOTION, PATH], 20, 250);
+    assert_survives(&[MOTION, PATH], 40, 100);
 }
 
 /// A limit on the size of files is a disk that is full for some: records do not fit any more. The
