@@ -7,7 +7,7 @@ use std::time::Instant;
 const ROD: &str = "Rod(from_nm: 0.0, to_nm: 30.0)";
 
 /// What is asked for, sections and task.
-const SCENES: [(&str, &str, &str); 9] = [
+const SCENES: [(&str, &str, &str); 10] = [
     (
         "1e12 monomers",
         "Ellipsoids(from_nm: 0.0, to_nm: 2.7385e12)",
@@ -26,6 +26,12 @@ const SCENES: [(&str, &str, &str); 9] = [
     (
         "a rod behind 1e12 monomers",
         "Ellipsoids(from_nm: 0.0, to_nm: 2.7385e12), Rod(from_nm: 2.7385e12, to_nm: 2.8e12)",
+        "Equilibrium()",
+    ),
+    (
+        "1.5e7 segments, twice",
+        "Rod(from_nm: 0.0, to_nm: 30.0, segments: 15000000), Ellipsoids(from_nm: 30.0, to_nm: 60.0),
+         Rod(from_nm: 60.0, to_nm: 90.0, segments: 15000000)",
         "Equilibrium()",
     ),
     (

@@ -43,11 +43,15 @@ const PATIENCE_S: f64 = 60.0;
 /// Most bonds of a scene that is built: 400 monomers have half as many by default.
 const MOST_BONDS: f64 = 1e5;
 
-/// Whether building takes long: it is the reader that is tried here.
-fn is_small(scene: &Scene) -> bool {
+/// Bodies that are sure to be refused: beyond 2e7, and what sections lose to whole monomers.
+const TOO_MANY_BODIES: f64 = 3e7;
+
+/// Whether building takes little: it is the reader that is tried here. What is refused for its size
+/// is refused at once.
+fn is_built_soon(scene: &Scene) -> bool {
     let counts = scene.filaments().flat_map(counts);
     let [bodies, bonds] = counts.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
-    bodies < 400.0 && bonds < MOST_BONDS
+    bodies > TOO_MANY_BODIES || (bodies < 400.0 && bonds < MOST_BONDS)
 }
 
 /// Bodies and bonds of each section of a filament.
@@ -75,9 +79,7 @@ fn read(text: &str) -> Result<(), SceneError> {
     let written = scene.to_ron();
     let again = Scene::from_ron(&written).map(|scene| scene.to_ron());
     assert_eq!(again, Ok(written), "what is written is what was read");
-    // Refusals are cheap at any size.
-    let mut sections = scene.filaments().flat_map(|filament| &filament.sections);
-    if is_small(&scene) || sections.any(|section| section.span_nm().1 > 1e9) {
+    if is_built_soon(&scene) {
         Assembly::build(&scene).map_err(|problem| SceneError::locate(&problem, text))?;
     }
     Ok(())
