@@ -17,40 +17,81 @@ pub(crate) struct Choice {
     pub(crate) integrator: usize,
     pub(crate) drag: f64,
     pub(crate) stops: bool,
+    /// Seed of thermal noise, if there is any: it needs drag and no stop rule.
+    pub(crate) noise: Option<u64>,
     pub(crate) record_every_ns: f64,
     pub(crate) duration_ns: f64,
 }
 
-const FILAMENTS: [&str; 3] = [
-    "sections: [Rod(from_nm: 0.0, to_nm: 40.0)]",
-    "sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0), Rod(from_nm: 12.0, to_nm: 42.0)],
-     monomers: Monomers(lateral_bonds: 6, longitudinal_bonds: 6)",
-    "sections: [Rod(from_nm: 0.0, to_nm: 40.0)], rod: RodModel(law: Fitted)",
+const FILAMENTS: [&str; 4] = [
+    "filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)])",
+    "filament: Filament(
+         sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0), Rod(from_nm: 12.0, to_nm: 42.0)],
+         monomers: Monomers(lateral_bonds: 6, longitudinal_bonds: 6))",
+    "filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)], rod: RodModel(law: Fitted))",
+    "filaments: [
+         Filament(
+             sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0), Rod(from_nm: 12.0, to_nm: 42.0)],
+             monomers: Monomers(lateral_bonds: 6, longitudinal_bonds: 6)),
+         Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)], at_nm: (12.0, 0.0, 0.0),
+                  roll_deg: 40.0)]",
 ];
 
-/// A force at once, a force by a ramp, an end that turns and slides, a linker whose anchor moves.
-const HELD: [&str; 4] = [
-    "clamps: [Clamp(end: Start)],
-     loads: [EndForce(end: End, force_pn: (-12.0, 3.0, 0.0))]",
-    "clamps: [Clamp(end: Start)],
-     loads: [EndForce(end: End, force_pn: (-20.0, 0.0, 3.0))],
+/// Which of them are two.
+const PAIR: usize = 3;
+
+/// What holds the second filament, and what ties it to the first.
+const SECOND: [&str; 2] = [
+    "Clamp(filament: 1, end: Start)",
+    "Linker(at_nm: 30.0, radius_nm: 1.8,
+            to: Site(filament: 1, at_nm: 25.0, radius_nm: 1.8, azimuth_deg: 140.0),
+            stiffness_pn_per_nm: 50.0, rest_length_nm: 8.4)",
+];
+
+/// Clamps, linkers and the rest: a force at once, a force by a ramp, an end that turns and slides,
+/// a linker whose anchor moves.
+const HELD: [[&str; 3]; 4] = [
+    [
+        "Clamp(end: Start),",
+        "",
+        "loads: [EndForce(end: End, force_pn: (-12.0, 3.0, 0.0))]",
+    ],
+    [
+        "Clamp(end: Start),",
+        "",
+        "loads: [EndForce(end: End, force_pn: (-20.0, 0.0, 3.0))],
      path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)], duration_ns: 0.1),
             Stage(set: [LoadFactor(load: 0, factor: 0.5)], duration_ns: 0.15)]",
-    "clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
-     path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 40.0))], duration_ns: 0.2),
+    ],
+    [
+        "Clamp(end: Start), Clamp(end: End, slides: AlongAxis),",
+        "",
+        "path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 40.0))], duration_ns: 0.2),
             Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 30.0))], duration_ns: 0.05)]",
-    "clamps: [Clamp(end: Start)],
-     linkers: [Linker(at_nm: 35.0, radius_nm: 1.8, displaced_nm: (3.0, 0.0, 0.0),
-                      stiffness_pn_per_nm: 10.0)],
-     path: [Stage(set: [Anchor(linker: 0, shift_nm: (0.0, 2.0, 1.0))], duration_ns: 0.1)]",
+    ],
+    [
+        "Clamp(end: Start),",
+        "Linker(at_nm: 35.0, radius_nm: 1.8, displaced_nm: (3.0, 0.0, 0.0),
+                stiffness_pn_per_nm: 10.0),",
+        "path: [Stage(set: [Anchor(linker: 0, shift_nm: (0.0, 2.0, 1.0))], duration_ns: 0.1)]",
+    ],
 ];
 
 const INTEGRATORS: [&str; 5] = ["PositionVerlet", "Pefrl", "Vefrl", "ForestRuth", "Suzuki"];
 
 impl Choice {
     fn scene(&self, task: &str) -> Scene {
-        let (filament, held) = (FILAMENTS[self.filament], HELD[self.held]);
-        let text = format!("Scene(filament: Filament({filament}), {held}, task: {task})");
+        let filament = FILAMENTS[self.filament];
+        let [clamps, linkers, rest] = HELD[self.held];
+        let [clamp, linker] = if self.filament == PAIR {
+            SECOND
+        } else {
+            [""; 2]
+        };
+        let text = format!(
+            "Scene({filament}, clamps: [{clamps} {clamp}], linkers: [{linkers} {linker}], {rest},
+                task: {task})"
+        );
         Scene::from_ron(&text).unwrap()
     }
 
@@ -61,8 +102,11 @@ impl Choice {
         } else {
             ""
         };
+        let thermal = self.noise.map_or(String::new(), |seed| {
+            format!("thermal: (temperature_k: 298.0, seed: {seed}),")
+        });
         self.scene(&format!(
-            "Dynamics(duration_ns: {:?}, integrator: {}, record_every_ns: {:?}, {stop}
+            "Dynamics(duration_ns: {:?}, integrator: {}, record_every_ns: {:?}, {stop} {thermal}
              drag: (translational_per_ns: {:?}, rotational_per_ns: {:?}))",
             self.duration_ns,
             INTEGRATORS[self.integrator],

@@ -12,6 +12,7 @@ const CHOICE: Choice = Choice {
     integrator: 1,
     drag: 0.3,
     stops: false,
+    noise: None,
     record_every_ns: 0.05,
     duration_ns: 0.4,
 };

@@ -10,6 +10,7 @@ const CHOICE: Choice = Choice {
     integrator: 0,
     drag: 0.0,
     stops: false,
+    noise: None,
     record_every_ns: 0.05,
     duration_ns: 0.4,
 };

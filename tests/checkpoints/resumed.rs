@@ -83,26 +83,38 @@ fn compare(scene: &Scene, leave: &[u64]) {
     );
 }
 
+/// Drag, whether rest ends the run, and the seed of noise: which needs drag and never rests.
+fn surroundings() -> impl Strategy<Value = (f64, bool, Option<u64>)> {
+    let drag = prop_oneof![Just(0.0), 0.1..5.0];
+    prop_oneof![
+        2 => (drag, any::<bool>(), Just(None)),
+        1 => (0.1..5.0, Just(false), any::<u64>().prop_map(Some)),
+    ]
+}
+
 fn choice() -> impl Strategy<Value = Choice> {
     (
-        0_usize..3,
+        0_usize..4,
         0_usize..4,
         0_usize..5,
-        prop_oneof![Just(0.0), 0.1..5.0],
-        any::<bool>(),
+        surroundings(),
         0.01..0.2,
         // No shorter than the longest path.
         0.26..0.6,
     )
         .prop_map(
-            |(filament, held, integrator, drag, stops, record_every_ns, duration_ns)| Choice {
-                filament,
-                held,
-                integrator,
-                drag,
-                stops,
-                record_every_ns,
-                duration_ns,
+            |(filament, held, integrator, surroundings, record_every_ns, duration_ns)| {
+                let (drag, stops, noise) = surroundings;
+                Choice {
+                    filament,
+                    held,
+                    integrator,
+                    drag,
+                    stops,
+                    noise,
+                    record_every_ns,
+                    duration_ns,
+                }
             },
         )
 }
@@ -110,7 +122,8 @@ fn choice() -> impl Strategy<Value = Choice> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..Default::default() })]
 
-    /// Motions: every integrator, ramp, drag, stop rule and interval of records, left up to thrice.
+    /// Motions of one filament or two: every integrator, ramp, drag, noise, stop rule and interval
+    /// of records, left up to thrice.
     #[test]
     fn motions_go_on_to_the_same_bits(
         choice in choice(),

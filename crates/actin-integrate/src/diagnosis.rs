@@ -11,8 +11,8 @@ use std::f64::consts::PI;
 /// in every step.
 const LARGEST_GROWTH: f64 = 1e8;
 
-/// Kinetic energy (pN nm) that counts as rest: far above what rounding moves a filament that nothing
-/// moves (1e-26), far below any motion of interest.
+/// Kinetic energy (pN nm) that counts as rest: far above what rounding moves where nothing
+/// else does (1e-26), far below any motion of interest.
 const STILL: f64 = 1e-12;
 
 /// Watches over the states of one run.

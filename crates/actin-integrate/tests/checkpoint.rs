@@ -3,12 +3,15 @@
 mod common;
 
 use actin_integrate::{
-    Checkpoint, Composition, Drag, Moment, Observer, Outcome, Pause, Run, StopRule,
+    Bath, Checkpoint, Composition, Drag, Moment, Observer, Outcome, Pause, Run, StopRule,
 };
 use actin_mechanics::{Drive, State, System, Vector3};
 use common::{chain, vibrating_tops};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
+
+/// Thermal energy of runs with noise: velocities of 0.07, as the tops vibrate and the chain moves.
+const KT: f64 = 5e-3;
 
 /// A held end that goes round in a circle.
 #[derive(Debug)]
@@ -72,14 +75,23 @@ fn execute(run: &Run, system: &mut System, witness: &mut Witness) -> Outcome {
     run.execute(system, &mut [witness]).unwrap()
 }
 
-/// A run of `steps` steps with everything that a scene can ask for.
-fn plan(scheme: usize, steps: u64, every: (u64, u64), drag: f64, stops: bool) -> Run {
+/// A run of `steps` steps with everything that a scene can ask for; the noise by its seed.
+fn plan(
+    (scheme, steps, every): (usize, u64, (u64, u64)),
+    drag: f64,
+    noise: Option<u64>,
+    stops: bool,
+) -> Run {
     let scheme = &Composition::all()[scheme];
-    let run = Run::new(scheme, 0.05, steps)
+    let drag = Drag::new(drag, 0.5 * drag).unwrap();
+    let mut run = Run::new(scheme, 0.05, steps)
         .and_then(|run| run.observing_every(every.0))
         .and_then(|run| run.checking_every(every.1))
         .unwrap()
-        .with_drag(Drag::new(drag, 0.5 * drag).unwrap());
+        .with_drag(drag);
+    if let Some(seed) = noise {
+        run = run.with_bath(Bath::new(drag, KT, seed).unwrap());
+    }
     if stops {
         let rule = StopRule::new(0.3, 0.3, 0.05).unwrap();
         return run.with_stop_rule(rule).stopping_from(1.0);
@@ -92,7 +104,8 @@ proptest! {
 
     /// State, observations, reason, steps and evaluations are those of the run that was not left.
     /// Forgotten loads would cost a method that begins with a kick an evaluation more; a forgotten
-    /// batch length would merge half steps elsewhere.
+    /// batch length would merge half steps elsewhere; noise that counts from where a run was taken
+    /// up would meet the first steps again.
     #[test]
     fn a_run_that_was_left_goes_on_to_the_same_bits(
         kind in 0_usize..3,
@@ -100,10 +113,11 @@ proptest! {
         steps in 1_u64..400,
         every in (1_u64..60, 1_u64..60),
         drag in prop_oneof![Just(0.0), 0.01..1.0],
+        noise in proptest::option::of(any::<u64>()),
         stops: bool,
         leave in proptest::collection::vec(1_usize..40, 1..4),
     ) {
-        let run = plan(scheme, steps, every, drag, stops);
+        let run = plan((scheme, steps, every), drag, noise, stops);
         let mut whole = build(kind);
         let mut one = Witness::default();
         let expected = execute(&run, &mut whole, &mut one);

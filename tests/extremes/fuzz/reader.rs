@@ -3,7 +3,7 @@
 
 use super::config;
 use super::mutation::{Mutation, mutations};
-use actin_sim::{Assembly, Scene, SceneError, Section};
+use actin_sim::{Assembly, Filament, Scene, SceneError, Section};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::TestRunner;
@@ -38,20 +38,38 @@ fn corpus() -> Vec<String> {
 }
 
 /// Seconds that no input may take, on a busy machine: most take a ten-thousandth of that.
-const PATIENCE_S: f64 = 20.0;
+const PATIENCE_S: f64 = 60.0;
 
-/// Whether building takes long: it is the reader that is tried here.
-fn is_small(scene: &Scene) -> bool {
-    let monomers = &scene.filament.monomers;
-    let bodies = |section: &Section| {
+/// Most bonds of a scene that is built: 400 monomers have half as many by default.
+const MOST_BONDS: f64 = 1e5;
+
+/// Bodies that are sure to be refused: beyond 2e7, and what sections lose to whole monomers.
+const TOO_MANY_BODIES: f64 = 3e7;
+
+/// Whether building takes little: it is the reader that is tried here. What is refused for its size
+/// is refused at once.
+fn is_built_soon(scene: &Scene) -> bool {
+    let counts = scene.filaments().flat_map(counts);
+    let [bodies, bonds] = counts.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+    bodies > TOO_MANY_BODIES || (bodies < 400.0 && bonds < MOST_BONDS)
+}
+
+/// Bodies and bonds of each section of a filament.
+fn counts(filament: &Filament) -> impl Iterator<Item = [f64; 2]> {
+    let monomers = &filament.monomers;
+    let each = monomers.lateral_bonds as f64 + monomers.longitudinal_bonds as f64;
+    filament.sections.iter().map(move |section| {
         let (from, to) = section.span_nm();
         match section {
-            Section::Rod { segments, .. } => segments.map_or((to - from) / 10.0, |n| n as f64),
-            Section::Ellipsoids { .. } => (to - from) / monomers.rise_nm,
+            Section::Rod { segments, .. } => {
+                [segments.map_or((to - from) / 10.0, |n| n as f64), 0.0]
+            }
+            Section::Ellipsoids { .. } => {
+                let count = (to - from) / monomers.rise_nm;
+                [count, count * each]
+            }
         }
-    };
-    let count: f64 = scene.filament.sections.iter().map(bodies).sum();
-    count < 400.0
+    })
 }
 
 /// Reads a text, and builds the scene if there is one: a scene or an error with its place.
@@ -61,8 +79,7 @@ fn read(text: &str) -> Result<(), SceneError> {
     let written = scene.to_ron();
     let again = Scene::from_ron(&written).map(|scene| scene.to_ron());
     assert_eq!(again, Ok(written), "what is written is what was read");
-    // Refusals are cheap at any size.
-    if is_small(&scene) || scene.filament.sections.iter().any(|s| s.span_nm().1 > 1e9) {
+    if is_built_soon(&scene) {
         Assembly::build(&scene).map_err(|problem| SceneError::locate(&problem, text))?;
     }
     Ok(())

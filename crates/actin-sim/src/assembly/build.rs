@@ -5,6 +5,7 @@
 mod holds;
 mod interactions;
 mod linkers;
+mod size;
 mod spans;
 mod strand;
 
@@ -70,6 +71,7 @@ impl<'a> Builder<'a> {
             strands.push(strand.map_err(|p| p.with_filament(&scene.filament_key(i)))?);
             first_section += filament.sections.len();
         }
+        size::check(scene, &strands)?;
         Ok(Self {
             scene,
             strands,

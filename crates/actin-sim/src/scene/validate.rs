@@ -17,7 +17,7 @@ pub(crate) const MOST_BODIES: f64 = 2e7;
 /// Most bonds of one interface: with a hundredth of them the anchors' sampling noise is gone.
 const MOST_BONDS_PER_INTERFACE: usize = 10_000;
 
-/// Most bonds of a section, for the same reason as the limit on bodies.
+/// Most bonds of a scene, for the same reason as the limit on bodies.
 pub(crate) const MOST_BONDS: f64 = 1e8;
 
 /// Checks every rule that does not need the filament to be built.

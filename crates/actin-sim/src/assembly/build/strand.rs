@@ -179,7 +179,7 @@ impl<'a> Strand<'a> {
         clippy::cast_sign_loss,
         reason = "checked to lie between 1 and the most bodies"
     )]
-    fn segments(&self, i: usize) -> Result<usize, Problem> {
+    pub(super) fn segments(&self, i: usize) -> Result<usize, Problem> {
         let Resolved { from_nm, to_nm, .. } = self.resolved[i];
         let written = match self.filament.sections[i] {
             Section::Rod { segments, .. } => segments,
