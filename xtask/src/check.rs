@@ -43,14 +43,8 @@ const STEPS: [Step; 5] = [
     },
     Step {
         purpose: "random input",
-        arguments: &[
-            "test",
-            "--package",
-            "actin-sim",
-            "--test",
-            "extremes",
-            "fuzz::",
-        ],
+        // Of the whole workspace, so that what is built serves all tests.
+        arguments: &["test", "--workspace", "--test", "extremes", "fuzz::"],
         variable: Some(("ACTIN_FUZZ_CASES", "100")),
     },
 ];
