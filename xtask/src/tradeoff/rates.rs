@@ -42,7 +42,36 @@ pub(super) fn print() -> Result<(), String> {
             best(&scene, &newton)?
         );
     }
+    let rod = rod(RodLaw::Constant);
+    println!("points and frames in the bath: {:.2e} per s", noise(&rod)?);
     Ok(())
+}
+
+/// Points and frames per second that half a step of thermal noise moves: what a motion takes longer
+/// in the bath than with drag alone.
+fn noise(scene: &Scene) -> Result<f64, String> {
+    let damped = actin_sim::Dynamics {
+        drag: actin_sim::Drag {
+            translational_per_ns: 1.0,
+            rotational_per_ns: 1.0,
+        },
+        ..solve::motion(MOTION_NS, Integrator::PositionVerlet, None)
+    };
+    let heated = actin_sim::Dynamics {
+        thermal: Some(actin_sim::Thermal {
+            temperature_k: 298.0,
+            seed: 1,
+        }),
+        ..damped.clone()
+    };
+    let assembly = Assembly::build(scene).map_err(|e| e.to_string())?;
+    let (counts, work) = (assembly.counts(), Work::of(&assembly));
+    let of_step = |task| -> Result<f64, String> {
+        let rate = best(scene, &Task::Dynamics(task))?;
+        Ok((work.bonds + work.elements) as f64 / rate)
+    };
+    let noise = of_step(heated)? - of_step(damped)?;
+    Ok(2.0 * counts.dofs as f64 / 3.0 / noise)
 }
 
 /// Bonds and elements per second of a run, the best of some.

@@ -5,7 +5,7 @@ mod rates;
 
 pub use rates::{
     BONDS_PER_S, ELEMENTS_PER_S, LAW_ELEMENTS_PER_S, NEWTON_BONDS_PER_S, NEWTON_ELEMENTS_PER_S,
-    NEWTON_LAW_ELEMENTS_PER_S,
+    NEWTON_LAW_ELEMENTS_PER_S, NOISY_BODIES_PER_S,
 };
 
 use crate::scene::{Problem, RodLaw, Task};
@@ -68,20 +68,22 @@ impl Cost {
                 .sum()
         };
         let bonds = work.bonds as f64;
-        let (evaluations, seconds) = match estimate {
+        let (evaluations, each, noise) = match estimate {
             Some(estimate) => (
                 estimate.force_evaluations,
                 bonds / BONDS_PER_S + of_elements(rates::elements_per_s),
+                seconds_of_noise(assembly, estimate),
             ),
             None => (
                 NEWTON_STEPS * equilibria(assembly),
                 bonds / NEWTON_BONDS_PER_S + of_elements(rates::newton_elements_per_s),
+                0.0,
             ),
         };
         Self {
             work,
             evaluations,
-            seconds: evaluations as f64 * seconds,
+            seconds: evaluations as f64 * each + noise,
         }
     }
 
@@ -103,6 +105,16 @@ impl Cost {
     pub fn element_evaluations(&self) -> f64 {
         self.evaluations as f64 * self.work.elements as f64
     }
+}
+
+/// Time that thermal noise adds to a motion (s): two half steps for each point and each frame.
+fn seconds_of_noise(assembly: &Assembly, estimate: &Estimate) -> f64 {
+    let Task::Dynamics(dynamics) = &assembly.scene.task else {
+        return 0.0;
+    };
+    let bodies = assembly.counts().dofs as f64 / 3.0;
+    let draws = 2.0 * bodies * estimate.steps as f64;
+    dynamics.thermal.map_or(0.0, |_| draws / NOISY_BODIES_PER_S)
 }
 
 /// Equilibria on the path of a scene: steps of the largest length, and a few shorter ones at the
@@ -160,6 +172,23 @@ mod tests {
         // 12 monomers with the outer held one: 11 lateral and 10 longitudinal interfaces of 64.
         assert_eq!(mixed.work.bonds, 21 * 64);
         assert!((mixed.bond_evaluations() - 4000.0 * 21.0 * 64.0).abs() < 1e-6);
+    }
+
+    /// A held end leaves 6 points and 6 frames, each with two half steps in each of 1000 steps.
+    #[test]
+    fn noise_has_its_price() {
+        let rod = "Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)";
+        let task = |thermal: &str| {
+            format!(
+                "Dynamics(duration_ns: 1.0, time_step_ns: 0.001, drag: (translational_per_ns: 1.0, \
+                 rotational_per_ns: 1.0){thermal})"
+            )
+        };
+        let still = cost(rod, &task(""));
+        let heated = cost(rod, &task(", thermal: (temperature_k: 298.0, seed: 1)"));
+        assert_eq!(heated.evaluations, still.evaluations);
+        let noise = heated.seconds - still.seconds;
+        assert!((noise - 24_000.0 / NOISY_BODIES_PER_S).abs() < 1e-12);
     }
 
     /// An equilibrium is estimated without time steps, and for less than the motion towards it.

@@ -11,6 +11,8 @@ pub const BONDS_PER_S: f64 = 7.04e8;
 pub const ELEMENTS_PER_S: f64 = 5.11e7;
 /// The same where a law follows curvature, twist or shear.
 pub const LAW_ELEMENTS_PER_S: f64 = 6.55e6;
+/// Points and frames per second that half a step of thermal noise moves.
+pub const NOISY_BODIES_PER_S: f64 = 2.2e7;
 /// Bonds per second of a Newton step: second derivatives, factorisation and line search.
 pub const NEWTON_BONDS_PER_S: f64 = 1.96e7;
 /// Elements per second of a Newton step, constant rigidities.
