@@ -1,12 +1,14 @@
 //! `report.html`: one page without links to anything outside itself.
 //!
 //! Here is the order of the page and what each artefact's section holds. Its parts are in files
-//! of their own: the summary, tables of rows, colours on a dark page, the errata. The viewer is
-//! `viewer.js` on top of `raster.js`.
+//! of their own: the summary with its findings, tables of rows, reasons for what was missed, colours
+//! on a dark page, the errata. The viewer is `viewer.js` on top of `raster.js`.
 
 #[cfg(test)]
 mod browser;
 mod errata;
+mod findings;
+mod reasons;
 mod shades;
 mod summary;
 mod tables;
