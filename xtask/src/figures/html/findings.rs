@@ -17,8 +17,8 @@ const FINDINGS: [Finding; 14] = [
     Finding {
         artefact: "table4",
         quantities: &["s3", "b1", "b3_min", "b3_max"],
-        stands: "without anything fitted, monomers and their bonds have the rigidities in stretch, \
-                 bending and twist that the paper states (Table 4)",
+        stands: "with the choices named below and nothing fitted, monomers and their bonds have the \
+                 rigidities in stretch, bending and twist that the paper states (Table 4)",
         fails: "the rigidities of the monomers in stretch, bending and twist (Table 4)",
     },
     Finding {
@@ -161,7 +161,7 @@ fn causes(missed: &[&Row]) -> String {
         causes.filter(|found| *found == cause).count()
     };
     let known = Cause::ALL.map(|cause| (count(Some(cause)), cause.in_words()));
-    let unknown = (count(None), "on what nobody has looked into yet");
+    let unknown = (count(None), "what nobody has looked into yet");
     let told = known.into_iter().chain([unknown]);
     let told: Vec<String> = told
         .filter(|(count, _)| *count > 0)
@@ -171,9 +171,9 @@ fn causes(missed: &[&Row]) -> String {
         return String::new();
     }
     format!(
-        "of {} comparisons that failed, {}",
+        "of {} comparisons that failed this many concern: {}",
         missed.len(),
-        told.join(", ")
+        told.join("; ")
     )
 }
 

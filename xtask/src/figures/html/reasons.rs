@@ -19,17 +19,17 @@ pub(super) enum Cause {
 impl Cause {
     pub(super) const ALL: [Self; 4] = [Self::Paper, Self::Bonds, Self::Models, Self::Elsewhere];
 
-    /// What so many misses of this cause are, as the rest of a sentence.
+    /// What misses of this cause concern.
     pub(super) fn in_words(self) -> &'static str {
         match self {
-            Self::Paper => "on numbers with which the paper contradicts itself",
+            Self::Paper => "numbers with which the paper contradicts itself",
             Self::Bonds => {
-                "on what depends on the random bonds, of which the paper shows a single set"
+                "what depends on the random bonds, of which the paper shows a single set"
             }
-            Self::Models => "on statements that the models here do not bear out",
+            Self::Models => "statements that the models here do not bear out",
             Self::Elsewhere => {
-                "on expectations from outside the paper (an earlier independent calculation, or a \
-                 bound set for this page)"
+                "expectations from outside the paper (an earlier independent calculation, or a bound \
+                 set for this page)"
             }
         }
     }

@@ -32,17 +32,32 @@ pub(super) fn write(page: &mut String, artefacts: &[Artefact], quick: bool) {
              bounds, <span class=\"pass\">{} agree</span> within the tolerance beside them and \
              <span class=\"miss\">{} do not</span>. {} more were measured with nothing to compare them \
              with. All numbers and pictures come from simulations of the run that wrote this page; \
-             nothing is fitted to meet the paper unless a row says so.</p>\n",
+             but for the choices that follow nothing is fitted to meet the paper unless a row \
+             says so.</p>\n",
             all.compared(),
             all.agree,
             all.missed,
             all.measured
         ),
     );
+    page.push_str(CHOICES);
     counts(page, artefacts);
     reading(page);
     misses(page, artefacts);
 }
+
+/// What the paper leaves open and Tables 3 to 5 decided. A reader has to know, since agreement with
+/// these tables is then no proof of those choices.
+const CHOICES: &str = "<p><strong>Choices.</strong> The paper does not say clearly how far from the axis \
+    the centres of monomers lie, how monomers are turned, nor how many bonds join two of them. An \
+    earlier, independent calculation tried what is possible against Tables 3 to 5, and one answer is used \
+    for everything here: 1.8 nm, which Table 1 calls an effective interaction radius (with 1.6 or 2.0 nm \
+    Table 3 is missed); the shortest of the three axes points away from the filament (along the filament \
+    it would be 6 to 10 times too soft in twist, around it a quarter off in under-twist); 64 bonds (fewer \
+    than about 12 are far too soft; Tables 3 and 5 below show other numbers). So these tables test the \
+    choices and the rest of the model together. A fourth choice departs from the paper's text: the two \
+    bonds between monomers and rod count one half each, since with one each the joint is a stiff spot; \
+    Figure 4 shows both.</p>\n";
 
 fn counts(page: &mut String, artefacts: &[Artefact]) {
     page.push_str(

@@ -133,7 +133,7 @@ fn write_row(page: &mut String, row: &Row, among: Among) {
         page,
         format_args!(
             "<td class=\"path\"><code>{}</code></td>",
-            escape(&row.quantity)
+            breakable(&row.quantity)
         ),
     );
     let numbers = [
@@ -157,6 +157,12 @@ fn write_row(page: &mut String, row: &Row, among: Among) {
             escape(&row.note),
         ),
     );
+}
+
+/// A name that may be broken between its parts.
+fn breakable(path: &str) -> String {
+    let text = escape(path);
+    text.replace('/', "/<wbr>").replace('_', "_<wbr>")
 }
 
 fn number(page: &mut String, label: &str, value: Option<f64>) {

@@ -416,37 +416,42 @@
     // The legend: what there is in the chosen state, or the states that are compared.
     explain(palette) {
       const { state } = this;
-      const drawn = this.fine ? '' : ' (from nearer)';
+      const fine = Number(this.fine);
       const entries = this.compare.getAttribute('aria-pressed') === 'true'
         ? this.members.map((s) => [s.name, shown(resolution(s.share))])
         : [
           [state.strands.length, 'monomers, every other one lighter', palette.monomer],
-          [state.strands.length, `lateral bonds, ${state.strands.length > 0 && this.sample()}${drawn}`, palette.bonds[0]],
-          [state.strands.length, `longitudinal bonds, likewise${drawn}`, palette.bonds[1]],
+          [fine * state.strands.length, `lateral bonds, ${this.sample()}`, palette.bonds[0]],
+          [fine * state.strands.length, `longitudinal bonds, ${this.sample()}`, palette.bonds[1]],
           [state.rods.length, 'rod', palette.rod],
           [state.rods.length, 'd1 on its surface, both sides', palette.stripe],
           [state.rods.length, 'its centre line', palette.line],
           [state.rods.length, 'nodes', palette.node],
           ...['d1', 'd2', 'd3'].map((name, k) =>
-            [state.rods.length, `${name} of segments${drawn}`, palette.axes[k]]),
+            [fine * state.rods.length, `${name} of segments`, palette.axes[k]]),
           [state.junctions.length, 'bonds of the junction', palette.junction],
           [state.linkers.length, 'linkers', palette.linker],
           [state.anchors.length, 'anchors', palette.anchor],
           [state.clamps.length, 'held ends', palette.clamp],
+          [1 - fine, 'Bonds between monomers and axes of segments show from nearer.', null],
         ].filter(([count]) => count > 0).map(([, ...entry]) => entry);
       const text = JSON.stringify(entries);
       if (text === this.explained) return;
       this.explained = text;
       this.legend.replaceChildren(...entries.map(([name, colour]) => {
         const item = document.createElement('li'), swatch = document.createElement('span');
-        swatch.style.background = css(colour);
-        item.append(swatch, name);
+        if (colour) {
+          swatch.style.background = css(colour);
+          item.append(swatch);
+        }
+        item.append(name);
         return item;
       }));
     }
 
     // How many bonds of an interface are drawn.
     sample() {
+      if (this.state.strands.length === 0) return '';
       const [{ bonds, first, per_interface: all }] = this.state.strands;
       const count = (this.data.bonds[bonds][first] || [[]])[0].length / 6;
       return count < all ? `${count} of ${all} an interface` : 'all';

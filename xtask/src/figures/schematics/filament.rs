@@ -302,3 +302,43 @@ impl<'a> Drawn<'a> {
             .collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::workspace_root;
+    use actin_sim::Scene;
+
+    /// Three linked filaments, pulled at the tip of the third and not of the first.
+    fn linked() -> Assembly {
+        let path = workspace_root().join("scenarios/crosslinked.ron");
+        let text = std::fs::read_to_string(path).unwrap();
+        let pulled = text.replace("EndForce(end", "EndForce(filament: 2, end");
+        assert_ne!(pulled, text);
+        Assembly::build(&Scene::from_ron(&pulled).unwrap()).unwrap()
+    }
+
+    /// Symptom of the plausible bugs: nothing but the first filament, a segment from the end of one
+    /// filament to the start of the next, all forces and clamps at the first.
+    #[test]
+    fn all_filaments_are_drawn_each_at_its_place() {
+        let assembly = linked();
+        let drawn = Drawn::whole(&assembly);
+        let counts = assembly.counts();
+        assert_eq!(drawn.monomers(1.0).len(), counts.monomers);
+        assert_eq!(drawn.segments().len(), counts.segments);
+        assert!(drawn.segments().iter().all(|[a, b]| (b - a).norm() < 11.0));
+        assert_eq!(drawn.bonds(1.0).items.len(), counts.bonds);
+        // A line and what it ends on at either side.
+        assert_eq!(drawn.linkers().len(), 3 * assembly.linkers.len());
+        assert!(drawn.anchors().is_empty());
+        for (plate, axis_x) in drawn.plates(6.0).iter().zip([0.0, 12.0, 24.0]) {
+            let middle = plate.iter().sum::<Vector3>() / 4.0;
+            assert!((middle - Vector3::new(axis_x, 0.0, 0.0)).norm() < 1e-9);
+        }
+        let [(at, force)] = drawn.forces()[..] else {
+            panic!("one force");
+        };
+        assert!((at.x - 24.0).abs() < 1e-9 && (force.x + 2.0).abs() < 1e-12);
+    }
+}
