@@ -50,7 +50,7 @@ pub(super) struct Reason {
 impl Reason {
     pub(super) fn covers(&self, row: &Row) -> bool {
         let begins = |start: &&str| row.quantity.starts_with(*start);
-        row.artefact == self.artefact && self.quantities.iter().any(|start| begins(&start))
+        row.artefact == self.artefact && self.quantities.iter().any(begins)
     }
 }
 

@@ -212,14 +212,13 @@ const NAMES: [(&str, &str); 18] = [
 ];
 
 fn words(entries: &[(&str, &str)]) -> String {
-    let entries = entries.iter();
-    entries
-        .map(|(name, meaning)| {
-            format!(
-                "<dt><code>{}</code></dt><dd>{}</dd>",
-                escape(name),
-                escape(meaning)
-            )
-        })
-        .collect()
+    let mut text = String::new();
+    for (name, meaning) in entries {
+        let (name, meaning) = (escape(name), escape(meaning));
+        push(
+            &mut text,
+            format_args!("<dt><code>{name}</code></dt><dd>{meaning}</dd>"),
+        );
+    }
+    text
 }

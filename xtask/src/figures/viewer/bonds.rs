@@ -69,7 +69,7 @@ impl Bonds {
     }
 
     #[cfg(test)]
-    pub(super) fn from_monomer(&self, index: i64) -> Option<&[Interface; 2]> {
+    pub(super) fn at_monomer(&self, index: i64) -> Option<&[Interface; 2]> {
         self.0.get(&index)
     }
 }
@@ -116,7 +116,7 @@ mod tests {
         assert_eq!(keep(&mut all, long.clone()), 0);
         assert_eq!(keep(&mut all, other.clone()), 1);
         assert_eq!(keep(&mut all, bonds(&[(9, [&[5], &[5]])])), 0);
-        assert_eq!(all[0].from_monomer(3), long.from_monomer(3));
+        assert_eq!(all[0].at_monomer(3), long.at_monomer(3));
         assert_eq!(all[1], other);
     }
 }

@@ -193,12 +193,15 @@ mod tests {
             let aside = 2.0 * axis.cross(&arm);
             Vector3::new(x, y, z) + arm + w * aside + axis.cross(&aside)
         };
-        let section = assembly.sections.iter().position(|s| s.is_ellipsoids());
+        let section = assembly
+            .sections
+            .iter()
+            .position(actin_sim::SectionSpan::is_ellipsoids);
         let model = assembly.bonds_of(section.unwrap()).unwrap();
         let mut seen = 0;
         for pair in model.pairs() {
             let index = strand.first + i64::try_from(pair.lower).unwrap();
-            let both = sets[strand.bonds].from_monomer(index).unwrap();
+            let both = sets[strand.bonds].at_monomer(index).unwrap();
             let drawn = both[pair.upper - pair.lower - 1].chunks(6);
             for (drawn, bond) in drawn.zip(model.bonds_of(pair)) {
                 let ends = [(pair.lower, &drawn[..3]), (pair.upper, &drawn[3..])];
