@@ -1,10 +1,12 @@
 //! `cargo xtask check-docs`: numbers in the documents against a report.
 //!
 //! A number that is followed by a mark, `36.74 <!-- fig8:height/over/180/rod-140 -->`, must be what
-//! the report holds under that name, to the digits shown; `marks.rs` says how marks are written.
+//! the report holds under that name, to the digits shown; `marks.rs` says how marks are written. Where
+//! a number has no mark, the text says so (`unmarked.rs`).
 
 mod marks;
 mod number;
+mod unmarked;
 
 use crate::check::workspace_root;
 use crate::figures::report::{self, Row};
@@ -15,6 +17,8 @@ use std::path::{Path, PathBuf};
 
 /// Documents whose marks are checked.
 const DOCUMENTS: [&str; 2] = ["docs/validation.md", "docs/errata.md"];
+/// The document in which numbers without a mark are counted.
+const COUNTED: &str = "docs/validation.md";
 /// The report of a full run, which the documents are held to.
 const REFERENCE: &str = "docs/report.json";
 /// Rows of two reports agree within this share: what another processor's rounding leaves.
@@ -114,6 +118,9 @@ fn findings(root: &Path, rows: &Report) -> Result<(usize, Vec<String>), String> 
         let marks = marks(name, &text)?;
         checked += marks.len();
         all.extend(marks.iter().filter_map(|mark| finding(name, mark, rows)));
+        if name == COUNTED {
+            all.extend(unmarked::findings(name, &text, &marks));
+        }
     }
     Ok((checked, all))
 }

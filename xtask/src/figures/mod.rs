@@ -180,4 +180,6 @@ fn effort(kept: &Kept) -> String {
 }
 
 #[cfg(test)]
+mod repeats;
+#[cfg(test)]
 mod tests;

@@ -189,25 +189,26 @@ impl Palette {
     }
 }
 
+/// Relative luminance of an sRGB colour.
+///
+/// # Source
+/// W3C, Web Content Accessibility Guidelines 2.1, relative luminance.
+#[cfg(test)]
+pub(super) fn luminance(colour: [u8; 3]) -> f64 {
+    let linear = colour.map(|byte| {
+        let v = f64::from(byte) / 255.0;
+        if v <= 0.03928 {
+            v / 12.92
+        } else {
+            ((v + 0.055) / 1.055).powf(2.4)
+        }
+    });
+    0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Relative luminance of an sRGB colour.
-    ///
-    /// # Source
-    /// W3C, Web Content Accessibility Guidelines 2.1, relative luminance.
-    fn luminance(colour: [u8; 3]) -> f64 {
-        let linear = colour.map(|byte| {
-            let v = f64::from(byte) / 255.0;
-            if v <= 0.03928 {
-                v / 12.92
-            } else {
-                ((v + 0.055) / 1.055).powf(2.4)
-            }
-        });
-        0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
-    }
 
     #[test]
     fn the_ends_are_the_stops() {

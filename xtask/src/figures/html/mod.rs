@@ -1,12 +1,15 @@
 //! `report.html`: one page without links to anything outside itself.
 //!
 //! Here is the order of the page and what each artefact's section holds. Its parts are in files
-//! of their own: the summary, tables of rows, the errata. The viewer is `viewer.js` on top of
-//! `raster.js`.
+//! of their own: the summary with its findings, tables of rows, reasons for what was missed, colours
+//! on a dark page, the errata. The viewer is `viewer.js` on top of `raster.js`.
 
 #[cfg(test)]
 mod browser;
 mod errata;
+mod findings;
+mod reasons;
+mod shades;
 mod summary;
 mod tables;
 mod verdicts;
@@ -15,6 +18,7 @@ pub(super) use tables::significant;
 
 use super::palette;
 use super::report::{Artefact, Picture, View, save};
+use shades::Shades;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -27,22 +31,25 @@ const TITLE: &str = "Actin at two resolutions: the paper's figures and tables, c
 
 /// Writes the page, with everything that it shows inside it.
 pub(super) fn write(artefacts: &[Artefact], out: &Path, quick: bool) -> Result<(), String> {
+    let (mut sections, mut shades) = (String::new(), Shades::default());
+    for artefact in artefacts {
+        section(&mut sections, &mut shades, artefact, out)?;
+    }
     let mut page = String::new();
     push(
         &mut page,
         format_args!(
             "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\
-             <title>{TITLE}</title><style>\n{STYLE}</style></head><body>\n<header>\n"
+             <title>{TITLE}</title><style>\n{STYLE}{}</style></head><body>\n<header>\n",
+            shades.style()
         ),
     );
     summary::write(&mut page, artefacts, quick);
     page.push_str("</header>\n");
     contents(&mut page, artefacts);
     page.push_str("<main>\n");
-    for artefact in artefacts {
-        section(&mut page, artefact, out)?;
-    }
+    page.push_str(&sections);
     errata::write(&mut page)?;
     page.push_str("</main>\n");
     scripts(&mut page)?;
@@ -93,7 +100,12 @@ fn contents(page: &mut String, artefacts: &[Artefact]) {
 }
 
 /// Pictures, states to be turned, how they came about, numbers.
-fn section(page: &mut String, artefact: &Artefact, out: &Path) -> Result<(), String> {
+fn section(
+    page: &mut String,
+    shades: &mut Shades,
+    artefact: &Artefact,
+    out: &Path,
+) -> Result<(), String> {
     push(
         page,
         format_args!(
@@ -107,7 +119,7 @@ fn section(page: &mut String, artefact: &Artefact, out: &Path) -> Result<(), Str
         viewer(page, view, out)?;
     }
     for shown in &artefact.pictures {
-        picture(page, shown, out)?;
+        picture(page, shades, shown, out)?;
     }
     push(
         page,
@@ -128,7 +140,12 @@ fn section(page: &mut String, artefact: &Artefact, out: &Path) -> Result<(), Str
 /// Narrower screens scroll it in a box of its own.
 const SMALLEST: f64 = 0.74;
 
-fn picture(page: &mut String, picture: &Picture, out: &Path) -> Result<(), String> {
+fn picture(
+    page: &mut String,
+    shades: &mut Shades,
+    picture: &Picture,
+    out: &Path,
+) -> Result<(), String> {
     let path = out.join(&picture.file);
     let svg = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     let caption = escape(&picture.caption);
@@ -139,7 +156,7 @@ fn picture(page: &mut String, picture: &Picture, out: &Path) -> Result<(), Strin
             "<figure><div class=\"scroll\" tabindex=\"0\"><div class=\"picture\" \
              style=\"min-width:{:.0}px\">{}</div></div><figcaption>{caption}</figcaption></figure>\n",
             SMALLEST * width(&svg).unwrap_or(900.0),
-            svg.replacen("<svg ", &named, 1),
+            shades.embed(&svg).replacen("<svg ", &named, 1),
         ),
     );
     Ok(())

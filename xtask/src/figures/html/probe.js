@@ -86,21 +86,40 @@
     };
   }
 
+  // Texts that reach beyond their picture, half a pixel of rounding allowed for.
+  function clipped(picture) {
+    const box = picture.getBoundingClientRect();
+    const texts = [...picture.querySelectorAll('text')].filter((text) => {
+      const { left, right, top, bottom } = text.getBoundingClientRect();
+      return left < box.left - 0.5 || right > box.right + 0.5 || top < box.top - 0.5 || bottom > box.bottom + 0.5;
+    });
+    return texts.map((text) => text.textContent);
+  }
+
+  // Colours of the ground and of the letters, as shown.
+  function shades(picture) {
+    const fill = (name) => {
+      const element = picture.querySelector(name);
+      return element ? getComputedStyle(element).fill.match(/\d+/g).map(Number) : null;
+    };
+    return { ground: fill('rect'), letters: fill('text') };
+  }
+
   async function verdict() {
     const pictures = [...document.querySelectorAll('figure svg, img')].map((picture) => {
       const { width, height } = picture.getBoundingClientRect();
-      const loaded = picture.tagName === 'IMG' ? picture.complete && picture.naturalWidth > 0
-        : picture.childElementCount > 0;
-      return { width, height, loaded };
+      if (picture.tagName === 'IMG') return { width, height, loaded: picture.complete && picture.naturalWidth > 0 };
+      return { width, height, loaded: picture.childElementCount > 0, clipped: clipped(picture), ...shades(picture) };
     });
     const views = [];
     for (const figure of document.querySelectorAll('figure.viewer')) views.push(await view(figure));
-    const { scrollWidth } = document.documentElement;
+    const { scrollWidth } = document.scrollingElement;
+    const dark = matchMedia('(prefers-color-scheme: dark)').matches;
     const reach = [...document.querySelectorAll('body *')].filter((element) => {
       const right = element.getBoundingClientRect().right;
       return right > window.innerWidth + 1 && !element.closest('.scroll, svg, thead');
     }).map((element) => `${element.tagName}.${element.className}`);
-    return { errors, pictures, views, scrollWidth, innerWidth: window.innerWidth, beyond: reach };
+    return { errors, pictures, views, dark, scrollWidth, innerWidth: window.innerWidth, beyond: reach };
   }
 
   window.addEventListener('load', async () => {

@@ -1,5 +1,6 @@
-//! Numbers as tables: paper, ours, difference, verdict; what was missed first.
+//! Numbers as tables: paper, ours, difference, verdict; what was missed first, under its reason.
 
+use super::reasons::{self, REASONS, Reason};
 use super::{escape, push};
 use crate::figures::report::Row;
 
@@ -39,9 +40,64 @@ pub(super) fn write(page: &mut String, rows: &[Row]) {
                 chosen.len()
             ),
         );
-        table(page, &chosen, Among::Own);
+        if verdict == Some(false) {
+            missed(page, &chosen, Among::Own);
+        } else {
+            table(page, &chosen, Among::Own);
+        }
         page.push_str("</details>\n");
     }
+}
+
+/// Writes what was missed: each reason, with the rows that it explains.
+pub(super) fn missed(page: &mut String, rows: &[&Row], among: Among) {
+    for reason in &REASONS {
+        let covered: Vec<&Row> = rows.iter().copied().filter(|r| reason.covers(r)).collect();
+        explained(page, reason, &covered, among);
+    }
+    let open: Vec<&Row> = rows
+        .iter()
+        .copied()
+        .filter(|r| reasons::of(r).is_none())
+        .collect();
+    if !open.is_empty() {
+        page.push_str(
+            "<p class=\"why\"><strong>Not looked into.</strong> No reason is known for what follows. A \
+             quick run misses more than a full one: it has fewer samplings and resolutions.</p>\n",
+        );
+        table(page, &open, among);
+    }
+}
+
+/// Rows beyond this number are folded away below their reason.
+const MANY: usize = 6;
+
+fn explained(page: &mut String, reason: &Reason, rows: &[&Row], among: Among) {
+    if rows.is_empty() {
+        return;
+    }
+    push(
+        page,
+        format_args!(
+            "<p class=\"why\"><strong>{}.</strong> {}</p>\n",
+            escape(reason.title),
+            escape(reason.text)
+        ),
+    );
+    if rows.len() <= MANY {
+        table(page, rows, among);
+        return;
+    }
+    push(
+        page,
+        format_args!(
+            "<details><summary class=\"miss\">{} rows of {}</summary>\n",
+            rows.len(),
+            super::name(reason.artefact)
+        ),
+    );
+    table(page, rows, among);
+    page.push_str("</details>\n");
 }
 
 /// One table of rows.
@@ -77,7 +133,7 @@ fn write_row(page: &mut String, row: &Row, among: Among) {
         page,
         format_args!(
             "<td class=\"path\"><code>{}</code></td>",
-            escape(&row.quantity)
+            breakable(&row.quantity)
         ),
     );
     let numbers = [
@@ -101,6 +157,12 @@ fn write_row(page: &mut String, row: &Row, among: Among) {
             escape(&row.note),
         ),
     );
+}
+
+/// A name that may be broken between its parts.
+fn breakable(path: &str) -> String {
+    let text = escape(path);
+    text.replace('/', "/<wbr>").replace('_', "_<wbr>")
 }
 
 fn number(page: &mut String, label: &str, value: Option<f64>) {
@@ -166,7 +228,8 @@ mod tests {
         assert_eq!(significant(0.0), "0");
     }
 
-    /// What was missed comes first and is never folded away; a long list of what agrees is.
+    /// What was missed without a known reason comes first and is never folded away; a long list of what
+    /// agrees is.
     #[test]
     fn misses_come_first_and_long_tables_are_folded() {
         let row = |i: usize| Row::measured("fig1", format!("q/{i}"), "nm", 1.0, "a < b");

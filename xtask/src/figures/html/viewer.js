@@ -1,8 +1,9 @@
 // Every <figure class="viewer"> of the page becomes a view of states that can be turned.
 //
-// A figure holds a <script type="application/json"> with `attitude` (towards the viewer, up) and
-// `states`: bodies as plain numbers in nm, in the lab frame (see xtask/src/figures/viewer). The
-// colours are those of the element #palette. Pixels are made in raster.js.
+// A figure holds a <script type="application/json"> with `attitude` (towards the viewer, up),
+// `bonds` between monomers, and `states`: bodies as plain numbers in nm, in the lab frame (see
+// xtask/src/figures/viewer). The colours are those of the element #palette. Pixels are made in
+// raster.js.
 
 (() => {
   'use strict';
@@ -10,6 +11,9 @@
   const PALETTE = JSON.parse(document.getElementById('palette').textContent);
   const STEP = Math.PI / 36; // of an arrow key
   const THROUGH = 8; // what is seen through bodies counts so much nearer (nm)
+  const ON_SURFACE = 1.2; // what lies between bodies counts so much nearer (nm)
+  const AXIS = 5; // length of the axes of segments (nm)
+  const FINE = 2.5; // bonds between monomers and axes of segments show from so many pixels per nm
   const DARK = window.matchMedia('(prefers-color-scheme: dark)');
 
   // ---- colours
@@ -33,8 +37,9 @@
     return {
       monomer, other: lighter(monomer, 0.28),
       rod: lighter(rod, 0.12), stripe: lighter(rod, 0.72), seam: rod.map((v) => 0.6 * v),
-      junction: things.junction, linker: ink, anchor: shown(things.anchor),
-      clamp: things.clamp, ink,
+      bonds: things.bonds.map(shown), axes: things.axes.map(shown), line: rod.map((v) => 0.45 * v),
+      junction: things.junction, edge: things.junction.map((v) => 0.45 * v), linker: ink,
+      anchor: shown(things.anchor), clamp: things.clamp, node: things.node, ink,
     };
   }
 
@@ -136,7 +141,7 @@
     // at one scale.
     frame() {
       const places = this.members.flatMap((s) => [
-        ...s.line, ...s.linkers.flatMap((l) => [l.slice(0, 3), l.slice(3)])]);
+        ...s.lines.flat(), ...s.linkers.flatMap((l) => [l.slice(0, 3), l.slice(3)])]);
       const rows = attitude(this.data.attitude);
       const seen = places.map((p) => rows.map((row) => dot(row, p)));
       const low = [0, 1, 2].map((k) => Math.min(...seen.map((p) => p[k])));
@@ -279,32 +284,66 @@
       canvas.dataset.drawn = String(Number(canvas.dataset.drawn || 0) + 1);
     }
 
+    // Whether the small things are large enough to be told apart.
+    get fine() {
+      return this.perNm >= FINE;
+    }
+
     // The chosen state: monomers, rods, junctions, linkers, held ends.
     bodies(palette) {
       const { state } = this;
-      state.monomers.forEach(([x, y, z, ...q], i) => {
-        const semiAxes = axes(...q).map((axis, k) =>
-          this.direction(axis).map((v) => v * state.semi_axes[k]));
-        Raster.ellipsoid(this.see(x, y, z), semiAxes, i % 2 ? palette.other : palette.monomer);
-      });
-      for (const { nodes, frames } of state.rods) {
-        const turned = frames.map((q) => axes(...q).map((axis) => this.direction(axis)));
-        Raster.rod(nodes.map((p) => this.see(...p)), turned.map((t) => t[0]),
-          turned.map((t) => t[1]), state.rod_radius,
-          { body: palette.rod, stripe: palette.stripe, seam: palette.seam });
-      }
+      for (const strand of state.strands) this.strand(strand, palette);
+      for (const rod of state.rods) this.rod(rod, palette);
       for (const bond of state.junctions) {
-        Raster.line(this.ends(bond), 0.45, palette.junction, THROUGH, 3);
+        Raster.line(this.ends(bond), 0.55, palette.edge, THROUGH, 5);
+        Raster.line(this.ends(bond), 0.32, palette.junction, THROUGH + 0.5, 3);
       }
-      for (const linker of state.linkers) {
-        const ends = this.ends(linker);
-        Raster.line(ends, 0.3, palette.linker, THROUGH);
-        Raster.ball(ends[1], Math.max(1.3, 3 / this.perNm), palette.anchor, THROUGH);
+      for (const linker of state.linkers) Raster.line(this.ends(linker), 0.3, palette.linker, THROUGH);
+      for (const anchor of state.anchors) {
+        Raster.ball(this.see(...anchor), Math.max(1.3, 3 / this.perNm), palette.anchor, THROUGH);
       }
       for (const c of state.clamps) {
         const corners = [0, 3, 6, 9, 0].map((i) => this.see(c[i], c[i + 1], c[i + 2]));
         Raster.line(corners, 0.5, palette.clamp);
       }
+    }
+
+    // Monomers, and the bonds from each to the next and to the one after. Bonds are kept in 0.01 nm,
+    // in the frames of both monomers.
+    strand({ monomers, semi_axes: lengths, first, bonds }, palette) {
+      const bodies = monomers.map(([x, y, z, ...q]) => (
+        { centre: this.see(x, y, z), axes: axes(...q).map((axis) => this.direction(axis)) }));
+      bodies.forEach(({ centre, axes: frame }, i) => {
+        const semiAxes = frame.map((axis, k) => axis.map((v) => v * lengths[k]));
+        Raster.ellipsoid(centre, semiAxes, i % 2 ? palette.other : palette.monomer);
+      });
+      if (!this.fine) return;
+      const place = (body, anchor) => body.centre.map((v, k) => v + 0.01
+        * (anchor[0] * body.axes[0][k] + anchor[1] * body.axes[1][k] + anchor[2] * body.axes[2][k]));
+      bodies.forEach((lower, i) => (this.data.bonds[bonds][first + i] || []).forEach((ends, kind) => {
+        const upper = bodies[i + 1 + kind];
+        if (!upper) return;
+        for (let at = 0; at < ends.length; at += 6) {
+          const [from, to] = [ends.slice(at, at + 3), ends.slice(at + 3, at + 6)];
+          Raster.line([place(lower, from), place(upper, to)], 0.06, palette.bonds[kind], ON_SURFACE, 1.2);
+        }
+      }));
+    }
+
+    // A rod with its stripe; through it its centre line, its nodes, and the axes of its segments.
+    rod({ nodes, frames }, palette) {
+      const places = nodes.map((p) => this.see(...p));
+      const turned = frames.map((q) => axes(...q).map((axis) => this.direction(axis)));
+      Raster.rod(places, turned.map((t) => t[0]), turned.map((t) => t[1]), this.state.rod_radius,
+        { body: palette.rod, stripe: palette.stripe, seam: palette.seam });
+      Raster.line(places, 0.15, palette.line, THROUGH - 1);
+      for (const node of places) Raster.ball(node, Math.max(0.45, 1.8 / this.perNm), palette.node, THROUGH - 0.5);
+      if (!this.fine) return;
+      turned.forEach((frame, i) => {
+        const middle = places[i].map((v, k) => (v + places[i + 1][k]) / 2);
+        frame.forEach((axis, k) => Raster.line(
+          [middle, middle.map((v, j) => v + AXIS * axis[j])], 0.18, palette.axes[k], THROUGH - 0.8, 2));
+      });
     }
 
     ends(pair) {
@@ -314,8 +353,10 @@
     // The centre lines of the whole group.
     lines() {
       for (const state of this.members) {
-        const points = state.line.map((p) => this.see(...p));
-        Raster.line(points, 0.5, shown(resolution(state.share)), 0, 2.4);
+        for (const line of state.lines) {
+          const points = line.map((p) => this.see(...p));
+          Raster.line(points, 0.5, shown(resolution(state.share)), 0, 2.4);
+        }
       }
     }
 
@@ -375,23 +416,45 @@
     // The legend: what there is in the chosen state, or the states that are compared.
     explain(palette) {
       const { state } = this;
+      const fine = Number(this.fine);
       const entries = this.compare.getAttribute('aria-pressed') === 'true'
         ? this.members.map((s) => [s.name, shown(resolution(s.share))])
         : [
-          [state.monomers.length, 'monomers, every other one lighter', palette.monomer],
+          [state.strands.length, 'monomers, every other one lighter', palette.monomer],
+          [fine * state.strands.length, `lateral bonds, ${this.sample()}`, palette.bonds[0]],
+          [fine * state.strands.length, `longitudinal bonds, ${this.sample()}`, palette.bonds[1]],
           [state.rods.length, 'rod', palette.rod],
-          [state.rods.length, 'first axis of its frames, both sides', palette.stripe],
-          [state.junctions.length, 'bonds of the junction, seen through bodies', palette.junction],
+          [state.rods.length, 'd1 on its surface, both sides', palette.stripe],
+          [state.rods.length, 'its centre line', palette.line],
+          [state.rods.length, 'nodes', palette.node],
+          ...['d1', 'd2', 'd3'].map((name, k) =>
+            [fine * state.rods.length, `${name} of segments`, palette.axes[k]]),
+          [state.junctions.length, 'bonds of the junction', palette.junction],
           [state.linkers.length, 'linkers', palette.linker],
-          [state.linkers.length, 'anchors', palette.anchor],
+          [state.anchors.length, 'anchors', palette.anchor],
           [state.clamps.length, 'held ends', palette.clamp],
+          [1 - fine, 'Bonds between monomers and axes of segments show from nearer.', null],
         ].filter(([count]) => count > 0).map(([, ...entry]) => entry);
-      this.legend.replaceChildren(...entries.map(([text, colour]) => {
+      const text = JSON.stringify(entries);
+      if (text === this.explained) return;
+      this.explained = text;
+      this.legend.replaceChildren(...entries.map(([name, colour]) => {
         const item = document.createElement('li'), swatch = document.createElement('span');
-        swatch.style.background = css(colour);
-        item.append(swatch, text);
+        if (colour) {
+          swatch.style.background = css(colour);
+          item.append(swatch);
+        }
+        item.append(name);
         return item;
       }));
+    }
+
+    // How many bonds of an interface are drawn.
+    sample() {
+      if (this.state.strands.length === 0) return '';
+      const [{ bonds, first, per_interface: all }] = this.state.strands;
+      const count = (this.data.bonds[bonds][first] || [[]])[0].length / 6;
+      return count < all ? `${count} of ${all} an interface` : 'all';
     }
   }
 

@@ -1,11 +1,12 @@
 //! From an assembly and its state to solids: what stands where comes from them, never from here.
+//! All filaments of a scene are drawn, each with its own parameters and about its own axis.
 
 use super::style;
 use crate::figures::scene3d::{Item, Solid, Stroke};
 use actin_mechanics::{Matrix3, State, UnitQuaternion, Vector3};
-use actin_sim::{Assembly, BodyKind, JunctionBond, Load};
+use actin_sim::{Assembly, BodyKind, End, JunctionBond, Load};
 
-/// A filament in a state, to be drawn.
+/// The filaments of an assembly in a state, to be drawn.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::figures) struct Drawn<'a> {
     pub assembly: &'a Assembly,
@@ -14,7 +15,7 @@ pub(in crate::figures) struct Drawn<'a> {
     pub range_nm: [f64; 2],
 }
 
-/// Solids of the bonds of a filament, by kind.
+/// Solids of the bonds between monomers, by kind.
 #[derive(Debug, Default)]
 pub(super) struct BondItems {
     pub items: Vec<Item>,
@@ -23,7 +24,7 @@ pub(super) struct BondItems {
 }
 
 impl<'a> Drawn<'a> {
-    /// The whole filament in the last state of its system.
+    /// Whole filaments in the last state of their system.
     pub(super) fn whole(assembly: &'a Assembly) -> Self {
         Self {
             assembly,
@@ -32,7 +33,7 @@ impl<'a> Drawn<'a> {
         }
     }
 
-    /// The whole filament in another state.
+    /// Whole filaments in another state.
     pub(in crate::figures) fn in_state(assembly: &'a Assembly, state: &'a State) -> Self {
         Self {
             state,
@@ -63,14 +64,14 @@ impl<'a> Drawn<'a> {
 
     /// Monomers, each with its semi-axes along its principal frame.
     pub(super) fn monomers(&self, opacity: f64) -> Vec<Item> {
-        let semi_axes = self.assembly.scene.filament.monomers.semi_axes_nm;
-        let semi_axes = Matrix3::from_diagonal(&Vector3::from(semi_axes));
         let monomers = self.points(BodyKind::Monomer).into_iter();
         let body = monomers.filter_map(|i| Some((i, self.assembly.points[i].frame?)));
         body.map(|(i, frame)| {
+            let filament = self.assembly.filament_of_point(i);
+            let semi_axes = Vector3::from(self.assembly.monomers_of(filament).semi_axes_nm);
             let solid = Solid::Ellipsoid {
                 centre: self.place(i),
-                semi_axes: self.matrix(frame) * semi_axes,
+                semi_axes: self.matrix(frame) * Matrix3::from_diagonal(&semi_axes),
             };
             Item::new(solid, style::monomer()).with_opacity(opacity)
         })
@@ -197,7 +198,8 @@ impl<'a> Drawn<'a> {
         clamps
             .map(|clamp| {
                 let about = clamp.point_nm(self.state);
-                let turn = self.turn_from_rest(clamp.frames[0]);
+                let built = self.assembly.filaments[clamp.filament].rotation;
+                let turn = self.turn_from_rest(clamp.frames[0]) * built;
                 let corner = |(x, y): (f64, f64)| about + turn * Vector3::new(x, y, 0.0) * half_nm;
                 [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner)
             })
@@ -228,10 +230,31 @@ impl<'a> Drawn<'a> {
         let loads = self.assembly.scene.loads.iter();
         loads
             .map(|load| {
-                let Load::EndForce { end, force_pn, .. } = load;
-                (self.assembly.tip_nm(self.state, *end), (*force_pn).into())
+                let Load::EndForce {
+                    filament,
+                    end,
+                    force_pn,
+                } = load;
+                let at = self.assembly.tip_of(*filament, self.state, *end);
+                (at, (*force_pn).into())
             })
             .collect()
+    }
+
+    /// Where a held end is (nm, lab frame), and unit vectors out of its filament and across it as
+    /// built; none if the end is free.
+    pub(super) fn held(&self, filament: usize, end: End) -> Option<[Vector3; 3]> {
+        let clamp = self.assembly.clamp_at(filament, end)?;
+        let built = self.assembly.filaments[filament].rotation;
+        let outward = match end {
+            End::Start => -Vector3::z(),
+            End::End => Vector3::z(),
+        };
+        Some([
+            clamp.point_nm(self.state),
+            built * outward,
+            built * Vector3::x(),
+        ])
     }
 
     /// Forces as arrows that begin where they act.
@@ -242,11 +265,20 @@ impl<'a> Drawn<'a> {
             .collect()
     }
 
-    /// Linkers from site to anchor, and their anchors.
+    /// Fixed or moved points that linkers pull towards (nm, lab frame).
+    pub(in crate::figures) fn anchors(&self) -> Vec<Vector3> {
+        let linkers = self.assembly.linkers.iter().enumerate();
+        let anchored = linkers.filter(|(i, _)| self.assembly.linked_to(*i).is_none());
+        anchored
+            .map(|(_, linker)| linker.end_position(self.state))
+            .collect()
+    }
+
+    /// Linkers from site to anchor or to the other site, and what they end on.
     pub(super) fn linkers(&self) -> Vec<Item> {
-        let linkers = self.assembly.linkers.iter();
+        let linkers = self.assembly.linkers.iter().enumerate();
         linkers
-            .flat_map(|linker| {
+            .flat_map(|(i, linker)| {
                 let (site, end) = (
                     linker.site().position(self.state),
                     linker.end_position(self.state),
@@ -256,12 +288,57 @@ impl<'a> Drawn<'a> {
                     ..Stroke::solid(style::of(|t| t.linker), 2.2)
                 };
                 let dot = |at, pixels, colour| Item::new(Solid::Dot { at, pixels }, colour);
+                let on_body =
+                    |at| dot(at, 3.0, style::of(|t| t.linker)).nearer(2.0 * style::INSIDE_NM);
                 [
                     Item::line([site, end], stroke).nearer(style::INSIDE_NM),
-                    dot(site, 3.0, style::of(|t| t.linker)).nearer(2.0 * style::INSIDE_NM),
-                    dot(end, 6.0, style::of(|t| t.anchor)),
+                    on_body(site),
+                    match self.assembly.linked_to(i) {
+                        None => dot(end, 6.0, style::of(|t| t.anchor)),
+                        Some(_) => on_body(end),
+                    },
                 ]
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::workspace_root;
+    use actin_sim::Scene;
+
+    /// Three linked filaments, pulled at the tip of the third and not of the first.
+    fn linked() -> Assembly {
+        let path = workspace_root().join("scenarios/crosslinked.ron");
+        let text = std::fs::read_to_string(path).unwrap();
+        let pulled = text.replace("EndForce(end", "EndForce(filament: 2, end");
+        assert_ne!(pulled, text);
+        Assembly::build(&Scene::from_ron(&pulled).unwrap()).unwrap()
+    }
+
+    /// Symptom of the plausible bugs: nothing but the first filament, a segment from the end of one
+    /// filament to the start of the next, all forces and clamps at the first.
+    #[test]
+    fn all_filaments_are_drawn_each_at_its_place() {
+        let assembly = linked();
+        let drawn = Drawn::whole(&assembly);
+        let counts = assembly.counts();
+        assert_eq!(drawn.monomers(1.0).len(), counts.monomers);
+        assert_eq!(drawn.segments().len(), counts.segments);
+        assert!(drawn.segments().iter().all(|[a, b]| (b - a).norm() < 11.0));
+        assert_eq!(drawn.bonds(1.0).items.len(), counts.bonds);
+        // A line and what it ends on at either side.
+        assert_eq!(drawn.linkers().len(), 3 * assembly.linkers.len());
+        assert!(drawn.anchors().is_empty());
+        for (plate, axis_x) in drawn.plates(6.0).iter().zip([0.0, 12.0, 24.0]) {
+            let middle = plate.iter().sum::<Vector3>() / 4.0;
+            assert!((middle - Vector3::new(axis_x, 0.0, 0.0)).norm() < 1e-9);
+        }
+        let [(at, force)] = drawn.forces()[..] else {
+            panic!("one force");
+        };
+        assert!((at.x - 24.0).abs() < 1e-9 && (force.x + 2.0).abs() < 1e-12);
     }
 }

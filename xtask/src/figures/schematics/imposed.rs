@@ -4,7 +4,7 @@ use super::filament::Drawn;
 use super::style;
 use crate::figures::scene3d::{Item, Stroke};
 use actin_mechanics::{Vector3, rotation};
-use actin_sim::{End, Setting};
+use actin_sim::Setting;
 
 /// Straight pieces of an arc.
 const PIECES: u32 = 24;
@@ -22,41 +22,42 @@ pub(super) fn arrows(drawn: &Drawn<'_>, radius_nm: f64) -> Vec<Item> {
         .flat_map(|stage| &stage.set);
     settings
         .flat_map(|setting| match setting {
-            Setting::Shift { end, shift_nm, .. } => shift(drawn, *end, (*shift_nm).into()),
-            Setting::Turn { end, turn_deg, .. } => turn(drawn, *end, (*turn_deg).into(), radius_nm),
+            Setting::Shift {
+                filament,
+                end,
+                shift_nm,
+            } => shift(drawn.held(*filament, *end), (*shift_nm).into()),
+            Setting::Turn {
+                filament,
+                end,
+                turn_deg,
+            } => turn(drawn.held(*filament, *end), (*turn_deg).into(), radius_nm),
             // A load is drawn as it acts, an anchor where it ends.
             Setting::LoadFactor { .. } | Setting::Anchor { .. } => Vec::new(),
         })
         .collect()
 }
 
-/// The held point, and the direction out of the filament there.
-fn held(drawn: &Drawn<'_>, end: End) -> Option<(Vector3, Vector3)> {
-    let clamp = drawn.assembly.clamps.iter().find(|c| c.end == end)?;
-    let outward = match end {
-        End::Start => -Vector3::z(),
-        End::End => Vector3::z(),
-    };
-    Some((clamp.point_nm(drawn.state), outward))
-}
+/// A held point, the direction out of the filament there, and one across it.
+type Held = Option<[Vector3; 3]>;
 
-fn shift(drawn: &Drawn<'_>, end: End, shift: Vector3) -> Vec<Item> {
-    let Some((at, outward)) = held(drawn, end) else {
+fn shift(held: Held, shift: Vector3) -> Vec<Item> {
+    let Some([at, outward, _]) = held else {
         return Vec::new();
     };
     let to = at + outward * CLEAR_NM;
     vec![style::arrow([to - shift, to])]
 }
 
-fn turn(drawn: &Drawn<'_>, end: End, turn_deg: Vector3, radius_nm: f64) -> Vec<Item> {
-    let Some((at, outward)) = held(drawn, end) else {
+fn turn(held: Held, turn_deg: Vector3, radius_nm: f64) -> Vec<Item> {
+    let Some([at, outward, across]) = held else {
         return Vec::new();
     };
     let centre = at + outward * CLEAR_NM;
     let on_arc = |k: u32| {
         let share = f64::from(k) / f64::from(PIECES);
         let angle = turn_deg.map(f64::to_radians) * share;
-        centre + rotation::exp(angle) * Vector3::x() * radius_nm
+        centre + rotation::exp(angle) * across * radius_nm
     };
     let pieces = (0..PIECES - 1).map(|k| {
         let stroke = Stroke::solid(style::of(|t| t.force), 2.2);

@@ -50,7 +50,7 @@ fn artefact(
     })
 }
 
-const VIEW: &str = "The same equilibria, to be turned. Bonds between monomers are left out.";
+const VIEW: &str = "The same equilibria, to be turned.";
 
 /// A solved scene under the name of its file.
 fn shown(solved: &Solved) -> Shown {

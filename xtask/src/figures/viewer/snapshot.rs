@@ -1,8 +1,10 @@
-//! A state of an assembly as the viewer draws it: plain numbers, taken from the state alone.
+//! A state of an assembly as the viewer draws it: plain numbers, taken from the state alone. All
+//! filaments are in it.
 
+use super::bonds::{self, Bonds};
 use crate::figures::schematics::Drawn;
 use actin_mechanics::{State, Vector3};
-use actin_sim::{Assembly, BodyKind};
+use actin_sim::Assembly;
 use serde::Serialize;
 
 /// Places are kept to 0.01 nm, a hundredth of the least that is seen at full zoom.
@@ -13,23 +15,40 @@ const PER_UNIT: f64 = 1e4;
 /// Bodies and what holds and pulls them (nm, pN, lab frame).
 #[derive(Clone, Debug, Default, Serialize)]
 pub(crate) struct Snapshot {
-    /// Semi-axes of every monomer along its own frame.
-    pub semi_axes: [f64; 3],
-    /// Centre, then quaternion (w, x, y, z; body to lab) of each monomer.
-    pub monomers: Vec<[f64; 7]>,
+    /// Sections of monomers.
+    pub strands: Vec<Strand>,
     /// Radius of the cross-section of rods.
     pub rod_radius: f64,
     pub rods: Vec<Rod>,
     /// Monomer's centre and rod's end of each bond of a junction.
     pub junctions: Vec<[f64; 6]>,
-    /// Site and anchor of each linker.
+    /// Site of each linker, and its anchor or other site.
     pub linkers: Vec<[f64; 6]>,
+    /// Points outside of filaments that linkers pull towards.
+    pub anchors: Vec<[f64; 3]>,
     /// Corners of a plate at each held end.
     pub clamps: Vec<[f64; 12]>,
     /// Where each force acts, and the force (pN).
     pub forces: Vec<[f64; 6]>,
-    /// Centre line.
-    pub line: Vec<[f64; 3]>,
+    /// Centre line of each filament.
+    pub lines: Vec<Vec<[f64; 3]>>,
+}
+
+/// Monomers that follow one another.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Strand {
+    /// Semi-axes of every monomer along its own frame.
+    pub semi_axes: [f64; 3],
+    /// Centre, then quaternion (w, x, y, z; body to lab) of each monomer.
+    pub monomers: Vec<[f64; 7]>,
+    /// Lattice index of the first, by which its bonds are found.
+    pub first: i64,
+    /// Bonds of an interface, those that are not drawn included.
+    pub per_interface: usize,
+    /// Which of the bonds of the file are theirs; set when the file is written.
+    pub bonds: usize,
+    #[serde(skip)]
+    pub own_bonds: Bonds,
 }
 
 /// A section of n segments: n + 1 nodes, n frames.
@@ -47,16 +66,11 @@ impl Snapshot {
     /// What is seen of `state`.
     pub(crate) fn of(assembly: &Assembly, state: &State) -> Self {
         let drawn = Drawn::in_state(assembly, state);
-        let monomers = drawn.points(BodyKind::Monomer).into_iter();
-        let bodies = monomers.filter_map(|i| Some((i, assembly.points[i].frame?)));
-        let points = 0..assembly.points.len();
         let junctions = assembly.junction_bonds();
         let linkers = assembly.linkers.iter();
+        let filaments = assembly.filaments.iter();
         Self {
-            semi_axes: assembly.scene.filament.monomers.semi_axes_nm,
-            monomers: bodies
-                .map(|(i, frame)| join(place(drawn.place(i)), quaternion(state, frame)))
-                .collect(),
+            strands: strands(assembly, state),
             rod_radius: rounded(Drawn::rod_radius_nm(), PER_NM),
             rods: rods(assembly, state),
             junctions: junctions
@@ -66,6 +80,7 @@ impl Snapshot {
             linkers: linkers
                 .map(|l| pair([l.site().position(state), l.end_position(state)]))
                 .collect(),
+            anchors: drawn.anchors().into_iter().map(place).collect(),
             clamps: drawn.plates(PLATE_NM).into_iter().map(plate).collect(),
             forces: drawn
                 .forces()
@@ -73,8 +88,13 @@ impl Snapshot {
                 .map(<_>::into)
                 .map(pair)
                 .collect(),
-            line: points
-                .map(|i| place(assembly.centre_line_nm(state, i)))
+            lines: filaments
+                .map(|filament| {
+                    let points = filament.points.clone();
+                    points
+                        .map(|i| place(assembly.centre_line_nm(state, i)))
+                        .collect()
+                })
                 .collect(),
         }
     }
@@ -83,25 +103,56 @@ impl Snapshot {
     pub(crate) fn without_linkers(self) -> Self {
         Self {
             linkers: Vec::new(),
+            anchors: Vec::new(),
             ..self
+        }
+    }
+
+    /// Puts the bonds between monomers among those of a file, which all of its states share.
+    pub(super) fn share_bonds(&mut self, all: &mut Vec<Bonds>) {
+        for strand in &mut self.strands {
+            strand.bonds = bonds::keep(all, std::mem::take(&mut strand.own_bonds));
         }
     }
 
     /// Whether every number is one.
     pub(super) fn is_finite(&self) -> bool {
-        let rods = self.rods.iter();
-        let bodies = self.monomers.iter().flatten();
+        let (rods, strands) = (self.rods.iter(), self.strands.iter());
+        let bodies = strands.clone().flat_map(|s| s.monomers.iter().flatten());
         let ends = [&self.junctions, &self.linkers, &self.forces];
         bodies
-            .chain(&self.semi_axes)
+            .chain(strands.flat_map(|strand| &strand.semi_axes))
             .chain([&self.rod_radius])
             .chain(rods.clone().flat_map(|rod| rod.nodes.iter().flatten()))
             .chain(rods.flat_map(|rod| rod.frames.iter().flatten()))
             .chain(ends.into_iter().flatten().flatten())
+            .chain(self.anchors.iter().flatten())
             .chain(self.clamps.iter().flatten())
-            .chain(self.line.iter().flatten())
+            .chain(self.lines.iter().flatten().flatten())
             .all(|x| x.is_finite())
     }
+}
+
+fn strands(assembly: &Assembly, state: &State) -> Vec<Strand> {
+    let sections = assembly.sections.iter().enumerate();
+    let strand = |(i, section): (usize, &actin_sim::SectionSpan)| {
+        let (first, per_interface, own_bonds) = Bonds::of(assembly, i)?;
+        let bodies = section.points.clone().zip(section.frames.clone());
+        let body = |(point, frame): (usize, usize)| {
+            let centre = state.points.position.get(point);
+            join(place(centre), quaternion(state, frame))
+        };
+        let filament = assembly.filament_of_section(i);
+        Some(Strand {
+            semi_axes: assembly.monomers_of(filament).semi_axes_nm,
+            monomers: bodies.map(body).collect(),
+            first,
+            per_interface,
+            bonds: 0,
+            own_bonds,
+        })
+    };
+    sections.filter_map(strand).collect()
 }
 
 fn rods(assembly: &Assembly, state: &State) -> Vec<Rod> {

@@ -1,0 +1,159 @@
+//! Colours of pictures on a dark page. A picture's own file stays as it is, for white paper; where it
+//! stands in the page its colours are variables that follow the page's.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// The page's card and ink when it is dark, as in `style.css`.
+const DARK_CARD: [u8; 3] = [0x1c, 0x20, 0x24];
+const DARK_INK: [u8; 3] = [0xe6, 0xe6, 0xe2];
+/// Colours whose components differ by less are greys.
+const GREY: u8 = 12;
+/// Share of the way to white by which other colours are lifted on a dark page.
+const LIFT: f64 = 0.3;
+/// Attributes of SVG that hold a colour, up to its digits.
+const ATTRIBUTES: [&str; 3] = [" fill=\"#", " stroke=\"#", " stop-color=\"#"];
+/// Digits of a colour.
+const DIGITS: usize = 6;
+
+type Colour = [u8; 3];
+
+/// The colours of the pictures of a page, each with the number of its variable.
+#[derive(Debug, Default)]
+pub(super) struct Shades(BTreeMap<Colour, usize>);
+
+impl Shades {
+    /// A picture whose colours are variables.
+    pub(super) fn embed(&mut self, svg: &str) -> String {
+        let mut text = String::with_capacity(svg.len());
+        let mut rest = svg;
+        while let Some((before, colour, after)) = next_colour(rest) {
+            let known = self.0.len();
+            let number = *self.0.entry(colour).or_insert(known);
+            // The digits' sign goes with them.
+            text.push_str(&before[..before.len() - 1]);
+            write!(text, "var(--p{number})").expect("writing to a string cannot fail");
+            rest = after;
+        }
+        text.push_str(rest);
+        text
+    }
+
+    /// What the variables are on a light page, and on a dark one.
+    pub(super) fn style(&self) -> String {
+        let rules = |shade: fn(Colour) -> Colour| -> String {
+            let rule = |(colour, number): (&Colour, &usize)| {
+                let [red, green, blue] = shade(*colour);
+                format!("--p{number}:#{red:02x}{green:02x}{blue:02x};")
+            };
+            self.0.iter().map(rule).collect()
+        };
+        format!(
+            ":root {{ {} }}\n@media (prefers-color-scheme: dark) {{ :root {{ {} }} }}\n",
+            rules(|colour| colour),
+            rules(on_dark)
+        )
+    }
+}
+
+/// The first colour: the text before its digits, the colour, the text after them.
+fn next_colour(svg: &str) -> Option<(&str, Colour, &str)> {
+    let mut from = 0;
+    loop {
+        let found = ATTRIBUTES.iter().filter_map(|attribute| {
+            let start = svg[from..].find(attribute)?;
+            Some(from + start + attribute.len())
+        });
+        let start = found.min()?;
+        let digits = svg.get(start..start + DIGITS);
+        let ends = svg[start..].find('"') == Some(DIGITS);
+        if let Some(colour) = digits.filter(|_| ends).and_then(parsed) {
+            return Some((&svg[..start], colour, &svg[start + DIGITS..]));
+        }
+        from = start;
+    }
+}
+
+fn parsed(digits: &str) -> Option<Colour> {
+    let number = u32::from_str_radix(digits, 16).ok()?;
+    let [_, red, green, blue] = number.to_be_bytes();
+    Some([red, green, blue])
+}
+
+/// A colour as it is on a dark page: greys between its card, for white, and its ink, for black;
+/// others lifted.
+fn on_dark(colour: Colour) -> Colour {
+    let (most, least) = colour.iter().fold((0, u8::MAX), |(most, least), &v| {
+        (v.max(most), v.min(least))
+    });
+    if most - least < GREY {
+        let white = f64::from(most) / 255.0;
+        return [0, 1, 2].map(|k| between(DARK_INK[k], DARK_CARD[k], white));
+    }
+    colour.map(|v| between(v, u8::MAX, LIFT))
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a mean of two bytes"
+)]
+fn between(from: u8, to: u8, share: f64) -> u8 {
+    (f64::from(from) + share * (f64::from(to) - f64::from(from))).round() as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::palette::{Palette, luminance};
+
+    const SVG: &str = "<svg><rect fill=\"#FFFFFF\" stroke=\"none\"/><g fill=\"url(#a)\">\
+        <text fill=\"#000000\">fill=\"red\" #123456</text><path stroke=\"#be1923\" fill=\"#FFFFFF\"/>\
+        <stop stop-color=\"#be1923\"/><path stroke=\"#be19231\"/></g></svg>";
+
+    /// Colours become variables, one for each, and nothing else changes: with the light page's values
+    /// put back in, the picture is the file's.
+    #[test]
+    fn a_light_page_shows_the_file_as_it_is() {
+        let mut shades = Shades::default();
+        let embedded = shades.embed(SVG);
+        assert_eq!(shades.0.len(), 3);
+        assert_eq!(embedded.matches("var(--p").count(), 5);
+        let back = shades
+            .0
+            .iter()
+            .fold(embedded, |text, ([red, green, blue], number)| {
+                let colour = format!("#{red:02x}{green:02x}{blue:02x}");
+                text.replace(&format!("var(--p{number})"), &colour)
+            });
+        assert_eq!(back.to_lowercase(), SVG.to_lowercase());
+        let style = shades.style();
+        assert!(style.contains("--p0:#ffffff;") && style.contains("--p0:#1c2024;"));
+    }
+
+    #[test]
+    fn white_becomes_the_card_and_black_the_ink() {
+        assert_eq!(on_dark([255, 255, 255]), DARK_CARD);
+        assert_eq!(on_dark([0, 0, 0]), DARK_INK);
+        assert_eq!(on_dark([190, 25, 35]), [210, 94, 101]);
+        let style = include_str!("style.css");
+        for [red, green, blue] in [DARK_CARD, DARK_INK] {
+            assert!(style.contains(&format!("#{red:02x}{green:02x}{blue:02x}")));
+        }
+    }
+
+    /// A contrast of 3 to the dark card, what graphics need to be told from their ground.
+    ///
+    /// # Source
+    /// W3C, Web Content Accessibility Guidelines 2.1, success criterion 1.4.11.
+    #[test]
+    fn every_resolution_is_seen_on_the_dark_card() {
+        let card = luminance(DARK_CARD);
+        for palette in [Palette::Paper, Palette::ColourBlind] {
+            for &stop in palette.stops() {
+                let contrast = (luminance(on_dark(stop)) + 0.05) / (card + 0.05);
+                assert!(contrast > 3.0, "{palette:?} {stop:?}: {contrast}");
+            }
+        }
+    }
+}
