@@ -165,14 +165,22 @@ fn left(
 
 /// Keeps what a broken run has recorded, and says why it broke.
 fn broken(opened: &Opened, directory: &RunDirectory, error: RunError) -> Failure {
-    let (why, trajectory, report) = match error {
+    let (why, kept, trajectory, report) = match error {
         RunError::Refused(problem) => return opened.refuse(&problem),
         RunError::Ended {
             place,
             failure,
             trajectory,
             report,
-        } => (format!("{place}{failure}"), trajectory, report),
+        } => (format!("{place}{failure}"), GOOD, trajectory, report),
+        RunError::Lost {
+            problem,
+            trajectory,
+            report,
+        } => {
+            let kept = "the equilibria in which it is lost are";
+            (opened.locate(&problem), kept, trajectory, report)
+        }
         RunError::Failed {
             failure,
             body,
@@ -180,20 +188,20 @@ fn broken(opened: &Opened, directory: &RunDirectory, error: RunError) -> Failure
             report,
         } => {
             let why = format!("{failure}; {} is {body}", failure.body);
-            (why, trajectory, report)
+            (why, GOOD, trajectory, report)
         }
     };
     if trajectory.records.is_empty() {
         return Failure::Numerical(why);
     }
     match directory.write(&opened.assembly, &trajectory, &report) {
-        Ok(_) => Failure::Numerical(format!(
-            "{why}; everything up to the last good state is in {}",
-            directory.path().display()
-        )),
+        Ok(_) => Failure::Numerical(format!("{why}; {kept} in {}", directory.path().display())),
         Err(unwritten) => Failure::Numerical(format!("{why}; and {unwritten}")),
     }
 }
+
+/// What is kept of a run that broke off.
+const GOOD: &str = "everything up to the last good state is";
 
 fn print(summary: &Summary, out: &Path) {
     let work = &summary.work;

@@ -343,3 +343,43 @@ fn a_failed_run_fails_again_in_the_same_words() {
     let again = place.actin(&["--out", "a", "--resume"]);
     assert_eq!((code(&again), stderr(&again)), (3, stderr(&first)));
 }
+
+/// A force that is smaller than the rounding of others: exit code 3, with the place in the scene, and
+/// the equilibrium on the disk; taken up again, the same words and the same files.
+#[test]
+fn an_equilibrium_in_which_a_load_is_lost_is_kept() {
+    let place = Workplace::with(
+        "Scene(
+            filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 60.0)]),
+            clamps: [Clamp(end: Start)],
+            loads: [EndForce(end: End, force_pn: (0.0, 0.0, 1e-12))],
+            task: Equilibrium(force_pn: 1e-13, torque_pn_nm: 1e-12),
+        )",
+    );
+    let first = place.actin(&["--out", "a"]);
+    assert_eq!(code(&first), 3, "{}", stderr(&first));
+    let message = stderr(&first);
+    println!("{message}");
+    for part in [
+        "error: scene.ron:4:",
+        "loads[0].force_pn = [0.0, 0.0, 1e-12]: is lost among forces of",
+        "; the equilibria in which it is lost are in a",
+    ] {
+        assert!(message.contains(part), "{part:?} in {message}");
+    }
+    let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+    assert!(summary.contains("\"status\": \"failed\""), "{summary}");
+    assert!(summary.contains("\"negative_eigenvalues\": 0"), "{summary}");
+    let energies = fs::read_to_string(place.path("a/energies.csv")).unwrap();
+    assert_eq!(energies.lines().count(), 2, "{energies}");
+    // The checkpoint holds the time that the run has taken.
+    let results = || {
+        let mut all = files(&place.path("a"));
+        all.retain(|(name, _)| name != "checkpoint.bin");
+        all
+    };
+    let before = results();
+    let again = place.actin(&["--out", "a", "--resume"]);
+    assert_eq!((code(&again), stderr(&again)), (3, message));
+    assert!(results() == before);
+}
