@@ -91,6 +91,7 @@ impl<'a, 'o> Execution<'a, 'o> {
             self.advance_to(self.next_check(end));
             self.check()?;
             if self.step == end || self.step.is_multiple_of(self.run.observe_every) {
+                self.check_energy()?;
                 ended = self.observe();
             }
             if ended.is_none() && self.pause().is_break() {
@@ -130,6 +131,18 @@ impl<'a, 'o> Execution<'a, 'o> {
         self.watch.remember(kinetic);
         self.sound.0 = self.step;
         self.sound.1.copy_motion_from(state);
+        Ok(())
+    }
+
+    /// Fails if there is more energy than there can be.
+    fn check_energy(&mut self) -> Result<(), RunFailure> {
+        if self.run.energy_limit.is_infinite() {
+            return Ok(());
+        }
+        let energy = self.system.total_energy();
+        if energy > self.run.energy_limit {
+            return Err(self.fail(Problem::TooMuchEnergy(energy)));
+        }
         Ok(())
     }
 
