@@ -63,18 +63,13 @@ pub(super) fn check_support(scene: &Scene) -> Result<(), Problem> {
     // Of each group the lowest index stands for all.
     for group in (0..joined.len()).filter(|&f| joined[f] == f && !anchored.contains(&f)) {
         let free = unheld(scene, &joined, group);
-        let loads: Vec<(usize, Vector3)> = scene
-            .loads
-            .iter()
-            .map(
-                |Load::EndForce {
-                     filament, force_pn, ..
-                 }| (*filament, Vector3::from(*force_pn)),
-            )
-            .enumerate()
-            .filter(|(_, (filament, _))| joined[*filament] == group)
-            .map(|(i, (_, force))| (i, force))
-            .collect();
+        let loads = scene.loads.iter().enumerate().filter_map(|(i, load)| {
+            let Load::EndForce {
+                filament, force_pn, ..
+            } = load;
+            (joined[*filament] == group).then(|| (i, Vector3::from(*force_pn)))
+        });
+        let loads: Vec<(usize, Vector3)> = loads.collect();
         for corner in 0..=scene.path.len() {
             check_balance(scene, &loads, &free, corner)?;
         }
@@ -103,22 +98,23 @@ fn check_balance(
         return Ok(());
     };
     let (i, force) = loads[blamed];
-    let mut rule = "nothing holds the filament against this force".to_owned();
+    let size = left_over.norm();
+    let mut rule = vec!["nothing holds the filament against this force".to_owned()];
     if forces.filter(drifts).count() > 1 {
-        rule += &format!(
-            ", and the others do not balance it: {:.1e} pN are left over",
-            left_over.norm()
-        );
+        rule.push(format!(
+            ", and the others do not balance it: {size:.1e} pN are left over"
+        ));
     }
-    if left_over.norm() <= DIGITS * all {
+    if size <= DIGITS * all {
         let [x, y, z] = (force - left_over / factor(scene, i, stages)).into();
-        rule += &format!(" (it would be balanced as ({x:?}, {y:?}, {z:?}))");
+        rule.push(format!(" (it would be balanced as ({x:?}, {y:?}, {z:?}))"));
     }
-    rule += ": it has no equilibrium";
+    rule.push(": it has no equilibrium".to_owned());
+    let value = format!("{:?}", <[f64; 3]>::from(force));
     Err(Problem::new(
         format!("loads[{i}].force_pn"),
-        format!("{:?}", <[f64; 3]>::from(force)),
-        rule,
+        value,
+        rule.concat(),
     ))
 }
 
@@ -129,8 +125,8 @@ fn factor(scene: &Scene, index: usize, stages: usize) -> f64 {
         _ => None,
     };
     let last_of = |stages: &[Stage]| {
-        let settings = stages.iter().rev().flat_map(|stage| stage.set.iter().rev());
-        settings.filter_map(set).next()
+        let mut settings = stages.iter().rev().flat_map(|stage| stage.set.iter().rev());
+        settings.find_map(set)
     };
     let is_ever_set = last_of(&scene.path).is_some();
     last_of(&scene.path[..stages]).unwrap_or(if is_ever_set { 0.0 } else { 1.0 })
