@@ -23,3 +23,4 @@ mod second_derivatives;
 mod several;
 mod shape;
 mod twisted;
+mod unheld;

@@ -76,7 +76,12 @@ impl Opened {
 
     /// A problem that showed only when the scene was to run.
     pub(crate) fn refuse(&self, problem: &actin_sim::Problem) -> Failure {
-        input(&self.path, &SceneError::locate(problem, &self.text))
+        Failure::Input(self.locate(problem))
+    }
+
+    /// A problem with its place in the file.
+    pub(crate) fn locate(&self, problem: &actin_sim::Problem) -> String {
+        format!("{}:{}", self.path, SceneError::locate(problem, &self.text))
     }
 }
 

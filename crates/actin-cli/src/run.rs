@@ -5,8 +5,8 @@ use crate::failure::{Failure, Opened};
 use crate::progress::Progress;
 use crate::signals;
 use actin_sim::{
-    Checkpoints, Estimate, Kept, RunDirectory, RunError, RunReport, RunStatus, StabilitySummary,
-    Summary, Trajectory,
+    Checkpoints, Estimate, Kept, RunDirectory, RunDirectoryError, RunError, RunLock, RunReport,
+    RunStatus, StabilitySummary, Summary, Trajectory,
 };
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -20,11 +20,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         actin_sim::estimate(&opened.assembly).map_err(|problem| opened.refuse(&problem))?;
     let by_default = || Path::new("runs").join(path.file_stem().unwrap_or_default());
     let out = arguments.out.clone().unwrap_or_else(by_default);
-    let directory = if arguments.resume {
-        RunDirectory::existing(&out)
-    } else {
-        RunDirectory::create(&out, arguments.overwrite).map_err(|error| hint(&out, error))?
-    };
+    // Held to the end of the run.
+    let (directory, _lock) = claim(arguments, &out)?;
     let mut checkpoints = checkpoints(arguments, &mut opened, estimate.as_ref(), &directory)?;
     let kept = match begin(arguments, &opened, &directory, &mut checkpoints)? {
         Beginning::New => None,
@@ -47,6 +44,18 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     directory.remove_checkpoint()?;
     print(&summary, &out);
     Ok(())
+}
+
+/// The run directory, with what keeps other runs out of it.
+fn claim(arguments: &RunArguments, out: &Path) -> Result<(RunDirectory, Option<RunLock>), Failure> {
+    if !arguments.resume {
+        let claimed = RunDirectory::create_locked(out, arguments.overwrite);
+        let (directory, lock) = claimed.map_err(|error| hint(out, error))?;
+        return Ok((directory, Some(lock)));
+    }
+    // Where there is no directory there is nothing to resume, and nobody to keep out.
+    let lock = out.is_dir().then(|| RunLock::take(out)).transpose()?;
+    Ok((RunDirectory::existing(out), lock))
 }
 
 /// What there is to begin with.
@@ -105,12 +114,15 @@ fn finished(opened: &Opened, directory: &RunDirectory) -> Result<Option<RunStatu
 }
 
 /// An error of the directory; where it keeps a checkpoint, what can be done with that.
-fn hint(out: &Path, error: actin_sim::RunDirectoryError) -> Failure {
+fn hint(out: &Path, error: RunDirectoryError) -> Failure {
+    let is_free = !matches!(error, RunDirectoryError::InUse { .. });
     let failure = Failure::from(error);
     match failure {
-        Failure::Input(message) if RunDirectory::existing(out).has_checkpoint() => Failure::Input(
-            format!("{message}; it keeps a checkpoint, from which --resume goes on"),
-        ),
+        Failure::Input(message) if is_free && RunDirectory::existing(out).has_checkpoint() => {
+            Failure::Input(format!(
+                "{message}; it keeps a checkpoint, from which --resume goes on"
+            ))
+        }
         failure => failure,
     }
 }
@@ -165,14 +177,22 @@ fn left(
 
 /// Keeps what a broken run has recorded, and says why it broke.
 fn broken(opened: &Opened, directory: &RunDirectory, error: RunError) -> Failure {
-    let (why, trajectory, report) = match error {
+    let (why, kept, trajectory, report) = match error {
         RunError::Refused(problem) => return opened.refuse(&problem),
         RunError::Ended {
             place,
             failure,
             trajectory,
             report,
-        } => (format!("{place}{failure}"), trajectory, report),
+        } => (format!("{place}{failure}"), GOOD, trajectory, report),
+        RunError::Lost {
+            problem,
+            trajectory,
+            report,
+        } => {
+            let kept = "the equilibria in which it is lost are";
+            (opened.locate(&problem), kept, trajectory, report)
+        }
         RunError::Failed {
             failure,
             body,
@@ -180,20 +200,20 @@ fn broken(opened: &Opened, directory: &RunDirectory, error: RunError) -> Failure
             report,
         } => {
             let why = format!("{failure}; {} is {body}", failure.body);
-            (why, trajectory, report)
+            (why, GOOD, trajectory, report)
         }
     };
     if trajectory.records.is_empty() {
         return Failure::Numerical(why);
     }
     match directory.write(&opened.assembly, &trajectory, &report) {
-        Ok(_) => Failure::Numerical(format!(
-            "{why}; everything up to the last good state is in {}",
-            directory.path().display()
-        )),
+        Ok(_) => Failure::Numerical(format!("{why}; {kept} in {}", directory.path().display())),
         Err(unwritten) => Failure::Numerical(format!("{why}; and {unwritten}")),
     }
 }
+
+/// What is kept of a run that broke off.
+const GOOD: &str = "everything up to the last good state is";
 
 fn print(summary: &Summary, out: &Path) {
     let work = &summary.work;

@@ -2,6 +2,7 @@
 //! exit code and the bytes of the files.
 #![cfg(unix)]
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
@@ -120,6 +121,27 @@ fn signal(child: &Child, name: &str) {
     let id = child.id().to_string();
     let sent = Command::new("kill").args([name, &id]).status().unwrap();
     assert!(sent.success());
+}
+
+/// Stops a program, and waits until it has (or has ended): what the signal finds it doing is done
+/// first.
+fn stop(child: &Child) {
+    signal(child, "-STOP");
+    let id = child.id().to_string();
+    let state = || Command::new("ps").args(["-o", "stat=", "-p", &id]).output();
+    while !matches!(state().unwrap().stdout.first(), None | Some(b'T' | b'Z')) {
+        sleep(Duration::from_millis(2));
+    }
+}
+
+/// The files of a folder itself.
+fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let entries = fs::read_dir(folder).unwrap();
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let files = paths.filter(|path| path.is_file());
+    files
+        .map(|path| (path.clone(), fs::read(path).unwrap()))
+        .collect()
 }
 
 /// Every file of a run directory; of the summary all lines but the time it took.
@@ -342,4 +364,85 @@ fn a_failed_run_fails_again_in_the_same_words() {
     assert!(place.path("a/checkpoint.bin").exists());
     let again = place.actin(&["--out", "a", "--resume"]);
     assert_eq!((code(&again), stderr(&again)), (3, stderr(&first)));
+}
+
+/// A force that is smaller than the rounding of others: exit code 3, with the place in the scene, and
+/// the equilibrium on the disk; taken up again, the same words and the same files.
+#[test]
+fn an_equilibrium_in_which_a_load_is_lost_is_kept() {
+    let place = Workplace::with(
+        "Scene(
+            filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 60.0)]),
+            clamps: [Clamp(end: Start)],
+            loads: [EndForce(end: End, force_pn: (0.0, 0.0, 1e-12))],
+            task: Equilibrium(force_pn: 1e-13, torque_pn_nm: 1e-12),
+        )",
+    );
+    let first = place.actin(&["--out", "a"]);
+    assert_eq!(code(&first), 3, "{}", stderr(&first));
+    let message = stderr(&first);
+    println!("{message}");
+    for part in [
+        "error: scene.ron:4:",
+        "loads[0].force_pn = [0.0, 0.0, 1e-12]: is lost among forces of",
+        "; the equilibria in which it is lost are in a",
+    ] {
+        assert!(message.contains(part), "{part:?} in {message}");
+    }
+    let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+    assert!(summary.contains("\"status\": \"failed\""), "{summary}");
+    assert!(summary.contains("\"negative_eigenvalues\": 0"), "{summary}");
+    let energies = fs::read_to_string(place.path("a/energies.csv")).unwrap();
+    assert_eq!(energies.lines().count(), 2, "{energies}");
+    // The checkpoint holds the time that the run has taken.
+    let results = || {
+        let mut all = files(&place.path("a"));
+        all.retain(|(name, _)| name != "checkpoint.bin");
+        all
+    };
+    let before = results();
+    let again = place.actin(&["--out", "a", "--resume"]);
+    assert_eq!((code(&again), stderr(&again)), (3, message));
+    assert!(results() == before);
+}
+
+/// Whatever a second run would do in the directory of one that goes on (here: is stopped half way),
+/// it is refused and touches nothing. When the first has been killed, the file that it leaves keeps
+/// nobody out, and afterwards it is gone.
+#[test]
+fn a_directory_in_use_is_left_alone() {
+    let place = Workplace::with(&MOTION.replace("duration_ns: 150.0", "duration_ns: 1500.0"));
+    let arguments = ["--out", "a", "--checkpoint-every", "0.01"];
+    let mut first = place.start(&arguments, "a/checkpoint.bin");
+    stop(&first);
+    assert!(first.try_wait().unwrap().is_none(), "the run is over");
+    let id = first.id();
+    let before = contents(&place.path("a"));
+    for flag in ["--resume", "--overwrite", "--checkpoint-every=1"] {
+        let second = place.actin(&["--out", "a", flag]);
+        assert_eq!(code(&second), 2);
+        assert_eq!(
+            stderr(&second),
+            format!(
+                "error: a is in use: another run (process {id}) is writing into it; wait for its \
+                 end, or name another directory\n"
+            )
+        );
+    }
+    assert!(contents(&place.path("a")) == before);
+    assert_eq!(code(&place.actin(&["--out", "elsewhere", "--resume"])), 2);
+    first.kill().unwrap();
+    first.wait().unwrap();
+    assert!(place.path("a/lock").exists());
+    let short = MOTION.replace("150.0", "1.0").replace("50.0", "0.5");
+    fs::write(place.path("scene.ron"), short).unwrap();
+    let other_scene = place.actin(&["--out", "a", "--resume"]);
+    assert!(
+        !stderr(&other_scene).contains("in use"),
+        "{}",
+        stderr(&other_scene)
+    );
+    let done = place.actin(&["--out", "a", "--overwrite"]);
+    assert_eq!(code(&done), 0, "{}", stderr(&done));
+    assert!(!place.path("a/lock").exists());
 }

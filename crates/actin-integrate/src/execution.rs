@@ -69,7 +69,7 @@ impl<'a, 'o> Execution<'a, 'o> {
 
     pub(crate) fn run(mut self) -> Result<Outcome, RunFailure> {
         // What the start moves at says nothing about what the loads will do to it.
-        if let Some(problem) = self.watch.inspect(self.system.state()) {
+        if let Err(problem) = self.watch.inspect(self.system.state()) {
             return Err(self.fail(problem));
         }
         if (self.run.first_step == 0 || self.run.steps == 0)
@@ -91,6 +91,7 @@ impl<'a, 'o> Execution<'a, 'o> {
             self.advance_to(self.next_check(end));
             self.check()?;
             if self.step == end || self.step.is_multiple_of(self.run.observe_every) {
+                self.check_energy()?;
                 ended = self.observe();
             }
             if ended.is_none() && self.pause().is_break() {
@@ -123,12 +124,25 @@ impl<'a, 'o> Execution<'a, 'o> {
     /// Fails if the state is unsound.
     fn check(&mut self) -> Result<(), RunFailure> {
         let state = self.system.state();
-        if let Some(problem) = self.watch.inspect(state) {
-            return Err(self.fail(problem));
-        }
-        self.watch.remember(state);
+        let kinetic = match self.watch.inspect(state) {
+            Ok(kinetic) => kinetic,
+            Err(problem) => return Err(self.fail(problem)),
+        };
+        self.watch.remember(kinetic);
         self.sound.0 = self.step;
         self.sound.1.copy_motion_from(state);
+        Ok(())
+    }
+
+    /// Fails if there is more energy than there can be.
+    fn check_energy(&mut self) -> Result<(), RunFailure> {
+        if self.run.energy_limit.is_infinite() {
+            return Ok(());
+        }
+        let energy = self.system.total_energy();
+        if energy > self.run.energy_limit {
+            return Err(self.fail(Problem::TooMuchEnergy(energy)));
+        }
         Ok(())
     }
 
@@ -223,7 +237,7 @@ impl<'a, 'o> Execution<'a, 'o> {
         while self.step < found_step {
             before.clone_from(self.system.state());
             self.advance_to(self.step + 1);
-            if let Some(problem) = self.watch.inspect(self.system.state()) {
+            if let Err(problem) = self.watch.inspect(self.system.state()) {
                 return (problem, before);
             }
         }

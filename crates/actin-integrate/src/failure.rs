@@ -33,6 +33,9 @@ pub enum Problem {
     /// The kinetic energy (pN nm) has grown too far since the last check, or above its limit.
     #[error("the kinetic energy has reached {0:.3e} pN nm")]
     TooFast(f64),
+    /// There is more energy (pN nm), kinetic and of the loads, than there can be.
+    #[error("the energy has reached {0:.3e} pN nm, more than there can be")]
+    TooMuchEnergy(f64),
 }
 
 /// A run that broke: where, when, and which term of the model is to be suspected.

@@ -28,6 +28,7 @@ pub struct Run {
     pub(crate) observe_every: u64,
     pub(crate) check_every: u64,
     pub(crate) kinetic_limit: f64,
+    pub(crate) energy_limit: f64,
     pub(crate) stop: Option<StopRule>,
     pub(crate) stop_from: f64,
 }
@@ -47,6 +48,9 @@ pub enum RunError {
     /// The limit of the kinetic energy is not positive.
     #[error("the limit of the kinetic energy must be positive, got {0} pN nm")]
     KineticLimit(f64),
+    /// The limit of the energy is no number.
+    #[error("the limit of the energy must be a number, got {0} pN nm")]
+    EnergyLimit(f64),
 }
 
 impl Run {
@@ -68,6 +72,7 @@ impl Run {
             observe_every: DEFAULT_OBSERVE_EVERY,
             check_every: DEFAULT_CHECK_EVERY,
             kinetic_limit: f64::INFINITY,
+            energy_limit: f64::INFINITY,
             stop: None,
             stop_from: 0.0,
         })
@@ -178,6 +183,24 @@ impl Run {
         }
         Ok(Self {
             kinetic_limit: limit,
+            ..self
+        })
+    }
+
+    /// The same, failing when the energy, kinetic and of all interactions, exceeds `limit` (pN nm) at
+    /// an observation.
+    ///
+    /// Above the stability limit a mode may grow until its frequency has changed, and then stay as it
+    /// is for any number of steps: its kinetic energy need not be large.
+    ///
+    /// # Errors
+    /// A limit that is no number.
+    pub fn with_energy_limit(self, limit: f64) -> Result<Self, RunError> {
+        if limit.is_nan() {
+            return Err(RunError::EnergyLimit(limit));
+        }
+        Ok(Self {
+            energy_limit: limit,
             ..self
         })
     }

@@ -80,6 +80,19 @@ impl Frames {
         self.excess.get(i).add_scalar(self.inverse_transverse[i])
     }
 
+    /// 1 / transverse moment, the excess of the inverse moment about each body axis over it, and 1
+    /// for free frames, 0 for held ones.
+    pub(crate) fn inertia_columns(&self) -> [&[f64]; 5] {
+        let excess = &self.excess;
+        [
+            &self.inverse_transverse,
+            &excess.x,
+            &excess.y,
+            &excess.z,
+            &self.mobility,
+        ]
+    }
+
     /// Turns every frame freely for a time `h`: the exact flow of [`Inertia::free_flow`].
     ///
     /// The quaternions are brought back to unit length to first order, which keeps them there to

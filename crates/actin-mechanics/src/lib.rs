@@ -26,6 +26,7 @@ pub mod rotation;
 mod slider;
 mod state;
 mod stiffness;
+mod survey;
 mod system;
 pub mod testing;
 mod vectors;
@@ -41,6 +42,7 @@ pub use quaternions::Quaternions;
 pub use slider::Slider;
 pub use state::State;
 pub use stiffness::{Coordinates, SecondOrder, Stiffness};
+pub use survey::Survey;
 pub use system::{Agitate, Drive, Split, System};
 pub use vectors::Vectors;
 

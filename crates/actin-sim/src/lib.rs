@@ -30,7 +30,7 @@ pub use assembly::{
 };
 pub use results::{
     CheckpointError, Checkpoints, Damage, FilamentSummary, RunDirectory, RunDirectoryError,
-    RunStatus, StabilitySummary, Summary, ThermalSummary,
+    RunLock, RunStatus, StabilitySummary, Summary, ThermalSummary,
 };
 pub use run::{
     Arrival, EquilibriumReport, Estimate, Keeper, Kept, PathStanding, Progress, Record, RunError,

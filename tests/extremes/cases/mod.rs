@@ -20,9 +20,14 @@ use row::Row;
 
 /// The whole table, in the order in which it is printed; `long` with the rows that take minutes.
 pub(crate) fn table(long: bool) -> Vec<Row> {
-    let groups: [(&str, &dyn Fn() -> Vec<Row>); 13] = [
+    let groups: [(&str, &dyn Fn() -> Vec<Row>); 14] = [
         ("time steps", &|| stability::rows(&stability::INTEGRATORS)),
-        ("time steps of scenes", &stability::asked_for),
+        ("energy below the limit", &|| {
+            stability::below(&stability::INTEGRATORS)
+        }),
+        ("time steps of scenes", &|| {
+            stability::asked_for(&stability::INTEGRATORS)
+        }),
         ("stiffness contrast", &contrast::rows),
         ("twist", &|| turns::twist(true)),
         ("turns of a segment", &turns::one_segment),

@@ -4,7 +4,7 @@ mod builder;
 mod mutation;
 mod reader;
 
-use proptest::test_runner::Config;
+use proptest::test_runner::{Config, RngSeed};
 
 /// Cases of each property where the environment does not say.
 const CASES: u32 = 300;
@@ -22,4 +22,15 @@ fn config() -> Config {
         failure_persistence: None,
         ..Config::default()
     }
+}
+
+/// Two runs try the same input: `.cargo/config.toml` gives a seed, unless the environment does.
+#[test]
+fn random_input_can_be_drawn_again() {
+    let seed = config().rng_seed;
+    println!("PROPTEST_RNG_SEED={seed}");
+    assert!(
+        matches!(seed, RngSeed::Fixed(_)),
+        "not run by cargo in this workspace"
+    );
 }

@@ -7,6 +7,7 @@ mod cases;
 mod pictures;
 mod write;
 
+use crate::check::workspace_root;
 use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -20,6 +21,9 @@ pub(crate) struct Options {
     /// Also the rows that take minutes: 1e5 bodies, 1e7 steps.
     #[arg(long)]
     long: bool,
+    /// Also into `docs/extremes.md`, tables and pictures, if all rows are sound.
+    #[arg(long, requires = "long")]
+    write: bool,
 }
 
 /// Computes the table, prints what is wrong in it, and writes it with its pictures.
@@ -43,7 +47,9 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
         .map(|row| format!("{}, {}: {}", row.varied, row.case, row.outcome.words()))
         .collect();
     if wrong.is_empty() {
-        return Ok(());
+        let docs = workspace_root().join("docs");
+        let write = options.write.then(|| write::document(&rows, out, &docs));
+        return write.unwrap_or(Ok(()));
     }
     Err(format!(
         "neither right nor refused:\n  {}",

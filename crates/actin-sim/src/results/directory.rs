@@ -2,6 +2,7 @@
 //! what its files hold.
 
 use super::RunDirectoryError;
+use super::lock::{LOCK, RunLock};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -41,28 +42,32 @@ impl RunDirectory {
     /// never stand side by side; files that no run writes are left alone.
     ///
     /// # Errors
-    /// A path that is no directory, a directory that is not empty (unless `overwrite`), or a
-    /// refusal of the file system.
+    /// A path that is no directory, a directory in which another run goes on or that is not empty
+    /// (unless `overwrite`), or a refusal of the file system.
     pub fn create(path: impl AsRef<Path>, overwrite: bool) -> Result<Self, RunDirectoryError> {
-        let path = path.as_ref();
+        Self::create_locked(path, overwrite).map(|(directory, _)| directory)
+    }
+
+    /// The same, with what keeps other runs out of it.
+    ///
+    /// # Errors
+    /// As [`create`](Self::create).
+    pub fn create_locked(
+        path: impl AsRef<Path>,
+        overwrite: bool,
+    ) -> Result<(Self, RunLock), RunDirectoryError> {
+        let path = path.as_ref().to_owned();
         if path.exists() && !path.is_dir() {
-            return Err(RunDirectoryError::NotADirectory {
-                path: path.to_owned(),
-            });
+            return Err(RunDirectoryError::NotADirectory { path });
         }
-        fs::create_dir_all(path).map_err(RunDirectoryError::io(path))?;
-        let mut entries = fs::read_dir(path).map_err(RunDirectoryError::io(path))?;
-        let is_empty = entries.next().is_none();
-        if !is_empty && !overwrite {
-            return Err(RunDirectoryError::NotEmpty {
-                path: path.to_owned(),
-            });
+        fs::create_dir_all(&path).map_err(RunDirectoryError::io(&path))?;
+        let lock = RunLock::take(&path)?;
+        if !overwrite && !is_empty(&path).map_err(RunDirectoryError::io(&path))? {
+            return Err(RunDirectoryError::NotEmpty { path });
         }
-        let directory = Self {
-            path: path.to_owned(),
-        };
+        let directory = Self { path };
         directory.remove_results()?;
-        Ok(directory)
+        Ok((directory, lock))
     }
 
     /// Where the directory is.
@@ -114,6 +119,16 @@ impl RunDirectory {
         }
         Ok(())
     }
+}
+
+/// Whether there is nothing in a directory but its lock.
+fn is_empty(directory: &Path) -> io::Result<bool> {
+    for entry in fs::read_dir(directory)? {
+        if entry?.file_name() != LOCK {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 /// The name under which a file is written until it is whole.

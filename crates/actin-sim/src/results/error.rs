@@ -23,6 +23,17 @@ pub enum RunDirectoryError {
         /// The path.
         path: PathBuf,
     },
+    /// Another run is going on in the directory.
+    #[error(
+        "{} is in use: another run{} is writing into it; wait for its end, or name another \
+         directory", .path.display(), by(*.process)
+    )]
+    InUse {
+        /// The directory.
+        path: PathBuf,
+        /// The process of that run, if it has said.
+        process: Option<u32>,
+    },
     /// The file system refused.
     #[error("{}: {source}", .path.display())]
     Io {
@@ -68,6 +79,11 @@ impl RunDirectoryError {
             source,
         }
     }
+}
+
+/// The process in brackets, where it is known.
+fn by(process: Option<u32>) -> String {
+    process.map_or_else(String::new, |id| format!(" (process {id})"))
 }
 
 /// The index in brackets; nothing for a single number.

@@ -9,6 +9,7 @@
 //! | `vtk/NNNN.vtp`, `run.pvd` | every record as a picture | `ParaView`, pyvista |
 //! | `summary.json` | the last record in numbers | anything |
 //! | `checkpoint.bin`, `records.bin` | a run that has not ended | `actin run --resume` |
+//! | `lock` | while a run goes on: the number of its process | anything |
 //!
 //! Only this module knows file formats; nothing here computes physics beyond sums: shapes come from
 //! [`crate::shape`]. Nothing that
@@ -21,6 +22,7 @@ mod error;
 mod finite;
 #[cfg(test)]
 mod fixture;
+mod lock;
 mod profile;
 mod states;
 mod summary;
@@ -30,4 +32,5 @@ mod write;
 pub use checkpoint::{CheckpointError, Checkpoints, Damage};
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;
+pub use lock::RunLock;
 pub use summary::{FilamentSummary, RunStatus, StabilitySummary, Summary, ThermalSummary};

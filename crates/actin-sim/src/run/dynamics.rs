@@ -201,10 +201,18 @@ pub(super) fn run(
 /// The run that the scene asks for; the scene is resolved and its path set going.
 fn prepare(assembly: &mut Assembly, dynamics: &Dynamics) -> Result<(Estimate, Run), Problem> {
     let estimate = estimate_of(assembly, dynamics)?;
+    let limit = kinetic_limit(assembly);
     let plan = plan(dynamics, &estimate)?
         .stopping_from(drive(assembly))
-        .with_kinetic_limit(kinetic_limit(assembly))
+        .with_kinetic_limit(limit)
         .expect("the limit is positive");
+    // The bound is that of all energy. In a bath it is not: strain has heat of its own.
+    let plan = match dynamics.thermal {
+        Some(_) => plan,
+        None => plan
+            .with_energy_limit(limit)
+            .expect("the limit is a number"),
+    };
     assembly.resolve(&estimate);
     Ok((estimate, plan))
 }

@@ -50,18 +50,17 @@ pub(super) fn run(
     let mut newton = newton(assembly, settings)?;
     let mut state = assembly.system.state().clone();
     let mut follower = Follower::new(assembly, settings, kept, (keeper, watch), clock);
-    let failure = follower.follow(&mut newton, &mut state)?;
-    let stage = follower.standing.stage;
+    let trouble = follower.trouble(&mut newton, &mut state)?;
     // What was left at its very end is done.
-    let interrupted = follower.is_left && failure.is_some();
+    let interrupted = matches!(trouble, Some(Trouble::Left));
     let (trajectory, standing) = (follower.trajectory, follower.standing);
     *assembly.system.state_mut() = state;
     let wanted = settings.lowest_eigenvalue && standing.last.is_some() && !interrupted;
     let lowest = wanted.then(|| lowest_eigenvalue(&mut newton, &assembly.system));
     let work = newton.work();
     let report = RunReport {
-        converged: failure.is_none(),
-        failed: failure.is_some() && !interrupted,
+        converged: trouble.is_none(),
+        failed: trouble.is_some() && !interrupted,
         interrupted,
         steps: 0,
         force_evaluations: work.evaluations,
@@ -70,39 +69,54 @@ pub(super) fn run(
         equilibrium: report(standing, lowest.flatten(), work),
         wall_s: clock.wall_s(),
     };
-    match failure {
-        None => Ok(check_resolved(assembly, &trajectory).map(|()| (trajectory, report))?),
-        Some(failure) if !interrupted => Err(RunError::Ended {
-            place: place(assembly, stage),
+    match trouble {
+        None | Some(Trouble::Left) => Ok((trajectory, report)),
+        Some(Trouble::Ended(place, failure)) => Err(RunError::Ended {
+            place,
             failure,
             trajectory: Box::new(trajectory),
             report: Box::new(report),
         }),
-        Some(_) => Ok((trajectory, report)),
+        Some(Trouble::Lost(problem)) => Err(RunError::Lost {
+            problem,
+            trajectory: Box::new(trajectory),
+            report: Box::new(report),
+        }),
     }
 }
 
-/// Refuses an equilibrium in which a load is lost: the forces that are left, be it by rounding of
+/// Why there is no equilibrium at the end, or none to rely on.
+enum Trouble {
+    /// The keeper wanted the run to be left.
+    Left,
+    /// The path ended early: where, in words, and why.
+    Ended(String, Box<PathFailure>),
+    /// A load is lost in what is left over.
+    Lost(Box<Problem>),
+}
+
+/// The first load that is lost in an equilibrium: the forces that are left, be it by rounding of
 /// places or by a loose tolerance, are no longer small beside it.
-fn check_resolved(assembly: &Assembly, trajectory: &Trajectory) -> Result<(), Problem> {
-    let Some(last) = trajectory.records.last() else {
-        return Ok(());
-    };
-    for (i, load) in assembly.scene.loads.iter().enumerate() {
+fn lost_load(assembly: &Assembly, last: &Record) -> Option<Problem> {
+    let loads = assembly.scene.loads.iter().enumerate();
+    loads.into_iter().find_map(|(i, load)| {
         let Load::EndForce { force_pn, .. } = load;
         // Controls of loads stand first, one for each.
         let size = Vector3::from(*force_pn).norm() * last.state.controls[i].abs();
-        if size > 0.0 && last.residual_force_pn > RESOLVED * size {
+        let is_lost = size > 0.0 && last.residual_force_pn > RESOLVED * size;
+        is_lost.then(|| {
             let rule = format!(
                 "is lost among forces of {:.1e} pN that are left: places are known to round-off, \
                  and forces no better; a larger load tells more",
                 last.residual_force_pn
             );
-            let key = format!("loads[{i}].force_pn");
-            return Err(Problem::new(key, format!("{force_pn:?}"), rule));
-        }
-    }
-    Ok(())
+            Problem::new(
+                format!("loads[{i}].force_pn"),
+                format!("{force_pn:?}"),
+                rule,
+            )
+        })
+    })
 }
 
 /// Where a path stands after `points` equilibria, in words; nothing where there is no path.
@@ -272,6 +286,31 @@ impl<'a> Follower<'a> {
         }
     }
 
+    /// Follows all that is left, and says what is wrong with where it ended. Unless that is nothing,
+    /// the run is kept as it is.
+    fn trouble(
+        &mut self,
+        newton: &mut Newton,
+        state: &mut State,
+    ) -> Result<Option<Trouble>, Problem> {
+        let trouble = match self.follow(newton, state)? {
+            Some(_) if self.is_left => Some(Trouble::Left),
+            Some(failure) => {
+                let place = place(self.assembly, self.standing.stage);
+                Some(Trouble::Ended(place, failure))
+            }
+            None => {
+                let last = self.trajectory.records.last();
+                let lost = last.and_then(|last| lost_load(self.assembly, last));
+                lost.map(|problem| Trouble::Lost(Box::new(problem)))
+            }
+        };
+        if trouble.is_some() {
+            self.keep();
+        }
+        Ok(trouble)
+    }
+
     /// Follows all stages that are left, or solves once where there is none. Returns why it ended
     /// early.
     fn follow(
@@ -288,9 +327,6 @@ impl<'a> Follower<'a> {
             (self.standing.stage..self.assembly.drive.stages())
                 .try_for_each(|stage| self.stage(&path, newton, state, stage))
         };
-        if result.is_err() {
-            self.keep();
-        }
         Ok(result.err())
     }
 
@@ -306,6 +342,8 @@ impl<'a> Follower<'a> {
         match solved {
             Ok(equilibrium) => {
                 self.record(0.0, state, &equilibrium);
+                self.standing.state.copy_motion_from(state);
+                self.standing.work = newton.work();
                 Ok(())
             }
             Err(failure) => {

@@ -54,7 +54,8 @@ pub struct Trajectory {
 pub struct RunReport {
     /// Whether the stop rule was met.
     pub converged: bool,
-    /// Whether the run broke off: a state exploded or a path ended early.
+    /// Whether the run broke off (a state exploded, a path ended early) or a load is lost in the
+    /// equilibrium that it reached.
     pub failed: bool,
     /// Whether the run was left at the wish of its keeper, to be taken up again.
     pub interrupted: bool,
@@ -103,6 +104,16 @@ pub enum RunError {
         /// Cost up to there.
         report: Box<RunReport>,
     },
+    /// Equilibria were reached, but the last does not tell what a load does.
+    #[error("{problem}")]
+    Lost {
+        /// Which load, and in what it is lost.
+        problem: Box<Problem>,
+        /// The equilibria.
+        trajectory: Box<Trajectory>,
+        /// Their cost.
+        report: Box<RunReport>,
+    },
     /// The state exploded.
     #[error("{failure}; {} is {body}", failure.body)]
     Failed {
@@ -123,8 +134,8 @@ pub enum RunError {
 /// state.
 ///
 /// # Errors
-/// What [`estimate`] refuses; a state that explodes or a path that ends early, with all records up
-/// to the last good one.
+/// What [`estimate`] refuses; a state that explodes, a path that ends early or an equilibrium in which
+/// a load is lost, with all records up to the last good one.
 pub fn run(
     assembly: &mut Assembly,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,

@@ -1,11 +1,18 @@
 //! Whether a scene's loads are borne, and whether its turns go with how its ends slide.
 
-use super::{Filament, Load, Problem, Scene, Setting, Slides};
+use super::{Filament, Load, Problem, Scene, Setting, Slides, Stage};
 use actin_mechanics::Vector3;
 
-/// Part of a vector's length below which a component of it is a rounding: unit vectors along a
-/// filament are exact to a few units of 1e-16.
+/// Part of the forces below which what is left of them is a rounding: sums and components of a few
+/// forces are exact to a few units of 1e-16.
 const ROUNDING: f64 = 1e-12;
+
+/// Angle (rad) below which two written directions are the same: what six digits of each component
+/// leave open.
+const WRITTEN: f64 = 1e-5;
+
+/// Part of the forces below which what is left of them looks like too few digits.
+const DIGITS: f64 = 1e-3;
 
 /// In time, the inertia of an end that slides is that of its motion along straight lines: a turn must
 /// not swing it along them.
@@ -27,8 +34,8 @@ pub(super) fn check_swings(scene: &Scene) -> Result<(), Problem> {
                 return Err(Problem::new(
                     format!("path[{i}].set[{k}].turn_deg"),
                     format!("{turn_deg:?}"),
-                    "in Dynamics an end that slides turns about its axis only, and one that slides \
-                     Freely not at all: Equilibrium follows such paths",
+                    "in Dynamics an end that slides turns about its axis only (to six digits), and one \
+                     that slides Freely not at all: Equilibrium follows such paths",
                 ));
             }
         }
@@ -36,41 +43,93 @@ pub(super) fn check_swings(scene: &Scene) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Whether `vector` has a component across the unit vector `axis`.
+/// Whether `vector` has a component across the unit vector `axis`, beyond what six digits leave open.
+///
+/// Numbers that depend on the angle between them by its cosine are then right to 5e-11.
 pub(crate) fn is_across(vector: Vector3, axis: Vector3) -> bool {
-    vector.cross(&axis).norm() > ROUNDING * vector.norm()
+    vector.cross(&axis).norm() > WRITTEN * vector.norm()
 }
 
-/// A load along a direction in which nothing is held has no equilibrium.
+/// Forces that do not balance along a direction in which nothing is held have no equilibrium. Where
+/// they do balance they have one: the filament turns until their couple vanishes.
 ///
 /// What holds a filament also holds those that linkers join to it. A linker to an anchor holds
-/// against every force: it follows its site around the anchor until it points along it.
+/// against every force: it follows its site around the anchor until it points along it. Load factors
+/// are linear within a stage, so that what balances at the ends of all stages balances between.
 pub(super) fn check_support(scene: &Scene) -> Result<(), Problem> {
     let joined = joined(scene);
-    let anchored: Vec<usize> = scene
-        .linkers
-        .iter()
-        .filter(|linker| linker.to.is_none())
-        .map(|linker| joined[linker.filament])
-        .collect();
-    for (i, load) in scene.loads.iter().enumerate() {
-        let Load::EndForce {
-            filament, force_pn, ..
-        } = load;
-        let group = joined[*filament];
-        let force = Vector3::from(*force_pn);
-        let drifts = |direction: &Vector3| force.dot(direction).abs() > ROUNDING * force.norm();
-        let is_unheld =
-            !anchored.contains(&group) && unheld(scene, &joined, group).iter().any(drifts);
-        if is_unheld {
-            return Err(Problem::new(
-                format!("loads[{i}].force_pn"),
-                format!("{force_pn:?}"),
-                "nothing holds the filament against this force: it has no equilibrium",
-            ));
+    let anchors = scene.linkers.iter().filter(|linker| linker.to.is_none());
+    let anchored: Vec<usize> = anchors.map(|linker| joined[linker.filament]).collect();
+    // Of each group the lowest index stands for all.
+    for group in (0..joined.len()).filter(|&f| joined[f] == f && !anchored.contains(&f)) {
+        let free = unheld(scene, &joined, group);
+        let loads = scene.loads.iter().enumerate().filter_map(|(i, load)| {
+            let Load::EndForce {
+                filament, force_pn, ..
+            } = load;
+            (joined[*filament] == group).then(|| (i, Vector3::from(*force_pn)))
+        });
+        let loads: Vec<(usize, Vector3)> = loads.collect();
+        for corner in 0..=scene.path.len() {
+            check_balance(scene, &loads, &free, corner)?;
         }
     }
     Ok(())
+}
+
+/// Whether the forces of `loads` balance along the orthonormal directions `free` after so many stages.
+fn check_balance(
+    scene: &Scene,
+    loads: &[(usize, Vector3)],
+    free: &[Vector3],
+    stages: usize,
+) -> Result<(), Problem> {
+    let along = |force: &Vector3| -> Vector3 { free.iter().map(|d| d * d.dot(force)).sum() };
+    let forces = loads
+        .iter()
+        .map(|&(i, force)| force * factor(scene, i, stages));
+    let left_over = along(&forces.clone().sum());
+    let all: f64 = forces.clone().map(|force| force.norm()).sum();
+    if left_over.norm() <= ROUNDING * all {
+        return Ok(());
+    }
+    let drifts = |force: &Vector3| along(force).norm() > ROUNDING * force.norm();
+    let Some(blamed) = forces.clone().position(|force| drifts(&force)) else {
+        return Ok(());
+    };
+    let (i, force) = loads[blamed];
+    let size = left_over.norm();
+    let mut rule = vec!["nothing holds the filament against this force".to_owned()];
+    if forces.filter(drifts).count() > 1 {
+        rule.push(format!(
+            ", and the others do not balance it: {size:.1e} pN are left over"
+        ));
+    }
+    if size <= DIGITS * all {
+        let [x, y, z] = (force - left_over / factor(scene, i, stages)).into();
+        rule.push(format!(" (it would be balanced as ({x:?}, {y:?}, {z:?}))"));
+    }
+    rule.push(": it has no equilibrium".to_owned());
+    let value = format!("{:?}", <[f64; 3]>::from(force));
+    Err(Problem::new(
+        format!("loads[{i}].force_pn"),
+        value,
+        rule.concat(),
+    ))
+}
+
+/// The factor of a load after so many stages: 1 unless some stage sets it, which it does from 0.
+fn factor(scene: &Scene, index: usize, stages: usize) -> f64 {
+    let set = |setting: &Setting| match *setting {
+        Setting::LoadFactor { load, factor } if load == index => Some(factor),
+        _ => None,
+    };
+    let last_of = |stages: &[Stage]| {
+        let mut settings = stages.iter().rev().flat_map(|stage| stage.set.iter().rev());
+        settings.find_map(set)
+    };
+    let is_ever_set = last_of(&scene.path).is_some();
+    last_of(&scene.path[..stages]).unwrap_or(if is_ever_set { 0.0 } else { 1.0 })
 }
 
 /// For each filament the lowest index among those that linkers join it to, itself included.
@@ -171,5 +230,88 @@ mod tests {
         assert!(!refusal(&slide(2), join, "(2.0, 0.0, 0.0)").is_empty());
         let both = [slide(1), slide(2)].concat();
         assert!(refusal(&both, join, "(1.0, 1.0, 1.0)").is_empty());
+    }
+
+    /// The message with which a free rod under these forces, after these stages, is refused.
+    fn balance(loads: &str, stages: &str) -> String {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)]),
+                loads: [{loads}],
+                path: [{stages}],
+                task: Equilibrium(),
+            )"
+        );
+        Scene::from_ron(&text).map_or_else(|error| error.to_string(), |_| String::new())
+    }
+
+    /// Forces are judged by their sum, at the end of every stage: balance at the end is not enough.
+    #[test]
+    fn forces_that_balance_need_no_support() {
+        let pair = "EndForce(end: End, force_pn: (0.3, -0.1, 2.0)),
+                    EndForce(end: Start, force_pn: (-0.3, 0.1, -2.0)),";
+        let stage = |a: f64, b: f64| {
+            format!(
+                "Stage(set: [LoadFactor(load: 0, factor: {a:?}), LoadFactor(load: 1, factor: {b:?})]),"
+            )
+        };
+        assert_eq!(balance(pair, ""), "");
+        assert_eq!(
+            balance(pair, &[stage(0.5, 0.5), stage(2.0, 2.0)].concat()),
+            ""
+        );
+        let message = balance(pair, &[stage(0.5, 0.6), stage(1.0, 1.0)].concat());
+        assert!(message.contains("loads[0].force_pn"), "{message}");
+        assert!(message.contains("2.0e-1 pN are left over"), "{message}");
+        // Only one of the two is ramped: they do not balance before.
+        let one = "Stage(set: [LoadFactor(load: 0, factor: 1.0)])";
+        assert!(balance(pair, one).contains("nothing holds"));
+        let half = pair.replace("-2.0", "-1.0");
+        assert!(balance(&half, "").contains("the others do not balance it"));
+    }
+
+    /// What was written with too few digits is told in full, and is taken then.
+    #[test]
+    fn digits_that_are_missing_are_told() {
+        let forces = |third: &str| {
+            format!(
+                "EndForce(end: End, force_pn: (0.333333, 0.0, 1.0)),
+                 EndForce(end: End, force_pn: {third}),
+                 EndForce(end: Start, force_pn: (-1.0, 0.0, -1.0)),"
+            )
+        };
+        let message = balance(&forces("(0.666666, 0.0, 0.0)"), "");
+        let (_, told) = message.split_once("balanced as (").unwrap();
+        let first = told.split_once(')').unwrap().0;
+        let corrected = forces("(0.666666, 0.0, 0.0)").replace("0.333333, 0.0, 1.0", first);
+        assert_eq!(balance(&corrected, ""), "", "{message}");
+        assert!(!balance(&forces("(0.6, 0.0, 0.0)"), "").contains("balanced as"));
+    }
+
+    /// A turn about a tilted axis that was written with six digits is one about that axis; one in five
+    /// digits more is not.
+    #[test]
+    fn six_digits_are_enough_for_a_turn() {
+        let turned = |turn: &str| {
+            let text = format!(
+                "Scene(
+                    filament: Filament(
+                        sections: [Rod(from_nm: 0.0, to_nm: 30.0)],
+                        direction: (1.0, 2.0, 2.5),
+                    ),
+                    clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
+                    path: [Stage(set: [Turn(end: End, turn_deg: {turn})], duration_ns: 1.0)],
+                    task: Dynamics(duration_ns: 1.0),
+                )"
+            );
+            Scene::from_ron(&text).map_or_else(|error| error.to_string(), |_| String::new())
+        };
+        // 90 deg about the axis, (1, 2, 2.5) / 3.354102.
+        assert_eq!(turned("(26.8328, 53.6656, 67.0820)"), "");
+        let message = turned("(26.84, 53.67, 67.07)");
+        assert!(
+            message.contains("turns about its axis only (to six digits)"),
+            "{message}"
+        );
     }
 }

@@ -19,7 +19,7 @@ use std::io::{self, Write};
 #[derive(Debug)]
 pub(super) struct Drawing<'a> {
     assembly: &'a Assembly,
-    /// For each point the index of its section, if it has one.
+    /// For each point the index of its section among those of all filaments, if it has one.
     section: Vec<Option<usize>>,
     /// For each point the frame that is drawn at it: a monomer's own, a node's neighbouring
     /// segment.
@@ -68,18 +68,13 @@ impl<'a> Drawing<'a> {
 
     fn fixed_arrays(&self) -> [Array; 5] {
         let points = &self.assembly.points;
-        let section = |i: &Option<usize>| i.map_or(-1, poly_data::to_i64);
         [
             array(
                 "kind",
                 1,
                 Values::UInt8(points.iter().map(|p| p.kind as u8).collect()),
             ),
-            array(
-                "section",
-                1,
-                Values::Int64(self.section.iter().map(section).collect()),
-            ),
+            array("section", 1, Values::Int64(self.sections())),
             array("filament", 1, Values::Int64(self.filaments())),
             array(
                 "s_nm",
@@ -88,6 +83,16 @@ impl<'a> Drawing<'a> {
             ),
             array("semi_axes_nm", 3, Values::Float64(self.semi_axes_nm())),
         ]
+    }
+
+    /// Index of the section of each point within its filament; -1 where there is none.
+    fn sections(&self) -> Vec<i64> {
+        let within = |section: usize| {
+            let filament = self.assembly.filament_of_section(section);
+            section - self.assembly.filaments[filament].sections.start
+        };
+        let index = |s: &Option<usize>| s.map_or(-1, |s| poly_data::to_i64(within(s)));
+        self.section.iter().map(index).collect()
     }
 
     /// Index of the filament of each point.

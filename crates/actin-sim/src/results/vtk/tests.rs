@@ -151,6 +151,15 @@ fn filaments_are_drawn_apart() {
     assert_eq!(drawing.lines().len(), 2);
     let filaments = drawing.filaments();
     assert_eq!((filaments[first - 1], filaments[first]), (0, 1));
+    // As in `energies.csv`: sections are counted within a filament.
+    let sections = drawing.sections();
+    for filament in 0..2 {
+        for (k, span) in assembly.sections_of(filament).iter().enumerate() {
+            let expected = poly_data::to_i64(k);
+            assert!(span.points.clone().all(|i| sections[i] == expected));
+        }
+    }
+    assert_eq!((sections[0], sections[first]), (0, 0));
     let semi_axes = drawing.semi_axes_nm();
     let expected = [0, 1].map(|f| assembly.monomers_of(f).semi_axes_nm);
     assert_eq!(semi_axes[..3], expected[0]);

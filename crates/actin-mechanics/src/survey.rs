@@ -1,0 +1,230 @@
+//! What one straight pass over a state shows of its soundness. What is then wrong with it, and
+//! where, is for whoever finds it unsound to look up body by body.
+#![allow(
+    clippy::inline_always,
+    reason = "vector code must be compiled into the function that enables the instructions"
+)]
+
+use crate::wide::{self, Columns, Simd, WithSimd};
+use crate::{Frames, Points, State};
+
+/// What [`State::survey`] finds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Survey {
+    /// Kinetic energy of the free bodies, sliding ones included.
+    ///
+    /// Not finite if any position, velocity, orientation or angular momentum of the state, held
+    /// bodies included, is not finite; nor if an energy or a square overflows.
+    pub kinetic_energy: f64,
+    /// Largest squared angular velocity of a free frame, where `kinetic_energy` is finite.
+    pub largest_spin_squared: f64,
+}
+
+impl State {
+    /// Looks at every number of the state once, without branches, as many bodies at a time as the
+    /// processor has lanes.
+    ///
+    /// The energy is that of [`kinetic_energy`](Self::kinetic_energy), summed in another order.
+    /// Most states are sound, and this is what it costs to know it:
+    ///
+    /// ```
+    /// use actin_mechanics::{Point, State, Vector3};
+    /// let mut state = State::default();
+    /// let (position, mass) = (Vector3::zeros(), 3.0);
+    /// state.points.push(Point { position, mass });
+    /// state.points.velocity.set(0, Vector3::new(0.0, 2.0, 0.0));
+    /// assert_eq!(state.survey().kinetic_energy, 6.0);
+    /// state.points.position.x[0] = f64::INFINITY;
+    /// assert!(!state.survey().kinetic_energy.is_finite());
+    /// ```
+    pub fn survey(&self) -> Survey {
+        let sliding: f64 = self.sliders.iter().map(|s| s.kinetic_energy(self)).sum();
+        let of_bodies = wide::dispatch(Pass(self));
+        Survey {
+            kinetic_energy: of_bodies.kinetic_energy + sliding,
+            ..of_bodies
+        }
+    }
+}
+
+/// The pass over points and frames.
+struct Pass<'a>(&'a State);
+
+impl WithSimd for Pass<'_> {
+    type Output = Survey;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Survey {
+        let points = points(simd, &self.0.points);
+        let (frames, squared) = frames(simd, &self.0.frames);
+        Survey {
+            kinetic_energy: 0.5 * simd.reduce_sum_f64s(simd.add_f64s(points, frames)),
+            largest_spin_squared: simd.reduce_max_f64s(squared),
+        }
+    }
+}
+
+/// Twice the kinetic energy of free points; no number where a number of any point is none.
+///
+/// Zero times what is not finite is NaN, which no sum loses; so neither places nor held bodies
+/// need a look of their own.
+#[inline(always)]
+fn points<S: Simd>(simd: S, points: &Points) -> S::f64s {
+    let (x, v) = (&points.position, &points.velocity);
+    let places = Columns::<S, 3>::new([&x.x, &x.y, &x.z]);
+    let motion = Columns::<S, 4>::new([&v.x, &v.y, &v.z, points.inverse_mass()]);
+    let (zero, one) = (simd.splat_f64s(0.0), simd.splat_f64s(1.0));
+    let mut sums = [zero; 2];
+    for group in 0..places.groups() {
+        let [x, y, z] = places.get(simd, group);
+        let [u, v, w, inverse] = motion.get(simd, group);
+        let moves = simd.greater_than_f64s(inverse, zero);
+        let mass = simd.select_f64s(moves, simd.div_f64s(one, inverse), zero);
+        let squared = wide::dot(simd, [u, v, w], [u, v, w]);
+        sums[0] = simd.mul_add_e_f64s(mass, squared, sums[0]);
+        let place = simd.add_f64s(simd.add_f64s(x, y), z);
+        sums[1] = simd.mul_add_e_f64s(zero, place, sums[1]);
+    }
+    simd.add_f64s(sums[0], sums[1])
+}
+
+/// Twice the kinetic energy of free frames, no number where a number of any frame is none, and the
+/// largest squared angular velocity.
+#[inline(always)]
+fn frames<S: Simd>(simd: S, frames: &Frames) -> (S::f64s, S::f64s) {
+    let (q, l) = (&frames.orientation, &frames.angular_momentum);
+    let turns = Columns::<S, 4>::new([&q.w, &q.x, &q.y, &q.z]);
+    let momenta = Columns::<S, 3>::new([&l.x, &l.y, &l.z]);
+    let inertia = Columns::<S, 5>::new(frames.inertia_columns());
+    let zero = simd.splat_f64s(0.0);
+    let (mut sums, mut largest) = ([zero; 2], zero);
+    for group in 0..turns.groups() {
+        let [w, x, y, z] = turns.get(simd, group);
+        let l = momenta.get(simd, group);
+        let [transverse, ex, ey, ez, mobility] = inertia.get(simd, group);
+        let spin = wide::mul_each(simd, l, [ex, ey, ez].map(|e| simd.add_f64s(transverse, e)));
+        let moving = wide::scale(simd, spin, mobility);
+        sums[0] = wide::dot_add(simd, l, moving, sums[0]);
+        largest = simd.max_f64s(largest, wide::dot(simd, moving, moving));
+        let turn = simd.add_f64s(simd.add_f64s(w, x), simd.add_f64s(y, z));
+        sums[1] = simd.mul_add_e_f64s(zero, turn, sums[1]);
+    }
+    (simd.add_f64s(sums[0], sums[1]), largest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Noise, perturb, set_in_motion};
+    use crate::wide::Arch;
+    use crate::{Frame, Inertia, Point, Slider, UnitQuaternion, Vector3};
+
+    /// Points and frames in motion, the second of each held, and the third point sliding along z.
+    fn moving(bodies: usize) -> State {
+        let mut state = State::default();
+        let tops = [[2.0, 1.0, 1.0], [1.0, 2.0, 1.0], [1.0, 1.0, 2.0]];
+        for i in 0..bodies {
+            state.points.push(Point {
+                position: Vector3::zeros(),
+                mass: 1.0 + i as f64,
+            });
+            state.frames.push(Frame {
+                orientation: UnitQuaternion::identity(),
+                inertia: Inertia::from_moments(tops[i % 3]).unwrap(),
+            });
+        }
+        let mut noise = Noise::new(8);
+        perturb(&mut state, &mut noise, 1.0, 1.0);
+        set_in_motion(&mut state, &mut noise, 1.0, 1.0);
+        if bodies > 1 {
+            state.points.hold(1);
+            state.frames.hold(1);
+            // As if driven: what is held moves, and counts for nothing.
+            state.points.velocity.set(1, Vector3::x() * 50.0);
+            state.frames.angular_momentum.set(1, Vector3::x() * 50.0);
+        }
+        if bodies > 2 {
+            state.points.hold(2);
+            state.points.velocity.set(2, Vector3::z());
+            let directions = vec![Vector3::z()];
+            state.sliders.push(Slider {
+                points: vec![2],
+                directions,
+                mass: 7.0,
+            });
+        }
+        state
+    }
+
+    fn spin_squared(state: &State, i: usize) -> f64 {
+        let frames = &state.frames;
+        if !frames.is_free(i) {
+            return 0.0;
+        }
+        let omega = frames.angular_velocity(i, frames.angular_momentum.get(i));
+        omega.norm_squared()
+    }
+
+    /// Energy and spin are those of the scalar functions, for numbers of bodies that fill the lanes
+    /// and that do not, with one lane and with as many as there are. What is held must not count.
+    #[test]
+    fn a_survey_finds_what_is_found_body_by_body() {
+        for bodies in [0, 1, 2, 3, 4, 7, 8, 13, 64] {
+            let state = moving(bodies);
+            let spins = (0..bodies).map(|i| spin_squared(&state, i));
+            let (spin, kinetic) = (spins.fold(0.0, f64::max), state.kinetic_energy());
+            let sliding: f64 = state.sliders.iter().map(|s| s.kinetic_energy(&state)).sum();
+            for arch in [Arch::Scalar, Arch::new()] {
+                let survey = arch.dispatch(Pass(&state));
+                // Rounding of a sum of positive terms.
+                let tolerance = 1e-15 * (4.0 + bodies as f64);
+                let energy = survey.kinetic_energy + sliding;
+                assert!((energy - kinetic).abs() <= tolerance * kinetic, "{bodies}");
+                assert!((survey.largest_spin_squared - spin).abs() <= 1e-15 * spin);
+            }
+            let whole = state.survey().kinetic_energy;
+            assert!((whole - kinetic).abs() <= 1e-15 * (4.0 + bodies as f64) * kinetic);
+        }
+    }
+
+    /// All columns that time changes.
+    fn columns(state: &mut State) -> [&mut Vec<f64>; 13] {
+        let (x, v) = (&mut state.points.position, &mut state.points.velocity);
+        let (q, l) = (
+            &mut state.frames.orientation,
+            &mut state.frames.angular_momentum,
+        );
+        [
+            &mut x.x, &mut x.y, &mut x.z, &mut v.x, &mut v.y, &mut v.z, &mut q.w, &mut q.x,
+            &mut q.y, &mut q.z, &mut l.x, &mut l.y, &mut l.z,
+        ]
+    }
+
+    /// One number that is none is seen in whichever column, lane or short group it stands, of free
+    /// bodies and of held ones.
+    #[test]
+    fn no_number_that_is_none_is_overlooked() {
+        for bodies in [1, 3, 4, 11] {
+            for (column, i) in (0..13).flat_map(|c| (0..bodies).map(move |i| (c, i))) {
+                for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                    let mut state = moving(bodies);
+                    columns(&mut state)[column][i] = bad;
+                    for arch in [Arch::Scalar, Arch::new()] {
+                        let kinetic = arch.dispatch(Pass(&state)).kinetic_energy;
+                        assert!(!kinetic.is_finite(), "column {column}, body {i}, {bad}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Finite numbers pass, however large, unless a square or a sum overflows.
+    #[test]
+    fn large_places_are_sound() {
+        let mut state = moving(5);
+        state.points.position.set(3, Vector3::repeat(1e300));
+        assert!(state.survey().kinetic_energy.is_finite());
+        state.points.velocity.set(3, Vector3::repeat(1e200));
+        assert!(!state.survey().kinetic_energy.is_finite());
+    }
+}
