@@ -31,52 +31,88 @@
 //! lengths are stored inverted), no call. What bounds it is the number of these operations, not
 //! memory: a thousand segments still lie in the second-level cache.
 
+#![allow(
+    clippy::inline_always,
+    reason = "vector code must be compiled into the function that enables the instructions"
+)]
+
+mod coupled;
+mod elements;
+mod ends;
 mod kernel;
+mod laws;
+mod rod;
+mod separate;
 
-use crate::{BendLaw, RodLayout, RodMaterial, StretchLaw, TwistLaw};
-use actin_mechanics::{Loads, State, Vector3, wide};
-use kernel::AddLoads;
+use crate::extended::ExtendedSegments;
+use crate::{RodLayout, RodMaterial};
+use actin_mechanics::wide::Arch;
+use actin_mechanics::{Loads, State};
+use laws::{
+    Bend, ConstantBend, ConstantTwist, CubicAcross, Laws, Length, LinearShear, NaturalLength,
+    Polynomial, Rooted, Shear, Sided, Tanh, Twist, WideStiffening,
+};
+use rod::Rod;
 
-/// A rod's constant rigidities divided by its rest lengths.
+type Constant = Laws<LinearShear, ConstantBend, ConstantTwist, NaturalLength>;
+type Published = Laws<LinearShear, ConstantBend, Tanh, Polynomial>;
+type Fitted = Laws<CubicAcross, WideStiffening, Sided, Rooted>;
+type FittedLinearShear = Laws<LinearShear, WideStiffening, Sided, Rooted>;
+
+/// A rod and the loop that was compiled for its laws.
 #[derive(Clone, Debug)]
-pub(crate) struct ConstantRod {
-    /// S1, S2, S3 (pN).
-    shear: Vector3,
-    /// B1, B2, B3 (pN nm^2).
-    bend: Vector3,
-    /// 1 / rest length of each segment (1/nm).
-    inverse_lengths: Vec<f64>,
-    /// 1 / rest distance of each bending element (1/nm).
-    inverse_distances: Vec<f64>,
+pub(crate) struct FastRod(Kind);
+
+#[derive(Clone, Debug)]
+enum Kind {
+    /// Every rigidity is constant.
+    Constant(Rod<Constant>),
+    /// Twist as published, with or without a natural length that depends on it.
+    Published(Rod<Published>),
+    /// As fitted to monomers, each law but that of shear or constant instead.
+    Fitted(Rod<Fitted>),
+    /// The same with constant shear.
+    FittedLinearShear(Rod<FittedLinearShear>),
 }
 
-impl ConstantRod {
-    /// What the loop needs; `None` of a material whose rigidities are not constant.
-    pub(crate) fn new(layout: &RodLayout, material: &RodMaterial) -> Option<Self> {
-        let (BendLaw::Constant([b1, b2]), TwistLaw::Constant(b3), StretchLaw::Constant(s3)) =
-            (material.bend(), material.twist(), material.stretch())
-        else {
-            return None;
-        };
-        let shear = material.shear();
-        let inverse = |lengths: &[f64]| lengths.iter().map(|length| length.recip()).collect();
-        (shear.cubic == 0.0).then(|| Self {
-            shear: Vector3::new(shear.linear[0], shear.linear[1], *s3),
-            bend: Vector3::new(*b1, *b2, *b3),
-            inverse_lengths: inverse(layout.segment_lengths()),
-            inverse_distances: inverse(layout.voronoi_lengths()),
-        })
+impl FastRod {
+    /// The loop of the first kind that a rod is of; `None` where it is of none.
+    pub(crate) fn new(
+        layout: &RodLayout,
+        material: &RodMaterial,
+        extended: Option<&ExtendedSegments>,
+    ) -> Option<Self> {
+        let rod = (layout, material, extended);
+        let kind = kind(rod, Kind::Constant)
+            .or_else(|| kind(rod, Kind::Published))
+            .or_else(|| kind(rod, Kind::Fitted))
+            .or_else(|| kind(rod, Kind::FittedLinearShear));
+        kind.map(Self)
     }
 
     /// Adds the loads of all elements.
     pub(crate) fn add_loads(&self, layout: &RodLayout, state: &State, loads: &mut Loads) {
-        wide::dispatch(AddLoads {
-            rod: self,
-            layout,
-            state,
-            loads,
-        });
+        self.add_loads_on(Arch::new(), layout, state, loads);
     }
+
+    /// The same with a choice of instructions.
+    fn add_loads_on(&self, arch: Arch, layout: &RodLayout, state: &State, loads: &mut Loads) {
+        match &self.0 {
+            Kind::Constant(rod) => rod.add_loads(arch, layout, state, loads),
+            Kind::Published(rod) => rod.add_loads(arch, layout, state, loads),
+            Kind::Fitted(rod) => rod.add_loads(arch, layout, state, loads),
+            Kind::FittedLinearShear(rod) => rod.add_loads(arch, layout, state, loads),
+        }
+    }
+}
+
+/// A rod of one kind, if it is of that.
+fn kind<A: Shear, B: Bend, T: Twist, X: Length>(
+    (layout, material, extended): (&RodLayout, &RodMaterial, Option<&ExtendedSegments>),
+    kind: fn(Rod<Laws<A, B, T, X>>) -> Kind,
+) -> Option<Kind> {
+    let law = Laws::of(material, extended.map(|segments| &segments.law))?;
+    Rod::new(layout, law, extended).map(kind)
 }
 
 #[cfg(test)]
