@@ -106,10 +106,13 @@ impl FastRod {
     }
 }
 
+/// A variant of [`Kind`].
+type AsKind<L> = fn(Rod<L>) -> Kind;
+
 /// A rod of one kind, if it is of that.
 fn kind<A: Shear, B: Bend, T: Twist, X: Length>(
     (layout, material, extended): (&RodLayout, &RodMaterial, Option<&ExtendedSegments>),
-    kind: fn(Rod<Laws<A, B, T, X>>) -> Kind,
+    kind: AsKind<Laws<A, B, T, X>>,
 ) -> Option<Kind> {
     let law = Laws::of(material, extended.map(|segments| &segments.law))?;
     Rod::new(layout, law, extended).map(kind)

@@ -128,7 +128,7 @@ fn joined(layout: &RodLayout, any: bool) -> [Vec<JoinedElement>; 2] {
 }
 
 /// What couples the segments of a rod.
-fn extended(layout: &RodLayout, law: Named, is_joined: bool) -> Option<ExtendedSegments> {
+fn extended(layout: &RodLayout, law: &Named, is_joined: bool) -> Option<ExtendedSegments> {
     let [start, end] = joined(layout, is_joined);
     let curvature = SegmentCurvature::new(layout, &start, &end);
     SegmentLaw::of(&law.1, law.2).map(|law| ExtendedSegments { law, curvature })
@@ -136,7 +136,7 @@ fn extended(layout: &RodLayout, law: Named, is_joined: bool) -> Option<ExtendedS
 
 /// The loads by the scalar path, added to what `loads` already holds.
 fn add_reference(
-    (layout, law): (&RodLayout, Named),
+    (layout, law): (&RodLayout, &Named),
     extended: Option<&ExtendedSegments>,
     state: &State,
     loads: &mut Loads,
@@ -151,7 +151,7 @@ fn add_reference(
 }
 
 /// The loop of a law.
-fn fast(layout: &RodLayout, law: Named, extended: Option<&ExtendedSegments>) -> FastRod {
+fn fast(layout: &RodLayout, law: &Named, extended: Option<&ExtendedSegments>) -> FastRod {
     FastRod::new(layout, &law.1, extended).expect("the law has a loop")
 }
 
@@ -181,7 +181,7 @@ fn noisy_loads(state: &State, noise: &mut Noise) -> Loads {
 /// larger.
 fn assert_paths_agree(
     (state, layout): (&State, &RodLayout),
-    law: Named,
+    law: &Named,
     is_joined: bool,
     scale: f64,
 ) {
@@ -209,7 +209,7 @@ fn assert_paths_agree(
 #[test]
 fn loads_are_those_of_the_scalar_path() {
     let mut noise = Noise::new(1);
-    for law in laws() {
+    for law in &laws() {
         for segments in (1..=9).chain([12, 15, 16, 17, 64]) {
             for walls in all_walls() {
                 for (angle, is_joined) in [(0.01, false), (0.3, true), (1.0, false), (1.8, true)] {
@@ -228,7 +228,7 @@ fn loads_are_those_of_the_scalar_path() {
 #[test]
 fn loads_of_smooth_rods_are_those_of_the_scalar_path() {
     let mut noise = Noise::new(5);
-    for law in laws() {
+    for law in &laws() {
         for angle in [1e-3, 1e-5] {
             let walls = Walls {
                 start: true,
@@ -253,7 +253,7 @@ fn flip_some(state: &mut State) {
 }
 
 /// Adds the loads of the fast path to none.
-fn fast_loads(state: &State, layout: &RodLayout, law: Named) -> Loads {
+fn fast_loads(state: &State, layout: &RodLayout, law: &Named) -> Loads {
     let extended = extended(layout, law, false);
     let mut loads = Loads::zeros(state);
     fast(layout, law, extended.as_ref()).add_loads(layout, state, &mut loads);
@@ -265,7 +265,7 @@ fn fast_loads(state: &State, layout: &RodLayout, law: Named) -> Loads {
 #[test]
 fn a_rod_at_rest_has_no_loads() {
     let without_offset = |law: &TwistStretch| law.extension(0.0) == 0.0;
-    for law in laws() {
+    for law in &laws() {
         if !law.2.as_ref().is_none_or(without_offset) {
             continue;
         }
@@ -289,7 +289,7 @@ fn the_smallest_turns_count() {
         let half = nalgebra::Quaternion::new(1.0, angle, 0.0, 0.0);
         let turned = UnitQuaternion::new_unchecked(half);
         state.frames.orientation.set(1, turned);
-        let loads = fast_loads(&state, &layout, laws()[0]);
+        let loads = fast_loads(&state, &layout, &laws()[0]);
         let expected = 3.9e4 * (0.1 * (2.0 * angle));
         // The smallest number is rounded when it is divided by the length.
         let couple = loads.torque.get(0).x;
@@ -304,7 +304,7 @@ fn the_smallest_turns_count() {
 /// couples, and no others, so that whoever looks for what broke finds it.
 #[test]
 fn a_broken_node_spoils_its_neighbours_only() {
-    for law in laws() {
+    for law in &laws() {
         let (mut state, layout) = rod(14, Walls::default(), &mut Noise::new(9));
         let broken = layout.points().start + 6;
         state.points.position.x[broken] = f64::NAN;
@@ -323,10 +323,10 @@ fn a_broken_node_spoils_its_neighbours_only() {
 }
 
 /// The loop that a law gets.
-fn kind_of((_, material, xi): Named) -> Option<&'static str> {
+fn kind_of(law: &Named) -> Option<&'static str> {
     let (_, layout) = rod(3, Walls::default(), &mut Noise::new(9));
-    let extended = extended(&layout, ("", material, xi), true);
-    let rod = FastRod::new(&layout, &material, extended.as_ref())?;
+    let extended = extended(&layout, law, true);
+    let rod = FastRod::new(&layout, &law.1, extended.as_ref())?;
     Some(match rod.0 {
         Kind::Constant(_) => "constant",
         Kind::Published(_) => "published",
@@ -338,7 +338,7 @@ fn kind_of((_, material, xi): Named) -> Option<&'static str> {
 /// The cheapest loop that can is taken: with another, the law would be right and slow.
 #[test]
 fn every_law_has_its_loop() {
-    for law in laws() {
+    for law in &laws() {
         assert_eq!(kind_of(law), Some(law.0));
     }
 }
@@ -360,6 +360,6 @@ fn other_laws_keep_the_scalar_path() {
         (mixed, None),
         (bent, Some(TwistStretch::published())),
     ] {
-        assert_eq!(kind_of(("", material, xi)), None);
+        assert_eq!(kind_of(&("", material, xi)), None);
     }
 }

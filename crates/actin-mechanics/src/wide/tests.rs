@@ -265,7 +265,7 @@ fn each_body_receives_what_the_next_has() {
             let expected: Vec<f64> = (2..=count).map(|i| i as f64).chain([0.0]).collect();
             let (numbers, first) = arch.dispatch(ShiftDown(count));
             assert_eq!(numbers, expected[..count]);
-            assert!(count == 0 || first == 1.0);
+            assert_eq!(first > 0.5, count > 0);
         }
     }
 }
