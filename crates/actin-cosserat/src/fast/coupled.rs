@@ -58,7 +58,10 @@ struct Chain<'a, S: Simd, L> {
     nodes: [Columns<'a, S, 3>; 2],
     frames: [Columns<'a, S, 4>; 2],
     bodies: Columns<'a, S, 5>,
-    /// Angles and their coefficients, from a frame to the next.
+    /// Angles from the next group's frames to those after, and their coefficients: they are found a
+    /// group ahead, because all else in a group waits for them.
+    ahead: [S::f64s; 4],
+    /// The same from the frames before.
     angles: ShiftedUp<S, 4>,
     /// Forces on first nodes.
     reactions: ShiftedUp<S, 3>,
@@ -75,7 +78,7 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         let (x, q) = (&state.points.position, &state.frames.orientation);
         let bodies = &rod.bodies;
         let ([length, inverse], [before, after]) = (&bodies.lengths, &bodies.shares);
-        Self {
+        let mut chain = Self {
             law: rod.law,
             nodes: [
                 vectors(x, nodes.start..nodes.end - 1),
@@ -86,20 +89,24 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
                 quaternions(q, frames.start + 1..frames.end),
             ],
             bodies: Columns::new([length, inverse, &bodies.inverse_distances, before, after]),
+            ahead: [simd.splat_f64s(0.0); 4],
             angles: ShiftedUp::after(simd, angle_at_wall(layout, state)),
             reactions: ShiftedUp::new(simd),
             couples: ShiftedUp::new(simd),
             torques: ShiftedDown::new(simd),
-        }
+        };
+        chain.ahead = chain.angles_after(simd, 0);
+        chain
     }
 
     /// The next group.
     #[inline(always)]
     fn next(&mut self, simd: S, group: usize, ends: &mut Ends) -> Group<S> {
+        let ahead = self.angles_after(simd, group + 1);
+        let now = std::mem::replace(&mut self.ahead, ahead);
+        let ([x, y, z, _], [u, v, w, coefficient]) = (now, self.angles.next(simd, now));
+        let (after, before) = ([x, y, z], [u, v, w]);
         let q = self.frames[0].get(simd, group);
-        let turn = wide::relative(simd, q, self.frames[1].get(simd, group));
-        let (after, [x, y, z, coefficient]) = self.angles_around(simd, turn);
-        let before = [x, y, z];
         let [
             length,
             inverse_length,
@@ -107,6 +114,10 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
             share_before,
             share_after,
         ] = self.bodies.get(simd, group);
+        // Of the elements before: nothing of the segments is in it, so that it need not wait for them.
+        let own = self
+            .law
+            .bending(simd, wide::scale(simd, before, inverse_distance));
         let [first, second] = &self.nodes;
         let l = wide::sub(simd, second.get(simd, group), first.get(simd, group));
         let segments = Segments::new(simd, q, l, [length, inverse_length]);
@@ -121,10 +132,6 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
             ends.keep(simd, group, couple);
         }
         let on_second = self.reactions.next(simd, on_first);
-        // The elements before them: their own couple, and those of the segments around.
-        let own = self
-            .law
-            .bending(simd, wide::scale(simd, before, inverse_distance));
         let m = wide::scale_add(simd, couple, share_before, own);
         let on_after = self
             .couples
@@ -138,16 +145,13 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         }
     }
 
-    /// Angles of the elements after a group's frames; those before, with their coefficients.
+    /// Angles of the elements after a group's frames, and their coefficients.
     #[inline(always)]
-    fn angles_around(
-        &mut self,
-        simd: S,
-        turn: wide::WideQuaternion<S>,
-    ) -> (Wide3<S>, [S::f64s; 4]) {
-        let (after, coefficient) = wide::log_with_coefficient(simd, turn);
-        let [x, y, z] = after;
-        (after, self.angles.next(simd, [x, y, z, coefficient]))
+    fn angles_after(&self, simd: S, group: usize) -> [S::f64s; 4] {
+        let [first, second] = &self.frames;
+        let turn = wide::relative(simd, first.get(simd, group), second.get(simd, group));
+        let ([x, y, z], coefficient) = wide::log_with_coefficient(simd, turn);
+        [x, y, z, coefficient]
     }
 
     /// Torques of the elements after the frames of the last group.
