@@ -1,34 +1,45 @@
 //! Rate at which the rod's loads are evaluated: elements (segments) per second, one thread; and
 //! the time in which its second derivatives are.
 //!
-//! `cargo run --release -p actin-cosserat --example load_rate [SEGMENTS]`
+//! `cargo run --release -p actin-cosserat --example load_rate [SEGMENTS [LAW [EVALUATIONS]]]`: for all
+//! laws and the printed balance, or for one (`constant`, `published`, `fitted`, `printed`). With
+//! EVALUATIONS nothing is timed: so many are made, for a profiler to count.
 
-use actin_cosserat::{EnergyGradient, PaperBalance, Rigidities, RodMaterial, StraightRod, Walls};
-use actin_mechanics::testing::{Noise, perturb};
-use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness};
+#[path = "../benches/common/mod.rs"]
+mod common;
+
+use actin_cosserat::PaperBalance;
+use actin_mechanics::{Interaction, Loads, State, Stiffness};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Segments per second of repeated evaluations over about a second; the best of five.
-fn rate(law: &dyn Interaction, state: &State, segments: usize) -> f64 {
+/// Evaluates the loads.
+fn evaluate(law: &dyn Interaction, state: &State, evaluations: usize) {
     let mut loads = Loads::zeros(state);
-    let evaluations = 10_000_000 / segments;
-    let once = |loads: &mut Loads| {
-        let started = Instant::now();
-        for _ in 0..evaluations {
-            loads.clear();
-            law.add_loads(black_box(state), loads);
-            black_box(&*loads);
-        }
-        (evaluations * segments) as f64 / started.elapsed().as_secs_f64()
-    };
-    (0..5).map(|_| once(&mut loads)).fold(0.0, f64::max)
+    for _ in 0..evaluations {
+        loads.clear();
+        law.add_loads(black_box(state), &mut loads);
+        black_box(&loads);
+    }
 }
 
-/// Microseconds for all blocks of second derivatives; the best of five.
-fn stiffness_time(law: &dyn SecondOrder, state: &State, segments: usize) -> f64 {
+/// Segments per second of repeated evaluations; the best of many short series, some of which
+/// nothing else on the machine interrupts.
+fn rate(law: &dyn Interaction, state: &State, segments: usize) -> f64 {
+    let evaluations = (30_000 / segments).max(10);
+    let once = || {
+        let started = Instant::now();
+        evaluate(law, state, evaluations);
+        (evaluations * segments) as f64 / started.elapsed().as_secs_f64()
+    };
+    (0..200).map(|_| once()).fold(0.0, f64::max)
+}
+
+/// Microseconds for all blocks of second derivatives, where the law has them; the best of five.
+fn stiffness_time(law: &dyn Interaction, state: &State, segments: usize) -> Option<f64> {
+    let law = law.second_order()?;
     let mut stiffness = Stiffness::default();
-    let evaluations = 1_000_000 / segments;
+    let evaluations = 300_000 / segments;
     let mut once = || {
         let started = Instant::now();
         for _ in 0..evaluations {
@@ -38,32 +49,34 @@ fn stiffness_time(law: &dyn SecondOrder, state: &State, segments: usize) -> f64 
         }
         started.elapsed().as_secs_f64() / evaluations as f64
     };
-    (0..5).map(|_| once()).fold(f64::INFINITY, f64::min) * 1e6
+    Some((0..5).map(|_| once()).fold(f64::INFINITY, f64::min) * 1e6)
 }
 
 fn main() {
     let segments = std::env::args().nth(1).and_then(|n| n.parse().ok());
     let segments = segments.unwrap_or(64);
+    let chosen = std::env::args().nth(2);
+    let counted = std::env::args().nth(3).and_then(|n| n.parse().ok());
     for angle in [1e-3, 0.05] {
-        let rod = StraightRod {
-            walls: Walls {
-                start: true,
-                end: false,
-            },
-            ..StraightRod::uniform(segments, 160.0 / segments as f64)
-        };
-        let mut state = State::default();
-        let layout = rod.push(&mut state).expect("the rod has segments");
-        perturb(&mut state, &mut Noise::new(1), 1e-3, angle);
-        let material = RodMaterial::new(Rigidities::table4()).expect("the table is valid");
-        let gradient = EnergyGradient::new(layout.clone(), material);
-        let printed = PaperBalance::new(layout, material);
-        println!(
-            "{segments} segments, angles to {angle}: energy-gradient {:.3e}, paper-balance {:.3e} \
-             elements/s; stiffness {:.1} us",
-            rate(&gradient, &state, segments),
-            rate(&printed, &state, segments),
-            stiffness_time(&gradient, &state, segments),
-        );
+        let (state, layout) = common::rod(segments, angle);
+        let [constant, ..] = common::laws();
+        let mut rods: Vec<(&str, Box<dyn Interaction>)> = Vec::new();
+        for law in common::laws() {
+            rods.push((law.0, Box::new(common::interaction(&layout, law))));
+        }
+        rods.push(("printed", Box::new(PaperBalance::new(layout, constant.1))));
+        rods.retain(|(name, _)| chosen.as_deref().is_none_or(|chosen| chosen == *name));
+        for (name, rod) in rods {
+            if let Some(evaluations) = counted {
+                evaluate(&*rod, &state, evaluations);
+                continue;
+            }
+            let rate = rate(&*rod, &state, segments);
+            print!("{segments} segments, angles to {angle}, {name}: {rate:.3e} elements/s");
+            match stiffness_time(&*rod, &state, segments) {
+                Some(time) => println!("; stiffness {time:.1} us"),
+                None => println!(),
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! The force law that is the gradient of an energy.
 
 use crate::extended::ExtendedSegments;
-use crate::fast::ConstantRod;
+use crate::fast::FastRod;
 use crate::{BendingElement, RodLayout, RodMaterial, SegmentCurvature, SegmentLaw, ShearElement};
 use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness};
 
@@ -19,15 +19,15 @@ pub struct EnergyGradient {
     layout: RodLayout,
     material: RodMaterial,
     extended: Option<ExtendedSegments>,
-    /// Constant rigidities, where there is nothing else.
-    fast: Option<ConstantRod>,
+    /// The loop of its laws, where there is one.
+    fast: Option<FastRod>,
 }
 
 impl EnergyGradient {
     /// The law on a rod.
     pub fn new(layout: RodLayout, material: RodMaterial) -> Self {
         Self {
-            fast: ConstantRod::new(&layout, &material),
+            fast: FastRod::new(&layout, &material, None),
             layout,
             material,
             extended: None,
@@ -40,9 +40,10 @@ impl EnergyGradient {
     /// pulling turns a rod as turning pulls it.
     #[must_use]
     pub fn with_extension(self, law: SegmentLaw, curvature: SegmentCurvature) -> Self {
+        let extended = ExtendedSegments { law, curvature };
         Self {
-            extended: Some(ExtendedSegments { law, curvature }),
-            fast: None,
+            fast: FastRod::new(&self.layout, &self.material, Some(&extended)),
+            extended: Some(extended),
             ..self
         }
     }
@@ -91,7 +92,7 @@ pub(crate) fn write_bending_energies(
 
 impl EnergyGradient {
     /// The loads of any law, one element after the other; the reference of the fast path.
-    fn add_scalar_loads(&self, state: &State, loads: &mut Loads) {
+    pub(crate) fn add_scalar_loads(&self, state: &State, loads: &mut Loads) {
         match &self.extended {
             None => self.add_shear_loads(state, loads),
             Some(segments) => segments.add_loads(self.rod(), state, loads),

@@ -22,7 +22,7 @@ pub(super) enum Work {
     },
 }
 
-/// Undamped motion of clamped filaments, straight at first, under 2 pN across the tip.
+/// Undamped motion of clamped filaments, straight at first, under a force across the tip.
 #[derive(Clone, Copy)]
 pub(super) struct Motion {
     /// What each filament is made of.
@@ -37,17 +37,31 @@ pub(super) struct Motion {
 /// What a filament is made of.
 #[derive(Clone, Copy)]
 pub(super) enum Filament {
-    /// A rod of 160 nm with constant rigidities; an element is a segment.
-    Rod { segments: usize },
+    /// A rod of 160 nm under a law; an element is a segment.
+    Rod { segments: usize, law: &'static str },
     /// Monomers with 10 bonds per interface; an element is a bond.
     Monomers { count: usize },
+    /// 1600 nm, of which 40 at the wall are monomers and the rest is a rod of segments of 20 nm under
+    /// the law `Fitted`; segments and bonds are elements.
+    Mixed,
 }
 
 const fn rod(segments: usize, copies: usize, integrator: &'static str) -> Work {
     Work::Motion(Motion {
-        filament: Filament::Rod { segments },
+        filament: Filament::Rod {
+            segments,
+            law: "Constant",
+        },
         copies,
         integrator,
+    })
+}
+
+const fn rod_of(law: &'static str, segments: usize) -> Work {
+    Work::Motion(Motion {
+        filament: Filament::Rod { segments, law },
+        copies: 1,
+        integrator: VERLET,
     })
 }
 
@@ -58,6 +72,12 @@ const fn monomers(count: usize) -> Work {
         integrator: VERLET,
     })
 }
+
+const MIXED: Work = Work::Motion(Motion {
+    filament: Filament::Mixed,
+    copies: 1,
+    integrator: VERLET,
+});
 
 const VERLET: &str = "PositionVerlet";
 
@@ -70,13 +90,22 @@ const fn equilibrium(name: &'static str, length_nm: f64) -> Case {
 }
 
 /// All cases.
-pub(super) const CASES: [Case; 11] = [
+pub(super) const CASES: [Case; 16] = [
     case("rod-pv-16", rod(16, 1, VERLET), None),
     case("rod-pv-64", rod(64, 1, VERLET), Some(50e6)),
     case("rod-pv-256", rod(256, 1, VERLET), Some(50e6)),
     case("rod-pv-1024", rod(1024, 1, VERLET), Some(45e6)),
     case("rod-pv-64x64", rod(64, 64, VERLET), Some(60e6)),
     case("rod-pefrl-64", rod(64, 1, "Pefrl"), None),
+    case("rod-fitted-pv-16", rod_of("Fitted", 16), None),
+    case("rod-fitted-pv-64", rod_of("Fitted", 64), None),
+    case("rod-fitted-pv-1024", rod_of("Fitted", 1024), None),
+    case(
+        "rod-published-pv-64",
+        rod_of("PublishedExtension", 64),
+        None,
+    ),
+    case("mixed-fitted-pv-1600nm", MIXED, None),
     case("ellipsoid-pv-60", monomers(60), Some(300e6)),
     case("ellipsoid-pv-1000", monomers(1000), Some(300e6)),
     equilibrium("equilibrium-ellipsoid-160nm", 160.0),
@@ -92,6 +121,10 @@ impl Case {
                 filament: Filament::Rod { .. },
                 ..
             }) => "element-steps/s",
+            Work::Motion(Motion {
+                filament: Filament::Mixed,
+                ..
+            }) => "elements and bonds/s",
             Work::Motion(_) => "bonds/s",
             Work::Equilibrium { .. } => "s",
         }

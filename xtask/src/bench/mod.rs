@@ -136,6 +136,7 @@ mod tests {
             ("rod-pv-64x64", 4096),
             ("ellipsoid-pv-60", 1170),
             ("ellipsoid-pv-1000", 19_970),
+            ("rod-fitted-pv-16", 16),
         ] {
             let case = CASES.iter().find(|case| case.name == name).unwrap();
             let Work::Motion(motion) = case.work else {

@@ -24,7 +24,7 @@ pub(super) fn measure(motion: &Motion) -> Result<Measured, String> {
     let elements = elements(&all);
     let batch = match motion.filament {
         Filament::Rod { .. } => BATCH,
-        Filament::Monomers { .. } => BOND_BATCH,
+        Filament::Monomers { .. } | Filament::Mixed => BOND_BATCH,
     };
     let steps = ((batch / elements) as u64).max(FEWEST_STEPS);
     let runs: Vec<Run> = all
@@ -88,27 +88,38 @@ fn integrator(assembly: &Assembly) -> Result<Integrator, String> {
 }
 
 fn scene(motion: &Motion) -> String {
-    let (section, monomers) = match motion.filament {
-        Filament::Rod { segments } => (
-            format!("Rod(from_nm: 0.0, to_nm: 160.0, segments: {segments})"),
-            "()",
+    let mut force_pn = 2.0;
+    let filament = match motion.filament {
+        Filament::Rod { segments, law } => format!(
+            "sections: [Rod(from_nm: 0.0, to_nm: 160.0, segments: {segments})],
+             rod: RodModel(law: {law})"
         ),
         Filament::Monomers { count } => {
             // Two monomers are held, the outer one before arc length 0, the inner one at it; the tip
             // is midway between the last two.
             let length = (count as f64 - 2.5) * RISE_NM;
-            (
-                format!("Ellipsoids(from_nm: 0.0, to_nm: {length:?})"),
-                "(lateral_bonds: 10, longitudinal_bonds: 10)",
+            format!(
+                "sections: [Ellipsoids(from_nm: 0.0, to_nm: {length:?})],
+                 monomers: (lateral_bonds: 10, longitudinal_bonds: 10)"
             )
+        }
+        Filament::Mixed => {
+            // Bends a filament ten times as long by the same angle.
+            force_pn = 0.02;
+            "sections: [
+                 Ellipsoids(from_nm: 0.0, to_nm: 40.0),
+                 Rod(from_nm: 40.0, to_nm: 1600.0, segments: 78),
+             ],
+             rod: RodModel(law: Fitted)"
+                .to_owned()
         }
     };
     let integrator = motion.integrator;
     format!(
         "Scene(
-            filament: Filament(sections: [{section}], monomers: {monomers}),
+            filament: Filament({filament}),
             clamps: [Clamp(end: Start)],
-            loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+            loads: [EndForce(end: End, force_pn: (-{force_pn:?}, 0.0, 0.0))],
             task: Dynamics(duration_ns: 1.0, integrator: {integrator}),
         )"
     )

@@ -48,6 +48,11 @@ impl SegmentLaw {
         self.twist_stretch.as_ref()
     }
 
+    /// Where shear stiffens bending, the law of that.
+    pub(crate) fn stiffening(&self) -> Option<&Stiffening> {
+        self.stiffening.as_ref()
+    }
+
     /// Natural extension `xi - 1` at twist `k3`, with two derivatives.
     #[inline]
     fn extension(&self, k3: f64) -> [f64; 3] {

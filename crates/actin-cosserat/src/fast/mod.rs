@@ -1,12 +1,13 @@
-//! The loads of a rod with constant rigidities, several elements at a time.
+//! The loads of a rod, several elements at a time.
 //!
 //! # What it does
 //! The same as the scalar path of [`EnergyGradient`](crate::EnergyGradient), which stays its
-//! reference: the loads of [`ShearElement`](crate::ShearElement) and
-//! [`BendingElement`](crate::BendingElement) at force `S sigma` and couple `B kappa`. Rods with any
-//! other law take the scalar path. The choice falls when the interaction is built, so that no loop
-//! asks for the kind of a material. Energies and second derivatives are not in the loop of a
-//! motion and stay scalar.
+//! reference. A rod gets the loop that was compiled for its laws: constant rigidities; the published
+//! twist, with or without a length that follows it; the laws fitted to monomers or any
+//! of them, with cubic or with constant shear. Rods with other mixtures, or whose stretch has two
+//! sides, take the scalar path, and so does the printed balance. The choice falls when the
+//! interaction is built, so that no loop asks for the kind of a law. Energies and second derivatives
+//! are not in the loop of a motion and stay scalar.
 //!
 //! # How
 //! One element per lane, as `actin_mechanics::wide` explains. Elements of a rod follow one another
@@ -18,65 +19,123 @@
 //! one lane ([`ShiftedUp`](actin_mechanics::wide::ShiftedUp)). There is one body more than there
 //! are elements; the element of the last body does not exist and has no effect.
 //!
-//! - Shear (`kernel.rs`, `add_shear`): with `Q` the matrix of a segment's frame, `y = Q^T l` and
-//!   `n = S (y / |lhat| - e3)`, the force `Q n` acts on the first node, its negative on the second,
-//!   and the torque `y x n` on the frame.
-//! - Bending (`add_bending`): with `theta = log(Qa^T Qb)` from the quaternions and
-//!   `m = B theta / Dhat`, the torques are `even + odd` and `odd - even`, where
-//!   `odd = theta x m / 2` and `even = m + c theta x (theta x m)`.
+//! - Segments (`elements.rs`): with `Q` the matrix of a segment's frame and `y = Q^T l`, the strain is
+//!   `sigma = y / |lhat| - e3`; the force `Q n` acts on the first node, its negative on the second,
+//!   and the torque `y x n` on the frame, with `n(sigma, kappa)` the law's force.
+//! - Bending elements: with `theta = log(Qa^T Qb)` from the quaternions and `m` the law's couple at
+//!   `theta / Dhat`, the torques are `even + odd` and `odd - even`, where `odd = theta x m / 2` and
+//!   `even = m + c theta x (theta x m)`.
+//!
+//! Where a law couples nothing (`separate.rs`) these are two loops. Where the strain of a segment has to
+//! do with the mean curvature around it (`coupled.rs`) they are one, so that each angle is found once: it
+//! enters the mean of the segments on both sides and its own element, and what the segments answer, a
+//! couple each, is added to that element's `m` before torques are made of it. The loop treats a group of
+//! segments together with the elements *before* them, whose angles are moved up a lane, whose torques on
+//! first frames are moved down one ([`ShiftedDown`](actin_mechanics::wide::ShiftedDown)), and
+//! which are found one group ahead: everything else waits for them. A wall at the start is the element
+//! before the first group. What joins the ends to monomers is not the rod's own, and done one by one
+//! (`ends.rs`).
+//!
+//! # Laws
+//! `laws/` holds them part by part (shear and stretch, bending, twist, natural length), each in a few
+//! lines beside the scalar law that it is tested against; [`Laws`] puts a choice of them together, and the
+//! loops are compiled for each choice in use. They branch nowhere: outside its range a
+//! law goes on with its slope there, and which side of rest a lane is on selects numbers. A law in a group's
+//! lane without a body sees zeros; forces there are cleared, since the published length pulls at rest.
 //!
 //! # What it costs
-//! Per segment about 60 operations for shear (22 of them the matrix) and 100 for bending (20 for the
-//! relative quaternion, 45 for two polynomials, 35 for the couples); no root, no quotient (rest
-//! lengths are stored inverted), no call. What bounds it is the number of these operations, not
-//! memory: a thousand segments still lie in the second-level cache.
+//! Per segment, constant rigidities: about 60 operations for shear (22 of them the matrix) and 100 for
+//! bending (20 for the relative quaternion, 45 for two polynomials, 35 for the couples); no root, no quotient
+//! (rest lengths are stored inverted), no call. What bounds it is the number of these operations, not
+//! memory: a thousand segments still lie in the second-level cache. The fitted laws take twice as many
+//! instructions (five quotients and two roots among them), the published ones too (three hyperbolic
+//! tangents), and are bounded by the length of the chain from quaternions to torques rather than by their number
+//! (`docs/numerics.md`, Speed).
+#![allow(
+    clippy::inline_always,
+    reason = "vector code must be compiled into the function that enables the instructions"
+)]
 
+mod coupled;
+mod elements;
+mod ends;
 mod kernel;
+mod laws;
+mod rod;
+mod separate;
 
-use crate::{BendLaw, RodLayout, RodMaterial, StretchLaw, TwistLaw};
-use actin_mechanics::{Loads, State, Vector3, wide};
-use kernel::AddLoads;
+use crate::extended::ExtendedSegments;
+use crate::{RodLayout, RodMaterial};
+use actin_mechanics::wide::Arch;
+use actin_mechanics::{Loads, State};
+use laws::{
+    Bend, ConstantBend, ConstantTwist, CubicAcross, Laws, Length, LinearShear, NaturalLength,
+    Polynomial, Rooted, Shear, Sided, Tanh, Twist, WideStiffening,
+};
+use rod::Rod;
 
-/// A rod's constant rigidities divided by its rest lengths.
+type Constant = Laws<LinearShear, ConstantBend, ConstantTwist, NaturalLength>;
+type Published = Laws<LinearShear, ConstantBend, Tanh, Polynomial>;
+type Fitted = Laws<CubicAcross, WideStiffening, Sided, Rooted>;
+type FittedLinearShear = Laws<LinearShear, WideStiffening, Sided, Rooted>;
+
+/// A rod and the loop that was compiled for its laws.
 #[derive(Clone, Debug)]
-pub(crate) struct ConstantRod {
-    /// S1, S2, S3 (pN).
-    shear: Vector3,
-    /// B1, B2, B3 (pN nm^2).
-    bend: Vector3,
-    /// 1 / rest length of each segment (1/nm).
-    inverse_lengths: Vec<f64>,
-    /// 1 / rest distance of each bending element (1/nm).
-    inverse_distances: Vec<f64>,
+pub(crate) struct FastRod(Kind);
+
+#[derive(Clone, Debug)]
+enum Kind {
+    /// Every rigidity is constant.
+    Constant(Rod<Constant>),
+    /// Twist as published, with or without a natural length that depends on it.
+    Published(Rod<Published>),
+    /// As fitted to monomers, each law but that of shear or constant instead.
+    Fitted(Rod<Fitted>),
+    /// The same with constant shear.
+    FittedLinearShear(Rod<FittedLinearShear>),
 }
 
-impl ConstantRod {
-    /// What the loop needs; `None` of a material whose rigidities are not constant.
-    pub(crate) fn new(layout: &RodLayout, material: &RodMaterial) -> Option<Self> {
-        let (BendLaw::Constant([b1, b2]), TwistLaw::Constant(b3), StretchLaw::Constant(s3)) =
-            (material.bend(), material.twist(), material.stretch())
-        else {
-            return None;
-        };
-        let shear = material.shear();
-        let inverse = |lengths: &[f64]| lengths.iter().map(|length| length.recip()).collect();
-        (shear.cubic == 0.0).then(|| Self {
-            shear: Vector3::new(shear.linear[0], shear.linear[1], *s3),
-            bend: Vector3::new(*b1, *b2, *b3),
-            inverse_lengths: inverse(layout.segment_lengths()),
-            inverse_distances: inverse(layout.voronoi_lengths()),
-        })
+impl FastRod {
+    /// The loop of the first kind that a rod is of; `None` where it is of none.
+    pub(crate) fn new(
+        layout: &RodLayout,
+        material: &RodMaterial,
+        extended: Option<&ExtendedSegments>,
+    ) -> Option<Self> {
+        let rod = (layout, material, extended);
+        let kind = kind(rod, Kind::Constant)
+            .or_else(|| kind(rod, Kind::Published))
+            .or_else(|| kind(rod, Kind::Fitted))
+            .or_else(|| kind(rod, Kind::FittedLinearShear));
+        kind.map(Self)
     }
 
     /// Adds the loads of all elements.
     pub(crate) fn add_loads(&self, layout: &RodLayout, state: &State, loads: &mut Loads) {
-        wide::dispatch(AddLoads {
-            rod: self,
-            layout,
-            state,
-            loads,
-        });
+        self.add_loads_on(Arch::new(), layout, state, loads);
     }
+
+    /// The same with a choice of instructions.
+    fn add_loads_on(&self, arch: Arch, layout: &RodLayout, state: &State, loads: &mut Loads) {
+        match &self.0 {
+            Kind::Constant(rod) => rod.add_loads(arch, layout, state, loads),
+            Kind::Published(rod) => rod.add_loads(arch, layout, state, loads),
+            Kind::Fitted(rod) => rod.add_loads(arch, layout, state, loads),
+            Kind::FittedLinearShear(rod) => rod.add_loads(arch, layout, state, loads),
+        }
+    }
+}
+
+/// A variant of [`Kind`].
+type AsKind<L> = fn(Rod<L>) -> Kind;
+
+/// A rod of one kind, if it is of that.
+fn kind<A: Shear, B: Bend, T: Twist, X: Length>(
+    (layout, material, extended): (&RodLayout, &RodMaterial, Option<&ExtendedSegments>),
+    kind: AsKind<Laws<A, B, T, X>>,
+) -> Option<Kind> {
+    let law = Laws::of(material, extended.map(|segments| &segments.law))?;
+    Rod::new(layout, law, extended).map(kind)
 }
 
 #[cfg(test)]

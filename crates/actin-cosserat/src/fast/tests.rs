@@ -1,10 +1,13 @@
-//! The fast path against the elements' own loads, with one lane and with as many as there are.
+//! The fast path against the scalar one, with one lane and with as many as there are.
 
 use super::*;
-use crate::{BendingElement, Rigidities, ShearElement, StraightRod, Walls};
+use crate::{
+    BendLaw, BendingElement, CubicShear, EnergyGradient, JoinedElement, PolynomialStretch,
+    Rigidities, RootedStretch, SegmentCurvature, SegmentLaw, SidedTwist, Stiffening, StraightRod,
+    StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, Walls,
+};
 use actin_mechanics::testing::{Noise, perturb};
-use actin_mechanics::wide::Arch;
-use actin_mechanics::{UnitQuaternion, rotation};
+use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 
 /// Rigidities that all differ, so that no mix-up of axes goes unseen.
 fn material() -> RodMaterial {
@@ -13,6 +16,75 @@ fn material() -> RodMaterial {
         bend: Vector3::new(3.9e4, 2.7e4, 1.3e4),
     })
     .unwrap()
+}
+
+/// Scales of the order of the angles and strains of the rods below, so that every term is felt, and
+/// a range that some of their curvatures leave.
+const STIFFENING: BendLaw = BendLaw::Stiffening(Stiffening {
+    rest: 3e4,
+    rise: 1e4,
+    curvature: 0.05,
+    twist: 0.06,
+    shear: 0.1,
+    range: 0.2,
+});
+const SIDED: TwistLaw = TwistLaw::Sided(SidedTwist {
+    rest: 272.0,
+    under: TwistRise {
+        rise: 1.3e4,
+        half: 0.04,
+        slow: 0.08,
+    },
+    over: TwistRise {
+        rise: 2.2e4,
+        half: 0.05,
+        slow: 0.07,
+    },
+    range: 0.06,
+});
+const ROOTED: TwistStretch = TwistStretch::Rooted(RootedStretch {
+    slope: -0.29,
+    bend: 0.46,
+    half: 0.03,
+    cubic: 2.0,
+    range: 0.07,
+});
+const SHEAR: CubicShear = CubicShear {
+    linear: [1e3, 2e3],
+    cubic: 1e6,
+};
+
+/// A law: its name, a material, and how its length depends on the twist.
+type Named = (&'static str, RodMaterial, Option<TwistStretch>);
+
+/// Laws with a loop, named after it.
+fn laws() -> Vec<Named> {
+    let constant = material();
+    let tanh = (constant.with_twist(TwistLaw::Tanh(TanhTwist::published()))).unwrap();
+    let sided = constant.with_twist(SIDED).unwrap();
+    let bent = constant.with_bend(STIFFENING).unwrap();
+    let straight = sided.with_bend(STIFFENING).unwrap();
+    let sheared = straight.with_shear(SHEAR).unwrap();
+    let slender = constant.with_shear(SHEAR).unwrap();
+    let powers = TwistStretch::Polynomial(PolynomialStretch {
+        coefficients: [-5e-4, -0.3, -5.0, 20.0, 300.0, -1e3, -1e4],
+        range: 0.07,
+    });
+    vec![
+        ("constant", constant, None),
+        ("published", tanh, Some(TwistStretch::published())),
+        ("published", tanh, Some(powers)),
+        ("published", tanh, None),
+        ("published", tanh, Some(TwistStretch::linear(9e3, 3.4e4))),
+        ("fitted", sheared, Some(ROOTED)),
+        ("fitted", sheared, None),
+        ("fitted", slender, None),
+        ("fitted", slender, Some(ROOTED)),
+        ("fitted, linear shear", straight, Some(ROOTED)),
+        ("fitted, linear shear", bent, None),
+        ("fitted, linear shear", sided, None),
+        ("fitted, linear shear", constant, Some(ROOTED)),
+    ]
 }
 
 /// A rod of unequal segments with other bodies before and after it.
@@ -29,6 +101,7 @@ fn rod(segments: usize, walls: Walls, noise: &mut Noise) -> (State, RodLayout) {
     };
     let layout = rod.push(&mut state).unwrap();
     neighbour.push(&mut state).unwrap();
+    neighbour.push(&mut state).unwrap();
     (state, layout)
 }
 
@@ -38,72 +111,134 @@ fn all_walls() -> [Walls; 4] {
         .map(|(start, end)| Walls { start, end })
 }
 
-/// The loads element by element, added to what `loads` already holds.
-fn add_reference(layout: &RodLayout, state: &State, loads: &mut Loads) {
-    let (x, q) = (&state.points.position, &state.frames.orientation);
-    let bodies = layout.points().zip(layout.frames());
-    for (&length, (i, frame)) in layout.segment_lengths().iter().zip(bodies) {
-        let l = x.get(i + 1) - x.get(i);
-        let shear = ShearElement::segment(length).loads(&material(), q.get(frame), l);
-        loads.force.add(i, shear.force);
-        loads.force.add(i + 1, -shear.force);
-        loads.torque.add(frame, shear.torque);
-    }
-    for (&rest_distance, a) in layout.voronoi_lengths().iter().zip(layout.bending_chain()) {
-        let element = BendingElement { rest_distance };
-        let bending = element.loads(&material(), q.get(a), q.get(a + 1));
-        loads.torque.add(a, bending.first);
-        loads.torque.add(a + 1, bending.second);
+/// The elements that join a rod to frames of its neighbours: none, or one at the start and two at
+/// the end, walls or not.
+fn joined(layout: &RodLayout, any: bool) -> [Vec<JoinedElement>; 2] {
+    let element = |frames, rest_distance| JoinedElement {
+        frames,
+        element: BendingElement { rest_distance },
+    };
+    let (frames, after) = (layout.frames(), layout.bending_chain().end);
+    let start = vec![element([0, frames.start], 6.0)];
+    let end = vec![
+        element([frames.end - 1, after], 8.0),
+        element([frames.end - 1, after + 1], 9.0),
+    ];
+    if any { [start, end] } else { [vec![], vec![]] }
+}
+
+/// What couples the segments of a rod.
+fn extended(layout: &RodLayout, law: &Named, is_joined: bool) -> Option<ExtendedSegments> {
+    let [start, end] = joined(layout, is_joined);
+    let curvature = SegmentCurvature::new(layout, &start, &end);
+    SegmentLaw::of(&law.1, law.2).map(|law| ExtendedSegments { law, curvature })
+}
+
+/// The loads by the scalar path, added to what `loads` already holds.
+fn add_reference(
+    (layout, law): (&RodLayout, &Named),
+    extended: Option<&ExtendedSegments>,
+    state: &State,
+    loads: &mut Loads,
+) {
+    let rod = EnergyGradient::new(layout.clone(), law.1);
+    match extended.cloned() {
+        None => rod.add_scalar_loads(state, loads),
+        Some(ExtendedSegments { law, curvature }) => {
+            (rod.with_extension(law, curvature)).add_scalar_loads(state, loads);
+        }
     }
 }
 
-/// The fast loads, added to what `loads` already holds.
-fn add_fast(arch: Arch, layout: &RodLayout, state: &State, loads: &mut Loads) {
-    let rod = ConstantRod::new(layout, &material()).expect("the rigidities are constant");
-    arch.dispatch(AddLoads {
-        rod: &rod,
-        layout,
-        state,
-        loads,
-    });
+/// The loop of a law.
+fn fast(layout: &RodLayout, law: &Named, extended: Option<&ExtendedSegments>) -> FastRod {
+    FastRod::new(layout, &law.1, extended).expect("the law has a loop")
 }
 
 /// Largest difference of the loads, and the largest load.
 fn compare(a: &Loads, b: &Loads) -> (f64, f64) {
     let pairs = (a.force.iter().zip(b.force.iter())).chain(a.torque.iter().zip(b.torque.iter()));
     pairs.fold((0.0, 0.0), |(difference, largest), (a, b)| {
-        (
-            f64::max(difference, (a - b).norm()),
-            f64::max(largest, b.norm()),
-        )
+        let distance = (a - b).norm();
+        assert!(!distance.is_nan());
+        (f64::max(difference, distance), f64::max(largest, b.norm()))
     })
 }
 
-/// Rods from one segment up, every clamp, angles between neighbours from a hundredth to nearly
-/// half a turn, both quaternions of some frames, and buffers that are not empty.
+/// Buffers that are not empty.
+fn noisy_loads(state: &State, noise: &mut Noise) -> Loads {
+    let mut loads = Loads::zeros(state);
+    for i in 0..loads.force.len() {
+        loads.force.set(i, noise.vector());
+    }
+    for i in 0..loads.torque.len() {
+        loads.torque.set(i, noise.vector());
+    }
+    loads
+}
+
+/// Asserts that both paths add the same loads: to 1e-13 of the largest, or of `scale` if that is
+/// larger.
+fn assert_paths_agree(
+    (state, layout): (&State, &RodLayout),
+    law: &Named,
+    is_joined: bool,
+    scale: f64,
+) {
+    let extended = extended(layout, law, is_joined);
+    let mut expected = noisy_loads(state, &mut Noise::new(2));
+    let start = expected.clone();
+    add_reference((layout, law), extended.as_ref(), state, &mut expected);
+    let rod = fast(layout, law, extended.as_ref());
+    for arch in [Arch::Scalar, Arch::new()] {
+        let mut loads = start.clone();
+        rod.add_loads_on(arch, layout, state, &mut loads);
+        let (difference, largest) = compare(&loads, &expected);
+        let relative = difference / largest.max(scale);
+        let (name, segments) = (law.0, layout.segments());
+        assert!(
+            relative < 1e-13,
+            "{name}, {segments} segments: {relative:e}"
+        );
+    }
+}
+
+/// Rods from one segment up, every clamp, ends that are joined to others, angles between neighbours
+/// from a hundredth to nearly half a turn and twists within and beyond the laws' ranges, both
+/// quaternions of some frames.
 #[test]
-fn loads_are_those_of_the_elements() {
+fn loads_are_those_of_the_scalar_path() {
     let mut noise = Noise::new(1);
-    for segments in (1..=17).chain([64]) {
-        for walls in all_walls() {
-            for angle in [0.01, 0.3, 1.0, 1.8] {
-                let (mut state, layout) = rod(segments, walls, &mut noise);
-                perturb(&mut state, &mut noise, 0.5, angle);
-                flip_some(&mut state);
-                let mut expected = Loads::zeros(&state);
-                for i in 0..expected.force.len() {
-                    expected.force.set(i, noise.vector());
-                }
-                let start = expected.clone();
-                add_reference(&layout, &state, &mut expected);
-                for arch in [Arch::Scalar, Arch::new()] {
-                    let mut loads = start.clone();
-                    add_fast(arch, &layout, &state, &mut loads);
-                    let (difference, largest) = compare(&loads, &expected);
-                    let relative = difference / largest;
-                    assert!(relative < 1e-13, "{segments}, {angle}: {relative:e}");
+    for law in &laws() {
+        for segments in (1..=9).chain([12, 15, 16, 17, 64]) {
+            for walls in all_walls() {
+                for (angle, is_joined) in [(0.01, false), (0.3, true), (1.0, false), (1.8, true)] {
+                    let (mut state, layout) = rod(segments, walls, &mut noise);
+                    perturb(&mut state, &mut noise, 0.5, angle);
+                    flip_some(&mut state);
+                    assert_paths_agree((&state, &layout), law, is_joined, 0.0);
                 }
             }
+        }
+    }
+}
+
+/// Smooth rods at strains of a thousandth, in which the terms that the laws add are small differences
+/// of large numbers.
+#[test]
+fn loads_of_smooth_rods_are_those_of_the_scalar_path() {
+    let mut noise = Noise::new(5);
+    for law in &laws() {
+        for angle in [1e-3, 1e-5] {
+            let walls = Walls {
+                start: true,
+                end: false,
+            };
+            let (mut state, layout) = rod(30, walls, &mut noise);
+            perturb(&mut state, &mut noise, angle, angle);
+            // Strains are differences of turned vectors over lengths, 1 at rest, and accurate to some
+            // 1e-15: at 3.4e4 pN over 14 nm, 1e-13 of this torque.
+            assert_paths_agree((&state, &layout), law, true, 1e-2 * 3.4e4 * 14.0);
         }
     }
 }
@@ -117,18 +252,31 @@ fn flip_some(state: &mut State) {
     }
 }
 
+/// Adds the loads of the fast path to none.
+fn fast_loads(state: &State, layout: &RodLayout, law: &Named) -> Loads {
+    let extended = extended(layout, law, false);
+    let mut loads = Loads::zeros(state);
+    fast(layout, law, extended.as_ref()).add_loads(layout, state, &mut loads);
+    loads
+}
+
 /// A rod along z at rest has no load at all: the lanes beyond its end must not add the force of a
-/// segment of no length.
+/// segment of no length. (But for the published offset of its length, by which a rod at rest strains.)
 #[test]
 fn a_rod_at_rest_has_no_loads() {
-    for segments in 1..10 {
-        let mut state = State::default();
-        let layout = StraightRod::uniform(segments, 8.0)
-            .push(&mut state)
-            .unwrap();
-        let mut loads = Loads::zeros(&state);
-        add_fast(Arch::new(), &layout, &state, &mut loads);
-        assert!(compare(&loads, &Loads::zeros(&state)).0 == 0.0);
+    let without_offset = |law: &TwistStretch| law.extension(0.0) == 0.0;
+    for law in &laws() {
+        if !law.2.as_ref().is_none_or(without_offset) {
+            continue;
+        }
+        for segments in 1..10 {
+            let mut state = State::default();
+            let layout = StraightRod::uniform(segments, 8.0)
+                .push(&mut state)
+                .unwrap();
+            let loads = fast_loads(&state, &layout, law);
+            assert!(compare(&loads, &Loads::zeros(&state)).0 == 0.0, "{}", law.0);
+        }
     }
 }
 
@@ -141,8 +289,7 @@ fn the_smallest_turns_count() {
         let half = nalgebra::Quaternion::new(1.0, angle, 0.0, 0.0);
         let turned = UnitQuaternion::new_unchecked(half);
         state.frames.orientation.set(1, turned);
-        let mut loads = Loads::zeros(&state);
-        add_fast(Arch::new(), &layout, &state, &mut loads);
+        let loads = fast_loads(&state, &layout, &laws()[0]);
         let expected = 3.9e4 * (0.1 * (2.0 * angle));
         // The smallest number is rounded when it is divided by the length.
         let couple = loads.torque.get(0).x;
@@ -153,31 +300,66 @@ fn the_smallest_turns_count() {
     }
 }
 
-/// A node that is not a number spoils its own segments and no others, so that whoever looks for
-/// what broke finds it.
+/// A node that is not a number spoils its own segments, and the elements around these where something
+/// couples, and no others, so that whoever looks for what broke finds it.
 #[test]
 fn a_broken_node_spoils_its_neighbours_only() {
-    let (mut state, layout) = rod(14, Walls::default(), &mut Noise::new(9));
-    let broken = layout.points().start + 6;
-    state.points.position.x[broken] = f64::NAN;
-    let mut loads = Loads::zeros(&state);
-    add_fast(Arch::new(), &layout, &state, &mut loads);
-    for (i, force) in loads.force.iter().enumerate() {
-        let near = i.abs_diff(broken) <= 1;
-        assert_eq!(force.iter().any(|f| f.is_nan()), near, "node {i}");
+    for law in &laws() {
+        let (mut state, layout) = rod(14, Walls::default(), &mut Noise::new(9));
+        let broken = layout.points().start + 6;
+        state.points.position.x[broken] = f64::NAN;
+        let loads = fast_loads(&state, &layout, law);
+        for (i, force) in loads.force.iter().enumerate() {
+            let near = i.abs_diff(broken) <= 1;
+            assert_eq!(force.iter().any(|f| f.is_nan()), near, "node {i}");
+        }
+        // Of the segments 5 and 6 on either side of the node.
+        let first = layout.frames().start + 5;
+        for (i, torque) in loads.torque.iter().enumerate() {
+            let near = (first - 1..=first + 2).contains(&i);
+            assert!(near || !torque.iter().any(|t| t.is_nan()), "frame {i}");
+        }
     }
 }
 
-/// Laws that are not constant, and segments that the curvature reaches, keep the scalar path.
-#[test]
-fn only_constant_rigidities_are_fast() {
+/// The loop that a law gets.
+fn kind_of(law: &Named) -> Option<&'static str> {
     let (_, layout) = rod(3, Walls::default(), &mut Noise::new(9));
-    let stretch = StretchLaw::Sided {
+    let extended = extended(&layout, law, true);
+    let rod = FastRod::new(&layout, &law.1, extended.as_ref())?;
+    Some(match rod.0 {
+        Kind::Constant(_) => "constant",
+        Kind::Published(_) => "published",
+        Kind::Fitted(_) => "fitted",
+        Kind::FittedLinearShear(_) => "fitted, linear shear",
+    })
+}
+
+/// The cheapest loop that can is taken: with another, the law would be right and slow.
+#[test]
+fn every_law_has_its_loop() {
+    for law in &laws() {
+        assert_eq!(kind_of(law), Some(law.0));
+    }
+}
+
+/// Mixtures of laws that no scene has by name, and a stretch with two sides.
+#[test]
+fn other_laws_keep_the_scalar_path() {
+    let sided = StretchLaw::Sided {
         tension: 3.4e4,
         compression: 1.7e4,
         width: 1e-3,
     };
-    let other = material().with_stretch(stretch).unwrap();
-    assert!(ConstantRod::new(&layout, &material()).is_some());
-    assert!(ConstantRod::new(&layout, &other).is_none());
+    let stretched = material().with_stretch(sided).unwrap();
+    let tanh = TwistLaw::Tanh(TanhTwist::published());
+    let bent = material().with_bend(STIFFENING).unwrap();
+    let mixed = bent.with_twist(tanh).unwrap();
+    for (material, xi) in [
+        (stretched, None),
+        (mixed, None),
+        (bent, Some(TwistStretch::published())),
+    ] {
+        assert_eq!(kind_of(&("", material, xi)), None);
+    }
 }

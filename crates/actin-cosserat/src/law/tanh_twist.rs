@@ -66,7 +66,7 @@ impl TanhTwist {
     }
 
     /// Height, centre and width of each tanh, and the constant.
-    fn steps(&self) -> (f64, [[f64; 3]; 3]) {
+    pub(crate) fn steps(&self) -> (f64, [[f64; 3]; 3]) {
         let [l1, l2, l3, l4, l5, l6, l7] = self.lambda;
         let mean = 0.5 * (self.b_plus + self.b_minus);
         let half = 0.5 * (self.b_plus - self.b_minus);

@@ -109,43 +109,85 @@ impl<S: Simd> ColumnsMut<'_, S, 3> {
     }
 }
 
-/// Moves the vectors of successive groups one body up: lane `i` receives what lane `i - 1` had,
+/// Moves the numbers of successive groups one body up: lane `i` receives what lane `i - 1` had,
 /// the first lane what the last lane of the group before had.
 ///
 /// What acts between a body and the next is computed in the lane of the first; this brings its
 /// reaction to the second without a store that overlaps the next group's load.
 #[derive(Clone, Copy, Debug)]
-pub struct ShiftedUp<S: Simd> {
+pub struct ShiftedUp<S: Simd, const N: usize> {
     first_lane: S::m64s,
-    last: Wide3<S>,
+    last: [S::f64s; N],
 }
 
-impl<S: Simd> ShiftedUp<S> {
-    /// Nothing comes before the first group.
+impl<S: Simd, const N: usize> ShiftedUp<S, N> {
+    /// Nothing but zeros comes before the first group.
     #[inline(always)]
     pub fn new(simd: S) -> Self {
+        Self::after(simd, [0.0; N])
+    }
+
+    /// These numbers come before the first group.
+    #[inline(always)]
+    pub fn after(simd: S, before: [f64; N]) -> Self {
         let zero = simd.splat_f64s(0.0);
-        let lane = simd.partial_load_f64s(&[1.0]);
+        let mut last = [zero; N];
+        for (last, before) in last.iter_mut().zip(before) {
+            *last = simd.splat_f64s(before);
+        }
         Self {
-            first_lane: simd.greater_than_f64s(lane, zero),
-            last: [zero; 3],
+            first_lane: simd.greater_than_f64s(simd.partial_load_f64s(&[1.0]), zero),
+            last,
         }
     }
 
     /// The next group.
     #[inline(always)]
-    pub fn next(&mut self, simd: S, vectors: Wide3<S>) -> Wide3<S> {
-        let [x, y, z] = vectors;
-        let turned = [
-            simd.rotate_right_f64s(x, 1),
-            simd.rotate_right_f64s(y, 1),
-            simd.rotate_right_f64s(z, 1),
-        ];
-        let before = std::mem::replace(&mut self.last, turned);
-        [
-            simd.select_f64s(self.first_lane, before[0], turned[0]),
-            simd.select_f64s(self.first_lane, before[1], turned[1]),
-            simd.select_f64s(self.first_lane, before[2], turned[2]),
-        ]
+    pub fn next(&mut self, simd: S, values: [S::f64s; N]) -> [S::f64s; N] {
+        let mut shifted = values;
+        for (shifted, last) in shifted.iter_mut().zip(&mut self.last) {
+            let turned = simd.rotate_right_f64s(*shifted, 1);
+            *shifted = simd.select_f64s(self.first_lane, *last, turned);
+            *last = turned;
+        }
+        shifted
+    }
+}
+
+/// Moves the numbers of successive groups one body down: lane `i` receives what lane `i + 1` has,
+/// the last lane what the first lane of the next group has.
+///
+/// A group is therefore complete only when the next one is known, and comes one call later.
+#[derive(Clone, Copy, Debug)]
+pub struct ShiftedDown<S: Simd, const N: usize> {
+    last_lane: S::m64s,
+    before: [S::f64s; N],
+}
+
+impl<S: Simd, const N: usize> ShiftedDown<S, N> {
+    /// Before the first group.
+    #[inline(always)]
+    pub fn new(simd: S) -> Self {
+        let zero = simd.splat_f64s(0.0);
+        let last = simd.rotate_left_f64s(simd.partial_load_f64s(&[1.0]), 1);
+        Self {
+            last_lane: simd.greater_than_f64s(last, zero),
+            before: [zero; N],
+        }
+    }
+
+    /// Takes the next group and returns the one before, moved down.
+    ///
+    /// Of the first call only the last lane has a meaning: what the first body has, which belongs
+    /// to the body before it.
+    #[inline(always)]
+    pub fn next(&mut self, simd: S, values: [S::f64s; N]) -> [S::f64s; N] {
+        let mut shifted = values;
+        for (shifted, before) in shifted.iter_mut().zip(&mut self.before) {
+            let turned = simd.rotate_left_f64s(*shifted, 1);
+            *shifted = simd.select_f64s(self.last_lane, turned, *before);
+            *before = turned;
+        }
+        shifted
     }
 }

@@ -39,15 +39,16 @@ mod functions;
 mod rotations;
 mod vectors;
 
-pub use columns::{Columns, ColumnsMut, ShiftedUp};
-pub use functions::cosine_and_sinc;
+pub use columns::{Columns, ColumnsMut, ShiftedDown, ShiftedUp};
+pub use functions::{cosine_and_sinc, tanh};
 pub use pulp::{Arch, Simd, WithSimd};
 pub use rotations::{
     WideQuaternion, log_with_coefficient, matrix, product, relative, transpose_mul,
 };
 pub use vectors::{
-    Wide3, WideMatrix, add, add3, cross, cross_add, dot, dot_add, load, load_quaternions, load3,
-    mul, mul_add, mul_each, neg, read, scale, scale_add, sub, transpose, write,
+    Wide3, WideMatrix, add, add3, cross, cross_add, dot, dot_add, in_lane, lane, load,
+    load_quaternions, load3, mul, mul_add, mul_each, neg, read, scale, scale_add, splat, sub,
+    transpose, write,
 };
 
 /// More lanes than any processor has.

@@ -72,6 +72,73 @@ impl WithSimd for Turns<'_> {
     }
 }
 
+/// Hyperbolic tangents.
+struct Tangents<'a>(&'a [f64]);
+
+impl WithSimd for Tangents<'_> {
+    type Output = Vec<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let mut out = self.0.to_vec();
+        let mut results = ColumnsMut::<S, 1>::new([&mut out]);
+        for group in 0..results.groups() {
+            let [x] = results.get(simd, group);
+            results.set(simd, group, [tanh(simd, x)]);
+        }
+        out
+    }
+}
+
+/// Numbers 1, 2, 3, ... of two columns moved down by one body, the first apart.
+struct ShiftDown(usize);
+
+impl WithSimd for ShiftDown {
+    type Output = (Vec<f64>, f64);
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let mut numbers: Vec<f64> = (1..=self.0).map(|i| i as f64).collect();
+        let mut other = numbers.clone();
+        let mut columns = ColumnsMut::<S, 2>::new([&mut numbers, &mut other]);
+        let mut shift = ShiftedDown::new(simd);
+        let mut first = 0.0;
+        for group in 0..columns.groups() {
+            let shifted = shift.next(simd, columns.get(simd, group));
+            if group == 0 {
+                let zero = simd.splat_f64s(0.0);
+                first = lane(simd, S::F64_LANES - 1, [shifted[0], zero, zero]).x;
+            } else {
+                columns.set(simd, group - 1, shifted);
+            }
+        }
+        if let Some(last) = columns.groups().checked_sub(1) {
+            let zero = simd.splat_f64s(0.0);
+            let shifted = shift.next(simd, [zero; 2]);
+            columns.set(simd, last, shifted);
+        }
+        assert!(numbers == other);
+        (numbers, first)
+    }
+}
+
+/// A vector put into one lane after the other, and what all lanes hold then.
+struct OneLane(Vector3);
+
+impl WithSimd for OneLane {
+    type Output = Vec<Vec<Vector3>>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let lanes = 0..S::F64_LANES;
+        let held = |i: usize| {
+            let all = in_lane(simd, i, self.0);
+            lanes.clone().map(|j| lane(simd, j, all)).collect()
+        };
+        lanes.clone().map(held).collect()
+    }
+}
+
 /// Vectors 1, 2, 3, ... moved up by one body.
 struct Shift(usize);
 
@@ -187,6 +254,59 @@ fn each_body_receives_what_the_one_before_had() {
         for count in COUNTS {
             let expected: Vec<f64> = (0..count).map(|i| i as f64).collect();
             assert_eq!(arch.dispatch(Shift(count)), expected);
+        }
+    }
+}
+
+#[test]
+fn each_body_receives_what_the_next_has() {
+    for arch in architectures() {
+        for count in COUNTS {
+            let expected: Vec<f64> = (2..=count).map(|i| i as f64).chain([0.0]).collect();
+            let (numbers, first) = arch.dispatch(ShiftDown(count));
+            assert_eq!(numbers, expected[..count]);
+            assert_eq!(first > 0.5, count > 0);
+        }
+    }
+}
+
+#[test]
+fn a_vector_stands_in_its_lane_alone() {
+    let v = Vector3::new(1.0, -2.0, 3.0);
+    for arch in architectures() {
+        let held = arch.dispatch(OneLane(v));
+        for (i, lanes) in held.iter().enumerate() {
+            for (j, found) in lanes.iter().enumerate() {
+                assert_eq!(*found, if i == j { v } else { Vector3::zeros() });
+            }
+        }
+    }
+}
+
+/// Both sides of where it saturates, and numbers so small that they are their own tangent.
+#[test]
+fn hyperbolic_tangents_are_those_of_the_standard_library() {
+    let mut all: Vec<f64> = (0..=2000).map(|i| 0.0113 * f64::from(i)).collect();
+    all.extend([
+        5e-324,
+        1e-310,
+        1e-200,
+        1e-20,
+        1e-8,
+        19.9,
+        20.1,
+        1e3,
+        1e300,
+        f64::INFINITY,
+    ]);
+    all.extend(all.clone().iter().map(|x| -x));
+    for arch in architectures() {
+        for (x, found) in all.iter().zip(arch.dispatch(Tangents(&all))) {
+            let expected = x.tanh();
+            // Seven roundings; the smallest numbers are halved on the way.
+            let error = (found - expected).abs();
+            assert!(error <= 1e-15 * expected.abs() + 1e-322, "{x:e}: {error:e}");
+            assert_eq!(found > 0.0, expected > 0.0 && found != 0.0, "{x:e}");
         }
     }
 }

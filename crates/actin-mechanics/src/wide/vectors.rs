@@ -1,6 +1,7 @@
 //! Vectors and matrices of several bodies, and how they are read and written.
 
-use crate::{Quaternions, Vectors};
+use super::MOST_LANES;
+use crate::{Quaternions, Vector3, Vectors};
 use pulp::Simd;
 use std::ops::Range;
 
@@ -53,6 +54,40 @@ pub fn write<S: Simd, const N: usize>(
         Some(lanes) => *lanes = values,
         None => simd.partial_store_f64s(numbers, values),
     }
+}
+
+/// The same vector in all lanes.
+#[inline(always)]
+pub fn splat<S: Simd>(simd: S, v: Vector3) -> Wide3<S> {
+    [
+        simd.splat_f64s(v.x),
+        simd.splat_f64s(v.y),
+        simd.splat_f64s(v.z),
+    ]
+}
+
+/// A vector in one lane, zero in the others.
+#[inline(always)]
+pub fn in_lane<S: Simd>(simd: S, lane: usize, v: Vector3) -> Wide3<S> {
+    let mut lanes = [[0.0; MOST_LANES]; 3];
+    lanes[0][lane] = v.x;
+    lanes[1][lane] = v.y;
+    lanes[2][lane] = v.z;
+    [
+        read(simd, &lanes[0], 0),
+        read(simd, &lanes[1], 0),
+        read(simd, &lanes[2], 0),
+    ]
+}
+
+/// The vector in one lane.
+#[inline(always)]
+pub fn lane<S: Simd>(simd: S, lane: usize, vectors: Wide3<S>) -> Vector3 {
+    let mut lanes = [[0.0; MOST_LANES]; 3];
+    for (lanes, component) in lanes.iter_mut().zip(vectors) {
+        write(simd, lanes, 0, component);
+    }
+    Vector3::new(lanes[0][lane], lanes[1][lane], lanes[2][lane])
 }
 
 /// The vectors at `range`.

@@ -1,0 +1,99 @@
+//! Rods to measure: 160 nm from a wall, well bent, under each law that has a loop of its own.
+
+use actin_cosserat::{
+    BendLaw, CubicShear, EnergyGradient, Rigidities, RodLayout, RodMaterial, RootedStretch,
+    SegmentCurvature, SegmentLaw, SidedTwist, Stiffening, StraightRod, StretchLaw, TanhTwist,
+    TwistLaw, TwistRise, TwistStretch, Walls,
+};
+use actin_mechanics::State;
+use actin_mechanics::testing::{Noise, perturb};
+
+/// A rod whose neighbouring frames differ by up to `angle` (rad) about every axis.
+pub(crate) fn rod(segments: usize, angle: f64) -> (State, RodLayout) {
+    let walls = Walls {
+        start: true,
+        end: false,
+    };
+    let rod = StraightRod {
+        walls,
+        ..StraightRod::uniform(segments, 160.0 / segments as f64)
+    };
+    let mut state = State::default();
+    let layout = rod.push(&mut state).expect("the rod has segments");
+    perturb(&mut state, &mut Noise::new(1), 1e-3, angle);
+    (state, layout)
+}
+
+/// A law by its name, its material, and how its length depends on the twist.
+type Law = (&'static str, RodMaterial, Option<TwistStretch>);
+
+/// Constant rigidities, those of the published extension, and those fitted to monomers.
+pub(crate) fn laws() -> [Law; 3] {
+    let constant = RodMaterial::new(Rigidities::table4()).expect("the table is valid");
+    let twist = TwistLaw::Tanh(TanhTwist::published());
+    let published = constant.with_twist(twist).expect("the law is valid");
+    let (fitted, rooted) = fitted(constant);
+    [
+        ("constant", constant, None),
+        ("published", published, Some(TwistStretch::published())),
+        ("fitted", fitted, Some(rooted)),
+    ]
+}
+
+/// The force law on a rod.
+pub(crate) fn interaction(layout: &RodLayout, (_, material, xi): Law) -> EnergyGradient {
+    let rod = EnergyGradient::new(layout.clone(), material);
+    let curvature = SegmentCurvature::new(layout, &[], &[]);
+    match SegmentLaw::of(&material, xi) {
+        Some(law) => rod.with_extension(law, curvature),
+        None => rod,
+    }
+}
+
+/// Numbers of the scenes' law `Fitted`.
+fn fitted(constant: RodMaterial) -> (RodMaterial, TwistStretch) {
+    let bend = Stiffening {
+        rest: 31_717.0,
+        rise: 8_070.5,
+        curvature: 2.845e-3,
+        twist: 2.871e-3,
+        shear: 9.922e-3,
+        range: 0.015,
+    };
+    let (under, over) = (
+        TwistRise {
+            rise: 12_877.3,
+            half: 8.713_5e-3,
+            slow: 1.862e-2,
+        },
+        TwistRise {
+            rise: 23_082.2,
+            half: 1.141_46e-2,
+            slow: 1.843_1e-2,
+        },
+    );
+    let twist = SidedTwist {
+        rest: 225.65,
+        under,
+        over,
+        range: 0.0472,
+    };
+    let shear = CubicShear {
+        linear: [0.0, 0.0],
+        cubic: 8.282_4e5,
+    };
+    let material = constant
+        .with_bend(BendLaw::Stiffening(bend))
+        .and_then(|m| m.with_twist(TwistLaw::Sided(twist)))
+        .and_then(|m| m.with_stretch(StretchLaw::Constant(3.29e4)))
+        .and_then(|m| m.with_shear(shear))
+        .expect("the laws are valid");
+    let xi = RootedStretch {
+        slope: -0.288_514,
+        bend: 0.460_159,
+        half: 6.587_3e-3,
+        cubic: 27.601_6,
+        range: 0.0472,
+    };
+    (material, TwistStretch::Rooted(xi))
+}

@@ -1,0 +1,178 @@
+//! The loop of a law in which the curvature around a segment has to do with its strain.
+#![allow(
+    clippy::inline_always,
+    reason = "vector code must be compiled into the function that enables the instructions"
+)]
+
+use super::elements::{Segments, bending_couples, quaternions, vectors, vectors_mut};
+use super::ends::Ends;
+use super::kernel::AddLoads;
+use super::laws::Law;
+use super::rod::Rod;
+use crate::{RodEnd, RodLayout};
+use actin_mechanics::wide::{self, Columns, ShiftedDown, ShiftedUp, Simd, Wide3};
+use actin_mechanics::{State, rotation};
+use std::ops::Range;
+
+impl<L: Law> AddLoads<'_, L> {
+    /// Segments and the bending elements before them.
+    #[inline(always)]
+    pub(super) fn add_coupled<S: Simd>(&mut self, simd: S) {
+        let (rod, layout, state) = (self.rod, self.layout, self.state);
+        let mut ends = Ends::new(&rod.joined, state, [layout.segments(), S::F64_LANES]);
+        let mut chain = Chain::new(simd, rod, layout, state);
+        let mut force = vectors_mut::<S>(&mut self.loads.force, layout.points());
+        let mut torque = vectors_mut::<S>(&mut self.loads.torque, frames_and_end(layout));
+        let first = chain.next(simd, 0, &mut ends);
+        force.add(simd, 0, first.force);
+        let mut torques = first.torque;
+        for group in 1..force.groups() {
+            let now = chain.next(simd, group, &mut ends);
+            force.add(simd, group, now.force);
+            torque.add(simd, group - 1, wide::add(simd, torques, now.before));
+            torques = now.torque;
+        }
+        let rest = chain.last(simd);
+        torque.add(simd, force.groups() - 1, wide::add(simd, torques, rest));
+        if let Some(wall) = layout.wall(RodEnd::Start) {
+            let on_wall = wide::lane(simd, S::F64_LANES - 1, first.before);
+            self.loads.torque.add(wall, on_wall);
+        }
+        ends.add_loads(self.loads);
+    }
+}
+
+/// What a group of bodies feels.
+struct Group<S: Simd> {
+    /// Forces on its nodes (pN).
+    force: Wide3<S>,
+    /// Torques on its frames (pN nm), but for those of the element after each.
+    torque: Wide3<S>,
+    /// Torques of the elements after the frames of the group before.
+    before: Wide3<S>,
+}
+
+/// What the loop reads, and what one group leaves to the next.
+struct Chain<'a, S: Simd, L> {
+    law: L,
+    nodes: [Columns<'a, S, 3>; 2],
+    frames: [Columns<'a, S, 4>; 2],
+    bodies: Columns<'a, S, 5>,
+    /// Angles from the next group's frames to those after, and their coefficients: they are found a
+    /// group ahead, because all else in a group waits for them.
+    ahead: [S::f64s; 4],
+    /// The same from the frames before.
+    angles: ShiftedUp<S, 4>,
+    /// Forces on first nodes.
+    reactions: ShiftedUp<S, 3>,
+    /// Couples on the elements after segments.
+    couples: ShiftedUp<S, 3>,
+    /// Torques on first frames.
+    torques: ShiftedDown<S, 3>,
+}
+
+impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
+    #[inline(always)]
+    fn new(simd: S, rod: &'a Rod<L>, layout: &RodLayout, state: &'a State) -> Self {
+        let (nodes, frames) = (layout.points(), frames_and_end(layout));
+        let (x, q) = (&state.points.position, &state.frames.orientation);
+        let bodies = &rod.bodies;
+        let ([length, inverse], [before, after]) = (&bodies.lengths, &bodies.shares);
+        let mut chain = Self {
+            law: rod.law,
+            nodes: [
+                vectors(x, nodes.start..nodes.end - 1),
+                vectors(x, nodes.start + 1..nodes.end),
+            ],
+            frames: [
+                quaternions(q, frames.clone()),
+                quaternions(q, frames.start + 1..frames.end),
+            ],
+            bodies: Columns::new([length, inverse, &bodies.inverse_distances, before, after]),
+            ahead: [simd.splat_f64s(0.0); 4],
+            angles: ShiftedUp::after(simd, angle_at_wall(layout, state)),
+            reactions: ShiftedUp::new(simd),
+            couples: ShiftedUp::new(simd),
+            torques: ShiftedDown::new(simd),
+        };
+        chain.ahead = chain.angles_after(simd, 0);
+        chain
+    }
+
+    /// The next group.
+    #[inline(always)]
+    fn next(&mut self, simd: S, group: usize, ends: &mut Ends) -> Group<S> {
+        let ahead = self.angles_after(simd, group + 1);
+        let now = std::mem::replace(&mut self.ahead, ahead);
+        let ([x, y, z, _], [u, v, w, coefficient]) = (now, self.angles.next(simd, now));
+        let (after, before) = ([x, y, z], [u, v, w]);
+        let q = self.frames[0].get(simd, group);
+        let [
+            length,
+            inverse_length,
+            inverse_distance,
+            share_before,
+            share_after,
+        ] = self.bodies.get(simd, group);
+        // Of the elements before: nothing of the segments is in it, so that it need not wait for them.
+        let own = self
+            .law
+            .bending(simd, wide::scale(simd, before, inverse_distance));
+        let [first, second] = &self.nodes;
+        let l = wide::sub(simd, second.get(simd, group), first.get(simd, group));
+        let segments = Segments::new(simd, q, l, [length, inverse_length]);
+        let mut kappa = wide::scale(simd, before, share_before);
+        kappa = wide::scale_add(simd, after, share_after, kappa);
+        if ends.are_in(group) {
+            kappa = ends.add_means(simd, group, kappa);
+        }
+        let [on_first, on_frame, couple] = segments.loads(simd, &self.law, kappa);
+        let couple = wide::scale(simd, couple, length);
+        if ends.are_in(group) {
+            ends.keep(simd, group, couple);
+        }
+        let on_second = self.reactions.next(simd, on_first);
+        let m = wide::scale_add(simd, couple, share_before, own);
+        let on_after = self
+            .couples
+            .next(simd, wide::scale(simd, couple, share_after));
+        let m = wide::add(simd, m, on_after);
+        let [even, odd] = bending_couples(simd, before, coefficient, m);
+        Group {
+            force: wide::sub(simd, on_first, on_second),
+            torque: wide::add(simd, on_frame, wide::sub(simd, odd, even)),
+            before: self.torques.next(simd, wide::add(simd, even, odd)),
+        }
+    }
+
+    /// Angles of the elements after a group's frames, and their coefficients.
+    #[inline(always)]
+    fn angles_after(&self, simd: S, group: usize) -> [S::f64s; 4] {
+        let [first, second] = &self.frames;
+        let turn = wide::relative(simd, first.get(simd, group), second.get(simd, group));
+        let ([x, y, z], coefficient) = wide::log_with_coefficient(simd, turn);
+        [x, y, z, coefficient]
+    }
+
+    /// Torques of the elements after the frames of the last group.
+    #[inline(always)]
+    fn last(&mut self, simd: S) -> Wide3<S> {
+        self.torques.next(simd, [simd.splat_f64s(0.0); 3])
+    }
+}
+
+/// Frames of the segments and of a wall at the end.
+fn frames_and_end(layout: &RodLayout) -> Range<usize> {
+    layout.frames().start..layout.bending_chain().end
+}
+
+/// Angle from a wall at the start to the first segment (rad) with its coefficient.
+fn angle_at_wall(layout: &RodLayout, state: &State) -> [f64; 4] {
+    let Some(wall) = layout.wall(RodEnd::Start) else {
+        return [0.0; 4];
+    };
+    let q = &state.frames.orientation;
+    let theta = rotation::log(q.get(wall).inverse() * q.get(wall + 1));
+    let c = rotation::inverse_jacobian_coefficient(theta.norm_squared());
+    [theta.x, theta.y, theta.z, c]
+}

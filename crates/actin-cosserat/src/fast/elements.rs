@@ -1,0 +1,101 @@
+//! What both loops are made of: a segment, a bending element, and the arrays that they stand in.
+#![allow(
+    clippy::inline_always,
+    reason = "vector code must be compiled into the function that enables the instructions"
+)]
+
+use super::laws::Law;
+use actin_mechanics::wide::{self, Columns, ColumnsMut, Simd, Wide3, WideMatrix, WideQuaternion};
+use actin_mechanics::{Quaternions, Vectors};
+use std::ops::Range;
+
+/// Segments as they are.
+#[derive(Clone, Copy)]
+pub(super) struct Segments<S: Simd> {
+    /// Matrices of their frames.
+    axes: WideMatrix<S>,
+    /// From node to node (nm, body axes).
+    body: Wide3<S>,
+    /// Strain.
+    sigma: Wide3<S>,
+    /// Inverse of their rest lengths (1/nm).
+    inverse: S::f64s,
+}
+
+impl<S: Simd> Segments<S> {
+    /// From their frames, from vectors from node to node and from rest lengths and their inverse, which
+    /// are both zero where there is no segment.
+    #[inline(always)]
+    pub(super) fn new(
+        simd: S,
+        q: WideQuaternion<S>,
+        l: Wide3<S>,
+        [length, inverse]: [S::f64s; 2],
+    ) -> Self {
+        let axes = wide::matrix(simd, q);
+        let body = wide::transpose_mul(simd, &axes, l);
+        let [x, y, z] = body;
+        let sigma = wide::scale(simd, [x, y, simd.sub_f64s(z, length)], inverse);
+        Self {
+            axes,
+            body,
+            sigma,
+            inverse,
+        }
+    }
+
+    /// Forces on first nodes (pN), torques (pN nm), and couples (pN nm) at mean curvature `kappa`.
+    #[inline(always)]
+    pub(super) fn loads<L: Law>(&self, simd: S, law: &L, kappa: Wide3<S>) -> [Wide3<S>; 3] {
+        let [n, couple] = law.segment(simd, self.sigma, kappa);
+        let n = if L::COUPLES {
+            self.existing(simd, n)
+        } else {
+            n
+        };
+        let force = wide::mul(simd, &self.axes, n);
+        [force, wide::cross(simd, self.body, n), couple]
+    }
+
+    /// Zero where there is no segment: a natural length that is not the rest length pulls at no strain.
+    #[inline(always)]
+    fn existing(&self, simd: S, n: Wide3<S>) -> Wide3<S> {
+        let zero = simd.splat_f64s(0.0);
+        let exists = simd.greater_than_f64s(self.inverse, zero);
+        let [x, y, z] = n;
+        [
+            simd.select_f64s(exists, x, zero),
+            simd.select_f64s(exists, y, zero),
+            simd.select_f64s(exists, z, zero),
+        ]
+    }
+}
+
+/// The parts of the torques of bending elements at couple `m` (pN nm) that the two frames feel with
+/// opposite and with equal sign, from their angles (rad) and the coefficients of these.
+#[inline(always)]
+pub(super) fn bending_couples<S: Simd>(
+    simd: S,
+    theta: Wide3<S>,
+    coefficient: S::f64s,
+    m: Wide3<S>,
+) -> [Wide3<S>; 2] {
+    let cross = wide::cross(simd, theta, m);
+    let even = wide::scale_add(simd, wide::cross(simd, theta, cross), coefficient, m);
+    [even, wide::scale(simd, cross, simd.splat_f64s(0.5))]
+}
+
+#[inline(always)]
+pub(super) fn vectors<S: Simd>(v: &Vectors, range: Range<usize>) -> Columns<'_, S, 3> {
+    Columns::new([&v.x, &v.y, &v.z].map(|component| &component[range.clone()]))
+}
+
+#[inline(always)]
+pub(super) fn vectors_mut<S: Simd>(v: &mut Vectors, range: Range<usize>) -> ColumnsMut<'_, S, 3> {
+    ColumnsMut::new([&mut v.x, &mut v.y, &mut v.z].map(|component| &mut component[range.clone()]))
+}
+
+#[inline(always)]
+pub(super) fn quaternions<S: Simd>(q: &Quaternions, range: Range<usize>) -> Columns<'_, S, 4> {
+    Columns::new([&q.w, &q.x, &q.y, &q.z].map(|component| &component[range.clone()]))
+}

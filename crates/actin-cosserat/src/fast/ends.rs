@@ -1,0 +1,105 @@
+//! The elements that join a rod's ends to its surroundings, one after the other.
+//!
+//! They are not the rod's own: they resist bending elsewhere. Here they bring their curvature to the rod's
+//! end segments and take the couples that answer to it.
+#![allow(
+    clippy::inline_always,
+    reason = "vector code must be compiled into the function that enables the instructions"
+)]
+
+use crate::RodEnd;
+use crate::bending::BendingLoads;
+use actin_mechanics::wide::{self, Simd, Wide3};
+use actin_mechanics::{Loads, State, Vector3, rotation};
+
+/// Most elements that may join a rod to its surroundings.
+pub(super) const MOST_JOINED: usize = 8;
+
+/// An element that bends with an end segment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Joined {
+    pub(super) frames: [usize; 2],
+    /// The end that it is at.
+    pub(super) end: RodEnd,
+    /// Share in the mean curvature over rest distance (1/nm).
+    pub(super) share: f64,
+}
+
+impl Joined {
+    fn number(&self) -> usize {
+        usize::from(self.end == RodEnd::End)
+    }
+}
+
+/// The two ends of a rod while its loads are evaluated.
+#[derive(Debug)]
+pub(super) struct Ends<'a> {
+    joined: &'a [Joined],
+    angles: [Vector3; MOST_JOINED],
+    /// Group and lane of the first and of the last segment.
+    places: [[usize; 2]; 2],
+    /// What the elements contribute to the mean curvatures there (rad/nm).
+    means: [Vector3; 2],
+    /// Couples there, over the segments' lengths (pN nm^2).
+    couples: [Vector3; 2],
+}
+
+impl<'a> Ends<'a> {
+    pub(super) fn new(joined: &'a [Joined], state: &State, [segments, lanes]: [usize; 2]) -> Self {
+        let last = segments - 1;
+        let mut ends = Self {
+            joined,
+            angles: [Vector3::zeros(); MOST_JOINED],
+            places: [[0, 0], [last / lanes, last % lanes]],
+            means: [Vector3::zeros(); 2],
+            couples: [Vector3::zeros(); 2],
+        };
+        let q = &state.frames.orientation;
+        for (angle, element) in ends.angles.iter_mut().zip(joined) {
+            let [a, b] = element.frames;
+            *angle = rotation::log(q.get(a).inverse() * q.get(b));
+            ends.means[element.number()] += element.share * *angle;
+        }
+        ends
+    }
+
+    /// Whether anything is joined to a segment of a group.
+    #[inline(always)]
+    pub(super) fn are_in(&self, group: usize) -> bool {
+        let [[first, _], [last, _]] = self.places;
+        !self.joined.is_empty() && (group == first || group == last)
+    }
+
+    /// Adds the curvatures of joined elements to those of a group.
+    #[inline(always)]
+    pub(super) fn add_means<S: Simd>(&self, simd: S, group: usize, kappa: Wide3<S>) -> Wide3<S> {
+        let mut kappa = kappa;
+        for ([at, lane], mean) in self.places.into_iter().zip(self.means) {
+            if at == group {
+                kappa = wide::add(simd, kappa, wide::in_lane(simd, lane, mean));
+            }
+        }
+        kappa
+    }
+
+    /// Keeps the couples of a group's end segments.
+    #[inline(always)]
+    pub(super) fn keep<S: Simd>(&mut self, simd: S, group: usize, couples: Wide3<S>) {
+        for ([at, lane], kept) in self.places.into_iter().zip(&mut self.couples) {
+            if at == group {
+                *kept = wide::lane(simd, lane, couples);
+            }
+        }
+    }
+
+    /// Adds the loads of the joined elements.
+    pub(super) fn add_loads(&self, loads: &mut Loads) {
+        for (angle, element) in self.angles.iter().zip(self.joined) {
+            let couple = element.share * self.couples[element.number()];
+            let bending = BendingLoads::of_couple(couple, *angle);
+            let [a, b] = element.frames;
+            loads.torque.add(a, bending.first);
+            loads.torque.add(b, bending.second);
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! Twist.
+
+use crate::{SidedTwist, TanhTwist, TwistLaw, TwistRise};
+use actin_mechanics::wide::{self, Simd};
+use std::fmt::Debug;
+
+/// How a rod resists twist.
+pub(in crate::fast) trait Twist: Copy + Debug {
+    /// The law, if it is of this kind.
+    fn of(law: &TwistLaw) -> Option<Self>;
+
+    /// Couple (pN nm) at twist `k` (rad/nm). The reference is [`TwistLaw::couple`].
+    fn couple<S: Simd>(&self, simd: S, k: S::f64s) -> S::f64s;
+}
+
+/// A constant rigidity B3 (pN nm^2).
+#[derive(Clone, Copy, Debug)]
+pub(in crate::fast) struct ConstantTwist(f64);
+
+impl Twist for ConstantTwist {
+    fn of(law: &TwistLaw) -> Option<Self> {
+        match law {
+            TwistLaw::Constant(b3) => Some(Self(*b3)),
+            TwistLaw::Tanh(_) | TwistLaw::Sided(_) => None,
+        }
+    }
+
+    #[inline(always)]
+    fn couple<S: Simd>(&self, simd: S, k: S::f64s) -> S::f64s {
+        simd.mul_f64s(simd.splat_f64s(self.0), k)
+    }
+}
+
+/// How a law goes on outside its range: with its slope at either end.
+#[derive(Clone, Copy, Debug)]
+struct Beyond {
+    range: f64,
+    /// Slopes at the lower and at the upper end.
+    slopes: [f64; 2],
+}
+
+impl Beyond {
+    /// The twist within the range, and what the couple gains beyond it.
+    #[inline(always)]
+    fn split<S: Simd>(&self, simd: S, k: S::f64s) -> [S::f64s; 2] {
+        let inside = clamp(simd, k, self.range);
+        let [under, over] = self.slopes;
+        let slope = sided(simd, k, under, over);
+        [inside, simd.mul_f64s(slope, simd.sub_f64s(k, inside))]
+    }
+}
+
+/// `k` within `range` to either side.
+#[inline(always)]
+pub(super) fn clamp<S: Simd>(simd: S, k: S::f64s, range: f64) -> S::f64s {
+    let at_least = simd.max_f64s(simd.splat_f64s(-range), k);
+    simd.min_f64s(simd.splat_f64s(range), at_least)
+}
+
+/// `under` where `k` is negative, else `over`.
+#[inline(always)]
+fn sided<S: Simd>(simd: S, k: S::f64s, under: f64, over: f64) -> S::f64s {
+    let negative = simd.less_than_f64s(k, simd.splat_f64s(0.0));
+    simd.select_f64s(negative, simd.splat_f64s(under), simd.splat_f64s(over))
+}
+
+/// The law of [`TanhTwist`].
+#[derive(Clone, Copy, Debug)]
+pub(in crate::fast) struct Tanh {
+    mean: f64,
+    /// Height, centre and inverse width of each step.
+    steps: [[f64; 3]; 3],
+    beyond: Beyond,
+}
+
+impl Twist for Tanh {
+    fn of(law: &TwistLaw) -> Option<Self> {
+        match law {
+            TwistLaw::Tanh(law) => Some(Self::new(law)),
+            TwistLaw::Constant(_) | TwistLaw::Sided(_) => None,
+        }
+    }
+
+    #[inline(always)]
+    fn couple<S: Simd>(&self, simd: S, k: S::f64s) -> S::f64s {
+        let [inside, gained] = self.beyond.split(simd, k);
+        let mut secant = simd.splat_f64s(self.mean);
+        for [height, centre, inverse_width] in self.steps {
+            let x = simd.sub_f64s(inside, simd.splat_f64s(centre));
+            let tanh = wide::tanh(simd, simd.mul_f64s(x, simd.splat_f64s(inverse_width)));
+            secant = simd.mul_add_e_f64s(simd.splat_f64s(height), tanh, secant);
+        }
+        simd.mul_add_e_f64s(secant, inside, gained)
+    }
+}
+
+impl Tanh {
+    fn new(law: &TanhTwist) -> Self {
+        let (mean, steps) = law.steps();
+        Self {
+            mean,
+            steps: steps.map(|[height, centre, width]| [height, centre, width.recip()]),
+            beyond: Beyond {
+                range: law.range,
+                slopes: [law.tangent(-law.range), law.tangent(law.range)],
+            },
+        }
+    }
+}
+
+/// The law of [`SidedTwist`].
+#[derive(Clone, Copy, Debug)]
+pub(in crate::fast) struct Sided {
+    rest: f64,
+    /// `rise`, `slow` and the square of `half` of under-twist, then of over-twist.
+    sides: [[f64; 3]; 2],
+    beyond: Beyond,
+}
+
+impl Twist for Sided {
+    fn of(law: &TwistLaw) -> Option<Self> {
+        match law {
+            TwistLaw::Sided(law) => Some(Self::new(law)),
+            TwistLaw::Constant(b3) => Some(Self::constant(*b3)),
+            TwistLaw::Tanh(_) => None,
+        }
+    }
+
+    #[inline(always)]
+    fn couple<S: Simd>(&self, simd: S, k: S::f64s) -> S::f64s {
+        let [inside, gained] = self.beyond.split(simd, k);
+        let [under, over] = self.sides;
+        let rise = sided(simd, k, under[0], over[0]);
+        let slow = sided(simd, k, under[1], over[1]);
+        let half2 = sided(simd, k, under[2], over[2]);
+        let a = simd.abs_f64s(inside);
+        let squared = simd.mul_f64s(a, a);
+        let denominator = simd.mul_add_e_f64s(a, slow, simd.add_f64s(squared, half2));
+        let share = simd.div_f64s(squared, denominator);
+        let secant = simd.mul_add_e_f64s(rise, share, simd.splat_f64s(self.rest));
+        simd.mul_add_e_f64s(secant, inside, gained)
+    }
+}
+
+impl Sided {
+    fn new(law: &SidedTwist) -> Self {
+        let side = |side: TwistRise| [side.rise, side.slow, side.half * side.half];
+        Self {
+            rest: law.rest,
+            sides: [side(law.under), side(law.over)],
+            beyond: Beyond {
+                range: law.range,
+                slopes: [law.tangent(-law.range), law.tangent(law.range)],
+            },
+        }
+    }
+
+    /// A rigidity that rises to neither side.
+    fn constant(b3: f64) -> Self {
+        Self {
+            rest: b3,
+            sides: [[0.0, 0.0, 1.0]; 2],
+            beyond: Beyond {
+                range: f64::MAX,
+                slopes: [b3; 2],
+            },
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! What the loop needs of a rod, found when the interaction is built.
+
+use super::ends::{Joined, MOST_JOINED};
+use super::kernel::AddLoads;
+use super::laws::Law;
+use crate::extended::ExtendedSegments;
+use crate::{RodEnd, RodLayout};
+use actin_mechanics::wide::Arch;
+use actin_mechanics::{Loads, State};
+
+/// A rod under a law.
+#[derive(Clone, Debug)]
+pub(super) struct Rod<L> {
+    pub(super) law: L,
+    pub(super) bodies: Bodies,
+    pub(super) joined: Vec<Joined>,
+}
+
+/// Numbers of each segment and of the bending element before it, one lane each; there is one lane
+/// more than there are segments. What does not exist is zero.
+#[derive(Clone, Debug)]
+pub(super) struct Bodies {
+    /// Rest lengths of segments (nm), and their inverse.
+    pub(super) lengths: [Vec<f64>; 2],
+    /// Inverse of the rest distance of the element before each segment (1/nm).
+    pub(super) inverse_distances: Vec<f64>,
+    /// What angles of the elements before and after a segment contribute to the mean curvature around
+    /// it: shares over rest distances (1/nm).
+    pub(super) shares: [Vec<f64>; 2],
+}
+
+impl Bodies {
+    fn new(layout: &RodLayout) -> Self {
+        let segments = layout.segments();
+        let zeros = || vec![0.0; segments + 1];
+        let mut lengths = [zeros(), zeros()];
+        for (k, length) in layout.segment_lengths().iter().enumerate() {
+            lengths[0][k] = *length;
+            lengths[1][k] = length.recip();
+        }
+        let mut inverse_distances = zeros();
+        // Without a wall at the start there is no element before the first segment.
+        let first = usize::from(layout.wall(RodEnd::Start).is_none());
+        let elements = inverse_distances[first..].iter_mut();
+        for (inverse, distance) in elements.zip(layout.voronoi_lengths()) {
+            *inverse = distance.recip();
+        }
+        Self {
+            lengths,
+            inverse_distances,
+            shares: [zeros(), zeros()],
+        }
+    }
+}
+
+impl Bodies {
+    /// Inverse rest distances of the bending elements, from the first one on (1/nm).
+    pub(super) fn inverse_distances(&self, layout: &RodLayout) -> &[f64] {
+        let first = usize::from(layout.wall(RodEnd::Start).is_none());
+        &self.inverse_distances[first..][..layout.voronoi_lengths().len()]
+    }
+}
+
+impl<L: Law> Rod<L> {
+    /// A rod whose segments, if they are `extended`, have the mean curvature of elements around
+    /// them; `None` where there are others around than those next to them and those that join its ends.
+    pub(super) fn new(
+        layout: &RodLayout,
+        law: L,
+        extended: Option<&ExtendedSegments>,
+    ) -> Option<Self> {
+        let mut rod = Self {
+            law,
+            bodies: Bodies::new(layout),
+            joined: Vec::new(),
+        };
+        for k in 0..layout.segments() {
+            for around in extended.map_or(&[][..], |segments| segments.curvature.around(k)) {
+                let share = around.share / around.element.rest_distance;
+                rod.add_around(k, layout, around.frames, share)?;
+            }
+        }
+        (rod.joined.len() <= MOST_JOINED).then_some(rod)
+    }
+
+    /// Adds an element around segment `k`.
+    fn add_around(
+        &mut self,
+        k: usize,
+        layout: &RodLayout,
+        frames: [usize; 2],
+        share: f64,
+    ) -> Option<()> {
+        let frame = layout.frames().start + k;
+        let own = |lane: usize| self.bodies.inverse_distances[lane] > 0.0;
+        if own(k) && frames == [frame.wrapping_sub(1), frame] {
+            self.bodies.shares[0][k] += share;
+        } else if own(k + 1) && frames == [frame, frame + 1] {
+            self.bodies.shares[1][k] += share;
+        } else {
+            let at = |end| layout.end_frame(end) == frame;
+            let end = match frames {
+                [_, second] if second == frame && at(RodEnd::Start) => RodEnd::Start,
+                [first, _] if first == frame && at(RodEnd::End) => RodEnd::End,
+                _ => return None,
+            };
+            self.joined.push(Joined { frames, end, share });
+        }
+        Some(())
+    }
+
+    /// Adds the loads of all elements.
+    pub(super) fn add_loads(
+        &self,
+        arch: Arch,
+        layout: &RodLayout,
+        state: &State,
+        loads: &mut Loads,
+    ) {
+        arch.dispatch(AddLoads {
+            rod: self,
+            layout,
+            state,
+            loads,
+        });
+    }
+}
