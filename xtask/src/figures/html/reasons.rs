@@ -90,7 +90,7 @@ pub(super) const REASONS: [Reason; 10] = [
         title: "Under-twisted filaments do not buckle higher the more of them is rod",
         text: "The paper says so for both directions of twist. In over-twist it holds at every step. In \
                under-twist the heights of all mixed filaments lie within 1 nm of 39 nm, and from one to \
-               the next longer rod they go down as often as up (the note lists them): there is no \
+               the next longer rod they fall more often than they rise (the note lists them): there is no such \
                trend. What does fall with less rod is the couple that is needed.",
     },
     Reason {

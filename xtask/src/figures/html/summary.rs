@@ -28,15 +28,17 @@ pub(super) fn write(page: &mut String, artefacts: &[Artefact], quick: bool) {
     push(
         page,
         format_args!(
-            "<p>Of {} numbers that the paper, or a theory named in the note, gives or \
-             bounds, <span class=\"pass\">{} agree</span> within the tolerance beside them and \
-             <span class=\"miss\">{} do not</span>. {} more were measured with nothing to compare them \
-             with. All numbers and pictures come from simulations of the run that wrote this page; \
-             but for the choices that follow nothing is fitted to meet the paper unless a row \
-             says so.</p>\n",
+            "<p>Of {} numbers that the paper gives or bounds, or that the note of a row takes from \
+             elsewhere, <span class=\"pass\">{} agree</span> within the tolerance beside them and \
+             <span class=\"miss\">{} do not</span>; {} of all these are compared with an earlier, \
+             independent calculation (called prototype in the notes), since the paper prints no number. {} \
+             more were measured with nothing to compare them with. All numbers and pictures come from \
+             simulations of the run that wrote this page; but for the choices that follow nothing is \
+             fitted to meet the paper unless a row says so.</p>\n",
             all.compared(),
             all.agree,
             all.missed,
+            from_prototype(artefacts),
             all.measured
         ),
     );
@@ -44,6 +46,13 @@ pub(super) fn write(page: &mut String, artefacts: &[Artefact], quick: bool) {
     counts(page, artefacts);
     reading(page);
     misses(page, artefacts);
+}
+
+/// How many numbers are compared with those of the prototype, as their notes say.
+fn from_prototype(artefacts: &[Artefact]) -> usize {
+    let rows = artefacts.iter().flat_map(|a| &a.rows);
+    rows.filter(|row| row.pass.is_some() && row.note.contains("prototype"))
+        .count()
 }
 
 /// What the paper leaves open and Tables 3 to 5 decided. A reader has to know, since agreement with
@@ -135,7 +144,8 @@ fn reading(page: &mut String) {
         format_args!(
             "<h2>How to read this page</h2>\n<p>A row agrees if ours differs from the paper's number \
              by no more than the tolerance; where the note says at most or at least, the tolerance \
-             is the bound itself. Units are nm, pN, ns and rad; a row without one is a ratio or a count. \
+             is the bound itself. Where the note names another source, a theory or the \
+             earlier calculation, the number under <em>paper</em> is from there. Units are nm, pN, ns and rad; a row without one is a ratio or a count. \
              On a narrow screen wide pictures are scrolled sideways. Colour is resolution, the share \
              of the filament that is rod:</p>\n<div class=\"ramp\" \
              style=\"background:linear-gradient(to right,{})\"></div><div class=\"ends\"><span>all \
