@@ -50,50 +50,50 @@ pub(crate) fn interaction(layout: &RodLayout, (_, material, xi): Law) -> EnergyG
     }
 }
 
-/// Numbers of the scenes' law `Fitted`.
+/// The scenes' law `Fitted`: its numbers are those of `crates/actin-sim/src/scene/fitted.rs`.
 fn fitted(constant: RodMaterial) -> (RodMaterial, TwistStretch) {
-    let bend = Stiffening {
-        rest: 31_717.0,
-        rise: 8_070.5,
-        curvature: 2.845e-3,
-        twist: 2.871e-3,
-        shear: 9.922e-3,
-        range: 0.015,
-    };
-    let (under, over) = (
-        TwistRise {
-            rise: 12_877.3,
-            half: 8.713_5e-3,
-            slow: 1.862e-2,
-        },
-        TwistRise {
-            rise: 23_082.2,
-            half: 1.141_46e-2,
-            slow: 1.843_1e-2,
-        },
-    );
-    let twist = SidedTwist {
-        rest: 225.65,
-        under,
-        over,
-        range: 0.0472,
-    };
-    let shear = CubicShear {
-        linear: [0.0, 0.0],
-        cubic: 8.282_4e5,
-    };
     let material = constant
-        .with_bend(BendLaw::Stiffening(bend))
-        .and_then(|m| m.with_twist(TwistLaw::Sided(twist)))
+        .with_bend(BendLaw::Stiffening(BEND))
+        .and_then(|m| m.with_twist(TwistLaw::Sided(TWIST)))
         .and_then(|m| m.with_stretch(StretchLaw::Constant(3.29e4)))
-        .and_then(|m| m.with_shear(shear))
+        .and_then(|m| m.with_shear(SHEAR))
         .expect("the laws are valid");
-    let xi = RootedStretch {
-        slope: -0.288_514,
-        bend: 0.460_159,
-        half: 6.587_3e-3,
-        cubic: 27.601_6,
-        range: 0.0472,
-    };
-    (material, TwistStretch::Rooted(xi))
+    (material, TwistStretch::Rooted(LENGTH))
 }
+
+const BEND: Stiffening = Stiffening {
+    rest: 31_717.0,
+    rise: 8_070.5,
+    curvature: 2.845e-3,
+    twist: 2.871e-3,
+    shear: 9.922e-3,
+    range: 0.015,
+};
+
+const TWIST: SidedTwist = SidedTwist {
+    rest: 225.65,
+    under: TwistRise {
+        rise: 12_877.3,
+        half: 8.713_5e-3,
+        slow: 1.862e-2,
+    },
+    over: TwistRise {
+        rise: 23_082.2,
+        half: 1.141_46e-2,
+        slow: 1.843_1e-2,
+    },
+    range: 0.0472,
+};
+
+const SHEAR: CubicShear = CubicShear {
+    linear: [0.0, 0.0],
+    cubic: 8.282_4e5,
+};
+
+const LENGTH: RootedStretch = RootedStretch {
+    slope: -0.288_514,
+    bend: 0.460_159,
+    half: 6.587_3e-3,
+    cubic: 27.601_6,
+    range: 0.0472,
+};

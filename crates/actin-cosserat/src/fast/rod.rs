@@ -54,7 +54,16 @@ impl Bodies {
 }
 
 impl Bodies {
+    /// Rest lengths of the segments (nm) and their inverse, without the lane beyond.
+    #[inline]
+    pub(super) fn lengths(&self, layout: &RodLayout) -> [&[f64]; 2] {
+        let [lengths, inverse] = &self.lengths;
+        let segments = layout.segments();
+        [&lengths[..segments], &inverse[..segments]]
+    }
+
     /// Inverse rest distances of the bending elements, from the first one on (1/nm).
+    #[inline]
     pub(super) fn inverse_distances(&self, layout: &RodLayout) -> &[f64] {
         let first = usize::from(layout.wall(RodEnd::Start).is_none());
         &self.inverse_distances[first..][..layout.voronoi_lengths().len()]

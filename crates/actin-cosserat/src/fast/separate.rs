@@ -18,8 +18,8 @@ impl<L: Law> AddLoads<'_, L> {
         let first = vectors::<S>(x, nodes.start..nodes.end - 1);
         let second = vectors::<S>(x, nodes.start + 1..nodes.end);
         let q = quaternions::<S>(&self.state.frames.orientation, frames.clone());
-        let [lengths, inverse_lengths] = &self.rod.bodies.lengths;
-        let lengths = Columns::<S, 2>::new([lengths, inverse_lengths]);
+        let lengths = self.rod.bodies.lengths(self.layout);
+        let lengths = Columns::<S, 2>::new(lengths);
         let law = self.rod.law;
         let straight = [simd.splat_f64s(0.0); 3];
         let mut force = vectors_mut::<S>(&mut self.loads.force, nodes);
