@@ -150,7 +150,7 @@ impl Descent {
             let taken = self.taken(&direction, Verdict::Excursion);
             return Ok(Some((direction, taken)));
         }
-        self.cubic = (STIFFER * self.cubic).max(solver.least_cubic(&self.state));
+        self.cubic = (STIFFER * self.cubic).max(solver.least_cubic());
         let taken = self.shorten(solver, interactions, &direction, fraction);
         Ok(taken.map(|taken| (direction, taken)))
     }
@@ -257,7 +257,7 @@ impl Descent {
 
     /// Raises or lowers the stiffening of ties by what part of the promised decrease was gained.
     fn adapt(&mut self, solver: &Solver, direction: &Direction, gain: f64) {
-        let least = solver.least_cubic(&self.state);
+        let least = solver.least_cubic();
         let present = direction.cubic.max(self.cubic);
         self.cubic = if gain < POOR {
             (STIFFER * present).max(least)
@@ -323,7 +323,9 @@ impl Descent {
         let mut factor = SHORTEN[1];
         loop {
             fraction *= factor;
-            if fraction < SHORTEST * refused.min(1.0) {
+            // Written so that a fraction that has underflown, or is not a number, ends this too.
+            let is_worth_trying = fraction > SHORTEST * refused.min(1.0);
+            if !is_worth_trying {
                 return None;
             }
             self.try_step(solver, interactions, direction, fraction);

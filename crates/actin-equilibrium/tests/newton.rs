@@ -229,6 +229,32 @@ fn round_off_floor_is_reported() {
     assert!(equilibrium.floor.force < 1e-8);
 }
 
+/// A joint 1e12 nm away, whose loads are known to 2e-5 pN only, is no reason to leave another one
+/// alone: a pendulum on a spring that stands on its head, 0.01 nm off, has a residual of 1e-6 pN
+/// which grows before it falls. It must end hanging, not upside down and called an equilibrium.
+#[test]
+fn the_floor_of_one_body_hides_nothing_of_another() {
+    let mut state = State::default();
+    for z in [0.0, 0.9, 1e12, 1e12 + 1.0] {
+        point(&mut state, Vector3::z() * z);
+    }
+    state.points.hold(0);
+    state.points.hold(2);
+    state.points.position.set(1, Vector3::new(0.01, 0.0, 0.9));
+    state.controls.push(1e-4);
+    let load = PointLoad::new(&state, vec![(1, 1.0)], -Vector3::z(), 0);
+    let springs = Springs(vec![(0, 1, 1e-3, 1.0), (2, 3, 0.1, 1.0)]);
+    let terms: Terms = vec![Box::new(springs), Box::new(load)];
+    let layout = Layout::new(&state, Some(&in_order(&state)), Vec::new()).unwrap();
+    let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
+    let found = newton.solve(&mut state, &terms).unwrap();
+    assert!(found.floor.force > 1e-5, "{:?}", found.floor);
+    assert!(found.residual.force <= 1e-8, "{:?}", found.residual);
+    // The spring is 0.1 pN / (1e-3 pN/nm) / 1000 longer than at rest.
+    let end = state.points.position.get(1);
+    assert!((end - Vector3::z() * -1.1).norm() < 1e-4, "{end}");
+}
+
 /// Too few steps: the error carries history and residual, and the state is the best one, not the
 /// stretched one of an excursion.
 #[test]
@@ -360,5 +386,38 @@ fn options_are_checked() {
     ];
     for (options, message) in cases {
         assert_eq!(refused(options), message);
+    }
+}
+
+/// Stiffness that overflows, and stiffness that is none: no regularisation makes either definite,
+/// which has to be said. A search for one by growing multiples would go on for ever, and so would
+/// one for a fraction of a step that has underflown. Stiffness that is next to none or next to too
+/// much ends after a bounded number of steps, whichever way.
+#[test]
+fn stiffness_without_scale_is_refused() {
+    for stiffness in [1.5e308, 1e306, 1e200, 1e-200, 1e-307, 1e-320, 0.0] {
+        let mut state = State::default();
+        for z in [0.0, 1.0, 2.0] {
+            point(&mut state, Vector3::z() * z);
+        }
+        state.points.hold(0);
+        state.controls.push(1.0);
+        let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::z(), 0);
+        let springs = Springs(vec![(0, 1, stiffness, 1.0), (1, 2, stiffness, 1.0)]);
+        let terms: Terms = vec![Box::new(springs), Box::new(load)];
+        let layout = Layout::new(&state, Some(&in_order(&state)), Vec::new()).unwrap();
+        let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
+        let result = newton.solve(&mut state, &terms);
+        println!(
+            "{stiffness:e}: {:?}",
+            result.as_ref().map_err(ToString::to_string)
+        );
+        assert!(newton.work().iterations <= 300, "{stiffness:e}");
+        assert!(newton.work().evaluations < 300 * 100, "{stiffness:e}");
+        if let (1.5e308 | 0.0, result) = (stiffness, result) {
+            let trouble = result.unwrap_err().trouble;
+            let is_said = matches!(trouble, Trouble::NotFactorizable(_) | Trouble::NotFinite);
+            assert!(is_said, "{stiffness:e}: {trouble}");
+        }
     }
 }
