@@ -27,6 +27,13 @@ const FARTHEST: f64 = 1e6;
 const POOR: f64 = 0.25;
 /// Stiffening below this part of the first guess is dropped.
 const NEGLIGIBLE: f64 = 1e-2;
+/// Part of the first guess that is kept where there are [`MANY`] bodies. Among so many some tie is always
+/// about to give way far: without stiffening a step overshoots there and takes ten more to come back,
+/// all of them steps of the whole. With it steps are still quadratic near the end, since the
+/// stiffness of a tie goes with its motion.
+const KEPT: f64 = 1.0 / 64.0;
+/// So many points, frames and groups are many.
+const MANY: usize = 2000;
 /// Factor by which the stiffening of ties is raised and lowered.
 const STIFFER: f64 = 4.0;
 /// Growth of the reach after a step that was accepted at once.
@@ -263,10 +270,16 @@ impl Descent {
             (STIFFER * present).max(least)
         } else if gain < GOOD {
             present
-        } else if present > NEGLIGIBLE * least {
-            present / STIFFER
         } else {
-            0.0
+            let is_negligible = present <= NEGLIGIBLE * least;
+            let lowered = if is_negligible {
+                0.0
+            } else {
+                present / STIFFER
+            };
+            let is_kept = solver.layout.len() >= MANY;
+            let kept = if is_kept { KEPT * least } else { 0.0 };
+            lowered.max(kept.min(present))
         };
     }
 
