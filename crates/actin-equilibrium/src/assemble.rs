@@ -16,6 +16,8 @@ pub(crate) struct Assembly {
     /// Values in the order of the pattern.
     pub(crate) values: Vec<f64>,
     ties: Ties,
+    /// Motion (nm) of each tie that counts as a strain of one, at the state of the last update.
+    tie_lengths: Vec<f64>,
     chain: Chain,
     tie_blocks: Stiffness,
     tie_places: Vec<Place>,
@@ -58,6 +60,7 @@ impl Assembly {
             self.chain = Chain::new(layout, &self.ties, points, frames);
             self.tie_places.clear();
         }
+        self.tie_lengths = self.ties.lengths(state);
         let pattern = self.pattern.as_ref().expect("it has just been made");
         let mut target = Target::new(&mut self.values, pattern, layout);
         target.add_all(state, &self.blocks, &pattern.places);
@@ -80,6 +83,11 @@ impl Assembly {
     /// The ties between coupled bodies.
     pub(crate) fn ties(&self) -> &Ties {
         &self.ties
+    }
+
+    /// The motion (nm) of each tie that counts as a strain of one, at the state of the last update.
+    pub(crate) fn tie_lengths(&self) -> &[f64] {
+        &self.tie_lengths
     }
 
     /// The order in which bodies follow one another.

@@ -27,6 +27,13 @@ const FARTHEST: f64 = 1e6;
 const POOR: f64 = 0.25;
 /// Stiffening below this part of the first guess is dropped.
 const NEGLIGIBLE: f64 = 1e-2;
+/// Part of the first guess that is kept where there are [`MANY`] bodies. Among so many some tie is always
+/// about to give way far: without stiffening a step overshoots there and takes ten more to come back,
+/// all of them steps of the whole. With it steps are still quadratic near the end, since the
+/// stiffness of a tie goes with its motion.
+const KEPT: f64 = 1.0 / 64.0;
+/// So many points, frames and groups are many.
+const MANY: usize = 2000;
 /// Factor by which the stiffening of ties is raised and lowered.
 const STIFFER: f64 = 4.0;
 /// Growth of the reach after a step that was accepted at once.
@@ -150,7 +157,7 @@ impl Descent {
             let taken = self.taken(&direction, Verdict::Excursion);
             return Ok(Some((direction, taken)));
         }
-        self.cubic = (STIFFER * self.cubic).max(solver.least_cubic(&self.state));
+        self.cubic = (STIFFER * self.cubic).max(solver.least_cubic());
         let taken = self.shorten(solver, interactions, &direction, fraction);
         Ok(taken.map(|taken| (direction, taken)))
     }
@@ -257,16 +264,22 @@ impl Descent {
 
     /// Raises or lowers the stiffening of ties by what part of the promised decrease was gained.
     fn adapt(&mut self, solver: &Solver, direction: &Direction, gain: f64) {
-        let least = solver.least_cubic(&self.state);
+        let least = solver.least_cubic();
         let present = direction.cubic.max(self.cubic);
         self.cubic = if gain < POOR {
             (STIFFER * present).max(least)
         } else if gain < GOOD {
             present
-        } else if present > NEGLIGIBLE * least {
-            present / STIFFER
         } else {
-            0.0
+            let is_negligible = present <= NEGLIGIBLE * least;
+            let lowered = if is_negligible {
+                0.0
+            } else {
+                present / STIFFER
+            };
+            let is_kept = solver.layout.len() >= MANY;
+            let kept = if is_kept { KEPT * least } else { 0.0 };
+            lowered.max(kept.min(present))
         };
     }
 
@@ -323,7 +336,9 @@ impl Descent {
         let mut factor = SHORTEN[1];
         loop {
             fraction *= factor;
-            if fraction < SHORTEST * refused.min(1.0) {
+            // Written so that a fraction that has underflown, or is not a number, ends this too.
+            let is_worth_trying = fraction > SHORTEST * refused.min(1.0);
+            if !is_worth_trying {
                 return None;
             }
             self.try_step(solver, interactions, direction, fraction);

@@ -41,6 +41,8 @@ pub(crate) struct Solver {
     turn_length: f64,
     /// Generalised loads at the state of the last assembly.
     reduced: Vec<f64>,
+    /// What rounding leaves of these.
+    rounding: Vec<f64>,
     pub(crate) work: Work,
 }
 
@@ -70,6 +72,7 @@ impl Solver {
             metric: Vec::new(),
             turn_length,
             reduced: Vec::new(),
+            rounding: Vec::new(),
             work: Work::default(),
         }
     }
@@ -128,13 +131,25 @@ impl Solver {
 
     /// Residual at the last assembly, and what rounding of coordinates leaves of it:
     /// `eps |K| |u|`, `u` the components of positions or one for a turn.
-    pub(crate) fn residual_and_floor(&self, state: &State) -> (Residual, Residual) {
-        let n = self.layout.unknowns();
-        let (mut magnitudes, mut rounding) = (vec![0.0; n], vec![0.0; n]);
+    pub(crate) fn residual_and_floor(&mut self, state: &State) -> (Residual, Residual) {
+        let mut magnitudes = vec![0.0; self.layout.unknowns()];
         self.layout.magnitudes(state, &mut magnitudes);
-        self.assembly.multiply_absolute(&magnitudes, &mut rounding);
-        let floor = self.layout.largest(&rounding).scaled(f64::EPSILON);
+        self.rounding.resize(magnitudes.len(), 0.0);
+        self.assembly
+            .multiply_absolute(&magnitudes, &mut self.rounding);
+        self.rounding.iter_mut().for_each(|r| *r *= f64::EPSILON);
+        let floor = self.layout.largest(&self.rounding);
         (self.layout.largest(&self.reduced), floor)
+    }
+
+    /// Whether the loads of each body are within the tolerance or `multiple` times what rounding
+    /// leaves of them there, by the last [`residual_and_floor`](Solver::residual_and_floor).
+    ///
+    /// Body by body: what rounding leaves of a stiff joint far from the origin is no reason to
+    /// leave off elsewhere.
+    pub(crate) fn is_at_floor(&self, tolerance: &Residual, multiple: f64) -> bool {
+        let rounding = (self.rounding.as_slice(), multiple);
+        self.layout.are_within(&self.reduced, tolerance, rounding)
     }
 
     /// Factorises the stiffness of the last assembly with a shift of the metric.
@@ -249,7 +264,7 @@ impl Solver {
         cubic: f64,
     ) -> Result<Direction, Trouble> {
         let plain = self.factorize(0.0);
-        let lengths = self.assembly.ties().lengths(state);
+        let lengths = self.assembly.tie_lengths();
         let limits: Vec<f64> = lengths.iter().map(|length| strain * length).collect();
         if cubic > 0.0 && !plain.is_positive() {
             // The shift that the plain stiffness needs says nothing of that with ties.
@@ -259,7 +274,7 @@ impl Solver {
         let direction = self.solve_direction(state, plain, shift, &[]);
         let too_long = direction.extent.strain > TOO_LONG * strain;
         let cubic = if too_long {
-            cubic.max(self.least_cubic(state))
+            cubic.max(self.least_cubic())
         } else {
             cubic
         };
@@ -300,8 +315,8 @@ impl Solver {
     }
 
     /// A first guess of how fast the stiffness of a tie changes with its motion.
-    pub(crate) fn least_cubic(&self, state: &State) -> f64 {
-        let lengths = self.assembly.ties().lengths(state);
+    pub(crate) fn least_cubic(&self) -> f64 {
+        let lengths = self.assembly.tie_lengths();
         let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
         STIFFNESS_CHANGE * self.largest_diagonal() / mean
     }
@@ -323,7 +338,7 @@ impl Solver {
         let of_ties: f64 = weights.iter().zip(&motions).map(|(w, r)| w * r * r).sum();
         let strain = motions
             .iter()
-            .zip(self.assembly.ties().lengths(state))
+            .zip(self.assembly.tie_lengths())
             .map(|(motion, length)| motion / length)
             .fold(0.0, f64::max);
         Direction {

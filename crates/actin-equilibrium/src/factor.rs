@@ -11,7 +11,9 @@
 //! N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), theorems 10.3
 //! and 11.4; faer, `sparse::linalg::cholesky::simplicial`.
 
+use crate::band::{Band, Eliminate};
 use crate::pattern::Pattern;
+use actin_mechanics::wide;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::sparse::linalg::cholesky::simplicial;
@@ -53,6 +55,8 @@ pub(crate) fn factor_operations(upper: SymbolicSparseColMatRef<'_, usize>) -> us
 /// The factors of one pattern, with the memory they need.
 pub(crate) struct Factor {
     symbolic: simplicial::SymbolicSimplicialCholesky<usize>,
+    /// For a factor without gaps.
+    band: Option<Band>,
     values: Vec<f64>,
     shifted: Vec<f64>,
     diagonal: Vec<f64>,
@@ -85,6 +89,7 @@ impl Factor {
                 .expect("the factor of a filament fits into memory");
         Self {
             values: vec![0.0; symbolic.len_val()],
+            band: Band::of(&symbolic),
             symbolic,
             shifted: Vec::new(),
             diagonal: Vec::new(),
@@ -98,6 +103,19 @@ impl Factor {
     /// Number of entries of the factor.
     pub(crate) fn entries(&self) -> usize {
         self.symbolic.len_val()
+    }
+
+    /// Whether columns have no gaps.
+    #[cfg(test)]
+    pub(crate) fn is_band(&self) -> bool {
+        self.band.is_some()
+    }
+
+    /// The same without use of the band, if there is one.
+    #[cfg(test)]
+    pub(crate) fn with_gaps(mut self) -> Self {
+        self.band = None;
+        self
     }
 
     /// Factorises `K + shift M`, `M` the diagonal `metric`.
@@ -144,9 +162,26 @@ impl Factor {
         self.diagonal
             .extend(ends.iter().map(|&end| self.shifted[end - 1].abs()));
         let largest = self.largest_diagonal();
+        let least = (f64::EPSILON * largest).max(f64::MIN_POSITIVE);
+        if let Some(band) = &self.band {
+            band.place(upper, &self.shifted, &mut self.values);
+            let values = &mut self.values;
+            wide::dispatch(Eliminate {
+                band,
+                values,
+                least,
+            });
+        } else {
+            self.eliminate_with_gaps(upper, least);
+        }
+        self.inertia(least)
+    }
+
+    /// A pivot that is not finite ends this early; what is left of the factor then counts as doubtful.
+    fn eliminate_with_gaps(&mut self, upper: SymbolicSparseColMatRef<'_, usize>, least: f64) {
         let regularization = LdltRegularization {
             dynamic_regularization_signs: None,
-            dynamic_regularization_delta: (f64::EPSILON * largest).max(f64::MIN_POSITIVE),
+            dynamic_regularization_delta: least,
             dynamic_regularization_epsilon: 0.0,
         };
         let done = simplicial::factorize_simplicial_numeric_ldlt(
@@ -156,16 +191,20 @@ impl Factor {
             &self.symbolic,
             MemStack::new(&mut self.memory),
         );
+        if done.is_err() {
+            self.values.fill(f64::NAN);
+        }
+    }
+
+    /// What the pivots say; one that is `least` to the last bit was zero.
+    fn inertia(&self, least: f64) -> Inertia {
         let mut inertia = Inertia::default();
-        for column in 0..upper.ncols() {
+        for column in 0..self.diagonal.len() {
             let pivot = self.pivot(column);
             let rounding = PIVOT_ROUNDINGS * f64::EPSILON * self.diagonal[column];
             inertia.negative += usize::from(pivot < 0.0);
-            inertia.doubtful += usize::from(pivot.is_nan() || pivot.abs() <= rounding);
-        }
-        if done.is_err() {
-            // Zero pivots are replaced, so this is a pivot that is not finite.
-            inertia.doubtful += 1;
+            let is_none = !pivot.is_finite() || pivot.to_bits() == least.to_bits();
+            inertia.doubtful += usize::from(is_none || pivot.abs() <= rounding);
         }
         inertia
     }

@@ -11,6 +11,7 @@
 struct Readme;
 
 mod assemble;
+mod band;
 mod certificate;
 mod chain;
 mod companion;

@@ -68,29 +68,40 @@ impl Layout {
 
     /// The largest norms, over nodes, of numbers that are laid out as generalised loads.
     pub(crate) fn largest(&self, reduced: &[f64]) -> Residual {
-        let mut largest = Residual::default();
-        for (node, range) in self.nodes() {
-            let values = &reduced[range];
-            let of_node = match node {
-                Node::Point(_) => Residual {
-                    force: norm(values),
-                    torque: 0.0,
-                },
-                Node::Frame(_) => Residual {
-                    force: 0.0,
-                    torque: norm(values),
-                },
-                Node::Group(g) => {
-                    let (along, about) = values.split_at(self.groups()[g].translations.len());
-                    Residual {
-                        force: norm(along),
-                        torque: norm(about),
-                    }
-                }
-            };
-            largest = largest.max(&of_node);
+        self.nodes()
+            .map(|(node, range)| self.norms(node, &reduced[range]))
+            .fold(Residual::default(), |largest, of_node| {
+                largest.max(&of_node)
+            })
+    }
+
+    /// Whether the loads of each node are within `limit`, or within `multiple` times what rounding
+    /// leaves of them at that node. Rounding that is not finite allows nothing.
+    pub(crate) fn are_within(
+        &self,
+        loads: &[f64],
+        limit: &Residual,
+        (rounding, multiple): (&[f64], f64),
+    ) -> bool {
+        self.nodes().all(|(node, range)| {
+            let floor = self.norms(node, &rounding[range.clone()]).scaled(multiple);
+            let of_node = self.norms(node, &loads[range]);
+            of_node.is_within(&limit.max(&floor.if_finite()))
+        })
+    }
+
+    /// The norms of what is laid out as the generalised loads of one node.
+    fn norms(&self, node: Node, values: &[f64]) -> Residual {
+        let translations = match node {
+            Node::Point(_) => values.len(),
+            Node::Frame(_) => 0,
+            Node::Group(g) => self.groups()[g].translations.len(),
+        };
+        let (along, about) = values.split_at(translations);
+        Residual {
+            force: norm(along),
+            torque: norm(about),
         }
-        largest
     }
 
     /// The residual of `state` under `loads`.

@@ -296,16 +296,15 @@ impl Run<'_> {
         if self.residual.is_within(tolerance) {
             return (!descent.gives_up_excursion()).then_some(Ending::Converged);
         }
-        let reachable = tolerance.max(&self.floor.scaled(AT_FLOOR));
         let falling = self.residual.relative_to(tolerance) < STILL_FALLING * self.previous;
-        let at_floor = self.residual.is_within(&reachable) && !falling;
+        let at_floor = !falling && self.solver.is_at_floor(tolerance, AT_FLOOR);
         (at_floor && !descent.is_on_excursion()).then_some(Ending::FloorReached)
     }
 
     /// No step helps: either the floor is reached, or something is wrong.
     fn stagnation(&self) -> Result<Option<Ending>, Trouble> {
-        let reachable = self.options.tolerance.max(&self.floor.scaled(NEAR_FLOOR));
-        if self.residual.is_within(&reachable) {
+        let tolerance = &self.options.tolerance;
+        if self.solver.is_at_floor(tolerance, NEAR_FLOOR) {
             Ok(Some(Ending::FloorReached))
         } else {
             Err(Trouble::Stagnated)

@@ -10,8 +10,9 @@ use thiserror::Error;
 pub enum Ending {
     /// The residual is within the tolerance.
     Converged,
-    /// The residual is above the tolerance, but at the estimated round-off floor, and does not
-    /// fall any more.
+    /// The residual is above the tolerance and does not fall any more, but the loads of each body
+    /// are within the tolerance or within 8 times what rounding leaves of them at that body (100
+    /// times where no step, however short, helps).
     FloorReached,
 }
 

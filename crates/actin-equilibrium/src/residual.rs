@@ -31,6 +31,15 @@ impl Residual {
         }
     }
 
+    /// The same, with zero for a part that is not finite.
+    pub(crate) fn if_finite(&self) -> Self {
+        let part = |value: f64| if value.is_finite() { value } else { 0.0 };
+        Self {
+            force: part(self.force),
+            torque: part(self.torque),
+        }
+    }
+
     /// The larger of each part.
     pub(crate) fn max(&self, other: &Self) -> Self {
         Self {

@@ -1,6 +1,6 @@
 //! The lab's origin, 1e6 nm away from the filament.
 
-use super::row::{Outcome, Row};
+use super::row::{Outcome, Row, larger};
 use super::scenes::build;
 use actin_mechanics::testing::{Noise, perturb};
 use actin_mechanics::{Interaction, Loads, State, Vector3};
@@ -61,7 +61,7 @@ fn shifted(shift: f64) -> Result<Outcome, Outcome> {
         .iter()
         .zip(b.torque.iter())
         .map(|(a, b)| (a - b).norm());
-    let largest = force.chain(torque).fold(0.0, f64::max);
+    let largest = force.chain(torque).fold(0.0, larger);
     // Each place is rounded to half a unit in the last place, an end of up to 128 bonds.
     let rounding = shift * f64::EPSILON * STIFFNESS;
     let what = "loads (pN, pN nm), round-off of places times stiffness";

@@ -12,6 +12,13 @@ pub(crate) enum Outcome {
         /// What it may be.
         bound: f64,
     },
+    /// What has a bound and no right value stays below it.
+    Bounded {
+        /// What it is.
+        what: &'static str,
+        /// It over its bound.
+        share: f64,
+    },
     /// The scene was refused with this message before it ran.
     Refused(String),
     /// The run ended early with this message.
@@ -31,6 +38,7 @@ impl Outcome {
         match self {
             // Written so that an error that is not a number is no correct result.
             Self::Correct { error, bound, .. } => error <= bound,
+            Self::Bounded { share, .. } => *share <= 1.0,
             Self::Refused(_) | Self::Fails(_) => true,
             Self::Wrong(_) => false,
         }
@@ -44,6 +52,12 @@ impl Outcome {
             }
             Self::Correct { what, error, bound } => {
                 format!("WRONG by {error:.1e}, more than {bound:.0e}: {what}")
+            }
+            Self::Bounded { what, share } if *share <= 1.0 => {
+                format!("within {share:.1e} of its bound: {what}")
+            }
+            Self::Bounded { what, share } => {
+                format!("WRONG: {share:.1e} times its bound: {what}")
             }
             Self::Refused(message) => format!("refused: {message}"),
             Self::Fails(message) => format!("fails with: {message}"),
@@ -72,4 +86,9 @@ impl Row {
             outcome,
         }
     }
+}
+
+/// The larger of two; what is not a number stays, which `f64::max` would drop.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
 }

@@ -30,9 +30,9 @@ pub struct Change {
 pub enum Expected {
     /// Errors, relative, against all monomers: the row of the table that they are from.
     Errors(Box<Measured>),
-    /// The state at rest is the same.
-    SameState,
-    /// Slow motion is the same within [`SLOW_MOTION`]; of the fastest modes nothing is said.
+    /// None of the state at rest, but where there are several it may be another.
+    AtRest,
+    /// The error of slow motion was [`SLOW_MOTION`] where it was measured; of the fastest modes nothing is said.
     SlowMotion,
 }
 
@@ -190,7 +190,7 @@ fn at_rest(scene: &Scene) -> Option<Candidate> {
     let mut changed = scene.clone();
     changed.task = Task::Equilibrium(Equilibrium::default());
     let what = "ask for Equilibrium if only the state at rest is wanted".into();
-    Some((what, changed, Expected::SameState))
+    Some((what, changed, Expected::AtRest))
 }
 
 /// Position Verlet for a motion that is wanted for itself, where the scene leaves the step to the
@@ -226,10 +226,13 @@ impl fmt::Display for Expected {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Errors(row) => write_errors(row, f),
-            Self::SameState => f.write_str("the same state"),
+            Self::AtRest => {
+                f.write_str("a state at rest without error, the same if there is but one")
+            }
             Self::SlowMotion => write!(
                 f,
-                "expected error of slow motion {SLOW_MOTION:.0e}, and more of what is fast"
+                "expected error of slow motion {SLOW_MOTION:.0e}, and more of what is fast (measured on the \
+                 tip of 80 nm of monomers and 80 nm of rod let go)"
             ),
         }
     }

@@ -172,6 +172,6 @@ mod tests {
         scene.filament.monomers.rise_nm = 2.76;
         let advice = Advice::of(&scene).unwrap();
         assert_eq!(advice.like, None);
-        assert_eq!(advice.change.unwrap().expected, Expected::SameState);
+        assert_eq!(advice.change.unwrap().expected, Expected::AtRest);
     }
 }

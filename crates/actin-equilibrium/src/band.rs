@@ -1,0 +1,282 @@
+//! Elimination where the rows of each column of the factor follow one another, as those of a
+//! filament do: plain loops over slices instead of lists of rows.
+//!
+//! Columns with the same last row make a panel. A panel is eliminated column by column, and then
+//! subtracted as a whole from the columns to its right, each of which is read and written once.
+//! What the factor is for, and what its pivots say, is in `factor`.
+#![allow(
+    clippy::inline_always,
+    reason = "vector code must be compiled into the function that enables the instructions"
+)]
+
+use actin_mechanics::wide::{Simd, WithSimd};
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::cholesky::simplicial::SymbolicSimplicialCholesky;
+use std::ops::Range;
+
+/// Most columns of a panel: those of a body's point and frame.
+const WIDEST: usize = 6;
+
+/// Where a factor without gaps keeps its columns.
+#[derive(Debug)]
+pub(crate) struct Band {
+    /// Where each column begins, and where the last ends.
+    starts: Vec<usize>,
+    /// Columns of each panel, and the end of their rows.
+    panels: Vec<(Range<usize>, usize)>,
+}
+
+impl Band {
+    /// The band of a factor; `None` if the rows of a column have gaps.
+    pub(crate) fn of(symbolic: &SymbolicSimplicialCholesky<usize>) -> Option<Self> {
+        let starts = symbolic.col_ptr().to_vec();
+        let mut panels: Vec<(Range<usize>, usize)> = Vec::new();
+        for column in 0..symbolic.ncols() {
+            let rows = &symbolic.row_idx()[starts[column]..starts[column + 1]];
+            let end = column + rows.len();
+            if !rows.iter().copied().eq(column..end) {
+                return None;
+            }
+            match panels.last_mut() {
+                Some((panel, last)) if *last == end && panel.len() < WIDEST => panel.end += 1,
+                _ => panels.push((column..column + 1, end)),
+            }
+        }
+        Some(Self { starts, panels })
+    }
+
+    /// Puts a matrix given by its upper triangle where its factor will be.
+    pub(crate) fn place(
+        &self,
+        upper: SymbolicSparseColMatRef<'_, usize>,
+        matrix: &[f64],
+        values: &mut [f64],
+    ) {
+        values.fill(0.0);
+        for (column, ends) in upper.col_ptr().windows(2).enumerate() {
+            let entries = ends[0]..ends[1];
+            for (&row, value) in upper.row_idx()[entries.clone()]
+                .iter()
+                .zip(&matrix[entries])
+            {
+                values[self.starts[row] + column - row] = *value;
+            }
+        }
+    }
+}
+
+/// The elimination, to be compiled for whatever instructions the machine has.
+pub(crate) struct Eliminate<'a> {
+    /// Where columns are.
+    pub(crate) band: &'a Band,
+    /// The lower triangle of a matrix, which becomes its factor: pivots, and below them columns of `L`.
+    pub(crate) values: &'a mut [f64],
+    /// What a pivot of zero is replaced by.
+    pub(crate) least: f64,
+}
+
+impl WithSimd for Eliminate<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let starts = &self.band.starts;
+        for (panel, end) in &self.band.panels {
+            let (head, right) = self.values.split_at_mut(starts[panel.end]);
+            let own = &mut head[starts[panel.start]..];
+            let shape = (end - panel.start, panel.len());
+            let reciprocals = eliminate_panel(own, shape, self.least);
+            for column in panel.end..*end {
+                let first = starts[column] - starts[panel.end];
+                let target = &mut right[first..first + end - column];
+                subtract_panel(target, own, shape, &reciprocals);
+            }
+            scale_panel(own, shape, &reciprocals);
+        }
+    }
+}
+
+/// Eliminates the columns of a panel of `rows` rows, one after the other in memory, from each other.
+///
+/// Entries below the pivots are left unscaled. Returns the reciprocals of the pivots.
+#[inline(always)]
+fn eliminate_panel(own: &mut [f64], (rows, width): (usize, usize), least: f64) -> [f64; WIDEST] {
+    let mut reciprocals = [0.0; WIDEST];
+    let mut first = 0;
+    for (p, reciprocal) in reciprocals.iter_mut().enumerate().take(width) {
+        let (column, later) = own[first..].split_at_mut(rows - p);
+        if column[0] == 0.0 {
+            column[0] = least;
+        }
+        *reciprocal = 1.0 / column[0];
+        let mut start = 0;
+        for k in p + 1..width {
+            let source = &column[k - p..];
+            let target = &mut later[start..start + rows - k];
+            subtract(target, [source], [source[0] * *reciprocal]);
+            start += rows - k;
+        }
+        first += rows - p;
+    }
+    reciprocals
+}
+
+/// Subtracts a panel from a column to its right, of which `target` holds the panel's rows.
+#[inline(always)]
+fn subtract_panel(
+    target: &mut [f64],
+    own: &[f64],
+    (rows, width): (usize, usize),
+    reciprocals: &[f64; WIDEST],
+) {
+    let n = target.len();
+    let mut first = 0;
+    let column = |p: usize, first: usize| &own[first + rows - p - n..first + rows - p];
+    let mut p = 0;
+    while p + 3 <= width {
+        let (second, third) = (first + rows - p, first + 2 * (rows - p) - 1);
+        let sources = [
+            column(p, first),
+            column(p + 1, second),
+            column(p + 2, third),
+        ];
+        let factors = [
+            sources[0][0] * reciprocals[p],
+            sources[1][0] * reciprocals[p + 1],
+            sources[2][0] * reciprocals[p + 2],
+        ];
+        subtract(target, sources, factors);
+        first = third + rows - p - 2;
+        p += 3;
+    }
+    while p < width {
+        let source = column(p, first);
+        subtract(target, [source], [source[0] * reciprocals[p]]);
+        first += rows - p;
+        p += 1;
+    }
+}
+
+/// `target -= sum_k factors_k sources_k`.
+#[inline(always)]
+fn subtract<const N: usize>(target: &mut [f64], sources: [&[f64]; N], factors: [f64; N]) {
+    let n = target.len();
+    let sources = sources.map(|source| &source[..n]);
+    for i in 0..n {
+        let mut value = target[i];
+        for k in 0..N {
+            value -= factors[k] * sources[k][i];
+        }
+        target[i] = value;
+    }
+}
+
+/// Divides the columns of a panel by their pivots.
+#[inline(always)]
+fn scale_panel(own: &mut [f64], (rows, width): (usize, usize), reciprocals: &[f64; WIDEST]) {
+    let mut first = 0;
+    for p in 0..width {
+        for value in &mut own[first + 1..first + rows - p] {
+            *value *= reciprocals[p];
+        }
+        first += rows - p;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::factor::Factor;
+    use crate::layout::{BodyOrder, Layout};
+    use crate::pattern::Pattern;
+    use actin_mechanics::testing::Noise;
+    use actin_mechanics::{Coordinates, Frame, Inertia, Matrix3, Point, Stiffness};
+    use actin_mechanics::{State, UnitQuaternion, Vector3};
+
+    /// A chain of `n` bodies, each coupled with the next two, one of them with a frame that is held.
+    fn chain(n: usize) -> (Pattern, Layout) {
+        let mut state = State::default();
+        for _ in 0..n {
+            state.points.push(Point {
+                position: Vector3::zeros(),
+                mass: 1.0,
+            });
+            state.frames.push(Frame {
+                orientation: UnitQuaternion::identity(),
+                inertia: Inertia::from_moments([1.0; 3]).unwrap(),
+            });
+        }
+        // Panels of three columns besides those of six.
+        state.frames.hold(n / 2);
+        let order = BodyOrder {
+            points: (0..n).map(|i| i as f64).collect(),
+            frames: (0..n).map(|i| i as f64).collect(),
+        };
+        let mut layout = Layout::new(&state, Some(&order), vec![]).unwrap();
+        let mut blocks = Stiffness::default();
+        let of = |i| [Coordinates::Point(i), Coordinates::Frame(i)];
+        for i in 0..n {
+            for j in i..n.min(i + 3) {
+                for a in of(i) {
+                    for b in of(j) {
+                        blocks.push(a, b, Matrix3::identity());
+                    }
+                }
+            }
+        }
+        (Pattern::new(&blocks, &mut layout), layout)
+    }
+
+    /// Random entries; a large diagonal makes the matrix positive definite.
+    fn matrix(pattern: &Pattern, seed: u64, diagonal: f64) -> Vec<f64> {
+        let mut noise = Noise::new(seed);
+        let upper = pattern.symbolic.as_ref();
+        let mut values: Vec<f64> = upper.row_idx().iter().map(|_| noise.sample()).collect();
+        for &end in &upper.col_ptr()[1..] {
+            values[end - 1] += diagonal;
+        }
+        values
+    }
+
+    /// Slices and lists of rows give the same factor. A column that is left out of a panel, or
+    /// subtracted with its neighbour's factor, changes all pivots behind it. Rounding grows with
+    /// the ratio of entries to pivots, which is 1e3 at worst where the matrix is indefinite.
+    #[test]
+    fn a_band_is_eliminated_as_any_matrix_is() {
+        for (n, diagonal, tolerance) in [(1, 9.0, 1e-14), (7, 40.0, 1e-13), (40, 4.0, 1e-9)] {
+            let (pattern, layout) = chain(n);
+            let upper = pattern.symbolic.as_ref();
+            let values = matrix(&pattern, 3, diagonal);
+            let metric = vec![1.0; layout.unknowns()];
+            let mut band = Factor::new(&pattern);
+            assert!(band.is_band());
+            let mut general = Factor::new(&pattern).with_gaps();
+            let inertia = band.factorize(upper, &values, &metric, 0.5);
+            assert_eq!(inertia, general.factorize(upper, &values, &metric, 0.5));
+            assert_eq!(inertia.is_positive(), diagonal > 5.0);
+            let b: Vec<f64> = (0..layout.unknowns()).map(|i| (i % 5) as f64).collect();
+            let (mut x, mut y) = (b.clone(), b);
+            band.solve(&mut x);
+            general.solve(&mut y);
+            let size = y.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+            for (x, y) in x.iter().zip(&y) {
+                assert!((x - y).abs() <= tolerance * size, "{n}: {x} against {y}");
+            }
+        }
+    }
+
+    /// A pivot of zero is replaced and doubtful, one that is not finite is doubtful, never positive.
+    #[test]
+    fn pivots_that_are_none_are_doubtful() {
+        let (pattern, layout) = chain(4);
+        let upper = pattern.symbolic.as_ref();
+        let metric = vec![1.0; layout.unknowns()];
+        let zeros = vec![0.0; upper.row_idx().len()];
+        for shift in [0.0, f64::INFINITY, f64::NAN] {
+            for mut factor in [Factor::new(&pattern), Factor::new(&pattern).with_gaps()] {
+                let inertia = factor.factorize(upper, &zeros, &metric, shift);
+                assert_eq!(inertia.doubtful, layout.unknowns(), "{shift}");
+                assert!(!inertia.is_positive());
+            }
+        }
+    }
+}
