@@ -23,7 +23,8 @@
 //! function of the angle's square without root or quotient, and the angles are small: between
 //! neighbours of a smooth chain, and over a drift. `functions.rs` holds polynomials for angles
 //! up to about 1 rad. A group with a larger angle is handed to the scalar functions, lane by
-//! lane: a branch that is never taken in a sound simulation, and therefore free.
+//! lane: a branch that is never taken in a sound simulation, and therefore free. The hyperbolic
+//! tangent needs no such branch: it is halved down to small arguments and doubled back.
 //!
 //! # Accuracy
 //! The polynomials are accurate to round-off. Products are fused with sums where the machine can,
