@@ -7,6 +7,7 @@ use crate::cost::Cost;
 use crate::scene::{
     Drag, Dynamics, Equilibrium, Integrator, Problem, RodLaw, Scene, Section, Task,
 };
+use actin_integrate::SAFETY;
 use std::fmt;
 
 /// Places along a filament closer than this (nm) are one: boundaries move to the lattice.
@@ -30,7 +31,7 @@ pub struct Change {
 pub enum Expected {
     /// Errors, relative, against all monomers: the row of the table that they are from.
     Errors(Box<Measured>),
-    /// None of the state at rest, but where there are several it may be another.
+    /// A stable state at rest: where there are several, not that in which the motion would end.
     AtRest,
     /// The error of slow motion was [`SLOW_MOTION`] where it was measured; of the fastest modes nothing is said.
     SlowMotion,
@@ -200,7 +201,8 @@ fn verlet(scene: &Scene) -> Option<Candidate> {
         return None;
     };
     let is_motion = dynamics.stop.is_none() && dynamics.thermal.is_none();
-    if !is_motion || dynamics.time_step_ns.is_some() {
+    let is_measured = dynamics.time_step_ns.is_none() && dynamics.step_safety <= SAFETY;
+    if !(is_motion && is_measured) {
         return None;
     }
     let mut changed = scene.clone();
@@ -226,13 +228,11 @@ impl fmt::Display for Expected {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Errors(row) => write_errors(row, f),
-            Self::AtRest => {
-                f.write_str("a state at rest without error, the same if there is but one")
-            }
+            Self::AtRest => f.write_str("a stable state at rest, the same where there is only one"),
             Self::SlowMotion => write!(
                 f,
-                "expected error of slow motion {SLOW_MOTION:.0e}, and more of what is fast (measured on the \
-                 tip of 80 nm of monomers and 80 nm of rod let go)"
+                "expected error of slow motion {SLOW_MOTION:.0e}, and more of what is fast (measured over \
+                 20 ns on the tip of 80 nm of monomers and 80 nm of rod let go)"
             ),
         }
     }
