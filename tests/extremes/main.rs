@@ -28,7 +28,11 @@ fn assert_sound(rows: &[Row]) {
 }
 
 fn is_correct(row: &Row) -> bool {
-    matches!(row.outcome, Outcome::Correct { .. }) && row.outcome.is_sound()
+    let held = matches!(
+        row.outcome,
+        Outcome::Correct { .. } | Outcome::Bounded { .. }
+    );
+    held && row.outcome.is_sound()
 }
 
 fn is_refused(row: &Row) -> bool {

@@ -194,6 +194,21 @@ fn at_rest(scene: &Scene) -> Option<Candidate> {
     Some((what, changed, Expected::AtRest))
 }
 
+/// Whether a motion has the step that a scene gets which leaves it out, written out or not.
+fn has_default_step(scene: &Scene, dynamics: &Dynamics) -> bool {
+    let Some(step) = dynamics.time_step_ns else {
+        return true;
+    };
+    let mut open = scene.clone();
+    open.task = Task::Dynamics(Dynamics {
+        time_step_ns: None,
+        ..dynamics.clone()
+    });
+    let estimate = Assembly::build(&open).and_then(|assembly| crate::estimate(&assembly));
+    // Printed scenes hold the step to all digits.
+    estimate.is_ok_and(|e| e.is_some_and(|e| (e.time_step_ns / step - 1.0).abs() < 1e-9))
+}
+
 /// Position Verlet for a motion that is wanted for itself, where the scene leaves the step to the
 /// method. In a heat bath its fastest modes are too cold by a quarter at half its limit, so not there.
 fn verlet(scene: &Scene) -> Option<Candidate> {
@@ -201,16 +216,17 @@ fn verlet(scene: &Scene) -> Option<Candidate> {
         return None;
     };
     let is_motion = dynamics.stop.is_none() && dynamics.thermal.is_none();
-    let is_measured = dynamics.time_step_ns.is_none() && dynamics.step_safety <= SAFETY;
+    let is_measured = dynamics.step_safety <= SAFETY && has_default_step(scene, dynamics);
     if !(is_motion && is_measured) {
         return None;
     }
     let mut changed = scene.clone();
     changed.task = Task::Dynamics(Dynamics {
         integrator: Integrator::PositionVerlet,
+        time_step_ns: None,
         ..dynamics.clone()
     });
-    let what = "take integrator PositionVerlet".into();
+    let what = "take integrator PositionVerlet at its default step".into();
     Some((what, changed, Expected::SlowMotion))
 }
 
