@@ -1,5 +1,7 @@
 //! The fast path against the scalar one, with one lane and with as many as there are.
 
+mod collapsed;
+
 use super::*;
 use crate::{
     BendLaw, BendingElement, CubicShear, EnergyGradient, JoinedElement, PolynomialStretch,
