@@ -40,6 +40,14 @@ struct Beyond {
 }
 
 impl Beyond {
+    /// That of a constant rigidity (pN nm^2), whose range no twist leaves.
+    fn nowhere(b3: f64) -> Self {
+        Self {
+            range: f64::MAX,
+            slopes: [b3; 2],
+        }
+    }
+
     /// The twist within the range, and what the couple gains beyond it.
     #[inline(always)]
     fn split<S: Simd>(&self, simd: S, k: S::f64s) -> [S::f64s; 2] {
@@ -77,7 +85,8 @@ impl Twist for Tanh {
     fn of(law: &TwistLaw) -> Option<Self> {
         match law {
             TwistLaw::Tanh(law) => Some(Self::new(law)),
-            TwistLaw::Constant(_) | TwistLaw::Sided(_) => None,
+            TwistLaw::Constant(b3) => Some(Self::constant(*b3)),
+            TwistLaw::Sided(_) => None,
         }
     }
 
@@ -104,6 +113,15 @@ impl Tanh {
                 range: law.range,
                 slopes: [law.tangent(-law.range), law.tangent(law.range)],
             },
+        }
+    }
+
+    /// A rigidity without steps.
+    fn constant(b3: f64) -> Self {
+        Self {
+            mean: b3,
+            steps: [[0.0, 0.0, 1.0]; 3],
+            beyond: Beyond::nowhere(b3),
         }
     }
 }
@@ -160,10 +178,7 @@ impl Sided {
         Self {
             rest: b3,
             sides: [[0.0, 0.0, 1.0]; 2],
-            beyond: Beyond {
-                range: f64::MAX,
-                slopes: [b3; 2],
-            },
+            beyond: Beyond::nowhere(b3),
         }
     }
 }
