@@ -51,18 +51,11 @@ impl Beyond {
     /// The twist within the range, and what the couple gains beyond it.
     #[inline(always)]
     fn split<S: Simd>(&self, simd: S, k: S::f64s) -> [S::f64s; 2] {
-        let inside = clamp(simd, k, self.range);
+        let inside = wide::clamp(simd, k, self.range);
         let [under, over] = self.slopes;
         let slope = sided(simd, k, under, over);
         [inside, simd.mul_f64s(slope, simd.sub_f64s(k, inside))]
     }
-}
-
-/// `k` within `range` to either side.
-#[inline(always)]
-pub(super) fn clamp<S: Simd>(simd: S, k: S::f64s, range: f64) -> S::f64s {
-    let at_least = simd.max_f64s(simd.splat_f64s(-range), k);
-    simd.min_f64s(simd.splat_f64s(range), at_least)
 }
 
 /// `under` where `k` is negative, else `over`.
