@@ -3,11 +3,12 @@
 //! # What it does
 //! The same as the scalar path of [`EnergyGradient`](crate::EnergyGradient), which stays its
 //! reference. A rod gets the loop that was compiled for its laws: constant rigidities; the published
-//! twist, with or without a length that follows it; the laws fitted to monomers or any
-//! of them, with cubic or with constant shear. Rods with other mixtures, or whose stretch has two
-//! sides, take the scalar path, and so does the printed balance. The choice falls when the
-//! interaction is built, so that no loop asks for the kind of a law. Energies and second derivatives
-//! are not in the loop of a motion and stay scalar.
+//! twist, the published length that follows it, or both; the laws fitted to monomers or any
+//! of them, with cubic or with constant shear. The scalar path is left to a stretch with two sides, to
+//! the published twist or length together with fitted laws (stiffening, cubic shear, fitted twist or
+//! length), to rods whose strain knows of more than eight elements that join them to others, and to
+//! the printed balance. The choice falls when the interaction is built, so that no loop asks for the
+//! kind of a law. Energies and second derivatives are not in the loop of a motion and stay scalar.
 //!
 //! # How
 //! One element per lane, as `actin_mechanics::wide` explains. Elements of a rod follow one another
@@ -87,7 +88,7 @@ pub(crate) struct FastRod(Kind);
 enum Kind {
     /// Every rigidity is constant.
     Constant(Rod<Constant>),
-    /// Twist as published, with or without a natural length that depends on it.
+    /// Twist as published or constant, a natural length as published or none.
     Published(Rod<Published>),
     /// As fitted to monomers, each law but that of shear or constant instead.
     Fitted(Rod<Fitted>),

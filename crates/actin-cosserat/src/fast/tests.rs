@@ -1,5 +1,7 @@
 //! The fast path against the scalar one, with one lane and with as many as there are.
 
+mod collapsed;
+
 use super::*;
 use crate::{
     BendLaw, BendingElement, CubicShear, EnergyGradient, JoinedElement, PolynomialStretch,
@@ -76,6 +78,13 @@ fn laws() -> Vec<Named> {
         ("published", tanh, Some(powers)),
         ("published", tanh, None),
         ("published", tanh, Some(TwistStretch::linear(9e3, 3.4e4))),
+        ("published", constant, Some(TwistStretch::published())),
+        ("published", constant, Some(powers)),
+        (
+            "published",
+            constant,
+            Some(TwistStretch::linear(9e3, 3.4e4)),
+        ),
         ("fitted", sheared, Some(ROOTED)),
         ("fitted", sheared, None),
         ("fitted", slender, None),
@@ -346,20 +355,46 @@ fn every_law_has_its_loop() {
 /// Mixtures of laws that no scene has by name, and a stretch with two sides.
 #[test]
 fn other_laws_keep_the_scalar_path() {
-    let sided = StretchLaw::Sided {
+    let constant = material();
+    let two_sided = StretchLaw::Sided {
         tension: 3.4e4,
         compression: 1.7e4,
         width: 1e-3,
     };
-    let stretched = material().with_stretch(sided).unwrap();
-    let tanh = TwistLaw::Tanh(TanhTwist::published());
-    let bent = material().with_bend(STIFFENING).unwrap();
-    let mixed = bent.with_twist(tanh).unwrap();
+    let stretched = constant.with_stretch(two_sided).unwrap();
+    let with_tanh = |other: RodMaterial| {
+        other
+            .with_twist(TwistLaw::Tanh(TanhTwist::published()))
+            .unwrap()
+    };
+    let bent = constant.with_bend(STIFFENING).unwrap();
+    let sheared = constant.with_shear(SHEAR).unwrap();
+    let polynomial = Some(TwistStretch::published());
     for (material, xi) in [
         (stretched, None),
-        (mixed, None),
-        (bent, Some(TwistStretch::published())),
+        (with_tanh(bent), None),
+        (with_tanh(sheared), None),
+        (with_tanh(constant), Some(ROOTED)),
+        (bent, polynomial),
+        (sheared, polynomial),
+        (constant.with_twist(SIDED).unwrap(), polynomial),
     ] {
         assert_eq!(kind_of(&("", material, xi)), None);
     }
+}
+
+/// The angles of joined elements have eight places.
+#[test]
+fn rods_joined_to_many_others_keep_the_scalar_path() {
+    let (_, layout) = rod(3, Walls::default(), &mut Noise::new(9));
+    let [_, end] = joined(&layout, true);
+    let has_loop = |count: usize| {
+        let end: Vec<_> = end.iter().cycle().take(count).copied().collect();
+        let law = SegmentLaw::of(&material(), Some(ROOTED)).unwrap();
+        let curvature = SegmentCurvature::new(&layout, &[], &end);
+        let segments = ExtendedSegments { law, curvature };
+        FastRod::new(&layout, &material(), Some(&segments)).is_some()
+    };
+    assert!(has_loop(8));
+    assert!(!has_loop(9));
 }

@@ -1,4 +1,5 @@
-//! Even functions of small angles as polynomials in the angle's square, and the hyperbolic tangent.
+//! Even functions of small angles as polynomials in the angle's square, the hyperbolic tangent, and
+//! bounds.
 //!
 //! Each polynomial was fitted by Chebyshev interpolation in 40-digit arithmetic to
 //! `(f(u) - f(0)) / u`, so that its value at zero is exact; the error of the fit is stated with
@@ -126,7 +127,8 @@ pub fn cosine_and_sinc<S: Simd>(simd: S, u: [S::f64s; 2]) -> [[S::f64s; 2]; 2] {
     }
 }
 
-/// Hyperbolic tangents, to 1e-15 relative at every argument. The reference is [`f64::tanh`].
+/// Hyperbolic tangents, to 1e-15 relative at every argument; what is not a number stays so. The
+/// reference is [`f64::tanh`].
 ///
 /// With `g(v) = 1 - exp(-v)`, from a polynomial where `v` is small and `g(2v) = g(v) (2 - g(v))`,
 /// it is `g(2x) / (2 - g(2x))` for positive `x`: nothing cancels.
@@ -134,11 +136,8 @@ pub fn cosine_and_sinc<S: Simd>(simd: S, u: [S::f64s; 2]) -> [[S::f64s; 2]; 2] {
 pub fn tanh<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
     let two = simd.splat_f64s(2.0);
     let magnitude = simd.abs_f64s(x);
-    // In this order what is not a number stays so.
-    let doubled = simd.min_f64s(
-        simd.splat_f64s(SATURATION),
-        simd.add_f64s(magnitude, magnitude),
-    );
+    let doubled = simd.add_f64s(magnitude, magnitude);
+    let doubled = at_most(simd, doubled, simd.splat_f64s(SATURATION));
     let v = simd.mul_f64s(doubled, simd.splat_f64s(1.0 / f64::from(1_u32 << HALVINGS)));
     let mut g = simd.mul_f64s(v, polynomial(simd, &DECAY, v));
     for _ in 0..HALVINGS {
@@ -147,6 +146,21 @@ pub fn tanh<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
     let positive = simd.div_f64s(g, simd.sub_f64s(two, g));
     let negative = simd.less_than_f64s(x, simd.splat_f64s(0.0));
     simd.select_f64s(negative, simd.neg_f64s(positive), positive)
+}
+
+/// `x` within `bound` to either side. The reference is [`f64::clamp`]: what is not a number stays so.
+#[inline(always)]
+pub fn clamp<S: Simd>(simd: S, x: S::f64s, bound: f64) -> S::f64s {
+    let (lower, upper) = (simd.splat_f64s(-bound), simd.splat_f64s(bound));
+    let below = simd.less_than_f64s(x, lower);
+    simd.select_f64s(below, lower, at_most(simd, x, upper))
+}
+
+/// `x`, or `upper` where that is less. By a comparison, which fails where `x` is not a number: the
+/// minimum of some sets of instructions would be the other number there.
+#[inline(always)]
+fn at_most<S: Simd>(simd: S, x: S::f64s, upper: S::f64s) -> S::f64s {
+    simd.select_f64s(simd.greater_than_f64s(x, upper), upper, x)
 }
 
 /// Of small angles.

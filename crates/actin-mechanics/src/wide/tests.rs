@@ -90,6 +90,24 @@ impl WithSimd for Tangents<'_> {
     }
 }
 
+/// Numbers within a bound to either side.
+struct Clamped<'a>(&'a [f64], f64);
+
+impl WithSimd for Clamped<'_> {
+    type Output = Vec<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let mut out = self.0.to_vec();
+        let mut results = ColumnsMut::<S, 1>::new([&mut out]);
+        for group in 0..results.groups() {
+            let [x] = results.get(simd, group);
+            results.set(simd, group, [clamp(simd, x, self.1)]);
+        }
+        out
+    }
+}
+
 /// Numbers 1, 2, 3, ... of two columns moved down by one body, the first apart.
 struct ShiftDown(usize);
 
@@ -307,6 +325,38 @@ fn hyperbolic_tangents_are_those_of_the_standard_library() {
             let error = (found - expected).abs();
             assert!(error <= 1e-15 * expected.abs() + 1e-322, "{x:e}: {error:e}");
             assert_eq!(found > 0.0, expected > 0.0 && found != 0.0, "{x:e}");
+        }
+    }
+}
+
+/// The least of a bound and of what is not a number is, for some instructions, the bound: a broken
+/// angle would have a sound couple.
+#[test]
+fn tangents_of_what_is_not_a_number_are_none() {
+    let x = [0.5, f64::NAN, -f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+    for arch in architectures() {
+        let found = arch.dispatch(Tangents(&x));
+        assert!(found[1].is_nan() && found[2].is_nan(), "{found:?}");
+        for i in [0, 3, 4] {
+            assert!((found[i] - x[i].tanh()).abs() < 1e-15, "{found:?}");
+        }
+    }
+}
+
+#[test]
+fn numbers_are_clamped_as_by_the_standard_library() {
+    let mut x = vec![0.0, -0.0, 5e-324, 0.3, 0.7, 0.7 + 1e-16, 2.0, f64::MAX];
+    x.push(f64::INFINITY);
+    x.extend(x.clone().iter().map(|x| -x));
+    x.extend([f64::NAN, -f64::NAN, 0.5]);
+    for arch in architectures() {
+        for bound in [0.7, 5e-324, f64::MAX] {
+            for (x, found) in x.iter().zip(arch.dispatch(Clamped(&x, bound))) {
+                let expected = x.clamp(-bound, bound);
+                let both_none = found.is_nan() && expected.is_nan();
+                let same = found.to_bits() == expected.to_bits();
+                assert!(same || both_none, "{x} to {bound}: {found}");
+            }
         }
     }
 }

@@ -1,8 +1,7 @@
 //! How the natural length depends on the twist.
 
-use super::twist::clamp;
 use crate::{PolynomialStretch, RootedStretch, TwistStretch};
-use actin_mechanics::wide::Simd;
+use actin_mechanics::wide::{self, Simd};
 use std::fmt::Debug;
 
 /// The natural length of segments.
@@ -54,7 +53,7 @@ impl Length for Polynomial {
 
     #[inline(always)]
     fn extension<S: Simd>(&self, simd: S, k: S::f64s) -> [S::f64s; 2] {
-        let inside = clamp(simd, k, self.0.range);
+        let inside = wide::clamp(simd, k, self.0.range);
         let [p0, lower @ .., p6] = self.0.coefficients;
         let (mut value, mut slope) = (simd.splat_f64s(p6), simd.splat_f64s(p6));
         // Of `u k + p` the slope is that of `u` times `k`, plus `u`.
@@ -92,7 +91,7 @@ impl Length for Rooted {
     #[inline(always)]
     fn extension<S: Simd>(&self, simd: S, k: S::f64s) -> [S::f64s; 2] {
         let law = &self.0;
-        let inside = clamp(simd, k, law.range);
+        let inside = wide::clamp(simd, k, law.range);
         let half = simd.splat_f64s(law.half);
         let squared = simd.mul_f64s(inside, inside);
         let root = simd.sqrt_f64s(simd.mul_add_e_f64s(half, half, squared));

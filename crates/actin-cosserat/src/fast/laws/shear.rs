@@ -62,10 +62,13 @@ impl Shear for CubicAcross {
         let [x, y, z] = sigma;
         let one = simd.splat_f64s(1.0);
         let across = simd.mul_add_e_f64s(y, y, simd.mul_f64s(x, x));
-        // With e3 + sigma the segment over its rest length: its square less 1, and its length.
+        // The segment over its rest length is e3 + sigma: its length is found from its components, in
+        // which nothing cancels where it is short, and the strain from the square of the length
+        // less 1, in which nothing cancels where that is small.
+        let along_d3 = simd.add_f64s(one, z);
+        let length = simd.sqrt_f64s(simd.mul_add_e_f64s(along_d3, along_d3, across));
         let twice = simd.add_f64s(z, z);
         let excess = simd.add_f64s(simd.mul_add_e_f64s(z, z, across), twice);
-        let length = simd.sqrt_f64s(simd.add_f64s(one, excess));
         let more = simd.add_f64s(length, one);
         // One quotient for 1 / length and 1 / (length + 1).
         let both = simd.div_f64s(one, simd.mul_f64s(length, more));
@@ -78,7 +81,7 @@ impl Shear for CubicAcross {
         let force = [
             simd.mul_f64s(simd.add_f64s(simd.splat_f64s(s1), cubic), x),
             simd.mul_f64s(simd.add_f64s(simd.splat_f64s(s2), cubic), y),
-            simd.mul_add_e_f64s(along, z, along),
+            simd.mul_f64s(along, along_d3),
         ];
         (force, pull)
     }

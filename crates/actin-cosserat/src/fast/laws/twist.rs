@@ -40,21 +40,22 @@ struct Beyond {
 }
 
 impl Beyond {
+    /// That of a constant rigidity (pN nm^2), whose range no twist leaves.
+    fn nowhere(b3: f64) -> Self {
+        Self {
+            range: f64::MAX,
+            slopes: [b3; 2],
+        }
+    }
+
     /// The twist within the range, and what the couple gains beyond it.
     #[inline(always)]
     fn split<S: Simd>(&self, simd: S, k: S::f64s) -> [S::f64s; 2] {
-        let inside = clamp(simd, k, self.range);
+        let inside = wide::clamp(simd, k, self.range);
         let [under, over] = self.slopes;
         let slope = sided(simd, k, under, over);
         [inside, simd.mul_f64s(slope, simd.sub_f64s(k, inside))]
     }
-}
-
-/// `k` within `range` to either side.
-#[inline(always)]
-pub(super) fn clamp<S: Simd>(simd: S, k: S::f64s, range: f64) -> S::f64s {
-    let at_least = simd.max_f64s(simd.splat_f64s(-range), k);
-    simd.min_f64s(simd.splat_f64s(range), at_least)
 }
 
 /// `under` where `k` is negative, else `over`.
@@ -77,7 +78,8 @@ impl Twist for Tanh {
     fn of(law: &TwistLaw) -> Option<Self> {
         match law {
             TwistLaw::Tanh(law) => Some(Self::new(law)),
-            TwistLaw::Constant(_) | TwistLaw::Sided(_) => None,
+            TwistLaw::Constant(b3) => Some(Self::constant(*b3)),
+            TwistLaw::Sided(_) => None,
         }
     }
 
@@ -104,6 +106,15 @@ impl Tanh {
                 range: law.range,
                 slopes: [law.tangent(-law.range), law.tangent(law.range)],
             },
+        }
+    }
+
+    /// A rigidity without steps.
+    fn constant(b3: f64) -> Self {
+        Self {
+            mean: b3,
+            steps: [[0.0, 0.0, 1.0]; 3],
+            beyond: Beyond::nowhere(b3),
         }
     }
 }
@@ -160,10 +171,7 @@ impl Sided {
         Self {
             rest: b3,
             sides: [[0.0, 0.0, 1.0]; 2],
-            beyond: Beyond {
-                range: f64::MAX,
-                slopes: [b3; 2],
-            },
+            beyond: Beyond::nowhere(b3),
         }
     }
 }
