@@ -20,9 +20,14 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         actin_sim::estimate(&opened.assembly).map_err(|problem| opened.refuse(&problem))?;
     let by_default = || Path::new("runs").join(path.file_stem().unwrap_or_default());
     let out = arguments.out.clone().unwrap_or_else(by_default);
-    // Held to the end of the run.
-    let (directory, _lock) = claim(arguments, &out)?;
+    let directory = RunDirectory::existing(&out);
     let mut checkpoints = checkpoints(arguments, &mut opened, estimate.as_ref(), &directory)?;
+    // Before the lock: where nothing will be written, none is needed.
+    if arguments.resume && is_finished(&opened, &directory)? {
+        return Ok(());
+    }
+    // Held to the end of the run.
+    let _lock = claim(arguments, &out)?;
     let kept = match begin(arguments, &opened, &directory, &mut checkpoints)? {
         Beginning::New => None,
         Beginning::Kept(kept) => Some(*kept),
@@ -46,16 +51,15 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The run directory, with what keeps other runs out of it.
-fn claim(arguments: &RunArguments, out: &Path) -> Result<(RunDirectory, Option<RunLock>), Failure> {
+/// Makes or opens the run directory; what keeps other runs out of it.
+fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failure> {
     if !arguments.resume {
         let claimed = RunDirectory::create_locked(out, arguments.overwrite);
-        let (directory, lock) = claimed.map_err(|error| hint(out, error))?;
-        return Ok((directory, Some(lock)));
+        let (_, lock) = claimed.map_err(|error| hint(out, error))?;
+        return Ok(Some(lock));
     }
     // Where there is no directory there is nothing to resume, and nobody to keep out.
-    let lock = out.is_dir().then(|| RunLock::take(out)).transpose()?;
-    Ok((RunDirectory::existing(out), lock))
+    Ok(out.is_dir().then(|| RunLock::take(out)).transpose()?)
 }
 
 /// What there is to begin with.
@@ -78,10 +82,8 @@ fn begin(
         directory.write_scene(&opened.assembly.scene)?;
         return Ok(Beginning::New);
     }
-    if let Some(status) = finished(opened, directory)? {
-        let place = directory.path().display();
-        let how = in_words(status);
-        println!("{place} is finished ({how}): nothing to resume");
+    // Again, now that nobody else writes.
+    if is_finished(opened, directory)? {
         return Ok(Beginning::Finished);
     }
     Ok(Beginning::Kept(Box::new(checkpoints.resume()?)))
@@ -105,17 +107,28 @@ fn checkpoints(
     ))
 }
 
-/// How the run has ended whose checkpoint is gone, if it has.
-fn finished(opened: &Opened, directory: &RunDirectory) -> Result<Option<RunStatus>, Failure> {
+/// Whether the run has ended and its checkpoint is gone, which is said.
+fn is_finished(opened: &Opened, directory: &RunDirectory) -> Result<bool, Failure> {
     if directory.has_checkpoint() {
-        return Ok(None);
+        return Ok(false);
     }
-    Ok(directory.ending(&opened.assembly)?)
+    let Some(status) = directory.ending(&opened.assembly)? else {
+        return Ok(false);
+    };
+    let place = directory.path().display();
+    println!(
+        "{place} is finished ({}): nothing to resume",
+        in_words(status)
+    );
+    Ok(true)
 }
 
 /// An error of the directory; where it keeps a checkpoint, what can be done with that.
 fn hint(out: &Path, error: RunDirectoryError) -> Failure {
-    let is_free = !matches!(error, RunDirectoryError::InUse { .. });
+    let is_free = !matches!(
+        error,
+        RunDirectoryError::InUse { .. } | RunDirectoryError::ForeignLock { .. }
+    );
     let failure = Failure::from(error);
     match failure {
         Failure::Input(message) if is_free && RunDirectory::existing(out).has_checkpoint() => {

@@ -44,6 +44,9 @@ const PATH: &str = "Scene(
     task: Equilibrium(largest_step: 0.02, lowest_eigenvalue: true),
 )";
 
+/// The lock of a run into `a`.
+const LOCK: &str = "a/.actin-run.lock";
+
 /// How often a run is begun that is to be interrupted.
 const ATTEMPTS: usize = 5;
 
@@ -433,7 +436,7 @@ fn a_directory_in_use_is_left_alone() {
     assert_eq!(code(&place.actin(&["--out", "elsewhere", "--resume"])), 2);
     first.kill().unwrap();
     first.wait().unwrap();
-    assert!(place.path("a/lock").exists());
+    assert!(place.path(LOCK).exists());
     let short = MOTION.replace("150.0", "1.0").replace("50.0", "0.5");
     fs::write(place.path("scene.ron"), short).unwrap();
     let other_scene = place.actin(&["--out", "a", "--resume"]);
@@ -444,5 +447,48 @@ fn a_directory_in_use_is_left_alone() {
     );
     let done = place.actin(&["--out", "a", "--overwrite"]);
     assert_eq!(code(&done), 0, "{}", stderr(&done));
-    assert!(!place.path("a/lock").exists());
+    assert!(!place.path(LOCK).exists());
+}
+
+/// Files of others are left alone by whatever is refused, `lock` among them, and a file that no run has
+/// written where the lock belongs is refused itself.
+#[test]
+fn files_of_others_are_left_alone() {
+    let place = Workplace::with(&MOTION.replace("150.0", "1.0").replace("50.0", "0.5"));
+    fs::write(place.path("notes.txt"), "mine").unwrap();
+    fs::write(place.path("lock"), "mine").unwrap();
+    let before = contents(place.folder.path());
+    for arguments in [&["--out", "."][..], &["--out", ".", "--resume"]] {
+        assert_eq!(code(&place.actin(arguments)), 2);
+        assert!(contents(place.folder.path()) == before, "{arguments:?}");
+    }
+    fs::create_dir(place.path("a")).unwrap();
+    fs::write(place.path(LOCK), "mine").unwrap();
+    for flag in ["--resume", "--overwrite", "--checkpoint-every=1"] {
+        let refused = place.actin(&["--out", "a", flag]);
+        assert_eq!(code(&refused), 2);
+        let message = stderr(&refused);
+        assert!(message.contains("was not written by a run"), "{message}");
+        assert_eq!(fs::read(place.path(LOCK)).unwrap(), b"mine");
+    }
+}
+
+/// What needs no writing is said before anything is locked. (A folder in the place of the lock keeps
+/// everybody from it, as a folder without permission to write does, and even an administrator.)
+#[test]
+fn what_writes_nothing_needs_no_lock() {
+    let place = Workplace::with(&MOTION.replace("150.0", "1.0").replace("50.0", "0.5"));
+    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
+    fs::create_dir(place.path(LOCK)).unwrap();
+    let again = place.actin(&["--out", "a", "--resume"]);
+    assert_eq!(code(&again), 0, "{}", stderr(&again));
+    let said = String::from_utf8_lossy(&again.stdout);
+    assert_eq!(said, "a is finished (time is up): nothing to resume\n");
+    let refused = place.actin(&["--out", "a"]);
+    assert_eq!(code(&refused), 2);
+    assert!(
+        stderr(&refused).contains("is not empty"),
+        "{}",
+        stderr(&refused)
+    );
 }

@@ -171,6 +171,20 @@ fn broken_load(system: &System) -> Option<(Body, &'static str)> {
     })
 }
 
+/// The first term whose energy of a finite state is not finite, and the body on which it acts most
+/// strongly.
+pub(crate) fn broken_energy(
+    interactions: &[Box<dyn Interaction>],
+    state: &State,
+) -> Option<(Body, &'static str)> {
+    let mut terms = interactions.iter();
+    let term = terms.find(|interaction| !interaction.energy(state).is_finite())?;
+    let loads = loads_of(term.as_ref(), state);
+    let size = |body: &Body| load_on(&loads, *body).norm();
+    let body = bodies(state).max_by(|a, b| size(a).total_cmp(&size(b)))?;
+    Some((body, term.term()))
+}
+
 /// Loads of one interaction alone.
 fn loads_of(interaction: &dyn Interaction, state: &State) -> Loads {
     let mut loads = Loads::zeros(state);

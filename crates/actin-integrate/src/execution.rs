@@ -1,6 +1,6 @@
 //! A run in progress: advancing, checking, observing, and finding out what broke.
 
-use crate::diagnosis::{Probe, Watch, blame};
+use crate::diagnosis::{Probe, Watch, blame, broken_energy};
 use crate::{
     Body, Checkpoint, Mark, Moment, Observer, Outcome, Pause, Problem, Reason, Residual, Run,
     RunFailure,
@@ -69,7 +69,7 @@ impl<'a, 'o> Execution<'a, 'o> {
 
     pub(crate) fn run(mut self) -> Result<Outcome, RunFailure> {
         // What the start moves at says nothing about what the loads will do to it.
-        if let Err(problem) = self.watch.inspect(self.system.state()) {
+        if let Err(problem) = self.inspect(true) {
             return Err(self.fail(problem));
         }
         if (self.run.first_step == 0 || self.run.steps == 0)
@@ -89,9 +89,9 @@ impl<'a, 'o> Execution<'a, 'o> {
         let mut ended = (self.step >= end).then_some(Reason::Completed);
         while ended.is_none() {
             self.advance_to(self.next_check(end));
-            self.check()?;
-            if self.step == end || self.step.is_multiple_of(self.run.observe_every) {
-                self.check_energy()?;
+            let is_shown = self.step == end || self.step.is_multiple_of(self.run.observe_every);
+            self.check(is_shown)?;
+            if is_shown {
                 ended = self.observe();
             }
             if ended.is_none() && self.pause().is_break() {
@@ -121,29 +121,45 @@ impl<'a, 'o> Execution<'a, 'o> {
         self.step = step;
     }
 
-    /// Fails if the state is unsound.
-    fn check(&mut self) -> Result<(), RunFailure> {
-        let state = self.system.state();
-        let kinetic = match self.watch.inspect(state) {
+    /// Fails if the state is unsound; of one that is `shown`, its whole energy counts.
+    fn check(&mut self, is_shown: bool) -> Result<(), RunFailure> {
+        let kinetic = match self.inspect(is_shown) {
             Ok(kinetic) => kinetic,
             Err(problem) => return Err(self.fail(problem)),
         };
         self.watch.remember(kinetic);
-        self.sound.0 = self.step;
-        self.sound.1.copy_motion_from(state);
+        self.mark_sound();
         Ok(())
     }
 
-    /// Fails if there is more energy than there can be.
-    fn check_energy(&mut self) -> Result<(), RunFailure> {
-        if self.run.energy_limit.is_infinite() {
+    /// The kinetic energy (pN nm) of the state, or what is wrong with it or, if asked for, with its
+    /// `whole` energy. Changes nothing.
+    fn inspect(&self, whole: bool) -> Result<f64, Problem> {
+        let kinetic = self.watch.inspect(self.system.state())?;
+        if whole {
+            self.inspect_energy()?;
+        }
+        Ok(kinetic)
+    }
+
+    /// Whether there is more energy than there can be, or none that is a number.
+    fn inspect_energy(&self) -> Result<(), Problem> {
+        let limit = self.run.energy_limit;
+        if limit == f64::INFINITY {
             return Ok(());
         }
         let energy = self.system.total_energy();
-        if energy > self.run.energy_limit {
-            return Err(self.fail(Problem::TooMuchEnergy(energy)));
+        if energy.is_finite() && energy <= limit {
+            Ok(())
+        } else {
+            Err(Problem::TooMuchEnergy(energy))
         }
-        Ok(())
+    }
+
+    /// A failure is retraced from here.
+    fn mark_sound(&mut self) {
+        self.sound.0 = self.step;
+        self.sound.1.copy_motion_from(self.system.state());
     }
 
     /// Shows the state to everyone and says whether the run ends here.
@@ -201,10 +217,20 @@ impl<'a, 'o> Execution<'a, 'o> {
 
     /// Finds the step, the body and the term to blame, and puts the last good state back.
     fn fail(&mut self, problem: Problem) -> RunFailure {
+        let problem = match problem {
+            Problem::TooMuchEnergy(_) => self.retrace(problem),
+            _ => problem,
+        };
         let (problem, before) = self.replay(problem);
         let broken = self.system.state().clone();
         let (body, term) = self
             .probe(&before)
+            .or_else(|| match problem {
+                Problem::TooMuchEnergy(energy) if !energy.is_finite() => {
+                    broken_energy(self.system.interactions(), &broken)
+                }
+                _ => None,
+            })
             .unwrap_or_else(|| blame(self.system.interactions(), &broken, &before));
         self.last_good.restore(self.system);
         let last_good = Checkpoint {
@@ -226,18 +252,36 @@ impl<'a, 'o> Execution<'a, 'o> {
         }
     }
 
+    /// Repeats the way from the last observation, up to the first check with too much energy, which
+    /// only observations look for. Returns what is wrong there; `sound` is the check before.
+    fn retrace(&mut self, found: Problem) -> Problem {
+        let found_step = self.step;
+        self.last_good.restore(self.system);
+        self.step = self.last_good.step;
+        self.mark_sound();
+        while self.step < found_step {
+            self.advance_to(self.next_check(found_step));
+            if let Err(problem) = self.inspect_energy() {
+                return problem;
+            }
+            self.mark_sound();
+        }
+        found
+    }
+
     /// Repeats the way from the last check step by step, up to the first unsound state, so that
     /// the report names the step at which it broke. Returns what is wrong and the state one
     /// step before; leaves the system and `self.step` at the break.
     fn replay(&mut self, found: Problem) -> (Problem, State) {
         let (found_step, broken) = (self.step, self.system.state().clone());
+        let whole = matches!(found, Problem::TooMuchEnergy(_));
         self.step = self.sound.0;
         self.system.state_mut().clone_from(&self.sound.1);
         let mut before = self.sound.1.clone();
         while self.step < found_step {
             before.clone_from(self.system.state());
             self.advance_to(self.step + 1);
-            if let Err(problem) = self.watch.inspect(self.system.state()) {
+            if let Err(problem) = self.inspect(whole) {
                 return (problem, before);
             }
         }

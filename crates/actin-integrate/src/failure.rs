@@ -33,9 +33,18 @@ pub enum Problem {
     /// The kinetic energy (pN nm) has grown too far since the last check, or above its limit.
     #[error("the kinetic energy has reached {0:.3e} pN nm")]
     TooFast(f64),
-    /// There is more energy (pN nm), kinetic and of the loads, than there can be.
-    #[error("the energy has reached {0:.3e} pN nm, more than there can be")]
+    /// There is more energy (pN nm), kinetic and of the loads, than there can be, or none that is a
+    /// finite number.
+    #[error("{}", too_much(*.0))]
     TooMuchEnergy(f64),
+}
+
+fn too_much(energy: f64) -> String {
+    if energy.is_finite() {
+        format!("the energy has reached {energy:.3e} pN nm, more than there can be")
+    } else {
+        format!("the energy is no longer finite ({energy} pN nm)")
+    }
 }
 
 /// A run that broke: where, when, and which term of the model is to be suspected.
@@ -54,10 +63,11 @@ pub struct RunFailure {
     /// The time of that step (ns).
     pub time: f64,
     /// The body where it went wrong: the first with a number that is not finite, or else the
-    /// fastest (largest kinetic energy).
+    /// fastest (largest kinetic energy). Where only the energy is not finite, that on which the term
+    /// of that energy acts most strongly.
     pub body: Body,
-    /// Name of the term with a load on that body that is not finite, or else the largest; "none"
-    /// if no term acts on it.
+    /// Name of the term with a load on that body that is not finite, or an energy, or else the
+    /// largest load; "none" if no term acts on it.
     pub term: &'static str,
     /// Step of the state that the system was put back to.
     pub last_good_step: u64,

@@ -187,8 +187,11 @@ impl Run {
         })
     }
 
-    /// The same, failing when the energy, kinetic and of all interactions, exceeds `limit` (pN nm) at
-    /// an observation.
+    /// The same, failing when the energy, kinetic and of all interactions, is above `limit` (pN nm), or
+    /// not a finite number, at the start or an observation.
+    ///
+    /// The failure names the first step after the last observation at which it is: steps are made
+    /// again from there, with a look at the energy at each check. An infinite limit is none.
     ///
     /// Above the stability limit a mode may grow until its frequency has changed, and then stay as it
     /// is for any number of steps: its kinetic energy need not be large.

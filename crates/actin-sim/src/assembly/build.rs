@@ -12,7 +12,7 @@ mod strand;
 use super::{
     Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Part, PointInfo, Rod, SectionSpan, Term,
 };
-use crate::scene::{Load, Problem, Scene, Section};
+use crate::scene::{Load, Problem, Scene, Section, path};
 use actin_coupling::Linker;
 use actin_mechanics::{Interaction, PointLoad, State, System};
 use strand::{Body, Strand};
@@ -110,7 +110,7 @@ impl<'a> Builder<'a> {
             let share = 1.0 / points.len() as f64;
             let shares = points.iter().map(|&point| (point, share)).collect();
             let control = self.stock.state.controls.len();
-            self.stock.state.controls.push(1.0);
+            self.stock.state.controls.push(path::UNSET);
             let load = PointLoad::new(&self.stock.state, shares, (*force_pn).into(), control);
             self.stock.push_term(Box::new(load), Part::Load(i));
         }

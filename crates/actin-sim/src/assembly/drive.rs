@@ -1,7 +1,7 @@
 //! What a scene moves from outside: held ends, load factors and anchors, along its path.
 
 use super::Clamped;
-use crate::scene::{Scene, Setting, Slides};
+use crate::scene::{Scene, Setting, Slides, path};
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 
 /// A control, by the index of its load, clamp or linker, and its values at the ends of the stages,
@@ -60,11 +60,9 @@ struct HeldEnd {
 impl Drive {
     /// The drive of a scene whose clamps hold these bodies of `rest`.
     pub(super) fn new(scene: &Scene, clamps: &[Clamped], rest: &State) -> Self {
-        let load = |index: usize, setting: &Setting| match *setting {
-            Setting::LoadFactor { load, factor } if load == index => {
-                Some(Vector3::from_element(factor))
-            }
-            _ => None,
+        let load = |index| {
+            let factors = path::load_factors(&scene.path, index)?.into_iter();
+            Some(factors.map(Vector3::from_element).collect())
         };
         let is_at = |clamp: usize, filament, end| {
             (clamps[clamp].filament, clamps[clamp].end) == (filament, end)
@@ -91,10 +89,12 @@ impl Drive {
         };
         Self {
             stages: scene.path.len(),
-            loads: tracks(scene, scene.loads.len(), &load),
-            shifts: tracks(scene, clamps.len(), &shift),
-            turns: tracks(scene, clamps.len(), &turn),
-            anchors: tracks(scene, scene.linkers.len(), &anchor),
+            loads: tracks(scene.loads.len(), load),
+            shifts: tracks(clamps.len(), |i| path::values(&scene.path, |s| shift(i, s))),
+            turns: tracks(clamps.len(), |i| path::values(&scene.path, |s| turn(i, s))),
+            anchors: tracks(scene.linkers.len(), |i| {
+                path::values(&scene.path, |s| anchor(i, s))
+            }),
             first_anchor: scene.loads.len(),
             ends: clamps.iter().map(|c| HeldEnd::new(c, rest)).collect(),
         }
@@ -146,27 +146,10 @@ impl Drive {
     }
 }
 
-/// The tracks of those of `count` controls that some stage sets, by what `find` reads for each.
-fn tracks(
-    scene: &Scene,
-    count: usize,
-    find: &dyn Fn(usize, &Setting) -> Option<Vector3>,
-) -> Vec<Track> {
-    let track = |what| Some(Track::new(what, values(scene, &|s| find(what, s))?));
+/// The tracks of those of `count` controls that some stage sets, whose `values` there are.
+fn tracks(count: usize, values: impl Fn(usize) -> Option<Vec<Vector3>>) -> Vec<Track> {
+    let track = |what| Some(Track::new(what, values(what)?));
     (0..count).filter_map(track).collect()
-}
-
-/// Values of a control at the ends of the stages, from zero before the path; `None` if no stage sets
-/// it.
-fn values(scene: &Scene, find: &dyn Fn(&Setting) -> Option<Vector3>) -> Option<Vec<Vector3>> {
-    let mut values = vec![Vector3::zeros()];
-    let mut is_set = false;
-    for stage in &scene.path {
-        let set = stage.set.iter().rev().find_map(find);
-        is_set |= set.is_some();
-        values.push(set.unwrap_or(values[values.len() - 1]));
-    }
-    is_set.then_some(values)
 }
 
 impl HeldEnd {

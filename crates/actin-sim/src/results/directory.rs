@@ -2,7 +2,7 @@
 //! what its files hold.
 
 use super::RunDirectoryError;
-use super::lock::{LOCK, RunLock};
+use super::lock::{LOCK, RunLock, refuse_in_use};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -61,8 +61,14 @@ impl RunDirectory {
             return Err(RunDirectoryError::NotADirectory { path });
         }
         fs::create_dir_all(&path).map_err(RunDirectoryError::io(&path))?;
+        if !overwrite && !is_empty(&path)? {
+            // Without a lock, for which one may have to be allowed to write.
+            refuse_in_use(&path)?;
+            return Err(RunDirectoryError::NotEmpty { path });
+        }
         let lock = RunLock::take(&path)?;
-        if !overwrite && !is_empty(&path).map_err(RunDirectoryError::io(&path))? {
+        if !overwrite && !is_empty(&path)? {
+            // Another run has been there in between.
             return Err(RunDirectoryError::NotEmpty { path });
         }
         let directory = Self { path };
@@ -122,9 +128,10 @@ impl RunDirectory {
 }
 
 /// Whether there is nothing in a directory but its lock.
-fn is_empty(directory: &Path) -> io::Result<bool> {
-    for entry in fs::read_dir(directory)? {
-        if entry?.file_name() != LOCK {
+fn is_empty(directory: &Path) -> Result<bool, RunDirectoryError> {
+    let io = || RunDirectoryError::io(directory);
+    for entry in fs::read_dir(directory).map_err(io())? {
+        if entry.map_err(io())?.file_name() != LOCK {
             return Ok(false);
         }
     }
@@ -187,6 +194,36 @@ mod tests {
         assert!(message.contains(&folder.path().display().to_string()));
         assert!(message.contains("never overwritten"));
         assert_eq!(fs::read(folder.path().join(SUMMARY)).unwrap(), b"{}");
+    }
+
+    /// That it is not empty is said before anything is locked, for which one may have to be allowed to
+    /// write: here a lock can never be had. One in which a run goes on is in use, with whatever in it.
+    #[test]
+    fn what_is_not_empty_needs_no_lock() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join(LOCK)).unwrap();
+        let refusal = || RunDirectory::create(folder.path(), false).unwrap_err();
+        assert!(matches!(refusal(), RunDirectoryError::Io { .. }));
+        fs::write(folder.path().join("notes.txt"), "mine").unwrap();
+        assert!(matches!(refusal(), RunDirectoryError::NotEmpty { .. }));
+        fs::remove_dir(folder.path().join(LOCK)).unwrap();
+        let lock = RunLock::take(folder.path()).unwrap();
+        assert!(matches!(refusal(), RunDirectoryError::InUse { .. }));
+        drop(lock);
+        assert!(matches!(refusal(), RunDirectoryError::NotEmpty { .. }));
+        assert_eq!(names(folder.path()), ["notes.txt"]);
+    }
+
+    /// Whatever a file is called, if no run has written it, it counts and stays.
+    #[test]
+    fn a_file_named_lock_is_not_the_lock() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("lock");
+        fs::write(&path, "mine").unwrap();
+        let error = RunDirectory::create(folder.path(), false).unwrap_err();
+        assert!(matches!(error, RunDirectoryError::NotEmpty { .. }));
+        assert!(RunDirectory::create(folder.path(), true).is_ok());
+        assert_eq!(fs::read(&path).unwrap(), b"mine");
     }
 
     #[test]

@@ -34,6 +34,15 @@ pub enum RunDirectoryError {
         /// The process of that run, if it has said.
         process: Option<u32>,
     },
+    /// The lock of the directory is a file that no run has written.
+    #[error(
+        "{} is in the place of the lock and was not written by a run: it is left alone; move it, or \
+         name another directory", .path.display()
+    )]
+    ForeignLock {
+        /// The file.
+        path: PathBuf,
+    },
     /// The file system refused.
     #[error("{}: {source}", .path.display())]
     Io {

@@ -3,17 +3,31 @@
 use super::RunDirectoryError;
 use super::directory::remove_if_there;
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Write};
+use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
-/// Name of the file that is locked.
-pub(super) const LOCK: &str = "lock";
+/// Name of the file that is locked: one that nobody gives to a file of their own.
+pub(super) const LOCK: &str = ".actin-run.lock";
+
+/// How often the name may have gone to another file in the meantime: each time another run has ended.
+const TRIES: usize = 100;
+
+/// Most digits of a process number.
+const MOST_DIGITS: u64 = 20;
+
+/// `ENOLCK`: what a network file system without a service for locks says.
+const NO_LOCKS_AVAILABLE: Option<i32> = if cfg!(target_os = "linux") {
+    Some(37)
+} else {
+    None
+};
 
 /// Keeps other runs out of a directory until it is dropped.
 ///
 /// What is locked is the open file, not its name: the operating system lets go of it when the
 /// process ends, however it ends, and a file that a killed run has left keeps nobody out. Processes
-/// are told apart as well as the file system tells them: on one without locks there is none.
+/// are told apart as well as the file system tells them: on one without locks there is none. A file of
+/// that name with anything in it but a process number is somebody's own, and stays.
 #[derive(Debug)]
 pub struct RunLock {
     path: PathBuf,
@@ -25,10 +39,19 @@ impl RunLock {
     /// Locks `directory`, which exists.
     ///
     /// # Errors
-    /// If another run has locked it, or a refusal of the file system.
+    /// If another run has locked it, if a file that no run has written stands in the place of the
+    /// lock, or a refusal of the file system.
     pub fn take(directory: impl AsRef<Path>) -> Result<Self, RunDirectoryError> {
-        let path = directory.as_ref().join(LOCK);
-        loop {
+        Self::take_if(directory.as_ref(), is_at)
+    }
+
+    /// The same; `is_at` says whether a file still has its name.
+    fn take_if(
+        directory: &Path,
+        is_at: impl Fn(&File, &Path) -> bool,
+    ) -> Result<Self, RunDirectoryError> {
+        let path = directory.join(LOCK);
+        for _ in 0..TRIES {
             let file = File::options()
                 .read(true)
                 .write(true)
@@ -38,17 +61,21 @@ impl RunLock {
                 .map_err(RunDirectoryError::io(&path))?;
             match file.try_lock() {
                 Ok(()) => {}
-                Err(TryLockError::WouldBlock) => return Err(in_use(directory.as_ref(), &path)),
-                Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
+                Err(TryLockError::WouldBlock) => return Err(in_use(directory, &path)),
+                Err(TryLockError::Error(error)) if has_no_locks(&error) => {}
                 Err(TryLockError::Error(error)) => return Err(RunDirectoryError::io(&path)(error)),
             }
             // Whoever held it before may have removed the name just now: then the lock is on a file
             // that nobody else will ever find.
             if is_at(&file, &path) {
+                if !is_of_a_run(&file).map_err(RunDirectoryError::io(&path))? {
+                    return Err(RunDirectoryError::ForeignLock { path });
+                }
                 sign(&file);
                 return Ok(Self { path, _file: file });
             }
         }
+        Err(in_use(directory, &path))
     }
 }
 
@@ -57,6 +84,36 @@ impl Drop for RunLock {
         // While it is still locked. A file that stays keeps nobody out.
         let _ = remove_if_there(&self.path);
     }
+}
+
+/// Refuses a directory in which a run goes on, as far as can be seen without writing.
+///
+/// A run that takes a lock left behind by a killed one in the same instant may be refused for this look.
+pub(super) fn refuse_in_use(directory: &Path) -> Result<(), RunDirectoryError> {
+    let path = directory.join(LOCK);
+    // Opening a pipe would wait for somebody to write.
+    if !fs::metadata(&path).is_ok_and(|data| data.is_file()) {
+        return Ok(());
+    }
+    let locked = File::open(&path).map(|file| file.try_lock_shared());
+    match locked {
+        Ok(Err(TryLockError::WouldBlock)) => Err(in_use(directory, &path)),
+        _ => Ok(()),
+    }
+}
+
+/// Whether the file system says that it knows no locks.
+fn has_no_locks(error: &io::Error) -> bool {
+    error.kind() == io::ErrorKind::Unsupported
+        || NO_LOCKS_AVAILABLE.is_some_and(|code| error.raw_os_error() == Some(code))
+}
+
+/// Whether a file is what a run leaves: a process number, or nothing if it was killed before.
+fn is_of_a_run(mut file: &File) -> io::Result<bool> {
+    let mut bytes = Vec::new();
+    file.take(MOST_DIGITS + 1).read_to_end(&mut bytes)?;
+    file.rewind()?;
+    Ok(bytes.len() as u64 <= MOST_DIGITS && bytes.iter().all(u8::is_ascii_digit))
 }
 
 /// Writes into the file who holds it, for the message of others; a full disk only makes that shorter.
@@ -120,6 +177,61 @@ mod tests {
         let _lock = RunLock::take(folder.path()).unwrap();
         let signed = fs::read_to_string(folder.path().join(LOCK)).unwrap();
         assert_eq!(signed, std::process::id().to_string());
+    }
+
+    /// What somebody keeps under that name is neither emptied nor removed; numbers that are too long for
+    /// a process are theirs, too.
+    #[test]
+    fn what_no_run_has_left_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(LOCK);
+        for text in ["mine", "12 ", "-1", "123456789012345678901", "12\n"] {
+            fs::write(&path, text).unwrap();
+            let error = RunLock::take(folder.path()).unwrap_err();
+            assert!(matches!(error, RunDirectoryError::ForeignLock { .. }));
+            assert!(error.to_string().contains(LOCK), "{error}");
+            assert_eq!(fs::read_to_string(&path).unwrap(), text);
+        }
+        fs::write(&path, "").unwrap();
+        assert!(RunLock::take(folder.path()).is_ok());
+    }
+
+    /// A look refuses while a run goes on, sees through what a killed one has left, and leaves all as
+    /// it is.
+    #[test]
+    fn a_look_changes_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        refuse_in_use(folder.path()).unwrap();
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+        let path = folder.path().join(LOCK);
+        fs::write(&path, "4194304999").unwrap();
+        refuse_in_use(folder.path()).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "4194304999");
+        let _lock = RunLock::take(folder.path()).unwrap();
+        let error = refuse_in_use(folder.path()).unwrap_err();
+        assert!(matches!(
+            error,
+            RunDirectoryError::InUse {
+                process: Some(_),
+                ..
+            }
+        ));
+    }
+
+    /// Where a file never seems to keep its name the answer comes all the same.
+    #[test]
+    fn tries_have_an_end() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = RunLock::take_if(folder.path(), |_, _| false).unwrap_err();
+        assert!(matches!(error, RunDirectoryError::InUse { .. }), "{error}");
+    }
+
+    #[test]
+    fn a_file_system_without_locks_is_told_from_a_refusal() {
+        assert!(has_no_locks(&io::ErrorKind::Unsupported.into()));
+        assert!(!has_no_locks(&io::ErrorKind::PermissionDenied.into()));
+        #[cfg(target_os = "linux")]
+        assert!(has_no_locks(&io::Error::from_raw_os_error(37)));
     }
 
     /// Many at once, for as long as it takes: never two inside, and all get in. Without the look at

@@ -9,7 +9,7 @@
 //! | `vtk/NNNN.vtp`, `run.pvd` | every record as a picture | `ParaView`, pyvista |
 //! | `summary.json` | the last record in numbers | anything |
 //! | `checkpoint.bin`, `records.bin` | a run that has not ended | `actin run --resume` |
-//! | `lock` | while a run goes on: the number of its process | anything |
+//! | `.actin-run.lock` | while a run goes on: the number of its process | anything |
 //!
 //! Only this module knows file formats; nothing here computes physics beyond sums: shapes come from
 //! [`crate::shape`]. Nothing that

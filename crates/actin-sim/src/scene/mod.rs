@@ -9,6 +9,7 @@ mod linker;
 mod locate;
 mod magnitude;
 mod model;
+pub(crate) mod path;
 mod place;
 mod problem;
 mod read;

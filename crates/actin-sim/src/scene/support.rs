@@ -1,6 +1,6 @@
 //! Whether a scene's loads are borne, and whether its turns go with how its ends slide.
 
-use super::{Filament, Load, Problem, Scene, Setting, Slides, Stage};
+use super::{Filament, Load, Problem, Scene, Setting, Slides, path};
 use actin_mechanics::Vector3;
 
 /// Part of the forces below which what is left of them is a rounding: sums and components of a few
@@ -118,18 +118,9 @@ fn check_balance(
     ))
 }
 
-/// The factor of a load after so many stages: 1 unless some stage sets it, which it does from 0.
+/// The factor of a load after so many stages.
 fn factor(scene: &Scene, index: usize, stages: usize) -> f64 {
-    let set = |setting: &Setting| match *setting {
-        Setting::LoadFactor { load, factor } if load == index => Some(factor),
-        _ => None,
-    };
-    let last_of = |stages: &[Stage]| {
-        let mut settings = stages.iter().rev().flat_map(|stage| stage.set.iter().rev());
-        settings.find_map(set)
-    };
-    let is_ever_set = last_of(&scene.path).is_some();
-    last_of(&scene.path[..stages]).unwrap_or(if is_ever_set { 0.0 } else { 1.0 })
+    path::load_factors(&scene.path, index).map_or(path::UNSET, |factors| factors[stages])
 }
 
 /// For each filament the lowest index among those that linkers join it to, itself included.

@@ -1,0 +1,166 @@
+//! More energy than there can be: where it is noticed, and what is named.
+
+mod common;
+
+use actin_integrate::{
+    Body, Checkpoint, Moment, Observer, PEFRL, POSITION_VERLET, Pause, Problem, Run, RunError,
+    RunFailure, largest_frequency, stable_step,
+};
+use actin_mechanics::{Interaction, Loads, State, System, Vector3};
+use common::{Springs, chain};
+use std::ops::ControlFlow;
+
+const H: f64 = 0.05;
+
+/// Far above the energy of the chains here (0.04 pN nm), far below that of a [`Source`].
+const LIMIT: f64 = 1e3;
+
+/// From some time on it has an energy, and a force on one point.
+#[derive(Clone, Copy, Debug)]
+struct Source {
+    point: usize,
+    from: f64,
+    energy: f64,
+}
+
+impl Interaction for Source {
+    fn term(&self) -> &'static str {
+        "source"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        if state.time >= self.from {
+            loads.force.add(self.point, Vector3::y() * 100.0);
+        }
+    }
+
+    fn elements(&self) -> usize {
+        1
+    }
+
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        energies[0] = if state.time >= self.from {
+            self.energy
+        } else {
+            0.0
+        };
+    }
+}
+
+/// Six points in a row, stretched, with a source that is there from step `step` on.
+fn heated(step: u64, energy: f64) -> System {
+    let springs = Springs {
+        name: "springs",
+        pairs: (1..6).map(|i| (i - 1, i)).collect(),
+        stiffness: 4.0,
+        rest: 1.0,
+    };
+    let mut state = chain(6, 4.0, 1.0).state().clone();
+    state.points.position.add(2, Vector3::x() * 0.1);
+    let source = Source {
+        point: 3,
+        // Position Verlet evaluates loads in the middle of a step.
+        from: (step as f64 - 0.75) * H,
+        energy,
+    };
+    System::new(state, vec![Box::new(springs), Box::new(source)])
+}
+
+fn run(observe: u64, check: u64) -> Run {
+    Run::new(&POSITION_VERLET, H, 3000)
+        .and_then(|run| run.observing_every(observe)?.checking_every(check))
+        .and_then(|run| run.with_energy_limit(LIMIT))
+        .unwrap()
+}
+
+/// Whatever lies between the step at which there is too much and the observation that finds it, that
+/// step is named, with the body and the term of the excess; the state that stays is one that had
+/// none. An energy that is no number is above every limit (`NaN > limit` is false).
+#[test]
+fn the_first_step_with_too_much_is_named() {
+    for energy in [1e6, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for (observe, check) in [(1000, 100), (50, 100), (7, 3), (1, 1)] {
+            for step in [1, 2, 99, 100, 101, 128, 777, 2100] {
+                let mut system = heated(step, energy);
+                let failure = run(observe, check)
+                    .execute(&mut system, &mut [])
+                    .unwrap_err();
+                let last_good = (step - 1) / observe * observe;
+                assert_eq!((failure.step, failure.last_good_step), (step, last_good));
+                assert_eq!((failure.body, failure.term), (Body::Point(3), "source"));
+                let Problem::TooMuchEnergy(found) = failure.problem else {
+                    panic!("{failure}");
+                };
+                assert!(!(found.is_finite() && found <= LIMIT));
+                assert_eq!(failure.to_string().contains("finite"), !energy.is_finite());
+                // The chain swings about its energy, by far less than the limit.
+                assert!(system.total_energy() < 1.0);
+            }
+        }
+    }
+}
+
+/// Keeps all pauses, and what is given when the run fails.
+#[derive(Default)]
+struct Keeper {
+    pauses: Vec<Checkpoint>,
+    last_good: Option<Checkpoint>,
+}
+
+impl Observer for Keeper {
+    fn observe(&mut self, _: &mut Moment<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
+        self.pauses.push(pause.checkpoint());
+        ControlFlow::Continue(())
+    }
+
+    fn fail(&mut self, last_good: &Checkpoint) {
+        self.last_good = Some(last_good.clone());
+    }
+}
+
+/// A run that was left between two observations, before or after the step that is to be blamed, fails
+/// in the same words as one that was not, and so does one that goes on from its last good state.
+#[test]
+fn a_resumed_run_fails_in_the_same_words() {
+    let run = run(1000, 100);
+    let mut keeper = Keeper::default();
+    let execute = |keeper| run.execute(&mut heated(1450, 1e6), &mut [keeper]);
+    let failure = execute(&mut keeper).unwrap_err();
+    assert_eq!(failure.step, 1450);
+    let last_good = keeper.last_good.unwrap();
+    let places = keeper.pauses.iter().chain([&last_good]);
+    let again = |place: &Checkpoint| -> RunFailure {
+        let mut system = heated(1450, 1e6);
+        run.resume(place, &mut system, &mut []).unwrap_err()
+    };
+    assert!(keeper.pauses.iter().any(|pause| pause.here.step == 1900));
+    for place in places {
+        assert_eq!(again(place), failure, "from step {}", place.here.step);
+    }
+}
+
+/// Energy that is strain counts: a stretched chain at rest has no kinetic energy to be seen by. Where
+/// the start has too much there is no good state before it.
+#[test]
+fn strain_at_the_start_counts() {
+    let mut system = chain(10, 4.0, 1.0);
+    let end = &mut system.state_mut().points.position;
+    end.add(9, Vector3::x() * 0.5);
+    let energy = system.total_energy();
+    let h = stable_step(&PEFRL, largest_frequency(&system).unwrap(), 0.1).unwrap();
+    let run = Run::new(&PEFRL, h, 10).unwrap().observing_every(5).unwrap();
+    let below = run.with_energy_limit(0.5 * energy).unwrap();
+    let failure = below.execute(&mut system, &mut []).unwrap_err();
+    assert_eq!(failure.problem, Problem::TooMuchEnergy(energy));
+    assert_eq!((failure.step, failure.last_good_step), (0, 0));
+    let above = run.with_energy_limit(2.0 * energy).unwrap();
+    assert!(above.execute(&mut system, &mut []).is_ok());
+    let refused = run.with_energy_limit(f64::NAN);
+    assert!(matches!(refused, Err(RunError::EnergyLimit(_))));
+    let below_all = run.with_energy_limit(f64::NEG_INFINITY).unwrap();
+    assert!(below_all.execute(&mut system, &mut []).is_err());
+}
