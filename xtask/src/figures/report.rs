@@ -14,6 +14,47 @@ fn literal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Literal, D::Err
     ))
 }
 
+/// Where the number comes from that another is compared with.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Origin {
+    /// The paper prints it.
+    Paper,
+    /// The paper says it in words; the bound that decides is ours.
+    Words,
+    /// The code holds it as the paper gives it: this shows that it was copied well, and no more.
+    Parameter,
+    /// A theorem, or a symmetry.
+    Theory,
+    /// An earlier, independent calculation.
+    Prototype,
+    /// Asked for here.
+    Bound,
+}
+
+impl Origin {
+    pub(super) const ALL: [Self; 6] = [
+        Self::Paper,
+        Self::Words,
+        Self::Parameter,
+        Self::Theory,
+        Self::Prototype,
+        Self::Bound,
+    ];
+
+    /// In a table of rows.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::Words => "paper, in words",
+            Self::Parameter => "paper, copied",
+            Self::Theory => "theory",
+            Self::Prototype => "earlier calculation",
+            Self::Bound => "bound set here",
+        }
+    }
+}
+
 /// One number of an artefact.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(crate) struct Row {
@@ -25,7 +66,7 @@ pub(crate) struct Row {
     /// Unit; empty for a ratio.
     #[serde(deserialize_with = "literal")]
     pub unit: Literal,
-    /// What the paper (or, where the note says so, a theory) gives.
+    /// What the paper, or another origin, gives.
     pub paper: Option<f64>,
     /// What this run computed.
     pub ours: f64,
@@ -35,6 +76,9 @@ pub(crate) struct Row {
     pub pass: Option<bool>,
     /// How the number came about.
     pub note: String,
+    /// Where `paper`, or the bound that decides, comes from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub origin: Option<Origin>,
 }
 
 impl Row {
@@ -55,15 +99,25 @@ impl Row {
             tolerance: None,
             pass: None,
             note: note.into(),
+            origin: None,
         }
     }
 
-    /// The same number, compared to `paper`.
+    /// The same number, compared to `paper`, which the paper prints.
     pub(crate) fn against(self, paper: f64, tolerance: f64) -> Self {
         Self {
+            origin: Some(Origin::Paper),
             paper: Some(paper),
             tolerance: Some(tolerance),
             pass: Some((self.ours - paper).abs() <= tolerance),
+            ..self
+        }
+    }
+
+    /// The same, with another origin of what it is compared with.
+    pub(crate) fn of(self, origin: Origin) -> Self {
+        Self {
+            origin: Some(origin),
             ..self
         }
     }

@@ -1,7 +1,7 @@
 //! Tables 1 and 2: parameters as published, as the crates hold them, and what follows from them.
 
 use crate::figures::Run;
-use crate::figures::report::{Artefact, Row, write_csv};
+use crate::figures::report::{Artefact, Origin, Row, write_csv};
 use actin_sim::{Material, Monomers, ellipsoid_constants as monomer, rod_constants as rod};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -72,6 +72,7 @@ pub(super) fn write_rows(id: &str, rows: &[Row], out: &Path) -> Result<(), Strin
         "tolerance",
         "pass",
         "note",
+        "origin",
     ];
     let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.6e}"));
     let lines = rows.iter().map(|row| {
@@ -83,6 +84,8 @@ pub(super) fn write_rows(id: &str, rows: &[Row], out: &Path) -> Result<(), Strin
             number(row.tolerance),
             row.pass.map_or(String::new(), |pass| pass.to_string()),
             row.note.clone(),
+            row.origin
+                .map_or(String::new(), |origin| origin.name().to_owned()),
         ]
     });
     write_csv(out, &format!("{id}.csv"), &header, lines)
@@ -96,7 +99,9 @@ fn published_monomers() -> Vec<Row> {
 
 /// A published parameter that the crates hold as it is.
 fn same(name: &str, unit: &'static str, ours: f64, paper: f64, note: &str) -> Row {
-    Row::measured("table1", name, unit, ours, note).against(paper, ROUND_OFF * paper)
+    Row::measured("table1", name, unit, ours, note)
+        .against(paper, ROUND_OFF * paper)
+        .of(Origin::Parameter)
 }
 
 fn published_geometry() -> Vec<Row> {
@@ -255,7 +260,8 @@ fn published_rod() -> Vec<Row> {
             rod::PRECEDING_PAPER_YOUNG_MODULUS,
             "",
         )
-        .against(2000.0, ROUND_OFF),
+        .against(2000.0, ROUND_OFF)
+        .of(Origin::Parameter),
         Row::measured(
             "table2",
             "poisson_ratio",
@@ -263,7 +269,8 @@ fn published_rod() -> Vec<Row> {
             rod::PRECEDING_PAPER_POISSON_RATIO,
             "",
         )
-        .against(0.4, ROUND_OFF),
+        .against(0.4, ROUND_OFF)
+        .of(Origin::Parameter),
         Row::measured(
             "table2",
             "shear_modulus",
@@ -309,23 +316,27 @@ fn derived_rod() -> Vec<Row> {
         .against(120.0, 5.0),
         row("i3", "nm^4", 2.0 * inertia, "A^2/2pi"),
         row("s1", "pN", rigidities.shear.x, "the paper gives 4 G A/3")
-            .against(shear, ROUND_OFF * shear),
+            .against(shear, ROUND_OFF * shear)
+            .of(Origin::Parameter),
         row("s3", "pN", rigidities.shear.z, "the paper gives E A")
-            .against(stretch, ROUND_OFF * stretch),
+            .against(stretch, ROUND_OFF * stretch)
+            .of(Origin::Parameter),
         row(
             "b1",
             "pN nm^2",
             rigidities.bend.x,
             "the paper gives E I1: six times the 3.9e4 of Table 4",
         )
-        .against(bend, ROUND_OFF * bend),
+        .against(bend, ROUND_OFF * bend)
+        .of(Origin::Parameter),
         row(
             "b3",
             "pN nm^2",
             rigidities.bend.z,
             "the paper gives G I3: thirteen times the 1.3e4 of Appendix B",
         )
-        .against(twist, ROUND_OFF * twist),
+        .against(twist, ROUND_OFF * twist)
+        .of(Origin::Parameter),
     ]
 }
 
