@@ -163,8 +163,20 @@ pub(super) struct Artefact {
 }
 
 /// Writes `report.json`: all rows, sorted, one a line.
+///
+/// # Errors
+/// Those of [`text`], and a verdict that does not say who expects its number.
 pub(super) fn write(artefacts: &[Artefact], out: &Path) -> Result<(), String> {
-    let rows = artefacts.iter().flat_map(|a| a.rows.clone()).collect();
+    let rows: Vec<Row> = artefacts.iter().flat_map(|a| a.rows.clone()).collect();
+    let is_unfounded = |row: &&Row| row.pass.is_some() && row.origin.is_none();
+    if let Some(row) = rows.iter().find(is_unfounded) {
+        let Row {
+            artefact, quantity, ..
+        } = row;
+        return Err(format!(
+            "{artefact} {quantity} has a verdict without an origin"
+        ));
+    }
     write_atomically(&out.join("report.json"), &text(rows)?)
 }
 
@@ -230,4 +242,41 @@ pub(crate) fn write_csv(
 pub(crate) fn save(out: &Path, name: &str, text: &str) -> Result<(), String> {
     let path = out.join(name);
     fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A row without an origin is read and written as before there were any; a verdict without one is
+    /// not reported.
+    #[test]
+    fn verdicts_need_an_origin() {
+        let row = Row::measured("fig1", "q", "nm", 1.0, "");
+        let json = serde_json::to_string(&row).unwrap();
+        assert!(json.ends_with("\"note\":\"\"}"), "{json}");
+        assert_eq!(serde_json::from_str::<Row>(&json).unwrap(), row);
+        let theory = row.against(2.0, 0.5).of(Origin::Theory);
+        let json = serde_json::to_string(&theory).unwrap();
+        assert!(json.ends_with(",\"origin\":\"theory\"}"), "{json}");
+        let folder = tempfile::tempdir().unwrap();
+        let written = |origin| {
+            let row = Row {
+                origin,
+                ..theory.clone()
+            };
+            let artefact = Artefact {
+                id: "fig1",
+                title: "",
+                settings: String::new(),
+                rows: vec![row],
+                pictures: Vec::new(),
+                views: Vec::new(),
+                wall_s: 0.0,
+            };
+            write(&[artefact], folder.path())
+        };
+        assert!(written(None).unwrap_err().contains("fig1 q"));
+        assert_eq!(written(Some(Origin::Theory)), Ok(()));
+    }
 }
