@@ -65,8 +65,8 @@ const FINDINGS: [Finding; 14] = [
     Finding {
         artefact: "fig8",
         quantities: &["claim/height_grows_with_rod/over/180"],
-        stands: "over-twisted filaments buckle higher the more of them is rod (Figure 8)",
-        fails: "that over-twisted filaments buckle higher the more of them is rod (Figure 8)",
+        stands: "over-twisted filaments buckle higher the longer their rod is (Figure 8)",
+        fails: "that over-twisted filaments buckle higher the longer their rod is (Figure 8)",
     },
     Finding {
         artefact: "fig10",
@@ -99,8 +99,8 @@ const FINDINGS: [Finding; 14] = [
     Finding {
         artefact: "fig8",
         quantities: &["claim/height_grows_with_rod/under/180"],
-        stands: "under-twisted filaments buckle higher the more of them is rod (Figure 8)",
-        fails: "that under-twisted filaments buckle higher the more of them is rod (Figure 8)",
+        stands: "under-twisted filaments buckle higher the longer their rod is (Figure 8)",
+        fails: "that under-twisted filaments buckle higher the longer their rod is (Figure 8)",
     },
     Finding {
         artefact: "table5",
