@@ -306,37 +306,22 @@ fn derived_rod() -> Vec<Row> {
         2.0 * modulus() * inertia,
     );
     let row = |name: &str, unit, ours, note: &str| Row::measured("table2", name, unit, ours, note);
+    let given = |name, unit, ours, formula: f64, note| {
+        let row = row(name, unit, ours, note).against(formula, ROUND_OFF * formula);
+        row.of(Origin::Parameter)
+    };
+    let [s1, s3] = [rigidities.shear.x, rigidities.shear.z];
+    let [b1, b3] = [rigidities.bend.x, rigidities.bend.z];
+    let round = "A^2/4pi; Appendix B and Section 4.1 round to 120, tolerance half a digit";
+    let six = "the paper gives E I1: six times the 3.9e4 of Table 4";
+    let thirteen = "the paper gives G I3: thirteen times the 1.3e4 of Appendix B";
     vec![
-        row(
-            "i1",
-            "nm^4",
-            inertia,
-            "A^2/4pi; Appendix B and Section 4.1 round to 120, tolerance half a digit",
-        )
-        .against(120.0, 5.0),
+        row("i1", "nm^4", inertia, round).against(120.0, 5.0),
         row("i3", "nm^4", 2.0 * inertia, "A^2/2pi"),
-        row("s1", "pN", rigidities.shear.x, "the paper gives 4 G A/3")
-            .against(shear, ROUND_OFF * shear)
-            .of(Origin::Parameter),
-        row("s3", "pN", rigidities.shear.z, "the paper gives E A")
-            .against(stretch, ROUND_OFF * stretch)
-            .of(Origin::Parameter),
-        row(
-            "b1",
-            "pN nm^2",
-            rigidities.bend.x,
-            "the paper gives E I1: six times the 3.9e4 of Table 4",
-        )
-        .against(bend, ROUND_OFF * bend)
-        .of(Origin::Parameter),
-        row(
-            "b3",
-            "pN nm^2",
-            rigidities.bend.z,
-            "the paper gives G I3: thirteen times the 1.3e4 of Appendix B",
-        )
-        .against(twist, ROUND_OFF * twist)
-        .of(Origin::Parameter),
+        given("s1", "pN", s1, shear, "the paper gives 4 G A/3"),
+        given("s3", "pN", s3, stretch, "the paper gives E A"),
+        given("b1", "pN nm^2", b1, bend, six),
+        given("b3", "pN nm^2", b3, twist, thirteen),
     ]
 }
 
