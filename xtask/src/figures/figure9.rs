@@ -1,7 +1,7 @@
 //! Figure 9: how twisting rigidity and length depend on twist, fitted.
 
 use super::Run;
-use super::report::{Artefact, Picture, Row};
+use super::report::{Artefact, Origin, Picture, Row};
 use crate::fit::{TwistData, TwistFits, draw};
 use actin_cosserat::{PolynomialStretch, TanhTwist};
 use std::time::Instant;
@@ -46,6 +46,7 @@ fn at_most(quantity: &str, unit: &'static str, ours: f64, limit: f64, note: &str
     Row {
         tolerance: Some(limit),
         pass: Some(ours <= limit),
+        origin: Some(Origin::Bound),
         ..Row::measured(
             ID,
             quantity,
@@ -69,7 +70,8 @@ fn rigidity_rows(fits: &TwistFits) -> Vec<Row> {
             fits.published_b3_rms[0],
             PUBLISHED,
         )
-        .against(PUBLISHED_B3_RMS.0, PUBLISHED_B3_RMS.1),
+        .against(PUBLISHED_B3_RMS.0, PUBLISHED_B3_RMS.1)
+        .of(Origin::Prototype),
         at_most(
             "b3_rms/fitted",
             b3,
@@ -140,6 +142,7 @@ fn lambda_rows(fits: &TwistFits) -> Vec<Row> {
     let ours = fits.tanh.parameters.iter().zip(published).zip(1..);
     let rows = ours.map(|((&ours, paper), i)| Row {
         paper: Some(paper),
+        origin: Some(Origin::Paper),
         ..Row::measured(
             ID,
             format!("lambda/{i}"),

@@ -32,6 +32,22 @@ pub(crate) struct Things {
     pub force: [u8; 3],
 }
 
+impl Things {
+    /// Every colour changed in the same way.
+    pub(crate) fn map(&self, shade: fn([u8; 3]) -> [u8; 3]) -> Self {
+        Self {
+            bonds: self.bonds.map(shade),
+            axes: self.axes.map(shade),
+            junction: shade(self.junction),
+            node: shade(self.node),
+            clamp: shade(self.clamp),
+            linker: shade(self.linker),
+            anchor: shade(self.anchor),
+            force: shade(self.force),
+        }
+    }
+}
+
 /// The palette of this run.
 static CHOSEN: OnceLock<Palette> = OnceLock::new();
 

@@ -14,6 +14,47 @@ fn literal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Literal, D::Err
     ))
 }
 
+/// Where the number comes from that another is compared with.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Origin {
+    /// The paper prints it.
+    Paper,
+    /// The paper says it in words; the bound that decides is ours.
+    Words,
+    /// The code holds it as the paper gives it: this shows that it was copied well, and no more.
+    Parameter,
+    /// A theorem, or a symmetry.
+    Theory,
+    /// An earlier, independent calculation.
+    Prototype,
+    /// Asked for here.
+    Bound,
+}
+
+impl Origin {
+    pub(super) const ALL: [Self; 6] = [
+        Self::Paper,
+        Self::Words,
+        Self::Parameter,
+        Self::Theory,
+        Self::Prototype,
+        Self::Bound,
+    ];
+
+    /// In a table of rows.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::Words => "paper, in words",
+            Self::Parameter => "paper, copied",
+            Self::Theory => "theory",
+            Self::Prototype => "earlier calculation",
+            Self::Bound => "bound set here",
+        }
+    }
+}
+
 /// One number of an artefact.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(crate) struct Row {
@@ -25,7 +66,7 @@ pub(crate) struct Row {
     /// Unit; empty for a ratio.
     #[serde(deserialize_with = "literal")]
     pub unit: Literal,
-    /// What the paper (or, where the note says so, a theory) gives.
+    /// What the paper, or another origin, gives.
     pub paper: Option<f64>,
     /// What this run computed.
     pub ours: f64,
@@ -35,6 +76,9 @@ pub(crate) struct Row {
     pub pass: Option<bool>,
     /// How the number came about.
     pub note: String,
+    /// Where `paper`, or the bound that decides, comes from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub origin: Option<Origin>,
 }
 
 impl Row {
@@ -55,15 +99,25 @@ impl Row {
             tolerance: None,
             pass: None,
             note: note.into(),
+            origin: None,
         }
     }
 
-    /// The same number, compared to `paper`.
+    /// The same number, compared to `paper`, which the paper prints.
     pub(crate) fn against(self, paper: f64, tolerance: f64) -> Self {
         Self {
+            origin: Some(Origin::Paper),
             paper: Some(paper),
             tolerance: Some(tolerance),
             pass: Some((self.ours - paper).abs() <= tolerance),
+            ..self
+        }
+    }
+
+    /// The same, with another origin of what it is compared with.
+    pub(crate) fn of(self, origin: Origin) -> Self {
+        Self {
+            origin: Some(origin),
             ..self
         }
     }
@@ -109,8 +163,20 @@ pub(super) struct Artefact {
 }
 
 /// Writes `report.json`: all rows, sorted, one a line.
+///
+/// # Errors
+/// Those of [`text`], and a verdict that does not say who expects its number.
 pub(super) fn write(artefacts: &[Artefact], out: &Path) -> Result<(), String> {
-    let rows = artefacts.iter().flat_map(|a| a.rows.clone()).collect();
+    let rows: Vec<Row> = artefacts.iter().flat_map(|a| a.rows.clone()).collect();
+    let is_unfounded = |row: &&Row| row.pass.is_some() && row.origin.is_none();
+    if let Some(row) = rows.iter().find(is_unfounded) {
+        let Row {
+            artefact, quantity, ..
+        } = row;
+        return Err(format!(
+            "{artefact} {quantity} has a verdict without an origin"
+        ));
+    }
     write_atomically(&out.join("report.json"), &text(rows)?)
 }
 
@@ -176,4 +242,41 @@ pub(crate) fn write_csv(
 pub(crate) fn save(out: &Path, name: &str, text: &str) -> Result<(), String> {
     let path = out.join(name);
     fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A row without an origin is read and written as before there were any; a verdict without one is
+    /// not reported.
+    #[test]
+    fn verdicts_need_an_origin() {
+        let row = Row::measured("fig1", "q", "nm", 1.0, "");
+        let json = serde_json::to_string(&row).unwrap();
+        assert!(json.ends_with("\"note\":\"\"}"), "{json}");
+        assert_eq!(serde_json::from_str::<Row>(&json).unwrap(), row);
+        let theory = row.against(2.0, 0.5).of(Origin::Theory);
+        let json = serde_json::to_string(&theory).unwrap();
+        assert!(json.ends_with(",\"origin\":\"theory\"}"), "{json}");
+        let folder = tempfile::tempdir().unwrap();
+        let written = |origin| {
+            let row = Row {
+                origin,
+                ..theory.clone()
+            };
+            let artefact = Artefact {
+                id: "fig1",
+                title: "",
+                settings: String::new(),
+                rows: vec![row],
+                pictures: Vec::new(),
+                views: Vec::new(),
+                wall_s: 0.0,
+            };
+            write(&[artefact], folder.path())
+        };
+        assert!(written(None).unwrap_err().contains("fig1 q"));
+        assert_eq!(written(Some(Origin::Theory)), Ok(()));
+    }
 }

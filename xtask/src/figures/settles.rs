@@ -1,6 +1,6 @@
 //! Whether the energy of a damped motion only falls.
 
-use super::report::Row;
+use super::report::{Origin, Row};
 
 /// Largest rise of the energy between two records, as a share of what the motion loses.
 ///
@@ -24,6 +24,7 @@ pub(super) fn energy_decays<E: Iterator<Item = f64>>(
     Row {
         tolerance: Some(RISE),
         pass: Some(ours <= RISE),
+        origin: Some(Origin::Words),
         ..Row::measured(artefact, "claim/energy_decays", "", ours, note)
     }
 }

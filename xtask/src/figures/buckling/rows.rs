@@ -5,7 +5,7 @@ use super::expected;
 use super::lists::Plan;
 use super::outcome::Outcome;
 use super::results::{OBSERVABLES, Observable, Results, range};
-use crate::figures::report::Row;
+use crate::figures::report::{Origin, Row};
 
 /// Largest spread of heights of extended rods over the resolutions (nm).
 const HEIGHT_SPREAD_NM: f64 = 1.5;
@@ -80,7 +80,7 @@ fn link_error(figure: Figure, results: &Results) -> Option<Row> {
     );
     let value = worst.measured.link_error().abs();
     let row = Row::measured(artefact(figure), "link_error", "turns", value, note);
-    Some(row.against(0.0, LINK_ERROR))
+    Some(row.against(0.0, LINK_ERROR).of(Origin::Theory))
 }
 
 /// One observable of one filament: the mean over samplings.
@@ -123,7 +123,8 @@ fn value(
         Some((theirs, tolerance)) => row(format!(
             "compared with an independent prototype with 32 bonds per interface, the paper prints no number; {note}"
         ))
-        .against(theirs, tolerance),
+        .against(theirs, tolerance)
+        .of(Origin::Prototype),
     })
 }
 
@@ -177,10 +178,13 @@ fn spread(
 /// The spread compared with what is asked of it, where something is.
 fn judged(row: Row, figure: Figure, (group, observable): (&str, &str), turn: i32) -> Row {
     match (figure, group, observable, turn) {
-        (Figure::Ten, "", "height", 180 | 270) => row.against(0.0, HEIGHT_SPREAD_NM),
-        (Figure::Ten, "", "couple", -180) => row.against(0.0, COUPLE_SPREAD),
+        (Figure::Ten, "", "height", 180 | 270) => {
+            row.against(0.0, HEIGHT_SPREAD_NM).of(Origin::Bound)
+        }
+        (Figure::Ten, "", "couple", -180) => row.against(0.0, COUPLE_SPREAD).of(Origin::Bound),
         (Figure::Ten, "standard/", "height", 180 | 270) => Row {
             pass: Some(row.ours >= STANDARD_SPREAD_NM),
+            origin: Some(Origin::Prototype),
             note: format!("at least {STANDARD_SPREAD_NM} nm is expected; {}", row.note),
             ..row
         },

@@ -7,7 +7,7 @@ mod bending;
 mod parameters;
 mod twisting;
 
-use super::report::Row;
+use super::report::{Origin, Row};
 
 /// Share by which two numbers differ where the paper itself speaks of a difference: the halves of
 /// Figure 7.
@@ -86,6 +86,7 @@ impl Known<'_> {
         Row {
             tolerance: Some(limit),
             pass: Some(pass),
+            origin: Some(Origin::Words),
             ..Row::measured(self.id, format!("claim/{quantity}"), unit, ours, note)
         }
     }

@@ -1,7 +1,7 @@
 //! Numbers that Appendix B derives from Table 4's.
 
 use super::{Holds, Known};
-use crate::figures::report::Row;
+use crate::figures::report::{Origin, Row};
 use actin_sim::{ellipsoid_constants as monomer, rod_constants as rod};
 use std::f64::consts::PI;
 
@@ -96,6 +96,7 @@ fn printed(known: &Known<'_>) -> [Row; 3] {
             monomer::RIGIDITY_SCALE,
             "factor on the interfaces' published rigidities; 9.8/7.0",
         )
-        .against(1.4, 1e-9),
+        .against(1.4, 1e-9)
+        .of(Origin::Parameter),
     ]
 }

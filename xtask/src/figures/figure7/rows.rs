@@ -1,7 +1,7 @@
 //! Numbers of Figure 7 as rows of the report, and the table behind them.
 
 use super::case::{Halves, Resolved, Sliding};
-use crate::figures::report::{Row, write_csv};
+use crate::figures::report::{Origin, Row, write_csv};
 use actin_sim::Hold;
 use std::path::Path;
 
@@ -97,20 +97,23 @@ fn against(row: Row, example: &Halves, name: &str) -> Row {
     };
     match (name, case.resolved, compared) {
         ("half_energy_ratio", Resolved::Rod(_), _) if case.sliding != Sliding::FarEnd => {
-            row.against(1.0, EQUAL)
+            row.against(1.0, EQUAL).of(Origin::Theory)
         }
         ("half_energy_ratio", Resolved::Ellipsoids(_), _) if case.sliding == Sliding::Neither => {
             Row {
                 paper: Some(PAPER_RATIO),
                 tolerance: Some(PAPER_RATIO - 1.0 - EXCESS.0),
                 pass: Some((EXCESS.0..=EXCESS.1).contains(&(row.ours - 1.0))),
+                origin: Some(Origin::Paper),
                 note: format!("the paper: roughly 10 %; 6 to 13 % agree; {}", row.note),
                 ..row
             }
         }
         (_, _, Some((value, tolerance))) => {
             let note = format!("compared with an independent prototype; {}", row.note);
-            Row { note, ..row }.against(value, tolerance)
+            Row { note, ..row }
+                .against(value, tolerance)
+                .of(Origin::Prototype)
         }
         _ => row,
     }

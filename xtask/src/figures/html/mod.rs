@@ -35,6 +35,8 @@ pub(super) fn write(artefacts: &[Artefact], out: &Path, quick: bool) -> Result<(
     for artefact in artefacts {
         section(&mut sections, &mut shades, artefact, out)?;
     }
+    let mut header = String::new();
+    summary::write(&mut header, &mut shades, artefacts, quick);
     let mut page = String::new();
     push(
         &mut page,
@@ -45,7 +47,7 @@ pub(super) fn write(artefacts: &[Artefact], out: &Path, quick: bool) -> Result<(
             shades.style()
         ),
     );
-    summary::write(&mut page, artefacts, quick);
+    page.push_str(&header);
     page.push_str("</header>\n");
     contents(&mut page, artefacts);
     page.push_str("<main>\n");
@@ -191,7 +193,11 @@ fn viewer(page: &mut String, view: &View, out: &Path) -> Result<(), String> {
 
 fn scripts(page: &mut String) -> Result<(), String> {
     let palette = palette::chosen();
-    let colours = serde_json::json!({ "stops": palette.stops(), "things": palette.things() });
+    let colours = |shade: fn([u8; 3]) -> [u8; 3]| {
+        let stops: Vec<_> = palette.stops().iter().copied().map(shade).collect();
+        serde_json::json!({ "stops": stops, "things": palette.things().map(shade) })
+    };
+    let colours = serde_json::json!({ "light": colours(|c| c), "dark": colours(shades::on_dark) });
     let colours = serde_json::to_string(&colours).map_err(|e| e.to_string())?;
     push(
         page,

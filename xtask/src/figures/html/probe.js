@@ -96,13 +96,14 @@
     return texts.map((text) => text.textContent);
   }
 
-  // Colours of the ground and of the letters, as shown.
+  // Colours of the ground and of all letters, as shown, each once.
   function shades(picture) {
-    const fill = (name) => {
-      const element = picture.querySelector(name);
-      return element ? getComputedStyle(element).fill.match(/\d+/g).map(Number) : null;
+    const fills = (name) => {
+      const elements = [...picture.querySelectorAll(name)];
+      return [...new Set(elements.map((element) => getComputedStyle(element).fill))];
     };
-    return { ground: fill('rect'), letters: fill('text') };
+    const numbers = (fill) => (fill ? fill.match(/\d+/g).map(Number) : null);
+    return { ground: numbers(fills('rect')[0]), letters: fills('text').map(numbers) };
   }
 
   async function verdict() {

@@ -1,8 +1,8 @@
-//! Numbers as tables: paper, ours, difference, verdict; what was missed first, under its reason.
+//! Numbers as tables: what is expected and by whom, ours, difference, verdict; what was missed first, under its reason.
 
 use super::reasons::{self, REASONS, Reason};
 use super::{escape, push};
-use crate::figures::report::Row;
+use crate::figures::report::{Origin, Row};
 
 /// Longer tables are folded away, unless they show what was missed.
 const LONG: usize = 12;
@@ -107,7 +107,7 @@ pub(super) fn table(page: &mut String, rows: &[&Row], among: Among) {
         page.push_str("<th>where</th>");
     }
     page.push_str(
-        "<th>quantity</th><th class=\"n\">paper</th><th class=\"n\">ours</th>\
+        "<th>quantity</th><th class=\"n\">expected</th><th>by</th><th class=\"n\">ours</th>\
          <th class=\"n\">difference</th><th class=\"n\">tolerance</th><th>unit</th>\
          <th>verdict</th><th>note</th></tr></thead><tbody>\n",
     );
@@ -136,8 +136,9 @@ fn write_row(page: &mut String, row: &Row, among: Among) {
             breakable(&row.quantity)
         ),
     );
+    number(page, "expected", row.paper);
+    origin(page, row.origin);
     let numbers = [
-        ("paper", row.paper),
         ("ours", Some(row.ours)),
         ("difference", row.paper.map(|paper| row.ours - paper)),
         ("tolerance", row.tolerance),
@@ -170,6 +171,15 @@ fn number(page: &mut String, label: &str, value: Option<f64>) {
     push(
         page,
         format_args!("<td data-label=\"{label}\" class=\"{class}\">{text}</td>"),
+    );
+}
+
+/// Who expects the number, or sets the bound.
+fn origin(page: &mut String, origin: Option<Origin>) {
+    let (class, text) = origin.map_or(("none", "–"), |origin| ("by", origin.name()));
+    push(
+        page,
+        format_args!("<td data-label=\"by\" class=\"{class}\">{text}</td>"),
     );
 }
 

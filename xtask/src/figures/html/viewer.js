@@ -18,28 +18,26 @@
 
   // ---- colours
 
-  // On a dark page colours are lifted towards white, on a light one they stay.
-  const shown = (rgb) => (DARK.matches ? rgb.map((v) => v + 0.22 * (255 - v)) : rgb);
+  // Colours of the page as it is now: the element holds those of both, so that a view and a picture
+  // show one thing in one colour.
+  const shades = () => (DARK.matches ? PALETTE.dark : PALETTE.light);
   const lighter = (rgb, share) => rgb.map((v) => v + share * (255 - v));
   const css = (rgb) => `rgb(${rgb.map(Math.round).join(',')})`;
 
   // The colour of a share of rod.
   function resolution(share) {
-    const stops = PALETTE.stops, place = share * (stops.length - 1);
+    const { stops } = shades(), place = share * (stops.length - 1);
     const i = Math.min(Math.floor(place), stops.length - 2), t = place - i;
     return stops[i].map((v, k) => v + t * (stops[i + 1][k] - v));
   }
 
   // What stands for what; evaluated at every drawing, since the page may change to dark.
   function colours() {
-    const things = PALETTE.things, ink = DARK.matches ? [225, 225, 225] : things.linker;
-    const rod = shown(resolution(1)), monomer = shown(resolution(0));
+    const { things } = shades(), rod = resolution(1), monomer = resolution(0);
     return {
       monomer, other: lighter(monomer, 0.28),
       rod: lighter(rod, 0.12), stripe: lighter(rod, 0.72), seam: rod.map((v) => 0.6 * v),
-      bonds: things.bonds.map(shown), axes: things.axes.map(shown), line: rod.map((v) => 0.45 * v),
-      junction: things.junction, edge: things.junction.map((v) => 0.45 * v), linker: ink,
-      anchor: shown(things.anchor), clamp: things.clamp, node: things.node, ink,
+      ...things, line: rod.map((v) => 0.45 * v), edge: things.junction.map((v) => 0.45 * v), ink: things.force,
     };
   }
 
@@ -355,7 +353,7 @@
       for (const state of this.members) {
         for (const line of state.lines) {
           const points = line.map((p) => this.see(...p));
-          Raster.line(points, 0.5, shown(resolution(state.share)), 0, 2.4);
+          Raster.line(points, 0.5, resolution(state.share), 0, 2.4);
         }
       }
     }
@@ -418,7 +416,7 @@
       const { state } = this;
       const fine = Number(this.fine);
       const entries = this.compare.getAttribute('aria-pressed') === 'true'
-        ? this.members.map((s) => [s.name, shown(resolution(s.share))])
+        ? this.members.map((s) => [s.name, resolution(s.share)])
         : [
           [state.strands.length, 'monomers, every other one lighter', palette.monomer],
           [fine * state.strands.length, `lateral bonds, ${this.sample()}`, palette.bonds[0]],

@@ -3,7 +3,7 @@
 use super::case::{Case, Figure, STANDARD, VARIANTS, Variant};
 use super::solve::{self, Outcome, SAME_PN_NM};
 use super::spread::Spread;
-use crate::figures::report::{Row, write_csv};
+use crate::figures::report::{Origin, Row, write_csv};
 use crate::figures::settles::energy_decays;
 use std::path::Path;
 
@@ -129,6 +129,7 @@ fn evidence(figure: &Figure, outcomes: &[Outcome]) -> [Row; 3] {
         Row {
             tolerance: Some(0.0),
             pass: Some(unstable == 0),
+            origin: Some(Origin::Bound),
             ..Row::measured(
                 figure.id,
                 "not_certified_stable",
@@ -201,6 +202,7 @@ pub(super) fn bending_claim(figure: &Figure, outcomes: &[Outcome]) -> [Row; 1] {
     [Row {
         tolerance: Some(HELIX_RADIUS_NM),
         pass: Some(spread.node < HELIX_RADIUS_NM),
+        origin: Some(Origin::Words),
         ..Row::measured(
             figure.id,
             "claim/node_spread",
@@ -254,6 +256,7 @@ fn larger(
     Row {
         tolerance: Some(1.0),
         pass: Some(ours > theirs),
+        origin: Some(Origin::Words),
         ..Row::measured(figure.id, quantity, "", ours / theirs, note)
     }
 }

@@ -14,6 +14,8 @@ use std::sync::OnceLock;
 pub(super) const RISES: f64 = 27.0;
 /// Bonds per interface of the study; 64 is the default.
 const BONDS: [usize; 6] = [12, 20, 40, 64, 80, 160];
+/// The same, independent only: between these lie the numbers that may meet both tables.
+const BONDS_BETWEEN: [usize; 2] = [28, 32];
 /// Bond samplings of each kind.
 const SEEDS: u64 = 16;
 /// The same for `--quick`, of the default kind only.
@@ -278,6 +280,7 @@ fn kinds(quick: bool) -> Vec<Kind> {
     [Anchors::Independent, Anchors::Identical]
         .into_iter()
         .flat_map(|anchors| BONDS.map(|bonds| kind(anchors, bonds)))
+        .chain(BONDS_BETWEEN.map(|bonds| kind(Anchors::Independent, bonds)))
         .chain([Kind::RETURNING])
         .collect()
 }

@@ -1,7 +1,7 @@
 //! Tables 1 and 2: parameters as published, as the crates hold them, and what follows from them.
 
 use crate::figures::Run;
-use crate::figures::report::{Artefact, Row, write_csv};
+use crate::figures::report::{Artefact, Origin, Row, write_csv};
 use actin_sim::{Material, Monomers, ellipsoid_constants as monomer, rod_constants as rod};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -72,6 +72,7 @@ pub(super) fn write_rows(id: &str, rows: &[Row], out: &Path) -> Result<(), Strin
         "tolerance",
         "pass",
         "note",
+        "origin",
     ];
     let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.6e}"));
     let lines = rows.iter().map(|row| {
@@ -83,6 +84,8 @@ pub(super) fn write_rows(id: &str, rows: &[Row], out: &Path) -> Result<(), Strin
             number(row.tolerance),
             row.pass.map_or(String::new(), |pass| pass.to_string()),
             row.note.clone(),
+            row.origin
+                .map_or(String::new(), |origin| origin.name().to_owned()),
         ]
     });
     write_csv(out, &format!("{id}.csv"), &header, lines)
@@ -96,7 +99,9 @@ fn published_monomers() -> Vec<Row> {
 
 /// A published parameter that the crates hold as it is.
 fn same(name: &str, unit: &'static str, ours: f64, paper: f64, note: &str) -> Row {
-    Row::measured("table1", name, unit, ours, note).against(paper, ROUND_OFF * paper)
+    Row::measured("table1", name, unit, ours, note)
+        .against(paper, ROUND_OFF * paper)
+        .of(Origin::Parameter)
 }
 
 fn published_geometry() -> Vec<Row> {
@@ -255,7 +260,8 @@ fn published_rod() -> Vec<Row> {
             rod::PRECEDING_PAPER_YOUNG_MODULUS,
             "",
         )
-        .against(2000.0, ROUND_OFF),
+        .against(2000.0, ROUND_OFF)
+        .of(Origin::Parameter),
         Row::measured(
             "table2",
             "poisson_ratio",
@@ -263,7 +269,8 @@ fn published_rod() -> Vec<Row> {
             rod::PRECEDING_PAPER_POISSON_RATIO,
             "",
         )
-        .against(0.4, ROUND_OFF),
+        .against(0.4, ROUND_OFF)
+        .of(Origin::Parameter),
         Row::measured(
             "table2",
             "shear_modulus",
@@ -299,33 +306,22 @@ fn derived_rod() -> Vec<Row> {
         2.0 * modulus() * inertia,
     );
     let row = |name: &str, unit, ours, note: &str| Row::measured("table2", name, unit, ours, note);
+    let given = |name, unit, ours, formula: f64, note| {
+        let row = row(name, unit, ours, note).against(formula, ROUND_OFF * formula);
+        row.of(Origin::Parameter)
+    };
+    let [s1, s3] = [rigidities.shear.x, rigidities.shear.z];
+    let [b1, b3] = [rigidities.bend.x, rigidities.bend.z];
+    let round = "A^2/4pi; Appendix B and Section 4.1 round to 120, tolerance half a digit";
+    let six = "the paper gives E I1: six times the 3.9e4 of Table 4";
+    let thirteen = "the paper gives G I3: thirteen times the 1.3e4 of Appendix B";
     vec![
-        row(
-            "i1",
-            "nm^4",
-            inertia,
-            "A^2/4pi; Appendix B and Section 4.1 round to 120, tolerance half a digit",
-        )
-        .against(120.0, 5.0),
+        row("i1", "nm^4", inertia, round).against(120.0, 5.0),
         row("i3", "nm^4", 2.0 * inertia, "A^2/2pi"),
-        row("s1", "pN", rigidities.shear.x, "the paper gives 4 G A/3")
-            .against(shear, ROUND_OFF * shear),
-        row("s3", "pN", rigidities.shear.z, "the paper gives E A")
-            .against(stretch, ROUND_OFF * stretch),
-        row(
-            "b1",
-            "pN nm^2",
-            rigidities.bend.x,
-            "the paper gives E I1: six times the 3.9e4 of Table 4",
-        )
-        .against(bend, ROUND_OFF * bend),
-        row(
-            "b3",
-            "pN nm^2",
-            rigidities.bend.z,
-            "the paper gives G I3: thirteen times the 1.3e4 of Appendix B",
-        )
-        .against(twist, ROUND_OFF * twist),
+        given("s1", "pN", s1, shear, "the paper gives 4 G A/3"),
+        given("s3", "pN", s3, stretch, "the paper gives E A"),
+        given("b1", "pN nm^2", b1, bend, six),
+        given("b3", "pN nm^2", b3, twist, thirteen),
     ]
 }
 

@@ -5,7 +5,7 @@ use super::paper::{CURVATURE_ROUNDING, Entry, Table, entries};
 use super::statistics::{rms, sample};
 use super::{lengths, listings, pictures};
 use crate::figures::Run;
-use crate::figures::report::{Artefact, Row};
+use crate::figures::report::{Artefact, Origin, Row};
 use std::time::Instant;
 
 /// Angles (deg) over which the root mean square is taken.
@@ -130,6 +130,7 @@ fn mean_row(table: Table, ensemble: &Ensemble, entry: &Entry) -> Row {
         let note = format!("{note}; the paper calls its value unreliable");
         return Row {
             paper: Some(entry.value),
+            origin: Some(Origin::Paper),
             ..row(note)
         };
     }
@@ -171,6 +172,7 @@ fn seed_row(table: Table, ensemble: &Ensemble, entry: &Entry) -> Option<Row> {
     let quantity = path(table, "seed-0/", entry);
     Some(Row {
         paper: Some(entry.value),
+        origin: Some(Origin::Paper),
         ..Row::measured(
             table.id(),
             quantity,
@@ -193,6 +195,7 @@ fn returning_row(table: Table, ensemble: &Ensemble, entry: &Entry) -> Row {
     let quantity = path(table, "returning/", entry);
     Row {
         paper: Some(entry.value),
+        origin: Some(Origin::Paper),
         ..Row::measured(table.id(), quantity, table.unit(), sample.mean, note)
     }
 }
@@ -221,7 +224,7 @@ fn rms_row(table: Table, ensemble: &Ensemble, kind: Kind, entries: &[Entry]) -> 
     let name = table.quantity();
     if kind == Kind::DEFAULT {
         let row = Row::measured(table.id(), format!("{name}_rms"), "", ours, note);
-        return row.against(0.0, limit);
+        return row.against(0.0, limit).of(Origin::Bound);
     }
     let quantity = format!("{name}_rms/{}", kind.name());
     Row::measured(table.id(), quantity, "", ours, note)
