@@ -74,13 +74,13 @@ mod tests {
     }
 
     /// The advice for the cantilever of Figure 4, every monomer resolved. By the rates, 7616 bonds take
-    /// 0.389 ms of a Newton step, 1856 bonds and 14 elements 0.159 ms.
+    /// 0.276 ms of a Newton step, 1856 bonds and 14 elements 0.106 ms.
     #[test]
     fn the_advice_for_the_cantilever() {
         let advice = Advice::of(&cantilever()).unwrap().to_string();
         assert_eq!(
             advice,
-            "replace the monomers of 40..160 nm by a rod with law Fitted: 2.4 times cheaper, expected \
+            "replace the monomers of 40..160 nm by a rod with law Fitted: 2.6 times cheaper, expected \
              errors: tip 1.4 %, energy 1.3 %, torque 0.4 %, curvature at the wall 0.7 % (samplings of \
              the bonds scatter by 3.8 %; measured on cantilever-160)"
         );

@@ -6,19 +6,20 @@
 use crate::scene::RodLaw;
 
 /// Bonds between monomers per second, in whole steps of a motion.
-pub const BONDS_PER_S: f64 = 7.04e8;
+pub const BONDS_PER_S: f64 = 7.12e8;
 /// Elements of rods and junctions per second in whole steps, constant rigidities.
-pub const ELEMENTS_PER_S: f64 = 5.11e7;
-/// The same where a law follows curvature, twist or shear.
-pub const LAW_ELEMENTS_PER_S: f64 = 6.55e6;
+pub const ELEMENTS_PER_S: f64 = 5.85e7;
+/// The same where a law follows curvature, twist or shear; mixtures of laws that keep the scalar path
+/// take some six times as long (`docs/numerics.md`).
+pub const LAW_ELEMENTS_PER_S: f64 = 3.45e7;
 /// Points and frames per second that half a step of thermal noise moves.
-pub const NOISY_BODIES_PER_S: f64 = 2.2e7;
+pub const NOISY_BODIES_PER_S: f64 = 1.64e7;
 /// Bonds per second of a Newton step: second derivatives, factorisation and line search.
-pub const NEWTON_BONDS_PER_S: f64 = 1.96e7;
+pub const NEWTON_BONDS_PER_S: f64 = 2.76e7;
 /// Elements per second of a Newton step, constant rigidities.
-pub const NEWTON_ELEMENTS_PER_S: f64 = 5.83e5;
+pub const NEWTON_ELEMENTS_PER_S: f64 = 7.29e5;
 /// The same where a law follows curvature, twist or shear.
-pub const NEWTON_LAW_ELEMENTS_PER_S: f64 = 2.17e5;
+pub const NEWTON_LAW_ELEMENTS_PER_S: f64 = 3.61e5;
 
 /// Elements per second in whole steps under a rod law.
 pub(super) fn elements_per_s(law: &RodLaw) -> f64 {
