@@ -17,7 +17,7 @@ use actin_mechanics::{Interaction, Loads, Matrix3, SecondOrder, State, Vector3};
 ///
 /// A bond from anchor `a` of the lower monomer to anchor `b` of the upper one (body frames) has
 /// the energy `k/2 (|d| - L)^2`, where `d` is the vector between the anchors, `L` its rest length
-/// and `k` the interface's rigidity divided by its number of bonds. With `d` in the lower body's
+/// and `k` the interface's rigidity times the bond's weight, one over their number for drawn ones. With `d` in the lower body's
 /// frame, `f = k (1 - L/|d|) d` acts on the lower monomer and `-f` on the upper one. With
 /// `F = sum f`, `T = sum a x f` and `D` the vector between the centres, the torque on the lower
 /// monomer is `T`, and that on the upper one, in the lower one's frame, `-(T - D x F)`.
@@ -55,8 +55,8 @@ pub struct Pair {
     pub upper: usize,
     /// Number of bonds.
     pub bonds: usize,
-    /// Stiffness of each bond (pN/nm).
-    pub stiffness: f64,
+    /// Rigidity that the bonds share (pN/nm): the stiffness of each is this times its weight.
+    pub rigidity: f64,
 }
 
 /// One monomer where it now is.
@@ -67,26 +67,24 @@ struct Body {
 }
 
 impl Bonds {
-    /// Draws all interfaces within the run.
+    /// Draws all interfaces within the run, or looks up their weighted bonds.
     pub(crate) fn new(model: &EllipsoidModel, monomers: Monomers) -> Result<Self, InterfaceError> {
-        let mut tables = InterfaceKind::ALL.map(|kind| {
-            let parameters = kind.parameters(model.parameters());
-            let stiffness = parameters.bond_stiffness();
-            BondTable::new(kind.steps(), parameters.bonds, stiffness)
-        });
+        let [lateral, longitudinal] = InterfaceKind::ALL;
+        let tables = [
+            Self::tabulate(model, lateral, &monomers)?,
+            Self::tabulate(model, longitudinal, &monomers)?,
+        ];
         let mut pairs = Vec::new();
         for lower in 0..monomers.count {
-            for (kind, table) in InterfaceKind::ALL.into_iter().zip(&mut tables) {
+            for (kind, table) in InterfaceKind::ALL.into_iter().zip(&tables) {
                 let upper = lower + table.step;
                 if upper < monomers.count {
-                    let interface = model.interface(kind, monomers.index(lower))?;
-                    table.push(&interface.bonds);
                     pairs.push(Pair {
                         kind,
                         lower,
                         upper,
                         bonds: table.bonds,
-                        stiffness: table.stiffness,
+                        rigidity: kind.parameters(model.parameters()).rigidity,
                     });
                 }
             }
@@ -97,6 +95,28 @@ impl Bonds {
             tables,
             arch: Arch::new(),
         })
+    }
+
+    /// The bonds of all interfaces of one kind.
+    fn tabulate(
+        model: &EllipsoidModel,
+        kind: InterfaceKind,
+        monomers: &Monomers,
+    ) -> Result<BondTable, InterfaceError> {
+        let parameters = kind.parameters(model.parameters());
+        let (step, number) = (kind.steps(), parameters.bonds);
+        let pairs = monomers.count.saturating_sub(step);
+        if model.parameters().anchors.are_shared() && pairs > 0 {
+            let interface = model.interface(kind, monomers.first_index)?;
+            let rigidity = parameters.rigidity;
+            return Ok(BondTable::shared(step, pairs, rigidity, &interface.bonds));
+        }
+        let mut table = BondTable::new(step, number, parameters.bond_stiffness());
+        for lower in 0..pairs {
+            let interface = model.interface(kind, monomers.index(lower))?;
+            table.push(&interface.bonds);
+        }
+        Ok(table)
     }
 
     /// The run of monomers.

@@ -51,6 +51,9 @@ pub const LATERAL_RIGIDITY: f64 = PUBLISHED_LATERAL_RIGIDITY * RIGIDITY_SCALE * 
 pub const LONGITUDINAL_RIGIDITY: f64 =
     PUBLISHED_LONGITUDINAL_RIGIDITY * RIGIDITY_SCALE * THERMAL_ENERGY;
 
+/// Shortest bond of either kind (nm). The paper has none.
+pub const MINIMUM_LENGTH: f64 = 0.0;
+
 /// Longest lateral bond (nm; Table 1).
 pub const LATERAL_MAXIMUM_LENGTH: f64 = 1.6;
 
@@ -60,6 +63,10 @@ pub const LONGITUDINAL_MAXIMUM_LENGTH: f64 = 2.2;
 /// Bonds per interface. A choice: fewer than about 12 make the filament too soft in twist, and
 /// at 64 the bending rigidity varies by 1 % between samplings.
 pub const BONDS_PER_INTERFACE: usize = 64;
+
+/// Weighted bonds per interface. A choice: twelve are the fewest whose places, lengths and weights
+/// are as many as the moments that the energy depends on, 48 and 46.
+pub const POINTS_PER_INTERFACE: usize = 12;
 
 /// Mass of a monomer (1e-21 kg = pN ns^2/nm): 42 kDa.
 pub const MASS: f64 = 0.0697;

@@ -94,6 +94,11 @@ impl Helix {
         centre - orientation * Vector3::new(self.radius, 0.0, 0.0)
     }
 
+    /// Turn about the axis from the lower monomer of an interface to midway to the upper one (rad).
+    pub(crate) fn half_turn(&self, kind: InterfaceKind) -> f64 {
+        0.5 * kind.steps() as f64 * self.turn
+    }
+
     /// The upper monomer of an interface as the lower one sees it: the same all along the helix.
     pub fn neighbour(&self, kind: InterfaceKind) -> Neighbour {
         let steps = kind.steps() as f64;

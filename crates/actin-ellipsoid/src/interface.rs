@@ -3,8 +3,12 @@
 //! Everything is in the body frame of the lower monomer, where the upper one stands at the same
 //! place all along the helix.
 
+use crate::gap::Gap;
 use crate::stream::Stream;
-use crate::{Anchors, Ellipsoid, EllipsoidParameters, Helix, InterfaceParameters, Neighbour};
+use crate::{
+    Anchors, Cubature, CubatureError, CubaturePoint, EllipsoidParameters, Helix,
+    InterfaceParameters, Neighbour,
+};
 use actin_mechanics::Vector3;
 use thiserror::Error;
 
@@ -45,17 +49,22 @@ impl InterfaceKind {
         }
     }
 
+    /// 0 or 1.
+    pub(crate) fn number(self) -> u64 {
+        match self {
+            Self::Lateral => 0,
+            Self::Longitudinal => 1,
+        }
+    }
+
     /// The number of the stream from which the interface above `index` draws: no two pairs of
     /// kind and index share one while indices stay below 2^61, and the shared patterns have
     /// streams of their own.
     fn stream_number(self, anchors: Anchors, index: i64) -> u64 {
-        let kind = match self {
-            Self::Lateral => 0,
-            Self::Longitudinal => 1,
-        };
-        match anchors {
-            Anchors::Independent => (index.cast_unsigned() << 2) | kind,
-            Anchors::Identical => 2 | kind,
+        if anchors.are_shared() {
+            2 | self.number()
+        } else {
+            (index.cast_unsigned() << 2) | self.number()
         }
     }
 }
@@ -74,12 +83,14 @@ impl std::fmt::Display for InterfaceKind {
 pub enum InterfaceError {
     /// No bond was short enough.
     #[error(
-        "bond limit that leaves an interface without bonds: no {kind} bond of at most \
-         {maximum_nm:?} nm among {attempts} drawn points"
+        "bond limit that leaves an interface without bonds: no {kind} bond of \
+         {minimum_nm:?} to {maximum_nm:?} nm among {attempts} drawn points"
     )]
     NoBonds {
         /// Kind of the interface.
         kind: InterfaceKind,
+        /// Shortest bond that would have been accepted (nm).
+        minimum_nm: f64,
         /// Longest bond that would have been accepted (nm).
         maximum_nm: f64,
         /// Points drawn since the last bond.
@@ -88,11 +99,13 @@ pub enum InterfaceError {
     /// Too few bonds were short enough.
     #[error(
         "bond limit that leaves an interface short of bonds: {found} of {wanted} {kind} bonds of \
-         at most {maximum_nm:?} nm among {attempts} drawn points"
+         {minimum_nm:?} to {maximum_nm:?} nm among {attempts} drawn points"
     )]
     FewBonds {
         /// Kind of the interface.
         kind: InterfaceKind,
+        /// Shortest bond that would have been accepted (nm).
+        minimum_nm: f64,
         /// Longest bond that would have been accepted (nm).
         maximum_nm: f64,
         /// Bonds that were found.
@@ -101,6 +114,14 @@ pub enum InterfaceError {
         wanted: usize,
         /// Points drawn in all.
         attempts: u64,
+    },
+    /// No weighted bonds stand for all that could be drawn.
+    #[error("weighted {kind} bonds: {reason}")]
+    NoCubature {
+        /// Kind of the interface.
+        kind: InterfaceKind,
+        /// What is wrong.
+        reason: CubatureError,
     },
 }
 
@@ -113,9 +134,11 @@ pub struct Bond {
     pub upper: Vector3,
     /// Length in the built filament (nm).
     pub rest_length: f64,
+    /// Share of the interface's rigidity: all of those of an interface add up to 1.
+    pub weight: f64,
 }
 
-/// The bonds of one interface, as drawn.
+/// The bonds of one interface, drawn or weighted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interface {
     /// Kind of the interface.
@@ -124,31 +147,66 @@ pub struct Interface {
     pub neighbour: Neighbour,
     /// The bonds.
     pub bonds: Vec<Bond>,
-    /// Points drawn on the lower monomer's surface until all bonds were found.
+    /// Points drawn on the lower monomer's surface until all bonds were found; 0 of weighted ones.
     pub attempts: u64,
 }
 
 impl Interface {
-    /// Draws the interface of the given kind whose lower monomer has the given lattice index.
+    /// The interface of the given kind whose lower monomer has the given lattice index.
     ///
-    /// The draws depend on seed and sampling, the kind and the index only (not on the index where
+    /// Weighted bonds are the same for all interfaces of a kind. The draws of others depend on seed and sampling, the kind and the index only (not on the index where
     /// anchors are identical), so the same monomers have the same anchors in whatever run.
     ///
     /// # Errors
-    /// [`InterfaceError`] if no bond is short enough, or too small a part of the surface has any.
-    ///
-    /// # Source
-    /// arXiv 2203.01284, Appendix A.
-    pub(crate) fn draw(
+    /// [`InterfaceError`] if no bond is short and long enough, or too small a part of the surface has
+    /// any, or no weighted ones are found.
+    pub(crate) fn new(
         parameters: &EllipsoidParameters,
         kind: InterfaceKind,
         index: i64,
     ) -> Result<Self, InterfaceError> {
-        let gap = Gap {
-            ellipsoid: Ellipsoid::new(parameters.semi_axes),
-            neighbour: Helix::new(parameters).neighbour(kind),
-            maximum: kind.parameters(parameters).maximum_length,
+        match parameters.anchors {
+            Anchors::Independent | Anchors::Identical => Self::draw(parameters, kind, index),
+            Anchors::Cubature => Self::weighted(parameters, kind),
+        }
+    }
+
+    /// The interface of weighted bonds.
+    fn weighted(
+        parameters: &EllipsoidParameters,
+        kind: InterfaceKind,
+    ) -> Result<Self, InterfaceError> {
+        let helix = Helix::new(parameters);
+        let (neighbour, half_turn) = (helix.neighbour(kind), helix.half_turn(kind));
+        let cubature = Cubature::of(parameters, kind)
+            .map_err(|reason| InterfaceError::NoCubature { kind, reason })?;
+        let bond = |point: &CubaturePoint| {
+            let [lower, upper] = point.ends(&neighbour, half_turn);
+            Bond {
+                lower,
+                upper,
+                rest_length: point.length,
+                weight: point.weight,
+            }
         };
+        Ok(Self {
+            kind,
+            neighbour,
+            bonds: cubature.points.iter().map(bond).collect(),
+            attempts: 0,
+        })
+    }
+
+    /// Draws the bonds of an interface.
+    ///
+    /// # Source
+    /// arXiv 2203.01284, Appendix A.
+    fn draw(
+        parameters: &EllipsoidParameters,
+        kind: InterfaceKind,
+        index: i64,
+    ) -> Result<Self, InterfaceError> {
+        let gap = Gap::new(parameters, kind);
         let number = kind.stream_number(parameters.anchors, index);
         let mut stream = Stream::new(parameters.seed, parameters.sampling, number);
         let mut attempts = 0;
@@ -156,10 +214,13 @@ impl Interface {
         let most = MAXIMUM_ATTEMPTS + ATTEMPTS_PER_BOND * wanted as u64;
         let mut bonds = Vec::with_capacity(wanted);
         while bonds.len() < wanted {
-            bonds.push(gap.draw_bond(kind, &mut stream, &mut attempts)?);
+            let bond = draw_bond(&gap, kind, &mut stream, &mut attempts)?;
+            let weight = 1.0 / wanted as f64;
+            bonds.push(Bond { weight, ..bond });
             if attempts > most {
                 return Err(InterfaceError::FewBonds {
                     kind,
+                    minimum_nm: gap.minimum,
                     maximum_nm: gap.maximum,
                     found: bonds.len(),
                     wanted,
@@ -179,70 +240,36 @@ impl Interface {
     /// the mean stiffness against tilting.
     pub fn mean_square_distance(&self) -> f64 {
         let axis = self.neighbour.offset.normalize();
-        let distances = self.bonds.iter().map(|bond| bond.lower.cross(&axis));
-        distances.map(|d| d.norm_squared()).sum::<f64>() / self.bonds.len() as f64
+        let square = |bond: &Bond| bond.weight * bond.lower.cross(&axis).norm_squared();
+        self.bonds.iter().map(square).sum()
     }
 
     /// Mean length of the bonds at rest (nm).
     pub fn mean_length(&self) -> f64 {
-        let sum: f64 = self.bonds.iter().map(|bond| bond.rest_length).sum();
-        sum / self.bonds.len() as f64
+        let length = |bond: &Bond| bond.weight * bond.rest_length;
+        self.bonds.iter().map(length).sum()
     }
 }
 
-/// The space between two neighbours, which bonds bridge.
-#[derive(Debug)]
-struct Gap {
-    ellipsoid: Ellipsoid,
-    neighbour: Neighbour,
-    maximum: f64,
-}
-
-impl Gap {
-    /// Draws points on the lower monomer until one has a bond.
-    fn draw_bond(
-        &self,
-        kind: InterfaceKind,
-        stream: &mut Stream,
-        attempts: &mut u64,
-    ) -> Result<Bond, InterfaceError> {
-        for _ in 0..MAXIMUM_ATTEMPTS {
-            *attempts += 1;
-            if let Some(bond) = self.bond_from(self.ellipsoid.sample(stream)) {
-                return Ok(bond);
-            }
+/// Draws points on the lower monomer until one has a bond.
+fn draw_bond(
+    gap: &Gap,
+    kind: InterfaceKind,
+    stream: &mut Stream,
+    attempts: &mut u64,
+) -> Result<Bond, InterfaceError> {
+    for _ in 0..MAXIMUM_ATTEMPTS {
+        *attempts += 1;
+        if let Some(bond) = gap.bond_from(gap.ellipsoid.sample(stream)) {
+            return Ok(bond);
         }
-        Err(InterfaceError::NoBonds {
-            kind,
-            maximum_nm: self.maximum,
-            attempts: MAXIMUM_ATTEMPTS,
-        })
     }
-
-    /// The bond that starts at `point` of the lower monomer's surface and runs parallel to the
-    /// line of centres, if there is one that bridges the gap and is short enough.
-    ///
-    /// It runs *towards* the upper monomer, leaves the lower one where it starts (the outward
-    /// normal faces the upper monomer) and ends where it *enters* the upper one (the smaller
-    /// root, positive). Then the smaller root is also the shorter one, and no bond lies inside a
-    /// monomer. What this refuses beyond the published rule: points on the far side, whose bond
-    /// would run through the lower monomer, and points inside the upper monomer, where monomers
-    /// overlap. With the default parameters there are none of either within the maximum length.
-    fn bond_from(&self, point: Vector3) -> Option<Bond> {
-        let Neighbour { rotation, offset } = self.neighbour;
-        let direction = offset.normalize();
-        if self.ellipsoid.normal(point).dot(&direction) <= 0.0 {
-            return None;
-        }
-        let origin = rotation.tr_mul(&(point - offset));
-        let towards = rotation.tr_mul(&direction);
-        let [length, _] = self.ellipsoid.line_intersections(origin, towards)?;
-        (length > 0.0 && length <= self.maximum).then(|| Bond {
-            lower: point,
-            upper: origin + length * towards,
-            rest_length: length,
-        })
-    }
+    Err(InterfaceError::NoBonds {
+        kind,
+        minimum_nm: gap.minimum,
+        maximum_nm: gap.maximum,
+        attempts: MAXIMUM_ATTEMPTS,
+    })
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 )]
 
 use crate::Monomers;
-use crate::table::{BondTable, GROUP, Record};
+use crate::table::{BondTable, GROUP, Group, Record};
 use actin_mechanics::wide::{self, Simd, Wide3, WideMatrix, WithSimd};
 use actin_mechanics::{Loads, State};
 use std::ops::Range;
@@ -102,7 +102,12 @@ impl AddLoads<'_> {
         let rotation = wide::matrix(simd, wide::relative(simd, lower.orientation, upper));
         let offset = wide::mul(simd, &wide::transpose::<S>(&lower.axes), between);
 
-        let (force, torque) = sum_bonds(simd, &rotation, offset, table.group(pairs.start), pairs);
+        let (group, place) = (table.group(pairs.start), place_of::<S>(pairs.start));
+        let (force, torque) = if group.weights.is_empty() {
+            sum_bonds::<S, false>(simd, &rotation, offset, group, place)
+        } else {
+            sum_bonds::<S, true>(simd, &rotation, offset, group, place)
+        };
         // Lanes without a pair get no stiffness.
         let stiffness = wide::load(simd, &[table.stiffness; GROUP], &(0..pairs.len()));
         let force = wide::scale(simd, force, stiffness);
@@ -120,28 +125,33 @@ impl AddLoads<'_> {
     }
 }
 
-/// Sums over the bonds of each pair of `g d` and of `a x g d`, in the lower body's frame.
+/// Sums over the bonds of each pair of `g d` and of `a x g d`, in the lower body's frame, each times
+/// its weight if bonds are `WEIGHTED`.
 ///
 /// With the upper body's rotation `R` and offset `D`, `d = R b + D - a` is a bond's vector and
 /// `g = 1 - L / |d|`.
 #[inline(always)]
-fn sum_bonds<S: Simd>(
+fn sum_bonds<S: Simd, const WEIGHTED: bool>(
     simd: S,
     rotation: &WideMatrix<S>,
     offset: Wide3<S>,
-    records: &[Record],
-    pairs: &Range<usize>,
+    Group { records, weights }: Group<'_>,
+    place: usize,
 ) -> (Wide3<S>, Wide3<S>) {
+    let weights = &weights[..if WEIGHTED { records.len() } else { 0 }];
     let (one, guard) = (simd.splat_f64s(1.0), simd.splat_f64s(GUARD));
     let zero = simd.splat_f64s(0.0);
     let (mut force, mut torque) = ([zero; 3], [zero; 3]);
-    let place = place_of::<S>(pairs.start);
-    for record in records {
+    for (k, record) in records.iter().enumerate() {
         let Ends { a, b, length } = Ends::read(simd, record, place);
         let d = wide::mul_add(simd, rotation, b, wide::sub(simd, offset, a));
         let distance = simd.sqrt_f64s(wide::dot_add(simd, d, d, guard));
         let strain = simd.div_f64s(length, distance);
-        let f = wide::scale(simd, d, simd.sub_f64s(one, strain));
+        let mut factor = simd.sub_f64s(one, strain);
+        if WEIGHTED {
+            factor = simd.mul_f64s(factor, simd.splat_f64s(weights[k]));
+        }
+        let f = wide::scale(simd, d, factor);
         force = wide::add(simd, force, f);
         torque = wide::cross_add(simd, a, f, torque);
     }

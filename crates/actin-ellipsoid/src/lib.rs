@@ -2,8 +2,8 @@
 //!
 //! [`EllipsoidParameters`] holds the numbers, [`EllipsoidModel`] validates them once and makes
 //! everything else: the [`Helix`] on which monomers stand, the [`Monomers`] of a run of lattice
-//! indices on a state, the [`Interface`] between two neighbours with its anchors, and the
-//! [`Bonds`] of a run, which act on the state.
+//! indices on a state, the [`Interface`] between two neighbours with its bonds, drawn or weighted
+//! ([`Cubature`]), and the [`Bonds`] of a run, which act on the state.
 //!
 //! Units are nm, pN, ns and rad; masses are pN ns^2/nm = 1e-21 kg. The body frame of a monomer is
 //! its principal frame: x radial, y tangential, z axial. Nothing here knows of rods, junctions or
@@ -18,7 +18,9 @@ struct Readme;
 
 mod bonds;
 pub mod constants;
+mod cubature;
 mod ellipsoid;
+mod gap;
 mod helix;
 mod interface;
 mod kernel;
@@ -29,9 +31,12 @@ mod stream;
 mod table;
 
 pub use bonds::{Bonds, Pair};
+pub use cubature::{Certificate, Cubature, CubatureError, CubaturePoint};
 pub use ellipsoid::Ellipsoid;
 pub use helix::{Helix, Neighbour};
 pub use interface::{Bond, Interface, InterfaceError, InterfaceKind};
 pub use model::EllipsoidModel;
 pub use monomers::{Monomers, Placement};
-pub use parameters::{Anchors, EllipsoidParameters, InterfaceParameters, ParameterError};
+pub use parameters::{
+    Anchors, EllipsoidParameters, FEWEST_POINTS, InterfaceParameters, MOST_POINTS, ParameterError,
+};

@@ -74,15 +74,16 @@ impl EllipsoidModel {
     /// The interface of the given kind whose lower monomer has the given lattice index.
     ///
     /// # Errors
-    /// [`InterfaceError`] if no bond is short enough, or hardly any.
+    /// [`InterfaceError`] if no bond is short and long enough, or hardly any, or no weighted bonds are
+    /// found.
     pub fn interface(&self, kind: InterfaceKind, index: i64) -> Result<Interface, InterfaceError> {
-        Interface::draw(&self.parameters, kind, index)
+        Interface::new(&self.parameters, kind, index)
     }
 
     /// All bonds within a run of monomers.
     ///
     /// # Errors
-    /// [`InterfaceError`] if no bond of a kind is short enough, or hardly any.
+    /// As [`Self::interface`].
     pub fn bonds(&self, monomers: &Monomers) -> Result<Bonds, InterfaceError> {
         Bonds::new(self, *monomers)
     }

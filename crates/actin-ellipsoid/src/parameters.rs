@@ -4,6 +4,11 @@ use crate::constants;
 use actin_mechanics::InertiaError;
 use thiserror::Error;
 
+/// Fewest points of weighted bonds: one more than the motions that an interface resists at rest.
+pub const FEWEST_POINTS: usize = 4;
+/// Most points of weighted bonds: with fewer the moments are met.
+pub const MOST_POINTS: usize = 64;
+
 /// Parameters of the ellipsoid model. The default is Table 1 and Table 4 of the paper, with the
 /// choices named in [`constants`].
 ///
@@ -43,15 +48,17 @@ pub struct EllipsoidParameters {
 /// Parameters of one kind of interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InterfaceParameters {
-    /// Rigidity that the bonds share equally (pN/nm).
+    /// Rigidity that the bonds share (pN/nm): drawn ones equally, others by their weights.
     pub rigidity: f64,
     /// Number of bonds.
     pub bonds: usize,
+    /// Shortest bond that is accepted (nm); 0 accepts all.
+    pub minimum_length: f64,
     /// Longest bond that is accepted (nm).
     pub maximum_length: f64,
 }
 
-/// How bond anchors are drawn.
+/// How bonds are chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Anchors {
     /// Each interface has anchors of its own.
@@ -59,6 +66,19 @@ pub enum Anchors {
     Independent,
     /// All interfaces of a kind share one pattern in the body frame of their lower monomer.
     Identical,
+    /// All interfaces of a kind have the same weighted bonds, which stand for all that could be
+    /// drawn: see [`crate::Cubature`]. Nothing is drawn, and seed and sampling do not matter.
+    Cubature,
+}
+
+impl Anchors {
+    /// Whether all interfaces of a kind have the same bonds.
+    pub fn are_shared(self) -> bool {
+        match self {
+            Self::Independent => false,
+            Self::Identical | Self::Cubature => true,
+        }
+    }
 }
 
 /// Why parameters were refused.
@@ -95,11 +115,13 @@ impl Default for EllipsoidParameters {
             lateral: InterfaceParameters {
                 rigidity: constants::LATERAL_RIGIDITY,
                 bonds: constants::BONDS_PER_INTERFACE,
+                minimum_length: constants::MINIMUM_LENGTH,
                 maximum_length: constants::LATERAL_MAXIMUM_LENGTH,
             },
             longitudinal: InterfaceParameters {
                 rigidity: constants::LONGITUDINAL_RIGIDITY,
                 bonds: constants::BONDS_PER_INTERFACE,
+                minimum_length: constants::MINIMUM_LENGTH,
                 maximum_length: constants::LONGITUDINAL_MAXIMUM_LENGTH,
             },
             anchors: Anchors::default(),
@@ -130,38 +152,52 @@ impl EllipsoidParameters {
         for semi_axis in self.semi_axes {
             positive("semi_axes", semi_axis)?;
         }
-        let [rigidity, bonds, length] = [
+        self.lateral.validate([
             "lateral.rigidity",
             "lateral.bonds",
+            "lateral.minimum_length",
             "lateral.maximum_length",
-        ];
-        self.lateral.validate(rigidity, bonds, length)?;
-        let [rigidity, bonds, length] = [
+        ])?;
+        self.longitudinal.validate([
             "longitudinal.rigidity",
             "longitudinal.bonds",
+            "longitudinal.minimum_length",
             "longitudinal.maximum_length",
-        ];
-        self.longitudinal.validate(rigidity, bonds, length)
+        ])?;
+        if self.anchors == Anchors::Cubature {
+            for (key, interface) in [
+                ("lateral.bonds", &self.lateral),
+                ("longitudinal.bonds", &self.longitudinal),
+            ] {
+                if !(FEWEST_POINTS..=MOST_POINTS).contains(&interface.bonds) {
+                    let rule = "4 to 64: the points of weighted bonds";
+                    return Err(out_of_range(key, interface.bonds as f64, rule));
+                }
+            }
+        }
+        Ok(())
     }
 }
 
 impl InterfaceParameters {
-    /// Checks the three numbers, which go by the given keys.
+    /// Checks the numbers, which go by the given keys.
     fn validate(
         &self,
-        rigidity: &'static str,
-        bonds: &'static str,
-        length: &'static str,
+        [rigidity, bonds, shortest, longest]: [&'static str; 4],
     ) -> Result<(), ParameterError> {
         positive(rigidity, self.rigidity)?;
-        positive(length, self.maximum_length)?;
+        positive(longest, self.maximum_length)?;
+        if !(self.minimum_length >= 0.0 && self.minimum_length < self.maximum_length) {
+            let rule = "at least 0 and less than the longest bond";
+            return Err(out_of_range(shortest, self.minimum_length, rule));
+        }
         if self.bonds == 0 {
             return Err(out_of_range(bonds, 0.0, "at least 1"));
         }
         Ok(())
     }
 
-    /// Stiffness of one bond (pN/nm).
+    /// Mean stiffness of a bond (pN/nm), that of each drawn one.
     pub fn bond_stiffness(&self) -> f64 {
         self.rigidity / self.bonds as f64
     }
@@ -253,6 +289,54 @@ mod tests {
             ("longitudinal.bonds", |p, _| p.longitudinal.bonds = 0),
         ] {
             assert_eq!(refused(set, 0.0), Some(key));
+        }
+    }
+
+    /// Lengths between 0 and the longest bond, that one not included.
+    #[test]
+    fn the_shortest_bond_is_shorter_than_the_longest() {
+        for (key, set, most) in [
+            (
+                "lateral.minimum_length",
+                (|p, v| p.lateral.minimum_length = v) as Setter,
+                1.6,
+            ),
+            (
+                "longitudinal.minimum_length",
+                |p, v| p.longitudinal.minimum_length = v,
+                2.2,
+            ),
+        ] {
+            for bad in [-1e-9, most, f64::NAN, f64::INFINITY] {
+                assert_eq!(refused(set, bad), Some(key), "{key} = {bad}");
+            }
+            for good in [0.0, 0.2, 0.999 * most] {
+                assert_eq!(refused(set, good), None, "{key} = {good}");
+            }
+        }
+    }
+
+    /// Few points hold nothing, and many are drawn bonds again; drawn ones may be of any number.
+    #[test]
+    fn weighted_bonds_are_4_to_64() {
+        let message = |anchors, bonds| {
+            let mut parameters = EllipsoidParameters {
+                anchors,
+                ..EllipsoidParameters::default()
+            };
+            parameters.lateral.bonds = 12;
+            parameters.longitudinal.bonds = bonds;
+            let refused = EllipsoidModel::new(parameters).err();
+            refused.map_or_else(String::new, |error| error.to_string())
+        };
+        for good in [4, 12, 64] {
+            assert_eq!(message(Anchors::Cubature, good), "");
+        }
+        for bad in [3, 65] {
+            let refused = message(Anchors::Cubature, bad);
+            let expected = format!("longitudinal.bonds = {bad}: must be 4 to 64");
+            assert!(refused.starts_with(&expected), "{refused}");
+            assert_eq!(message(Anchors::Independent, bad), "");
         }
     }
 

@@ -2,21 +2,22 @@
 
 mod common;
 
+use actin_ellipsoid::EllipsoidModel;
 use actin_mechanics::testing::{
     Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, derivative, loads_of,
     perturb,
 };
 use actin_mechanics::{Interaction, Vector3, rotation};
-use common::{filament, model};
+use common::{filament, model, models, weighted};
 
 /// Far from rest: anchors are displaced by up to a nanometre, as much as bonds are long. The
 /// shortest bonds then measure 0.16 nm, so the eight-point difference with a step of 1e-4 nm has
 /// an error far below 1e-8, and its round-off, about 1e-16 E/h, is 1e-11 of the loads.
 #[test]
 fn loads_are_the_gradient_of_the_energy() {
-    for bonds in [8, 64] {
-        for seed in 0..4 {
-            let (mut state, _, bonds) = filament(&model(seed, bonds), 5);
+    for seed in 0..4 {
+        for model in models(seed) {
+            let (mut state, _, bonds) = filament(&model, 5);
             perturb(&mut state, &mut Noise::new(seed), 0.5, 0.3);
             assert_is_gradient(&bonds, &state, 1e-4, 1e-8);
         }
@@ -28,18 +29,22 @@ fn loads_are_the_gradient_of_the_energy() {
 #[test]
 fn loads_have_no_resultant() {
     for seed in 0..10 {
-        let (mut state, _, bonds) = filament(&model(seed, 16), 20);
-        perturb(&mut state, &mut Noise::new(seed), 0.5, 0.3);
-        assert_is_balanced(&bonds, &state, 1e-14);
+        for model in models(seed) {
+            let (mut state, _, bonds) = filament(&model, 20);
+            perturb(&mut state, &mut Noise::new(seed), 0.5, 0.3);
+            assert_is_balanced(&bonds, &state, 1e-14);
+        }
     }
 }
 
 #[test]
 fn energy_does_not_change_under_rigid_motion() {
     for seed in 0..10 {
-        let (mut state, _, bonds) = filament(&model(seed, 16), 20);
-        perturb(&mut state, &mut Noise::new(seed), 0.5, 0.3);
-        assert_is_invariant(&bonds, &state, 1e-13);
+        for model in models(seed) {
+            let (mut state, _, bonds) = filament(&model, 20);
+            perturb(&mut state, &mut Noise::new(seed), 0.5, 0.3);
+            assert_is_invariant(&bonds, &state, 1e-13);
+        }
     }
 }
 
@@ -47,9 +52,9 @@ fn energy_does_not_change_under_rigid_motion() {
 /// each by the same amount: exactly a spring of the interface's rigidity, whatever the anchors.
 #[test]
 fn an_interface_pulled_along_the_line_of_centres_is_one_spring() {
-    for pull in [-0.01, 0.1, 2.0] {
-        let model = model(3, 64);
-        let (mut state, _, bonds) = filament(&model, 2);
+    let models = [model(3, 64), weighted(12)];
+    for (pull, model) in [-0.01, 0.1, 2.0].into_iter().zip(models.iter().cycle()) {
+        let (mut state, _, bonds) = filament(model, 2);
         let axis = (model.helix().centre(1) - model.helix().centre(0)).normalize();
         state.points.position.add(1, pull * axis);
         let rigidity = model.parameters().lateral.rigidity;
@@ -64,8 +69,13 @@ fn an_interface_pulled_along_the_line_of_centres_is_one_spring() {
 /// `K/8 s^4 <1/L^2>` for small `s`. Rest lengths other than the built ones would show here.
 #[test]
 fn an_interface_sheared_resists_with_the_cube_only() {
-    let model = model(3, 64);
-    let (rest, _, bonds) = filament(&model, 2);
+    for model in [model(3, 64), weighted(12)] {
+        assert_shear_is_cubic(&model);
+    }
+}
+
+fn assert_shear_is_cubic(model: &EllipsoidModel) {
+    let (rest, _, bonds) = filament(model, 2);
     let axis = (model.helix().centre(1) - model.helix().centre(0)).normalize();
     let across = axis.cross(&Vector3::x()).normalize();
     let energy = |shear: f64| {
@@ -76,9 +86,8 @@ fn an_interface_sheared_resists_with_the_cube_only() {
     let pair = bonds.pairs()[0];
     let mean = bonds
         .bonds_of(&pair)
-        .map(|b| b.rest_length.powi(-2))
-        .sum::<f64>()
-        / 64.0;
+        .map(|b| b.weight * b.rest_length.powi(-2))
+        .sum::<f64>();
     let shear: f64 = 1e-3;
     let expected = 0.125 * model.parameters().lateral.rigidity * shear.powi(4) * mean;
     // The next term is smaller by s^2 / 2 L^2, below 1e-4 with the shortest bonds.
@@ -89,8 +98,13 @@ fn an_interface_sheared_resists_with_the_cube_only() {
 /// meets that of the bonds' second moment about its own axis.
 #[test]
 fn an_interface_resists_tilt_but_not_torsion() {
-    let model = model(3, 64);
-    let (rest, monomers, bonds) = filament(&model, 2);
+    for model in [model(3, 64), weighted(12)] {
+        assert_tilt_has_stiffness(&model);
+    }
+}
+
+fn assert_tilt_has_stiffness(model: &EllipsoidModel) {
+    let (rest, monomers, bonds) = filament(model, 2);
     let axis = (model.helix().centre(1) - model.helix().centre(0)).normalize();
     let stiffness = |about: Vector3| {
         derivative(1e-4, |angle| {
@@ -106,9 +120,10 @@ fn an_interface_resists_tilt_but_not_torsion() {
     let tilt = axis.cross(&Vector3::x()).normalize();
     let expected: f64 = bonds
         .ends_of(&pair, &rest)
-        .map(|[_, end]| {
+        .zip(bonds.bonds_of(&pair))
+        .map(|([_, end], bond)| {
             let arm = tilt.cross(&(end - rest.points.position.get(1)));
-            pair.stiffness * arm.dot(&axis).powi(2)
+            pair.rigidity * bond.weight * arm.dot(&axis).powi(2)
         })
         .sum();
     assert!((stiffness(tilt) / expected - 1.0).abs() < 1e-8);

@@ -5,7 +5,7 @@ mod common;
 use actin_ellipsoid::{Anchors, EllipsoidModel, EllipsoidParameters, Placement};
 use actin_mechanics::testing::loads_of;
 use actin_mechanics::{Interaction, State, Vector3, rotation};
-use common::{filament, model, model_with};
+use common::{filament, model, model_with, weighted};
 use proptest::prelude::*;
 
 proptest! {
@@ -21,14 +21,18 @@ proptest! {
     #[test]
     fn no_seed_leaves_a_load(
         seed: u64,
-        identical: bool,
+        anchors in prop::sample::select(vec![
+            Anchors::Independent,
+            Anchors::Identical,
+            Anchors::Cubature,
+        ]),
         bonds in 1usize..80,
         first in -10i64..10,
         azimuth in -4.0..4.0f64,
         turn in prop::array::uniform3(-2.0..2.0f64),
         shift in prop::array::uniform3(-20.0..20.0f64),
     ) {
-        let anchors = if identical { Anchors::Identical } else { Anchors::Independent };
+        let bonds = if anchors == Anchors::Cubature { 12 } else { bonds };
         let parameters = EllipsoidParameters {
             azimuth,
             ..model_with(anchors, seed, bonds).parameters().clone()
@@ -53,7 +57,7 @@ proptest! {
 /// otherwise measure sampling noise.
 #[test]
 fn the_same_monomers_have_the_same_anchors_in_any_run() {
-    for anchors in [Anchors::Independent, Anchors::Identical] {
+    for anchors in [Anchors::Independent, Anchors::Identical, Anchors::Cubature] {
         let model = model_with(anchors, 12, 9);
         let whole = {
             let mut state = State::default();
@@ -87,12 +91,14 @@ fn the_same_monomers_have_the_same_anchors_in_any_run() {
 /// All bonds of one interface are parallel to the line of centres, in the lab frame.
 #[test]
 fn bonds_are_parallel_to_the_line_of_centres() {
-    let (state, monomers, bonds) = filament(&model(4, 64), 10);
-    for pair in bonds.pairs() {
-        let centre = |k| state.points.position.get(monomers.point(k));
-        let axis = (centre(pair.upper) - centre(pair.lower)).normalize();
-        for ([from, to], bond) in bonds.ends_of(pair, &state).zip(bonds.bonds_of(pair)) {
-            assert!((to - from - bond.rest_length * axis).norm() < 1e-13);
+    for model in [model(4, 64), weighted(12)] {
+        let (state, monomers, bonds) = filament(&model, 10);
+        for pair in bonds.pairs() {
+            let centre = |k| state.points.position.get(monomers.point(k));
+            let axis = (centre(pair.upper) - centre(pair.lower)).normalize();
+            for ([from, to], bond) in bonds.ends_of(pair, &state).zip(bonds.bonds_of(pair)) {
+                assert!((to - from - bond.rest_length * axis).norm() < 1e-13);
+            }
         }
     }
 }

@@ -7,18 +7,18 @@
 use super::Bonds;
 use super::sums::Relatives;
 use crate::kernel::{Ends, place_of};
-use crate::table::{BondTable, GROUP, Record};
+use crate::table::{BondTable, GROUP, Group};
 use actin_mechanics::State;
 use actin_mechanics::wide::{self, Simd, WithSimd};
 
 /// The loop over bonds, to be compiled for whatever instructions the machine has; returns
-/// `sum (|d| - L)^2` of each pair.
+/// `sum (|d| - L)^2` of each pair, times the weights if there are any.
 #[derive(Debug)]
 struct SumSquares<'a> {
     /// The pairs.
     relatives: &'a Relatives,
     /// Their bonds.
-    records: &'a [Record],
+    group: Group<'a>,
 }
 
 impl WithSimd for SumSquares<'_> {
@@ -26,18 +26,23 @@ impl WithSimd for SumSquares<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Group { records, weights } = self.group;
         let mut squares = [0.0; GROUP];
         for first in (0..GROUP).step_by(S::F64_LANES.min(GROUP)) {
             let place = place_of::<S>(first);
             let (rotation, offset) = self.relatives.read(simd, place);
             let zero = simd.splat_f64s(0.0);
             let mut sum = zero;
-            for record in self.records {
+            for (k, record) in records.iter().enumerate() {
                 let Ends { a, b, length } = Ends::read(simd, record, place);
                 let d = wide::mul_add(simd, &rotation, b, wide::sub(simd, offset, a));
                 let distance = simd.sqrt_f64s(wide::dot_add(simd, d, d, zero));
                 let stretch = simd.sub_f64s(distance, length);
-                sum = simd.mul_add_e_f64s(stretch, stretch, sum);
+                let weighted = match weights.get(k) {
+                    Some(weight) => simd.mul_f64s(stretch, simd.splat_f64s(*weight)),
+                    None => stretch,
+                };
+                sum = simd.mul_add_e_f64s(weighted, stretch, sum);
             }
             wide::write(simd, &mut squares, place, sum);
         }
@@ -68,7 +73,7 @@ impl Bonds {
         }
         let squares = self.arch.dispatch(SumSquares {
             relatives: &relatives,
-            records: table.group(first),
+            group: table.group(first),
         });
         *energies = squares.map(|sum| 0.5 * table.stiffness * sum);
         &energies[..count]

@@ -141,7 +141,7 @@ impl Bonds {
         let mut sums = Sums::default();
         self.arch.dispatch(SumBonds {
             relatives: &relatives,
-            records: table.group(first),
+            group: table.group(first),
             sums: &mut sums,
         });
         for (lane, k) in pairs.enumerate() {

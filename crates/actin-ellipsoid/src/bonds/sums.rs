@@ -7,7 +7,7 @@
 )]
 
 use crate::kernel::{Ends, GUARD, place_of};
-use crate::table::{GROUP, Record, Relative};
+use crate::table::{GROUP, Group, Relative};
 use actin_mechanics::wide::{self, Simd, Wide3, WideMatrix, WithSimd};
 
 /// One number for each pair of a group.
@@ -23,7 +23,8 @@ pub(crate) struct Relatives {
 /// Sums over the bonds of each pair of a group, in the lower body's frame.
 ///
 /// With `a` and `y` the ends of a bond on the lower and on the upper body, `u` the unit vector
-/// from `a` to `y`, `r` their distance and `L` the rest length.
+/// from `a` to `y`, `r` their distance and `L` the rest length; each times its weight if there are
+/// any.
 #[derive(Debug, Default)]
 pub(crate) struct Sums {
     /// `L/r q q^T` with `q = (u, a x u)`, upper triangle: how the length changes with place and
@@ -48,7 +49,7 @@ pub(crate) struct SumBonds<'a> {
     /// The pairs.
     pub(crate) relatives: &'a Relatives,
     /// Their bonds.
-    pub(crate) records: &'a [Record],
+    pub(crate) group: Group<'a>,
     /// Where the sums go, whatever was there.
     pub(crate) sums: &'a mut Sums,
 }
@@ -99,7 +100,7 @@ impl WithSimd for SumBonds<'_> {
         for first in (0..GROUP).step_by(S::F64_LANES.min(GROUP)) {
             let place = place_of::<S>(first);
             let (rotation, offset) = self.relatives.read(simd, place);
-            let sums = sum_bonds(simd, &rotation, offset, self.records, place);
+            let sums = sum_bonds(simd, &rotation, offset, self.group, place);
             for (row, values) in self.sums.lines.iter_mut().zip(sums.lines) {
                 for (lanes, value) in row.iter_mut().zip(values) {
                     wide::write(simd, lanes, place, value);
@@ -122,7 +123,7 @@ fn sum_bonds<S: Simd>(
     simd: S,
     rotation: &WideMatrix<S>,
     offset: Wide3<S>,
-    records: &[Record],
+    Group { records, weights }: Group<'_>,
     place: usize,
 ) -> WideSums<S> {
     let (zero, one) = (simd.splat_f64s(0.0), simd.splat_f64s(1.0));
@@ -131,8 +132,10 @@ fn sum_bonds<S: Simd>(
         lines: [[zero; 6]; 6],
         ends: [[zero; 4]; 4],
     };
-    for record in records {
+    for (k, record) in records.iter().enumerate() {
         let Ends { a, b, length } = Ends::read(simd, record, place);
+        let weight = weights.get(k).map(|weight| simd.splat_f64s(*weight));
+        let weighted = |x| weight.map_or(x, |weight| simd.mul_f64s(x, weight));
         let y = wide::mul_add(simd, rotation, b, offset);
         let d = wide::sub(simd, y, a);
         let squared = wide::dot_add(simd, d, d, guard);
@@ -141,9 +144,10 @@ fn sum_bonds<S: Simd>(
         let share = simd.select_f64s(simd.greater_than_f64s(squared, guard), share, zero);
         let [ux, uy, uz] = wide::scale(simd, d, inverse);
         let [mx, my, mz] = wide::cross_add(simd, a, [ux, uy, uz], [zero; 3]);
-        add_outer(simd, &mut sums.lines, share, [ux, uy, uz, mx, my, mz]);
+        let lines = [ux, uy, uz, mx, my, mz];
+        add_outer(simd, &mut sums.lines, weighted(share), lines);
         let rest = simd.sub_f64s(one, share);
-        add_ends(simd, &mut sums.ends, rest, a, y);
+        add_ends(simd, &mut sums.ends, weighted(rest), a, y);
     }
     sums
 }

@@ -2,13 +2,21 @@
 //! no length.
 
 use super::*;
-use crate::{EllipsoidParameters, Placement};
+use crate::{Anchors, EllipsoidParameters, Placement};
 use actin_mechanics::testing::{Noise, loads_of, perturb};
 use actin_mechanics::{Coordinates, Frame, Inertia, Point, Stiffness, UnitQuaternion};
 
 /// A run of monomers with other bodies before and after, displaced at random.
 fn run(count: usize, bonds: [usize; 2]) -> (State, Bonds) {
-    let mut parameters = EllipsoidParameters::default();
+    run_of(Anchors::Independent, count, bonds)
+}
+
+/// The same with bonds of any kind.
+fn run_of(anchors: Anchors, count: usize, bonds: [usize; 2]) -> (State, Bonds) {
+    let mut parameters = EllipsoidParameters {
+        anchors,
+        ..EllipsoidParameters::default()
+    };
     parameters.lateral.bonds = bonds[0];
     parameters.longitudinal.bonds = bonds[1];
     let model = EllipsoidModel::new(parameters).unwrap();
@@ -45,7 +53,8 @@ fn reference(bonds: &Bonds, state: &State) -> Loads {
     for pair in bonds.pairs() {
         for ([from, to], bond) in bonds.ends_of(pair, state).zip(bonds.bonds_of(pair)) {
             let d = to - from;
-            let force = d.normalize() * (pair.stiffness * (d.norm() - bond.rest_length));
+            let force =
+                d.normalize() * (pair.rigidity * bond.weight * (d.norm() - bond.rest_length));
             for (k, end, force) in [(pair.lower, from, force), (pair.upper, to, -force)] {
                 let body = bonds.body(state, k);
                 let torque = (end - body.centre).cross(&force);
@@ -83,18 +92,61 @@ fn difference(a: &Loads, b: &Loads) -> f64 {
 /// else is in the state. Sums of a hundred terms of size 1 carry round-off of 1e-14.
 #[test]
 fn loads_are_those_of_the_textbook_on_every_kind_of_processor() {
-    for count in [2, 3, 4, 5, 8, 9, 10, 11, 27] {
-        let (state, vector) = run(count, [7, 12]);
-        let scalar = Bonds {
-            arch: Arch::Scalar,
-            ..vector.clone()
-        };
-        let expected = reference(&vector, &state);
-        for bonds in [vector, scalar] {
-            let loads = loads_of(&bonds, &state);
-            assert!(difference(&loads, &expected) < 1e-13, "{count} monomers");
+    for anchors in [Anchors::Independent, Anchors::Identical, Anchors::Cubature] {
+        for count in [2, 3, 4, 5, 8, 9, 10, 11, 27] {
+            let (state, vector) = run_of(anchors, count, [7, 12]);
+            let scalar = Bonds {
+                arch: Arch::Scalar,
+                ..vector.clone()
+            };
+            let expected = reference(&vector, &state);
+            for bonds in [vector, scalar] {
+                let loads = loads_of(&bonds, &state);
+                assert!(difference(&loads, &expected) < 1e-13, "{count} monomers");
+            }
         }
     }
+}
+
+/// Bonds that all interfaces share are stored once, and act as if each had its own; energies add up
+/// to that of the bonds one by one, with their weights.
+#[test]
+fn shared_bonds_are_stored_once() {
+    for anchors in [Anchors::Identical, Anchors::Cubature] {
+        let (state, shared) = run_of(anchors, 27, [7, 12]);
+        let of_pair = |pair: &Pair| -> f64 {
+            let bonds = shared.bonds_of(pair).zip(shared.ends_of(pair, &state));
+            bonds
+                .map(|(bond, [from, to])| {
+                    let stretch = (to - from).norm() - bond.rest_length;
+                    0.5 * pair.rigidity * bond.weight * stretch * stretch
+                })
+                .sum()
+        };
+        let mut energies = vec![0.0; shared.elements()];
+        shared.write_energies(&state, &mut energies);
+        for (pair, energy) in shared.pairs().iter().zip(&energies) {
+            let weights: f64 = shared.bonds_of(pair).map(|bond| bond.weight).sum();
+            assert!((weights - 1.0).abs() < 1e-14);
+            assert!((energy / of_pair(pair) - 1.0).abs() < 1e-12, "{pair:?}");
+        }
+    }
+}
+
+/// The order in which the points of a cubature stand is of no account.
+#[test]
+fn the_order_of_weighted_bonds_does_not_matter() {
+    let (state, bonds) = run_of(Anchors::Cubature, 11, [12, 12]);
+    let mut other = bonds.clone();
+    for (table, kind) in other.tables.iter_mut().zip(InterfaceKind::ALL) {
+        let pair = bonds.pairs().iter().find(|pair| pair.kind == kind).unwrap();
+        let mut reversed: Vec<Bond> = bonds.bonds_of(pair).collect();
+        reversed.reverse();
+        *table = BondTable::shared(table.step, table.pairs, pair.rigidity, &reversed);
+    }
+    let (one, two) = (loads_of(&bonds, &state), loads_of(&other, &state));
+    assert!(one != two && difference(&one, &two) < 1e-13);
+    assert!((bonds.energy(&state) / other.energy(&state) - 1.0).abs() < 1e-13);
 }
 
 /// Runs without a pair exert nothing and do not fail.
@@ -121,6 +173,7 @@ fn coincident() -> (State, Bonds) {
         lower: Vector3::new(0.5, 0.0, 0.0),
         upper: Vector3::new(-0.5, 0.0, 0.0),
         rest_length: 1.0,
+        weight: 1.0,
     }]);
     (state, bonds)
 }
@@ -170,8 +223,10 @@ fn stiffness_of(bonds: &Bonds, state: &State) -> Stiffness {
 /// not. Sums of a dozen terms, and their products with a few rotations, carry round-off of 1e-14.
 #[test]
 fn stiffness_is_the_same_on_every_kind_of_processor() {
-    for count in [1, 2, 3, 5, 8, 9, 10, 11, 27] {
-        let (state, vector) = run(count, [7, 12]);
+    let counts = [1, 2, 3, 5, 8, 9, 10, 11, 27];
+    let kinds = [Anchors::Independent, Anchors::Cubature];
+    for (count, anchors) in counts.into_iter().zip(kinds.into_iter().cycle()) {
+        let (state, vector) = run_of(anchors, count, [7, 12]);
         let scalar = Bonds {
             arch: Arch::Scalar,
             ..vector.clone()

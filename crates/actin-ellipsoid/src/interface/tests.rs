@@ -1,7 +1,7 @@
 //! Where bonds may be, how many there are, and which ones a seed gives.
 
 use super::*;
-use crate::EllipsoidModel;
+use crate::{EllipsoidModel, Helix};
 use InterfaceKind::{Lateral, Longitudinal};
 
 /// Default parameters with many bonds, for statistics.
@@ -14,12 +14,7 @@ fn with_bonds(bonds: usize) -> EllipsoidParameters {
 
 /// The gap of an interface with the default parameters.
 fn gap(kind: InterfaceKind) -> Gap {
-    let parameters = EllipsoidParameters::default();
-    Gap {
-        ellipsoid: Ellipsoid::new(parameters.semi_axes),
-        neighbour: Helix::new(&parameters).neighbour(kind),
-        maximum: kind.parameters(&parameters).maximum_length,
-    }
+    Gap::new(&EllipsoidParameters::default(), kind)
 }
 
 /// Bonds run along the line of centres, from surface to surface, and no further than they
@@ -135,6 +130,7 @@ fn a_limit_below_the_gap_is_an_error() {
         error,
         InterfaceError::NoBonds {
             kind: Longitudinal,
+            minimum_nm: 0.0,
             maximum_nm: 0.05,
             attempts: MAXIMUM_ATTEMPTS
         }

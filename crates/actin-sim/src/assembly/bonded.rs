@@ -121,7 +121,8 @@ mod tests {
             .flat_map(|pair| {
                 let ends = bonds.ends_of(pair, state).zip(bonds.bonds_of(pair));
                 ends.map(|([lower, upper], bond)| {
-                    0.5 * pair.stiffness * ((upper - lower).norm() - bond.rest_length).powi(2)
+                    let stretch = (upper - lower).norm() - bond.rest_length;
+                    0.5 * pair.rigidity * bond.weight * stretch * stretch
                 })
             })
             .sum();

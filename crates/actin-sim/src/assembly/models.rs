@@ -12,6 +12,7 @@ impl From<scene::Anchors> for actin_ellipsoid::Anchors {
         match anchors {
             scene::Anchors::Independent => Self::Independent,
             scene::Anchors::Identical => Self::Identical,
+            scene::Anchors::Cubature => Self::Cubature,
         }
     }
 }
@@ -27,11 +28,13 @@ impl From<&Monomers> for EllipsoidParameters {
             lateral: InterfaceParameters {
                 rigidity: m.lateral_rigidity_pn_per_nm,
                 bonds: m.lateral_bonds,
+                minimum_length: m.min_bond_nm,
                 maximum_length: m.lateral_max_bond_nm,
             },
             longitudinal: InterfaceParameters {
                 rigidity: m.longitudinal_rigidity_pn_per_nm,
                 bonds: m.longitudinal_bonds,
+                minimum_length: m.min_bond_nm,
                 maximum_length: m.longitudinal_max_bond_nm,
             },
             anchors: m.anchors.into(),
@@ -49,9 +52,11 @@ impl From<&EllipsoidParameters> for Monomers {
             anchors: match p.anchors {
                 actin_ellipsoid::Anchors::Independent => scene::Anchors::Independent,
                 actin_ellipsoid::Anchors::Identical => scene::Anchors::Identical,
+                actin_ellipsoid::Anchors::Cubature => scene::Anchors::Cubature,
             },
             lateral_bonds: p.lateral.bonds,
             longitudinal_bonds: p.longitudinal.bonds,
+            min_bond_nm: p.lateral.minimum_length.min(p.longitudinal.minimum_length),
             lateral_rigidity_pn_per_nm: p.lateral.rigidity,
             longitudinal_rigidity_pn_per_nm: p.longitudinal.rigidity,
             lateral_max_bond_nm: p.lateral.maximum_length,
@@ -96,6 +101,7 @@ fn scene_key(parameter: &str) -> String {
         "mass" => "mass_ag",
         "lateral.rigidity" => "lateral_rigidity_pn_per_nm",
         "lateral.bonds" => "lateral_bonds",
+        "lateral.minimum_length" | "longitudinal.minimum_length" => "min_bond_nm",
         "lateral.maximum_length" => "lateral_max_bond_nm",
         "longitudinal.rigidity" => "longitudinal_rigidity_pn_per_nm",
         "longitudinal.bonds" => "longitudinal_bonds",
@@ -107,7 +113,13 @@ fn scene_key(parameter: &str) -> String {
 
 /// The problem behind an interface that could not be bonded.
 pub(super) fn unbonded(error: &InterfaceError, monomers: &Monomers) -> Problem {
-    let (InterfaceError::NoBonds { kind, .. } | InterfaceError::FewBonds { kind, .. }) = error;
+    let kind = match error {
+        InterfaceError::NoBonds { kind, .. } | InterfaceError::FewBonds { kind, .. } => kind,
+        InterfaceError::NoCubature { .. } => {
+            let value = format!("{:?}", monomers.anchors);
+            return Problem::new("filament.monomers.anchors", value, error.to_string());
+        }
+    };
     let (key, value) = match kind {
         InterfaceKind::Lateral => ("lateral_max_bond_nm", monomers.lateral_max_bond_nm),
         InterfaceKind::Longitudinal => (

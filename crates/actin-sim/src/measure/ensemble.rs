@@ -46,7 +46,8 @@ impl Sampled {
 /// the order of the seeds.
 ///
 /// # Errors
-/// The first error of `measure`, in the order of the seeds.
+/// The first error of `measure`, in the order of the seeds; weighted bonds, of which any seed but 0
+/// is refused.
 pub fn over_samplings<T: Send>(
     specimen: &Specimen,
     seeds: &[u64],

@@ -2,21 +2,25 @@
 
 use super::RodLaw;
 use actin_cosserat::Rigidities;
-use actin_ellipsoid::EllipsoidParameters;
+use actin_ellipsoid::{EllipsoidParameters, constants};
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the monomers. Every default is that of [`EllipsoidParameters`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Monomers {
-    /// Seed of the bond anchors.
+    /// Seed of drawn bonds; weighted bonds are not drawn, and leave it out.
     pub seed: u64,
-    /// Whether each interface draws its own anchors or all share one pattern.
+    /// Whether bonds are drawn, for each interface or once for all, or weighted.
     pub anchors: Anchors,
-    /// Bonds per lateral interface (monomer i to i + 1).
+    /// Bonds per lateral interface (monomer i to i + 1): left out, 64 drawn or 12 weighted ones.
+    #[serde(default = "by_anchors")]
     pub lateral_bonds: usize,
-    /// Bonds per longitudinal interface (monomer i to i + 2).
+    /// Bonds per longitudinal interface (monomer i to i + 2): the same.
+    #[serde(default = "by_anchors")]
     pub longitudinal_bonds: usize,
+    /// Shortest bond of either kind that is accepted (nm): drawn ones below it are drawn again.
+    pub min_bond_nm: f64,
     /// Rigidity of a lateral interface, shared by its bonds (pN/nm).
     pub lateral_rigidity_pn_per_nm: f64,
     /// Rigidity of a longitudinal interface, shared by its bonds (pN/nm).
@@ -39,13 +43,33 @@ pub struct Monomers {
     pub mass_ag: f64,
 }
 
-/// How bond anchors are drawn.
+/// How the bonds of an interface are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Anchors {
     /// Each interface has anchors of its own.
     Independent,
     /// All interfaces of a kind share one pattern.
     Identical,
+    /// All interfaces of a kind have the same weighted bonds, which stand for all that could be drawn:
+    /// the mean filament. See [`actin_ellipsoid::Cubature`].
+    Cubature,
+}
+
+impl Anchors {
+    /// Bonds of an interface if a scene does not say how many.
+    pub fn usual_bonds(self) -> usize {
+        match self {
+            Self::Independent | Self::Identical => constants::BONDS_PER_INTERFACE,
+            Self::Cubature => constants::POINTS_PER_INTERFACE,
+        }
+    }
+}
+
+/// A number of bonds that a scene does not give: more than any interface may have.
+const BY_ANCHORS: usize = usize::MAX;
+
+fn by_anchors() -> usize {
+    BY_ANCHORS
 }
 
 /// Parameters of the rod.
@@ -122,6 +146,37 @@ impl Default for Monomers {
     }
 }
 
+impl Monomers {
+    /// The default monomers with so many bonds drawn for each interface, from a seed.
+    pub fn drawn(bonds: usize, seed: u64) -> Self {
+        Self {
+            seed,
+            anchors: Anchors::Independent,
+            lateral_bonds: bonds,
+            longitudinal_bonds: bonds,
+            ..Self::default()
+        }
+    }
+
+    /// The default monomers with so many weighted bonds in each interface.
+    pub fn weighted(points: usize) -> Self {
+        Self {
+            anchors: Anchors::Cubature,
+            ..Self::drawn(points, 0)
+        }
+    }
+
+    /// Puts the usual numbers of bonds where a scene gives none.
+    pub(super) fn resolve(&mut self) {
+        let usual = self.anchors.usual_bonds();
+        for bonds in [&mut self.lateral_bonds, &mut self.longitudinal_bonds] {
+            if *bonds == BY_ANCHORS {
+                *bonds = usual;
+            }
+        }
+    }
+}
+
 impl Material {
     /// The rigidities that the name stands for, not yet validated.
     pub fn rigidities(&self) -> Rigidities {
@@ -136,5 +191,45 @@ impl Material {
                 bend: bend_pn_nm2.into(),
             },
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+
+    fn monomers(text: &str) -> Monomers {
+        let text = format!(
+            "Scene(
+                filament: Filament(
+                    sections: [Ellipsoids(from_nm: 0.0, to_nm: 30.0)],
+                    monomers: Monomers({text}),
+                ),
+                clamps: [Clamp(end: Start)],
+                task: Equilibrium(),
+            )"
+        );
+        let scene = Scene::from_ron(&text).expect("the scene is valid");
+        // What is written out in full is read back as it was.
+        assert_eq!(Scene::from_ron(&scene.to_ron()).as_ref(), Ok(&scene));
+        scene.filament.monomers
+    }
+
+    /// How many bonds an interface has goes with how they are chosen, unless a scene says.
+    #[test]
+    fn numbers_of_bonds_go_with_how_they_are_chosen() {
+        let bonds = |text| {
+            let monomers = monomers(text);
+            (monomers.lateral_bonds, monomers.longitudinal_bonds)
+        };
+        assert_eq!(bonds("anchors: Independent"), (64, 64));
+        assert_eq!(bonds("anchors: Identical, lateral_bonds: 20"), (20, 64));
+        assert_eq!(bonds("anchors: Cubature"), (12, 12));
+        assert_eq!(bonds("anchors: Cubature, longitudinal_bonds: 16"), (12, 16));
+        assert_eq!(monomers(""), Monomers::default());
+        assert_eq!(monomers("anchors: Cubature"), Monomers::weighted(12));
+        let drawn = "anchors: Independent, lateral_bonds: 9, longitudinal_bonds: 9, seed: 4";
+        assert_eq!(monomers(drawn), Monomers::drawn(9, 4));
     }
 }

@@ -2,9 +2,10 @@
 
 use super::support::{check_support, check_swings};
 use super::{
-    Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Load, Problem, Scene, Section,
-    Setting, Slides, Stage, StopRule, Task, linker, magnitude, thermal,
+    Anchors, Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Load, Monomers, Problem,
+    Scene, Section, Setting, Slides, Stage, StopRule, Task, linker, magnitude, thermal,
 };
+use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 use actin_mechanics::Vector3;
 use std::fmt::Debug;
 
@@ -172,8 +173,16 @@ fn check_model(filament: &Filament) -> Result<(), Problem> {
         finite(&format!("filament.monomers.{key}"), value)?;
     }
     each_positive("filament.monomers.semi_axes_nm", m.semi_axes_nm)?;
-    check_bonds("lateral_bonds", m.lateral_bonds)?;
-    check_bonds("longitudinal_bonds", m.longitudinal_bonds)?;
+    check_bonds("lateral_bonds", m.anchors, m.lateral_bonds)?;
+    check_bonds("longitudinal_bonds", m.anchors, m.longitudinal_bonds)?;
+    check_shortest(m)?;
+    if m.anchors == Anchors::Cubature && m.seed != 0 {
+        return Err(Problem::new(
+            "filament.monomers.seed",
+            m.seed,
+            "weighted bonds are not drawn: leave the seed out, or write anchors: Independent",
+        ));
+    }
     if let super::Material::Rigidities {
         shear_pn,
         bend_pn_nm2,
@@ -185,15 +194,40 @@ fn check_model(filament: &Filament) -> Result<(), Problem> {
     Ok(())
 }
 
-fn check_bonds(key: &str, bonds: usize) -> Result<(), Problem> {
-    if (1..=MOST_BONDS_PER_INTERFACE).contains(&bonds) {
+fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(), Problem> {
+    let (range, what) = match anchors {
+        Anchors::Independent | Anchors::Identical => (1..=MOST_BONDS_PER_INTERFACE, ""),
+        Anchors::Cubature => (FEWEST_POINTS..=MOST_POINTS, "weighted "),
+    };
+    if range.contains(&bonds) {
         return Ok(());
     }
+    let (fewest, most) = (range.start(), range.end());
     Err(Problem::new(
         format!("filament.monomers.{key}"),
         bonds,
-        format!("an interface has 1 to {MOST_BONDS_PER_INTERFACE} bonds"),
+        format!("an interface has {fewest} to {most} {what}bonds"),
     ))
+}
+
+/// Both kinds of interface have the same shortest bond.
+fn check_shortest(monomers: &Monomers) -> Result<(), Problem> {
+    let key = "filament.monomers.min_bond_nm";
+    let shortest = monomers.min_bond_nm;
+    non_negative(key, shortest)?;
+    for (longest_key, longest) in [
+        ("lateral_max_bond_nm", monomers.lateral_max_bond_nm),
+        (
+            "longitudinal_max_bond_nm",
+            monomers.longitudinal_max_bond_nm,
+        ),
+    ] {
+        if shortest >= longest {
+            let rule = format!("must be less than {longest_key} = {longest:?}");
+            return Err(Problem::new(key, show(shortest), rule));
+        }
+    }
+    Ok(())
 }
 
 fn check_clamp(scene: &Scene, i: usize, clamp: &Clamp) -> Result<(), Problem> {

@@ -41,10 +41,14 @@ impl TryFrom<Written> for Scene {
                 return Err(Problem::new("filaments", "", rule));
             }
         };
+        let resolved = |mut filament: Filament| {
+            filament.monomers.resolve();
+            filament
+        };
         Ok(Self {
             title: written.title,
-            filament,
-            further,
+            filament: resolved(filament),
+            further: further.into_iter().map(resolved).collect(),
             clamps: written.clamps,
             loads: written.loads,
             linkers: written.linkers,

@@ -1,0 +1,187 @@
+//! Points that stand for all bonds: found, certified, built in, refused.
+
+use super::*;
+use crate::{Anchors, EllipsoidModel, InterfaceError};
+use InterfaceKind::{Lateral, Longitudinal};
+
+/// The default geometry with so many points and bonds no shorter than this.
+fn parameters(points: usize, shortest: f64) -> EllipsoidParameters {
+    let mut parameters = EllipsoidParameters {
+        anchors: Anchors::Cubature,
+        ..EllipsoidParameters::default()
+    };
+    for interface in [&mut parameters.lateral, &mut parameters.longitudinal] {
+        interface.bonds = points;
+        interface.minimum_length = shortest;
+    }
+    parameters
+}
+
+/// Geometries around the default: all have points with a certificate, and each its own.
+#[test]
+fn twelve_points_meet_the_moments() {
+    let change = |set: fn(&mut EllipsoidParameters)| {
+        let mut changed = parameters(12, 0.2);
+        set(&mut changed);
+        changed
+    };
+    let all = [
+        parameters(12, 0.0),
+        parameters(12, 0.2),
+        parameters(12, 0.3),
+        change(|p| p.rise = 2.76),
+        change(|p| p.radius = 1.75),
+        change(|p| p.radius = 1.85),
+        change(|p| p.semi_axes = [2.7, 2.7, 1.9]),
+    ];
+    for (i, parameters) in all.iter().enumerate() {
+        for kind in InterfaceKind::ALL {
+            let found = Cubature::find(parameters, kind).unwrap();
+            let certificate = found.certificate;
+            assert_eq!(found.points.len(), 12);
+            assert!(
+                certificate.is_within_bounds(),
+                "{i} {kind}: {certificate:?}"
+            );
+            assert!(certificate.residual <= MET, "{i} {kind}: {certificate:?}");
+            let sum: f64 = found.points.iter().map(|p| p.weight).sum();
+            assert!((sum - 1.0).abs() < MET);
+            let floor = kind.parameters(parameters).minimum_length;
+            assert!(certificate.lengths[0] >= floor - 1e-12);
+        }
+    }
+}
+
+/// With fewer points than moments need, the nearest; with more, nearer.
+#[test]
+fn more_points_come_nearer() {
+    let residual = |points| {
+        let found = Cubature::find(&parameters(points, 0.2), Longitudinal).unwrap();
+        found.certificate.residual
+    };
+    let (few, some, many) = (residual(6), residual(8), residual(16));
+    assert!(
+        few > 2.0 * some && some > 100.0 * many,
+        "{few} {some} {many}"
+    );
+}
+
+/// The built-in points are what a search finds: the table cannot outlive a change of the method, of
+/// the moments or of the default parameters. Sums may differ in the last digit between machines.
+#[test]
+fn the_table_is_found_anew() {
+    for kind in InterfaceKind::ALL {
+        let mut parameters = EllipsoidParameters {
+            anchors: Anchors::Cubature,
+            ..EllipsoidParameters::default()
+        };
+        parameters.lateral.bonds = 12;
+        parameters.longitudinal.bonds = 12;
+        let table = table::built_in(&parameters, kind).expect("it is of the default parameters");
+        let finder = Finder::new(&parameters, kind).unwrap();
+        let certificate = finder.certificate(&table.points);
+        assert!(certificate.is_within_bounds() && certificate.residual <= MET);
+        let residuals = [certificate.residual, table.certificate.residual];
+        assert!(
+            (residuals[0] / residuals[1] - 1.0).abs() < 1e-3,
+            "{residuals:?}"
+        );
+        let found = Cubature::find_from(&finder, finder.drawn_starts(kind, 12), 12).unwrap();
+        for (a, b) in found.points.iter().zip(&table.points) {
+            let differences = [
+                a.place[0] - b.place[0],
+                a.place[1] - b.place[1],
+                a.height - b.height,
+                a.length - b.length,
+                a.weight - b.weight,
+            ];
+            assert!(
+                differences.iter().all(|d| d.abs() < 1e-6),
+                "{kind}: {a:?} {b:?}"
+            );
+        }
+    }
+}
+
+/// Geometries that differ in the last digits only have the same points, and the same search is not
+/// made twice.
+#[test]
+fn points_are_kept() {
+    let standard = parameters(12, 0.2);
+    let first = Cubature::of(&standard, Lateral).unwrap();
+    assert!(Arc::ptr_eq(
+        &first,
+        &Cubature::of(&standard, Lateral).unwrap()
+    ));
+    let mut other = standard.clone();
+    other.seed = 9;
+    other.azimuth = 1.0;
+    assert!(Arc::ptr_eq(&first, &Cubature::of(&other, Lateral).unwrap()));
+    other.lateral.bonds = 13;
+    assert!(!Arc::ptr_eq(
+        &first,
+        &Cubature::of(&other, Lateral).unwrap()
+    ));
+}
+
+/// Ends are a bond's length apart, along the line of centres, with the middle where the line through
+/// it crosses the middle of the gap: the ends of drawn bonds lie as far above one surface as below
+/// the other.
+#[test]
+fn bonds_lie_along_the_line_of_centres() {
+    let model = EllipsoidModel::new(parameters(12, 0.2)).unwrap();
+    for kind in InterfaceKind::ALL {
+        let interface = model.interface(kind, -3).unwrap();
+        assert_eq!(interface, model.interface(kind, 8).unwrap());
+        let Neighbour { rotation, offset } = interface.neighbour;
+        let axis = offset.normalize();
+        for bond in &interface.bonds {
+            let upper = rotation * bond.upper + offset;
+            assert!((upper - bond.lower - bond.rest_length * axis).norm() < 1e-14);
+            let [lower_surface, upper_surface] = surfaces(&model, kind, bond);
+            let above = (bond.lower - lower_surface).dot(&axis);
+            let below = (upper_surface - upper).dot(&axis);
+            assert!((above - below).abs() < 1e-12, "{kind}: {above} {below}");
+        }
+    }
+}
+
+/// Where the line through a bond leaves the lower monomer and enters the upper one.
+fn surfaces(model: &EllipsoidModel, kind: InterfaceKind, bond: &crate::Bond) -> [Vector3; 2] {
+    let Neighbour { rotation, offset } = model.helix().neighbour(kind);
+    let axis = offset.normalize();
+    let ellipsoid = model.ellipsoid();
+    let [_, exit] = ellipsoid.line_intersections(bond.lower, axis).unwrap();
+    let origin = rotation.tr_mul(&(bond.lower - offset));
+    let towards = rotation.tr_mul(&axis);
+    let [entry, _] = ellipsoid.line_intersections(origin, towards).unwrap();
+    [exit, entry].map(|along| bond.lower + along * axis)
+}
+
+/// Moments over bonds of no length are infinite; a shortest length makes them finite.
+#[test]
+fn monomers_that_overlap_need_a_shortest_bond() {
+    let mut overlapping = parameters(12, 0.0);
+    overlapping.radius = 1.2;
+    let refused = |p: &EllipsoidParameters| {
+        let model = EllipsoidModel::new(p.clone()).unwrap();
+        model.interface(Lateral, 0).err()
+    };
+    let reason = CubatureError::Touching;
+    let kind = Lateral;
+    assert_eq!(
+        refused(&overlapping),
+        Some(InterfaceError::NoCubature { kind, reason })
+    );
+    overlapping.lateral.minimum_length = 0.2;
+    assert_eq!(refused(&overlapping), None);
+}
+
+/// No bond between the bounds: what a drawn interface would look for in a million points.
+#[test]
+fn an_interface_without_bonds_is_refused() {
+    let mut short = parameters(12, 0.0);
+    short.longitudinal.maximum_length = 0.05;
+    let error = Cubature::of(&short, Longitudinal).unwrap_err();
+    assert!(matches!(error, CubatureError::NoBonds { .. }), "{error}");
+}
