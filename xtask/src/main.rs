@@ -8,6 +8,7 @@ mod figures;
 mod fit;
 mod tidy;
 mod tradeoff;
+mod trials;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -36,6 +37,8 @@ enum Task {
     CheckDocs(docs::Options),
     /// Measures what each saving of time costs in accuracy, scene by scene.
     Tradeoff(tradeoff::Options),
+    /// Tries the program with random input, kills, damaged files and scenes changed without effect.
+    Trials(trials::Options),
 }
 
 fn main() -> ExitCode {
@@ -47,6 +50,7 @@ fn main() -> ExitCode {
         Task::ReproduceFigures(options) => figures::reproduce(&options),
         Task::CheckDocs(options) => docs::run(&options),
         Task::Tradeoff(options) => tradeoff::run(&options),
+        Task::Trials(options) => trials::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
