@@ -102,6 +102,38 @@ impl Assembly {
             .expect("the stiffness has been assembled")
     }
 
+    /// The largest entry, without its sign.
+    pub(crate) fn largest_entry(&self) -> f64 {
+        self.values.iter().map(|value| value.abs()).fold(0.0, f64::max)
+    }
+
+    /// What rounding of each entry goes with, in the order of the values: its own size, or the mean
+    /// (geometric) of what the two bodies have on their diagonals if that is more. So a direction in
+    /// which a body meets no stiffness is changed whether it lies along an axis or not; where nothing
+    /// acts on a body, it is zero.
+    pub(crate) fn scales(&self, layout: &Layout) -> Vec<f64> {
+        let symbolic = &self.pattern().symbolic;
+        let (starts, rows) = (symbolic.col_ptr(), symbolic.row_idx());
+        let mut of_row = vec![0.0; layout.unknowns()];
+        for (_, own) in layout.nodes() {
+            let of_column = |column: usize| {
+                let places = starts[column]..starts[column + 1];
+                let within = places.filter(|&at| own.contains(&rows[at]));
+                within.map(|at| self.values[at].abs()).fold(0.0, f64::max)
+            };
+            let largest = own.clone().map(of_column).fold(0.0, f64::max);
+            of_row[own].fill(largest);
+        }
+        let mut scales = Vec::with_capacity(self.values.len());
+        for column in 0..of_row.len() {
+            scales.extend((starts[column]..starts[column + 1]).map(|at| {
+                let mean = (of_row[rows[at]] * of_row[column]).sqrt();
+                self.values[at].abs().max(mean)
+            }));
+        }
+        scales
+    }
+
     /// `K v`.
     pub(crate) fn multiply(&self, v: &[f64], out: &mut [f64]) {
         self.multiply_with(v, out, |value| value);

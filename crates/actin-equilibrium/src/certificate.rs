@@ -7,10 +7,14 @@
 //! beyond doubt. Those within `[-s, s]` are looked at more closely, since `s` is a bound for the
 //! worst case, which long filaments, whose lowest eigenvalues fall with the fourth power of the
 //! length, do not meet: the count is repeated with the coordinates and the matrix changed at
-//! random by some roundings. If it never changes it is taken; else they cannot be told from zero.
+//! random by some roundings. If it never changes, and no pivot is exactly zero in any repetition, it
+//! is taken; else they cannot be told from zero. A body that nothing acts on has as many eigenvalues
+//! of exactly zero as it has unknowns: changes in proportion to them would leave them zero, and the
+//! signs of their pivots mean nothing.
 
 use crate::direction::Solver;
 use crate::evaluation::Evaluation;
+use crate::factor::Inertia;
 use actin_mechanics::testing::Noise;
 use actin_mechanics::{Interaction, State};
 
@@ -23,7 +27,8 @@ pub struct Certificate {
     pub unresolved: usize,
     /// The resolution (pN/nm), divided by the metric's smallest weight: the larger of eight times
     /// the unit round-off times the largest diagonal entry of `|L| |D| |L^T|`, and of the change
-    /// of the stiffness when each coordinate changes by its rounding error.
+    /// of the stiffness when each coordinate changes by its rounding error. Of no stiffness at all
+    /// it is the smallest normal number.
     pub resolution: f64,
     /// Number of negative pivots of the stiffness itself.
     pub negative_pivots: usize,
@@ -79,7 +84,12 @@ fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
     let lightest = solver.metric.iter().copied().fold(f64::INFINITY, f64::min);
     let negative_pivots = solver.factorize(0.0).negative;
     let rounding = ROUNDINGS * f64::EPSILON;
-    let mut resolution = uncertainty.max(rounding * solver.largest_diagonal()) / lightest;
+    let largest = solver.assembly.largest_entry();
+    // A shift of zero would tell nothing: what is exactly zero is to lie between the two counts.
+    let least = uncertainty
+        .max(rounding * largest)
+        .max(f64::MIN_POSITIVE);
+    let mut resolution = least / lightest;
     let mut attempt = 1;
     loop {
         let above = solver.factorize(resolution);
@@ -102,7 +112,8 @@ fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
     }
 }
 
-/// Takes the count of negative pivots where it is the same for all realisations of rounding.
+/// Takes the count of negative pivots where it is the same for all realisations of rounding, and no
+/// pivot is zero in any.
 ///
 /// Before that the residual is brought down by a step of Newton's method: what it leaves of a
 /// zero eigenvalue is the same in all realisations and would pass for a sign.
@@ -114,22 +125,32 @@ fn resolve(
 ) {
     let polished = polish(solver, state, interactions);
     let state = polished.as_ref().unwrap_or(state);
-    let negative_pivots = solver.factorize(0.0).negative;
+    let first = solver.factorize(0.0);
+    let scales = solver.assembly.scales(&solver.layout);
     let mut noise = Noise::new(1);
     let bounds = certificate.negative..=certificate.negative + certificate.unresolved;
+    let settles = |inertia: Inertia| {
+        inertia.zero == 0
+            && inertia.negative == first.negative
+            && bounds.contains(&inertia.negative)
+    };
+    if !settles(first) {
+        return;
+    }
     for _ in 0..REALIZATIONS {
         let mut changed = change(solver, state, interactions, &mut noise, AMPLITUDE);
-        for (changed, value) in changed.iter_mut().zip(&solver.assembly.values) {
-            *changed += value * (1.0 + AMPLITUDE * f64::EPSILON * noise.sample());
+        let entries = solver.assembly.values.iter().zip(&scales);
+        for (changed, (value, scale)) in changed.iter_mut().zip(entries) {
+            *changed += value + AMPLITUDE * f64::EPSILON * noise.sample() * scale;
         }
         std::mem::swap(&mut solver.assembly.values, &mut changed);
-        let negative = solver.factorize(0.0).negative;
+        let inertia = solver.factorize(0.0);
         std::mem::swap(&mut solver.assembly.values, &mut changed);
-        if negative != negative_pivots || !bounds.contains(&negative) {
+        if !settles(inertia) {
             return;
         }
     }
-    certificate.negative = negative_pivots;
+    certificate.negative = first.negative;
     certificate.unresolved = 0;
 }
 
@@ -142,7 +163,7 @@ fn polish(
 ) -> Option<State> {
     let (residual, floor) = solver.residual_and_floor(state);
     let inertia = solver.factorize(0.0);
-    solver.make_positive(inertia, false).ok()?;
+    solver.make_positive(inertia).ok()?;
     let step = solver.plain_step();
     let mut polished = state.clone();
     solver.layout.apply(&mut polished, &step, 1.0);

@@ -177,14 +177,27 @@ impl Solver {
         factor.solve(b);
     }
 
-    /// Factorises the stiffness with the least multiple of the metric, from `shift` on, that
-    /// makes it positive definite; `inertia` is that of the present factor.
-    pub(crate) fn make_positive(
+    /// Factorises the stiffness with the least multiple of the metric that makes it positive
+    /// definite; `inertia` is that of the present factor.
+    pub(crate) fn make_positive(&mut self, inertia: Inertia) -> Result<f64, Trouble> {
+        self.make_positive_from(inertia, false, 0.0)
+    }
+
+    /// The same for a step of the present loads, with or without ties: nothing is added where they
+    /// meet no negative curvature. A multiple of the metric that outweighs the turning of frames,
+    /// say, would slow down a rod's stretching by orders of magnitude.
+    fn make_positive_for_loads(
         &mut self,
         inertia: Inertia,
         with_ties: bool,
+        guess: f64,
     ) -> Result<f64, Trouble> {
-        self.make_positive_from(inertia, with_ties, 0.0)
+        let factor = self.factor.as_ref().expect("the stiffness is assembled");
+        let is_regular = inertia.doubtful == 0;
+        if is_regular && inertia.negative > 0 && factor.is_positive_for(&self.reduced) {
+            return Ok(0.0);
+        }
+        self.make_positive_from(inertia, with_ties, guess)
     }
 
     /// The same; the first multiple that is tried is at least `guess`.
@@ -254,7 +267,7 @@ impl Solver {
 
     /// The Newton direction at the last assembly, which was made at `state`.
     ///
-    /// The stiffness is made positive definite. Where that leaves a step that strains
+    /// The stiffness is made positive definite, unless the loads meet no negative curvature. Where that leaves a step that strains
     /// neighbours by much more than `strain`, or where `cubic` asks for it, ties are stiffened
     /// in proportion to their motion; see [`crate::ties`].
     pub(crate) fn direction(
@@ -270,7 +283,7 @@ impl Solver {
             // The shift that the plain stiffness needs says nothing of that with ties.
             return self.stiffened_direction(state, plain, cubic, (limits, 0.0));
         }
-        let shift = self.make_positive(plain, false)?;
+        let shift = self.make_positive_for_loads(plain, false, 0.0)?;
         let direction = self.solve_direction(state, plain, shift, &[]);
         let too_long = direction.extent.strain > TOO_LONG * strain;
         let cubic = if too_long {
@@ -300,7 +313,7 @@ impl Solver {
             let weights: Vec<f64> = motions.iter().map(|motion| cubic * motion).collect();
             self.assembly.assemble_ties(state, &self.layout, &weights);
             let inertia = self.factorize_with_ties(0.0);
-            let shift = self.make_positive_from(inertia, true, guess)?;
+            let shift = self.make_positive_for_loads(inertia, true, guess)?;
             let direction = self.solve_direction(state, plain, shift, &weights);
             if round == ROUNDS {
                 return Ok(Direction { cubic, ..direction });

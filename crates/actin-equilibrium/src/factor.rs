@@ -23,6 +23,10 @@ use faer::{Conj, MatMut, Par};
 /// A pivot below this many roundings of its diagonal entry does not count as positive.
 const PIVOT_ROUNDINGS: f64 = 8.0;
 
+/// Share of the energy of a step below which a pivot has no part in it but rounding: amplitudes of
+/// 1e-12.
+const UNSEEN: f64 = 1e-24;
+
 /// What the pivots say about the shifted matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Inertia {
@@ -30,6 +34,8 @@ pub(crate) struct Inertia {
     pub(crate) negative: usize,
     /// Number of pivots that are zero to round-off; negative ones are counted above as well.
     pub(crate) doubtful: usize,
+    /// Number of pivots that are exactly zero, or not finite; all of them are doubtful.
+    pub(crate) zero: usize,
 }
 
 impl Inertia {
@@ -204,6 +210,7 @@ impl Factor {
             let rounding = PIVOT_ROUNDINGS * f64::EPSILON * self.diagonal[column];
             inertia.negative += usize::from(pivot < 0.0);
             let is_none = !pivot.is_finite() || pivot.to_bits() == least.to_bits();
+            inertia.zero += usize::from(is_none);
             inertia.doubtful += usize::from(is_none || pivot.abs() <= rounding);
         }
         inertia
@@ -222,6 +229,30 @@ impl Factor {
             Par::Seq,
             MemStack::new(&mut self.memory),
         );
+    }
+
+    /// Whether loads `f` meet positive pivots only, as where symmetry keeps them off the directions
+    /// in which the energy falls; no pivot may be doubtful.
+    ///
+    /// With `L y = f` the step `p` of `L D L^T p = f` has the energy `f . p = sum y_k^2 / d_k`; the
+    /// parts of negative pivots are compared with `sum f_k^2 / |K_kk|`. Where they have none, the step
+    /// leads to the minimum over all directions that the loads see.
+    pub(crate) fn is_positive_for(&self, f: &[f64]) -> bool {
+        let energy = |f: f64, stiffness: f64| if f == 0.0 { 0.0 } else { f * f / stiffness.abs() };
+        let energies = f.iter().zip(&self.diagonal).map(|(&f, &k)| energy(f, k));
+        let limit = UNSEEN * energies.sum::<f64>();
+        let mut y = f.to_vec();
+        for column in 0..y.len() {
+            let (pivot, own) = (self.pivot(column), y[column]);
+            // Written so that a limit that is not a number allows nothing.
+            if !(pivot > 0.0 || energy(own, pivot) <= limit && limit.is_finite()) {
+                return false;
+            }
+            for (row, value) in self.below(column) {
+                y[row] -= value * own;
+            }
+        }
+        true
     }
 
     /// The largest diagonal entry, without its sign, of the matrix last factorised.

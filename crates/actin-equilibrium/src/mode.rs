@@ -39,7 +39,7 @@ pub(crate) fn lowest(solver: &mut Solver) -> Result<Option<Mode>, Trouble> {
         return Ok(None);
     }
     let inertia = solver.factorize(0.0);
-    let shift = solver.make_positive(inertia, false)?;
+    let shift = solver.make_positive(inertia)?;
     let root: Vec<f64> = solver.metric.iter().map(|m| m.sqrt()).collect();
     let mut lanczos = Lanczos::new(n);
     let ritz = loop {

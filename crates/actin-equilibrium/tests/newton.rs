@@ -211,6 +211,23 @@ fn a_cantilever_takes_few_steps_at_every_length() {
     }
 }
 
+/// EXPLORE
+#[test]
+fn explore_tension() {
+    for force in [1e4, 3e4, 1e5, 1e6] {
+        let rod = Rod { segments: 10, length: 100.0, ..ACTIN };
+        let (mut state, terms) = cantilever(&rod, Vector3::z() * force);
+        let r = rod.newton(&state).solve(&mut state, &terms);
+        let h = match &r { Ok(e) => &e.history, Err(f) => &f.history };
+        for (i, s) in h.iter().enumerate() {
+            if i < 30 || i % 20 == 0 {
+            println!("{i}: res {:.3e} stiff {:.2e} reg {:.1e} frac {:.3e} ext {:.2e} {:.2e} {:.2e} {:?}", s.residual.force, s.stiffening, s.regularization, s.fraction, s.extent.displacement, s.extent.rotation, s.extent.strain, s.verdict);
+            }
+        }
+        println!("{force}: {:?} z {}", r.as_ref().map(|e| (e.history.len(), e.residual, e.floor, e.ending)).map_err(|e| e.to_string()), rod.tip(&state).z);
+    }
+}
+
 /// A tolerance below round-off ends at the floor, and says so.
 #[test]
 fn round_off_floor_is_reported() {

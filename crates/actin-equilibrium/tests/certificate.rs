@@ -1,0 +1,184 @@
+//! Certificates of stiffness that is exactly zero somewhere: what nothing acts on is neutral.
+
+mod common;
+
+use Coordinates::{Frame as F, Point as P};
+use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability};
+use actin_mechanics::{
+    Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, UnitQuaternion,
+    Vector3,
+};
+use common::{ACTIN, Springs, frame, in_order, point};
+
+type Terms = Vec<Box<dyn Interaction>>;
+
+/// Constant stiffness of points about the origin, `E = x . K x / 2`.
+#[derive(Debug)]
+struct Wells(Vec<(usize, Matrix3)>);
+
+impl Interaction for Wells {
+    fn term(&self) -> &'static str {
+        "wells"
+    }
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        for &(i, k) in &self.0 {
+            loads.force.add(i, -(k * state.points.position.get(i)));
+        }
+    }
+    fn elements(&self) -> usize {
+        self.0.len()
+    }
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        for (e, &(i, k)) in energies.iter_mut().zip(&self.0) {
+            let x = state.points.position.get(i);
+            *e = 0.5 * x.dot(&(k * x));
+        }
+    }
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        Some(self)
+    }
+}
+
+impl SecondOrder for Wells {
+    fn add_stiffness(&self, _: &State, stiffness: &mut Stiffness) {
+        for &(i, k) in &self.0 {
+            stiffness.push(P(i), P(i), k);
+        }
+    }
+}
+
+/// Points at the origin, and frames.
+fn bodies(points: usize, frames: usize) -> State {
+    let mut state = State::default();
+    for _ in 0..points {
+        point(&mut state, Vector3::zeros());
+    }
+    for _ in 0..frames {
+        frame(&mut state, UnitQuaternion::identity());
+    }
+    state
+}
+
+/// What a solve says of `state`, in the order of the bodies and in one of the solver's own; they are
+/// to agree.
+fn stability(state: &State, terms: &Terms) -> Stability {
+    let [given, own] = [true, false].map(|is_given| {
+        let order = is_given.then(|| in_order(state));
+        let layout = Layout::new(state, order.as_ref(), vec![]).unwrap();
+        let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
+        let mut state = state.clone();
+        let found = newton.solve(&mut state, terms).unwrap();
+        let certificate = found.certificate.unwrap();
+        assert!(certificate.resolution.is_finite() && certificate.resolution > 0.0);
+        certificate.stability()
+    });
+    assert_eq!(given, own);
+    given
+}
+
+fn diagonal(values: [f64; 3]) -> Matrix3 {
+    Matrix3::from_diagonal(&Vector3::from(values))
+}
+
+/// Zeros at the end, in the middle, at the beginning and in turned directions: as many modes without
+/// stiffness as there are zeros. A pivot of zero has no sign; taking it for a positive one would
+/// certify a state that the slightest push leaves.
+#[test]
+fn exact_zeros_of_one_point_are_neutral() {
+    let turn = |axis: [f64; 3]| UnitQuaternion::from_scaled_axis(Vector3::from(axis));
+    let turns = [[0.0; 3], [0.3, -0.2, 0.9], [0.0, 0.785, 0.0]].map(turn);
+    for (values, modes) in [
+        ([1.0, 1.0, 0.0], 1),
+        ([1.0, 0.0, 1.0], 1),
+        ([0.0, 1.0, 1.0], 1),
+        ([0.0, 0.0, 1e9], 2),
+        ([1e-9, 0.0, 1e-9], 1),
+        ([0.0, 0.0, 0.0], 3),
+    ] {
+        for turn in turns {
+            let rotation = turn.to_rotation_matrix().into_inner();
+            let block = rotation * diagonal(values) * rotation.transpose();
+            let terms: Terms = vec![Box::new(Wells(vec![(0, block)]))];
+            let found = stability(&bodies(1, 0), &terms);
+            assert_eq!(found, Stability::Neutral { modes }, "{values:?} {turn:?}");
+        }
+    }
+    let stable: Terms = vec![Box::new(Wells(vec![(0, diagonal([1.0, 1e-9, 2.0]))]))];
+    assert_eq!(stability(&bodies(1, 0), &stable), Stability::Stable);
+}
+
+/// Beside a negative eigenvalue zeros change nothing: it is a saddle.
+#[test]
+fn a_saddle_with_zeros_is_a_saddle() {
+    for values in [[-1.0, 1.0, 0.0], [0.0, 1.0, -1.0], [0.0, -1.0, 0.0]] {
+        let terms: Terms = vec![Box::new(Wells(vec![(0, diagonal(values))]))];
+        let found = stability(&bodies(1, 0), &terms);
+        assert_eq!(found, Stability::Saddle { negative: 1 }, "{values:?}");
+    }
+}
+
+/// No interaction at all, or none on some bodies: three modes for each that nothing acts on, wherever
+/// it stands among those that something does.
+#[test]
+fn bodies_that_nothing_acts_on_are_neutral() {
+    let none: Terms = vec![];
+    for (points, frames) in [(1, 0), (0, 1), (3, 2)] {
+        let modes = 3 * (points + frames);
+        let found = stability(&bodies(points, frames), &none);
+        assert_eq!(found, Stability::Neutral { modes }, "{points} and {frames}");
+    }
+    for held in [vec![0, 2], vec![0], vec![2], vec![1]] {
+        let wells = held.iter().map(|&i| (i, diagonal([3.0, 4.0, 5.0])));
+        let terms: Terms = vec![Box::new(Wells(wells.collect()))];
+        let modes = 3 * (3 - held.len() + 2);
+        let found = stability(&bodies(3, 2), &terms);
+        assert_eq!(found, Stability::Neutral { modes }, "{held:?}");
+    }
+}
+
+/// A rod in the middle of bodies that nothing acts on, and a free rod: what is neutral is counted, to
+/// the last mode. A chain of springs at rest has stiffness along itself only.
+#[test]
+fn neutral_modes_of_rods_and_springs_are_counted() {
+    let mut rod = ACTIN.state();
+    let clamped = ACTIN.interactions();
+    for _ in 0..2 {
+        point(&mut rod, Vector3::x());
+        frame(&mut rod, UnitQuaternion::identity());
+    }
+    let found = stability(&rod, &clamped);
+    assert_eq!(found, Stability::Neutral { modes: 12 });
+
+    for segments in [4, 16, 160] {
+        let free = common::Rod {
+            segments,
+            length: 10.0 * segments as f64,
+            ..ACTIN
+        };
+        let mut state = State::default();
+        for i in 0..=segments {
+            point(&mut state, Vector3::z() * (10.0 * i as f64));
+        }
+        // A frame of no segment at the head of the chain, in place of the wall.
+        for _ in 0..=segments {
+            frame(&mut state, UnitQuaternion::identity());
+        }
+        let found = stability(&state, &free.interactions());
+        assert_eq!(found, Stability::Neutral { modes: 6 }, "{segments}");
+    }
+
+    let mut state = State::default();
+    for z in 0..5 {
+        point(&mut state, Vector3::z() * f64::from(z));
+    }
+    state.points.hold(0);
+    let springs = (0..4).map(|i| (i, i + 1, 10.0, 1.0)).collect();
+    let terms: Terms = vec![Box::new(Springs(springs))];
+    assert_eq!(stability(&state, &terms), Stability::Neutral { modes: 8 });
+    // Frames beside it that nothing acts on.
+    frame(&mut state, UnitQuaternion::identity());
+    frame(&mut state, UnitQuaternion::identity());
+    state.frames.hold(1);
+    assert_eq!(stability(&state, &terms), Stability::Neutral { modes: 11 });
+    assert!(Layout::free(&state).unknowns_of(F(1)).is_none());
+}
