@@ -91,12 +91,23 @@ impl Extreme {
                 report,
                 ..
             }) => (*trajectory, *report, Some(failure)),
+            Err(RunError::BeyondUse {
+                worst,
+                trajectory,
+                report,
+            }) => {
+                println!("{}: beyond any use: {}", self.name, worst[0]);
+                (*trajectory, *report, None)
+            }
             Err(other) => panic!("{}: {other}", self.name),
         };
         let ended = match (&failure, &report.equilibrium) {
             (Some(failure), _) => failure.to_string(),
             (None, found) => format!("{:?}", found.as_ref().unwrap().certificate.stability()),
         };
+        // A path that ended at a jump goes across it, and says so.
+        let crosses = self.task.contains("accept_jumps");
+        assert_eq!(report.jumps > 0, crosses, "{}", self.name);
         let steps = failure.as_ref().map(|f| f.work.iterations);
         let found = report.equilibrium.as_ref();
         let steps = steps.max(found.map(|f| f.newton_iterations)).unwrap();

@@ -15,7 +15,8 @@ use cases::row::{Outcome, Row};
 use cases::stability::{INTEGRATORS, MODELS, SHARES, energy_error, free};
 use cases::verdict::Verdict;
 use cases::{
-    contrast, drag, drift, fields, forces, guards, lengths, origin, sizes, stability, turns,
+    certificates, contrast, drag, drift, fields, forces, guards, lengths, origin, sizes, stability,
+    turns,
 };
 
 /// Prints the rows and refuses any that is neither right nor says that it is not.
@@ -129,8 +130,9 @@ fn segments_of_all_lengths_bend_as_they_should() {
     assert!(too_short.iter().all(is_refused));
 }
 
-/// From 1e-8 to 1e4 pN all is right, and across the rod from 1e-12 pN on; below, what rounding
-/// hides is said to be hidden.
+/// From 1e-8 to 1e2 pN all is right, and across the rod from 1e-12 pN on; below, what rounding
+/// hides is said to be hidden. Of 1e4 pN what is not right is said to be beyond any use, and above
+/// nothing is of any.
 #[test]
 fn forces_over_eighteen_decades_are_right_or_said_to_be_lost() {
     let rows = forces::rows();
@@ -139,10 +141,24 @@ fn forces_over_eighteen_decades_are_right_or_said_to_be_lost() {
         let (_, size) = row.case.rsplit_once(", ").unwrap();
         let size: f64 = size.strip_suffix(" pN").unwrap().parse().unwrap();
         let across = row.case.starts_with("across the rod");
-        if (if across { 1e-12 } else { 1e-8 }..=1e4).contains(&size) {
+        if (if across { 1e-12 } else { 1e-8 }..=1e2).contains(&size) {
             assert!(is_correct(row), "{row:?}");
         }
+        if size >= 1e4 {
+            let is_said = |words: &str| row.outcome.words().contains(words);
+            let is_beyond = is_said("beyond any use") || (across && is_said("no equilibrium"));
+            assert!(is_beyond != is_correct(row), "{row:?}");
+            assert!(is_beyond || size == 1e4, "{row:?}");
+        }
     }
+}
+
+/// A zero of the stiffness that passed for a positive eigenvalue would certify what floats as stable.
+#[test]
+fn modes_without_stiffness_are_counted() {
+    let rows = certificates::rows();
+    assert_sound(&rows);
+    assert!(rows.iter().all(is_correct));
 }
 
 #[test]

@@ -206,6 +206,15 @@ fn broken(opened: &Opened, directory: &RunDirectory, error: RunError) -> Failure
             let kept = "the equilibria in which it is lost are";
             (opened.locate(&problem), kept, trajectory, report)
         }
+        RunError::BeyondUse {
+            worst,
+            trajectory,
+            report,
+        } => {
+            let worst: Vec<_> = worst.iter().map(ToString::to_string).collect();
+            let why = format!("the result is beyond any use: {}", worst.join("; "));
+            (why, "all of it is", trajectory, report)
+        }
         RunError::Failed {
             failure,
             body,
@@ -256,6 +265,7 @@ fn print(summary: &Summary, out: &Path) {
         summary.residual.torque_pn_nm
     );
     print_beyond(summary);
+    print_other_states(summary);
     println!("written to {}", out.display());
 }
 
@@ -277,6 +287,16 @@ fn print_beyond(summary: &Summary) {
         println!(
             "beyond the data of its law: {} {:.4} rad/nm at s = {:.1} nm{of}, data reach {:.4}",
             beyond.quantity, beyond.value_per_nm, beyond.s_nm, beyond.range_per_nm
+        );
+    }
+}
+
+fn print_other_states(summary: &Summary) {
+    if summary.other_states_likely {
+        println!(
+            "other stable states are likely: {} saddle(s) and {} sudden jump(s) on the way; another \
+             start or direction may end elsewhere",
+            summary.saddles_left, summary.jumps
         );
     }
 }

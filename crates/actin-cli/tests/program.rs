@@ -338,3 +338,55 @@ fn check_tells_cost_and_advice() {
         assert!(printed.contains(advice), "{printed}");
     }
 }
+
+/// Monomers that are pushed through their own wall: exit code 3, what is beyond use and where, and all of
+/// it on disk with the status of a failure.
+#[test]
+fn a_result_beyond_any_use_is_a_failure() {
+    let place = Workplace::with(
+        "Scene(
+            filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 30.0)]),
+            clamps: [Clamp(end: Start)],
+            loads: [EndForce(end: End, force_pn: (0.0, 0.0, -1e5))],
+            task: Equilibrium(),
+        )",
+    );
+    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+    assert_eq!(code(&output), 3, "{}", stdout(&output));
+    let message = stderr(&output);
+    println!("{message}");
+    for part in ["beyond any use: the bonds at s = ", " (limit 1)", "is in a"] {
+        assert!(message.contains(part), "{part:?} in {message}");
+    }
+    let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+    assert!(summary.contains("\"status\": \"failed\""), "{summary}");
+    assert!(summary.contains("\"quantity\": \"bonds\""), "{summary}");
+}
+
+/// A column beyond its critical load leaves the straight state, from which it could have gone the other
+/// way; under less there is nothing to say.
+#[test]
+fn other_stable_states_are_told_where_there_are_signs_of_them() {
+    for (force, likely) in [(2.0, false), (8.0, true)] {
+        let place = Workplace::with(&format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 160.0)]),
+                clamps: [Clamp(end: Start)],
+                loads: [EndForce(end: End, force_pn: (0.0, 0.0, -{force:?}))],
+                task: Equilibrium(),
+            )"
+        ));
+        let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let words = "other stable states are likely: ";
+        assert_eq!(
+            stdout(&output).contains(words),
+            likely,
+            "{}",
+            stdout(&output)
+        );
+        let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+        let key = format!("\"other_states_likely\": {likely}");
+        assert!(summary.contains(&key), "{summary}");
+    }
+}

@@ -104,7 +104,10 @@ impl Assembly {
 
     /// The largest entry, without its sign.
     pub(crate) fn largest_entry(&self) -> f64 {
-        self.values.iter().map(|value| value.abs()).fold(0.0, f64::max)
+        self.values
+            .iter()
+            .map(|value| value.abs())
+            .fold(0.0, f64::max)
     }
 
     /// What rounding of each entry goes with, in the order of the values: its own size, or the mean

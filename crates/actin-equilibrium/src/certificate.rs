@@ -86,9 +86,7 @@ fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
     let rounding = ROUNDINGS * f64::EPSILON;
     let largest = solver.assembly.largest_entry();
     // A shift of zero would tell nothing: what is exactly zero is to lie between the two counts.
-    let least = uncertainty
-        .max(rounding * largest)
-        .max(f64::MIN_POSITIVE);
+    let least = uncertainty.max(rounding * largest).max(f64::MIN_POSITIVE);
     let mut resolution = least / lightest;
     let mut attempt = 1;
     loop {

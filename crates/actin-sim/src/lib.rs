@@ -25,8 +25,8 @@ pub mod shape;
 pub use actin_cosserat::constants as rod_constants;
 pub use actin_ellipsoid::constants as ellipsoid_constants;
 pub use assembly::{
-    Assembly, BeyondRange, BodyKind, Clamped, Counts, Drive, FilamentSpan, FrameInfo, JunctionBond,
-    Part, PointInfo, Reaction, Resolution, SectionSpan, Term,
+    Assembly, BeyondRange, BeyondUse, BodyKind, Clamped, Counts, Drive, FilamentSpan, FrameInfo,
+    JunctionBond, Part, PointInfo, Reaction, Resolution, SectionSpan, Term,
 };
 pub use results::{
     CheckpointError, Checkpoints, Damage, FilamentSummary, RunDirectory, RunDirectoryError,

@@ -16,7 +16,9 @@ const STRETCH: f64 = 3.4e4;
 const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 30.0)";
 
 /// The forces (pN).
-pub(crate) const FORCES: [f64; 10] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6];
+pub(crate) const FORCES: [f64; 11] = [
+    1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e5, 1e6,
+];
 
 /// Deflection over force (nm/pN) of a chain of `n` segments of `l` nm on a wall, small: frame k
 /// turns from the one before by the couple `F (n - k) l` over the rigidity of what joins them,

@@ -4,6 +4,7 @@
 //! points, frames and terms. Bodies stand filament by filament and in filament order: monomers,
 //! junction frames, rod nodes and segments follow one another as they do along the filament.
 
+mod beyond_use;
 mod bonded;
 mod build;
 mod describe;
@@ -17,6 +18,7 @@ mod range;
 mod reaction;
 mod slip;
 
+pub use beyond_use::BeyondUse;
 pub use bonded::JunctionBond;
 pub use drive::Drive;
 pub(crate) use parts::Rod;

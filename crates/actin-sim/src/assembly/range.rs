@@ -79,7 +79,12 @@ impl Assembly {
     }
 
     /// Where in a rod `measure` of the curvature is largest, and what it is there.
-    fn furthest(&self, rod: &Rod, state: &State, measure: fn(Vector3) -> f64) -> (f64, f64) {
+    pub(super) fn furthest(
+        &self,
+        rod: &Rod,
+        state: &State,
+        measure: fn(Vector3) -> f64,
+    ) -> (f64, f64) {
         let Rod {
             section, layout, ..
         } = rod;

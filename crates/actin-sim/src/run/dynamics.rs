@@ -286,6 +286,9 @@ impl Estimate {
             time_step_ns: Some(self.time_step_ns),
             largest_frequency_rad_per_ns: Some(self.largest_frequency_rad_per_ns),
             equilibrium: None,
+            saddles_left: 0,
+            jumps: 0,
+            beyond_use: Vec::new(),
             wall_s: clock.wall_s(),
         }
     }

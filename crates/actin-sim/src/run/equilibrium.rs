@@ -1,23 +1,16 @@
 //! Equilibria: Newton from the built state, or along the path of the scene.
 
 use super::keep::{Arrival, Clock, Keeper, Kept, PathStanding, Standing};
+use super::unknowns::newton;
 use super::{Progress, Record, RunError, RunReport, Trajectory};
+use crate::Assembly;
 use crate::scene::{Equilibrium as Settings, Load, Problem};
-use crate::{Assembly, Resolution};
-use actin_coupling::{LinkerEnd, Site};
 use actin_equilibrium::{
-    BodyOrder, Certificate, Companion, Equilibrium, Iteration, Jumps, Layout, Newton,
-    NewtonOptions, Path, PathFailure, PathOptions, PathPoint, Residual, Saddles, Work,
+    Certificate, Companion, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure, PathOptions,
+    PathPoint, Saddles, Work,
 };
-use actin_mechanics::{Coordinates, Loads, State, System, Vector3};
+use actin_mechanics::{Loads, State, System, Vector3};
 use std::ops::ControlFlow;
-
-/// What is added to arc lengths from one filament to the next (nm), more than any rise or segment
-/// reaches beyond an end, so that filaments do not interleave.
-const BETWEEN_FILAMENTS_NM: f64 = 1e3;
-
-/// How many segments or rises a bond or segment reaches at most, with room.
-const REACH: f64 = 3.0;
 
 /// Forces left over that are a larger share of a load hide it.
 const RESOLVED: f64 = 0.01;
@@ -66,7 +59,10 @@ pub(super) fn run(
         force_evaluations: work.evaluations,
         time_step_ns: None,
         largest_frequency_rad_per_ns: None,
+        saddles_left: standing.saddles_left,
+        jumps: standing.jumps,
         equilibrium: report(standing, lowest.flatten(), work),
+        beyond_use: Vec::new(),
         wall_s: clock.wall_s(),
     };
     match trouble {
@@ -127,90 +123,6 @@ fn place(assembly: &Assembly, stages_done: usize) -> String {
     }
 }
 
-/// What may move, filament by filament in the order of arc length, and how far it is to be solved.
-///
-/// Where linkers join sites, unknowns are eliminated in an order that fills less if there is one, and
-/// joined bodies swing about each other as they will.
-pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, Problem> {
-    let refused =
-        |key: &str, error: &dyn std::error::Error| Problem::new(key, "", error.to_string());
-    let layout = Layout::new(assembly.system.state(), Some(&order(assembly)), Vec::new())
-        .map_err(|error| refused("filament", &error))?;
-    let loose = loose_pairs(assembly);
-    let layout = if loose.is_empty() {
-        layout
-    } else {
-        layout.with_least_fill().with_loose(loose)
-    };
-    let options = NewtonOptions {
-        tolerance: Residual {
-            force: settings.force_pn,
-            torque: settings.torque_pn_nm,
-        },
-        iterations: settings.iterations,
-        ..NewtonOptions::default()
-    };
-    Newton::new(layout, options).map_err(|error| refused("task", &error))
-}
-
-/// Bodies that linkers join and nothing else does: those of different filaments, or far apart in one.
-fn loose_pairs(assembly: &Assembly) -> Vec<[Coordinates; 2]> {
-    let joined = assembly
-        .linkers
-        .iter()
-        .filter_map(|linker| match linker.end() {
-            LinkerEnd::Anchor(_) => None,
-            LinkerEnd::Site(other) => Some((bodies_of(linker.site()), bodies_of(other))),
-        });
-    let pairs = joined.flat_map(|(site, other)| {
-        let with_all = |a| other.iter().map(move |&b| [a, b]).collect::<Vec<_>>();
-        site.iter().flat_map(|&a| with_all(a)).collect::<Vec<_>>()
-    });
-    pairs.filter(|&[a, b]| are_apart(assembly, a, b)).collect()
-}
-
-/// The bodies that a site follows.
-fn bodies_of(site: &Site) -> Vec<Coordinates> {
-    let points = site.shares().iter().map(|&(i, _)| Coordinates::Point(i));
-    points.chain([Coordinates::Frame(site.frame())]).collect()
-}
-
-/// Whether no bond or segment couples two bodies.
-fn are_apart(assembly: &Assembly, a: Coordinates, b: Coordinates) -> bool {
-    let place = |body| match body {
-        Coordinates::Point(i) => (assembly.filament_of_point(i), assembly.points[i].s_nm),
-        Coordinates::Frame(i) => (assembly.filament_of_frame(i), assembly.frames[i].s_nm),
-    };
-    let ((f, s_a), (g, s_b)) = (place(a), place(b));
-    let longest = assembly
-        .sections_of(f)
-        .iter()
-        .map(|section| match section.resolution {
-            Resolution::Rod { segment_nm } => segment_nm,
-            Resolution::Ellipsoids { .. } => assembly.monomers_of(f).rise_nm,
-        });
-    // Monomers reach the next but one, bending elements from middle to middle.
-    let reach = REACH * longest.fold(0.0, f64::max);
-    f != g || (s_a - s_b).abs() > reach
-}
-
-/// Each filament's arc lengths behind those of the one before.
-pub(crate) fn order(assembly: &Assembly) -> BodyOrder {
-    let mut order = BodyOrder::default();
-    let mut behind = 0.0;
-    for filament in &assembly.filaments {
-        let points = assembly.points[filament.points.clone()].iter();
-        let frames = assembly.frames[filament.frames.clone()].iter();
-        let first = order.points.len();
-        order.points.extend(points.map(|p| behind + p.s_nm));
-        order.frames.extend(frames.map(|f| behind + f.s_nm));
-        let furthest = order.points[first..].iter().copied().fold(behind, f64::max);
-        // Held monomers of the next stand a rise before its arc length 0.
-        behind = furthest + BETWEEN_FILAMENTS_NM;
-    }
-    order
-}
-
 fn path(settings: &Settings) -> Result<Path, Problem> {
     let options = PathOptions {
         first_step: settings.largest_step.min(0.1).max(settings.smallest_step),
@@ -262,6 +174,8 @@ impl<'a> Follower<'a> {
             waypoint: None,
             state: assembly.system.state().clone(),
             points: 0,
+            saddles_left: 0,
+            jumps: 0,
             last: None,
             work: Work::default(),
         };
@@ -391,6 +305,7 @@ impl<'a> Follower<'a> {
             .records
             .push(record(&self.assembly.system, u, state));
         self.standing.points += 1;
+        self.standing.saddles_left += equilibrium.saddles_left;
         self.standing.last = Some(Arrival {
             certificate: equilibrium.certificate,
             history: equilibrium
@@ -435,6 +350,7 @@ impl Companion for Follower<'_> {
         if stage == 0 || point.parameter > 0.0 {
             self.record(u, point.state, point.equilibrium);
         }
+        self.standing.jumps += usize::from(point.jumped);
         self.note(point);
         let flow = (self.watch)(Progress {
             time_ns: u,

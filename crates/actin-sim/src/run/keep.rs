@@ -28,6 +28,10 @@ pub struct PathStanding {
     pub state: State,
     /// Equilibria so far.
     pub points: usize,
+    /// Saddles left so far.
+    pub saddles_left: usize,
+    /// Sudden jumps so far, from where they led the path went on.
+    pub jumps: usize,
     /// What is known of the last of them.
     pub last: Option<Arrival>,
     /// What the solver has done so far.

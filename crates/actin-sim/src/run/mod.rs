@@ -4,14 +4,15 @@ mod bound;
 mod dynamics;
 mod equilibrium;
 mod keep;
+mod unknowns;
 
 pub use dynamics::{Estimate, estimate};
 pub use equilibrium::EquilibriumReport;
-pub(crate) use equilibrium::newton as solver;
 pub use keep::{Arrival, Keeper, Kept, PathStanding, Standing, Unkept};
+pub(crate) use unknowns::newton as solver;
 
-use crate::Assembly;
 use crate::scene::{Problem, Task};
+use crate::{Assembly, BeyondUse};
 use actin_equilibrium::PathFailure;
 use actin_integrate::RunFailure;
 use actin_mechanics::State;
@@ -54,8 +55,8 @@ pub struct Trajectory {
 pub struct RunReport {
     /// Whether the stop rule was met.
     pub converged: bool,
-    /// Whether the run broke off (a state exploded, a path ended early) or a load is lost in the
-    /// equilibrium that it reached.
+    /// Whether the run broke off (a state exploded, a path ended early), or what it reached is of no
+    /// use (a load is lost in it, neighbours have passed through each other).
     pub failed: bool,
     /// Whether the run was left at the wish of its keeper, to be taken up again.
     pub interrupted: bool,
@@ -69,6 +70,12 @@ pub struct RunReport {
     pub largest_frequency_rad_per_ns: Option<f64>,
     /// What is known of the equilibrium; none of a motion in time.
     pub equilibrium: Option<EquilibriumReport>,
+    /// How many saddles were left on the path.
+    pub saddles_left: usize,
+    /// How often the path went on from where a sudden jump led.
+    pub jumps: usize,
+    /// What is beyond any use in its states, the worst of all records; a run with any has failed.
+    pub beyond_use: Vec<BeyondUse>,
     /// Time that the run took (s).
     pub wall_s: f64,
 }
@@ -114,6 +121,16 @@ pub enum RunError {
         /// Their cost.
         report: Box<RunReport>,
     },
+    /// The run reached its end, but through or in states that are beyond any use.
+    #[error("beyond any use: {}{}", .worst[0], more(.worst.len() - 1))]
+    BeyondUse {
+        /// What goes too far, at least one.
+        worst: Vec<BeyondUse>,
+        /// All records.
+        trajectory: Box<Trajectory>,
+        /// What the run cost.
+        report: Box<RunReport>,
+    },
     /// The state exploded.
     #[error("{failure}; {} is {body}", failure.body)]
     Failed {
@@ -135,7 +152,7 @@ pub enum RunError {
 ///
 /// # Errors
 /// What [`estimate`] refuses; a state that explodes, a path that ends early or an equilibrium in which
-/// a load is lost, with all records up to the last good one.
+/// a load is lost, with all records up to the last good one; states that are beyond any use.
 pub fn run(
     assembly: &mut Assembly,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
@@ -160,8 +177,66 @@ pub fn run_kept(
     keeper: &mut dyn Keeper,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<(Trajectory, RunReport), RunError> {
-    match assembly.scene.task.clone() {
+    let result = match assembly.scene.task.clone() {
         Task::Dynamics(dynamics) => dynamics::run(assembly, &dynamics, kept, keeper, watch),
         Task::Equilibrium(settings) => equilibrium::run(assembly, &settings, kept, keeper, watch),
+    };
+    look_for_use(assembly, result)
+}
+
+/// Adds to a report what is beyond any use in the records; a run that reached its end with any has
+/// failed.
+fn look_for_use(
+    assembly: &Assembly,
+    mut result: Result<(Trajectory, RunReport), RunError>,
+) -> Result<(Trajectory, RunReport), RunError> {
+    let (trajectory, report) = match &mut result {
+        Ok((trajectory, report)) => (trajectory, report),
+        Err(error) => match error.records_mut() {
+            Some(records) => records,
+            None => return result,
+        },
+    };
+    let states = trajectory.records.iter().map(|record| &record.state);
+    report.beyond_use = assembly.worst_beyond_use(states);
+    match result {
+        Ok((trajectory, mut report)) if !(report.beyond_use.is_empty() || report.interrupted) => {
+            report.failed = true;
+            Err(RunError::BeyondUse {
+                worst: report.beyond_use.clone(),
+                trajectory: Box::new(trajectory),
+                report: Box::new(report),
+            })
+        }
+        result => result,
+    }
+}
+
+impl RunError {
+    /// The records of a run that began, and its report.
+    fn records_mut(&mut self) -> Option<(&mut Trajectory, &mut RunReport)> {
+        match self {
+            Self::Refused(_) => None,
+            Self::Ended {
+                trajectory, report, ..
+            }
+            | Self::Lost {
+                trajectory, report, ..
+            }
+            | Self::BeyondUse {
+                trajectory, report, ..
+            }
+            | Self::Failed {
+                trajectory, report, ..
+            } => Some((trajectory, report)),
+        }
+    }
+}
+
+/// That there are `others` of the same kind, in words.
+fn more(others: usize) -> String {
+    match others {
+        0 => String::new(),
+        others => format!(" (and {others} more)"),
     }
 }

@@ -151,6 +151,8 @@ fn write_path(writer: &mut Writer, standing: &PathStanding) {
     writer.optional(standing.waypoint.as_ref(), write_waypoint);
     write_state(writer, &standing.state);
     writer.size(standing.points);
+    writer.size(standing.saddles_left);
+    writer.size(standing.jumps);
     writer.optional(standing.last.as_ref(), write_arrival);
     let work = &standing.work;
     for count in [
@@ -171,6 +173,8 @@ fn read_path(reader: &mut Reader<'_>, like: &State) -> Result<PathStanding, Dama
         waypoint: reader.optional(|reader| read_waypoint(reader, like))?,
         state: read_state(reader, like)?,
         points: reader.size()?,
+        saddles_left: reader.size()?,
+        jumps: reader.size()?,
         last: reader.optional(read_arrival)?,
         work: Work {
             iterations: reader.count()?,

@@ -6,7 +6,7 @@ mod thermal;
 pub use thermal::ThermalSummary;
 
 use super::{RunDirectoryError, finite::ensure_finite};
-use crate::{BeyondRange, Counts};
+use crate::{BeyondRange, BeyondUse, Counts};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -28,6 +28,16 @@ pub struct Summary {
     pub largest_frequency_rad_per_ns: Option<f64>,
     /// Whether the equilibrium is stable; none of a motion in time.
     pub stability: Option<StabilitySummary>,
+    /// How many saddles were left, on the whole path.
+    #[serde(default)]
+    pub saddles_left: usize,
+    /// How often a path of equilibria went on from where a sudden jump led.
+    #[serde(default)]
+    pub jumps: usize,
+    /// Whether other stable states are likely: a saddle that was left has one on either side, and a
+    /// path back jumps elsewhere. Where this is false there may be others all the same.
+    #[serde(default)]
+    pub other_states_likely: bool,
     /// Energies.
     pub energy_pn_nm: EnergySummary,
     /// Position of the tip of filament 0 (nm, lab frame): that of its end, or that of its start if
@@ -43,6 +53,9 @@ pub struct Summary {
     /// Where rods left the data behind their laws, the worst of all records in a run's summary (of
     /// the last record in one computed alone); there the numbers rest on the laws' continuation.
     pub beyond_range: Vec<BeyondRange>,
+    /// What is beyond any use, the worst of all records of a run; a run with any has failed.
+    #[serde(default)]
+    pub beyond_use: Vec<BeyondUse>,
     /// What the linkers do, in the order of the scene.
     #[serde(default)]
     pub linkers: Vec<LinkerSummary>,
@@ -348,7 +361,7 @@ mod tests {
         Summary::new(&assembly, &last, &fixture::report())
     }
 
-    const KEYS: [&str; 48] = [
+    const KEYS: [&str; 52] = [
         "/scene",
         "/status",
         "/counts/monomers",
@@ -397,6 +410,10 @@ mod tests {
         "/time_ns",
         "/time_step_ns",
         "/largest_frequency_rad_per_ns",
+        "/beyond_use",
+        "/saddles_left",
+        "/jumps",
+        "/other_states_likely",
     ];
 
     /// The keys that other programs rely on, nested ones included.

@@ -1,0 +1,397 @@
+//! Where a state is beyond any use: neighbours have moved against each other by as much as their own
+//! size, for which no model here is made. Where a rod leaves the data of its law is in `range`.
+
+use super::{Assembly, Part, Rod, SectionSpan};
+use crate::scene::Monomers;
+use actin_cosserat::constants::CROSS_SECTION_AREA;
+use actin_mechanics::{State, Vector3};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+use std::fmt;
+
+/// Largest strain of a segment or of a junction's bond: half the distance of its ends at rest.
+const STRAIN: f64 = 0.5;
+/// Largest curvature of a rod times its radius; beyond it the inner side is turned inside out.
+const BEND: f64 = 1.0;
+/// Largest change of length of the bonds of an interface, root mean square, over the greatest length
+/// that they may have at rest.
+const BONDS: f64 = 1.0;
+/// Largest overlap of two bonded monomers, in semi-axes: 0 where spheres would touch, 1 where the
+/// centre of one comes to lie within the other.
+const OVERLAP: f64 = 1.0;
+
+/// A part of a filament in a state that is beyond any use.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BeyondUse {
+    /// Index of the filament.
+    pub filament: usize,
+    /// Index of the section in its filament; of a junction, that of the section before it.
+    pub section: usize,
+    /// What goes too far, each without a unit:
+    ///
+    /// - `strain`: change of the vector from end to end of a segment, seen from its frame, over its
+    ///   length at rest; the same of a junction's bond;
+    /// - `bend`: curvature of a rod times the radius of its cross-section;
+    /// - `bonds`: root mean square of what the bonds between two monomers are longer or shorter than at
+    ///   rest, over `lateral_max_bond_nm` or `longitudinal_max_bond_nm`;
+    /// - `overlap`: 2 less the distance of two bonded monomers' centres in semi-axes, along the line of
+    ///   centres.
+    pub quantity: String,
+    /// Where it goes furthest, as arc length at rest (nm).
+    pub s_nm: f64,
+    /// What it reaches there.
+    pub value: f64,
+    /// What it may reach.
+    pub limit: f64,
+}
+
+impl fmt::Display for BeyondUse {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            s_nm, value, limit, ..
+        } = self;
+        match self.quantity.as_str() {
+            "strain" => write!(f, "a segment at s = {s_nm:.2} nm is strained by {value:.2}")?,
+            "bend" => write!(
+                f,
+                "the rod at s = {s_nm:.2} nm is bent to a curvature of {value:.2} over its radius"
+            )?,
+            "bonds" => write!(
+                f,
+                "the bonds at s = {s_nm:.2} nm are stretched or compressed by {value:.2} times the \
+                 longest length that they may have at rest"
+            )?,
+            _ => write!(
+                f,
+                "two monomers at s = {s_nm:.2} nm stand inside each other by {value:.2} semi-axes"
+            )?,
+        }
+        if self.filament > 0 {
+            write!(f, " in filament {}", self.filament)?;
+        }
+        write!(f, " (limit {limit})")
+    }
+}
+
+/// What goes furthest of its kind: where (nm), and how far.
+type Furthest = (f64, f64);
+
+impl Assembly {
+    /// What is beyond any use in `state`: at most once per section and quantity, where it is worst.
+    ///
+    /// Only neighbours are looked at. Filaments have no volume in these models: that parts of one far
+    /// apart, or two of them, pass through each other is not seen.
+    pub fn beyond_use(&self, state: &State) -> Vec<BeyondUse> {
+        let mut found = Vec::new();
+        for rod in &self.rods {
+            let radius = (CROSS_SECTION_AREA / PI).sqrt();
+            let (s_nm, curvature) = self.furthest(rod, state, |kappa| kappa.xy().norm());
+            let strain = self.largest_strain_of(rod, state);
+            self.push_beyond(&mut found, rod.section, ("strain", STRAIN), strain);
+            let bend = (s_nm, curvature * radius);
+            self.push_beyond(&mut found, rod.section, ("bend", BEND), bend);
+        }
+        for (i, section) in self.sections.iter().enumerate() {
+            if section.is_ellipsoids() {
+                let monomers = self.monomers_of(self.filament_of_section(i));
+                let bonds = self.largest_change_of_bonds(i, monomers, state);
+                self.push_beyond(&mut found, i, ("bonds", BONDS), bonds);
+                let overlap = self.largest_overlap(section, monomers, state);
+                self.push_beyond(&mut found, i, ("overlap", OVERLAP), overlap);
+            }
+        }
+        for bond in self.junction_bonds() {
+            let strain = self.strain(state, [bond.monomer, bond.node], bond.frame);
+            let strain = (self.frames[bond.frame].s_nm, strain);
+            self.push_beyond(&mut found, bond.junction, ("strain", STRAIN), strain);
+        }
+        worst(found)
+    }
+
+    /// The worst of [`beyond_use`](Self::beyond_use) over some states.
+    pub fn worst_beyond_use<'a>(
+        &self,
+        states: impl IntoIterator<Item = &'a State>,
+    ) -> Vec<BeyondUse> {
+        worst(states.into_iter().flat_map(|state| self.beyond_use(state)))
+    }
+
+    fn push_beyond(
+        &self,
+        found: &mut Vec<BeyondUse>,
+        section: usize,
+        (quantity, limit): (&str, f64),
+        (s_nm, value): Furthest,
+    ) {
+        if value > limit {
+            let filament = self.filament_of_section(section);
+            found.push(BeyondUse {
+                filament,
+                section: section - self.filaments[filament].sections.start,
+                quantity: quantity.to_owned(),
+                s_nm,
+                value,
+                limit,
+            });
+        }
+    }
+
+    fn largest_strain_of(&self, rod: &Rod, state: &State) -> Furthest {
+        let segments = rod.layout.points().zip(rod.layout.frames());
+        let strains = segments.map(|(point, frame)| {
+            let strain = self.strain(state, [point, point + 1], frame);
+            (self.frames[frame].s_nm, strain)
+        });
+        largest(strains)
+    }
+
+    /// By how much the vector between two points, seen from a frame, differs from that at rest, over
+    /// the latter's length.
+    fn strain(&self, state: &State, [a, b]: [usize; 2], frame: usize) -> f64 {
+        let seen = |state: &State| {
+            let between = state.points.position.get(b) - state.points.position.get(a);
+            state.frames.orientation.get(frame).inverse() * between
+        };
+        let rest = seen(&self.rest);
+        (seen(state) - rest).norm() / rest.norm()
+    }
+
+    /// The change of length of the bonds of each interface, from its energy, `S/2` times the mean of
+    /// its square.
+    fn largest_change_of_bonds(&self, i: usize, monomers: &Monomers, state: &State) -> Furthest {
+        let term = self.terms.iter().position(|t| t.part == Part::Section(i));
+        let term = term.expect("every section has a term");
+        let bonds = &self.system.interactions()[term];
+        let mut energies = vec![0.0; bonds.elements()];
+        bonds.write_energies(state, &mut energies);
+        let changes = energies.iter().zip(&self.spans[term]);
+        largest(changes.map(|(energy, [from, to])| {
+            let is_lateral = to - from < 1.5 * monomers.rise_nm;
+            let (rigidity, greatest) = if is_lateral {
+                let m = monomers;
+                (m.lateral_rigidity_pn_per_nm, m.lateral_max_bond_nm)
+            } else {
+                let m = monomers;
+                (
+                    m.longitudinal_rigidity_pn_per_nm,
+                    m.longitudinal_max_bond_nm,
+                )
+            };
+            let change = (2.0 * energy / rigidity).sqrt() / greatest;
+            (0.5 * (from + to), change)
+        }))
+    }
+
+    fn largest_overlap(
+        &self,
+        section: &SectionSpan,
+        monomers: &Monomers,
+        state: &State,
+    ) -> Furthest {
+        let first_frame = section.frames.start;
+        let (first, count) = (section.points.start, section.points.len());
+        let semi_axes = Vector3::from(monomers.semi_axes_nm);
+        let overlap = |lower: usize, upper: usize| {
+            let x = |k: usize| state.points.position.get(first + k);
+            let between = x(upper) - x(lower);
+            let distance = [lower, upper].map(|k| {
+                let q = state.frames.orientation.get(first_frame + k);
+                let seen = q.inverse() * between;
+                seen.component_div(&semi_axes).norm()
+            });
+            let s_nm = |k: usize| self.points[first + k].s_nm;
+            let middle = 0.5 * (s_nm(lower) + s_nm(upper));
+            (middle, 2.0 - distance[0].min(distance[1]))
+        };
+        let pairs = (0..count).flat_map(|lower| [(lower, lower + 1), (lower, lower + 2)]);
+        let bonded = pairs.filter(|&(_, upper)| upper < count);
+        largest(bonded.map(|(lower, upper)| overlap(lower, upper)))
+    }
+}
+
+/// Of each section and quantity what goes furthest.
+fn worst(found: impl IntoIterator<Item = BeyondUse>) -> Vec<BeyondUse> {
+    let mut worst: Vec<BeyondUse> = Vec::new();
+    for beyond in found {
+        let is_same = |b: &&mut BeyondUse| {
+            (b.filament, b.section, &b.quantity)
+                == (beyond.filament, beyond.section, &beyond.quantity)
+        };
+        match worst.iter_mut().find(is_same) {
+            Some(known) if known.value >= beyond.value => {}
+            Some(known) => *known = beyond,
+            None => worst.push(beyond),
+        }
+    }
+    worst
+}
+
+fn largest(values: impl Iterator<Item = Furthest>) -> Furthest {
+    values
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+    use actin_mechanics::{UnitQuaternion, rotation};
+
+    /// Monomers between rods, at a wall.
+    fn build() -> Assembly {
+        let text = "Scene(
+            filament: Filament(sections: [
+                Rod(from_nm: 0.0, to_nm: 20.0, segments: 2),
+                Ellipsoids(from_nm: 20.0, to_nm: 50.0),
+                Rod(from_nm: 50.0, to_nm: 70.0, segments: 2),
+            ]),
+            clamps: [Clamp(end: Start)],
+            task: Equilibrium(),
+        )";
+        Assembly::build(&Scene::from_ron(text).unwrap()).unwrap()
+    }
+
+    fn quantities(assembly: &Assembly, state: &State) -> Vec<(usize, String)> {
+        let found = assembly.beyond_use(state).into_iter();
+        found.map(|b| (b.section, b.quantity)).collect()
+    }
+
+    /// Everything beyond some point moved along the axis, which strains one place only.
+    fn parted(assembly: &Assembly, from: usize, by: f64) -> State {
+        let mut state = assembly.rest.clone();
+        for i in from..state.points.len() {
+            state.points.position.add(i, Vector3::z() * by);
+        }
+        state
+    }
+
+    /// At rest, and moved and turned as a whole, nothing is beyond use.
+    #[test]
+    fn what_is_at_rest_is_of_use_wherever_it_stands() {
+        let assembly = build();
+        let mut state = assembly.rest.clone();
+        assert!(assembly.beyond_use(&state).is_empty());
+        let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.3, -2.0, 0.7));
+        for i in 0..state.points.len() {
+            let x = turn * state.points.position.get(i) + Vector3::repeat(1e3);
+            state.points.position.set(i, x);
+        }
+        for i in 0..state.frames.len() {
+            let q = turn * state.frames.orientation.get(i);
+            state.frames.orientation.set(i, q);
+        }
+        assert!(assembly.beyond_use(&state).is_empty());
+        let overlap = assembly.largest_overlap(
+            &assembly.sections[1],
+            &assembly.scene.filament.monomers,
+            &state,
+        );
+        // Neighbours nearly touch: along the line of centres there is a gap, or some overlap.
+        assert!(overlap.1.abs() < 0.2, "{overlap:?}");
+    }
+
+    /// A segment is strained by its change over its length, in either direction, and the place is that
+    /// of the segment.
+    #[test]
+    fn a_segment_may_be_strained_by_half() {
+        let assembly = build();
+        let length = assembly.rods[0].layout.segment_lengths()[0];
+        for (share, expected) in [(0.49, 0), (0.51, 1), (-0.49, 0), (-0.51, 1), (-1.9, 1)] {
+            let found = assembly.beyond_use(&parted(&assembly, 1, share * length));
+            assert_eq!(found.len(), expected, "{share}");
+            for beyond in found {
+                assert_eq!((beyond.section, beyond.quantity.as_str()), (0, "strain"));
+                assert!((beyond.value - f64::abs(share)).abs() < 1e-12);
+                assert!((beyond.s_nm - 0.5 * length).abs() < 1e-12);
+            }
+        }
+        let state = parted(&assembly, 1, -1.9 * length);
+        let words = assembly.beyond_use(&state)[0].to_string();
+        assert_eq!(
+            words,
+            "a segment at s = 5.13 nm is strained by 1.90 (limit 0.5)"
+        );
+    }
+
+    /// Monomers parted in the middle: only there, and only by more than the greatest bond.
+    #[test]
+    fn bonds_may_change_by_their_greatest_length() {
+        let assembly = build();
+        let points = assembly.sections[1].points.clone();
+        let middle = usize::midpoint(points.start, points.end);
+        assert_eq!(quantities(&assembly, &parted(&assembly, middle, 0.5)), []);
+        let found = assembly.beyond_use(&parted(&assembly, middle, 20.0));
+        let [bonds] = &found[..] else {
+            panic!("{found:?}");
+        };
+        assert_eq!((bonds.section, bonds.quantity.as_str()), (1, "bonds"));
+        // Lateral bonds are no longer than 1.6 nm at rest, and stand across as much as along.
+        assert!(bonds.value > 10.0 && bonds.value < 20.0 / 1.6, "{bonds}");
+        let s_nm = assembly.points[middle].s_nm;
+        assert!((bonds.s_nm - s_nm).abs() < 3.0, "{bonds}");
+    }
+
+    /// A monomer that is put where its neighbour is overlaps with it by two semi-axes.
+    #[test]
+    fn monomers_may_not_stand_inside_each_other() {
+        let assembly = build();
+        let first = assembly.sections[1].points.start;
+        for (share, expected) in [(0.3, false), (0.6, true), (1.0, true)] {
+            let mut state = assembly.rest.clone();
+            let x = &state.points.position;
+            let along = x.get(first + 5) - x.get(first + 3);
+            state.points.position.add(first + 3, along * share);
+            let found = assembly.beyond_use(&state);
+            let overlap = found.iter().find(|b| b.quantity == "overlap");
+            assert_eq!(overlap.is_some(), expected, "{share}: {found:?}");
+            if share == 1.0 {
+                assert!((overlap.unwrap().value - 2.0).abs() < 1e-12);
+            }
+        }
+    }
+
+    /// A joint of segments of some 10 nm turned by 2 rad is bent to 0.2 per nm, 0.7 over its radius of
+    /// 3.5 nm; 3 rad are beyond it. The rest of the filament is carried along.
+    #[test]
+    fn a_rod_may_be_bent_to_its_own_radius() {
+        let assembly = build();
+        for (angle, expected) in [(2.0, 0), (3.0, 1)] {
+            let mut state = assembly.rest.clone();
+            let turn = rotation::exp(Vector3::x() * angle);
+            let node = assembly.rods[0].layout.points().start + 1;
+            let pivot = state.points.position.get(node);
+            for i in node..state.points.len() {
+                let arm = state.points.position.get(i) - pivot;
+                state.points.position.set(i, pivot + turn * arm);
+            }
+            let frame = assembly.rods[0].layout.frames().start + 1;
+            for i in frame..state.frames.len() {
+                let q = turn * state.frames.orientation.get(i);
+                state.frames.orientation.set(i, q);
+            }
+            let found = assembly.beyond_use(&state);
+            assert_eq!(found.len(), expected, "{found:?}");
+            for beyond in found {
+                assert_eq!((beyond.section, beyond.quantity.as_str()), (0, "bend"));
+                let between = assembly.rods[0].layout.voronoi_lengths()[1];
+                let exact = angle / between * (38.5_f64 / PI).sqrt();
+                assert!((beyond.value - exact).abs() < 1e-12, "{beyond}");
+            }
+        }
+    }
+
+    /// A junction's bond is strained where monomers and rod part; the worst of some states is kept.
+    #[test]
+    fn the_worst_of_some_states_is_kept() {
+        let assembly = build();
+        let from = assembly.sections[2].points.start;
+        let states = [2.0, 9.0, 5.0].map(|by| parted(&assembly, from, by));
+        let found = assembly.worst_beyond_use(&states);
+        let [strain] = &found[..] else {
+            panic!("{found:?}");
+        };
+        assert_eq!((strain.section, strain.quantity.as_str()), (1, "strain"));
+        assert_eq!(found, assembly.worst_beyond_use(&states[1..2]));
+    }
+}
