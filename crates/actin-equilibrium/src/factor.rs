@@ -238,13 +238,7 @@ impl Factor {
     /// parts of negative pivots are compared with `sum f_k^2 / |K_kk|`. Where they have none, the step
     /// leads to the minimum over all directions that the loads see.
     pub(crate) fn is_positive_for(&self, f: &[f64]) -> bool {
-        let energy = |f: f64, stiffness: f64| {
-            if f == 0.0 {
-                0.0
-            } else {
-                f * f / stiffness.abs()
-            }
-        };
+        let energy = |f: f64, k: f64| if f == 0.0 { 0.0 } else { f * f / k.abs() };
         let energies = f.iter().zip(&self.diagonal).map(|(&f, &k)| energy(f, k));
         let limit = UNSEEN * energies.sum::<f64>();
         let mut y = f.to_vec();

@@ -115,6 +115,12 @@ fn a_saddle_with_zeros_is_a_saddle() {
         let found = stability(&bodies(1, 0), &terms);
         assert_eq!(found, Stability::Saddle { negative: 1 }, "{values:?}");
     }
+    // Eigenvalues 1 and -1 with nothing on the diagonal: pivots without pivoting do not tell them from
+    // zero, but stable it is not.
+    let mut block = diagonal([0.0, 0.0, 1.0]);
+    (block[(0, 1)], block[(1, 0)]) = (1.0, 1.0);
+    let terms: Terms = vec![Box::new(Wells(vec![(0, block)]))];
+    assert_ne!(stability(&bodies(1, 0), &terms), Stability::Stable);
 }
 
 /// No interaction at all, or none on some bodies: three modes for each that nothing acts on, wherever
