@@ -1,6 +1,7 @@
 //! What is taken to the extreme, each number in a file of its own, and what became of it.
 
 pub(crate) mod contrast;
+pub(crate) mod directories;
 pub(crate) mod drag;
 pub(crate) mod drift;
 pub(crate) mod fields;
@@ -20,7 +21,7 @@ use row::Row;
 
 /// The whole table, in the order in which it is printed; `long` with the rows that take minutes.
 pub(crate) fn table(long: bool) -> Vec<Row> {
-    let groups: [(&str, &dyn Fn() -> Vec<Row>); 14] = [
+    let groups: [(&str, &dyn Fn() -> Vec<Row>); 15] = [
         ("time steps", &|| stability::rows(&stability::INTEGRATORS)),
         ("energy below the limit", &|| {
             stability::below(&stability::INTEGRATORS)
@@ -49,6 +50,7 @@ pub(crate) fn table(long: bool) -> Vec<Row> {
             rows.extend(guards::rows());
             rows
         }),
+        ("directories", &directories::rows),
     ];
     let mut table = Vec::new();
     for (name, rows) in groups {
