@@ -15,7 +15,7 @@ use cases::row::{Outcome, Row};
 use cases::stability::{INTEGRATORS, MODELS, SHARES, energy_error, free};
 use cases::verdict::Verdict;
 use cases::{
-    certificates, contrast, drag, drift, fields, forces, guards, lengths, origin, sizes, stability,
+    certificates, contrast, directories, drag, drift, fields, forces, guards, lengths, origin, sizes, stability,
     turns,
 };
 
@@ -206,6 +206,20 @@ fn what_no_machine_holds_is_refused_at_once() {
     let rows = guards::rows();
     assert_sound(&rows);
     assert!(rows.iter().all(is_refused));
+}
+
+/// Nothing goes that a run has not written, and results are written together or not at all.
+#[test]
+fn files_of_others_and_results_of_before_stay() {
+    let rows = directories::rows();
+    assert_sound(&rows);
+    let (others, results) = rows.split_at(7);
+    assert!(others.iter().all(is_refused));
+    assert!(
+        results
+            .iter()
+            .all(|row| matches!(row.outcome, Outcome::Fails(_)))
+    );
 }
 
 /// What is not finite, overflows or is denormal is refused wherever it stands, with its key and the

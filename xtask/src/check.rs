@@ -2,8 +2,9 @@
 //! with random input.
 
 use crate::tidy;
+use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, ExitStatus, Stdio};
 
 /// A step that cargo carries out.
 struct Step {
@@ -64,9 +65,7 @@ pub(crate) fn run() -> Result<(), String> {
         if let Some((name, value)) = variable {
             command.env(name, value);
         }
-        let status = command
-            .status()
-            .map_err(|error| format!("{purpose}: cargo did not start: {error}"))?;
+        let status = status(&mut command).map_err(|error| format!("{purpose}: cargo: {error}"))?;
         if !status.success() {
             return Err(format!("{purpose}: cargo {} failed", arguments.join(" ")));
         }
@@ -78,6 +77,17 @@ pub(crate) fn run() -> Result<(), String> {
         return Ok(());
     }
     Err(format!("tidy:\n  {}", findings.join("\n  ")))
+}
+
+/// How a command ends. Its lines go through this program's standard output, so that it does not fail where
+/// nobody reads them any more.
+fn status(command: &mut Command) -> io::Result<ExitStatus> {
+    let mut child = command.stdout(Stdio::piped()).spawn()?;
+    let output = child.stdout.take().expect("it is piped");
+    for line in BufReader::new(output).split(b'\n') {
+        println!("{}", String::from_utf8_lossy(&line?));
+    }
+    child.wait()
 }
 
 /// The folder of the workspace's manifest.

@@ -1,4 +1,8 @@
-//! Tasks of this workspace: `cargo xtask <task>`.
+//! Tasks of this workspace: `cargo xtask <task>`. A closed pipe on standard output ends none of them.
+
+#[macro_use]
+#[path = "../../crates/actin-cli/src/streams.rs"]
+mod streams;
 
 mod bench;
 mod check;
@@ -52,7 +56,7 @@ fn main() -> ExitCode {
         Task::Tradeoff(options) => tradeoff::run(&options),
         Task::Trials(options) => trials::run(&options),
     };
-    match outcome {
+    match outcome.and_then(|()| streams::ending()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("error: {message}");

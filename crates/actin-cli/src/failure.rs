@@ -12,6 +12,8 @@ pub(crate) enum Failure {
     Input(String),
     /// The computation broke down: exit code 3.
     Numerical(String),
+    /// What was computed, or printed, could not be written: exit code 74.
+    Unwritten(String),
     /// A signal asked for the end: exit code 130.
     Interrupted(String),
 }
@@ -21,6 +23,8 @@ impl Failure {
         match self {
             Self::Input(_) => ExitCode::from(2),
             Self::Numerical(_) => ExitCode::from(3),
+            // `EX_IOERR` of `sysexits.h`.
+            Self::Unwritten(_) => ExitCode::from(74),
             // What a shell reports of a program that SIGINT, 2, has ended: 128 + 2.
             Self::Interrupted(_) => ExitCode::from(130),
         }
@@ -45,7 +49,9 @@ impl From<CheckpointError> for Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Input(message) | Self::Numerical(message) => write!(f, "error: {message}"),
+            Self::Input(message) | Self::Numerical(message) | Self::Unwritten(message) => {
+                write!(f, "error: {message}")
+            }
             Self::Interrupted(message) => write!(f, "interrupted: {message}"),
         }
     }
@@ -62,8 +68,9 @@ impl Opened {
     /// Reads and builds the scene at `path`.
     pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| Failure::Input(format!("{name}: {error}")))?;
+        let bytes =
+            std::fs::read(path).map_err(|error| Failure::Input(format!("{name}: {error}")))?;
+        let text = Scene::text(bytes).map_err(|error| input(&name, &error))?;
         let scene = Scene::from_ron(&text).map_err(|error| input(&name, &error))?;
         let assembly = Assembly::build(&scene)
             .map_err(|problem| input(&name, &SceneError::locate(&problem, &text)))?;

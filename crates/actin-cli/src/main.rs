@@ -1,6 +1,10 @@
 //! The `actin` program: runs and checks scenes.
 //!
-//! Exit codes: 0 done, 2 bad input, 3 numerical failure, 130 interrupted with a checkpoint written.
+//! Exit codes: 0 done, 2 bad input, 3 numerical failure, 74 output that could not be written, 130
+//! interrupted with a checkpoint written. A closed pipe on standard output changes nothing.
+
+#[macro_use]
+mod streams;
 
 mod check;
 mod failure;
@@ -9,6 +13,7 @@ mod run;
 mod signals;
 
 use clap::{Args, Parser, Subcommand};
+use failure::Failure;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
@@ -16,10 +21,13 @@ use std::time::Duration;
 /// What exit codes mean, for the help.
 const EXIT_CODES: &str = "Exit codes:
     0  done (or --resume of a run that is)
-    2  bad input: scene, arguments, directory or checkpoint; nothing has been computed or written over
+    2  bad input: scene, arguments, directory or checkpoint; nothing has been computed
     3  numerical failure: the message names step, time, body and term, or the load that is lost in the
        forces left over in an equilibrium; what was good is on disk
-  130  interrupted (SIGINT, SIGTERM): --resume goes on; a second signal ends the program at once";
+   74  the run has ended, but its results could not be written (disk full, limit on file sizes): the
+       message says whether a checkpoint holds them, from which --resume writes them
+  130  interrupted (SIGINT, SIGTERM, SIGHUP): --resume goes on; a second SIGINT or SIGTERM ends the
+       program at once";
 
 /// Simulates actin filaments at two resolutions.
 #[derive(Debug, Parser)]
@@ -48,7 +56,7 @@ struct RunArguments {
     /// Run directory; by default `runs/` and the name of the scene.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Replace the files of an earlier run in that directory.
+    /// Replace an earlier run in that directory: the files that its actin-run.json lists, and no others.
     #[arg(long)]
     overwrite: bool,
     /// Go on from the checkpoint in that directory: the results are those of a run that was not
@@ -66,15 +74,22 @@ fn seconds(text: &str) -> Result<Duration, String> {
 }
 
 fn main() -> ExitCode {
-    let outcome = match Arguments::parse().command {
-        Command::Run(arguments) => run::run(&arguments),
-        Command::Check { scene } => check::check(&scene),
-    };
-    match outcome {
+    let command = Arguments::parse().command;
+    match carry_out(command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             eprintln!("{failure}");
             failure.exit_code()
         }
     }
+}
+
+fn carry_out(command: Command) -> Result<(), Failure> {
+    signals::outlive_file_size_limit()
+        .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
+    match command {
+        Command::Run(arguments) => run::run(&arguments)?,
+        Command::Check { scene } => check::check(&scene)?,
+    }
+    streams::ending().map_err(Failure::Unwritten)
 }

@@ -43,23 +43,31 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
             (&trajectory, &report),
         ));
     }
-    let summary = directory
-        .write(&opened.assembly, &trajectory, &report)
-        .map_err(|error| hint(&out, error))?;
-    directory.remove_checkpoint()?;
+    let written = directory.write(&opened.assembly, &trajectory, &report);
+    let removed = written.and_then(|summary| directory.remove_checkpoint().map(|()| summary));
+    let summary = removed.map_err(|error| unwritten(arguments, &directory, error))?;
     print(&summary, &out);
     Ok(())
 }
 
 /// Makes or opens the run directory; what keeps other runs out of it.
 fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failure> {
+    if arguments.overwrite && RunDirectory::existing(out).holds(&arguments.scene) {
+        let (scene, out) = (arguments.scene.display(), out.display());
+        return Err(Failure::Input(format!(
+            "{scene} lies in {out}, which is to be overwritten: copy the scene to another place first"
+        )));
+    }
     if !arguments.resume {
         let claimed = RunDirectory::create_locked(out, arguments.overwrite);
         let (_, lock) = claimed.map_err(|error| hint(out, error))?;
         return Ok(Some(lock));
     }
-    // Where there is no directory there is nothing to resume, and nobody to keep out.
-    Ok(out.is_dir().then(|| RunLock::take(out)).transpose()?)
+    if RunDirectory::existing(out).has_checkpoint() {
+        return Ok(Some(RunLock::take(out)?));
+    }
+    // There is nothing to resume, unless another run is about to leave it.
+    Ok(RunLock::take_if_there(out)?)
 }
 
 /// What there is to begin with.
@@ -86,7 +94,9 @@ fn begin(
     if is_finished(opened, directory)? {
         return Ok(Beginning::Finished);
     }
-    Ok(Beginning::Kept(Box::new(checkpoints.resume()?)))
+    let kept = checkpoints.resume()?;
+    directory.reopen()?;
+    Ok(Beginning::Kept(Box::new(kept)))
 }
 
 fn checkpoints(
@@ -96,7 +106,7 @@ fn checkpoints(
     directory: &RunDirectory,
 ) -> Result<Checkpoints, Failure> {
     let interrupted = signals::interruption()
-        .map_err(|error| Failure::Input(format!("signals cannot be listened to: {error}")))?;
+        .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
     Ok(Checkpoints::new(
         directory,
         &mut opened.assembly,
@@ -140,6 +150,32 @@ fn hint(out: &Path, error: RunDirectoryError) -> Failure {
     }
 }
 
+/// Says that a run has results which could not be written, and where they are now.
+fn unwritten(
+    arguments: &RunArguments,
+    directory: &RunDirectory,
+    error: RunDirectoryError,
+) -> Failure {
+    if let RunDirectoryError::NotFinite { .. } = error {
+        return Failure::from(error);
+    }
+    let message = format!("the run has ended, but its results could not be written: {error}");
+    Failure::Unwritten(if directory.has_checkpoint() {
+        let go_on = go_on(arguments, directory);
+        format!(
+            "{message}; a checkpoint is kept; once the cause is gone, this writes them: {go_on}"
+        )
+    } else {
+        format!("{message}; nor could a checkpoint, so they are lost")
+    })
+}
+
+/// The command that goes on with a run.
+fn go_on(arguments: &RunArguments, directory: &RunDirectory) -> String {
+    let (scene, place) = (arguments.scene.display(), directory.path().display());
+    format!("actin run {scene} --out {place} --resume")
+}
+
 /// The run itself.
 fn advance(
     opened: &mut Opened,
@@ -181,11 +217,11 @@ fn left(
             Err(error) => message = format!("{message}, but {error}"),
         }
     }
-    if directory.has_checkpoint() {
-        let scene = arguments.scene.display();
-        message = format!("{message}; to go on: actin run {scene} --out {place} --resume");
+    if !directory.has_checkpoint() {
+        return Failure::Unwritten(message);
     }
-    Failure::Interrupted(message)
+    let go_on = go_on(arguments, directory);
+    Failure::Interrupted(format!("{message}; to go on: {go_on}"))
 }
 
 /// Keeps what a broken run has recorded, and says why it broke.

@@ -150,8 +150,12 @@ fn what_is_no_scene_or_no_argument_is_bad_input() {
     let missing = place.actin(&["run", "absent.ron"]);
     assert_eq!(code(&missing), 2);
     assert!(stderr(&missing).starts_with("error: absent.ron: "));
-    fs::write(place.path("binary.ron"), [0xff, 0xfe]).unwrap();
-    assert_eq!(code(&place.actin(&["check", "binary.ron"])), 2);
+    fs::write(place.path("binary.ron"), b"Scene(\n  \xe9").unwrap();
+    let binary = place.actin(&["check", "binary.ron"]);
+    assert_eq!(code(&binary), 2);
+    let message = stderr(&binary);
+    let start = "error: binary.ron:2:3: byte 0xe9 is not UTF-8";
+    assert!(message.starts_with(start), "{message}");
     assert_eq!(code(&place.actin(&["walk", "scene.ron"])), 2);
 }
 

@@ -2,129 +2,17 @@
 //! exit code and the bytes of the files.
 #![cfg(unix)]
 
-use std::collections::BTreeMap;
+mod common;
+
+use common::{MOTION, PATH, Workplace, assert_same_files, code, contents, files, signal, stderr};
 use std::fs;
 use std::os::unix::process::ExitStatusExt;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command, Output};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
-use tempfile::TempDir;
-
-/// A second or so of monomers, a junction and a rod under a load that is ramped up.
-const MOTION: &str = "Scene(
-    title: \"kept\",
-    filament: Filament(
-        sections: [
-            Ellipsoids(from_nm: 0.0, to_nm: 10.0),
-            Rod(from_nm: 10.0, to_nm: 30.0),
-        ],
-        monomers: Monomers(lateral_bonds: 8, longitudinal_bonds: 8),
-    ),
-    clamps: [Clamp(end: Start)],
-    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
-    path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)], duration_ns: 50.0)],
-    task: Dynamics(
-        duration_ns: 150.0,
-        record_every_ns: 1.5,
-        drag: (translational_per_ns: 0.01, rotational_per_ns: 0.01),
-    ),
-)";
-
-/// A hundred equilibria.
-const PATH: &str = "Scene(
-    filament: Filament(
-        sections: [Ellipsoids(from_nm: 0.0, to_nm: 90.0), Rod(from_nm: 90.0, to_nm: 150.0)],
-    ),
-    clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
-    path: [
-        Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 90.0))]),
-        Stage(set: [Turn(end: End, turn_deg: (0.0, 30.0, 90.0))]),
-    ],
-    task: Equilibrium(largest_step: 0.02, lowest_eigenvalue: true),
-)";
 
 /// The lock of a run into `a`.
 const LOCK: &str = "a/.actin-run.lock";
-
-/// How often a run is begun that is to be interrupted.
-const ATTEMPTS: usize = 5;
-
-/// A folder with one scene.
-struct Workplace {
-    folder: TempDir,
-}
-
-impl Workplace {
-    fn with(scene: &str) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("scene.ron"), scene).unwrap();
-        Self { folder }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_actin"));
-        command.args(["run", "scene.ron"]).args(arguments);
-        command.current_dir(self.folder.path());
-        command.stdout(Stdio::piped()).stderr(Stdio::piped());
-        command
-    }
-
-    fn actin(&self, arguments: &[&str]) -> Output {
-        self.command(arguments).output().unwrap()
-    }
-
-    /// Starts a run and waits until its directory holds `name`, or it has ended.
-    fn start(&self, arguments: &[&str], name: &str) -> Child {
-        let mut child = self.command(arguments).spawn().unwrap();
-        let patience = Instant::now();
-        while !self.path(name).exists() && child.try_wait().unwrap().is_none() {
-            if patience.elapsed() > Duration::from_mins(2) {
-                child.kill().unwrap();
-                panic!("no {name}");
-            }
-            sleep(Duration::from_millis(2));
-        }
-        child
-    }
-
-    /// Starts a run into `out`, sends it `signals` as soon as that holds `name`, and waits for its
-    /// end. On a machine so busy that the run is done before, it is tried again.
-    fn interrupted(&self, out: &str, name: &str, signals: &[&str]) -> Output {
-        for _ in 0..ATTEMPTS {
-            let arguments = ["--out", out, "--checkpoint-every", "0.01"];
-            let child = self.start(&arguments, &format!("{out}/{name}"));
-            for name in signals {
-                signal(&child, name);
-            }
-            let output = child.wait_with_output().unwrap();
-            println!("{}", stderr(&output));
-            if output.status.code() != Some(0) {
-                return output;
-            }
-            fs::remove_dir_all(self.path(out)).unwrap();
-        }
-        panic!("{ATTEMPTS} runs got to their end in spite of {signals:?}");
-    }
-}
-
-fn code(output: &Output) -> i32 {
-    output.status.code().unwrap_or(-1)
-}
-
-fn stderr(output: &Output) -> &str {
-    std::str::from_utf8(&output.stderr).unwrap()
-}
-
-fn signal(child: &Child, name: &str) {
-    let id = child.id().to_string();
-    let sent = Command::new("kill").args([name, &id]).status().unwrap();
-    assert!(sent.success());
-}
 
 /// Stops a program, and waits until it has (or has ended): what the signal finds it doing is done
 /// first.
@@ -137,58 +25,20 @@ fn stop(child: &Child) {
     }
 }
 
-/// The files of a folder itself.
-fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let entries = fs::read_dir(folder).unwrap();
-    let paths = entries.map(|entry| entry.unwrap().path());
-    let files = paths.filter(|path| path.is_file());
-    files
-        .map(|path| (path.clone(), fs::read(path).unwrap()))
-        .collect()
-}
-
-/// Every file of a run directory; of the summary all lines but the time it took.
-fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let mut files = Vec::new();
-    for folder in [folder.to_owned(), folder.join("vtk")] {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if !path.is_file() {
-                continue;
-            }
-            let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-            let mut bytes = fs::read(&path).unwrap();
-            if name == "summary.json" {
-                let text = String::from_utf8(bytes).unwrap();
-                let lines = text.lines().filter(|line| !line.contains("\"wall_s\""));
-                bytes = lines.collect::<String>().into_bytes();
-            }
-            files.push((name, bytes));
-        }
-    }
-    files.sort();
-    files
-}
-
-fn assert_same_files(one: &Path, other: &Path) {
-    let (one, other) = (files(one), files(other));
-    let names = |files: &[(String, Vec<u8>)]| -> Vec<String> {
-        files.iter().map(|(name, _)| name.clone()).collect()
-    };
-    assert_eq!(names(&one), names(&other));
-    for ((name, a), (_, b)) in one.iter().zip(&other) {
-        assert!(a == b, "{name} differs");
-    }
-}
-
 /// The first signal: 130, a checkpoint, what was recorded, and the command that goes on; which then
-/// gives every byte of a run that was not interrupted. A motion and a path, SIGINT and SIGTERM.
+/// gives every byte of a run that was not interrupted. A motion and a path, SIGINT, SIGTERM and SIGHUP,
+/// which may come twice: a terminal that closes sends it, and so does the shell in it.
 #[test]
 fn an_interrupted_run_goes_on_to_the_same_bytes() {
-    for (scene, name) in [(MOTION, "-INT"), (PATH, "-TERM")] {
+    let hangup = ["-STOP", "-HUP", "-TERM", "-CONT", "-HUP"];
+    for (scene, signals) in [
+        (MOTION, &["-INT"][..]),
+        (PATH, &["-TERM"]),
+        (MOTION, &hangup),
+    ] {
         let place = Workplace::with(scene);
         assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
-        let output = place.interrupted("parts", "checkpoint.bin", &[name]);
+        let output = place.interrupted("parts", "checkpoint.bin", signals);
         assert_eq!(code(&output), 130);
         assert!(stderr(&output).contains("actin run scene.ron --out parts --resume"));
         let summary = fs::read_to_string(place.path("parts/summary.json")).unwrap();
@@ -290,6 +140,20 @@ fn many_killed_runs_go_on_to_the_same_bytes() {
     assert_survives(&[MOTION, PATH], 40, 100);
 }
 
+/// Under `nohup` SIGHUP is ignored, and stays so: the run gets to its end.
+#[test]
+fn a_hangup_that_was_ignored_before_is_ignored() {
+    let place = Workplace::with(MOTION);
+    let output = place.shell(
+        "trap '' HUP
+         actin run scene.ron --out a --checkpoint-every 0.01 & id=$!
+         while ! test -e a/checkpoint.bin; do sleep 0.01; done
+         kill -HUP $id; wait $id",
+    );
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(place.path("a/summary.json").exists());
+}
+
 /// A limit on the size of files is a disk that is full for some: records do not fit any more. The
 /// run goes on with a warning, the results cannot be written either, and the last checkpoint that
 /// fitted is there when there is room again.
@@ -297,19 +161,12 @@ fn many_killed_runs_go_on_to_the_same_bytes() {
 fn a_full_disk_loses_no_checkpoint() {
     let place = Workplace::with(MOTION);
     assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
-    let actin = env!("CARGO_BIN_EXE_actin");
-    let limited = format!(
-        "trap '' XFSZ; ulimit -f 64; exec {actin} run scene.ron --out a --checkpoint-every 0.01"
-    );
-    let output = Command::new("sh")
-        .args(["-c", &limited])
-        .current_dir(place.folder.path())
-        .output()
-        .unwrap();
+    let output =
+        place.shell("ulimit -f 64; exec actin run scene.ron --out a --checkpoint-every 0.01");
     println!("{}", stderr(&output));
-    assert_eq!(code(&output), 2);
+    assert_eq!(code(&output), 74);
     assert!(stderr(&output).contains("warning: no checkpoint: a/records.bin: "));
-    assert!(stderr(&output).contains("it keeps a checkpoint, from which --resume goes on"));
+    assert!(stderr(&output).contains("a checkpoint is kept; once the cause is gone"));
     let output = place.actin(&["--out", "a", "--resume"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert_same_files(&place.path("whole"), &place.path("a"));
@@ -410,8 +267,8 @@ fn an_equilibrium_in_which_a_load_is_lost_is_kept() {
 }
 
 /// Whatever a second run would do in the directory of one that goes on (here: is stopped half way),
-/// it is refused and touches nothing. When the first has been killed, the file that it leaves keeps
-/// nobody out, and afterwards it is gone.
+/// it is refused and touches nothing. When the first has been killed, its lock keeps nobody out, and
+/// afterwards the file of it is empty.
 #[test]
 fn a_directory_in_use_is_left_alone() {
     let place = Workplace::with(&MOTION.replace("duration_ns: 150.0", "duration_ns: 1500.0"));
@@ -447,7 +304,7 @@ fn a_directory_in_use_is_left_alone() {
     );
     let done = place.actin(&["--out", "a", "--overwrite"]);
     assert_eq!(code(&done), 0, "{}", stderr(&done));
-    assert!(!place.path(LOCK).exists());
+    assert_eq!(fs::read(place.path(LOCK)).unwrap(), b"");
 }
 
 /// Files of others are left alone by whatever is refused, `lock` among them, and a file that no run has
@@ -479,6 +336,7 @@ fn files_of_others_are_left_alone() {
 fn what_writes_nothing_needs_no_lock() {
     let place = Workplace::with(&MOTION.replace("150.0", "1.0").replace("50.0", "0.5"));
     assert_eq!(code(&place.actin(&["--out", "a"])), 0);
+    fs::remove_file(place.path(LOCK)).unwrap();
     fs::create_dir(place.path(LOCK)).unwrap();
     let again = place.actin(&["--out", "a", "--resume"]);
     assert_eq!(code(&again), 0, "{}", stderr(&again));

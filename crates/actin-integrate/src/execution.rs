@@ -80,13 +80,25 @@ impl<'a, 'o> Execution<'a, 'o> {
         if self.pause().is_break() {
             return Ok(self.outcome(Reason::Interrupted));
         }
-        self.go_on()
+        let ended = (self.step >= self.end()).then_some(Reason::Completed);
+        self.go_on(ended)
     }
 
-    /// Goes on from a pause.
-    pub(crate) fn go_on(mut self) -> Result<Outcome, RunFailure> {
+    /// Goes on from a checkpoint, which may be that of the end.
+    pub(crate) fn run_on(mut self) -> Result<Outcome, RunFailure> {
+        // The start of a continuation has not been shown, and no stop rule has seen it.
+        let is_observed = self.step == self.last_good.step
+            && (self.step > self.run.first_step || self.run.first_step == 0);
+        let ended = if is_observed && self.is_at_rest() {
+            Some(Reason::Converged)
+        } else {
+            (self.step >= self.end()).then_some(Reason::Completed)
+        };
+        self.go_on(ended)
+    }
+
+    fn go_on(mut self, mut ended: Option<Reason>) -> Result<Outcome, RunFailure> {
         let end = self.end();
-        let mut ended = (self.step >= end).then_some(Reason::Completed);
         while ended.is_none() {
             self.advance_to(self.next_check(end));
             let is_shown = self.step == end || self.step.is_multiple_of(self.run.observe_every);
@@ -169,11 +181,7 @@ impl<'a, 'o> Execution<'a, 'o> {
         for observer in self.observers.iter_mut() {
             interrupted |= observer.observe(&mut moment).is_break();
         }
-        let at_rest = self
-            .run
-            .stop
-            .filter(|_| moment.time >= self.run.stop_from)
-            .is_some_and(|rule| rule.is_met(moment.residual(), moment.kinetic_energy()));
+        let at_rest = self.is_at_rest();
         self.last_good = Mark::new(self.step, self.system, self.watch.largest_kinetic);
         if at_rest {
             Some(Reason::Converged)
@@ -184,8 +192,28 @@ impl<'a, 'o> Execution<'a, 'o> {
         }
     }
 
+    /// Whether the stop rule is met.
+    fn is_at_rest(&mut self) -> bool {
+        let mut moment = Moment::new(self.step, self.run.time(self.step), self.system);
+        self.run
+            .stop
+            .filter(|_| moment.time >= self.run.stop_from)
+            .is_some_and(|rule| rule.is_met(moment.residual(), moment.kinetic_energy()))
+    }
+
     /// Lets everyone keep what is needed to go on from here, or leave.
     fn pause(&mut self) -> ControlFlow<()> {
+        let mut flow = ControlFlow::Continue(());
+        self.show_pause(|observer, pause| {
+            if observer.pause(pause).is_break() {
+                flow = ControlFlow::Break(());
+            }
+        });
+        flow
+    }
+
+    /// Shows where the run stands to everyone.
+    fn show_pause(&mut self, mut show: impl FnMut(&mut dyn Observer, &Pause<'_>)) {
         let pause = Pause {
             step: self.step,
             time: self.run.time(self.step),
@@ -194,16 +222,15 @@ impl<'a, 'o> Execution<'a, 'o> {
             evaluations_before: self.evaluations_before,
             last_good: &self.last_good,
         };
-        let mut flow = ControlFlow::Continue(());
         for observer in self.observers.iter_mut() {
-            if observer.pause(&pause).is_break() {
-                flow = ControlFlow::Break(());
-            }
+            show(*observer, &pause);
         }
-        flow
     }
 
-    fn outcome(self, reason: Reason) -> Outcome {
+    fn outcome(mut self, reason: Reason) -> Outcome {
+        if reason != Reason::Interrupted {
+            self.show_pause(|observer, end| observer.finish(end));
+        }
         let (force, torque) = self.system.residual();
         Outcome {
             reason,

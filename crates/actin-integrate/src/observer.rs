@@ -68,6 +68,10 @@ pub trait Observer {
         ControlFlow::Continue(())
     }
 
+    /// Is told that the run has come to its end, by its last step or its stop rule, and where: a run
+    /// that is resumed from there ends there again, with the same outcome.
+    fn finish(&mut self, _end: &Pause<'_>) {}
+
     /// Is told that the run has failed, and where the last good state was.
     fn fail(&mut self, _last_good: &Checkpoint) {}
 }

@@ -249,7 +249,8 @@ impl Run {
 
     /// Goes on from `checkpoint`, which a [`Pause`](crate::Pause) of the same run of an equal system
     /// has given, whatever state `system` is in: what follows is the same to the bit as in the run
-    /// that was left, work counts included. The state of the checkpoint is not shown again.
+    /// that was left, work counts included. The state of the checkpoint is not shown again; if the run
+    /// had ended there, it ends there again.
     ///
     /// # Errors
     /// As [`execute`](Self::execute).
@@ -262,7 +263,7 @@ impl Run {
         system: &mut System,
         observers: &mut [&mut dyn Observer],
     ) -> Result<Outcome, RunFailure> {
-        Execution::resume(self, checkpoint, system, observers).go_on()
+        Execution::resume(self, checkpoint, system, observers).run_on()
     }
 
     /// Advances `system` by `steps` steps, the first of which has the number `first_step`.

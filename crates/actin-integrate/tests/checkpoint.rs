@@ -50,6 +50,8 @@ struct Witness {
     pauses: usize,
     leave: Option<usize>,
     kept: Option<Checkpoint>,
+    /// Where the run has ended.
+    ended: Option<Checkpoint>,
 }
 
 impl Observer for Witness {
@@ -68,6 +70,10 @@ impl Observer for Witness {
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
+    }
+
+    fn finish(&mut self, end: &Pause<'_>) {
+        assert!(self.ended.replace(end.checkpoint()).is_none(), "ends once");
     }
 }
 
@@ -136,6 +142,16 @@ proptest! {
         prop_assert_eq!(outcome, expected);
         prop_assert_eq!(witness.seen, one.seen);
         prop_assert_eq!(witness.pauses, one.pauses);
+
+        // From its end it goes nowhere: no step more where a stop rule has ended it.
+        let end = one.ended.unwrap();
+        prop_assert_eq!(Some(&end), witness.ended.as_ref());
+        let (mut system, mut witness) = (build(kind), Witness::default());
+        let outcome = run.resume(&end, &mut system, &mut [&mut witness]).unwrap();
+        prop_assert_eq!(system.state(), whole.state());
+        prop_assert_eq!(outcome, expected);
+        prop_assert!(witness.seen.is_empty());
+        prop_assert_eq!(witness.ended, Some(end));
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod certificates;
 pub(crate) mod contrast;
+pub(crate) mod directories;
 pub(crate) mod drag;
 pub(crate) mod drift;
 pub(crate) mod fields;
@@ -51,6 +52,7 @@ pub(crate) fn table(long: bool) -> Vec<Row> {
             rows.extend(guards::rows());
             rows
         }),
+        ("directories", &directories::rows),
     ];
     let mut table = Vec::new();
     for (name, rows) in groups {

@@ -1,5 +1,6 @@
 //! Why a run directory was refused or could not be written.
 
+use super::manifest::MANIFEST;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -16,6 +17,55 @@ pub enum RunDirectoryError {
     NotEmpty {
         /// The directory.
         path: PathBuf,
+    },
+    /// A directory that was to be overwritten has no manifest.
+    #[error(
+        "{} is not empty and has no {MANIFEST}, the list of the files that a run has written: nothing in it \
+         is removed; name another directory, or remove this one if it is to go", .path.display()
+    )]
+    NoManifest {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// Something has a name that runs write, and is not a file that the run has written.
+    #[error(
+        "{} was not written by the run whose files {MANIFEST} lists: it is left alone; move it, or name \
+         another directory", .path.display()
+    )]
+    NotOfARun {
+        /// The file, folder or link.
+        path: PathBuf,
+    },
+    /// The scene of an earlier run is no longer what that run has written.
+    #[error(
+        "{} has been changed since the run wrote it: it is left alone; move it, or name another directory",
+        .path.display()
+    )]
+    Changed {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A manifest that no run has written, or another version.
+    #[error(
+        "{} is not the list of a run's files that it should be: {reason}; nothing is removed; name another \
+         directory, or remove this one if it is to go", .path.display()
+    )]
+    Manifest {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A link to a directory was to be overwritten.
+    #[error(
+        "{} is a link to {target}: nothing is removed through a link; name {target} itself", .path.display(),
+        target = .target.display()
+    )]
+    Link {
+        /// The link.
+        path: PathBuf,
+        /// What it points to.
+        target: PathBuf,
     },
     /// The path names something that is no directory.
     #[error("{} is not a directory: a run writes several files into one directory", .path.display())]

@@ -1,16 +1,12 @@
 //! One run at a time in a directory.
 
 use super::RunDirectoryError;
-use super::directory::remove_if_there;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Seek, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Name of the file that is locked: one that nobody gives to a file of their own.
 pub(super) const LOCK: &str = ".actin-run.lock";
-
-/// How often the name may have gone to another file in the meantime: each time another run has ended.
-const TRIES: usize = 100;
 
 /// Most digits of a process number.
 const MOST_DIGITS: u64 = 20;
@@ -24,75 +20,74 @@ const NO_LOCKS_AVAILABLE: Option<i32> = if cfg!(target_os = "linux") {
 
 /// Keeps other runs out of a directory until it is dropped.
 ///
-/// What is locked is the open file, not its name: the operating system lets go of it when the
-/// process ends, however it ends, and a file that a killed run has left keeps nobody out. Processes
-/// are told apart as well as the file system tells them: on one without locks there is none. A file of
-/// that name with anything in it but a process number is somebody's own, and stays.
+/// What is locked is an open file: the operating system lets go of it when the process ends, however it
+/// ends. The file stays, so that all runs lock the same one; it is empty, or holds the number of the
+/// process that runs or was killed. A file of that name that holds anything else was not written by a run,
+/// and a link is not followed: both are refused. On a file system without locks there is no lock.
 #[derive(Debug)]
 pub struct RunLock {
-    path: PathBuf,
     /// Open as long as the lock is held.
-    _file: File,
+    file: File,
 }
 
 impl RunLock {
     /// Locks `directory`, which exists.
     ///
     /// # Errors
-    /// If another run has locked it, if a file that no run has written stands in the place of the
+    /// If another run has locked it, if something that no run has written stands in the place of the
     /// lock, or a refusal of the file system.
     pub fn take(directory: impl AsRef<Path>) -> Result<Self, RunDirectoryError> {
-        Self::take_if(directory.as_ref(), is_at)
+        let directory = directory.as_ref();
+        let path = directory.join(LOCK);
+        let foreign = || RunDirectoryError::ForeignLock { path: path.clone() };
+        if fs::symlink_metadata(&path).is_ok_and(|data| !data.is_file()) {
+            return Err(foreign());
+        }
+        let file = File::options()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(&path)
+            .map_err(RunDirectoryError::io(&path))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(in_use(directory, &path)),
+            Err(TryLockError::Error(error)) if has_no_locks(&error) => {}
+            Err(TryLockError::Error(error)) => return Err(RunDirectoryError::io(&path)(error)),
+        }
+        if !is_of_a_run(&file).map_err(RunDirectoryError::io(&path))? {
+            return Err(foreign());
+        }
+        sign(&file);
+        Ok(Self { file })
     }
 
-    /// The same; `is_at` says whether a file still has its name.
-    fn take_if(
-        directory: &Path,
-        is_at: impl Fn(&File, &Path) -> bool,
-    ) -> Result<Self, RunDirectoryError> {
-        let path = directory.join(LOCK);
-        for _ in 0..TRIES {
-            let file = File::options()
-                .read(true)
-                .write(true)
-                .create(true)
-                .truncate(false)
-                .open(&path)
-                .map_err(RunDirectoryError::io(&path))?;
-            match file.try_lock() {
-                Ok(()) => {}
-                Err(TryLockError::WouldBlock) => return Err(in_use(directory, &path)),
-                Err(TryLockError::Error(error)) if has_no_locks(&error) => {}
-                Err(TryLockError::Error(error)) => return Err(RunDirectoryError::io(&path)(error)),
-            }
-            // Whoever held it before may have removed the name just now: then the lock is on a file
-            // that nobody else will ever find.
-            if is_at(&file, &path) {
-                if !is_of_a_run(&file).map_err(RunDirectoryError::io(&path))? {
-                    return Err(RunDirectoryError::ForeignLock { path });
-                }
-                sign(&file);
-                return Ok(Self { path, _file: file });
-            }
-        }
-        Err(in_use(directory, &path))
+    /// The same where a run has been, whose lock is there; elsewhere nothing is made.
+    ///
+    /// # Errors
+    /// As [`take`](Self::take).
+    pub fn take_if_there(directory: impl AsRef<Path>) -> Result<Option<Self>, RunDirectoryError> {
+        let directory = directory.as_ref();
+        let is_there = fs::symlink_metadata(directory.join(LOCK)).is_ok();
+        is_there.then(|| Self::take(directory)).transpose()
     }
 }
 
 impl Drop for RunLock {
     fn drop(&mut self) {
-        // While it is still locked. A file that stays keeps nobody out.
-        let _ = remove_if_there(&self.path);
+        // A number that stays does no harm: nobody holds the lock.
+        let _ = self.file.set_len(0);
     }
 }
 
 /// Refuses a directory in which a run goes on, as far as can be seen without writing.
 ///
-/// A run that takes a lock left behind by a killed one in the same instant may be refused for this look.
+/// A run that takes the lock in the same instant may be refused for this look.
 pub(super) fn refuse_in_use(directory: &Path) -> Result<(), RunDirectoryError> {
     let path = directory.join(LOCK);
     // Opening a pipe would wait for somebody to write.
-    if !fs::metadata(&path).is_ok_and(|data| data.is_file()) {
+    if !fs::symlink_metadata(&path).is_ok_and(|data| data.is_file()) {
         return Ok(());
     }
     let locked = File::open(&path).map(|file| file.try_lock_shared());
@@ -108,7 +103,7 @@ fn has_no_locks(error: &io::Error) -> bool {
         || NO_LOCKS_AVAILABLE.is_some_and(|code| error.raw_os_error() == Some(code))
 }
 
-/// Whether a file is what a run leaves: a process number, or nothing if it was killed before.
+/// Whether a file is what a run leaves: nothing, or a process number if it was killed.
 fn is_of_a_run(mut file: &File) -> io::Result<bool> {
     let mut bytes = Vec::new();
     file.take(MOST_DIGITS + 1).read_to_end(&mut bytes)?;
@@ -131,27 +126,12 @@ fn in_use(directory: &Path, lock: &Path) -> RunDirectoryError {
     }
 }
 
-/// Whether `file` is what stands at `path`.
-#[cfg(unix)]
-fn is_at(file: &File, path: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    let identity = |data: fs::Metadata| (data.dev(), data.ino());
-    let (here, there) = (file.metadata(), fs::metadata(path));
-    here.is_ok_and(|here| there.is_ok_and(|there| identity(here) == identity(there)))
-}
-
-/// Whether `file` is what stands at `path`; here an open file keeps its name.
-#[cfg(not(unix))]
-fn is_at(_: &File, path: &Path) -> bool {
-    path.exists()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// The second is refused, whoever asks, with the process that holds it; afterwards nothing is
-    /// left.
+    /// The second is refused, whoever asks, with the process that holds it; afterwards an empty file is
+    /// left, which keeps nobody out.
     #[test]
     fn a_directory_has_one_run_at_a_time() {
         let folder = tempfile::tempdir().unwrap();
@@ -165,7 +145,7 @@ mod tests {
             "{message}"
         );
         drop(lock);
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+        assert_eq!(fs::read(folder.path().join(LOCK)).unwrap(), b"");
         assert!(RunLock::take(folder.path()).is_ok());
     }
 
@@ -196,6 +176,25 @@ mod tests {
         assert!(RunLock::take(folder.path()).is_ok());
     }
 
+    /// A link to an empty file, or to a number, would pass for the lock: neither is written to, nor is a
+    /// file made where a link points to nothing.
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_not_followed() {
+        let folder = tempfile::tempdir().unwrap();
+        let elsewhere = tempfile::tempdir().unwrap();
+        let target = elsewhere.path().join("count");
+        std::os::unix::fs::symlink(&target, folder.path().join(LOCK)).unwrap();
+        for text in [None, Some(""), Some("12")] {
+            if let Some(text) = text {
+                fs::write(&target, text).unwrap();
+            }
+            let error = RunLock::take(folder.path()).unwrap_err();
+            assert!(matches!(error, RunDirectoryError::ForeignLock { .. }));
+            assert_eq!(fs::read_to_string(&target).ok().as_deref(), text);
+        }
+    }
+
     /// A look refuses while a run goes on, sees through what a killed one has left, and leaves all as
     /// it is.
     #[test]
@@ -218,14 +217,6 @@ mod tests {
         ));
     }
 
-    /// Where a file never seems to keep its name the answer comes all the same.
-    #[test]
-    fn tries_have_an_end() {
-        let folder = tempfile::tempdir().unwrap();
-        let error = RunLock::take_if(folder.path(), |_, _| false).unwrap_err();
-        assert!(matches!(error, RunDirectoryError::InUse { .. }), "{error}");
-    }
-
     #[test]
     fn a_file_system_without_locks_is_told_from_a_refusal() {
         assert!(has_no_locks(&io::ErrorKind::Unsupported.into()));
@@ -234,10 +225,10 @@ mod tests {
         assert!(has_no_locks(&io::Error::from_raw_os_error(37)));
     }
 
-    /// Many at once, for as long as it takes: never two inside, and all get in. Without the look at
-    /// the name one locks a file that another has just removed, and a third a new one.
+    /// Many at once, for as long as it takes: never two inside, and all get in. A lock whose file were
+    /// removed would let a second one in: it locks the removed file, a third makes a new one.
     #[test]
-    fn removal_lets_no_second_one_in() {
+    fn never_are_two_inside() {
         use std::sync::atomic::{AtomicUsize, Ordering};
         let folder = tempfile::tempdir().unwrap();
         let (inside, together) = (AtomicUsize::new(0), AtomicUsize::new(0));

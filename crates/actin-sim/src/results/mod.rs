@@ -9,12 +9,14 @@
 //! | `vtk/NNNN.vtp`, `run.pvd` | every record as a picture | `ParaView`, pyvista |
 //! | `summary.json` | the last record in numbers | anything |
 //! | `checkpoint.bin`, `records.bin` | a run that has not ended | `actin run --resume` |
-//! | `.actin-run.lock` | while a run goes on: the number of its process | anything |
+//! | `actin-run.json` | the names of all these files: only what it lists is ever replaced or removed | anything |
+//! | `.actin-run.lock` | nothing; while a run goes on, the number of its process | anything |
 //!
 //! Only this module knows file formats; nothing here computes physics beyond sums: shapes come from
 //! [`crate::shape`]. Nothing that
 //! is not finite is ever written.
 
+mod atomic;
 mod checkpoint;
 mod directory;
 mod energies;
@@ -23,6 +25,7 @@ mod finite;
 #[cfg(test)]
 mod fixture;
 mod lock;
+mod manifest;
 mod profile;
 mod states;
 mod summary;

@@ -1,16 +1,21 @@
 //! Writing the results of a run into its directory: what is checked, and in which order.
 
+use super::atomic::{self, sync, sync_all};
 use super::directory::{
-    COLLECTION, ENERGIES, PICTURES, PROFILE, RunDirectory, SCENE, STATES, SUMMARY, remove_if_there,
+    COLLECTION, ENERGIES, PICTURES, PROFILE, RunDirectory, SCENE, STATES, SUMMARY, picture_name,
+    remove_if_there,
 };
 use super::energies::EnergyTable;
+use super::manifest::Manifest;
 use super::states::States;
 use super::vtk::{Drawing, collection};
 use super::{RunDirectoryError, Summary, ThermalSummary, profile};
-use crate::shape;
+use crate::shape::{self, ProfilePoint};
 use crate::{Assembly, Record, RunReport, Scene, Trajectory};
-use std::fs;
-use std::io::Write;
+use std::collections::HashSet;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
 
 impl RunDirectory {
     /// Writes the scene as resolved, which a run does before it starts.
@@ -18,23 +23,62 @@ impl RunDirectory {
     /// # Errors
     /// A refusal of the file system.
     pub fn write_scene(&self, scene: &Scene) -> Result<(), RunDirectoryError> {
-        self.write_file(SCENE, |out| out.write_all(scene.to_ron().as_bytes()))
+        let path = self.path.join(SCENE);
+        let written = atomic::replace(&path, |out| out.write_all(scene.to_ron().as_bytes()));
+        written.map_err(RunDirectoryError::io(&path))
     }
 
     /// Writes every file of a run and returns what its summary says.
     ///
-    /// Everything but the pictures is checked before the first file is written.
+    /// Everything but the pictures is checked before the first file is written. The files of an earlier
+    /// part of the run are replaced when all new ones are complete and on the disk, and not before.
     ///
     /// # Errors
-    /// No record, records of another assembly, numbers that are not finite, or a refusal of the
-    /// file system.
+    /// No record, records of another assembly, numbers that are not finite, something in the place of
+    /// a file that the run has not written, or a refusal of the file system. The directory is then as
+    /// it was, unless the file system refuses to give complete files their names.
     pub fn write(
         &self,
         assembly: &Assembly,
         trajectory: &Trajectory,
         report: &RunReport,
     ) -> Result<Summary, RunDirectoryError> {
-        let records = &trajectory.records;
+        let results = Results::new(assembly, &trajectory.records, report)?;
+        self.announce(&results)?;
+        let mut staged = Staged::new(&self.path);
+        results.stage(&mut staged)?;
+        staged.publish()?;
+        Ok(results.summary)
+    }
+
+    /// Lists what is about to be written, where nothing that the run has not written is in the way.
+    fn announce(&self, results: &Results<'_>) -> Result<(), RunDirectoryError> {
+        let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
+        manifest.ensure_own(&self.path)?;
+        manifest.note_scene(&results.scene);
+        manifest.add([SCENE, ENERGIES, STATES, PROFILE, COLLECTION, SUMMARY]);
+        manifest.add((0..results.records.len()).map(picture_name));
+        manifest.write(&self.path)
+    }
+}
+
+/// Everything that is written of a run, checked.
+struct Results<'a> {
+    assembly: &'a Assembly,
+    records: &'a [Record],
+    scene: String,
+    table: EnergyTable,
+    states: States<'a>,
+    along: Vec<Vec<ProfilePoint>>,
+    summary: Summary,
+}
+
+impl<'a> Results<'a> {
+    fn new(
+        assembly: &'a Assembly,
+        records: &'a [Record],
+        report: &RunReport,
+    ) -> Result<Self, RunDirectoryError> {
         let last = records.last().ok_or(RunDirectoryError::NoRecord)?;
         ensure_same_bodies(assembly, records)?;
         let states = records.iter().map(|record| &record.state);
@@ -43,51 +87,118 @@ impl RunDirectory {
             thermal: ThermalSummary::new(assembly, records),
             ..Summary::new(assembly, last, report)
         };
-        let table = EnergyTable::new(assembly, records);
-        let states = States::new(assembly, records);
         let filaments = 0..assembly.filaments.len();
-        let along: Vec<_> = filaments
-            .map(|filament| shape::profile_of(assembly, filament, &last.state))
-            .collect();
-        summary.ensure_finite(SUMMARY)?;
-        table.ensure_finite(ENERGIES)?;
-        states.ensure_finite(STATES)?;
-        profile::ensure_all_finite(&along, PROFILE)?;
-
-        remove_if_there(&self.path.join(SUMMARY))?;
-        self.write_scene(&assembly.scene)?;
-        self.write_file(ENERGIES, |out| table.write(out))?;
-        self.write_file(STATES, |out| states.write(out))?;
-        self.write_file(PROFILE, |out| profile::write(&along, out))?;
-        self.write_pictures(assembly, records)?;
-        self.write_file(SUMMARY, |out| {
-            serde_json::to_writer_pretty(&mut *out, &summary)?;
-            writeln!(out)
-        })?;
-        Ok(summary)
+        let results = Self {
+            assembly,
+            records,
+            scene: assembly.scene.to_ron(),
+            table: EnergyTable::new(assembly, records),
+            states: States::new(assembly, records),
+            along: filaments
+                .map(|filament| shape::profile_of(assembly, filament, &last.state))
+                .collect(),
+            summary,
+        };
+        results.summary.ensure_finite(SUMMARY)?;
+        results.table.ensure_finite(ENERGIES)?;
+        results.states.ensure_finite(STATES)?;
+        profile::ensure_all_finite(&results.along, PROFILE)?;
+        Ok(results)
     }
 
-    fn write_pictures(
-        &self,
-        assembly: &Assembly,
-        records: &[Record],
-    ) -> Result<(), RunDirectoryError> {
-        self.remove_pictures()?;
-        let folder = self.path.join(PICTURES);
+    fn stage(&self, staged: &mut Staged<'_>) -> Result<(), RunDirectoryError> {
+        staged.file(SCENE, |out| out.write_all(self.scene.as_bytes()))?;
+        staged.file(ENERGIES, |out| self.table.write(out))?;
+        staged.file(STATES, |out| self.states.write(out))?;
+        staged.file(PROFILE, |out| profile::write(&self.along, out))?;
+        self.stage_pictures(staged)?;
+        staged.file(SUMMARY, |out| {
+            serde_json::to_writer_pretty(&mut *out, &self.summary)?;
+            writeln!(out)
+        })
+    }
+
+    fn stage_pictures(&self, staged: &mut Staged<'_>) -> Result<(), RunDirectoryError> {
+        let folder = staged.folder.join(PICTURES);
         fs::create_dir_all(&folder).map_err(RunDirectoryError::io(&folder))?;
-        let names: Vec<String> = (0..records.len())
-            .map(|i| format!("{PICTURES}/{i:04}.vtp"))
-            .collect();
-        let drawing = Drawing::new(assembly);
-        for (record, name) in records.iter().zip(&names) {
+        let names: Vec<String> = (0..self.records.len()).map(picture_name).collect();
+        let drawing = Drawing::new(self.assembly);
+        for (record, name) in self.records.iter().zip(&names) {
             let picture = drawing.picture(record.time_ns, &record.state);
             picture.ensure_finite(name)?;
-            self.write_file(name, |out| picture.write(out))?;
+            staged.file(name, |out| picture.write(out))?;
         }
-        let times = records.iter().map(|record| record.time_ns);
+        let times = self.records.iter().map(|record| record.time_ns);
         let pictures = times.zip(names.iter().map(String::as_str));
-        let text = collection(&assembly.scene.title, pictures);
-        self.write_file(COLLECTION, |out| out.write_all(text.as_bytes()))
+        let text = collection(&self.assembly.scene.title, pictures);
+        staged.file(COLLECTION, |out| out.write_all(text.as_bytes()))
+    }
+}
+
+/// Files that are written and have not got their names yet; those that never get them are removed.
+struct Staged<'a> {
+    folder: &'a Path,
+    /// In the order in which they get their names.
+    paths: Vec<PathBuf>,
+    /// How many have them.
+    published: usize,
+}
+
+impl<'a> Staged<'a> {
+    fn new(folder: &'a Path) -> Self {
+        Self {
+            folder,
+            paths: Vec::new(),
+            published: 0,
+        }
+    }
+
+    fn file(
+        &mut self,
+        name: &str,
+        fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    ) -> Result<(), RunDirectoryError> {
+        let path = self.folder.join(name);
+        atomic::stage(&path, fill).map_err(RunDirectoryError::io(&path))?;
+        self.paths.push(path);
+        Ok(())
+    }
+
+    /// Waits until all files are on the disk, and gives them their names; pictures of a longer run
+    /// before go, or a shorter one would seem to go on.
+    fn publish(mut self) -> Result<(), RunDirectoryError> {
+        let unfinished: Vec<_> = self.paths.iter().map(|p| atomic::unfinished(p)).collect();
+        sync_all(&unfinished).map_err(|(path, error)| RunDirectoryError::io(path)(error))?;
+        remove_if_there(&self.folder.join(SUMMARY))?;
+        self.remove_old_pictures()?;
+        for path in &self.paths {
+            atomic::publish(path).map_err(RunDirectoryError::io(path))?;
+            self.published += 1;
+        }
+        for folder in [self.folder.join(PICTURES), self.folder.to_owned()] {
+            sync(&folder).map_err(RunDirectoryError::io(&folder))?;
+        }
+        Ok(())
+    }
+
+    fn remove_old_pictures(&self) -> Result<(), RunDirectoryError> {
+        let manifest = Manifest::read(self.folder)?;
+        let listed = manifest.iter().flat_map(Manifest::names);
+        let pictures = listed.filter(|name| name.starts_with(PICTURES));
+        let new: HashSet<&PathBuf> = self.paths.iter().collect();
+        pictures
+            .map(|name| self.folder.join(name))
+            .filter(|path| !new.contains(path))
+            .try_for_each(|path| remove_if_there(&path))
+    }
+}
+
+impl Drop for Staged<'_> {
+    fn drop(&mut self) {
+        for path in &self.paths[self.published..] {
+            // What has led here is told by an error.
+            let _ = fs::remove_file(atomic::unfinished(path));
+        }
     }
 }
 
@@ -121,6 +232,8 @@ fn ensure_same_bodies(assembly: &Assembly, records: &[Record]) -> Result<(), Run
 mod tests {
     use super::*;
     use crate::results::fixture;
+    use crate::results::lock::LOCK;
+    use crate::results::manifest::MANIFEST;
     use actin_mechanics::State;
     use tempfile::TempDir;
 
@@ -165,7 +278,7 @@ mod tests {
         assert_eq!(
             all_names(folder.path()),
             [
-                ENERGIES, PROFILE, COLLECTION, SCENE, STATES, SUMMARY, PICTURES
+                LOCK, MANIFEST, ENERGIES, PROFILE, COLLECTION, SCENE, STATES, SUMMARY, PICTURES
             ]
         );
         assert_eq!(all_names(&folder.path().join(PICTURES)).len(), 3);
@@ -182,6 +295,51 @@ mod tests {
         trajectory.records.truncate(1);
         directory.write(&assembly, &trajectory, &report).unwrap();
         assert_eq!(all_names(&folder.path().join(PICTURES)), ["0000.vtp"]);
+    }
+
+    /// All files or none: what cannot be written, here because something stands in the place of its
+    /// unfinished name, leaves the results of before, every byte, and nothing unfinished.
+    #[test]
+    fn results_are_replaced_together_or_not_at_all() {
+        let (folder, directory) = empty();
+        let assembly = fixture::clamped_start();
+        let mut trajectory = fixture::trajectory(&assembly);
+        let report = fixture::report();
+        let longer = trajectory.clone();
+        trajectory.records.truncate(2);
+        directory.write(&assembly, &trajectory, &report).unwrap();
+        let before = contents(folder.path());
+        for name in [STATES, "vtk/0002.vtp", SUMMARY] {
+            let obstacle = folder.path().join(format!("{name}.part"));
+            fs::create_dir(&obstacle).unwrap();
+            let error = directory.write(&assembly, &longer, &report).unwrap_err();
+            assert!(error.to_string().contains(name), "{error}");
+            fs::remove_dir(&obstacle).unwrap();
+            let mut after = contents(folder.path());
+            // What the run may write is listed before it is written.
+            after.retain(|(path, _)| !path.ends_with(MANIFEST));
+            let same = before.iter().filter(|(path, _)| !path.ends_with(MANIFEST));
+            assert!(after.iter().eq(same), "{name}");
+        }
+        directory.write(&assembly, &longer, &report).unwrap();
+        assert_eq!(all_names(&folder.path().join(PICTURES)).len(), 3);
+    }
+
+    /// A file that no run has written, or a link, in the place of a result: refused by name, and stays.
+    #[test]
+    fn results_do_not_replace_the_files_of_others() {
+        for name in [ENERGIES, "vtk/0001.vtp", "vtk/0007.vtp"] {
+            let (folder, directory) = empty();
+            fs::create_dir(folder.path().join(PICTURES)).unwrap();
+            let path = folder.path().join(name);
+            fs::write(&path, "mine").unwrap();
+            let assembly = fixture::clamped_start();
+            let trajectory = fixture::trajectory(&assembly);
+            let written = directory.write(&assembly, &trajectory, &fixture::report());
+            let message = written.unwrap_err().to_string();
+            assert!(message.contains(name), "{message}");
+            assert_eq!(fs::read(&path).unwrap(), b"mine");
+        }
     }
 
     /// Each kind of number is caught before any file is written, and named where it stands.
@@ -242,7 +400,20 @@ mod tests {
             .write(assembly, trajectory, &fixture::report())
             .unwrap_err();
         assert!(error.to_string().starts_with(message), "{error}");
-        assert!(all_names(folder.path()).is_empty());
+        assert_eq!(all_names(folder.path()), [LOCK, MANIFEST]);
+    }
+
+    /// The files of a run directory with their bytes.
+    fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+        let folders = [folder.to_owned(), folder.join(PICTURES)];
+        let entries = folders.iter().flat_map(|f| fs::read_dir(f).unwrap());
+        let paths = entries.map(|entry| entry.unwrap().path());
+        let mut all: Vec<_> = paths
+            .filter(|path| path.is_file())
+            .map(|path| (path.clone(), fs::read(path).unwrap()))
+            .collect();
+        all.sort();
+        all
     }
 
     fn all_names(path: &std::path::Path) -> Vec<String> {

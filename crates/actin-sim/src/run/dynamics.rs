@@ -269,6 +269,10 @@ impl Observer for Recorder<'_> {
         ControlFlow::Continue(())
     }
 
+    fn finish(&mut self, end: &Pause<'_>) {
+        self.keep(end.checkpoint());
+    }
+
     fn fail(&mut self, last_good: &Checkpoint) {
         self.keep(last_good.clone());
     }

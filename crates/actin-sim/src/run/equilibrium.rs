@@ -200,8 +200,8 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// Follows all that is left, and says what is wrong with where it ended. Unless that is nothing,
-    /// the run is kept as it is.
+    /// Follows all that is left, and says what is wrong with where it ended. However it did, the run is
+    /// kept as it is.
     fn trouble(
         &mut self,
         newton: &mut Newton,
@@ -219,9 +219,7 @@ impl<'a> Follower<'a> {
                 lost.map(|problem| Trouble::Lost(Box::new(problem)))
             }
         };
-        if trouble.is_some() {
-            self.keep();
-        }
+        self.keep();
         Ok(trouble)
     }
 

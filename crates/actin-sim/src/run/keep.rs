@@ -69,7 +69,8 @@ pub trait Keeper {
     /// Whether the run is to be kept now, while it goes on.
     fn is_due(&mut self) -> bool;
 
-    /// Keeps the run as it stands, with all records made so far and the time it has taken (s).
+    /// Keeps the run as it stands, with all records made so far and the time it has taken (s): when it
+    /// is due, when the run is left, when it fails and when it has ended, before anybody writes results.
     ///
     /// Whoever cannot says so elsewhere: a run goes on all the same.
     fn keep(&mut self, standing: &Standing, records: &[Record], wall_s: f64);

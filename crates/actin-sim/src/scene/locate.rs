@@ -33,6 +33,11 @@ pub(super) fn path_at(text: &str, place: (usize, usize)) -> String {
     written(&search.here())
 }
 
+/// The text behind a byte-order mark, which takes no column.
+pub(super) fn without_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
+}
+
 fn written(path: &[Step]) -> String {
     let steps = path.iter().enumerate().map(|(i, step)| match step {
         Step::Key(key) if i == 0 => key.clone(),
@@ -73,7 +78,7 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(text: &'a str, target: Vec<Step>) -> Self {
         Self {
-            rest: text.chars().peekable(),
+            rest: without_mark(text).chars().peekable(),
             place: (1, 1),
             levels: Vec::new(),
             target,

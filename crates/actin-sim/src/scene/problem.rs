@@ -1,6 +1,7 @@
 //! What is wrong with a scene, and where.
 
 use super::locate;
+use std::borrow::Cow;
 use std::fmt;
 
 /// A value that a scene may not have: the key, the value and the rule it breaks.
@@ -59,7 +60,24 @@ pub struct SceneError {
     pub message: String,
 }
 
+/// Most characters of a word in a message, more than any key of a scene has with its path.
+const LONGEST_WORD: usize = 100;
+
+/// Most characters of a message, more than any list of known keys has.
+const LONGEST_MESSAGE: usize = 2000;
+
 impl SceneError {
+    /// An error at a place. What the text has made longer than anybody reads is cut.
+    pub(super) fn new((line, column): (usize, usize), message: &str) -> Self {
+        let words = message.split_inclusive(char::is_whitespace);
+        let message: String = words.map(|word| cut(word, LONGEST_WORD)).collect();
+        Self {
+            line,
+            column,
+            message: cut(&message, LONGEST_MESSAGE).into_owned(),
+        }
+    }
+
     /// Places a problem in the text of its scene: at its key, or at the innermost key above it
     /// that is written there.
     pub fn locate(problem: &Problem, text: &str) -> Self {
@@ -71,11 +89,18 @@ impl SceneError {
         } else {
             problem.clone()
         };
-        let (line, column) = locate::position(text, &problem.key);
-        Self {
-            line,
-            column,
-            message: problem.to_string(),
+        let place = locate::position(text, &problem.key);
+        Self::new(place, &problem.to_string())
+    }
+}
+
+/// The beginning of a text that is longer than `most` characters, with the number of all.
+fn cut(text: &str, most: usize) -> Cow<'_, str> {
+    match text.char_indices().nth(most) {
+        None => text.into(),
+        Some((end, _)) => {
+            let (start, all) = (&text[..end], text.chars().count());
+            format!("{start}... ({all} characters) ").into()
         }
     }
 }
@@ -87,3 +112,24 @@ impl fmt::Display for SceneError {
 }
 
 impl std::error::Error for SceneError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A key of a megabyte, and a megabyte of short words: the message says how long they were, and
+    /// keeps what stands behind a key. Characters are counted, not bytes.
+    #[test]
+    fn what_nobody_reads_is_cut() {
+        let message = |text: &str| SceneError::new((1, 1), text).message;
+        assert_eq!(message("unknown key a: write b"), "unknown key a: write b");
+        let key = "\u{e9}".repeat(1 << 20);
+        let long = message(&format!("unknown key {key}: write b"));
+        assert!(long.starts_with("unknown key \u{e9}\u{e9}"), "{long}");
+        assert!(long.ends_with("... (1048578 characters) write b"), "{long}");
+        assert!(long.chars().count() < 200);
+        let words = message(&"a b ".repeat(1 << 18));
+        assert!(words.ends_with("... (1048576 characters) "), "{words}");
+        assert!(words.len() < 2100);
+    }
+}

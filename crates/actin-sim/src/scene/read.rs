@@ -26,19 +26,41 @@ impl RodLaws {
 }
 
 impl Scene {
-    /// Reads and validates a scene.
+    /// The text of a scene from the bytes of its file, which are UTF-8.
+    ///
+    /// # Errors
+    /// The first byte that is not, with its line and column.
+    pub fn text(bytes: Vec<u8>) -> Result<String, SceneError> {
+        String::from_utf8(bytes).map_err(|error| {
+            let good = error.utf8_error().valid_up_to();
+            let bytes = error.as_bytes();
+            let before = String::from_utf8_lossy(&bytes[..good]);
+            let before = locate::without_mark(&before);
+            let line = before.matches('\n').count() + 1;
+            let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
+            let hint = match bytes {
+                [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "; the file begins as UTF-16 does",
+                _ => "",
+            };
+            let byte = bytes[good];
+            let message = format!(
+                "byte {byte:#04x} is not UTF-8, in which scenes are written{hint}: save the file as UTF-8"
+            );
+            SceneError::new((line, column), &message)
+        })
+    }
+
+    /// Reads and validates a scene; a byte-order mark before it is skipped.
     ///
     /// # Errors
     /// Text that is no RON, an unknown or missing key, or a value against the rules, each with
     /// line and column.
     pub fn from_ron(text: &str) -> Result<Self, SceneError> {
+        let text = locate::without_mark(text);
         let is_nothing = |line: &str| line.trim().is_empty() || line.trim().starts_with("//");
         if text.lines().all(is_nothing) {
-            return Err(SceneError {
-                line: 1,
-                column: 1,
-                message: "the scene is empty: it must begin with Scene(".into(),
-            });
+            let message = "the scene is empty: it must begin with Scene(";
+            return Err(SceneError::new((1, 1), message));
         }
         let written: Written = options()
             .from_str(text)
@@ -83,11 +105,7 @@ fn explain(error: &SpannedError, text: &str) -> SceneError {
         let colon = if path.is_empty() { "" } else { ": " };
         format!("{path}{colon}{}", error.code)
     });
-    SceneError {
-        line,
-        column,
-        message,
-    }
+    SceneError::new((line, column), &message)
 }
 
 /// The first place from here on that is not white.
@@ -160,6 +178,74 @@ fn stem(key: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const SCENE: &str = "Scene(
+    title: \"\u{3c6}\",
+    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)]),
+    clamps: [Clamp(end: Start)],
+    task: Equilibrium(),
+)";
+
+    /// Editors write a mark that they do not show: it is skipped, and columns are those they show.
+    #[test]
+    fn a_byte_order_mark_is_skipped() {
+        let marked = format!("\u{feff}{SCENE}");
+        assert_eq!(Scene::from_ron(&marked), Scene::from_ron(SCENE));
+        assert!(Scene::from_ron(SCENE).is_ok());
+        for spoilt in [
+            SCENE.replacen("Scene(", "Scene(path: 1,", 1),
+            SCENE.replacen("Scene(", "Scene(filament: Filament(sections: []),", 1),
+            SCENE.replacen("title", "name", 1),
+            "// nothing".into(),
+        ] {
+            let error = Scene::from_ron(&spoilt).unwrap_err();
+            let marked = Scene::from_ron(&format!("\u{feff}{spoilt}"));
+            assert_eq!(marked.unwrap_err(), error);
+        }
+        let problem = Problem::new("task", "", "is placed");
+        let of = |text: &str| SceneError::locate(&problem, text);
+        let one_line = SCENE.replace('\n', " ");
+        assert_eq!(of(&format!("\u{feff}{one_line}")), of(&one_line));
+    }
+
+    /// Line and column of the first byte that is no UTF-8, in characters; the mark takes none.
+    #[test]
+    fn text_that_is_not_utf8_has_a_place() {
+        let place = |bytes: &[u8]| {
+            let error = Scene::text(bytes.to_vec()).unwrap_err();
+            (error.line, error.column)
+        };
+        assert_eq!(Scene::text(SCENE.into()).unwrap(), SCENE);
+        assert_eq!(place(b"\xff"), (1, 1));
+        assert_eq!(place(b"\xef\xbb\xbfab\xe9"), (1, 3));
+        assert_eq!(place(b"Scene(\n  // \xc3\xa9t\xe9\n"), (2, 8));
+        // Cut off within a character.
+        assert_eq!(place(b"a\n\xc3"), (2, 1));
+        let latin = Scene::text(b"// \xe9t".to_vec()).unwrap_err().to_string();
+        assert!(latin.starts_with("1:4: byte 0xe9 is not UTF-8"), "{latin}");
+        let wide = Scene::text(vec![0xff, 0xfe, b'S', 0]).unwrap_err();
+        assert!(wide.message.contains("UTF-16"), "{wide}");
+    }
+
+    /// A key of a megabyte is cut wherever it stands in the message; the known keys are still told.
+    #[test]
+    fn a_key_of_a_megabyte_is_cut() {
+        let key = "k".repeat(1 << 20);
+        for (from, to) in [
+            ("title", key.clone()),
+            ("Equilibrium", key.clone()),
+            ("to_nm: 30.0", format!("to_nm: {key}")),
+            ("to_nm: 30.0", format!("{key}: (a: 1.0)")),
+            ("\"\u{3c6}\"", format!("({key}: \"{key}\")")),
+            ("Equilibrium()", format!("\"{}\"", "a b ".repeat(1 << 18))),
+        ] {
+            let text = SCENE.replacen(from, &to, 1);
+            let error = Scene::from_ron(&text).unwrap_err();
+            assert!(error.message.len() < 3000, "{} bytes", error.message.len());
+        }
+        let error = Scene::from_ron(&SCENE.replacen("title", &key, 1)).unwrap_err();
+        assert!(error.message.contains("known are title, "), "{error}");
+    }
 
     /// The unit may be several suffixes long; a key without a unit is never suggested.
     #[test]

@@ -5,10 +5,9 @@ use super::bytes::{Reader, Writer};
 use super::log::{Tally, compare, open};
 use super::standing::{read_standing, write_standing};
 use crate::run::Standing;
-use crate::{Assembly, Task, results::directory};
+use crate::{Assembly, Task};
 use actin_mechanics::State;
-use std::fs::{self, File};
-use std::io::{self, Read, Write};
+use std::io::Read;
 use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"ACTINCKP";
@@ -177,33 +176,4 @@ fn read_body(path: &Path) -> Result<Vec<u8>, Damage> {
     file.read_to_end(&mut body)?;
     compare("its contents".into(), crc32fast::hash(&body), checksum)?;
     Ok(body)
-}
-
-/// Writes `bytes` to `path` so that, whatever happens and even if power is lost, either they or
-/// what was there before is there: beside it, to the disk, then renamed, and the directory to the
-/// disk.
-pub(super) fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let unfinished = directory::unfinished(path);
-    let written = File::create(&unfinished)
-        .and_then(|mut file| {
-            file.write_all(bytes)?;
-            file.sync_all()
-        })
-        .and_then(|()| fs::rename(&unfinished, path));
-    if written.is_err() {
-        // The error that led here says more than one about the removal could.
-        let _ = fs::remove_file(&unfinished);
-    }
-    written?;
-    path.parent().map_or(Ok(()), sync)
-}
-
-/// Waits until a file or directory is on the disk.
-pub(super) fn sync(path: &Path) -> io::Result<()> {
-    // Some systems cannot open a directory; there a rename is as durable as it gets.
-    match File::open(path) {
-        Ok(file) => file.sync_all(),
-        Err(error) if error.kind() == io::ErrorKind::PermissionDenied => Ok(()),
-        Err(error) => Err(error),
-    }
 }

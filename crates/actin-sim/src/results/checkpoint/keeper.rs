@@ -1,15 +1,17 @@
 //! Checkpoints of a run in its directory: when they are written, and what is left at the end.
 
-use super::file::{Identity, replace, same_scene, sync};
+use super::file::{Identity, same_scene};
 use super::log::{RecordLog, Tally};
 use super::{CheckpointError, Damage};
+use crate::results::atomic::replace_durably;
 use crate::results::directory::{
-    CHECKPOINT, PICTURES, RECORDS, RunDirectory, SCENE, SUMMARY, remove_if_there,
+    CHECKPOINT, RECORDS, RunDirectory, SCENE, SUMMARY, remove_if_there,
 };
 use crate::results::{RunDirectoryError, RunStatus, Summary};
 use crate::run::{Keeper, Kept, Record, Standing, Trajectory};
 use crate::{Assembly, Estimate};
 use std::fs;
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -107,7 +109,8 @@ impl Checkpoints {
         let appended = self.log.append(records);
         appended.map_err(|error| Damage::from(error).of(&log))?;
         let bytes = self.identity.encode(standing, self.log.tally, wall_s);
-        replace(&self.path, &bytes).map_err(|error| Damage::from(error).of(&self.path))
+        let replaced = replace_durably(&self.path, |out| out.write_all(&bytes));
+        replaced.map_err(|error| Damage::from(error).of(&self.path))
     }
 }
 
@@ -162,28 +165,14 @@ impl RunDirectory {
         Ok(Some(summary.status))
     }
 
-    /// Removes the checkpoint of a run that has ended, once its results are on the disk.
+    /// Removes the checkpoint of a run whose results have been [written](RunDirectory::write), and so
+    /// are on the disk.
     ///
     /// # Errors
     /// A refusal of the file system.
     pub fn remove_checkpoint(&self) -> Result<(), RunDirectoryError> {
-        if self.has_checkpoint() {
-            self.sync_results()?;
-        }
         for name in [CHECKPOINT, RECORDS] {
             remove_if_there(&self.path.join(name))?;
-        }
-        Ok(())
-    }
-
-    fn sync_results(&self) -> Result<(), RunDirectoryError> {
-        for folder in [self.path.clone(), self.path.join(PICTURES)] {
-            let io = || RunDirectoryError::io(&folder);
-            for entry in fs::read_dir(&folder).map_err(io())? {
-                let path = entry.map_err(io())?.path();
-                sync(&path).map_err(RunDirectoryError::io(&path))?;
-            }
-            sync(&folder).map_err(io())?;
         }
         Ok(())
     }

@@ -44,7 +44,7 @@ impl RecordLog {
     }
 
     /// Appends what is missing of `records`, of which the first are on the disk already, and waits
-    /// until it is there. What a failure leaves behind the known records is overwritten next time.
+    /// until it is there. What a failure leaves behind the known records is cut off again.
     pub(super) fn append(&mut self, records: &[Record]) -> io::Result<()> {
         let Tally { count, checksum } = self.tally;
         let new = records.get(count..).unwrap_or_default();
@@ -52,19 +52,16 @@ impl RecordLog {
             return Ok(());
         }
         let mut options = OpenOptions::new();
-        let mut file = options
+        let file = options
             .write(true)
             .create(true)
             .truncate(false)
             .open(&self.path)?;
         let offset = if count == 0 { 0 } else { self.end() };
-        file.seek(SeekFrom::Start(offset))?;
-        let mut out = BufWriter::new(file);
-        if count == 0 {
-            out.write_all(MAGIC)?;
-        }
-        let checksum = append_all(&mut out, new, checksum)?;
-        out.into_inner()?.sync_data()?;
+        let checksum = write_from(&file, offset, new, checksum).inspect_err(|_| {
+            // Room for other files on a disk that is full; without it the rest is overwritten next time.
+            let _ = file.set_len(offset);
+        })?;
         self.tally = Tally {
             count: records.len(),
             checksum,
@@ -116,6 +113,19 @@ impl RecordLog {
         let records = (self.tally.count as u64).checked_mul(self.length as u64)?;
         records.checked_add(HEADER)
     }
+}
+
+/// Writes records at `offset` and waits until they are on the disk; returns the checksum of all.
+fn write_from(file: &File, offset: u64, records: &[Record], chain: u32) -> io::Result<u32> {
+    let mut out = BufWriter::new(file);
+    out.seek(SeekFrom::Start(offset))?;
+    if offset == 0 {
+        out.write_all(MAGIC)?;
+    }
+    let chain = append_all(&mut out, records, chain)?;
+    out.flush()?;
+    file.sync_data()?;
+    Ok(chain)
 }
 
 /// Writes records behind others of checksum `chain`; returns the checksum of all.

@@ -1,0 +1,57 @@
+//! Lines for the standard streams: `println!` and `eprintln!` as this program means them.
+//!
+//! Those of the standard library panic where a line cannot be written, and a run would be lost with
+//! its reader. Those of this module stand in their place. A reader that has gone away (`| head`) wants no
+//! more lines: they are dropped, the program goes on, and its exit code says what it has done. If standard
+//! output fails for another reason (a full disk), [`ending`] tells.
+
+use std::fmt;
+use std::io::{self, Write};
+use std::sync::{Mutex, PoisonError};
+
+/// Why standard output is not written to any more.
+static FAILURE: Mutex<Option<io::Error>> = Mutex::new(None);
+
+macro_rules! println {
+    ($($line:tt)*) => {
+        $crate::streams::print_line(format_args!($($line)*))
+    };
+}
+
+macro_rules! eprintln {
+    ($($line:tt)*) => {
+        $crate::streams::print_error_line(format_args!($($line)*))
+    };
+}
+
+/// Writes a line to standard output, as long as that can be written to.
+pub(crate) fn print_line(line: fmt::Arguments<'_>) {
+    if cfg!(test) {
+        // Which the test harness captures.
+        return std::println!("{line}");
+    }
+    let mut failure = FAILURE.lock().unwrap_or_else(PoisonError::into_inner);
+    if failure.is_none() {
+        *failure = writeln!(io::stdout(), "{line}").err();
+    }
+}
+
+/// Writes a line to standard error. If that cannot be written to, there is nobody left to tell.
+pub(crate) fn print_error_line(line: fmt::Arguments<'_>) {
+    if cfg!(test) {
+        return std::eprintln!("{line}");
+    }
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+/// Whether all lines have been written to standard output, or to a reader that has had enough of them.
+pub(crate) fn ending() -> Result<(), String> {
+    let mut failure = FAILURE.lock().unwrap_or_else(PoisonError::into_inner);
+    let failure = failure.take().or_else(|| io::stdout().flush().err());
+    match failure {
+        Some(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(format!("standard output: {error}"))
+        }
+        _ => Ok(()),
+    }
+}

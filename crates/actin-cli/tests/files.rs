@@ -1,0 +1,356 @@
+//! Pipes that close, directories that are overwritten and disks that are full: nothing that was
+//! computed is lost, and nothing goes that a run has not written.
+#![cfg(unix)]
+
+mod common;
+
+use common::{
+    ATTEMPTS, MOTION, Workplace, assert_same_files, code, contents, files, stderr, stdout,
+};
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::Path;
+use std::process::Command;
+
+/// An equilibrium of a short filament.
+const EQUILIBRIUM: &str = "Scene(
+    filament: Filament(
+        sections: [Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0)],
+    ),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+    task: Equilibrium(lowest_eigenvalue: true),
+)";
+
+/// A few equilibria along a path.
+const SHORT_PATH: &str = "Scene(
+    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+    path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)])],
+    task: Equilibrium(largest_step: 0.5),
+)";
+
+/// The motion, shortened to a few records.
+fn short_motion() -> String {
+    let short = MOTION.replace("150.0", "1.0").replace("50.0", "0.5");
+    short.replace("1.5", "0.25")
+}
+
+/// A reader that leaves before the first line, or after it: no panic, nothing on standard error, exit code
+/// 0, and of a run every file.
+#[test]
+fn a_closed_pipe_ends_nothing() {
+    let place = Workplace::with(&short_motion());
+    assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+    // The program does not write before the reader has gone.
+    let closed = "| { exec <&-; echo gone > gone; }";
+    let after = "until test -e gone; do sleep 0.01; done;";
+    for (reader, wait) in [(closed, after), ("| head -n 1", "")] {
+        for command in [
+            "check scene.ron",
+            "run scene.ron --out a",
+            "--help",
+            "run --help",
+        ] {
+            let _ = fs::remove_dir_all(place.path("a"));
+            let _ = fs::remove_file(place.path("gone"));
+            let line = format!("{{ {wait} actin {command}; echo $? > code; }} {reader}");
+            let output = place.shell(&line);
+            assert_eq!(stderr(&output), "", "{line}");
+            let code = fs::read_to_string(place.path("code")).unwrap();
+            assert_eq!(code, "0\n", "{line}");
+            if command.starts_with("run scene.ron") {
+                assert_same_files(&place.path("whole"), &place.path("a"));
+            }
+        }
+    }
+}
+
+/// With standard error closed as well an error keeps its exit code, and a run its results.
+#[test]
+fn closed_standard_error_changes_no_exit_code() {
+    let place = Workplace::with(&short_motion());
+    assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+    let limit = "ulimit -f 8;";
+    for (limit, command, expected) in [
+        ("", "check absent.ron", "2\n"),
+        ("", "run scene.ron --out a", "0\n"),
+        ("", "run scene.ron --out a", "2\n"),
+        (limit, "run scene.ron --out b --checkpoint-every 0", "74\n"),
+    ] {
+        let line =
+            format!("{{ sleep 0.1; ({limit} actin {command}); echo $? > code; }} 2>&1 | true");
+        place.shell(&line);
+        let code = fs::read_to_string(place.path("code")).unwrap();
+        assert_eq!(code, expected, "{line}");
+    }
+    assert_same_files(&place.path("whole"), &place.path("a"));
+}
+
+/// A device that is full is no reader that has had enough: what was printed is lost, which is said.
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_is_lost_is_told() {
+    let place = Workplace::with(&short_motion());
+    for command in ["check scene.ron", "run scene.ron --out a"] {
+        let output = place.shell(&format!("actin {command} > /dev/full"));
+        assert_eq!(code(&output), 74, "{}", stderr(&output));
+        assert!(stderr(&output).starts_with("error: standard output: "));
+    }
+    assert!(place.path("a/summary.json").exists());
+}
+
+/// Refuses `actin run` with these arguments, changing nothing in `folders`; returns the message.
+fn refusal(place: &Workplace, arguments: &str, folders: &[&str]) -> String {
+    let all = || -> Vec<_> {
+        let folders = folders.iter().map(|folder| place.path(folder));
+        folders.map(|folder| contents(&folder)).collect()
+    };
+    let before = all();
+    let output = place.shell(&format!("actin run {arguments}"));
+    assert_eq!(code(&output), 2, "{}", stderr(&output));
+    assert!(all() == before, "{arguments}: {}", stderr(&output));
+    println!("{arguments}: {}", stderr(&output));
+    stderr(&output).to_owned()
+}
+
+/// A run is replaced by another as if it had been the first; notes beside it stay.
+#[test]
+fn an_earlier_run_is_replaced() {
+    let place = Workplace::with(&short_motion());
+    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
+    fs::write(place.path("a/notes.txt"), "mine").unwrap();
+    fs::write(place.path("scene.ron"), EQUILIBRIUM).unwrap();
+    let output = place.actin(&["--out", "a", "--overwrite"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_eq!(code(&place.actin(&["--out", "b"])), 0);
+    assert_eq!(fs::read(place.path("a/notes.txt")).unwrap(), b"mine");
+    fs::remove_file(place.path("a/notes.txt")).unwrap();
+    assert_same_files(&place.path("b"), &place.path("a"));
+}
+
+/// The scene that is to run lies in the directory that is to be overwritten, or a link leads to it: it
+/// would be gone. A scene in a run directory that was edited is somebody's work as well.
+#[test]
+fn a_scene_is_not_overwritten() {
+    let place = Workplace::with(EQUILIBRIUM);
+    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
+    symlink("a/scene.ron", place.path("link.ron")).unwrap();
+    for scene in ["a/scene.ron", "./a/../a/scene.ron", "link.ron"] {
+        let message = refusal(
+            &place,
+            &format!("{scene} --out a --overwrite"),
+            &["a", "a/vtk"],
+        );
+        assert!(
+            message.contains("lies in a, which is to be overwritten"),
+            "{message}"
+        );
+    }
+    fs::write(place.path("a/scene.ron"), SHORT_PATH).unwrap();
+    let message = refusal(&place, "scene.ron --out a --overwrite", &["a", "a/vtk"]);
+    assert!(
+        message.contains("a/scene.ron has been changed"),
+        "{message}"
+    );
+    // A folder that holds nothing but a scene of one's own.
+    fs::create_dir(place.path("b")).unwrap();
+    fs::write(place.path("b/scene.ron"), EQUILIBRIUM).unwrap();
+    let message = refusal(&place, "scene.ron --out b --overwrite", &["b"]);
+    assert!(
+        message.contains("b is not empty and has no actin-run.json"),
+        "{message}"
+    );
+}
+
+/// Folders that no run has made, manifests that list files of others, links: refused, all bytes stay.
+#[test]
+fn only_what_a_run_has_written_is_overwritten() {
+    let place = Workplace::with(EQUILIBRIUM);
+    fs::create_dir_all(place.path("mine/vtk")).unwrap();
+    for name in ["energies.csv", "vtk/0000.vtp", "vtk/0001.vtp"] {
+        fs::write(place.path("mine").join(name), "mine").unwrap();
+    }
+    let folders = ["mine", "mine/vtk", "a"];
+    fs::create_dir(place.path("a")).unwrap();
+    let message = refusal(&place, "scene.ron --out mine --overwrite", &folders);
+    assert!(
+        message.contains("mine is not empty and has no actin-run.json"),
+        "{message}"
+    );
+
+    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
+    symlink("a", place.path("latest")).unwrap();
+    let message = refusal(&place, "scene.ron --out latest/ --overwrite", &folders);
+    assert!(message.contains("latest is a link to a: "), "{message}");
+    let manifest = fs::read_to_string(place.path("a/actin-run.json")).unwrap();
+    let forged = manifest.replace("summary.json", "../mine/energies.csv");
+    fs::write(place.path("a/actin-run.json"), forged).unwrap();
+    let message = refusal(&place, "scene.ron --out a --overwrite", &folders);
+    assert!(
+        message.contains("lists \"../mine/energies.csv\""),
+        "{message}"
+    );
+    fs::write(place.path("a/actin-run.json"), manifest).unwrap();
+    fs::remove_dir_all(place.path("a/vtk")).unwrap();
+    symlink("../mine/vtk", place.path("a/vtk")).unwrap();
+    let message = refusal(&place, "scene.ron --out a --overwrite", &folders);
+    assert!(
+        message.contains("a/vtk was not written by the run"),
+        "{message}"
+    );
+}
+
+/// Where nothing may be written nothing is removed. (An administrator may always write.)
+#[test]
+fn a_read_only_directory_stays() {
+    let place = Workplace::with(EQUILIBRIUM);
+    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
+    let chmod = |mode: &str| place.shell(&format!("chmod {mode} a a/vtk"));
+    chmod("555");
+    if fs::write(place.path("a/probe"), "").is_ok() {
+        println!("SKIPPED: permissions do not bind this user");
+    } else {
+        let message = refusal(&place, "scene.ron --out a --overwrite", &["a", "a/vtk"]);
+        assert!(message.contains("ermission denied"), "{message}");
+    }
+    chmod("755");
+}
+
+/// What a run that met a limit has left, which `resume` then goes on with where there is more room: the
+/// same files as without a limit, if there was a checkpoint. Returns the exit code and whether there was.
+fn assert_nothing_is_lost(
+    place: &Workplace,
+    limited: &str,
+    resume: impl Fn() -> String,
+) -> (i32, bool) {
+    let output = place.shell(limited);
+    let (message, a) = (stderr(&output), place.path("out/a"));
+    let kept = a.join("checkpoint.bin").exists();
+    match code(&output) {
+        0 => assert_same_files(&place.path("whole"), &a),
+        2 => assert!(!kept, "{message}"),
+        74 => {
+            let names: Vec<_> = files_if_any(&a);
+            let unfinished = names.iter().any(|name| name.ends_with(".part"));
+            assert!(!unfinished && !a.join("summary.json").exists(), "{names:?}");
+            let says = if kept {
+                "a checkpoint is kept"
+            } else {
+                "so they are lost"
+            };
+            assert!(message.contains(says), "{message}");
+        }
+        other => panic!("exit code {other}: {message}"),
+    }
+    let go_on = resume();
+    if code(&output) != 0 {
+        let flag = if kept { "--resume" } else { "--overwrite" };
+        let again = place.shell(&format!("{go_on} actin run scene.ron --out out/a {flag}"));
+        assert_eq!(code(&again), 0, "{message}{}", stderr(&again));
+        assert_same_files(&place.path("whole"), &a);
+    }
+    (code(&output), kept)
+}
+
+/// Names of all files, where there is a directory.
+fn files_if_any(folder: &Path) -> Vec<String> {
+    if !folder.join("vtk").exists() {
+        return Vec::new();
+    }
+    files(folder).into_iter().map(|(name, _)| name).collect()
+}
+
+/// Every limit on the size of files, in steps of half a kilobyte, for an equilibrium, a path and a motion:
+/// the program is never killed by SIGXFSZ, leaves nothing half, and what it has computed is there once
+/// the limit is gone.
+#[test]
+fn a_limit_on_the_size_of_files_loses_nothing() {
+    let mut kept = [0, 0];
+    for scene in [EQUILIBRIUM, SHORT_PATH, &short_motion()] {
+        let place = Workplace::with(scene);
+        assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+        let mut codes = Vec::new();
+        for limit in (0..40).chain([60, 100, 1000, 4000]) {
+            let _ = fs::remove_dir_all(place.path("out"));
+            let limited = format!("ulimit -f {limit}; actin run scene.ron --out out/a");
+            let (code, is_kept) = assert_nothing_is_lost(&place, &limited, String::new);
+            codes.push(code);
+            kept[usize::from(is_kept)] += usize::from(code == 74);
+        }
+        println!("{codes:?}");
+        assert_eq!((codes[0], codes.last()), (2, Some(&0)));
+    }
+    println!("results that could not be written: {kept:?} without and with a checkpoint");
+    assert!(kept[1] > 0, "no checkpoint was left by a limit");
+}
+
+/// A disk of a few pages that fills up, and is made larger then. Mounting one needs rights that few have:
+/// elsewhere the limit on the size of files stands for it.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_loses_nothing() {
+    let mut codes = Vec::new();
+    for scene in [EQUILIBRIUM, &short_motion()] {
+        let place = Workplace::with(scene);
+        assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+        fs::create_dir(place.path("out")).unwrap();
+        for kilobytes in (8..96).step_by(4).chain([160, 1600]) {
+            let mount = place.shell(&format!("mount -t tmpfs -o size={kilobytes}k none out"));
+            if !mount.status.success() {
+                println!("SKIPPED: no right to mount a disk");
+                return;
+            }
+            let disk = Mounted(&place);
+            let limited = "actin run scene.ron --out out/a";
+            let grow = || "mount -o remount,size=64m out;".to_owned();
+            codes.push(assert_nothing_is_lost(&place, limited, grow));
+            drop(disk);
+        }
+    }
+    println!("{codes:?}");
+    assert!(codes.contains(&(74, true)) && codes.contains(&(0, false)));
+}
+
+/// A disk in `out` that goes at the end of the test.
+struct Mounted<'a>(&'a Workplace);
+
+impl Drop for Mounted<'_> {
+    fn drop(&mut self) {
+        let out = self.0.path("out");
+        let _ = Command::new("umount").arg(out).status();
+    }
+}
+
+/// Killed while results are being written: what is there is complete or has another name, and the run
+/// goes on to the bytes of one that was not killed.
+#[test]
+fn a_run_killed_while_it_writes_results_loses_nothing() {
+    let place = Workplace::with(&MOTION.replace("duration_ns: 150.0", "duration_ns: 60.0"));
+    assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+    for name in [
+        "a/energies.csv.part",
+        "a/vtk/0030.vtp.part",
+        "a/summary.json.part",
+    ] {
+        let killed = (0..ATTEMPTS).any(|_| {
+            let _ = fs::remove_dir_all(place.path("a"));
+            let mut child = place.start(&["--out", "a"], name);
+            child.kill().unwrap();
+            child.wait().unwrap().code().is_none()
+        });
+        assert!(
+            killed,
+            "every run was done before it could be killed at {name}"
+        );
+        let summary = place.path("a/summary.json").exists();
+        assert!(place.path("a/checkpoint.bin").exists() || summary, "{name}");
+        let output = place.actin(&["--out", "a", "--resume"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        println!("{name}: {}", stdout(&output));
+        let _ = fs::remove_file(place.path("a/records.bin"));
+        fs::write(place.path("a/.actin-run.lock"), "").unwrap();
+        assert_same_files(&place.path("whole"), &place.path("a"));
+    }
+}
