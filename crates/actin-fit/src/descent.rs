@@ -1,18 +1,24 @@
 //! The search from one start.
 
+use crate::acceleration::{Curving, acceleration};
 use crate::options::Options;
 use crate::problem::{Linearisation, Problem};
-use crate::report::{Ending, StartReport};
-use crate::step::{Room, damped_step};
+use crate::report::{Ending, Progress, StartReport};
+use crate::step::{Damped, LARGEST_DAMPING, Room, SMALLEST_DAMPING};
+use faer::Mat;
 
-/// Damping beyond which a step is too short to change a parameter.
-const LARGEST_DAMPING: f64 = 1e16;
-/// Damping below which a step is that of Gauss and Newton; keeps the damped matrix regular.
-const SMALLEST_DAMPING: f64 = 1e-14;
 /// Least part of the promised decrease that a step must bring.
 const LEAST_RATIO: f64 = 1e-4;
 /// Steps taken on trust where rounding hides whether chi squared falls.
 const TRUSTED_STEPS: usize = 20;
+/// A search may be bent where the last step kept less of its promise than this ...
+const KEPT: f64 = 0.9;
+/// ... and where damping leaves less than this of the length of the full step.
+const SHORTENED: f64 = 0.9;
+/// What is left of a step that was refused; of one that was refused often before.
+const SHORTER: [f64; 2] = [0.5, 0.1];
+/// How often is often.
+const OFTEN: usize = 8;
 
 /// A search: a point, its residuals and the state of the damping.
 struct Descent<'a> {
@@ -23,10 +29,13 @@ struct Descent<'a> {
     chi_squared: f64,
     /// Largest lengths of columns so far, by which steps are measured.
     scales: Vec<f64>,
-    damping: f64,
-    growth: f64,
+    /// None before the first step.
+    damping: Option<f64>,
+    /// Part of its promise that the last step kept.
+    kept: f64,
     trusted: usize,
     evaluations: usize,
+    last: Progress,
 }
 
 /// What came of trying steps from one linearisation.
@@ -35,11 +44,16 @@ enum Trial {
     Ended(Ending),
 }
 
-/// Levenberg and Marquardt's search from one start.
+/// Levenberg and Marquardt's search from one start, with the step lengths of a trust region.
+///
+/// The first step is at most as long as the start, in the scaled norm. A step that is refused is
+/// halved. One that kept less than half of its promise is followed by steps of the length that a
+/// parabola through both ends would have liked; a better one by less damping. Where the way bends,
+/// steps are bent with it, which takes one more evaluation.
 ///
 /// # Source
-/// More, Lecture Notes in Mathematics 630 (1978) 105, for the scaling; Nielsen, IMM-REP-1999-05, for
-/// the damping.
+/// More, Lecture Notes in Mathematics 630 (1978) 105, for scaling and lengths; Nielsen,
+/// IMM-REP-1999-05, for the falling damping; Transtrum and Sethna, arXiv 1201.5885, for the bend.
 pub(crate) fn descend(problem: &Problem<'_>, options: &Options, start: &[f64]) -> StartReport {
     let mut search = Descent::new(problem, options, start);
     let mut iterations = 0;
@@ -58,6 +72,10 @@ pub(crate) fn descend(problem: &Problem<'_>, options: &Options, start: &[f64]) -
         ending,
         iterations,
         evaluations: search.evaluations,
+        last: Progress {
+            damping: search.damping.unwrap_or(0.0),
+            ..search.last
+        },
         parameters: search.p,
     }
 }
@@ -70,10 +88,11 @@ impl<'a> Descent<'a> {
             residuals,
             p: start.to_vec(),
             scales: vec![0.0; start.len()],
-            damping: options.damping,
-            growth: 2.0,
+            damping: None,
+            kept: 1.0,
             trusted: 0,
             evaluations: 1,
+            last: Progress::default(),
             problem,
             options,
         }
@@ -82,24 +101,34 @@ impl<'a> Descent<'a> {
     /// One linearisation and the step that it leads to; the ending, if it is reached.
     fn iterate(&mut self) -> Option<Ending> {
         if !self.chi_squared.is_finite() {
-            return Some(Ending::NotFinite);
+            let point = largest(&self.residuals);
+            return Some(Ending::NotFinite { point });
         }
         if self.chi_squared <= self.problem.least() {
             return Some(Ending::Exact);
         }
         let derivatives = self.problem.derivatives(&self.p);
         let Some(linear) = Linearisation::new(derivatives.as_ref(), &self.residuals) else {
-            return Some(Ending::NotFinite);
+            let point = not_finite(&derivatives);
+            return Some(Ending::NotFinite { point });
         };
         let free = free(self.problem, &self.p, &linear);
-        let stationary = (0..self.p.len())
-            .all(|j| !free[j] || linear.cosine(j, self.chi_squared).abs() <= self.options.cosine);
-        if stationary {
+        self.last.parameter = steepest(&linear, &free);
+        self.last.cosine = self
+            .last
+            .parameter
+            .map_or(0.0, |j| linear.cosine(j, self.chi_squared).abs());
+        if self.last.cosine <= self.options.cosine {
             return Some(Ending::Stationary);
         }
         self.measure(&linear);
         let room = self.room(free);
-        match self.try_steps(&linear, &room) {
+        let damped = Damped {
+            linear: &linear,
+            scales: &self.scales.clone(),
+            room: &room,
+        };
+        match self.try_steps(&damped, &derivatives) {
             Trial::Taken => None,
             Trial::Ended(ending) => Some(ending),
         }
@@ -130,26 +159,69 @@ impl<'a> Descent<'a> {
         }
     }
 
+    /// The damping of the first step: its length is at most `reach` times that of the start.
+    fn first(&self, damped: &Damped<'_>) -> f64 {
+        let start = match damped.length(&self.p) {
+            0.0 => damped.length(&self.problem.units(&self.p)),
+            length => length,
+        };
+        damped.damping_for(self.options.reach * start, SMALLEST_DAMPING)
+    }
+
     /// Shorter and shorter steps until one is taken; or, where not even the full step promises more
     /// than rounding hides, the full step.
-    fn try_steps(&mut self, linear: &Linearisation, room: &Room) -> Trial {
-        let full = damped_step(linear, SMALLEST_DAMPING, &self.scales, room);
-        if linear.promised(&full) <= self.problem.rounding(self.chi_squared) {
-            return self.trust(room, &full);
+    fn try_steps(&mut self, damped: &Damped<'_>, derivatives: &Mat<f64>) -> Trial {
+        let full = damped.step(SMALLEST_DAMPING).values;
+        if damped.linear.promised(&full) <= self.problem.rounding(self.chi_squared) {
+            return self.trust(damped.room, &full);
         }
-        while self.damping <= LARGEST_DAMPING {
-            let step = damped_step(linear, self.damping, &self.scales, room);
-            let (moved, residuals, chi_squared) = self.evaluate(room, &step);
-            let ratio = (self.chi_squared - chi_squared) / linear.promised(&step);
-            if ratio > LEAST_RATIO {
-                self.relax(ratio);
-                self.accept(moved, residuals, chi_squared);
-                return Trial::Taken;
+        let most = damped.length(&full);
+        let mut damping = self.damping.unwrap_or_else(|| self.first(damped));
+        for refused in 0.. {
+            let step = damped.step(damping);
+            let length = damped.length(&step.values);
+            let tired =
+                damping > LARGEST_DAMPING || self.moved(damped.room, &step.values) == self.p;
+            if tired {
+                break;
             }
-            self.damping *= self.growth;
-            self.growth *= 2.0;
+            let bends = self.kept < KEPT && length < SHORTENED * most;
+            if let Some(bent) = self.bend(damped, derivatives, damping, &step, bends) {
+                let (moved, residuals, chi_squared) = self.evaluate(damped.room, &bent);
+                self.kept = (self.chi_squared - chi_squared) / damped.linear.promised(&step.values);
+                if self.kept > LEAST_RATIO {
+                    self.damping = Some(relaxed(damped, damping, length, self.kept));
+                    self.accept(moved, residuals, chi_squared);
+                    return Trial::Taken;
+                }
+            }
+            let shorter = SHORTER[usize::from(refused >= OFTEN)] * length;
+            damping = damped.damping_for(shorter, damping).max(2.0 * damping);
         }
+        self.damping = Some(damping);
         Trial::Ended(Ending::Stalled)
+    }
+
+    /// A step with its bend, if it `bends`; `None` where it bends so much that it must be shorter.
+    fn bend(
+        &mut self,
+        damped: &Damped<'_>,
+        derivatives: &Mat<f64>,
+        damping: f64,
+        step: &crate::step::Step,
+        bends: bool,
+    ) -> Option<Vec<f64>> {
+        if !bends {
+            return Some(step.values.clone());
+        }
+        let probe = Curving::probe(&step.values);
+        let (_, residuals, _) = self.evaluate(damped.room, &probe);
+        let curving = Curving {
+            before: &self.residuals,
+            after: &residuals,
+            derivatives,
+        };
+        acceleration(damped, &curving, damping, step)
     }
 
     /// Takes a full step though rounding hides whether chi squared falls, a few times: the
@@ -176,6 +248,11 @@ impl<'a> Descent<'a> {
     }
 
     fn accept(&mut self, p: Vec<f64>, residuals: Vec<f64>, chi_squared: f64) {
+        let changes = self.p.iter().zip(&p).map(|(old, new)| match new.abs() {
+            0.0 => f64::from(u8::from(*old != 0.0)),
+            size => (new - old).abs() / size,
+        });
+        self.last.step = changes.fold(0.0, f64::max);
         self.p = p;
         self.residuals = residuals;
         self.chi_squared = chi_squared;
@@ -195,13 +272,38 @@ impl<'a> Descent<'a> {
         };
         self.p.iter().zip(step).enumerate().map(to).collect()
     }
+}
 
-    /// Less damping the better the last step kept its promise.
-    fn relax(&mut self, ratio: f64) {
-        let factor = (1.0 - (2.0 * ratio - 1.0).powi(3)).clamp(0.1, 2.0);
-        self.damping = (self.damping * factor).max(SMALLEST_DAMPING);
-        self.growth = 2.0;
+/// The damping after a step that kept a part `kept` of its promise: less, the better it kept it.
+/// Below a half a parabola along the step has its minimum at `1 / (2 - kept)` of its length.
+fn relaxed(damped: &Damped<'_>, damping: f64, length: f64, kept: f64) -> f64 {
+    if kept < 0.5 {
+        return damped.damping_for(length / (2.0 - kept), damping);
     }
+    let factor = (1.0 - (2.0 * kept - 1.0).powi(3)).clamp(0.1, 1.0);
+    (damping * factor).max(SMALLEST_DAMPING)
+}
+
+/// The free parameter along which chi squared falls most steeply, if one is free.
+fn steepest(linear: &Linearisation, free: &[bool]) -> Option<usize> {
+    let of = |j: &usize| linear.descent[*j].abs();
+    let candidates = (0..free.len()).filter(|&j| free[j]);
+    candidates.max_by(|a, b| of(a).total_cmp(&of(b)))
+}
+
+/// The first point with a residual that is not finite, or the one with the largest.
+fn largest(residuals: &[f64]) -> usize {
+    let order = |a: &usize, b: &usize| residuals[*a].abs().total_cmp(&residuals[*b].abs());
+    let first = residuals.iter().position(|r| !r.is_finite());
+    first
+        .or_else(|| (0..residuals.len()).max_by(order))
+        .unwrap_or(0)
+}
+
+/// The first point with a derivative that is not finite.
+pub(crate) fn not_finite(derivatives: &Mat<f64>) -> usize {
+    let is_bad = |i: &usize| (0..derivatives.ncols()).any(|j| !derivatives[(*i, j)].is_finite());
+    (0..derivatives.nrows()).find(is_bad).unwrap_or(0)
 }
 
 /// Parameters that are neither held nor pushed against a bound that they sit on.

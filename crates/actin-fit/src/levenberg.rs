@@ -2,7 +2,7 @@
 
 use crate::bounds::Bounds;
 use crate::data::Data;
-use crate::descent::{descend, free};
+use crate::descent::{descend, free, not_finite};
 use crate::error::{FitError, enough_points, same_length};
 use crate::factor::Factor;
 use crate::model::Model;
@@ -21,7 +21,8 @@ const SAME_CHI_SQUARED: f64 = 1e-9;
 ///
 /// Steps are measured by the largest lengths of the columns of derivatives so far, so that units of
 /// parameters do not matter: the same search results in nm and in m. A step that would cross a bound
-/// ends on it.
+/// ends on it. Where a model curves so much that straight steps must be short, steps are bent along
+/// it, for one more evaluation each.
 ///
 /// The results are the same in each run on one machine; on another one the last digits differ, as
 /// those of exponential functions and of the kernels for matrices do.
@@ -46,7 +47,8 @@ impl LevenbergMarquardt {
     /// lower one.
     ///
     /// # Errors
-    /// If bounds or starts do not match the model, there are too few points, or no start converged.
+    /// If bounds or starts do not match the model, there are too few points, no start converged, or
+    /// a variance is outside of what a number can hold.
     pub fn fit(
         &self,
         model: &dyn Model,
@@ -68,7 +70,10 @@ impl LevenbergMarquardt {
             .collect();
         match best(&ended, problem.least()) {
             Some(best) => self.report(&problem, ended, best),
-            None => Err(FitError::NoConvergence { starts: ended }),
+            None => Err(FitError::NoConvergence {
+                starts: ended,
+                cosine: self.options.cosine,
+            }),
         }
     }
 
@@ -85,7 +90,7 @@ impl LevenbergMarquardt {
         let derivatives = problem.derivatives(&parameters);
         let Some(linear) = Linearisation::new(derivatives.as_ref(), &weighted) else {
             // Exact fits end before derivatives are asked for.
-            return Err(not_finite(&derivatives));
+            return Err(model_not_finite(&derivatives));
         };
         let free = free(problem, &parameters, &linear);
         let columns: Vec<usize> = (0..parameters.len()).filter(|&j| free[j]).collect();
@@ -95,7 +100,7 @@ impl LevenbergMarquardt {
         let residuals = weighted.iter().zip(deviations).map(|(r, s)| r * s);
         let goodness = Goodness::new(residuals.collect(), observations, factor.rank());
         let noise = observations.noise();
-        let precision = Precision::new(parameters.len(), &columns, &factor, &goodness, noise);
+        let precision = Precision::new(parameters.len(), &columns, &factor, &goodness, noise)?;
         Ok(Fit {
             statuses: statuses(problem.bounds, &linear, &free, &precision),
             parameters,
@@ -134,14 +139,15 @@ fn best(starts: &[StartReport], rounding: f64) -> Option<usize> {
         .position(|s| s.ending.is_converged() && s.chi_squared <= same)
 }
 
-fn not_finite(derivatives: &Mat<f64>) -> FitError {
-    let at = (0..derivatives.nrows())
-        .flat_map(|i| (0..derivatives.ncols()).map(move |j| (i, j)))
-        .find(|&(i, j)| !derivatives[(i, j)].is_finite())
-        .unwrap_or((0, 0));
+fn model_not_finite(derivatives: &Mat<f64>) -> FitError {
+    let point = not_finite(derivatives);
+    let row = (0..derivatives.ncols()).map(|j| derivatives[(point, j)]);
     FitError::ModelNotFinite {
-        point: at.0,
-        value: derivatives[at],
+        point,
+        value: row.fold(
+            0.0,
+            |bad, value| if value.is_finite() { bad } else { value },
+        ),
     }
 }
 

@@ -10,6 +10,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod acceleration;
 mod bounds;
 mod data;
 mod descent;
@@ -39,7 +40,7 @@ pub use observations::{Noise, Observations};
 pub use options::Options;
 pub use polynomial::Polynomial;
 pub use precision::{Goodness, Precision};
-pub use report::{Ending, Fit, StartReport, Status};
+pub use report::{Ending, Fit, Progress, StartReport, Status};
 pub use starts::Starts;
 
 /// The matrices of this crate: `matrix[(row, column)]`.

@@ -1,6 +1,6 @@
 //! Linear least squares.
 
-use crate::error::{FitError, all_finite, enough_points, same_length};
+use crate::error::{FitError, RANGE, all_finite, all_within, enough_points, same_length};
 use crate::factor::Factor;
 use crate::observations::Observations;
 use crate::precision::{Goodness, Precision};
@@ -38,7 +38,8 @@ pub struct LinearFit {
 ///
 /// # Errors
 /// If the design does not match the observations or is not finite, there are too few points, or its
-/// rank is deficient.
+/// rank is deficient; if a column over its deviations is longer than 1e100, or shorter than 1e-100
+/// and not zero, or a variance is outside of what a number can hold.
 ///
 /// # Source
 /// Golub and Van Loan, Matrix Computations (2013), 5.3; Bjorck, Numerical Methods for Least Squares
@@ -58,9 +59,14 @@ pub fn fit_linear(
     let deviations = observations.deviations();
     let weighted = Mat::from_fn(points, parameters, |i, j| design[(i, j)] / deviations[i]);
     let tolerance = points as f64 * f64::EPSILON;
+    let columns = (0..parameters).map(|j| weighted.col(j).norm_l2());
+    let columns: Vec<f64> = columns.collect();
+    let lengths = columns.iter().map(|&l| if l == 0.0 { 1.0 } else { l });
+    all_within("length of column", lengths, RANGE)?;
     // A column counts as zero only if it is zero: units are not known here.
-    let units: Vec<f64> = (0..parameters)
-        .map(|j| 1.0 / weighted.col(j).norm_l2().max(f64::MIN_POSITIVE))
+    let units: Vec<f64> = columns
+        .iter()
+        .map(|l| 1.0 / l.max(f64::MIN_POSITIVE))
         .collect();
     let factor = Factor::new(weighted.as_ref(), &units, tolerance)?;
     full_rank(&factor, parameters)?;
@@ -72,7 +78,7 @@ pub fn fit_linear(
         .map(|(y, deviation)| y / deviation)
         .collect();
     let solution = factor.solve(&right);
-    Ok(report(design, observations, &factor, solution))
+    report(design, observations, &factor, solution)
 }
 
 fn full_rank(factor: &Factor, parameters: usize) -> Result<(), FitError> {
@@ -92,7 +98,7 @@ fn report(
     observations: &Observations,
     factor: &Factor,
     parameters: Vec<f64>,
-) -> LinearFit {
+) -> Result<LinearFit, FitError> {
     let residuals = observations
         .values()
         .iter()
@@ -105,9 +111,9 @@ fn report(
     let goodness = Goodness::new(residuals, observations, factor.rank());
     let columns: Vec<usize> = (0..parameters.len()).collect();
     let noise = observations.noise();
-    LinearFit {
-        precision: Precision::new(columns.len(), &columns, factor, &goodness, noise),
+    Ok(LinearFit {
+        precision: Precision::new(columns.len(), &columns, factor, &goodness, noise)?,
         parameters,
         goodness,
-    }
+    })
 }

@@ -1,6 +1,8 @@
 //! Measured values, and what is known of their noise.
 
-use crate::error::{FitError, all_finite, all_positive, same_length};
+use crate::error::{
+    FitError, RANGE, all_finite, all_positive, all_within, same_length, squares_hold,
+};
 
 /// What is known of the noise of observations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,9 +37,12 @@ impl Observations {
     /// Values that are equally accurate, nobody knows how accurate.
     ///
     /// # Errors
-    /// If a value is not finite.
+    /// If a value is not finite or larger than 1e100, or the largest is below 1e-100 and not zero:
+    /// sums of squares would overflow or vanish.
     pub fn new(values: &[f64]) -> Result<Self, FitError> {
         all_finite("observation", values)?;
+        let names = ["observation", "the largest observation, number"];
+        squares_hold(names, values.iter().copied())?;
         Ok(Self {
             values: values.to_vec(),
             deviations: vec![1.0; values.len()],
@@ -48,27 +53,39 @@ impl Observations {
     /// The same values with weights, proportional to one over their variances.
     ///
     /// # Errors
-    /// If the number of weights is not that of values, or one is not positive and finite.
+    /// If the number of weights is not that of values, or one is not positive or not from 1e-200 to
+    /// 1e200; if values times roots of weights are not as the values of [`new`](Self::new).
     pub fn with_weights(self, weights: &[f64]) -> Result<Self, FitError> {
         same_length("weights", self.values.len(), weights.len())?;
         all_positive("weight", weights)?;
-        Ok(Self {
-            deviations: weights.iter().map(|w| 1.0 / w.sqrt()).collect(),
-            noise: Noise::Relative,
-            ..self
-        })
+        let squared = RANGE.map(|size| size * size);
+        all_within("weight", weights.iter().copied(), squared)?;
+        let deviations = weights.iter().map(|w| 1.0 / w.sqrt()).collect();
+        self.scaled(deviations, Noise::Relative)
     }
 
     /// The same values with known standard deviations.
     ///
     /// # Errors
-    /// If the number of deviations is not that of values, or one is not positive and finite.
+    /// If the number of deviations is not that of values, or one is not positive or not from 1e-100
+    /// to 1e100; if values over deviations are not as the values of [`new`](Self::new).
     pub fn with_deviations(self, deviations: &[f64]) -> Result<Self, FitError> {
         same_length("deviations", self.values.len(), deviations.len())?;
         all_positive("deviation", deviations)?;
+        all_within("deviation", deviations.iter().copied(), RANGE)?;
+        self.scaled(deviations.to_vec(), Noise::Known)
+    }
+
+    fn scaled(self, deviations: Vec<f64>, noise: Noise) -> Result<Self, FitError> {
+        let names = [
+            "over its deviation observation",
+            "over its deviation the largest observation, number",
+        ];
+        let ratios = self.values.iter().zip(&deviations).map(|(y, s)| y / s);
+        squares_hold(names, ratios)?;
         Ok(Self {
-            deviations: deviations.to_vec(),
-            noise: Noise::Known,
+            deviations,
+            noise,
             ..self
         })
     }

@@ -11,8 +11,10 @@ pub struct Options {
     /// The parameters are then within about as many standard errors of it, times the root of the
     /// degrees of freedom.
     pub cosine: f64,
-    /// Damping of the first step, relative to the squared lengths of columns; 1e-3.
-    pub damping: f64,
+    /// Length of the first step over that of the start, at most; 1. Lengths of both are those of
+    /// what they change in the model, each parameter by itself. A start at zero is as long as its
+    /// bounds are apart.
+    pub reach: f64,
     /// Singular values of the scaled derivatives below this part of the largest count as zero;
     /// 1e-12. So do derivatives by a parameter which change the model that much less than others,
     /// over the range of that parameter.
@@ -24,7 +26,7 @@ impl Default for Options {
         Self {
             iterations: 500,
             cosine: 1e-10,
-            damping: 1e-3,
+            reach: 1.0,
             rank_tolerance: 1e-12,
         }
     }
@@ -34,7 +36,7 @@ impl Options {
     /// # Errors
     /// If one of the numbers is not positive.
     pub(crate) fn check(&self) -> Result<(), FitError> {
-        let numbers = [self.cosine, self.damping, self.rank_tolerance];
-        all_positive("setting cosine, damping, rank_tolerance number", &numbers)
+        let numbers = [self.cosine, self.reach, self.rank_tolerance];
+        all_positive("setting cosine, reach, rank_tolerance number", &numbers)
     }
 }

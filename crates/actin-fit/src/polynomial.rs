@@ -1,7 +1,7 @@
 //! Polynomials as linear models.
 
 use crate::data::Data;
-use crate::error::{FitError, same_length};
+use crate::error::{FitError, not_lost, same_length};
 use crate::linear::{LinearFit, fit_linear};
 use faer::Mat;
 
@@ -58,7 +58,8 @@ impl Polynomial {
     /// the condition number of the fit says how much.
     ///
     /// # Errors
-    /// As [`fit_linear`]; if the data have more than one independent variable.
+    /// As [`fit_linear`]; if the data have more than one independent variable, or a coefficient or
+    /// its variance is outside of what a number can hold, as that of `x^6` at 1e60.
     pub fn fit(&self, data: &Data) -> Result<LinearFit, FitError> {
         same_length("a row of x", 1, data.width())?;
         let scale = power_of_two(data.rows());
@@ -68,13 +69,18 @@ impl Polynomial {
         });
         let mut fit = fit_linear(design.as_ref(), data.observations())?;
         let factors: Vec<f64> = powers.iter().map(|&k| scale.powi(-k)).collect();
-        for (p, factor) in fit.parameters.iter_mut().zip(&factors) {
+        for (j, (p, factor)) in fit.parameters.iter_mut().zip(&factors).enumerate() {
+            not_lost("value", j, *p, *p * factor)?;
             *p *= factor;
         }
         let covariance = &fit.precision.covariance;
-        fit.precision.covariance = Mat::from_fn(powers.len(), powers.len(), |i, j| {
+        let scaled = Mat::from_fn(powers.len(), powers.len(), |i, j| {
             covariance[(i, j)] * factors[i] * factors[j]
         });
+        for j in 0..powers.len() {
+            not_lost("variance", j, covariance[(j, j)], scaled[(j, j)])?;
+        }
+        fit.precision.covariance = scaled;
         Ok(fit)
     }
 
@@ -94,14 +100,14 @@ impl Polynomial {
     }
 }
 
-/// The power of two next above the largest size; 1 where all is zero.
+/// The power of two next above the largest size, if there is one; 1 where all is zero.
 fn power_of_two(x: &[f64]) -> f64 {
     let largest = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let mut scale = 1.0;
-    while scale < largest {
+    while scale < largest && scale < 0.5 * f64::MAX {
         scale *= 2.0;
     }
-    while largest > 0.0 && scale >= 2.0 * largest {
+    while largest > 0.0 && 0.5 * scale >= largest {
         scale *= 0.5;
     }
     scale

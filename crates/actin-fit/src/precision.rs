@@ -1,5 +1,6 @@
 //! How well parameters are known, and how well data are met.
 
+use crate::error::{FitError, not_lost};
 use crate::factor::Factor;
 use crate::observations::{Noise, Observations};
 use faer::Mat;
@@ -20,14 +21,18 @@ pub struct Goodness {
 impl Goodness {
     pub(crate) fn new(residuals: Vec<f64>, observations: &Observations, rank: usize) -> Self {
         let points = residuals.len();
-        let sum: f64 = residuals.iter().map(|r| r * r).sum();
+        // Over the largest: with weights residuals may be longer than what was observed.
+        let largest = residuals
+            .iter()
+            .fold(f64::MIN_POSITIVE, |most, r| r.abs().max(most));
+        let sum: f64 = residuals.iter().map(|r| (r / largest).powi(2)).sum();
         let chi_squared = residuals
             .iter()
             .zip(observations.deviations())
             .map(|(r, deviation)| (r / deviation).powi(2))
             .sum();
         Self {
-            rms: (sum / points.max(1) as f64).sqrt(),
+            rms: largest * (sum / points.max(1) as f64).sqrt(),
             chi_squared,
             degrees_of_freedom: points - rank,
             residuals,
@@ -64,13 +69,16 @@ pub struct Precision {
 impl Precision {
     /// The precision of `n` parameters, of which `columns` are those of the factor and the others
     /// were held.
+    ///
+    /// # Errors
+    /// If a variance is outside of what a number can hold.
     pub(crate) fn new(
         n: usize,
         columns: &[usize],
         factor: &Factor,
         goodness: &Goodness,
         noise: Noise,
-    ) -> Self {
+    ) -> Result<Self, FitError> {
         let scale = match noise {
             Noise::Known => 1.0,
             Noise::Unknown | Noise::Relative => goodness.reduced_chi_squared().unwrap_or(0.0),
@@ -83,13 +91,16 @@ impl Precision {
             for (b, &j) in columns.iter().enumerate() {
                 covariance[(i, j)] = scale * inverse[(a, b)];
             }
+            if determined {
+                not_lost("variance", i, scale, covariance[(i, i)])?;
+            }
         }
-        Self {
+        Ok(Self {
             covariance,
             rank: factor.rank(),
             condition: factor.condition(),
             known,
-        }
+        })
     }
 
     /// Standard error of a parameter; `None` if the data do not determine it or a bound holds it.

@@ -73,15 +73,16 @@ impl Problem<'_> {
 /// Roundings that one value of a model takes, as a guess: a few function calls.
 const ROUNDINGS: f64 = 4.0;
 
-/// The residuals near a point, `|r - A s|^2 = |c - R s|^2 + constant`, `R` with as many rows as
-/// there are parameters, or points if they are fewer.
+/// The residuals near a point, `|r - A s|^2 = |c - T L s|^2 + constant`: `T` is the triangle of the
+/// columns of `A` over their lengths `L`, with as many rows as there are parameters, or points if
+/// they are fewer. Columns of any length are reduced without overflow.
 #[derive(Debug)]
 pub(crate) struct Linearisation {
     pub(crate) triangle: Mat<f64>,
     pub(crate) rotated: Vec<f64>,
     /// Lengths of the columns of `A`.
     pub(crate) lengths: Vec<f64>,
-    /// `A^T r`: minus half the gradient of chi squared.
+    /// `A^T r` over the lengths: minus half the gradient of chi squared per length of column.
     pub(crate) descent: Vec<f64>,
 }
 
@@ -90,22 +91,26 @@ impl Linearisation {
     pub(crate) fn new(matrix: MatRef<'_, f64>, residuals: &[f64]) -> Option<Self> {
         let (points, n) = matrix.shape();
         let lengths: Vec<f64> = (0..n).map(|j| matrix.col(j).norm_l2()).collect();
-        if !lengths.iter().all(|l| l.is_finite()) {
+        let is_finite = |v: &f64| v.is_finite();
+        if !(lengths.iter().all(is_finite) && residuals.iter().all(is_finite)) {
             return None;
         }
-        let descent = (0..n)
-            .map(|j| {
-                matrix
-                    .col(j)
-                    .iter()
-                    .zip(residuals)
-                    .map(|(a, r)| a * r)
-                    .sum()
-            })
-            .collect();
-        let joined = Mat::from_fn(points, n + 1, |i, j| {
-            if j < n { matrix[(i, j)] } else { residuals[i] }
-        });
+        let unit = |i: usize, j: usize| {
+            if lengths[j] > 0.0 {
+                matrix[(i, j)] / lengths[j]
+            } else {
+                0.0
+            }
+        };
+        let along = |j: usize| (0..points).map(|i| unit(i, j) * residuals[i]).sum();
+        let descent = (0..n).map(along).collect();
+        let joined = Mat::from_fn(
+            points,
+            n + 1,
+            |i, j| {
+                if j < n { unit(i, j) } else { residuals[i] }
+            },
+        );
         let qr = Qr::new(joined.as_ref());
         let rows = n.min(points);
         Some(Self {
@@ -116,11 +121,12 @@ impl Linearisation {
         })
     }
 
-    /// `c - R s`.
+    /// `c - T L s`.
     pub(crate) fn remainder(&self, step: &[f64]) -> Vec<f64> {
         let row = |i: usize| {
-            let terms = step.iter().enumerate();
-            self.rotated[i] - terms.map(|(j, s)| self.triangle[(i, j)] * s).sum::<f64>()
+            let terms = step.iter().zip(&self.lengths).enumerate();
+            let moved = terms.map(|(j, (s, length))| self.triangle[(i, j)] * (length * s));
+            self.rotated[i] - moved.sum::<f64>()
         };
         (0..self.rotated.len()).map(row).collect()
     }
@@ -133,9 +139,8 @@ impl Linearisation {
 
     /// Cosine between the residuals, of squared length `chi_squared`, and the effect of a parameter.
     pub(crate) fn cosine(&self, parameter: usize, chi_squared: f64) -> f64 {
-        let product = self.lengths[parameter] * chi_squared.sqrt();
-        if product > 0.0 {
-            self.descent[parameter] / product
+        if chi_squared > 0.0 {
+            self.descent[parameter] / chi_squared.sqrt()
         } else {
             0.0
         }

@@ -1,8 +1,17 @@
-//! The damped step within bounds.
+//! The damped step within bounds, and the damping that a step of a given length needs.
 
 use crate::problem::Linearisation;
 use faer::Mat;
 use faer::linalg::solvers::{Qr, SolveLstsq};
+
+/// Damping beyond which a step is too short to change a parameter.
+pub(crate) const LARGEST_DAMPING: f64 = 1e16;
+/// Damping below which a step is that of Gauss and Newton; keeps the damped matrix regular.
+pub(crate) const SMALLEST_DAMPING: f64 = 1e-14;
+/// How near a step's length comes to the one that was asked for, relatively.
+const LENGTH_TOLERANCE: f64 = 0.05;
+/// Most halvings of the range of a damping; ten reach the tolerance.
+const BISECTIONS: usize = 60;
 
 /// Where a step may go: distances to the bounds, and which parameters may move.
 #[derive(Clone, Debug)]
@@ -12,107 +21,174 @@ pub(crate) struct Room {
     pub(crate) free: Vec<bool>,
 }
 
-/// The step `s` that makes `|c - R s|^2 + damping |D s|^2` least over the free parameters.
+/// A step, and the parameters that it does not take to a bound.
+#[derive(Clone, Debug)]
+pub(crate) struct Step {
+    pub(crate) values: Vec<f64>,
+    pub(crate) inside: Vec<usize>,
+}
+
+/// The damped problem `|c - T L s|^2 + damping |D s|^2` at a point.
 ///
-/// Where it would cross bounds it ends on them and is solved again for the others, so that
-/// parameters at a bound do not spoil the direction of the rest. `scales` is the diagonal of `D`.
-/// Solved by QR of `R` above `sqrt(damping) D`, never by normal equations.
+/// `scales` is the diagonal of `D`, no smaller than the lengths `L` of columns.
 ///
 /// # Source
 /// More, Lecture Notes in Mathematics 630 (1978) 105.
-pub(crate) fn damped_step(
-    linear: &Linearisation,
-    damping: f64,
-    scales: &[f64],
-    room: &Room,
-) -> Vec<f64> {
-    let mut step = vec![0.0; scales.len()];
-    let mut free: Vec<usize> = (0..scales.len()).filter(|&j| room.free[j]).collect();
-    while !free.is_empty() {
-        for (&j, s) in free
-            .iter()
-            .zip(solve(linear, damping, scales, &free, &step))
-        {
-            step[j] = s;
-        }
-        let before = free.len();
-        free.retain(|&j| room.down[j] <= step[j] && step[j] <= room.up[j]);
-        for (s, (down, up)) in step.iter_mut().zip(room.down.iter().zip(&room.up)) {
-            *s = s.clamp(*down, *up);
-        }
-        if free.len() == before {
-            break;
-        }
-        for &j in &free {
-            step[j] = 0.0;
-        }
-    }
-    step
+#[derive(Debug)]
+pub(crate) struct Damped<'a> {
+    pub(crate) linear: &'a Linearisation,
+    pub(crate) scales: &'a [f64],
+    pub(crate) room: &'a Room,
 }
 
-/// The damped solution for the free parameters, with the others at `step`.
-fn solve(
-    linear: &Linearisation,
-    damping: f64,
-    scales: &[f64],
-    free: &[usize],
-    step: &[f64],
-) -> Vec<f64> {
-    let rows = linear.rotated.len();
-    let held: Vec<f64> = (0..step.len())
-        .map(|j| if free.contains(&j) { 0.0 } else { step[j] })
-        .collect();
-    let remainder = linear.remainder(&held);
-    let root = damping.sqrt();
-    let matrix = Mat::from_fn(rows + free.len(), free.len(), |i, k| {
-        if i < rows {
-            linear.triangle[(i, free[k])] / scales[free[k]]
-        } else if i - rows == k {
-            root
-        } else {
-            0.0
+impl Damped<'_> {
+    /// The step that makes the problem least over the free parameters.
+    ///
+    /// Where it would cross bounds it ends on them and is solved again for the others, so that
+    /// parameters at a bound do not spoil the direction of the rest.
+    pub(crate) fn step(&self, damping: f64) -> Step {
+        let room = self.room;
+        let mut step = vec![0.0; self.scales.len()];
+        let mut free: Vec<usize> = (0..step.len()).filter(|&j| room.free[j]).collect();
+        while !free.is_empty() {
+            for (&j, s) in free.iter().zip(self.solve(damping, &free, &step)) {
+                step[j] = s;
+            }
+            let before = free.len();
+            free.retain(|&j| room.down[j] <= step[j] && step[j] <= room.up[j]);
+            for (s, (down, up)) in step.iter_mut().zip(room.down.iter().zip(&room.up)) {
+                *s = s.clamp(*down, *up);
+            }
+            if free.len() == before {
+                break;
+            }
+            for &j in &free {
+                step[j] = 0.0;
+            }
         }
-    });
-    let right = Mat::from_fn(rows + free.len(), 1, |i, _| {
-        remainder.get(i).copied().unwrap_or(0.0)
-    });
-    let solution = Qr::new(matrix.as_ref()).solve_lstsq(&right);
-    (0..free.len())
-        .map(|k| solution[(k, 0)] / scales[free[k]])
-        .collect()
+        Step {
+            values: step,
+            inside: free,
+        }
+    }
+
+    /// The damped solution for the free parameters, with the others at `step`. Solved by QR of
+    /// `T L / D` above the root of the damping, never by normal equations.
+    pub(crate) fn solve(&self, damping: f64, free: &[usize], step: &[f64]) -> Vec<f64> {
+        let (linear, scales) = (self.linear, self.scales);
+        let rows = linear.rotated.len();
+        let held: Vec<f64> = (0..step.len())
+            .map(|j| if free.contains(&j) { 0.0 } else { step[j] })
+            .collect();
+        let remainder = linear.remainder(&held);
+        let root = damping.sqrt();
+        let matrix = Mat::from_fn(rows + free.len(), free.len(), |i, k| {
+            if i < rows {
+                let j = free[k];
+                linear.triangle[(i, j)] * (linear.lengths[j] / scales[j])
+            } else if i - rows == k {
+                root
+            } else {
+                0.0
+            }
+        });
+        let right = Mat::from_fn(rows + free.len(), 1, |i, _| {
+            remainder.get(i).copied().unwrap_or(0.0)
+        });
+        let solution = Qr::new(matrix.as_ref()).solve_lstsq(&right);
+        (0..free.len())
+            .map(|k| solution[(k, 0)] / scales[free[k]])
+            .collect()
+    }
+
+    /// `|D s|`.
+    pub(crate) fn length(&self, step: &[f64]) -> f64 {
+        let parts = step.iter().zip(self.scales).map(|(s, scale)| s * scale);
+        parts.fold(0.0, f64::hypot)
+    }
+
+    /// The least damping, not below `least`, whose step is no longer than `length`, within 5 %.
+    pub(crate) fn damping_for(&self, length: f64, least: f64) -> f64 {
+        let far = |damping: f64| self.length(&self.step(damping).values) / length - 1.0;
+        if far(least) <= LENGTH_TOLERANCE {
+            return least;
+        }
+        // |D s| <= |D^-1 L descent| / damping, for steps that meet no bound.
+        let slopes = (0..self.scales.len())
+            .filter(|&j| self.room.free[j])
+            .map(|j| self.linear.descent[j] * (self.linear.lengths[j] / self.scales[j]));
+        let steepest = slopes.fold(0.0, f64::hypot);
+        let (mut short, mut long) = ((steepest / length).clamp(least, LARGEST_DAMPING), least);
+        for _ in 0..BISECTIONS {
+            let middle = (short * long).sqrt();
+            match far(middle) {
+                excess if excess > LENGTH_TOLERANCE => long = middle,
+                excess if excess < -LENGTH_TOLERANCE => short = middle,
+                _ => return middle,
+            }
+        }
+        short
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// `|c - R s|^2` with `R = [[1, 1], [0, 1]]`, `c = (2, 1)` has its minimum at (1, 1). With the
-    /// second bounded by 0.5 the first is to be 1.5; a step that is only cut stays at 1.
-    #[test]
-    fn the_others_are_solved_again_where_one_meets_its_bound() {
+    /// `|c - R s|^2` with `R = [[1, 1], [0, 1]]`, `c = (2, 1)`, which is least at (1, 1).
+    fn linear() -> Linearisation {
         let matrix = Mat::from_fn(2, 2, |i, j| if i > j { 0.0 } else { 1.0 });
-        let linear = Linearisation::new(matrix.as_ref(), &[2.0, 1.0]).unwrap();
-        let room = |up| Room {
+        Linearisation::new(matrix.as_ref(), &[2.0, 1.0]).unwrap()
+    }
+
+    fn room(up: f64) -> Room {
+        Room {
             down: vec![-9.0; 2],
             up: vec![9.0, up],
             free: vec![true; 2],
-        };
+        }
+    }
+
+    /// With the second bounded by 0.5 the first is to be 1.5; a step that is only cut stays at 1.
+    #[test]
+    fn the_others_are_solved_again_where_one_meets_its_bound() {
+        let linear = linear();
         // Damping of 1e-14 moves the step by about as much.
-        let near = |step: &[f64], x: f64, y: f64| {
-            assert!(
-                (step[0] - x).abs() < 1e-12 && (step[1] - y).abs() < 1e-12,
-                "{step:?}"
-            );
-        };
-        near(
-            &damped_step(&linear, 1e-14, &[1.0; 2], &room(9.0)),
-            1.0,
-            1.0,
-        );
-        near(
-            &damped_step(&linear, 1e-14, &[1.0; 2], &room(0.5)),
-            1.5,
-            0.5,
-        );
+        for (up, expected, inside) in [(9.0, [1.0, 1.0], vec![0, 1]), (0.5, [1.5, 0.5], vec![0])] {
+            let damped = Damped {
+                linear: &linear,
+                scales: &[2.0; 2],
+                room: &room(up),
+            };
+            let step = damped.step(SMALLEST_DAMPING);
+            for (s, e) in step.values.iter().zip(expected) {
+                assert!((s - e).abs() < 1e-12, "{step:?}");
+            }
+            assert_eq!(step.inside, inside);
+        }
+    }
+
+    /// A damping gives the length that it was asked for, with and without a bound on the way; a
+    /// length that needs none gives the least.
+    #[test]
+    fn dampings_give_lengths() {
+        let linear = linear();
+        for (up, full) in [(9.0, 8.0_f64.sqrt()), (0.5, 10.0_f64.sqrt())] {
+            let damped = Damped {
+                linear: &linear,
+                scales: &[2.0; 2],
+                room: &room(up),
+            };
+            for part in [1e-6, 0.01, 0.3, 0.8] {
+                let damping = damped.damping_for(part * full, SMALLEST_DAMPING);
+                let length = damped.length(&damped.step(damping).values);
+                assert!(
+                    (length / (part * full) - 1.0).abs() < 0.051,
+                    "{part} {length}"
+                );
+            }
+            let least = damped.damping_for(full, SMALLEST_DAMPING);
+            assert_eq!(least.to_bits(), SMALLEST_DAMPING.to_bits());
+        }
     }
 }

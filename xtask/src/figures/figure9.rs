@@ -32,7 +32,7 @@ pub(super) fn reproduce(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
         settings: format!(
             "Least squares on {}; {} starts for each nonlinear fit.",
             data.source,
-            fits.tanh.starts.len()
+            fits.tanh.fit.starts.len()
         ),
         rows,
         pictures: pictures.collect(),
@@ -75,7 +75,7 @@ fn rigidity_rows(fits: &TwistFits) -> Vec<Row> {
         at_most(
             "b3_rms/fitted",
             b3,
-            fits.tanh.goodness.rms,
+            fits.tanh.fit.goodness.rms,
             B3_RMS,
             REFITTED,
         ),
@@ -83,7 +83,7 @@ fn rigidity_rows(fits: &TwistFits) -> Vec<Row> {
             ID,
             "b3_rms/saturating",
             b3,
-            fits.sided.goodness.rms,
+            fits.sided.1.fit.goodness.rms,
             "seven parameters, saturating to either side, fitted with relative weights",
         ),
     ]
@@ -116,7 +116,7 @@ fn length_rows(fits: &TwistFits) -> Vec<Row> {
             ID,
             "xi_rms/two-slopes",
             "",
-            fits.rooted.goodness.rms,
+            fits.rooted.basis.goodness().rms,
             "four parameters, one slope on either side of rest",
         ),
     ]
@@ -139,7 +139,7 @@ fn polynomial_rows(fits: &TwistFits) -> Vec<Row> {
 
 fn lambda_rows(fits: &TwistFits) -> Vec<Row> {
     let published = TanhTwist::published().lambda;
-    let ours = fits.tanh.parameters.iter().zip(published).zip(1..);
+    let ours = fits.tanh.fit.parameters.iter().zip(published).zip(1..);
     let rows = ours.map(|((&ours, paper), i)| Row {
         paper: Some(paper),
         origin: Some(Origin::Paper),

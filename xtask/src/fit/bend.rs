@@ -1,28 +1,40 @@
 //! Fits of bending and shear: rigidity against curvature, and what shear and twist add to it.
 
-use super::forms::Stiffened;
+use super::column::Column;
+use super::found::{Fault, Form, Found};
 use super::measured::{BendData, Point};
+use super::search::{LawFit, stiffened};
 use actin_cosserat::Stiffening;
-use actin_fit::{
-    Bounds, ClosureModel, Data, Fit, FitError, LevenbergMarquardt, Observations, Starts,
-};
+use actin_fit::{ClosureModel, Data, FitError, LevenbergMarquardt, Observations, Options, Starts};
 use actin_sim::measure::{Specimen, bend_by_tip_force, shear_by_force};
-use actin_sim::{BendLaw, RodLaw, RodLaws, RodModel, ShearLaw, StretchLaw};
+use actin_sim::{RodLaw, RodLaws, RodModel, ShearLaw, StretchLaw};
 
 /// Segments of the rods that stand in for filaments (nm).
 const SEGMENT_NM: f64 = 5.0;
+/// Cosine at which the search for shear ends: 5e-5 standard errors from its minimum. Deflections are
+/// those of equilibria, solved to a residual, and leave a cosine of 7e-7.
+const COSINE: f64 = 1e-5;
 /// Share of a parameter by which it moves for a derivative.
 const MOVE: f64 = 1e-3;
+
+pub(super) const TWISTED: Form = Form {
+    what: "B against twist",
+    parameters: &[("bend.twist", "rad/nm")],
+};
+pub(super) const SHEARED: Form = Form {
+    what: "shear",
+    parameters: &[("shear.cubic", "pN"), ("bend.shear", "of strain")],
+};
 
 /// The fits and what they make together.
 #[derive(Debug)]
 pub(crate) struct BendFits {
     /// Rest, rise and curvature.
-    pub bend: Fit,
+    pub bend: LawFit<Stiffening>,
     /// Cubic shear (pN) and the shear strain that gains half the rise.
-    pub shear: Fit,
+    pub shear: Found,
     /// The twist that gains half the rise (rad/nm).
-    pub twist: Fit,
+    pub twist: Found,
     /// All of it.
     pub law: Stiffening,
     pub cubic_pn: f64,
@@ -35,14 +47,13 @@ pub(crate) struct BendFits {
 impl BendFits {
     /// Fits bending first, then what twist and shear add to it.
     pub(crate) fn new(data: &BendData) -> Result<Self, String> {
-        let range = data.bend.iter().fold(0.0, |most: f64, p| most.max(p.x));
-        let bend = fit_bend(data, range).map_err(|e| format!("B against curvature: {e}"))?;
-        let mut law = Stiffened { range }.law(&bend.parameters);
-        let twist = fit_twist(data, law).map_err(|e| format!("B against twist: {e}"))?;
-        law.twist = twist.parameters[0];
-        let shear = fit_shear(data, law).map_err(|e| format!("shear: {e}"))?;
-        law.shear = shear.parameters[1];
-        let cubic_pn = shear.parameters[0];
+        let bend = stiffened(&column(&data.bend))?;
+        let mut law = bend.law;
+        let twist = fit_twist(data, law)?;
+        law.twist = twist.fit.parameters[0];
+        let shear = fit_shear(data, law)?;
+        law.shear = shear.fit.parameters[1];
+        let cubic_pn = shear.fit.parameters[0];
         let tension = data.stretch.iter().filter(|p| p.x > 0.0).map(|p| p.mean);
         let stretch_pn = tension.clone().sum::<f64>() / tension.count() as f64;
         let checks = beams(data).map(|(is_tip, p)| {
@@ -60,6 +71,13 @@ impl BendFits {
         })
     }
 
+    /// What must not become part of a law.
+    pub(super) fn faults(&self) -> Vec<Fault> {
+        let searches = [&self.twist, &self.shear].into_iter();
+        let faults = searches.flat_map(Found::faults);
+        faults.chain(self.bend.basis.faults()).collect()
+    }
+
     /// The parts of a scene's law that they are.
     pub(crate) fn laws(&self) -> RodLaws {
         RodLaws {
@@ -73,14 +91,7 @@ impl BendFits {
 
 fn laws(law: Stiffening, cubic_pn: f64) -> RodLaws {
     RodLaws {
-        bend: Some(BendLaw::Stiffening {
-            rest_pn_nm2: law.rest,
-            rise_pn_nm2: law.rise,
-            curvature_per_nm: law.curvature,
-            twist_per_nm: law.twist.is_finite().then_some(law.twist),
-            shear: law.shear.is_finite().then_some(law.shear),
-            range_per_nm: law.range,
-        }),
+        bend: Some(super::write::stiffening(law)),
         shear: Some(ShearLaw::Cubic {
             linear_pn: [0.0; 2],
             cubic_pn,
@@ -94,17 +105,16 @@ fn relative(x: &[f64], width: usize, y: &[f64]) -> Result<Data, FitError> {
     Data::from_rows(width, x, Observations::new(y)?.with_weights(&weights)?)
 }
 
-fn fit_bend(data: &BendData, range: f64) -> Result<Fit, FitError> {
-    let x: Vec<f64> = data.bend.iter().map(|p| p.x).collect();
-    let y: Vec<f64> = data.bend.iter().map(|p| p.mean).collect();
-    let bounds = Bounds::new(&[(1e3, 1e6), (0.0, 1e6), (1e-5, 0.1)])?;
-    let starts = Starts::at(&[3.1e4, 8e3, 2.8e-3]).and_drawn(30, 1);
-    let data = relative(&x, 1, &y)?;
-    LevenbergMarquardt::default().fit(&Stiffened { range }, &data, &bounds, &starts)
+fn column(points: &[Point]) -> Column {
+    let mut column = Column::default();
+    for point in points {
+        column.push(point.x, point.mean);
+    }
+    column
 }
 
 /// The one scale by which twist stiffens bending.
-fn fit_twist(data: &BendData, law: Stiffening) -> Result<Fit, FitError> {
+fn fit_twist(data: &BendData, law: Stiffening) -> Result<Found, String> {
     let x: Vec<f64> = data
         .twisted
         .iter()
@@ -120,9 +130,14 @@ fn fit_twist(data: &BendData, law: Stiffening) -> Result<Fit, FitError> {
             gradient[0] = (secant(x, p[0] + h) - secant(x, p[0] - h)) / (2.0 * h);
         },
     );
-    let bounds = Bounds::new(&[(1e-4, 1.0)])?;
-    let starts = Starts::at(&[3e-3]).and_drawn(10, 1);
-    LevenbergMarquardt::default().fit(&model, &relative(&x, 2, &y)?, &bounds, &starts)
+    let range = data
+        .twisted
+        .iter()
+        .fold(0.0, |most: f64, row| row[0].abs().max(most));
+    let bounds = vec![(5e-3 * range, 50.0 * range)];
+    let starts = Starts::at(&[0.15 * range]).and_drawn(10, 1);
+    let data = relative(&x, 2, &y).map_err(|e| format!("{}: {e}", TWISTED.what))?;
+    Found::search(&TWISTED, &model, &data, bounds, &starts)
 }
 
 /// Tips and guided ends with what they are.
@@ -132,7 +147,7 @@ fn beams(data: &BendData) -> impl Iterator<Item = (bool, Point)> + '_ {
 }
 
 /// Cubic shear and its share in stiffening, from rods under the same loads as the filaments.
-fn fit_shear(data: &BendData, law: Stiffening) -> Result<Fit, FitError> {
+fn fit_shear(data: &BendData, law: Stiffening) -> Result<Found, String> {
     let all: Vec<(bool, Point)> = beams(data).collect();
     let x: Vec<f64> = (0..all.len()).map(|i| i as f64).collect();
     let y: Vec<f64> = all.iter().map(|(_, p)| p.mean).collect();
@@ -159,10 +174,16 @@ fn fit_shear(data: &BendData, law: Stiffening) -> Result<Fit, FitError> {
             }
         }
     };
-    let bounds = Bounds::new(&[(1e4, 1e8), (1e-4, 1.0)])?;
+    let bounds = vec![(1e4, 1e8), (1e-4, 1.0)];
     let model = ClosureModel::new(2, rod, slopes);
-    let data = relative(&x, 1, &y)?;
-    LevenbergMarquardt::default().fit(&model, &data, &bounds, &Starts::at(&[1e6, 1e-2]))
+    let data = relative(&x, 1, &y).map_err(|e| format!("{}: {e}", SHEARED.what))?;
+    let options = Options {
+        cosine: COSINE,
+        ..Options::default()
+    };
+    let method = LevenbergMarquardt::new(options).map_err(|e| e.to_string())?;
+    let starts = Starts::at(&[1e6, 1e-2]);
+    Found::search_by(method, &SHEARED, &model, &data, bounds, &starts)
 }
 
 /// How far a rod of this law goes where a filament was measured (nm); not a number if it has no

@@ -2,7 +2,7 @@
 //!
 //! The forms themselves live with the rod; here they only get their parameters in a row.
 
-use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, TanhTwist, TwistRise};
+use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistRise};
 use actin_fit::Model;
 
 /// B3 against twist as published, the two limits held: `lambda_1` to `lambda_7`.
@@ -132,5 +132,80 @@ impl Model for Stiffened {
 
     fn gradient(&self, x: &[f64], p: &[f64], gradient: &mut [f64]) {
         gradient.copy_from_slice(&self.law(p).secant_gradient(x[0]));
+    }
+}
+
+/// Strain against axial force: tension, compression and width of the law.
+#[derive(Debug)]
+pub(super) struct Stretched;
+
+impl Stretched {
+    pub(super) fn law(p: &[f64]) -> StretchLaw {
+        StretchLaw::Sided {
+            tension: p[0],
+            compression: p[1],
+            width: p[2],
+        }
+    }
+}
+
+impl Model for Stretched {
+    fn parameters(&self) -> usize {
+        3
+    }
+
+    /// The root of a quadratic equation, and Newton's step for the digits that it loses.
+    fn value(&self, x: &[f64], p: &[f64]) -> f64 {
+        let (force, law) = (x[0], Self::law(p));
+        let (mean, half) = (0.5 * (p[0] + p[1]), 0.5 * (p[0] - p[1]));
+        let shifted = mean * (force + half * p[2]);
+        let squared = (mean * p[2]).powi(2) + force * (force + 2.0 * half * p[2]);
+        let root = (shifted - half * squared.max(0.0).sqrt()) / (p[0] * p[1]);
+        root - (law.force(root) - force) / law.tangent(root)
+    }
+
+    /// `de/dp = -(dF/dp) / (dF/de)` at the strain of the force.
+    fn gradient(&self, x: &[f64], p: &[f64], gradient: &mut [f64]) {
+        let strain = self.value(x, p);
+        let tangent = Self::law(p).tangent(strain);
+        let root = strain.hypot(p[2]);
+        let bent = strain * strain / (root + p[2]);
+        let by = [
+            0.5 * (strain + bent),
+            0.5 * (strain - bent),
+            0.5 * (p[0] - p[1]) * (p[2] / root - 1.0),
+        ];
+        for (slope, by) in gradient.iter_mut().zip(by) {
+            *slope = -by / tangent;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use actin_fit::{Data, Observations, check_gradient};
+
+    /// The strain of a force bears that force, to rounding, on both sides and between them.
+    #[test]
+    fn strains_of_forces() {
+        for p in [[3e4, 1.5e4, 1e-3], [1e4, 2e4, 1e-4], [2e4, 2e4, 1e-3]] {
+            for force in [-500.0, -20.0, -1.0, -1e-3, 0.0, 1e-6, 0.1, 5.0, 300.0] {
+                let strain = Stretched.value(&[force], &p);
+                let borne = Stretched::law(&p).force(strain);
+                assert!(
+                    (borne - force).abs() <= 1e-13 * f64::abs(force),
+                    "{p:?} {force} {borne}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn gradient_of_the_strain() {
+        let x = [-50.0, -3.0, 1.0, 20.0];
+        let data = Data::new(&x, Observations::new(&[0.0; 4]).unwrap()).unwrap();
+        let check = check_gradient(&Stretched, &data, &[3e4, 1.5e4, 1e-3]).unwrap();
+        assert!(check.error < 1e-9, "{check:?}");
     }
 }

@@ -1,6 +1,7 @@
 //! Fresh data: filaments of monomers, twisted, bent and sheared.
 
-use super::data::{Column, TwistData};
+use super::column::Column;
+use super::data::TwistData;
 use actin_sim::Monomers;
 use actin_sim::measure::{
     Curve, MeasureError, Specimen, bend_by_couples, bend_by_tip_force, bend_twisted,

@@ -1,6 +1,8 @@
 //! Figure 9: B3 and the change of length against twist, data and curves.
 
-use super::data::{Column, TwistData};
+use super::column::Column;
+use super::data::TwistData;
+use super::own::Curve as LawCurve;
 use super::twist::TwistFits;
 use crate::figures::palette;
 use crate::figures::plot::{Chart, Series, draw as draw_chart};
@@ -44,7 +46,7 @@ pub(crate) fn draw(
 }
 
 fn rigidity(data: &TwistData, fits: &TwistFits) -> Chart<'static> {
-    let (tanh, sided) = (fits.tanh_law(&fits.tanh), fits.sided_law());
+    let (tanh, sided) = (fits.tanh_law(&fits.tanh.fit), fits.sided.0);
     let published = TanhTwist::published();
     let range = data.rigidity.range();
     Chart {
@@ -68,7 +70,7 @@ fn rigidity(data: &TwistData, fits: &TwistFits) -> Chart<'static> {
 }
 
 fn length(data: &TwistData, fits: &TwistFits) -> Chart<'static> {
-    let (polynomial, rooted) = (fits.polynomial_law(&fits.polynomial), fits.rooted_law());
+    let (polynomial, rooted) = (fits.polynomial_law(&fits.polynomial), fits.rooted.law);
     let published = PolynomialStretch::published();
     let range = data.length.range();
     Chart {
@@ -103,11 +105,37 @@ fn curve(label: &str, line: usize, range: f64, law: impl Fn(f64) -> f64) -> Seri
 }
 
 fn dots(column: &Column, label: &str, scale: f64) -> Series {
-    let points = column.twist.iter().zip(&column.value);
     Series {
         label: Some(label.to_owned()),
         colour: palette::DATA,
-        points: points.map(|(k, v)| (*k, v * scale)).collect(),
+        points: column.pairs().map(|(k, v)| (k, v * scale)).collect(),
         dots: true,
     }
+}
+
+/// Draws a law beside its data, over the range of the data.
+pub(super) fn curve_with_data(curve: &LawCurve<'_>, out: &Path) -> Result<(), String> {
+    let ends = curve
+        .data
+        .x
+        .iter()
+        .fold([0.0_f64; 2], |ends, x| [ends[0].min(*x), ends[1].max(*x)]);
+    let points = (0..=CURVE).map(|i| {
+        let x = ends[0] + (ends[1] - ends[0]) * f64::from(i) / f64::from(CURVE);
+        (x, (curve.law)(x))
+    });
+    let law = Series {
+        label: Some("law".to_owned()),
+        colour: palette::line(SMALLEST),
+        points: points.collect(),
+        dots: false,
+    };
+    let chart = Chart {
+        title: curve.title,
+        x_label: curve.x_label,
+        y_label: curve.y_label,
+        series: vec![law, dots(curve.data, "data", 1.0)],
+        equal_axes: false,
+    };
+    draw_chart(&chart, &out.join(format!("{}.svg", curve.name)))
 }

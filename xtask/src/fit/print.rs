@@ -1,11 +1,14 @@
 //! What the fits say, as text.
 
 use super::bend::BendFits;
-use super::data::{Column, TwistData};
+use super::column::Column;
+use super::data::TwistData;
+use super::found::Found;
 use super::measured::BendData;
+use super::search::Basis;
 use super::twist::{TwistFits, rms};
 use actin_cosserat::{PolynomialStretch, TanhTwist};
-use actin_fit::{Fit, LinearFit, Precision, Status};
+use actin_fit::{Goodness, LinearFit, Precision, Status};
 
 /// Agreement of chi squared that counts starts as having found the same minimum.
 const SAME: f64 = 1e-6;
@@ -29,15 +32,11 @@ fn length(data: &TwistData, fits: &TwistFits) {
     println!("\nthe same without p_0");
     polynomial(&fits.without_offset, &published[1..]);
     println!("\nxi - 1 = slope k - bend (sqrt(k^2 + half^2) - half) + cubic k^3");
-    nonlinear(
-        &fits.rooted,
-        &["slope (nm)", "bend (nm)", "half (1/nm)", "cubic (nm^3)"],
-        None,
-    );
-    let law = fits.rooted_law();
+    basis(&fits.rooted.basis);
+    let law = fits.rooted.law;
     println!(
         "  rms {:.3e}, largest {:.1e}",
-        fits.rooted.goodness.rms,
+        fits.rooted.basis.goodness().rms,
         largest(xi, |k| law.jet(k)[0], false)
     );
 }
@@ -49,20 +48,17 @@ fn rigidity(data: &TwistData, fits: &TwistFits) {
         "\nB3, published form, {} values, equal weights",
         b3.value.len()
     );
-    let names = [
-        "lambda_1", "lambda_2", "lambda_3", "lambda_4", "lambda_5", "lambda_6", "lambda_7",
-    ];
     let published = TanhTwist::published();
-    nonlinear(&fits.tanh, &names, Some(&published.lambda));
+    nonlinear(&fits.tanh, Some(&published.lambda));
     println!(
         "  rms {:.1} pN nm^2; of the published lambda {:.1} ({:.1} % relative)",
-        fits.tanh.goodness.rms,
+        fits.tanh.fit.goodness.rms,
         fits.published_b3_rms[0],
         100.0 * fits.published_b3_rms[1]
     );
     println!("\nB3, published form, relative weights");
-    nonlinear(&fits.tanh_relative, &names, Some(&published.lambda));
-    let relative = |fit: &Fit| 100.0 * rms(b3, |k| fits.tanh_law(fit).secant(k), true);
+    nonlinear(&fits.tanh_relative, Some(&published.lambda));
+    let relative = |found: &Found| 100.0 * rms(b3, |k| fits.tanh_law(&found.fit).secant(k), true);
     println!(
         "  rms {:.2} % relative (equal weights: {:.2} %)",
         relative(&fits.tanh_relative),
@@ -74,17 +70,8 @@ fn rigidity(data: &TwistData, fits: &TwistFits) {
 fn saturating(data: &TwistData, fits: &TwistFits) {
     let b3 = &data.rigidity;
     println!("\nB3 = rest + rise k^2/(k^2 + slow |k| + half^2), relative weights");
-    let names = [
-        "rest",
-        "under: rise",
-        "under: half",
-        "under: slow",
-        "over: rise",
-        "over: half",
-        "over: slow",
-    ];
-    nonlinear(&fits.sided, &names, None);
-    let law = fits.sided_law();
+    nonlinear(&fits.sided.1, None);
+    let law = fits.sided.0;
     println!(
         "  rms {:.2} % relative, largest {:.1} %; {:.1} pN nm^2",
         100.0 * rms(b3, |k| law.secant(k), true),
@@ -94,10 +81,9 @@ fn saturating(data: &TwistData, fits: &TwistFits) {
 }
 
 /// Largest difference, or relative difference, of `law` and a column.
-fn largest(column: &Column, law: impl Fn(f64) -> f64, relative: bool) -> f64 {
-    let pairs = column.twist.iter().zip(&column.value);
-    let differences = pairs.map(|(&k, value)| {
-        let scale = if relative { *value } else { 1.0 };
+pub(super) fn largest(column: &Column, law: impl Fn(f64) -> f64, relative: bool) -> f64 {
+    let differences = column.pairs().map(|(k, value)| {
+        let scale = if relative { value } else { 1.0 };
         ((law(k) - value) / scale).abs()
     });
     differences.fold(0.0, f64::max)
@@ -109,18 +95,14 @@ pub(super) fn bend(data: &BendData, fits: &BendFits) {
         "\nB = rest + rise q/(1 + q), q = k^2/k0^2, {} values",
         data.bend.len()
     );
-    nonlinear(
-        &fits.bend,
-        &["rest (pN nm^2)", "rise (pN nm^2)", "k0 (1/nm)"],
-        None,
-    );
+    basis(&fits.bend.basis);
     println!("  twist in q: {} values", data.twisted.len());
-    nonlinear(&fits.twist, &["twist (1/nm)"], None);
+    nonlinear(&fits.twist, None);
     println!(
         "  shear in q, and cubic: {} tips and guided ends",
         fits.checks.len()
     );
-    nonlinear(&fits.shear, &["cubic (pN)", "shear"], None);
+    nonlinear(&fits.shear, None);
     println!("  stretching rigidity against axial force, turn blocked:");
     for p in &data.stretch {
         println!("    {:7.1} pN: {:.0} +- {:.0} pN", p.x, p.mean, p.error);
@@ -159,8 +141,32 @@ fn standard_error(precision: &Precision, j: usize) -> String {
         .map_or_else(|| "   -   ".into(), |e| format!("{e:7.1e}"))
 }
 
-fn nonlinear(fit: &Fit, names: &[&str], published: Option<&[f64]>) {
-    for (j, (name, value)) in names.iter().zip(&fit.parameters).enumerate() {
+/// The fit behind a law.
+pub(super) fn basis(basis: &Basis) {
+    match basis {
+        Basis::Full(found) => nonlinear(found, None),
+        Basis::Simple { note, names, fit } => {
+            println!("  {note}");
+            for (j, (name, value)) in names.iter().zip(&fit.parameters).enumerate() {
+                let error = standard_error(&fit.precision, j);
+                println!("  {name:24} = {value:12.5e} +- {error}");
+            }
+        }
+    }
+}
+
+/// Chi squared of values with standard errors.
+pub(super) fn chi_squared(goodness: &Goodness) {
+    let freedom = goodness.degrees_of_freedom;
+    println!(
+        "  chi^2 = {:.4} for {freedom} degrees of freedom; errors are those of the given ones",
+        goodness.chi_squared
+    );
+}
+
+pub(super) fn nonlinear(found: &Found, published: Option<&[f64]>) {
+    let (fit, parameters) = (&found.fit, found.form.parameters);
+    for (j, ((key, unit), value)) in parameters.iter().zip(&fit.parameters).enumerate() {
         let error = standard_error(&fit.precision, j);
         let theirs = published.map_or_else(String::new, |p| format!(", published {:11.4e}", p[j]));
         let status = match fit.statuses[j] {
@@ -171,9 +177,10 @@ fn nonlinear(fit: &Fit, names: &[&str], published: Option<&[f64]>) {
             Status::AtUpperBound => ", AT ITS UPPER BOUND",
             Status::Held => ", held",
         };
-        println!("  {name:14} = {value:12.5e} +- {error}{theirs}{status}");
+        println!("  {key:18} = {value:12.5e} +- {error} {unit}{theirs}{status}");
     }
-    println!("  largest correlation {}", strongest(&fit.precision, names));
+    let keys: Vec<&str> = parameters.iter().map(|(key, _)| *key).collect();
+    println!("  largest correlation {}", strongest(&fit.precision, &keys));
     let converged = fit
         .starts
         .iter()

@@ -1,18 +1,29 @@
 //! Fits of B3(kappa) and xi(kappa).
 
-use super::data::{Column, TwistData};
-use super::forms::{Rooted, Sided, Tanh};
+use super::column::{Column, Weight};
+use super::data::TwistData;
+use super::forms::Tanh;
+use super::found::{Fault, Form, Found};
+use super::search::{LawFit, STARTS, rooted, sided};
 use actin_cosserat::{PolynomialStretch, RootedStretch, SidedTwist, TanhTwist};
-use actin_fit::{
-    Bounds, Data, Fit, LevenbergMarquardt, LinearFit, Model, Observations, Polynomial, Starts,
-};
+use actin_fit::{Data, Fit, LinearFit, Polynomial, Starts};
 
 /// Degree of the published polynomial.
 const DEGREE: u8 = 6;
-/// Starts that are drawn for each nonlinear fit, and the seed of the draws.
-const STARTS: (usize, u64) = (200, 20_220_304);
 /// Standard deviation of a number that is rounded to four decimals.
 const ROUNDING_DEVIATION: f64 = 2.887e-5;
+pub(super) const TANH: Form = Form {
+    what: "published form of B3",
+    parameters: &[
+        ("published.lambda_1", "rad/nm"),
+        ("published.lambda_2", "rad/nm"),
+        ("published.lambda_3", ""),
+        ("published.lambda_4", "rad/nm"),
+        ("published.lambda_5", "rad/nm"),
+        ("published.lambda_6", "rad/nm"),
+        ("published.lambda_7", "rad/nm"),
+    ],
+};
 /// Bounds of the published form's parameters: steps lie within the data and are no narrower than
 /// half the distance of two rows, below which every width fits as well.
 const LAMBDA_BOUNDS: [(f64, f64); 7] = [
@@ -33,13 +44,13 @@ pub(crate) struct TwistFits {
     /// `p_1` to `p_6`, with nothing at rest.
     pub without_offset: LinearFit,
     /// `xi - 1` with two slopes.
-    pub rooted: Fit,
+    pub rooted: LawFit<RootedStretch>,
     /// Published form of B3, every row with the same weight.
-    pub tanh: Fit,
+    pub tanh: Found,
     /// The same with relative weights: the small rigidities of small twists count as much.
-    pub tanh_relative: Fit,
+    pub tanh_relative: Found,
     /// Saturation to either side, with relative weights.
-    pub sided: Fit,
+    pub sided: (SidedTwist, Found),
     /// Root mean square of the published `xi`, and of it without its offset.
     pub published_xi_rms: [f64; 2],
     /// Root mean square of the published B3 (pN nm^2), and relative.
@@ -56,33 +67,31 @@ impl TwistFits {
         let (rigidity, length) = (&data.rigidity, &data.length);
         let of_xi = |e| format!("xi against twist: {e}");
         let of_b3 = |e| format!("B3 against twist: {e}");
-        let plain = observed(length, false).map_err(of_xi)?;
-        let equal = observed(rigidity, false).map_err(of_b3)?;
-        let relative = observed(rigidity, true).map_err(of_b3)?;
+        let plain = length.observed(Weight::Equal).map_err(of_xi)?;
+        let equal = rigidity.observed(Weight::Equal).map_err(of_b3)?;
+        let relative = rigidity.observed(Weight::Relative).map_err(of_b3)?;
         let published = TanhTwist::published();
         let tanh = |data: &Data, extra: &[f64]| {
             let starts = Starts::at(extra).and_drawn(STARTS.0, STARTS.1);
-            search(
-                &Tanh {
-                    limits: wide(published),
-                },
+            let limits = wide(published);
+            Found::search(
+                &TANH,
+                &Tanh { limits },
                 data,
-                &LAMBDA_BOUNDS,
+                LAMBDA_BOUNDS.to_vec(),
                 &starts,
             )
-            .map_err(of_b3)
         };
         let tanh_fit = tanh(&equal, &published.lambda)?;
-        let ranges = [rigidity.range(), length.range()];
         Ok(Self {
             polynomial: Polynomial::new(DEGREE).fit(&plain).map_err(of_xi)?,
             without_offset: Polynomial::without_constant(DEGREE)
                 .fit(&plain)
                 .map_err(of_xi)?,
-            rooted: fit_rooted(&plain, ranges[1]).map_err(of_xi)?,
-            tanh_relative: tanh(&relative, &tanh_fit.parameters)?,
+            rooted: rooted(length)?,
+            tanh_relative: tanh(&relative, &tanh_fit.fit.parameters)?,
             tanh: tanh_fit,
-            sided: fit_sided(&relative, ranges[0]).map_err(of_b3)?,
+            sided: sided(rigidity)?,
             published_xi_rms: [
                 PolynomialStretch::published(),
                 PolynomialStretch::published_without_offset(),
@@ -90,8 +99,15 @@ impl TwistFits {
             .map(|law| rms(length, |k| law.jet(k)[0], false)),
             published_b3_rms: [false, true]
                 .map(|relative| rms(rigidity, |k| wide(published).secant(k), relative)),
-            ranges,
+            ranges: [rigidity.range(), length.range()],
         })
+    }
+
+    /// What must not become part of a law.
+    pub(super) fn faults(&self) -> Vec<Fault> {
+        let searches = [&self.tanh, &self.sided.1].into_iter();
+        let faults = searches.flat_map(Found::faults);
+        faults.chain(self.rooted.basis.faults()).collect()
     }
 
     /// What the rounding of the paper's rows does to coefficient `j` of the polynomial: its
@@ -118,22 +134,6 @@ impl TwistFits {
         }
     }
 
-    /// The saturating form as fitted.
-    pub(crate) fn sided_law(&self) -> SidedTwist {
-        Sided {
-            range: self.ranges[0],
-        }
-        .law(&self.sided.parameters)
-    }
-
-    /// The form with two slopes as fitted.
-    pub(crate) fn rooted_law(&self) -> RootedStretch {
-        Rooted {
-            range: self.ranges[1],
-        }
-        .law(&self.rooted.parameters)
-    }
-
     /// A polynomial as fitted; one without offset has `p_0 = 0`.
     pub(crate) fn polynomial_law(&self, fit: &LinearFit) -> PolynomialStretch {
         let mut coefficients = [0.0; 7];
@@ -154,47 +154,10 @@ fn wide(law: TanhTwist) -> TanhTwist {
     }
 }
 
-/// A column with equal or with relative weights. The scatter over samplings is no weight: a form
-/// of few parameters misses the means by more than that, and is to miss them evenly.
-fn observed(column: &Column, relative: bool) -> Result<Data, actin_fit::FitError> {
-    let mut observations = Observations::new(&column.value)?;
-    if relative {
-        let weights: Vec<f64> = column.value.iter().map(|v| v.powi(-2)).collect();
-        observations = observations.with_weights(&weights)?;
-    }
-    Data::new(&column.twist, observations)
-}
-
-fn search(
-    model: &dyn Model,
-    data: &Data,
-    bounds: &[(f64, f64)],
-    starts: &Starts,
-) -> Result<Fit, actin_fit::FitError> {
-    LevenbergMarquardt::default().fit(model, data, &Bounds::new(bounds)?, starts)
-}
-
-fn fit_sided(data: &Data, range: f64) -> Result<Fit, actin_fit::FitError> {
-    let side = [(1e2, 2e5), (1e-4, 0.2), (0.0, 0.2)];
-    let bounds: Vec<(f64, f64)> = std::iter::once((0.0, 5e3))
-        .chain(side)
-        .chain(side)
-        .collect();
-    let starts = Starts::at(&[300.0, 1.3e4, 0.01, 0.02, 2e4, 0.01, 0.02]);
-    let starts = starts.and_drawn(STARTS.0, STARTS.1);
-    search(&Sided { range }, data, &bounds, &starts)
-}
-
-fn fit_rooted(data: &Data, range: f64) -> Result<Fit, actin_fit::FitError> {
-    let bounds = [(-1.0, 1.0), (0.0, 2.0), (1e-4, 0.1), (-1e3, 1e3)];
-    let starts = Starts::at(&[-0.29, 0.46, 0.0067, 28.0]).and_drawn(STARTS.0, STARTS.1);
-    search(&Rooted { range }, data, &bounds, &starts)
-}
-
 /// Root mean square of `law` against a column, of differences or of relative ones.
 pub(crate) fn rms(column: &Column, law: impl Fn(f64) -> f64, relative: bool) -> f64 {
-    let squares = column.twist.iter().zip(&column.value).map(|(&k, value)| {
-        let scale = if relative { *value } else { 1.0 };
+    let squares = column.pairs().map(|(k, value)| {
+        let scale = if relative { value } else { 1.0 };
         ((law(k) - value) / scale).powi(2)
     });
     (squares.sum::<f64>() / column.value.len() as f64).sqrt()
@@ -203,7 +166,8 @@ pub(crate) fn rms(column: &Column, law: impl Fn(f64) -> f64, relative: bool) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use actin_fit::check_gradient;
+    use crate::fit::forms::{Rooted, Sided};
+    use actin_fit::{Model, check_gradient};
 
     /// The published polynomial is the least-squares one, and
     /// the published lambda are not.
@@ -230,16 +194,16 @@ mod tests {
         }
         assert!((fits.published_b3_rms[0] - 349.0).abs() < 1.0);
         assert!(
-            fits.tanh.goodness.rms <= 265.0,
+            fits.tanh.fit.goodness.rms <= 265.0,
             "{}",
-            fits.tanh.goodness.rms
+            fits.tanh.fit.goodness.rms
         );
     }
 
     #[test]
     fn derivatives_of_the_forms() {
         let data = TwistData::from_paper(false).unwrap();
-        let data = observed(&data.rigidity, false).unwrap();
+        let data = data.rigidity.observed(Weight::Equal).unwrap();
         let range = 1.0;
         let checks: [(&dyn Model, &[f64]); 3] = [
             (

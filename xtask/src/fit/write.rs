@@ -5,8 +5,10 @@ use super::data::TwistData;
 use super::measured::{BendData, Point};
 use super::twist::TwistFits;
 use crate::figures::report::{save, write_csv};
-use actin_cosserat::{PolynomialStretch, RootedStretch, SidedTwist, TanhTwist, TwistRise};
-use actin_sim::{RodLaws, TwistLaw, TwistStretchLaw};
+use actin_cosserat::{
+    PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistRise,
+};
+use actin_sim::{BendLaw, RodLaws, TwistLaw, TwistStretchLaw};
 use std::path::Path;
 
 /// Points of a curve.
@@ -15,30 +17,53 @@ const CURVE: i32 = 400;
 /// Writes `rod-law.ron`, the smallest forms, and `published-form.ron`, the paper's forms refitted;
 /// what stands in them goes behind `law:` in a scene's `RodModel`.
 pub(super) fn laws(fits: &TwistFits, bend: Option<&BendFits>, out: &Path) -> Result<(), String> {
-    let head = "// A rod law for a scene: `rod: RodModel(law: ...)`. Written by fit-parameters.\n";
     let smallest = RodLaws {
-        twist: Some(sided(fits.sided_law())),
-        twist_stretch: Some(rooted(fits.rooted_law())),
+        twist: Some(sided(fits.sided.0)),
+        twist_stretch: Some(rooted(fits.rooted.law)),
         ..bend.map(BendFits::laws).unwrap_or_default()
     };
-    save(
-        out,
-        "rod-law.ron",
-        &format!("{head}{}\n", smallest.to_ron()),
-    )?;
+    law(&smallest, "rod-law.ron", out)?;
     let published = RodLaws {
-        twist: Some(tanh(fits.tanh_law(&fits.tanh))),
+        twist: Some(tanh(fits.tanh_law(&fits.tanh.fit))),
         twist_stretch: Some(polynomial(fits.polynomial_law(&fits.without_offset))),
         ..RodLaws::default()
     };
-    save(
-        out,
-        "published-form.ron",
-        &format!("{head}{}\n", published.to_ron()),
-    )
+    law(&published, "published-form.ron", out)
 }
 
-fn sided(law: SidedTwist) -> TwistLaw {
+/// Writes a law as a scene takes it.
+pub(super) fn law(laws: &RodLaws, name: &str, out: &Path) -> Result<(), String> {
+    let head = "// A rod law for a scene: `rod: RodModel(law: ...)`. Written by fit-parameters.\n";
+    save(out, name, &format!("{head}{}\n", laws.to_ron()))
+}
+
+pub(super) fn stiffening(law: Stiffening) -> BendLaw {
+    BendLaw::Stiffening {
+        rest_pn_nm2: law.rest,
+        rise_pn_nm2: law.rise,
+        curvature_per_nm: law.curvature,
+        twist_per_nm: law.twist.is_finite().then_some(law.twist),
+        shear: law.shear.is_finite().then_some(law.shear),
+        range_per_nm: law.range,
+    }
+}
+
+pub(super) fn stretch(law: StretchLaw) -> actin_sim::StretchLaw {
+    match law {
+        StretchLaw::Constant(rigidity_pn) => actin_sim::StretchLaw::Constant { rigidity_pn },
+        StretchLaw::Sided {
+            tension,
+            compression,
+            width,
+        } => actin_sim::StretchLaw::Sided {
+            tension_pn: tension,
+            compression_pn: compression,
+            width,
+        },
+    }
+}
+
+pub(super) fn sided(law: SidedTwist) -> TwistLaw {
     let side = |side: TwistRise| actin_sim::TwistRise {
         rise_pn_nm2: side.rise,
         half_per_nm: side.half,
@@ -61,7 +86,7 @@ fn tanh(law: TanhTwist) -> TwistLaw {
     }
 }
 
-fn rooted(law: RootedStretch) -> TwistStretchLaw {
+pub(super) fn rooted(law: RootedStretch) -> TwistStretchLaw {
     TwistStretchLaw::Rooted {
         slope_nm: law.slope,
         bend_nm: law.bend,
@@ -82,10 +107,10 @@ fn polynomial(law: PolynomialStretch) -> TwistStretchLaw {
 pub(super) fn curves(data: &TwistData, fits: &TwistFits, out: &Path) -> Result<(), String> {
     let range = data.rigidity.range().max(data.length.range());
     let (tanh, relative) = (
-        fits.tanh_law(&fits.tanh),
-        fits.tanh_law(&fits.tanh_relative),
+        fits.tanh_law(&fits.tanh.fit),
+        fits.tanh_law(&fits.tanh_relative.fit),
     );
-    let (sided, rooted) = (fits.sided_law(), fits.rooted_law());
+    let (sided, rooted) = (fits.sided.0, fits.rooted.law);
     let polynomial = fits.polynomial_law(&fits.polynomial);
     let rows = (-CURVE..=CURVE).map(|i| {
         let k = range * f64::from(i) / f64::from(CURVE);

@@ -1,0 +1,90 @@
+//! A column of values with what they are plotted against.
+
+use actin_fit::{Data, FitError, Observations};
+
+/// Values against a variable: twist (rad/nm, positive in over-twist), curvature (rad/nm) or force
+/// (pN).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Column {
+    pub x: Vec<f64>,
+    pub value: Vec<f64>,
+    /// Standard errors: as many as values, or none.
+    pub error: Vec<f64>,
+}
+
+/// How values without standard errors are weighted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Weight {
+    /// All alike.
+    Equal,
+    /// By one over their squares, so that relative differences count.
+    Relative,
+}
+
+impl Column {
+    pub(super) fn push(&mut self, x: f64, value: f64) {
+        self.x.push(x);
+        self.value.push(value);
+    }
+
+    /// Number of values.
+    pub(crate) fn len(&self) -> usize {
+        self.value.len()
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.value.is_empty()
+    }
+
+    /// Largest size of the variable.
+    pub(crate) fn range(&self) -> f64 {
+        self.x.iter().fold(0.0, |most, x| x.abs().max(most))
+    }
+
+    /// Largest size of a value.
+    pub(super) fn largest(&self) -> f64 {
+        self.value.iter().fold(0.0, |most, v| v.abs().max(most))
+    }
+
+    /// The value where the variable is least in size.
+    pub(super) fn at_rest(&self) -> f64 {
+        let least = self.pairs().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        least.map_or(0.0, |(_, value)| value)
+    }
+
+    /// The value where the variable is largest, taken times `sign`.
+    pub(super) fn at_end(&self, sign: f64) -> f64 {
+        let end = self
+            .pairs()
+            .max_by(|a, b| (sign * a.0).total_cmp(&(sign * b.0)));
+        end.map_or(0.0, |(_, value)| value)
+    }
+
+    /// Number of values on the side of `sign`.
+    pub(super) fn on_side(&self, sign: f64) -> usize {
+        self.x.iter().filter(|x| sign * **x > 0.0).count()
+    }
+
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.x.iter().copied().zip(self.value.iter().copied())
+    }
+
+    /// Whether the standard errors of all values are known.
+    pub(crate) fn is_known(&self) -> bool {
+        !self.error.is_empty()
+    }
+
+    /// The column as data to fit: weighted by its standard errors if it has them.
+    pub(super) fn observed(&self, weight: Weight) -> Result<Data, FitError> {
+        let observations = Observations::new(&self.value)?;
+        let observations = if self.is_known() {
+            observations.with_deviations(&self.error)?
+        } else if weight == Weight::Relative {
+            let weights: Vec<f64> = self.value.iter().map(|v| v.powi(-2)).collect();
+            observations.with_weights(&weights)?
+        } else {
+            observations
+        };
+        Data::new(&self.x, observations)
+    }
+}

@@ -1,0 +1,152 @@
+//! What a search found, and whether it may become a law.
+
+use actin_fit::{Bounds, Data, Fit, FitError, LevenbergMarquardt, Model, Starts, Status};
+
+/// Names of the parameters of a form: keys, as `--allow-bounds` takes them, and units.
+#[derive(Debug, PartialEq)]
+pub(super) struct Form {
+    /// What is fitted, in words.
+    pub what: &'static str,
+    pub parameters: &'static [(&'static str, &'static str)],
+}
+
+/// A fit with its form and the bounds of the search.
+#[derive(Clone, Debug)]
+pub(crate) struct Found {
+    pub fit: Fit,
+    pub(super) form: &'static Form,
+    pub(super) bounds: Vec<(f64, f64)>,
+}
+
+/// A parameter that must not become part of a law.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Fault {
+    /// Key of the parameter.
+    key: &'static str,
+    /// What is wrong.
+    message: String,
+    /// Whether it may be allowed.
+    is_bound: bool,
+}
+
+impl Found {
+    /// Searches within bounds.
+    ///
+    /// # Errors
+    /// What the least squares refuse, in words.
+    pub(super) fn search(
+        form: &'static Form,
+        model: &dyn Model,
+        data: &Data,
+        bounds: Vec<(f64, f64)>,
+        starts: &Starts,
+    ) -> Result<Self, String> {
+        let method = LevenbergMarquardt::default();
+        Self::search_by(method, form, model, data, bounds, starts)
+    }
+
+    /// The same with settings of one's own.
+    pub(super) fn search_by(
+        method: LevenbergMarquardt,
+        form: &'static Form,
+        model: &dyn Model,
+        data: &Data,
+        bounds: Vec<(f64, f64)>,
+        starts: &Starts,
+    ) -> Result<Self, String> {
+        let fit =
+            || -> Result<Fit, FitError> { method.fit(model, data, &Bounds::new(&bounds)?, starts) };
+        Ok(Self {
+            fit: fit().map_err(|e| format!("{}: {e}", form.what))?,
+            form,
+            bounds,
+        })
+    }
+
+    /// Parameters at a bound, and those that the data do not determine.
+    pub(super) fn faults(&self) -> Vec<Fault> {
+        let all = self.form.parameters.iter().zip(&self.fit.parameters);
+        let fault = |(j, (&(key, unit), value)): (usize, (&(&'static str, &str), &f64))| {
+            let what = self.form.what;
+            let (lower, upper) = self.bounds[j];
+            let at = |side: &str, bound: f64| {
+                Some(format!(
+                    "{what}: {key} = {value:e} {unit} is at its {side} bound, {bound:e} {unit}"
+                ))
+            };
+            let message = match self.fit.statuses[j] {
+                Status::AtLowerBound => at("lower", lower),
+                Status::AtUpperBound => at("upper", upper),
+                Status::Undetermined => Some(format!("{what}: the data do not determine {key}")),
+                Status::Determined | Status::Weak | Status::Held => None,
+            };
+            message.map(|message| Fault {
+                key,
+                message,
+                is_bound: self.fit.statuses[j] != Status::Undetermined,
+            })
+        };
+        all.enumerate().filter_map(fault).collect()
+    }
+}
+
+/// Refuses faults, except for bounds that are allowed by key.
+///
+/// # Errors
+/// A message with a line for each fault.
+pub(super) fn accept(faults: &[Fault], allowed: &[String]) -> Result<(), String> {
+    let refused: Vec<&Fault> = faults
+        .iter()
+        .filter(|fault| !(fault.is_bound && allowed.iter().any(|key| key == fault.key)))
+        .collect();
+    if refused.is_empty() {
+        return Ok(());
+    }
+    let lines: Vec<&str> = refused.iter().map(|fault| fault.message.as_str()).collect();
+    let keys: Vec<&str> = refused
+        .iter()
+        .filter(|f| f.is_bound)
+        .map(|f| f.key)
+        .collect();
+    let hint = if keys.is_empty() {
+        String::new()
+    } else {
+        let keys = keys.join(",");
+        format!("; bounds follow the data, so look at these first; --allow-bounds {keys} accepts")
+    };
+    Err(format!("no law is written: {}{hint}", lines.join("; ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fault(key: &'static str, is_bound: bool) -> Fault {
+        let message = format!("{key} is bad");
+        Fault {
+            key,
+            message,
+            is_bound,
+        }
+    }
+
+    /// Only bounds can be allowed, and each by its own key.
+    #[test]
+    fn bounds_are_allowed_by_key() {
+        let faults = [fault("b3.rest", true), fault("bend.rise", true)];
+        assert_eq!(accept(&[], &[]), Ok(()));
+        let both = ["b3.rest".to_owned(), "bend.rise".to_owned()];
+        assert_eq!(accept(&faults, &both), Ok(()));
+        let message = accept(&faults, &both[..1]).unwrap_err();
+        assert!(
+            message.starts_with("no law is written: bend.rise is bad; "),
+            "{message}"
+        );
+        assert!(
+            message.ends_with("--allow-bounds bend.rise accepts"),
+            "{message}"
+        );
+        let message = accept(&[fault("b3.rest", false)], &both).unwrap_err();
+        assert_eq!(message, "no law is written: b3.rest is bad");
+    }
+}

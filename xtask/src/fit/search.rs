@@ -1,0 +1,323 @@
+//! The rod's laws fitted to columns: bounds and starts follow the data, and a simpler form is taken
+//! where the data do not ask for more.
+
+use super::bend::{SHEARED, TWISTED};
+use super::column::{Column, Weight};
+use super::forms::{Rooted, Sided, Stiffened, Stretched};
+use super::found::{Fault, Form, Found};
+use super::twist::TANH;
+use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, StretchLaw};
+use actin_fit::{Data, FitError, Goodness, LinearFit, Mat, Noise, Starts, fit_linear};
+
+/// Starts that are drawn for each search, and the seed of the draws.
+pub(super) const STARTS: (usize, u64) = (200, 20_220_304);
+/// Fewest values on either side of a law with two.
+const FEWEST: usize = 3;
+/// Probability, of an improvement by chance, below which two more parameters are taken.
+const CHANCE: f64 = 1e-3;
+/// Residuals over values below which a form meets the data to rounding.
+const ROUNDING: f64 = 1e-12;
+
+const SIDED: Form = Form {
+    what: "B3 against twist",
+    parameters: &[
+        ("b3.rest", "pN nm^2"),
+        ("b3.under.rise", "pN nm^2"),
+        ("b3.under.half", "rad/nm"),
+        ("b3.under.slow", "rad/nm"),
+        ("b3.over.rise", "pN nm^2"),
+        ("b3.over.half", "rad/nm"),
+        ("b3.over.slow", "rad/nm"),
+    ],
+};
+
+const ROOTED: Form = Form {
+    what: "length against twist",
+    parameters: &[
+        ("length.slope", "nm"),
+        ("length.bend", "nm"),
+        ("length.half", "rad/nm"),
+        ("length.cubic", "nm^3"),
+    ],
+};
+
+const STIFFENED: Form = Form {
+    what: "B against curvature",
+    parameters: &[
+        ("bend.rest", "pN nm^2"),
+        ("bend.rise", "pN nm^2"),
+        ("bend.curvature", "rad/nm"),
+    ],
+};
+
+const STRETCHED: Form = Form {
+    what: "strain against force",
+    parameters: &[
+        ("stretch.tension", "pN"),
+        ("stretch.compression", "pN"),
+        ("stretch.width", "of strain"),
+    ],
+};
+
+/// A law with the fit behind it.
+#[derive(Clone, Debug)]
+pub(crate) struct LawFit<L> {
+    pub law: L,
+    pub basis: Basis,
+}
+
+/// The fit behind a law.
+#[derive(Clone, Debug)]
+pub(crate) enum Basis {
+    /// Of the form with all its parameters.
+    Full(Found),
+    /// Of a form with two parameters less, which meets the data as well.
+    Simple {
+        /// What is simpler.
+        note: &'static str,
+        /// Names of its parameters.
+        names: &'static [&'static str],
+        fit: LinearFit,
+    },
+}
+
+impl Basis {
+    pub(crate) fn goodness(&self) -> &Goodness {
+        match self {
+            Self::Full(found) => &found.fit.goodness,
+            Self::Simple { fit, .. } => &fit.goodness,
+        }
+    }
+
+    /// What must not become part of a law.
+    pub(super) fn faults(&self) -> Vec<Fault> {
+        match self {
+            Self::Full(found) => found.faults(),
+            Self::Simple { .. } => Vec::new(),
+        }
+    }
+}
+
+/// B3 against twist: `rest`, and a rise on either side.
+///
+/// # Errors
+/// Fewer than three values on a side, and what the least squares refuse.
+pub(super) fn sided(column: &Column) -> Result<(SidedTwist, Found), String> {
+    for (side, sign) in [("under", -1.0), ("over", 1.0)] {
+        let count = column.on_side(sign);
+        if count < FEWEST {
+            return Err(format!(
+                "{}: {count} values of {side}-twist, at least {FEWEST} are needed",
+                SIDED.what
+            ));
+        }
+    }
+    let data = observed(&SIDED, column, Weight::Relative)?;
+    let (most, range) = (column.largest(), column.range());
+    let side = [
+        (1e-3 * most, 20.0 * most),
+        (2e-3 * range, 5.0 * range),
+        (0.0, 5.0 * range),
+    ];
+    let rest = (0.0, most);
+    let bounds = std::iter::once(rest).chain(side).chain(side).collect();
+    let rise = |sign| (column.at_end(sign) - column.at_rest()).max(0.1 * most);
+    let scale = 0.25 * range;
+    let start = [
+        column.at_rest(),
+        rise(-1.0),
+        scale,
+        scale,
+        rise(1.0),
+        scale,
+        scale,
+    ];
+    let starts = Starts::at(&start).and_drawn(STARTS.0, STARTS.1);
+    let form = Sided { range };
+    let found = Found::search(&SIDED, &form, &data, bounds, &starts)?;
+    Ok((form.law(&found.fit.parameters), found))
+}
+
+/// Length against twist: two slopes and a cube, or one slope and a cube.
+///
+/// # Errors
+/// What the least squares refuse.
+pub(super) fn rooted(column: &Column) -> Result<LawFit<RootedStretch>, String> {
+    let data = observed(&ROOTED, column, Weight::Equal)?;
+    let range = column.range();
+    let design = Mat::from_fn(data.len(), 2, |i, j| data.row(i)[0].powi([1, 3][j]));
+    let straight = simple(&ROOTED, fit_linear(design.as_ref(), data.observations()))?;
+    let slope = column.largest() / range;
+    let full = || {
+        let heights = (-20.0 * slope, 20.0 * slope);
+        let cube = 20.0 * slope / (range * range);
+        let bounds = vec![heights, heights, (2e-3 * range, 2.0 * range), (-cube, cube)];
+        let start = [
+            straight.parameters[0].clamp(heights.0, heights.1),
+            slope,
+            range / 7.0,
+            0.0,
+        ];
+        let starts = Starts::at(&start).and_drawn(STARTS.0, STARTS.1);
+        Found::search(&ROOTED, &Rooted { range }, &data, bounds, &starts)
+    };
+    if let Some(found) = unless_simple(&data, &straight, full)? {
+        let law = Rooted { range }.law(&found.fit.parameters);
+        let basis = Basis::Full(found);
+        return Ok(LawFit { law, basis });
+    }
+    let law = RootedStretch {
+        slope: straight.parameters[0],
+        bend: 0.0,
+        half: range,
+        cubic: straight.parameters[1],
+        range,
+    };
+    let basis = Basis::Simple {
+        note: "one slope meets the values as well as two",
+        names: &["slope (nm)", "cubic (nm^3)"],
+        fit: straight,
+    };
+    Ok(LawFit { law, basis })
+}
+
+/// B against curvature: a rise from `rest`, or a constant.
+///
+/// # Errors
+/// What the least squares refuse, and bending that softens.
+pub(super) fn stiffened(column: &Column) -> Result<LawFit<Stiffening>, String> {
+    let data = observed(&STIFFENED, column, Weight::Relative)?;
+    let (most, range) = (column.largest(), column.range());
+    let ones = Mat::full(data.len(), 1, 1.0);
+    let constant = simple(&STIFFENED, fit_linear(ones.as_ref(), data.observations()))?;
+    let full = || {
+        // A negative rise is searched for as well, to be refused rather than taken for none.
+        let bounds = vec![
+            (1e-3 * most, 2.0 * most),
+            (-0.999 * most, 20.0 * most),
+            (2e-3 * range, 5.0 * range),
+        ];
+        let rest = column.at_rest();
+        let start = [rest, (most - rest).max(0.05 * most), 0.2 * range];
+        let starts = Starts::at(&start).and_drawn(STARTS.0, STARTS.1);
+        Found::search(&STIFFENED, &Stiffened { range }, &data, bounds, &starts)
+    };
+    let chosen = match unless_simple(&data, &constant, full)? {
+        Some(found) => LawFit {
+            law: Stiffened { range }.law(&found.fit.parameters),
+            basis: Basis::Full(found),
+        },
+        None => LawFit {
+            law: Stiffened { range }.law(&[constant.parameters[0], 0.0, range]),
+            basis: Basis::Simple {
+                note: "a constant meets the values as well as a rise",
+                names: &["B (pN nm^2)"],
+                fit: constant,
+            },
+        },
+    };
+    let refused = |e| format!("{}: {e}: no law softens", STIFFENED.what);
+    chosen.law.validate().map_err(refused)?;
+    Ok(chosen)
+}
+
+/// Strain against force: a rigidity on either side, or one for both.
+///
+/// # Errors
+/// What the least squares refuse, and strains against their force.
+pub(super) fn stretched(column: &Column) -> Result<LawFit<StretchLaw>, String> {
+    let data = observed(&STRETCHED, column, Weight::Equal)?;
+    let forces = Mat::from_fn(data.len(), 1, |i, _| data.row(i)[0]);
+    let constant = simple(&STRETCHED, fit_linear(forces.as_ref(), data.observations()))?;
+    let rigidity = constant.parameters[0].recip();
+    if !(rigidity > 0.0 && rigidity.is_finite()) {
+        let what = STRETCHED.what;
+        return Err(format!(
+            "{what}: strain must grow with force, tension being positive"
+        ));
+    }
+    let full = || {
+        let most = column.largest();
+        let sides = (1e-2 * rigidity, 1e2 * rigidity);
+        let bounds = vec![sides, sides, (1e-3 * most, 2.0 * most)];
+        let starts = Starts::at(&[rigidity, rigidity, 0.1 * most]).and_drawn(STARTS.0, STARTS.1);
+        Found::search(&STRETCHED, &Stretched, &data, bounds, &starts)
+    };
+    let has_sides = [-1.0, 1.0]
+        .iter()
+        .all(|sign| column.on_side(*sign) >= FEWEST);
+    let found = if has_sides {
+        unless_simple(&data, &constant, full)?
+    } else {
+        None
+    };
+    if let Some(found) = found {
+        let law = Stretched::law(&found.fit.parameters);
+        let basis = Basis::Full(found);
+        return Ok(LawFit { law, basis });
+    }
+    let basis = Basis::Simple {
+        note: if has_sides {
+            "one rigidity meets both sides as well as two"
+        } else {
+            "one rigidity: two need three values on either side"
+        },
+        names: &["strain per force (1/pN)"],
+        fit: constant,
+    };
+    let law = StretchLaw::Constant(rigidity);
+    Ok(LawFit { law, basis })
+}
+
+/// Checks that keys name parameters of searches.
+///
+/// # Errors
+/// The first that does not, with those that there are.
+pub(super) fn check_keys(keys: &[String]) -> Result<(), String> {
+    let forms = [
+        &SIDED, &ROOTED, &STIFFENED, &STRETCHED, &TWISTED, &SHEARED, &TANH,
+    ];
+    let known = forms.iter().flat_map(|form| form.parameters);
+    let known: Vec<&str> = known.map(|(key, _)| *key).collect();
+    match keys.iter().find(|key| !known.contains(&key.as_str())) {
+        None => Ok(()),
+        Some(key) => Err(format!(
+            "--allow-bounds {key}: must be of {}",
+            known.join(", ")
+        )),
+    }
+}
+
+fn observed(form: &Form, column: &Column, weight: Weight) -> Result<Data, String> {
+    let data = column.observed(weight);
+    data.map_err(|e| format!("{}: {e}", form.what))
+}
+
+fn simple(form: &Form, fit: Result<LinearFit, FitError>) -> Result<LinearFit, String> {
+    fit.map_err(|e| format!("{}: {e}", form.what))
+}
+
+/// The fit of the full form, with two parameters more, unless the simple one meets the data as well:
+/// to rounding, or so that chance explains what the full one gains.
+fn unless_simple(
+    data: &Data,
+    simple: &LinearFit,
+    full: impl FnOnce() -> Result<Found, String>,
+) -> Result<Option<Found>, String> {
+    let observations = data.observations();
+    let scaled = observations.values().iter().zip(observations.deviations());
+    let size: f64 = scaled.map(|(y, s)| (y / s).powi(2)).sum();
+    let parameters = simple.parameters.len() + 2;
+    if simple.goodness.chi_squared <= ROUNDING.powi(2) * size || data.len() <= parameters {
+        return Ok(None);
+    }
+    let found = full()?;
+    let [before, after] = [&simple.goodness, &found.fit.goodness].map(|g| g.chi_squared);
+    let freedom = (data.len() - parameters) as f64;
+    // Of chi squared with two degrees of freedom, or of F with two and `freedom`.
+    let chance = match observations.noise() {
+        Noise::Known => (-0.5 * (before - after)).exp(),
+        Noise::Unknown | Noise::Relative => (after / before).powf(0.5 * freedom),
+    };
+    Ok((chance < CHANCE).then_some(found))
+}

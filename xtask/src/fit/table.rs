@@ -1,0 +1,333 @@
+//! A table of one's own, read from CSV: `docs/fitting.md` describes it.
+
+use super::column::Column;
+use csv::StringRecord;
+use std::path::Path;
+
+/// A table of one's own: the columns that it has; the others are empty.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Table {
+    /// The file.
+    pub source: String,
+    /// Secant twisting rigidity (pN nm^2) against twist (rad/nm).
+    pub rigidity: Column,
+    /// Relative change of length against twist (rad/nm).
+    pub length: Column,
+    /// Secant bending rigidity (pN nm^2) against curvature (rad/nm).
+    pub bend: Column,
+    /// Strain against axial force (pN).
+    pub stretch: Column,
+}
+
+/// Names of columns that go together.
+struct Group {
+    x: &'static str,
+    value: &'static str,
+    error: &'static str,
+    /// Whether values must be positive.
+    is_rigidity: bool,
+}
+
+/// The groups, in the order of the columns of [`Table`].
+const GROUPS: [Group; 4] = [
+    Group {
+        x: "kappa3_rad_per_nm",
+        value: "b3_pn_nm2",
+        error: "b3_error_pn_nm2",
+        is_rigidity: true,
+    },
+    Group {
+        x: "kappa3_rad_per_nm",
+        value: "dl_over_l",
+        error: "dl_over_l_error",
+        is_rigidity: false,
+    },
+    Group {
+        x: "curvature_rad_per_nm",
+        value: "b_pn_nm2",
+        error: "b_error_pn_nm2",
+        is_rigidity: true,
+    },
+    Group {
+        x: "force_pn",
+        value: "strain",
+        error: "strain_error",
+        is_rigidity: false,
+    },
+];
+
+/// What a cell may hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Rule {
+    Finite,
+    Positive,
+}
+
+impl Table {
+    /// Reads columns under a header, in any order; an empty cell is no value. Lines that begin with
+    /// `#` are skipped, and so is a byte-order mark.
+    ///
+    /// # Errors
+    /// A file that cannot be read; a column that is unknown, there twice, or without the one that it
+    /// goes with; a cell against its rule, with line, column, value and rule; no value at all.
+    pub(super) fn from_csv(path: &Path) -> Result<Self, String> {
+        let name = path.display();
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_path(path)
+            .map_err(|e| format!("{name}: {e}"))?;
+        let header = reader.headers().map_err(|e| format!("{name}: {e}"))?;
+        let header = header.clone();
+        check_header(&header).map_err(|e| format!("{name}: {e}"))?;
+        let mut columns: [Column; 4] = Default::default();
+        for record in reader.records() {
+            let record = record.map_err(|e| format!("{name}: {e}"))?;
+            let row = Row {
+                header: &header,
+                record: &record,
+            };
+            for (group, column) in GROUPS.iter().zip(&mut columns) {
+                row.read(group, column).map_err(|e| format!("{name}:{e}"))?;
+            }
+        }
+        if columns.iter().all(Column::is_empty) {
+            return Err(format!("{name}: there is no value in any column"));
+        }
+        let [rigidity, length, bend, stretch] = columns;
+        let source = name.to_string();
+        Ok(Self {
+            source,
+            rigidity,
+            length,
+            bend,
+            stretch,
+        })
+    }
+}
+
+/// Refuses unknown, repeated and lonely columns.
+fn check_header(header: &StringRecord) -> Result<(), String> {
+    let mut known: Vec<&str> = GROUPS
+        .iter()
+        .flat_map(|g| [g.x, g.value, g.error])
+        .collect();
+    known.dedup();
+    let has = |key: &str| header.iter().any(|found| found == key);
+    for (at, key) in header.iter().enumerate() {
+        if !known.contains(&key) {
+            let known = known.join(", ");
+            return Err(format!("column `{key}` is unknown: there are {known}"));
+        }
+        if header.iter().take(at).any(|before| before == key) {
+            return Err(format!("column `{key}` is there twice"));
+        }
+    }
+    for group in &GROUPS {
+        for (key, needed) in [(group.error, group.value), (group.value, group.x)] {
+            if has(key) && !has(needed) {
+                return Err(format!(
+                    "column `{needed}` is missing: `{key}` goes with it"
+                ));
+            }
+        }
+    }
+    if GROUPS.iter().any(|group| has(group.value)) {
+        return Ok(());
+    }
+    let values = GROUPS.map(|group| group.value).join(", ");
+    Err(format!("a column of values is missing, one of {values}"))
+}
+
+/// A row of the table.
+struct Row<'a> {
+    header: &'a StringRecord,
+    record: &'a StringRecord,
+}
+
+impl Row<'_> {
+    /// Adds the row's value to the column of a group, if it has one.
+    fn read(&self, group: &Group, column: &mut Column) -> Result<(), String> {
+        let rule = if group.is_rigidity {
+            Rule::Positive
+        } else {
+            Rule::Finite
+        };
+        let x = self.cell(group.x, Rule::Finite)?;
+        let value = self.cell(group.value, rule)?;
+        let error = self.cell(group.error, Rule::Positive)?;
+        let lacks =
+            |key: &str, of: &str| Err(format!("{}: a `{of}` without its `{key}`", self.line()));
+        match (x, value, error) {
+            (None, Some(_), _) => lacks(group.x, group.value),
+            (_, None, Some(_)) => lacks(group.value, group.error),
+            (_, Some(_), None) if self.place(group.error).is_some() => {
+                lacks(group.error, group.value)
+            }
+            (Some(x), Some(value), error) => {
+                column.push(x, value);
+                column.error.extend(error);
+                Ok(())
+            }
+            (_, None, None) => Ok(()),
+        }
+    }
+
+    fn line(&self) -> u64 {
+        self.record.position().map_or(0, csv::Position::line)
+    }
+
+    fn place(&self, key: &str) -> Option<usize> {
+        self.header.iter().position(|found| found == key)
+    }
+
+    /// A cell as a number; `None` if it is empty or there is no such column.
+    fn cell(&self, key: &str, rule: Rule) -> Result<Option<f64>, String> {
+        let Some(at) = self.place(key) else {
+            return Ok(None);
+        };
+        let text = &self.record[at];
+        if text.is_empty() {
+            return Ok(None);
+        }
+        let refused = |rule: &str| {
+            let (line, column) = (self.line(), at + 1);
+            Err(format!(
+                "{line}:{column}: `{key}` is `{text}`: must be {rule}"
+            ))
+        };
+        match (text.parse::<f64>(), rule) {
+            (Err(_), _) => refused("a number"),
+            (Ok(value), _) if !value.is_finite() => refused("finite"),
+            (Ok(value), Rule::Positive) if value <= 0.0 => refused("positive"),
+            (Ok(value), _) => Ok(Some(value)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn read(text: impl AsRef<[u8]>) -> Result<Table, String> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        std::fs::write(&path, text).unwrap();
+        Table::from_csv(&path)
+    }
+
+    #[test]
+    fn empty_cells_are_no_values() {
+        let header = "\u{feff}# mine\ndl_over_l, kappa3_rad_per_nm, b3_pn_nm2\n".to_owned();
+        let rows = "-0.01, 0.02, 1.2e4\n".repeat(9);
+        let data = read(header + &rows + ", -0.02, 6e3\n").unwrap();
+        assert_eq!((data.rigidity.len(), data.length.len()), (10, 9));
+        assert!(data.bend.is_empty() && data.stretch.is_empty() && !data.length.is_known());
+    }
+
+    /// Groups share a file, row by row or one below the other, with standard errors or without.
+    #[test]
+    fn groups_share_a_file() {
+        let data = read(
+            "kappa3_rad_per_nm,b3_pn_nm2,b3_error_pn_nm2,curvature_rad_per_nm,b_pn_nm2,force_pn,strain\n\
+             0.01,5e3,50,0.001,3.2e4,,\n\
+             ,,,,,-10,-6e-4\n",
+        )
+        .unwrap();
+        assert_eq!(data.rigidity.error, [50.0]);
+        assert_eq!((data.bend.x[0], data.bend.value[0]), (1e-3, 3.2e4));
+        assert_eq!((data.stretch.x[0], data.stretch.value[0]), (-10.0, -6e-4));
+    }
+
+    #[test]
+    fn bad_headers_are_refused() {
+        for (header, expected) in [
+            (
+                "kappa,b3_pn_nm2",
+                "column `kappa` is unknown: there are kappa3_rad_per_nm, b3_pn_nm2,",
+            ),
+            (
+                "b3_pn_nm2",
+                "column `kappa3_rad_per_nm` is missing: `b3_pn_nm2` goes with it",
+            ),
+            (
+                "force_pn,strain_error",
+                "column `strain` is missing: `strain_error` goes with it",
+            ),
+            (
+                "kappa3_rad_per_nm",
+                "a column of values is missing, one of b3_pn_nm2, dl_over_l,",
+            ),
+            ("force_pn,strain,strain", "column `strain` is there twice"),
+        ] {
+            let message = read(format!("{header}\n1,2\n")).unwrap_err();
+            assert!(message.contains(expected), "{message}");
+        }
+        let message = read("force_pn,strain\n1,\n").unwrap_err();
+        assert!(
+            message.contains("there is no value in any column"),
+            "{message}"
+        );
+    }
+
+    /// Line, column, value and rule.
+    #[test]
+    fn bad_cells_are_refused_with_their_place() {
+        let header = "kappa3_rad_per_nm,b3_pn_nm2,b3_error_pn_nm2\n0.01,100,1\n";
+        for (row, expected) in [
+            ("0.1,x,1", ":3:2: `b3_pn_nm2` is `x`: must be a number"),
+            (
+                "inf,1,1",
+                ":3:1: `kappa3_rad_per_nm` is `inf`: must be finite",
+            ),
+            ("0.1,-5,1", ":3:2: `b3_pn_nm2` is `-5`: must be positive"),
+            (
+                "0.1,5,0",
+                ":3:3: `b3_error_pn_nm2` is `0`: must be positive",
+            ),
+            (
+                ",1.0,1",
+                ":3: a `b3_pn_nm2` without its `kappa3_rad_per_nm`",
+            ),
+            (
+                "0.1,1.0,",
+                ":3: a `b3_pn_nm2` without its `b3_error_pn_nm2`",
+            ),
+            ("0.1,,1", ":3: a `b3_error_pn_nm2` without its `b3_pn_nm2`"),
+        ] {
+            let message = read(format!("{header}{row}\n")).unwrap_err();
+            assert!(message.contains(expected), "{message}");
+        }
+        let message = read(b"force_pn,strain\n1,2\n1,\xff\n").unwrap_err();
+        assert!(message.contains("line 3, field: 1"), "{message}");
+        let message = read("force_pn,strain\n1,2\n1\n").unwrap_err();
+        assert!(message.contains("line: 3"), "{message}");
+    }
+
+    proptest! {
+        /// Tables of anything: numbers or a message, never a panic. Rows of other lengths, quotes
+        /// that are not closed and bytes that are no text come as they come.
+        #[test]
+        fn spoilt_tables_are_read_or_refused(
+            header in prop::sample::subsequence(
+                vec!["kappa3_rad_per_nm", "b3_pn_nm2", "dl_over_l", "force_pn", "strain", "strain_error", "x"],
+                0..=5,
+            ),
+            rows in prop::collection::vec("[-+0-9.eEinfNa,\" #]{0,24}", 0..14),
+            noise in prop::collection::vec(any::<u8>(), 0..6),
+        ) {
+            let mut table = format!("{}\n{}\n", header.join(","), rows.join("\n")).into_bytes();
+            table.extend(noise);
+            match read(table) {
+                Err(message) => prop_assert!(!message.is_empty()),
+                Ok(data) => for column in [&data.rigidity, &data.length, &data.bend, &data.stretch] {
+                    let all = column.value.iter().chain(&column.error).chain(&column.x);
+                    prop_assert!(all.copied().all(f64::is_finite));
+                    prop_assert_eq!(column.x.len(), column.len());
+                    prop_assert!(!column.is_known() || column.error.len() == column.len());
+                },
+            }
+        }
+    }
+}
