@@ -15,7 +15,8 @@ use cases::row::{Outcome, Row};
 use cases::stability::{INTEGRATORS, MODELS, SHARES, energy_error, free};
 use cases::verdict::Verdict;
 use cases::{
-    contrast, drag, drift, fields, forces, guards, lengths, origin, sizes, stability, turns,
+    compression, contrast, drag, drift, fields, forces, guards, lengths, origin, sizes, stability,
+    turns,
 };
 
 /// Prints the rows and refuses any that is neither right nor says that it is not.
@@ -143,6 +144,15 @@ fn forces_over_eighteen_decades_are_right_or_said_to_be_lost() {
             assert!(is_correct(row), "{row:?}");
         }
     }
+}
+
+/// Below the bound of its twist a pushed rod is stable, above it as unstable as its mesh allows, and
+/// the run says which.
+#[test]
+fn pushed_rods_say_when_their_twist_is_unstable() {
+    let rows = compression::rows();
+    assert_sound(&rows);
+    assert!(rows.iter().all(is_correct));
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! What is taken to the extreme, each number in a file of its own, and what became of it.
 
+pub(crate) mod compression;
 pub(crate) mod contrast;
 pub(crate) mod drag;
 pub(crate) mod drift;
@@ -20,7 +21,7 @@ use row::Row;
 
 /// The whole table, in the order in which it is printed; `long` with the rows that take minutes.
 pub(crate) fn table(long: bool) -> Vec<Row> {
-    let groups: [(&str, &dyn Fn() -> Vec<Row>); 14] = [
+    let groups: [(&str, &dyn Fn() -> Vec<Row>); 15] = [
         ("time steps", &|| stability::rows(&stability::INTEGRATORS)),
         ("energy below the limit", &|| {
             stability::below(&stability::INTEGRATORS)
@@ -34,6 +35,7 @@ pub(crate) fn table(long: bool) -> Vec<Row> {
         ("segments", &lengths::segments),
         ("bonds", &lengths::bonds),
         ("forces", &forces::rows),
+        ("compression", &compression::rows),
         ("sizes", &|| {
             let mut rows = sizes::smallest();
             rows.extend(sizes::largest(if long { 100_000 } else { 1_000 }));

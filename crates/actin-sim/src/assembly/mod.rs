@@ -16,6 +16,7 @@ mod ramp;
 mod range;
 mod reaction;
 mod slip;
+mod unstable_twist;
 
 pub use bonded::JunctionBond;
 pub use drive::Drive;
@@ -24,8 +25,10 @@ pub use parts::{
     BodyKind, Counts, FilamentSpan, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term,
 };
 pub(crate) use ramp::Ramp;
-pub use range::BeyondRange;
+pub use range::{BeyondRange, Fluctuations};
 pub use reaction::{Clamped, Reaction};
+pub(crate) use unstable_twist::TwistWatch;
+pub use unstable_twist::UnstableTwist;
 
 use crate::scene::{End, Monomers, Scene};
 use actin_coupling::Linker;

@@ -30,7 +30,9 @@ impl Summary {
             tip_nm: first.tip_nm,
             tip_displacement_nm: first.tip_displacement_nm,
             end_reactions: first.end_reactions,
-            beyond_range: assembly.beyond_range(&last.state),
+            notes: assembly.notes(),
+            beyond_range: assembly.beyond_range_over([&last.state]),
+            unstable_twist: assembly.unstable_twist_over([&last.state]),
             linkers: LinkerSummary::all(assembly, &last.state),
             shape: first.shape,
             residual: ResidualSummary {
