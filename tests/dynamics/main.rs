@@ -10,6 +10,7 @@ mod laws;
 mod modes;
 mod order;
 mod paper_balance;
+mod range;
 mod record;
 mod short_bonds;
 mod thermal;

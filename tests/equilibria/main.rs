@@ -10,6 +10,7 @@ mod buckling;
 mod chain;
 mod circle;
 mod common;
+mod compression;
 mod elastica;
 mod extremes;
 mod fitted;

@@ -15,8 +15,8 @@ use cases::row::{Outcome, Row};
 use cases::stability::{INTEGRATORS, MODELS, SHARES, energy_error, free};
 use cases::verdict::Verdict;
 use cases::{
-    certificates, contrast, directories, drag, drift, fields, forces, guards, lengths, origin, sizes, stability,
-    turns,
+    certificates, compression, contrast, directories, drag, drift, fields, forces, guards, lengths,
+    origin, sizes, stability, turns,
 };
 
 /// Prints the rows and refuses any that is neither right nor says that it is not.
@@ -157,6 +157,15 @@ fn forces_over_eighteen_decades_are_right_or_said_to_be_lost() {
 #[test]
 fn modes_without_stiffness_are_counted() {
     let rows = certificates::rows();
+    assert_sound(&rows);
+    assert!(rows.iter().all(is_correct));
+}
+
+/// Below the bound of its twist a pushed rod is stable, above it as unstable as its mesh allows, and
+/// the run says which.
+#[test]
+fn pushed_rods_say_when_their_twist_is_unstable() {
+    let rows = compression::rows();
     assert_sound(&rows);
     assert!(rows.iter().all(is_correct));
 }

@@ -3,7 +3,7 @@
 use crate::failure::{Failure, Opened};
 use actin_sim::advice::Advice;
 use actin_sim::cost::Cost;
-use actin_sim::{Assembly, Estimate, Resolution, SectionSpan, Task};
+use actin_sim::{Assembly, Estimate, Resolution, SectionSpan};
 use std::path::Path;
 
 /// Validates the scene at `path` and prints it with every default, its counts and its cost.
@@ -23,6 +23,9 @@ pub(crate) fn check(path: &Path) -> Result<(), Failure> {
     print_counts(&opened.assembly);
     print_linkers(&opened.assembly);
     print_thermal(&opened.assembly);
+    for note in opened.assembly.notes() {
+        println!("// note: {note}");
+    }
     if let Some(estimate) = &estimate {
         print_step(estimate);
     }
@@ -90,10 +93,7 @@ fn print_counts(assembly: &Assembly) {
 }
 
 fn print_thermal(assembly: &Assembly) {
-    let Task::Dynamics(dynamics) = &assembly.scene.task else {
-        return;
-    };
-    if let Some(thermal) = &dynamics.thermal {
+    if let Some(thermal) = assembly.scene.thermal() {
         let energy = thermal.energy_pn_nm();
         println!(
             "// thermal energy {energy:.4} pN nm at {} K, mean kinetic energy {:.2} pN nm",

@@ -6,7 +6,7 @@ use crate::progress::Progress;
 use crate::signals;
 use actin_sim::{
     Checkpoints, Estimate, Kept, RunDirectory, RunDirectoryError, RunError, RunLock, RunReport,
-    RunStatus, StabilitySummary, Summary, Trajectory,
+    RunStatus, StabilitySummary, Summary, Trajectory, UnstableTwist,
 };
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -302,6 +302,12 @@ fn print(summary: &Summary, out: &Path) {
     );
     print_beyond(summary);
     print_other_states(summary);
+    for unstable in &summary.unstable_twist {
+        print_unstable_twist(unstable);
+    }
+    for note in &summary.notes {
+        println!("note: {note}");
+    }
     println!("written to {}", out.display());
 }
 
@@ -316,14 +322,60 @@ fn print_tips(summary: &Summary) {
 
 fn print_beyond(summary: &Summary) {
     for beyond in &summary.beyond_range {
-        let of = match beyond.filament {
-            0 => String::new(),
-            filament => format!(" of filament {filament}"),
-        };
-        println!(
-            "beyond the data of its law: {} {:.4} rad/nm at s = {:.1} nm{of}, data reach {:.4}",
-            beyond.quantity, beyond.value_per_nm, beyond.s_nm, beyond.range_per_nm
-        );
+        let (quantity, value) = (&beyond.quantity, beyond.value_per_nm);
+        let place = format!("s = {:.1} nm{}", beyond.s_nm, of_filament(beyond.filament));
+        let range = beyond.range_per_nm;
+        match beyond.fluctuations {
+            None => println!(
+                "beyond the data of its law: {quantity} {value:.4} rad/nm at {place}, data reach \
+                 {range:.4}"
+            ),
+            Some(often) => println!(
+                "fluctuations beyond the data of a law: {quantity} in {} of the records and {} of \
+                 all bending elements, at most {value:.4} rad/nm at {place}, data reach {range:.4}",
+                percent(often.share_of_records),
+                percent(often.share_of_elements)
+            ),
+        }
+    }
+}
+
+fn print_unstable_twist(unstable: &UnstableTwist) {
+    let often = match unstable.share_of_records {
+        1.0 => String::new(),
+        share => format!(" in {} of the records", percent(share)),
+    };
+    let (what, sign) = if unstable.bound_pn < 0.0 {
+        ("tension", -1.0)
+    } else {
+        ("compression", 1.0)
+    };
+    // To the digits shown, without the sign of a zero.
+    let twist = (1e4 * unstable.twist_per_nm).round() / 1e4 + 0.0;
+    println!(
+        "twist is UNSTABLE{often}: {what} {:.2} pN at s = {:.1} nm{}, where the bound is {:.2} pN \
+         (twist {twist:.4} rad/nm); a local instability: what follows depends on the number of segments",
+        sign * unstable.compression_pn,
+        unstable.s_nm,
+        of_filament(unstable.filament),
+        sign * unstable.bound_pn
+    );
+}
+
+/// Which filament, where it is not the first.
+fn of_filament(filament: usize) -> String {
+    match filament {
+        0 => String::new(),
+        filament => format!(" of filament {filament}"),
+    }
+}
+
+/// A share in per cent, to two digits.
+fn percent(share: f64) -> String {
+    match 100.0 * share {
+        percent if percent >= 10.0 => format!("{percent:.0} %"),
+        percent if percent >= 1.0 => format!("{percent:.1} %"),
+        percent => format!("{percent:.1e} %"),
     }
 }
 

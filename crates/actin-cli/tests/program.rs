@@ -312,6 +312,67 @@ fn a_rod_beyond_the_data_of_its_law_is_reported() {
     }
 }
 
+/// A rod of 100 nm whose natural length at rest is 0.0507 nm less, pushed together by 0.09 nm, bears
+/// 13.4 pN (S3 = 3.4e4 pN) and is stable; by 0.1 nm it bears 16.8 pN, and the bound is 13.8 pN.
+#[test]
+fn a_rod_pushed_beyond_the_bound_of_its_twist_is_reported() {
+    for (shift, unstable) in [("0.09", false), ("0.1", true)] {
+        let place = Workplace::with(&format!(
+            "Scene(
+                filament: Filament(
+                    sections: [Rod(from_nm: 0.0, to_nm: 100.0, segments: 20)],
+                    rod: RodModel(law: PublishedExtension),
+                ),
+                clamps: [Clamp(end: Start), Clamp(end: End)],
+                path: [Stage(set: [Shift(end: End, shift_nm: (0.0, 0.0, -{shift}))])],
+                task: Equilibrium(leave_saddles: 0),
+            )"
+        ));
+        let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+        println!("{shift}: {}", stdout(&output));
+        let line = " nm, where the bound is 13.80 pN (twist 0.0000 rad/nm)";
+        assert_eq!(stdout(&output).contains(line), unstable);
+        let said = "the records: compression 16.77 pN";
+        assert_eq!(stdout(&output).contains(said), unstable);
+        let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+        assert_eq!(summary.contains("\"unstable_twist\": []"), !unstable);
+        assert_eq!(summary.contains("\"bound_pn\": 13.8"), unstable);
+    }
+}
+
+/// In a bath `check` and `run` say that the law is no free energy, and fluctuations beyond its data
+/// take one line for each quantity.
+#[test]
+fn a_law_in_a_bath_is_noted_and_its_fluctuations_are_summed_up() {
+    let place = Workplace::with(
+        "Scene(
+            filament: Filament(
+                sections: [Rod(from_nm: 0.0, to_nm: 30.0, segments: 20)],
+                rod: RodModel(law: Fitted),
+            ),
+            task: Dynamics(
+                duration_ns: 1.0,
+                drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+                thermal: (temperature_k: 298.0, seed: 1),
+            ),
+        )",
+    );
+    let note = "note: rods under the law Fitted in a heat bath: ";
+    let checked = place.actin(&["check", "scene.ron"]);
+    assert_eq!(stdout(&checked).matches(&format!("// {note}")).count(), 1);
+    assert!(Scene::from_ron(stdout(&checked)).is_ok());
+    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+    println!("{}", stdout(&output));
+    assert_eq!(stdout(&output).matches(note).count(), 1);
+    for quantity in ["twist", "curvature"] {
+        let line = format!("fluctuations beyond the data of a law: {quantity} in ");
+        assert_eq!(stdout(&output).matches(&line).count(), 1);
+    }
+    let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+    assert!(summary.contains(&note[6..]) && summary.contains("\"share_of_records\": "));
+    assert!(summary.contains("\"unstable_twist\": []"));
+}
+
 /// `check` says what a scene costs and what would make it cheaper; of a scene unlike any measured one
 /// it says that it does not know.
 #[test]

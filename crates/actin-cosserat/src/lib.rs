@@ -39,7 +39,7 @@ pub use clamp::{Held, RodClamp};
 pub use cross_section::CrossSection;
 pub use energy_gradient::EnergyGradient;
 pub use error::{ParameterError, RodError};
-pub use extended::{JoinedElement, SegmentCurvature, SegmentLaw};
+pub use extended::{JoinedElement, SegmentCurvature, SegmentLaw, TwistStability};
 pub use law::{
     BendLaw, CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw,
     TanhTwist, TwistLaw, TwistRise, TwistStretch,

@@ -1,5 +1,5 @@
-//! Persistence length from thermal motion: of the rod against B/kT, and of the ellipsoid filament,
-//! with error bars, against the time step and against the temperature.
+//! Persistence length from thermal motion: of the rod against B/kT and under its laws, and of the
+//! ellipsoid filament, with error bars, against the time step and against the temperature.
 //!
 //! `cargo run --release -p actin-sim --example persistence_length [SEEDS [CASE [FIRST]]]`
 //!
@@ -10,8 +10,8 @@
 //! the jackknife; each seed is another noise and, of monomers, another sampling of anchors. The case
 //! `cost` tells what the bath adds to a step.
 
+use actin_integrate::stable_step;
 use actin_integrate::{Bath, Composition, Drag, PEFRL, POSITION_VERLET, advance, advance_in};
-use actin_integrate::{largest_frequency, stable_step};
 use actin_mechanics::{State, System, UnitQuaternion, rotation};
 use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Scene};
 use rayon::prelude::*;
@@ -33,6 +33,7 @@ struct Case {
     name: &'static str,
     sections: &'static str,
     monomers: &'static str,
+    law: &'static str,
     scheme: &'static Composition,
     /// Time step as a share of the stability limit.
     share: f64,
@@ -51,14 +52,22 @@ fn cases() -> Vec<Case> {
         name,
         sections,
         monomers: "",
+        law: "Constant",
         scheme,
         share,
         temperature,
+    };
+    let rod_of = |name, law| Case {
+        law,
+        ..case(name, ROD, &PEFRL, 0.5, ROOM)
     };
     vec![
         case("rod", ROD, &PEFRL, 0.5, ROOM),
         case("rod", ROD, &POSITION_VERLET, 0.8, ROOM),
         case("rod", ROD, &POSITION_VERLET, 0.4, ROOM),
+        rod_of("rod-published", "PublishedExtension"),
+        rod_of("rod-coupling", "CouplingEnergy"),
+        rod_of("rod-fitted", "Fitted"),
         case("monomers", MONOMERS, &PEFRL, 0.5, ROOM),
         case("monomers-fine", MONOMERS, &PEFRL, 0.25, ROOM),
         case("monomers-verlet", MONOMERS, &POSITION_VERLET, 0.4, ROOM),
@@ -148,10 +157,14 @@ struct Sums {
 
 impl Case {
     fn scene(&self, seed: u64) -> Scene {
-        let (sections, monomers) = (self.sections, self.monomers);
+        let (sections, monomers, law) = (self.sections, self.monomers, self.law);
         let text = format!(
             "Scene(
-                filament: Filament(sections: [{sections}], monomers: (seed: {seed}, {monomers})),
+                filament: Filament(
+                    sections: [{sections}],
+                    monomers: (seed: {seed}, {monomers}),
+                    rod: RodModel(law: {law}),
+                ),
                 task: Dynamics(duration_ns: 1.0),
             )"
         );
@@ -160,8 +173,9 @@ impl Case {
 
     fn measure(&self, seed: u64) -> Sums {
         let mut assembly = Assembly::build(&self.scene(seed)).expect("a filament");
+        let estimate = actin_sim::estimate(&assembly).expect("a motion that can run");
+        let frequency = estimate.expect("a motion").largest_frequency_rad_per_ns;
         let system = &mut assembly.system;
-        let frequency = largest_frequency(system).expect("finite loads");
         let h = stable_step(self.scheme, frequency, self.share).expect("a stable step");
         let kt = BOLTZMANN_PN_NM_PER_K * self.temperature;
         let drag = Drag::new(DRAG, DRAG).expect("positive rates");

@@ -17,6 +17,7 @@ pub mod advice;
 mod assembly;
 pub mod cost;
 pub mod measure;
+mod notes;
 mod results;
 mod run;
 mod scene;
@@ -25,8 +26,9 @@ pub mod shape;
 pub use actin_cosserat::constants as rod_constants;
 pub use actin_ellipsoid::constants as ellipsoid_constants;
 pub use assembly::{
-    Assembly, BeyondRange, BeyondUse, BodyKind, Clamped, Counts, Drive, FilamentSpan, FrameInfo,
-    JunctionBond, Part, PointInfo, Reaction, Resolution, SectionSpan, Term,
+    Assembly, BeyondRange, BeyondUse, BodyKind, Clamped, Counts, Drive, FilamentSpan, Fluctuations,
+    FrameInfo, JunctionBond, Part, PointInfo, Reaction, Resolution, SectionSpan, Term,
+    UnstableTwist,
 };
 pub use results::{
     CheckpointError, Checkpoints, Damage, FilamentSummary, RunDirectory, RunDirectoryError,

@@ -1,6 +1,7 @@
 //! What is taken to the extreme, each number in a file of its own, and what became of it.
 
 pub(crate) mod certificates;
+pub(crate) mod compression;
 pub(crate) mod contrast;
 pub(crate) mod directories;
 pub(crate) mod drag;
@@ -37,6 +38,7 @@ pub(crate) fn table(long: bool) -> Vec<Row> {
         ("bonds", &lengths::bonds),
         ("forces", &forces::rows),
         ("neutral modes", &certificates::rows),
+        ("compression", &compression::rows),
         ("sizes", &|| {
             let mut rows = sizes::smallest();
             rows.extend(sizes::largest(if long { 100_000 } else { 1_000 }));

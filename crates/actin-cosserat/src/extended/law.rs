@@ -53,9 +53,15 @@ impl SegmentLaw {
         self.stiffening.as_ref()
     }
 
+    /// Second derivatives by the curvature of what shear adds to the energy of bending (pN nm^2).
+    pub(super) fn shear_by_curvature(&self, sigma: Vector3, kappa: Vector3) -> Matrix3 {
+        let added = (self.stiffening.as_ref()).map(|law| Stiffened::new(law, sigma, kappa));
+        added.map_or_else(Matrix3::zeros, |stiffened| stiffened.by_curvature())
+    }
+
     /// Natural extension `xi - 1` at twist `k3`, with two derivatives.
     #[inline]
-    fn extension(&self, k3: f64) -> [f64; 3] {
+    pub(super) fn extension(&self, k3: f64) -> [f64; 3] {
         self.twist_stretch.map_or([0.0; 3], |law| law.jet(k3))
     }
 
@@ -160,7 +166,6 @@ impl Stiffened {
     fn add_to(&self, jet: &mut SegmentJet) {
         let Self {
             with,
-            added,
             of_p,
             of_t,
             of_g,
@@ -170,12 +175,19 @@ impl Stiffened {
         jet.by_strain += with.ss * of_g * of_g.transpose()
             + 2.0 * with.s * self.shear * Matrix3::from_diagonal(&across);
         jet.mixed += of_g * (with.ps * of_p + with.ss * of_t).transpose();
+        jet.by_curvature += self.by_curvature();
+    }
+
+    fn by_curvature(&self) -> Matrix3 {
+        let Self {
+            added, of_p, of_t, ..
+        } = self;
         let crossed = added.ps * of_p * of_t.transpose();
-        let curved = across * added.p + Vector3::z() * (added.s * self.twist);
-        jet.by_curvature += added.pp * of_p * of_p.transpose()
+        let curved = Vector3::new(added.p, added.p, added.s * self.twist);
+        added.pp * of_p * of_p.transpose()
             + added.ss * of_t * of_t.transpose()
             + crossed
             + crossed.transpose()
-            + 2.0 * Matrix3::from_diagonal(&curved);
+            + 2.0 * Matrix3::from_diagonal(&curved)
     }
 }

@@ -2,13 +2,16 @@
 //!
 //! The strain of a segment is its own, the curvature belongs to the nodes: what couples the two
 //! takes the mean curvature of the bending elements around a segment, those of walls and
-//! junctions included. `curvature.rs` finds these, `law.rs` says what couples, and `segments.rs`
-//! makes loads and stiffness of it.
+//! junctions included. `curvature.rs` finds these, `law.rs` says what couples, `segments.rs`
+//! makes loads and stiffness of it, and `twist_stability.rs` says under which forces twist is
+//! stable.
 
 mod curvature;
 mod law;
 mod segments;
+mod twist_stability;
 
 pub use curvature::{JoinedElement, SegmentCurvature};
 pub use law::SegmentLaw;
 pub(crate) use segments::ExtendedSegments;
+pub use twist_stability::TwistStability;

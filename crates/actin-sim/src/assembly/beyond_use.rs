@@ -1,6 +1,7 @@
 //! Where a state is beyond any use: neighbours have moved against each other by as much as their own
 //! size, for which no model here is made. Where a rod leaves the data of its law is in `range`.
 
+use super::range::curvatures;
 use super::{Assembly, Part, Rod, SectionSpan};
 use crate::scene::Monomers;
 use actin_cosserat::constants::CROSS_SECTION_AREA;
@@ -85,7 +86,9 @@ impl Assembly {
         let mut found = Vec::new();
         for rod in &self.rods {
             let radius = (CROSS_SECTION_AREA / PI).sqrt();
-            let (s_nm, curvature) = self.furthest(rod, state, |kappa| kappa.xy().norm());
+            let from_nm = self.sections[rod.section].from_nm;
+            let bends = curvatures(rod, state).map(|(s, kappa)| (from_nm + s, kappa.xy().norm()));
+            let (s_nm, curvature) = bends.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
             let strain = self.largest_strain_of(rod, state);
             self.push_beyond(&mut found, rod.section, ("strain", STRAIN), strain);
             let bend = (s_nm, curvature * radius);

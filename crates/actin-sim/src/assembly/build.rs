@@ -42,6 +42,7 @@ struct Stock {
     sections: Vec<SectionSpan>,
     interactions: Vec<Box<dyn Interaction>>,
     terms: Vec<Term>,
+    rods: Vec<Rod>,
 }
 
 impl Stock {
@@ -119,7 +120,6 @@ impl<'a> Builder<'a> {
     fn finish(mut self) -> Assembly {
         let scene = self.resolved_scene();
         let spans = self.spans();
-        let rods = self.strands.iter().flat_map(rods_of).collect();
         let drive = Drive::new(&scene, &self.clamps, &self.stock.state);
         drive.place(&mut self.stock.state, 0.0);
         let stock = self.stock;
@@ -133,7 +133,7 @@ impl<'a> Builder<'a> {
             frames: stock.frames,
             sections: stock.sections,
             filaments: self.filaments,
-            rods,
+            rods: stock.rods,
             clamps: self.clamps,
             linkers: self.linkers,
             spans,
@@ -151,18 +151,4 @@ impl<'a> Builder<'a> {
         }
         scene
     }
-}
-
-/// The rods of a filament, with how far the data behind their law reach.
-fn rods_of<'a>(strand: &'a Strand<'_>) -> impl Iterator<Item = Rod> + 'a {
-    let bodies = strand.bodies.iter().enumerate();
-    bodies.filter_map(|(i, body)| match body {
-        Body::Monomers(_) => None,
-        Body::Rod(layout) => Some(Rod {
-            section: strand.first_section + i,
-            layout: layout.clone(),
-            twist_range: strand.law.twist_range(),
-            bend_range: strand.law.material.bend().range(),
-        }),
-    })
 }

@@ -1,5 +1,6 @@
 //! From a scene's rod law to the interaction of a rod.
 
+use super::TwistWatch;
 use crate::scene::{self, ForceLaw, Material, Problem, RodLaw, RodLaws, RodModel, fitted};
 use actin_cosserat::{
     BendLaw, CubicShear, EnergyGradient, JoinedElement, PaperBalance, ParameterError,
@@ -58,6 +59,24 @@ impl Law {
         let length = self.twist_stretch.map(|law| law.range());
         let both = twist.into_iter().chain(length);
         both.reduce(f64::min).filter(|range| range.is_finite())
+    }
+
+    /// What the twist of such a rod is watched with; nothing where no force along it can make it
+    /// unstable, or where its loads have no energy.
+    pub(super) fn twist_watch(
+        &self,
+        layout: &RodLayout,
+        [start, end]: &[Vec<JoinedElement>; 2],
+    ) -> Option<TwistWatch> {
+        if self.balance != ForceLaw::EnergyGradient {
+            return None;
+        }
+        let law = SegmentLaw::of(&self.material, Some(self.twist_stretch?))?;
+        Some(TwistWatch {
+            law,
+            material: self.material,
+            curvature: SegmentCurvature::new(layout, start, end),
+        })
     }
 
     /// The interaction of a rod whose start and end the given elements join to others.

@@ -17,6 +17,7 @@ mod ramp;
 mod range;
 mod reaction;
 mod slip;
+mod unstable_twist;
 
 pub use beyond_use::BeyondUse;
 pub use bonded::JunctionBond;
@@ -26,8 +27,10 @@ pub use parts::{
     BodyKind, Counts, FilamentSpan, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term,
 };
 pub(crate) use ramp::Ramp;
-pub use range::BeyondRange;
+pub use range::{BeyondRange, Fluctuations};
 pub use reaction::{Clamped, Reaction};
+pub(crate) use unstable_twist::TwistWatch;
+pub use unstable_twist::UnstableTwist;
 
 use crate::scene::{End, Monomers, Scene};
 use actin_coupling::Linker;

@@ -1,7 +1,8 @@
 //! What bodies, sections and terms are, for whoever writes or draws them.
 
+use super::TwistWatch;
 use crate::scene::End;
-use actin_cosserat::RodLayout;
+use actin_cosserat::{JoinedElement, RodLayout};
 use actin_mechanics::{UnitQuaternion, Vector3};
 use std::ops::Range;
 
@@ -92,6 +93,10 @@ pub(crate) struct Rod {
     pub twist_range: Option<f64>,
     /// Largest curvature of such data (rad/nm).
     pub bend_range: Option<f64>,
+    /// The elements that join its start and its end to the frames of junctions.
+    pub joined: [Vec<JoinedElement>; 2],
+    /// What its twist is watched with, where the force along it can make it unstable.
+    pub twist_watch: Option<TwistWatch>,
 }
 
 /// One interaction of the assembled system.

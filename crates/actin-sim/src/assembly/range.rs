@@ -21,56 +21,77 @@ pub struct BeyondRange {
     pub value_per_nm: f64,
     /// How far the data reach (rad/nm).
     pub range_per_nm: f64,
+    /// How often, where the state fluctuates; none without a heat bath.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fluctuations: Option<Fluctuations>,
 }
+
+/// How often thermal fluctuations pass a bound.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fluctuations {
+    /// Share of the records in which they do anywhere.
+    pub share_of_records: f64,
+    /// Share of all bending elements of all records in which they do. It does not grow with the
+    /// length of a filament or the duration of a run.
+    pub share_of_elements: f64,
+}
+
+/// What a law's data bound.
+#[derive(Clone, Copy)]
+struct Quantity {
+    name: &'static str,
+    range: fn(&Rod) -> Option<f64>,
+    of: fn(Vector3) -> f64,
+}
+
+const QUANTITIES: [Quantity; 2] = [
+    Quantity {
+        name: "twist",
+        range: |rod| rod.twist_range,
+        of: |kappa| kappa.z,
+    },
+    Quantity {
+        name: "curvature",
+        range: |rod| rod.bend_range,
+        of: |kappa| kappa.xy().norm(),
+    },
+];
 
 impl Assembly {
     /// Where the rods leave the data of their laws in `state`: at most once per section and
     /// quantity, where it is worst. Beyond their data laws of twist and of length go on with the
-    /// slope that they have there, bending by its formula. Junctions are not looked at.
+    /// slope that they have there, bending by its formula.
+    ///
+    /// The bending elements that join a rod to the frames of its junctions count as its own, at
+    /// the end of the rod.
     pub fn beyond_range(&self, state: &State) -> Vec<BeyondRange> {
-        let twist = |kappa: Vector3| kappa.z;
-        let bend = |kappa: Vector3| kappa.xy().norm();
         let mut found = Vec::new();
         for rod in &self.rods {
-            let filament = self.filament_of_section(rod.section);
-            let ranges = [
-                ("twist", rod.twist_range, twist as fn(Vector3) -> f64),
-                ("curvature", rod.bend_range, bend),
-            ];
-            for (quantity, range, measure) in ranges {
-                let Some(range_per_nm) = range else { continue };
-                let (s_nm, value_per_nm) = self.furthest(rod, state, measure);
-                if value_per_nm.abs() > range_per_nm {
-                    found.push(BeyondRange {
-                        filament,
-                        section: rod.section - self.filaments[filament].sections.start,
-                        quantity: quantity.to_owned(),
-                        s_nm,
-                        value_per_nm,
-                        range_per_nm,
-                    });
-                }
+            for quantity in QUANTITIES {
+                found.extend(self.tally(rod, quantity, state).worst);
             }
         }
         found
     }
 
-    /// The worst of [`beyond_range`](Self::beyond_range) over some states.
-    pub fn worst_beyond_range<'a>(
+    /// The same over the records of a run: the worst for each section and quantity or, in a heat
+    /// bath, the worst for each quantity, with how often it occurs.
+    pub fn beyond_range_over<'a>(
         &self,
         states: impl IntoIterator<Item = &'a State>,
     ) -> Vec<BeyondRange> {
+        let states = states.into_iter();
+        if self.scene.thermal().is_some() {
+            return self.beyond_range_in_bath(states);
+        }
         let mut worst: Vec<BeyondRange> = Vec::new();
-        for beyond in states
-            .into_iter()
-            .flat_map(|state| self.beyond_range(state))
-        {
+        for beyond in states.flat_map(|state| self.beyond_range(state)) {
             let place = |b: &&mut BeyondRange| {
                 (b.filament, b.section, &b.quantity)
                     == (beyond.filament, beyond.section, &beyond.quantity)
             };
             match worst.iter_mut().find(place) {
-                Some(known) if known.value_per_nm.abs() >= beyond.value_per_nm.abs() => {}
+                Some(known) if known.excess() >= beyond.excess() => {}
                 Some(known) => *known = beyond,
                 None => worst.push(beyond),
             }
@@ -78,29 +99,150 @@ impl Assembly {
         worst
     }
 
-    /// Where in a rod `measure` of the curvature is largest, and what it is there.
-    pub(super) fn furthest(
+    /// One entry for each quantity that goes beyond its range in any of `states`.
+    fn beyond_range_in_bath<'a>(
         &self,
-        rod: &Rod,
-        state: &State,
-        measure: fn(Vector3) -> f64,
-    ) -> (f64, f64) {
-        let Rod {
-            section, layout, ..
-        } = rod;
-        let q = &state.frames.orientation;
-        let positions = layout.element_positions();
-        let nodes = positions[layout.segments()..].iter();
-        let elements = layout
-            .bending_chain()
-            .zip(layout.voronoi_lengths())
-            .zip(nodes);
-        let values = elements.map(|((a, &rest_distance), s)| {
-            let kappa = BendingElement { rest_distance }.curvature(q.get(a), q.get(a + 1));
-            (self.sections[*section].from_nm + s, measure(kappa))
+        states: impl Iterator<Item = &'a State>,
+    ) -> Vec<BeyondRange> {
+        let mut tallies = QUANTITIES.map(|quantity| (quantity, Tally::default(), 0));
+        let mut records = 0;
+        for state in states {
+            records += 1;
+            for (quantity, all, records_beyond) in &mut tallies {
+                let before = all.beyond;
+                for rod in &self.rods {
+                    all.add(self.tally(rod, *quantity, state));
+                }
+                *records_beyond += u32::from(all.beyond > before);
+            }
+        }
+        let found = tallies.into_iter().filter_map(|(_, all, records_beyond)| {
+            let fluctuations = Some(Fluctuations {
+                share_of_records: f64::from(records_beyond) / f64::from(records),
+                share_of_elements: all.beyond as f64 / all.elements as f64,
+            });
+            all.worst.map(|worst| BeyondRange {
+                fluctuations,
+                ..worst
+            })
         });
-        values
-            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
-            .unwrap_or_default()
+        found.collect()
+    }
+
+    /// How a quantity stands in a rod; nothing is counted where it has no range.
+    fn tally(&self, rod: &Rod, quantity: Quantity, state: &State) -> Tally {
+        let Some(range_per_nm) = (quantity.range)(rod) else {
+            return Tally::default();
+        };
+        let (mut elements, mut beyond, mut largest) = (0, 0, (0.0, 0.0));
+        for (s, kappa) in curvatures(rod, state) {
+            let value = (quantity.of)(kappa);
+            elements += 1;
+            beyond += usize::from(value.abs() > range_per_nm);
+            if value.abs() > f64::abs(largest.1) {
+                largest = (s, value);
+            }
+        }
+        let worst = (beyond > 0).then(|| {
+            let filament = self.filament_of_section(rod.section);
+            BeyondRange {
+                filament,
+                section: rod.section - self.filaments[filament].sections.start,
+                quantity: quantity.name.to_owned(),
+                s_nm: self.sections[rod.section].from_nm + largest.0,
+                value_per_nm: largest.1,
+                range_per_nm,
+                fluctuations: None,
+            }
+        });
+        Tally {
+            elements,
+            beyond,
+            worst,
+        }
+    }
+}
+
+impl BeyondRange {
+    /// The value over the range.
+    fn excess(&self) -> f64 {
+        self.value_per_nm.abs() / self.range_per_nm
+    }
+}
+
+/// Curvature of every bending element of a rod, walls and junctions included, with its arc length
+/// from the rod's start (nm).
+pub(super) fn curvatures<'a>(
+    rod: &'a Rod,
+    state: &'a State,
+) -> impl Iterator<Item = (f64, Vector3)> + 'a {
+    let layout = &rod.layout;
+    let nodes = layout.element_positions().split_off(layout.segments());
+    let chain = layout.bending_chain().zip(layout.voronoi_lengths());
+    let own = chain.zip(nodes).map(|((a, &rest_distance), s)| {
+        let element = BendingElement { rest_distance };
+        (s, [a, a + 1], element)
+    });
+    let ends = [0.0, layout.length()];
+    let joined = rod.joined.iter().zip(ends);
+    let joined = joined.flat_map(|(all, s)| all.iter().map(move |e| (s, e.frames, e.element)));
+    own.chain(joined).map(|(s, frames, element)| {
+        let [first, second] = frames.map(|frame| state.frames.orientation.get(frame));
+        (s, element.curvature(first, second))
+    })
+}
+
+/// How often and how far a quantity goes beyond its range.
+#[derive(Default)]
+struct Tally {
+    elements: usize,
+    beyond: usize,
+    worst: Option<BeyondRange>,
+}
+
+impl Tally {
+    fn add(&mut self, other: Self) {
+        self.elements += other.elements;
+        self.beyond += other.beyond;
+        let excess = |worst: &Option<BeyondRange>| worst.as_ref().map_or(0.0, BeyondRange::excess);
+        if excess(&other.worst) > excess(&self.worst) {
+            self.worst = other.worst;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{BodyKind, FrameInfo, Scene};
+    use actin_mechanics::UnitQuaternion;
+
+    /// A junction's frame that is turned by 0.4 rad twists the element between it and the rod's end
+    /// by 0.4 over 5.7 nm; the rod itself is straight.
+    #[test]
+    fn elements_of_junctions_count() {
+        let text = "Scene(
+            filament: Filament(
+                sections: [Ellipsoids(from_nm: 0.0, to_nm: 22.0), Rod(from_nm: 22.0, to_nm: 52.0)],
+                rod: RodModel(law: Fitted),
+            ),
+            task: Dynamics(duration_ns: 1.0),
+        )";
+        let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
+        let mut state = assembly.rest.clone();
+        assert_eq!(assembly.beyond_range(&state), []);
+        let of_junction = |frame: &FrameInfo| frame.kind == BodyKind::Junction;
+        let frame = assembly.frames.iter().rposition(of_junction).unwrap();
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.4);
+        let q = state.frames.orientation.get(frame);
+        state.frames.orientation.set(frame, q * turn);
+        let found = assembly.beyond_range(&state);
+        assert_eq!(found.len(), 1);
+        let (beyond, section) = (&found[0], &assembly.sections[1]);
+        assert_eq!((beyond.section, beyond.quantity.as_str()), (1, "twist"));
+        assert!((beyond.s_nm - section.from_nm).abs() < 1e-12);
+        let segment = 2.0 * (assembly.frames[section.frames.start].s_nm - section.from_nm);
+        let distance = 0.5 * segment + 0.25 * 2.7385;
+        assert!((beyond.value_per_nm + 0.4 / distance).abs() < 1e-3 * 0.4 / distance);
     }
 }

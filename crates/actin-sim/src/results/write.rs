@@ -83,7 +83,8 @@ impl<'a> Results<'a> {
         ensure_same_bodies(assembly, records)?;
         let states = records.iter().map(|record| &record.state);
         let summary = Summary {
-            beyond_range: assembly.worst_beyond_range(states),
+            beyond_range: assembly.beyond_range_over(states.clone()),
+            unstable_twist: assembly.unstable_twist_over(states),
             thermal: ThermalSummary::new(assembly, records),
             ..Summary::new(assembly, last, report)
         };

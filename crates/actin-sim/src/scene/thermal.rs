@@ -1,6 +1,6 @@
 //! Thermal noise in a scene: its temperature, its seed, and what it needs.
 
-use super::{Dynamics, Problem, validate};
+use super::{Dynamics, Problem, Scene, Task, validate};
 use serde::{Deserialize, Serialize};
 
 /// Boltzmann's constant (pN nm / K), exact by definition of the kelvin.
@@ -32,6 +32,16 @@ impl Thermal {
     /// ```
     pub fn energy_pn_nm(&self) -> f64 {
         BOLTZMANN_PN_NM_PER_K * self.temperature_k
+    }
+}
+
+impl Scene {
+    /// The thermal noise of a motion in a heat bath; none without one.
+    pub fn thermal(&self) -> Option<&Thermal> {
+        match &self.task {
+            Task::Dynamics(dynamics) => dynamics.thermal.as_ref(),
+            Task::Equilibrium(_) => None,
+        }
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::Stock;
 use super::strand::{Body, Strand, junction_problem};
-use crate::assembly::{Part, Resolution, models};
+use crate::assembly::{Part, Resolution, Rod, models};
 use crate::scene::Problem;
-use actin_cosserat::JoinedElement;
+use actin_cosserat::{JoinedElement, RodLayout};
 use actin_coupling::{AttachedMonomer, Junction, JunctionSide};
 use actin_ellipsoid::Monomers;
 use actin_mechanics::Interaction;
@@ -50,8 +50,23 @@ impl Strand<'_> {
                 }
                 Box::new(bonds)
             }
-            Body::Rod(layout) => self.law.interaction(layout, around),
+            Body::Rod(layout) => {
+                stock.rods.push(self.rod(i, layout, around));
+                self.law.interaction(layout, around)
+            }
         })
+    }
+
+    /// The rod of section `i`, with how far the data behind its law reach.
+    fn rod(&self, i: usize, layout: &RodLayout, around: &[Vec<JoinedElement>; 2]) -> Rod {
+        Rod {
+            section: self.first_section + i,
+            layout: layout.clone(),
+            twist_range: self.law.twist_range(),
+            bend_range: self.law.material.bend().range(),
+            joined: around.clone(),
+            twist_watch: self.law.twist_watch(layout, around),
+        }
     }
 
     /// The junction between section `i` and the next.

@@ -6,7 +6,7 @@ mod thermal;
 pub use thermal::ThermalSummary;
 
 use super::{RunDirectoryError, finite::ensure_finite};
-use crate::{BeyondRange, BeyondUse, Counts};
+use crate::{BeyondRange, BeyondUse, Counts, UnstableTwist};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -50,12 +50,20 @@ pub struct Summary {
     /// The same of every filament, in the order of the scene.
     #[serde(default)]
     pub filaments: Vec<FilamentSummary>,
+    /// What to know of the scene and the run beside their numbers, a sentence or two each.
+    #[serde(default)]
+    pub notes: Vec<String>,
     /// Where rods left the data behind their laws, the worst of all records in a run's summary (of
     /// the last record in one computed alone); there the numbers rest on the laws' continuation.
+    /// In a heat bath one entry for each quantity, with how often it occurs.
     pub beyond_range: Vec<BeyondRange>,
     /// What is beyond any use, the worst of all records of a run; a run with any has failed.
     #[serde(default)]
     pub beyond_use: Vec<BeyondUse>,
+    /// Where the force along a rod makes its twist unstable, the worst of all records in a run's
+    /// summary (of the last record in one computed alone); never in a heat bath.
+    #[serde(default)]
+    pub unstable_twist: Vec<UnstableTwist>,
     /// What the linkers do, in the order of the scene.
     #[serde(default)]
     pub linkers: Vec<LinkerSummary>,
@@ -361,7 +369,7 @@ mod tests {
         Summary::new(&assembly, &last, &fixture::report())
     }
 
-    const KEYS: [&str; 52] = [
+    const KEYS: &[&str] = &[
         "/scene",
         "/status",
         "/counts/monomers",
@@ -392,6 +400,9 @@ mod tests {
         "/filaments/0/elastic_pn_nm",
         "/filaments/0/shape/twist_turns",
         "/filaments/0/seed",
+        "/notes",
+        "/beyond_range",
+        "/unstable_twist",
         "/linkers/0/filament",
         "/linkers/0/to_filament",
         "/linkers/0/site_nm/2",

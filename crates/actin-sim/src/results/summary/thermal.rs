@@ -1,6 +1,6 @@
 //! What a summary says of thermal motion.
 
-use crate::scene::{BOLTZMANN_PN_NM_PER_K, Task, Thermal};
+use crate::scene::{BOLTZMANN_PN_NM_PER_K, Thermal};
 use crate::{Assembly, Record};
 use serde::{Deserialize, Serialize};
 
@@ -23,7 +23,7 @@ impl ThermalSummary {
         let Thermal {
             temperature_k,
             seed,
-        } = thermal_of(assembly)?;
+        } = *assembly.scene.thermal()?;
         let late = &records[records.len() / 2..];
         let kinetic: f64 = late.iter().map(|record| record.kinetic_pn_nm).sum();
         let degrees = (assembly.counts().dofs * late.len()).max(1) as f64;
@@ -35,19 +35,12 @@ impl ThermalSummary {
     }
 }
 
-/// The noise that the scene asks for.
-fn thermal_of(assembly: &Assembly) -> Option<Thermal> {
-    match &assembly.scene.task {
-        Task::Dynamics(dynamics) => dynamics.thermal,
-        Task::Equilibrium(_) => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::Scene;
     use crate::results::fixture;
+    use crate::scene::Task;
 
     /// Three records with 5, 1 and 3 pN nm: the later two count, which is 2 for each of the
     /// degrees of freedom. A scene without a temperature has none to report.

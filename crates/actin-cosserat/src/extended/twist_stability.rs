@@ -1,0 +1,274 @@
+//! Under which forces along a rod its twist is stable.
+
+use super::SegmentLaw;
+use crate::RodMaterial;
+use actin_mechanics::Vector3;
+
+/// How stable the twist of a segment is under the force along it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwistStability {
+    /// Force `N` along the segment (pN), negative in compression.
+    pub tension: f64,
+    /// Derivative of the couple about d3 by the twist at constant `N`, bending and shear (pN nm^2).
+    /// Twist is unstable where it is not positive.
+    pub tangent: f64,
+    /// Force at which the tangent vanishes (pN), if there is one: [`SegmentLaw::critical_tension`].
+    pub critical_tension: Option<f64>,
+}
+
+impl TwistStability {
+    /// Whether twist is stable: its tangent is positive.
+    pub fn is_stable(&self) -> bool {
+        self.tangent > 0.0
+    }
+}
+
+/// Under a force `N` along the rod the couple about d3 is `M = dU/dkappa_3 - N xi'(kappa_3)`, with
+/// `U` the energy of bending and twist per length and `xi` the law of natural length against
+/// twist. Twist is stable where `M` rises with it at constant `N`:
+///
+/// `d2U/dkappa_3^2 - N xi''(kappa_3) > 0`.
+///
+/// Length follows the twist at no cost while `N` is constant, so a change of twist that is zero on
+/// average needs no work of the ends: where the condition fails, twist grows at once in as many
+/// places as the mesh resolves. It is the Legendre-Hadamard condition of the energy per length in
+/// twist and stretch.
+impl SegmentLaw {
+    /// Force (pN, negative in compression) at which twist becomes unstable at strain `sigma` and
+    /// mean curvature `kappa`: `d2U/dkappa_3^2 / xi''(kappa_3)`.
+    ///
+    /// Where `xi'' < 0`, as in the published and the fitted law near rest, twist is unstable in
+    /// every stronger compression; where `xi'' > 0`, under every larger tension. `None` where
+    /// `xi''` is zero: no force changes the tangent of twist (beyond the law's range, too).
+    ///
+    /// ```
+    /// use actin_cosserat::{Rigidities, RodMaterial, SegmentLaw, TanhTwist, TwistLaw, TwistStretch};
+    /// use actin_mechanics::Vector3;
+    /// let twist = TwistLaw::Tanh(TanhTwist::published());
+    /// let material = RodMaterial::new(Rigidities::table4())?.with_twist(twist)?;
+    /// let law = SegmentLaw::of(&material, Some(TwistStretch::published())).unwrap();
+    /// // B3(0) = 566 pN nm^2 over xi''(0) = -2 x 20.508 nm^2.
+    /// let rest = Vector3::zeros();
+    /// let critical = law.critical_tension(&material, rest, rest).unwrap();
+    /// assert!((critical + 13.80).abs() < 0.02);
+    /// # Ok::<(), actin_cosserat::ParameterError>(())
+    /// ```
+    pub fn critical_tension(
+        &self,
+        material: &RodMaterial,
+        sigma: Vector3,
+        kappa: Vector3,
+    ) -> Option<f64> {
+        let [.., second] = self.extension(kappa.z);
+        (second != 0.0).then(|| self.free_tangent(material, sigma, kappa) / second)
+    }
+
+    /// Compression (pN) beyond which twist is unstable at strain `sigma` and mean curvature
+    /// `kappa`: [`critical_tension`](Self::critical_tension) where that is a compression, zero
+    /// where twist is unstable without any force; `None` where compression does not soften twist.
+    pub fn critical_compression(
+        &self,
+        material: &RodMaterial,
+        sigma: Vector3,
+        kappa: Vector3,
+    ) -> Option<f64> {
+        let [.., second] = self.extension(kappa.z);
+        let tension = self.critical_tension(material, sigma, kappa)?;
+        (second < 0.0).then(|| (-tension).max(0.0))
+    }
+
+    /// The force along a segment at strain `sigma` and mean curvature `kappa`, and what it does to
+    /// the stability of twist.
+    pub fn twist_stability(
+        &self,
+        material: &RodMaterial,
+        sigma: Vector3,
+        kappa: Vector3,
+    ) -> TwistStability {
+        let [extension, _, second] = self.extension(kappa.z);
+        let (strain, ..) = material.length_strain(sigma);
+        let tension = material.stretch().force(strain - extension);
+        TwistStability {
+            tension,
+            tangent: self.free_tangent(material, sigma, kappa) - tension * second,
+            critical_tension: self.critical_tension(material, sigma, kappa),
+        }
+    }
+
+    /// Tangent of twist without a force along the rod (pN nm^2).
+    fn free_tangent(&self, material: &RodMaterial, sigma: Vector3, kappa: Vector3) -> f64 {
+        let tangent = material.bending_tangent(kappa) + self.shear_by_curvature(sigma, kappa);
+        tangent[(2, 2)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        BendLaw, CubicShear, Rigidities, RootedStretch, SidedTwist, Stiffening, StretchLaw,
+        TanhTwist, TwistLaw, TwistRise, TwistStretch,
+    };
+    use actin_mechanics::testing::{Noise, derivative};
+
+    /// The published laws of twist and length.
+    fn published() -> (RodMaterial, SegmentLaw) {
+        let material = RodMaterial::new(Rigidities::table4())
+            .and_then(|m| m.with_twist(TwistLaw::Tanh(TanhTwist::published())))
+            .unwrap();
+        let law = SegmentLaw::of(&material, Some(TwistStretch::published()));
+        (material, law.unwrap())
+    }
+
+    /// A law of every kind that a rod can have at once, with shear and twist in its bending; where
+    /// `cubic`, it resists small shear by its tension alone.
+    fn sided(cubic: bool) -> (RodMaterial, SegmentLaw) {
+        let bend = Stiffening {
+            rest: 3.2e4,
+            rise: 8.1e3,
+            curvature: 2.8e-3,
+            twist: 2.9e-3,
+            shear: 9.9e-3,
+            range: 0.015,
+        };
+        let rise = |rise, half| TwistRise {
+            rise,
+            half,
+            slow: 0.018,
+        };
+        let twist = SidedTwist {
+            rest: 226.0,
+            under: rise(1.3e4, 8.7e-3),
+            over: rise(2.3e4, 1.1e-2),
+            range: 0.0472,
+        };
+        let stretch = StretchLaw::Sided {
+            tension: 3.3e4,
+            compression: 1.6e4,
+            width: 1e-3,
+        };
+        let shear = CubicShear {
+            linear: [0.0, 0.0],
+            cubic: 8.3e5,
+        };
+        let mut material = RodMaterial::new(Rigidities::table4())
+            .and_then(|m| m.with_bend(BendLaw::Stiffening(bend)))
+            .and_then(|m| m.with_twist(TwistLaw::Sided(twist)))
+            .and_then(|m| m.with_stretch(stretch))
+            .unwrap();
+        if cubic {
+            material = material.with_shear(shear).unwrap();
+        }
+        let law = SegmentLaw::of(
+            &material,
+            Some(TwistStretch::Rooted(RootedStretch {
+                slope: -0.29,
+                bend: 0.46,
+                half: 6.6e-3,
+                cubic: 27.6,
+                range: 0.0472,
+            })),
+        );
+        (material, law.unwrap())
+    }
+
+    /// The strain with this shear under the force `tension` (pN).
+    fn strain_under(
+        (material, law): &(RodMaterial, SegmentLaw),
+        [shear_1, shear_2, tension]: [f64; 3],
+        kappa: Vector3,
+    ) -> Vector3 {
+        let at = |sigma_3: f64| Vector3::new(shear_1, shear_2, sigma_3);
+        // The force rises with the strain: bisection to round-off.
+        let (mut low, mut high) = (-0.5, 0.5);
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            let found = law.twist_stability(material, at(middle), kappa).tension;
+            (low, high) = if found < tension {
+                (middle, high)
+            } else {
+                (low, middle)
+            };
+        }
+        at(low)
+    }
+
+    /// The tangent at any force, bent, sheared and twisted, and the force at which it vanishes. A
+    /// tangent at constant length would be 1e3 to 1e4 times as large; one without what shear and
+    /// bending add is off by up to half.
+    #[test]
+    fn tangent_is_the_slope_of_the_couple_at_constant_force() {
+        let mut noise = Noise::new(21);
+        for parts in [published(), sided(false), sided(true)] {
+            for _ in 0..30 {
+                let twist = 0.04 * noise.sample();
+                let kappa = Vector3::new(0.01 * noise.sample(), 0.01 * noise.sample(), twist);
+                let (g1, g2) = (0.02 * noise.sample(), 0.02 * noise.sample());
+                let tension = 100.0 * noise.sample();
+                let (material, law) = &parts;
+                let couple = |tension: f64, h: f64| {
+                    let kappa = kappa + Vector3::z() * h;
+                    let sigma = strain_under(&parts, [g1, g2, tension], kappa);
+                    let (_, couple) = law.loads(material, sigma, kappa);
+                    couple.z + material.bending_couple(kappa).z
+                };
+                let critical = law.critical_tension(material, Vector3::new(g1, g2, 0.0), kappa);
+                let [.., second] = law.extension(twist);
+                let free = critical.unwrap() * second;
+                // Round-off of a couple of some 100 pN nm over steps of 1e-5 rad/nm.
+                let slope = derivative(1e-5, |h| couple(tension, h));
+                let bound = 1e-6 * 1e4;
+                assert!((free - tension * second - slope).abs() < bound, "{kappa}");
+                let slope = derivative(1e-5, |h| couple(critical.unwrap(), h));
+                if critical.unwrap().abs() < 1e3 {
+                    assert!(slope.abs() < bound, "{kappa}: {slope}");
+                }
+            }
+        }
+    }
+
+    /// What the present state says agrees with the bound, on both sides of it.
+    #[test]
+    fn a_state_is_unstable_beyond_its_bound() {
+        for parts in [published(), sided(true)] {
+            let (material, law) = &parts;
+            for twist in [0.0, 2e-3, -4e-3] {
+                let kappa = Vector3::z() * twist;
+                let rest = Vector3::zeros();
+                let bound = law.critical_compression(material, rest, kappa).unwrap();
+                for (share, stable) in [(0.5, true), (0.999, true), (1.001, false), (3.0, false)] {
+                    let sigma = strain_under(&parts, [0.0, 0.0, -share * bound], kappa);
+                    let state = law.twist_stability(material, sigma, kappa);
+                    assert_eq!(state.is_stable(), stable, "{twist}, {share}");
+                    let critical = state.critical_tension.unwrap();
+                    assert!((critical + bound).abs() < 1e-12 * bound);
+                }
+            }
+        }
+    }
+
+    /// Length that is linear in the twist, as that of the coupling energy and any beyond its
+    /// range, leaves twist as stable as it is.
+    #[test]
+    fn a_linear_law_of_length_has_no_bound() {
+        let (material, law) = published();
+        let rest = Vector3::zeros();
+        let beyond = Vector3::z() * 0.06;
+        assert_eq!(law.critical_tension(&material, rest, beyond), None);
+        let linear = TwistStretch::linear(9.35e3, 3.4e4);
+        let law = SegmentLaw::of(&material, Some(linear)).unwrap();
+        assert_eq!(law.critical_compression(&material, rest, rest), None);
+        let pressed = law.twist_stability(&material, Vector3::z() * -0.01, rest);
+        assert!(pressed.is_stable() && pressed.tension < -300.0);
+    }
+
+    /// Where the natural length grows faster than the twist, tension is what softens twist.
+    #[test]
+    fn tension_can_be_what_softens() {
+        let (material, law) = sided(true);
+        let (rest, kappa) = (Vector3::zeros(), Vector3::z() * 0.04);
+        let critical = law.critical_tension(&material, rest, kappa).unwrap();
+        assert!(critical > 0.0);
+        assert_eq!(law.critical_compression(&material, rest, kappa), None);
+    }
+}

@@ -1,0 +1,131 @@
+//! Where the force along a rod makes its twist unstable.
+
+use super::{Assembly, Rod};
+use actin_cosserat::{RodMaterial, SegmentCurvature, SegmentLaw, ShearElement, TwistStability};
+use actin_mechanics::{State, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// A segment bears a force along it under which its twist is unstable.
+///
+/// The instability is local: how many modes of the twist grow, and how finely a rod divides into
+/// parts of different twist, depends on its segments.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct UnstableTwist {
+    /// Index of the filament.
+    pub filament: usize,
+    /// Index of the section in its filament.
+    pub section: usize,
+    /// Middle of the segment whose tangent of twist is lowest, as arc length at rest (nm).
+    pub s_nm: f64,
+    /// Mean twist around it (rad/nm).
+    pub twist_per_nm: f64,
+    /// Compression that it bears (pN); negative in tension.
+    pub compression_pn: f64,
+    /// Compression at which its twist becomes unstable (pN): positive where every larger
+    /// compression is unstable, negative where every larger tension is.
+    pub bound_pn: f64,
+    /// Share of the records of the run in which the section has such a segment.
+    pub share_of_records: f64,
+}
+
+/// What the twist of a rod's segments is watched with.
+#[derive(Debug)]
+pub(crate) struct TwistWatch {
+    pub(crate) law: SegmentLaw,
+    pub(crate) material: RodMaterial,
+    pub(crate) curvature: SegmentCurvature,
+}
+
+/// The segment of a rod whose twist is least stable.
+struct Weakest {
+    tangent: f64,
+    found: UnstableTwist,
+}
+
+impl Assembly {
+    /// Where twist is unstable in `state` under the forces along the rods: at most once per
+    /// section, where its tangent is lowest.
+    ///
+    /// # Source
+    /// `docs/statics.md`, "Extended rods in compression".
+    pub fn unstable_twist(&self, state: &State) -> Vec<UnstableTwist> {
+        let rods = self.rods.iter();
+        let all = rods.filter_map(|rod| self.weakest_of(rod, state));
+        all.map(|weakest| weakest.found).collect()
+    }
+
+    /// The same over the records of a run: the worst for each section, with the share of the
+    /// records that have it. Nothing in a heat bath, where the force along a segment fluctuates by
+    /// `sqrt(kT S3 / h)`, more than any bound, and says nothing about the mean.
+    pub fn unstable_twist_over<'a>(
+        &self,
+        states: impl IntoIterator<Item = &'a State>,
+    ) -> Vec<UnstableTwist> {
+        if self.scene.thermal().is_some() {
+            return Vec::new();
+        }
+        let mut worst: Vec<(u32, Option<Weakest>)> = Vec::new();
+        worst.resize_with(self.rods.len(), || (0, None));
+        let mut records = 0_u32;
+        for state in states {
+            records += 1;
+            for (rod, (count, known)) in self.rods.iter().zip(&mut worst) {
+                let Some(weakest) = self.weakest_of(rod, state) else {
+                    continue;
+                };
+                *count += 1;
+                if (known.as_ref()).is_none_or(|known| weakest.tangent < known.tangent) {
+                    *known = Some(weakest);
+                }
+            }
+        }
+        let found = worst.into_iter().filter_map(|(count, weakest)| {
+            let share_of_records = f64::from(count) / f64::from(records);
+            weakest.map(|weakest| UnstableTwist {
+                share_of_records,
+                ..weakest.found
+            })
+        });
+        found.collect()
+    }
+
+    /// The segment of a rod whose tangent of twist is lowest, if it is unstable there.
+    fn weakest_of(&self, rod: &Rod, state: &State) -> Option<Weakest> {
+        let watch = rod.twist_watch.as_ref()?;
+        let segments = 0..rod.layout.segments();
+        let all = segments.map(|k| (k, watch.look_at(rod, k, state)));
+        let (k, (twist_per_nm, stability)) =
+            all.min_by(|a, b| a.1.1.tangent.total_cmp(&b.1.1.tangent))?;
+        if stability.is_stable() {
+            return None;
+        }
+        let filament = self.filament_of_section(rod.section);
+        let middle = rod.layout.element_positions()[k];
+        Some(Weakest {
+            tangent: stability.tangent,
+            found: UnstableTwist {
+                filament,
+                section: rod.section - self.filaments[filament].sections.start,
+                s_nm: self.sections[rod.section].from_nm + middle,
+                twist_per_nm,
+                compression_pn: -stability.tension,
+                bound_pn: -stability.critical_tension?,
+                share_of_records: 1.0,
+            },
+        })
+    }
+}
+
+impl TwistWatch {
+    /// Mean twist around segment `k` (rad/nm), and how stable it is.
+    fn look_at(&self, rod: &Rod, k: usize, state: &State) -> (f64, TwistStability) {
+        let layout = &rod.layout;
+        let (i, frame) = (layout.points().start + k, layout.frames().start + k);
+        let x = &state.points.position;
+        let element = ShearElement::segment(layout.segment_lengths()[k]);
+        let sigma = element.strain(state.frames.orientation.get(frame), x.get(i + 1) - x.get(i));
+        let kappa: Vector3 = self.curvature.mean(k, state);
+        let stability = self.law.twist_stability(&self.material, sigma, kappa);
+        (kappa.z, stability)
+    }
+}

@@ -1,0 +1,130 @@
+//! What a user should know of a scene beside its numbers: how far its results can be trusted.
+//! `actin check` and `actin run` print it, `summary.json` holds it under `notes`.
+//!
+//! What can be said of a scene before it runs is added to [`Assembly::notes`]; what only a run can
+//! tell, to the `notes` of its summary.
+
+use crate::Assembly;
+use crate::scene::{Material, RodLaw, RodModel};
+
+/// Persistence length (um) and twisting rigidity (pN nm^2) of free filaments of 110 nm at 298 K, from
+/// turns of cross-sections 22 to 66 nm apart; standard errors are 0.1 um and 0.5e2 pN nm^2 (monomers:
+/// 0.2 um and 1e2 pN nm^2).
+///
+/// # Source
+/// `docs/validation.md`, "Persistence length from thermal motion".
+type InBath = (f64, f64);
+
+const MONOMERS: InBath = (11.1, 8.0e3);
+
+/// The same of rods under a law whose parameters come from equilibria of monomers at zero
+/// temperature, with the law's name.
+fn fitted_without_heat(law: &RodLaw) -> Option<(&'static str, InBath)> {
+    match law {
+        RodLaw::Constant => Some(("Constant", (9.5, 1.30e4))),
+        RodLaw::PublishedExtension => Some(("PublishedExtension", (9.5, 4.8e3))),
+        RodLaw::CouplingEnergy => Some(("CouplingEnergy", (9.5, 4.8e3))),
+        RodLaw::Fitted => Some(("Fitted", (9.7, 4.9e3))),
+        RodLaw::Laws(_) => None,
+    }
+}
+
+/// The command that measures these.
+const COMMAND: &str = "cargo run --release -p actin-sim --example persistence_length";
+
+impl Assembly {
+    /// What there is to know of this scene before it runs, a sentence or two each.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.scene.thermal().is_some() {
+            for (i, filament) in self.scene.filaments().enumerate() {
+                let has_rod = self.counts_of(i).segments > 0;
+                let note = has_rod.then(|| law_in_bath(&filament.rod)).flatten();
+                notes.extend(note.filter(|note| !notes.contains(note)));
+            }
+        }
+        notes
+    }
+}
+
+/// What there is to know of a rod's law in a heat bath. Nothing of constant rigidities that are not
+/// the published ones: they may be those at a temperature.
+fn law_in_bath(rod: &RodModel) -> Option<String> {
+    if rod.law == RodLaw::Constant && rod.material != Material::Table4 {
+        return None;
+    }
+    let Some((name, (persistence, twist))) = fitted_without_heat(&rod.law) else {
+        let note = "rods under Laws in a heat bath: laws that were fitted to equilibria at zero \
+                    temperature are no free energy, and rods under them do not fluctuate as the \
+                    filaments that they were fitted to";
+        return Some(note.to_owned());
+    };
+    let (of_monomers, twist_of_monomers) = MONOMERS;
+    Some(format!(
+        "rods under the law {name} in a heat bath: its parameters come from equilibria of monomers \
+         at zero temperature, and it is no free energy. At 298 K free filaments of 110 nm have, as \
+         such rods, a persistence length of {persistence:.1} um and a twisting rigidity of \
+         {twist:.1e} pN nm^2, as monomers {of_monomers:.1} um and {twist_of_monomers:.1e} pN nm^2 \
+         ({COMMAND})"
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+
+    fn notes(filaments: &str, task: &str) -> Vec<String> {
+        let text =
+            format!("Scene(filaments: [{filaments}], task: Dynamics(duration_ns: 1.0, {task}))");
+        let scene = Scene::from_ron(&text).unwrap_or_else(|error| panic!("{error}"));
+        Assembly::build(&scene).unwrap().notes()
+    }
+
+    fn rod(model: &str, x: f64) -> String {
+        format!(
+            "Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)], rod: RodModel({model}),
+                at_nm: ({x:?}, 0.0, 0.0)),"
+        )
+    }
+
+    const BATH: &str = "drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+        thermal: (temperature_k: 298.0, seed: 1)";
+
+    /// Each law once, however many filaments have it; none without heat, and none of filaments
+    /// without rods.
+    #[test]
+    fn laws_are_noted_where_heat_meets_them() {
+        let filaments = [
+            rod("law: Fitted", 0.0),
+            rod("", 20.0),
+            rod("law: Fitted", 40.0),
+            rod(
+                "law: Laws(twist: Sided(rest_pn_nm2: 300.0,
+                under: (rise_pn_nm2: 1e4, half_per_nm: 0.01, slow_per_nm: 0.01),
+                over: (rise_pn_nm2: 1e4, half_per_nm: 0.01, slow_per_nm: 0.01),
+                range_per_nm: 0.05))",
+                60.0,
+            ),
+            rod("material: PrecedingPaper", 80.0),
+            "Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0)],
+                rod: RodModel(law: CouplingEnergy), at_nm: (100.0, 0.0, 0.0))"
+                .to_owned(),
+        ]
+        .concat();
+        let found = notes(&filaments, BATH);
+        let begin: Vec<&str> = found
+            .iter()
+            .map(|note| note.split(':').next().unwrap())
+            .collect();
+        assert_eq!(
+            begin,
+            [
+                "rods under the law Fitted in a heat bath",
+                "rods under the law Constant in a heat bath",
+                "rods under Laws in a heat bath",
+            ]
+        );
+        assert_eq!(notes(&filaments, ""), [""; 0]);
+    }
+}
