@@ -3,7 +3,7 @@
 use super::keep::{Arrival, Clock, Keeper, Kept, PathStanding, Standing};
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::scene::{Equilibrium as Settings, Load, Problem};
-use crate::{Assembly, Resolution};
+use crate::{Assembly, Resolution, memory};
 use actin_coupling::{LinkerEnd, Site};
 use actin_equilibrium::{
     BodyOrder, Certificate, Companion, Equilibrium, Iteration, Jumps, Layout, Newton,
@@ -47,6 +47,7 @@ pub(super) fn run(
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<(Trajectory, RunReport), RunError> {
     let clock = Clock::new(kept.as_ref());
+    check_points(assembly, settings)?;
     let mut newton = newton(assembly, settings)?;
     let mut state = assembly.system.state().clone();
     let mut follower = Follower::new(assembly, settings, kept, (keeper, watch), clock);
@@ -83,6 +84,22 @@ pub(super) fn run(
             report: Box::new(report),
         }),
     }
+}
+
+/// Refuses a path with more equilibria than memory holds: each stage has at least as many as steps of
+/// the largest length fill it.
+pub(super) fn check_points(assembly: &Assembly, settings: &Settings) -> Result<(), Problem> {
+    let least = assembly.drive.stages() as f64 / settings.largest_step;
+    let record = memory::of_record(assembly.system.state(), assembly.terms.len());
+    let value = format!("{:?}", settings.largest_step);
+    memory::check(
+        assembly.bytes + least * record,
+        ("task.largest_step", value),
+        || {
+            let bodies = assembly.points.len() + assembly.frames.len();
+            format!("{least:.2e} equilibria of {bodies} bodies and more need")
+        },
+    )
 }
 
 /// Why there is no equilibrium at the end, or none to rely on.
@@ -155,6 +172,9 @@ pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton,
 
 /// Bodies that linkers join and nothing else does: those of different filaments, or far apart in one.
 fn loose_pairs(assembly: &Assembly) -> Vec<[Coordinates; 2]> {
+    let reaches: Vec<f64> = (0..assembly.filaments.len())
+        .map(|filament| reach(assembly, filament))
+        .collect();
     let joined = assembly
         .linkers
         .iter()
@@ -166,7 +186,9 @@ fn loose_pairs(assembly: &Assembly) -> Vec<[Coordinates; 2]> {
         let with_all = |a| other.iter().map(move |&b| [a, b]).collect::<Vec<_>>();
         site.iter().flat_map(|&a| with_all(a)).collect::<Vec<_>>()
     });
-    pairs.filter(|&[a, b]| are_apart(assembly, a, b)).collect()
+    pairs
+        .filter(|&[a, b]| are_apart(assembly, &reaches, (a, b)))
+        .collect()
 }
 
 /// The bodies that a site follows.
@@ -175,23 +197,25 @@ fn bodies_of(site: &Site) -> Vec<Coordinates> {
     points.chain([Coordinates::Frame(site.frame())]).collect()
 }
 
-/// Whether no bond or segment couples two bodies.
-fn are_apart(assembly: &Assembly, a: Coordinates, b: Coordinates) -> bool {
+/// How far bonds and segments of a filament couple at most (nm, arc length).
+fn reach(assembly: &Assembly, filament: usize) -> f64 {
+    let sections = assembly.sections_of(filament).iter();
+    let longest = sections.map(|section| match section.resolution {
+        Resolution::Rod { segment_nm } => segment_nm,
+        Resolution::Ellipsoids { .. } => assembly.monomers_of(filament).rise_nm,
+    });
+    // Monomers reach the next but one, bending elements from middle to middle.
+    REACH * longest.fold(0.0, f64::max)
+}
+
+/// Whether no bond or segment couples two bodies; `reaches` are those of the filaments.
+fn are_apart(assembly: &Assembly, reaches: &[f64], (a, b): (Coordinates, Coordinates)) -> bool {
     let place = |body| match body {
         Coordinates::Point(i) => (assembly.filament_of_point(i), assembly.points[i].s_nm),
         Coordinates::Frame(i) => (assembly.filament_of_frame(i), assembly.frames[i].s_nm),
     };
     let ((f, s_a), (g, s_b)) = (place(a), place(b));
-    let longest = assembly
-        .sections_of(f)
-        .iter()
-        .map(|section| match section.resolution {
-            Resolution::Rod { segment_nm } => segment_nm,
-            Resolution::Ellipsoids { .. } => assembly.monomers_of(f).rise_nm,
-        });
-    // Monomers reach the next but one, bending elements from middle to middle.
-    let reach = REACH * longest.fold(0.0, f64::max);
-    f != g || (s_a - s_b).abs() > reach
+    f != g || (s_a - s_b).abs() > reaches[f]
 }
 
 /// Each filament's arc lengths behind those of the one before.
