@@ -6,6 +6,7 @@ mod streams;
 
 mod bench;
 mod check;
+mod costs;
 mod docs;
 mod extremes;
 mod figures;
@@ -29,6 +30,8 @@ struct Arguments {
 enum Task {
     /// Measures how fast the fixed cases run, beside what was aimed at.
     Bench(bench::Options),
+    /// Measures what scenes cost beside their estimates, and how that grows with their size.
+    Costs(costs::Options),
     /// Formatting, lints as errors, documentation, benches that build, random input, tidiness.
     Check,
     /// Takes every number of a scene to where it breaks and writes what becomes of it.
@@ -49,6 +52,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Bench(options) => bench::run(&options),
         Task::Check => check::run(),
+        Task::Costs(options) => costs::run(&options),
         Task::Extremes(options) => extremes::run(&options),
         Task::FitParameters(options) => fit::run(&options),
         Task::ReproduceFigures(options) => figures::reproduce(&options),

@@ -29,11 +29,9 @@ pub(crate) fn check(path: &Path) -> Result<(), Failure> {
     if let Some(estimate) = &estimate {
         print_step(estimate);
     }
-    print_cost(
-        &Cost::of(&opened.assembly, estimate.as_ref()),
-        estimate.is_some(),
-    );
-    let advice = Advice::of(&written).map_err(|problem| opened.refuse(&problem))?;
+    let (assembly, estimate) = (&opened.assembly, estimate.as_ref());
+    println!("// cost: {}", Cost::of(assembly, estimate));
+    let advice = Advice::of_estimated(&written, assembly, estimate);
     println!("// cheaper: {advice}");
     Ok(())
 }
@@ -112,32 +110,4 @@ fn print_step(estimate: &Estimate) {
         estimate.time_step_ns,
         estimate.steps
     );
-}
-
-fn print_cost(cost: &Cost, moves: bool) {
-    let (bound, what) = if moves {
-        ("at most", "force evaluations")
-    } else {
-        ("about", "Newton steps")
-    };
-    println!(
-        "// cost: {bound} {} {what}, each of {} bonds and {} elements: {:.1e} evaluations of bonds, \
-         {:.1e} of elements, {} on one core at measured rates",
-        cost.evaluations,
-        cost.work.bonds,
-        cost.work.elements,
-        cost.bond_evaluations(),
-        cost.element_evaluations(),
-        time(cost.seconds)
-    );
-}
-
-/// A time in words, to the digits that an estimate has.
-fn time(seconds: f64) -> String {
-    match seconds {
-        s if s < 1.0 => format!("{s:.1e} s"),
-        s if s < 120.0 => format!("{s:.0} s"),
-        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.0} h", s / 3600.0),
-    }
 }

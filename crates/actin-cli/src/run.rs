@@ -33,7 +33,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         Beginning::Kept(kept) => Some(*kept),
         Beginning::Finished => return Ok(()),
     };
-    let (trajectory, report) = advance(&mut opened, kept, &mut checkpoints, &directory)?;
+    let asked = (&mut opened, estimate.as_ref());
+    let (trajectory, report) = advance(asked, kept, &mut checkpoints, &directory)?;
     if report.interrupted {
         return Err(left(
             arguments,
@@ -178,7 +179,7 @@ fn go_on(arguments: &RunArguments, directory: &RunDirectory) -> String {
 
 /// The run itself.
 fn advance(
-    opened: &mut Opened,
+    (opened, estimate): (&mut Opened, Option<&Estimate>),
     kept: Option<Kept>,
     checkpoints: &mut Checkpoints,
     directory: &RunDirectory,
@@ -186,7 +187,8 @@ fn advance(
     let progress = Progress::new();
     let started = Instant::now();
     let mut first = None;
-    let outcome = actin_sim::run_kept(&mut opened.assembly, kept, checkpoints, &mut |at| {
+    let assembly = &mut opened.assembly;
+    let outcome = actin_sim::run_estimated(assembly, estimate, kept, checkpoints, &mut |at| {
         let made = at.steps - *first.get_or_insert(at.steps);
         progress.show(&at, made as f64 / started.elapsed().as_secs_f64());
         ControlFlow::Continue(())

@@ -142,14 +142,21 @@ impl RodLayout {
         self.segment_lengths.len() + self.voronoi_lengths.len()
     }
 
+    /// Rest arc length of each node from node 0 on (nm): one more than there are segments.
+    pub fn node_positions(&self) -> Vec<f64> {
+        let mut place = 0.0;
+        let behind = self.segment_lengths.iter().map(|length| {
+            place += length;
+            place
+        });
+        std::iter::once(0.0).chain(behind).collect()
+    }
+
     /// Rest arc length of each element from node 0 on (nm), in the order of the elements: the
     /// middle of its segment for a shear element, the node between its frames for a bending
     /// element.
     pub fn element_positions(&self) -> Vec<f64> {
-        let mut nodes = vec![0.0];
-        for length in &self.segment_lengths {
-            nodes.push(nodes[nodes.len() - 1] + length);
-        }
+        let nodes = self.node_positions();
         let middles = nodes.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
         let first = usize::from(!self.walls.start);
         let past = nodes.len() - usize::from(!self.walls.end);

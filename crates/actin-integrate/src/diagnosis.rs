@@ -109,10 +109,14 @@ pub(crate) fn blame(
         first_body(broken, |body| !body_is_finite(broken, body)).unwrap_or_else(|| fastest(broken));
     // Loads at positions that are not finite say nothing: those before still do.
     let sighted = if broken.is_finite() { broken } else { before };
+    // One buffer for all terms, of which nothing but the load on this body is read: a buffer for each
+    // would take the square of the number of filaments.
+    let mut loads = Loads::zeros(sighted);
     let strongest = interactions
         .iter()
         .map(|interaction| {
-            let loads = loads_of(interaction.as_ref(), sighted);
+            clear_load(&mut loads, body);
+            interaction.add_loads(sighted, &mut loads);
             (interaction.term(), load_on(&loads, body).norm())
         })
         .filter(|(_, size)| *size > 0.0)
@@ -163,12 +167,44 @@ impl Agitate for Probe<'_> {
 
 /// The first load that is not finite: on which body, and of which term.
 fn broken_load(system: &System) -> Option<(Body, &'static str)> {
-    let state = system.state();
-    system.interactions().iter().find_map(|interaction| {
-        let loads = loads_of(interaction.as_ref(), state);
-        let body = first_body(state, |body| !is_finite(&load_on(&loads, body)))?;
-        Some((body, interaction.term()))
-    })
+    let (state, interactions) = (system.state(), system.interactions());
+    let (k, loads) = first_broken(interactions, state)?;
+    let body = first_body(state, |body| !is_finite(&load_on(&loads, body)))?;
+    Some((body, interactions[k].term()))
+}
+
+/// The first term whose loads are not finite together with those before it, and these loads; `None`
+/// if all are.
+///
+/// The terms are halved until it is found: a look at all loads after each of them would take the
+/// square of the number of filaments.
+pub(crate) fn first_broken(
+    interactions: &[Box<dyn Interaction>],
+    state: &State,
+) -> Option<(usize, Loads)> {
+    let mut loads = Loads::zeros(state);
+    let mut are_sound = |terms: usize| {
+        loads.clear();
+        for interaction in &interactions[..terms] {
+            interaction.add_loads(state, &mut loads);
+        }
+        let mut all = loads.force.iter().chain(loads.torque.iter());
+        all.all(|load| is_finite(&load))
+    };
+    let (mut sound, mut broken) = (0, interactions.len());
+    if are_sound(broken) {
+        return None;
+    }
+    while broken - sound > 1 {
+        let half = usize::midpoint(sound, broken);
+        if are_sound(half) {
+            sound = half;
+        } else {
+            broken = half;
+        }
+    }
+    are_sound(broken);
+    Some((sound, loads))
 }
 
 /// The first term whose energy of a finite state is not finite, and the body on which it acts most
@@ -208,6 +244,14 @@ fn load_on(loads: &Loads, body: Body) -> Vector3 {
     match body {
         Body::Point(i) => loads.force.get(i),
         Body::Frame(i) => loads.torque.get(i),
+    }
+}
+
+/// Sets the force or torque on a body to zero.
+fn clear_load(loads: &mut Loads, body: Body) {
+    match body {
+        Body::Point(i) => loads.force.set(i, Vector3::zeros()),
+        Body::Frame(i) => loads.torque.set(i, Vector3::zeros()),
     }
 }
 

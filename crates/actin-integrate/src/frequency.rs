@@ -1,6 +1,7 @@
 //! The largest frequency of an assembled system, without assembling a matrix.
 
-use crate::lanczos::largest_eigenvalue;
+use crate::diagnosis::first_broken;
+use crate::lanczos::{Operator, largest_eigenvalue};
 use actin_mechanics::{Interaction, Loads, State, System, Vector3, rotation};
 use thiserror::Error;
 
@@ -29,7 +30,8 @@ const EXCURSION: f64 = 1e-4;
 /// `lambda_max`.
 ///
 /// Two evaluations of the loads per vector, 120 in all (fewer if the system has fewer than 60
-/// coordinates); the system's own count and state do not change. Loads without an energy are
+/// coordinates), and memory for three vectors, or for all of them where some load has no energy;
+/// the system's own count and state do not change. Loads without an energy are
 /// welcome: the symmetric part of their derivative counts, whose largest eigenvalue is no less
 /// than the real part of any eigenvalue of the whole. Frequencies at which free tops precess do
 /// not count, since drift is exact.
@@ -51,7 +53,14 @@ pub fn largest_frequency_with(system: &System, vectors: usize) -> Result<f64, Fr
     let mut trial = Trial::new(system);
     let coordinates = trial.weights.len();
     let free = trial.weights.iter().filter(|w| **w > 0.0).count();
-    let eigenvalue = largest_eigenvalue(coordinates, vectors.min(free), |v, w| trial.apply(v, w))?;
+    let has_energy = |interaction: &Box<dyn Interaction>| interaction.is_conservative();
+    let operator = if system.interactions().iter().all(has_energy) {
+        Operator::Symmetric
+    } else {
+        Operator::Any
+    };
+    let vectors = vectors.min(free);
+    let eigenvalue = largest_eigenvalue(coordinates, vectors, operator, |v, w| trial.apply(v, w))?;
     // `max` would take what is not a number for no stiffness.
     let eigenvalue = if eigenvalue > 0.0 || eigenvalue.is_nan() {
         eigenvalue
@@ -139,12 +148,13 @@ impl<'a> Trial<'a> {
         self.ahead.clear();
         for interaction in self.interactions {
             interaction.add_loads(&self.moved, &mut self.ahead);
-            if !is_finite(&self.ahead) {
-                let term = interaction.term();
-                return Err(FrequencyError { term });
-            }
         }
-        Ok(())
+        if is_finite(&self.ahead) {
+            return Ok(());
+        }
+        let broken = first_broken(self.interactions, &self.moved);
+        let term = broken.map_or("none", |(k, _)| self.interactions[k].term());
+        Err(FrequencyError { term })
     }
 }
 

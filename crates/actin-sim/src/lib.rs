@@ -17,6 +17,7 @@ pub mod advice;
 mod assembly;
 pub mod cost;
 pub mod measure;
+mod memory;
 mod notes;
 mod results;
 mod run;
@@ -36,7 +37,7 @@ pub use results::{
 };
 pub use run::{
     Arrival, EquilibriumReport, Estimate, Keeper, Kept, PathStanding, Progress, Record, RunError,
-    RunReport, Standing, Trajectory, Unkept, estimate, run, run_kept,
+    RunReport, Standing, Trajectory, Unkept, estimate, run, run_estimated, run_kept,
 };
 pub use scene::fitted::laws as fitted_laws;
 pub use scene::{

@@ -17,6 +17,7 @@ mod study;
 #[cfg(test)]
 mod tests;
 
+use actin_sim::{Integrator, Task};
 use clap::Args;
 use picture::Picture;
 use row::Row;
@@ -25,6 +26,9 @@ use std::path::{Path, PathBuf};
 
 /// The name under which rates are measured, which no run of all does.
 const RATES: &str = "rates";
+
+/// Time of a short motion (ns).
+const SHORT_NS: f64 = 2.0;
 
 /// Options of the command.
 #[derive(Args, Clone, Debug)]
@@ -38,6 +42,29 @@ pub(crate) struct Options {
     /// Fewer settings and samplings.
     #[arg(long)]
     quick: bool,
+}
+
+/// The scenes of all studies in all their settings, with the first sampling of the bonds, as texts with
+/// their names; of the reference a short motion as well.
+pub(crate) fn scenes(quick: bool) -> Vec<(String, String)> {
+    let mut all = Vec::new();
+    for study in study::studies(&[], quick) {
+        for (factor, setting, resolved) in &study.settings {
+            let mut scene = solve::scene(&study, resolved, 0);
+            let name = format!("{} {setting}", study.name);
+            all.push((name.clone(), scene.to_ron()));
+            if matches!(
+                factor,
+                study::Factor::Reference | study::Factor::ShareFitted
+            ) {
+                let motion = solve::motion(SHORT_NS, Integrator::default(), None);
+                scene.path.clear();
+                scene.task = Task::Dynamics(motion);
+                all.push((format!("{name}, moved"), scene.to_ron()));
+            }
+        }
+    }
+    all
 }
 
 /// Measures, writes, draws and prints.

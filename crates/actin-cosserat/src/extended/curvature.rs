@@ -52,34 +52,40 @@ impl SegmentCurvature {
     /// # Ok::<(), actin_cosserat::RodError>(())
     /// ```
     pub fn new(layout: &RodLayout, start: &[JoinedElement], end: &[JoinedElement]) -> Self {
-        let own: Vec<JoinedElement> = layout
-            .bending_chain()
-            .zip(layout.voronoi_lengths())
-            .map(|(a, &rest_distance)| JoinedElement {
-                frames: [a, a + 1],
+        let segments = layout.segments();
+        let first = layout.bending_chain().start;
+        // The rod's own element that joins `frame` to the next.
+        let own = |frame: usize| {
+            let k = frame.checked_sub(first)?;
+            let &rest_distance = layout.voronoi_lengths().get(k)?;
+            Some(JoinedElement {
+                frames: [frame, frame + 1],
                 element: BendingElement { rest_distance },
             })
-            .collect();
-        let mut curvature = Self {
-            offsets: vec![0],
-            around: Vec::new(),
         };
-        for frame in layout.frames() {
-            let on = |side: usize, joined: &[JoinedElement]| -> Vec<JoinedElement> {
-                let all = own.iter().chain(joined);
-                all.filter(|e| e.frames[side] == frame).copied().collect()
-            };
-            curvature.push_segment(&[on(1, start), on(0, end)]);
+        let mut curvature = Self {
+            offsets: Vec::with_capacity(segments + 1),
+            around: Vec::with_capacity(2 * segments + start.len() + end.len()),
+        };
+        curvature.offsets.push(0);
+        for (k, frame) in layout.frames().enumerate() {
+            let before: &[_] = if k == 0 { start } else { &[] };
+            let behind: &[_] = if k + 1 == segments { end } else { &[] };
+            let previous = frame.checked_sub(1).and_then(own);
+            curvature.push_segment([(previous, before), (own(frame), behind)]);
         }
         curvature
     }
 
-    /// Appends a segment with the elements on its two sides.
-    fn push_segment(&mut self, sides: &[Vec<JoinedElement>; 2]) {
-        let present = sides.iter().filter(|side| !side.is_empty()).count();
+    /// Appends a segment with what stands on its two sides: an element of the rod, and others.
+    fn push_segment(&mut self, sides: [(Option<JoinedElement>, &[JoinedElement]); 2]) {
+        let count = |(own, joined): &(Option<_>, &[_])| usize::from(own.is_some()) + joined.len();
+        let present = sides.iter().filter(|side| count(side) > 0).count();
         for side in sides {
-            let share = ((present * side.len()) as f64).recip();
-            self.around.extend(side.iter().map(|joined| Around {
+            let share = ((present * count(&side)) as f64).recip();
+            let (own, joined) = side;
+            let elements = own.into_iter().chain(joined.iter().copied());
+            self.around.extend(elements.map(|joined| Around {
                 frames: joined.frames,
                 element: joined.element,
                 share,

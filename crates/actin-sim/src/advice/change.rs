@@ -2,11 +2,12 @@
 
 use super::like::length;
 use super::{AT_MOST, Measured, Setting, scenes, table};
-use crate::Assembly;
 use crate::cost::Cost;
+use crate::run::estimate_at;
 use crate::scene::{
     Drag, Dynamics, Equilibrium, Integrator, Problem, RodLaw, Scene, Section, Task,
 };
+use crate::{Assembly, Estimate};
 use actin_integrate::SAFETY;
 use std::fmt;
 
@@ -41,31 +42,34 @@ pub enum Expected {
 /// at its default step (`cargo xtask tradeoff vibration`: 8e-6).
 pub const SLOW_MOTION: f64 = 1e-5;
 
-/// The change that saves most, if any saves at all; `like` names the measured scene that this one is
-/// like and how long that is (nm).
-///
-/// # Errors
-/// A scene that cannot be built, or whose time step is refused.
-pub(super) fn best(scene: &Scene, like: Option<(&str, f64)>) -> Result<Option<Change>, Problem> {
-    let seconds = seconds(scene)?;
+/// The change that saves most, if any saves at all, of a scene that was built and estimated; `like`
+/// names the measured scene that this one is like and how long that is (nm).
+pub(super) fn best(
+    scene: &Scene,
+    known: (&Assembly, Option<&Estimate>),
+    like: Option<(&str, f64)>,
+) -> Option<Change> {
+    let (assembly, estimate) = known;
+    let before = Cost::of(assembly, estimate).seconds.total();
     let resolved = like.into_iter().flat_map(|(name, at)| {
         let measured = table::measured().into_iter();
         let rows = measured.filter(move |row| row.scene == name && is_small(row.displacement));
         rows.filter_map(move |row| resolved(scene, &row, length(scene) / at))
     });
-    let all = resolved.chain(at_rest(scene)).chain(verlet(scene));
     // What is refused is no advice.
-    let timed = all.filter_map(|(what, changed, expected)| {
-        let times_cheaper = seconds / self::seconds(&changed).ok()?;
-        Some(Change {
-            what,
-            scene: changed,
-            times_cheaper,
-            expected,
-        })
+    let built = resolved.chain(at_rest(scene)).filter_map(|candidate| {
+        let seconds = seconds(&candidate.1).ok()?;
+        Some((candidate, seconds))
+    });
+    let all = built.chain(estimate.and_then(|estimate| verlet(scene, assembly, estimate)));
+    let timed = all.map(|((what, changed, expected), seconds)| Change {
+        what,
+        scene: changed,
+        times_cheaper: before / seconds,
+        expected,
     });
     let saving = timed.filter(|change| change.times_cheaper > 1.0);
-    Ok(saving.max_by(|a, b| a.times_cheaper.total_cmp(&b.times_cheaper)))
+    saving.max_by(|a, b| a.times_cheaper.total_cmp(&b.times_cheaper))
 }
 
 /// What to do, the changed scene, and the errors it brings.
@@ -77,7 +81,7 @@ fn is_small(error: Option<f64>) -> bool {
 
 fn seconds(scene: &Scene) -> Result<f64, Problem> {
     scene.validate()?;
-    Ok(Cost::estimated(&Assembly::build(scene)?)?.seconds)
+    Ok(Cost::estimated(&Assembly::build(scene)?)?.seconds.total())
 }
 
 /// The scene resolved as `row` says, if that is one change and no finer anywhere; places of the row
@@ -195,39 +199,50 @@ fn at_rest(scene: &Scene) -> Option<Candidate> {
 }
 
 /// Whether a motion has the step that a scene gets which leaves it out, written out or not.
-fn has_default_step(scene: &Scene, dynamics: &Dynamics) -> bool {
+fn has_default_step(
+    assembly: &Assembly,
+    dynamics: &Dynamics,
+    Estimate {
+        largest_frequency_rad_per_ns,
+        ..
+    }: &Estimate,
+) -> bool {
     let Some(step) = dynamics.time_step_ns else {
         return true;
     };
-    let mut open = scene.clone();
-    open.task = Task::Dynamics(Dynamics {
+    let open = Dynamics {
         time_step_ns: None,
         ..dynamics.clone()
-    });
-    let estimate = Assembly::build(&open).and_then(|assembly| crate::estimate(&assembly));
+    };
+    let estimate = estimate_at(assembly, &open, *largest_frequency_rad_per_ns);
     // Printed scenes hold the step to all digits.
-    estimate.is_ok_and(|e| e.is_some_and(|e| (e.time_step_ns / step - 1.0).abs() < 1e-9))
+    estimate.is_ok_and(|e| (e.time_step_ns / step - 1.0).abs() < 1e-9)
 }
 
 /// Position Verlet for a motion that is wanted for itself, where the scene leaves the step to the
-/// method. In a heat bath its fastest modes are too cold by a quarter at half its limit, so not there.
-fn verlet(scene: &Scene) -> Option<Candidate> {
+/// method, and its time (s). In a heat bath its fastest modes are too cold by a quarter at half its
+/// limit, so not there.
+fn verlet(scene: &Scene, assembly: &Assembly, estimate: &Estimate) -> Option<(Candidate, f64)> {
     let Task::Dynamics(dynamics) = &scene.task else {
         return None;
     };
     let is_motion = dynamics.stop.is_none() && dynamics.thermal.is_none();
-    let is_measured = dynamics.step_safety <= SAFETY && has_default_step(scene, dynamics);
-    if !(is_motion && is_measured) {
+    let has_step = || has_default_step(assembly, dynamics, estimate);
+    if !(is_motion && dynamics.step_safety <= SAFETY && has_step()) {
         return None;
     }
-    let mut changed = scene.clone();
-    changed.task = Task::Dynamics(Dynamics {
+    let with_verlet = Dynamics {
         integrator: Integrator::PositionVerlet,
         time_step_ns: None,
         ..dynamics.clone()
-    });
+    };
+    let frequency = estimate.largest_frequency_rad_per_ns;
+    let estimate = estimate_at(assembly, &with_verlet, frequency).ok()?;
+    let seconds = Cost::of(assembly, Some(&estimate)).seconds.total();
+    let mut changed = scene.clone();
+    changed.task = Task::Dynamics(with_verlet);
     let what = "take integrator PositionVerlet at its default step".into();
-    Some((what, changed, Expected::SlowMotion))
+    Some(((what, changed, Expected::SlowMotion), seconds))
 }
 
 impl fmt::Display for Change {

@@ -12,7 +12,7 @@ mod strand;
 use super::{
     Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Part, PointInfo, Rod, SectionSpan, Term,
 };
-use crate::scene::{Load, Problem, Scene, Section, path};
+use crate::scene::{End, HeldEnds, Load, Problem, Scene, Section, path};
 use actin_coupling::Linker;
 use actin_mechanics::{Interaction, PointLoad, State, System};
 use strand::{Body, Strand};
@@ -22,7 +22,7 @@ impl Assembly {
     ///
     /// # Errors
     /// What only shows when a filament is built: a section without room for its bodies, an
-    /// interface that finds no bonds, more bodies than a run could hold.
+    /// interface that finds no bonds, more bodies than the memory of this machine holds.
     pub fn build(scene: &Scene) -> Result<Self, Problem> {
         let mut builder = Builder::new(scene)?;
         builder.push_filaments()?;
@@ -56,6 +56,9 @@ impl Stock {
 /// A scene under construction.
 struct Builder<'a> {
     scene: &'a Scene,
+    /// Memory that it takes, estimated.
+    bytes: f64,
+    held: HeldEnds,
     strands: Vec<Strand<'a>>,
     filaments: Vec<FilamentSpan>,
     stock: Stock,
@@ -65,16 +68,23 @@ struct Builder<'a> {
 
 impl<'a> Builder<'a> {
     fn new(scene: &'a Scene) -> Result<Self, Problem> {
+        let held = HeldEnds::of(scene);
         let mut first_section = 0;
         let mut strands = Vec::new();
         for (i, filament) in scene.filaments().enumerate() {
-            let strand = Strand::new(scene, (i, filament), first_section);
+            let holds = [End::Start, End::End].map(|end| {
+                let clamp = held.clamp_at(i, end)?;
+                Some(scene.clamps[clamp].hold)
+            });
+            let strand = Strand::new((i, filament), holds, first_section);
             strands.push(strand.map_err(|p| p.with_filament(&scene.filament_key(i)))?);
             first_section += filament.sections.len();
         }
-        size::check(scene, &strands)?;
+        let bytes = size::check(scene, &strands)?;
         Ok(Self {
             scene,
+            bytes,
+            held,
             strands,
             filaments: Vec::new(),
             stock: Stock::default(),
@@ -92,8 +102,10 @@ impl<'a> Builder<'a> {
             self.filaments.push(span);
         }
         for (i, strand) in self.strands.iter().enumerate() {
+            let first = self.stock.terms.len();
             let pushed = strand.push_interactions(&mut self.stock);
             pushed.map_err(|p| p.with_filament(&scene.filament_key(i)))?;
+            self.filaments[i].terms = first..self.stock.terms.len();
         }
         Ok(())
     }
@@ -120,12 +132,13 @@ impl<'a> Builder<'a> {
     fn finish(mut self) -> Assembly {
         let scene = self.resolved_scene();
         let spans = self.spans();
-        let drive = Drive::new(&scene, &self.clamps, &self.stock.state);
+        let drive = Drive::new(&scene, &self.held, &self.clamps, &self.stock.state);
         drive.place(&mut self.stock.state, 0.0);
         let stock = self.stock;
         Assembly {
             drive,
             scene,
+            bytes: self.bytes,
             rest: stock.state.clone(),
             system: System::new(stock.state, stock.interactions),
             terms: stock.terms,
@@ -135,6 +148,7 @@ impl<'a> Builder<'a> {
             filaments: self.filaments,
             rods: stock.rods,
             clamps: self.clamps,
+            held: self.held,
             linkers: self.linkers,
             spans,
         }

@@ -1,36 +1,10 @@
 //! What a scene moves from outside: held ends, load factors and anchors, along its path.
 
 use super::Clamped;
-use crate::scene::{Scene, Setting, Slides, path};
+use crate::scene::path::{self, Values};
+use crate::scene::{HeldEnds, Scene, Setting, Slides};
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
-
-/// A control, by the index of its load, clamp or linker, and its values at the ends of the stages,
-/// the first of them before the path.
-#[derive(Clone, Debug, PartialEq)]
-struct Track {
-    what: usize,
-    values: Vec<Vector3>,
-}
-
-impl Track {
-    fn new(what: usize, values: Vec<Vector3>) -> Self {
-        Self { what, values }
-    }
-
-    /// Value at path parameter `u`, linear within a stage, and its slope there.
-    fn at(&self, u: f64) -> (Vector3, Vector3) {
-        let last = self.values.len() - 1;
-        let u = u.clamp(0.0, last as f64);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "clamped to the number of stages"
-        )]
-        let stage = (u.floor() as usize).min(last.saturating_sub(1));
-        let slope = self.values[(stage + 1).min(last)] - self.values[stage];
-        (self.values[stage] + slope * (u - stage as f64), slope)
-    }
-}
+use std::ops::{Add, Mul, Sub};
 
 /// Everything that the path of a scene moves.
 ///
@@ -38,16 +12,17 @@ impl Track {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drive {
     stages: usize,
-    loads: Vec<Track>,
-    shifts: Vec<Track>,
-    turns: Vec<Track>,
-    anchors: Vec<Track>,
+    /// Factors of loads, by their indices.
+    loads: Vec<(usize, Values<f64>)>,
+    /// Displacements of anchors, by the indices of their linkers.
+    anchors: Vec<(usize, Values<Vector3>)>,
     /// Index of the first control of the first anchor: those of loads stand before it.
     first_anchor: usize,
+    /// Those of all clamps, in order.
     ends: Vec<HeldEnd>,
 }
 
-/// A clamped end with its bodies as built.
+/// A clamped end with its bodies as built, and how it is moved.
 #[derive(Clone, Debug, PartialEq)]
 struct HeldEnd {
     points: Vec<(usize, Vector3)>,
@@ -55,48 +30,48 @@ struct HeldEnd {
     about: Vector3,
     slides: Slides,
     axis: Vector3,
+    /// Shifts (nm).
+    shift: Option<Values<Vector3>>,
+    /// Turns (rad).
+    turn: Option<Values<Vector3>>,
 }
 
 impl Drive {
-    /// The drive of a scene whose clamps hold these bodies of `rest`.
-    pub(super) fn new(scene: &Scene, clamps: &[Clamped], rest: &State) -> Self {
-        let load = |index| {
-            let factors = path::load_factors(&scene.path, index)?.into_iter();
-            Some(factors.map(Vector3::from_element).collect())
-        };
-        let is_at = |clamp: usize, filament, end| {
-            (clamps[clamp].filament, clamps[clamp].end) == (filament, end)
-        };
-        let shift = |clamp: usize, setting: &Setting| match *setting {
+    /// The drive of a scene whose clamps, with the ends that they hold, hold these bodies of `rest`.
+    pub(super) fn new(scene: &Scene, held: &HeldEnds, clamps: &[Clamped], rest: &State) -> Self {
+        let path = &scene.path;
+        let shift = |setting: &Setting| match *setting {
             Setting::Shift {
                 filament,
                 end,
                 shift_nm,
-            } if is_at(clamp, filament, end) => Some(shift_nm.into()),
+            } => Some((held.clamp_at(filament, end)?, shift_nm.into())),
             _ => None,
         };
-        let turn = |clamp: usize, setting: &Setting| match *setting {
+        let turn = |setting: &Setting| match *setting {
             Setting::Turn {
                 filament,
                 end,
                 turn_deg,
-            } if is_at(clamp, filament, end) => Some(turn_deg.map(f64::to_radians).into()),
+            } => Some((
+                held.clamp_at(filament, end)?,
+                turn_deg.map(f64::to_radians).into(),
+            )),
             _ => None,
         };
-        let anchor = |index: usize, setting: &Setting| match *setting {
-            Setting::Anchor { linker, shift_nm } if linker == index => Some(shift_nm.into()),
+        let anchor = |setting: &Setting| match *setting {
+            Setting::Anchor { linker, shift_nm } => Some((linker, shift_nm.into())),
             _ => None,
         };
+        let shifts = path::values(path, clamps.len(), shift);
+        let turns = path::values(path, clamps.len(), turn);
+        let moved = clamps.iter().zip(shifts.into_iter().zip(turns));
         Self {
-            stages: scene.path.len(),
-            loads: tracks(scene.loads.len(), load),
-            shifts: tracks(clamps.len(), |i| path::values(&scene.path, |s| shift(i, s))),
-            turns: tracks(clamps.len(), |i| path::values(&scene.path, |s| turn(i, s))),
-            anchors: tracks(scene.linkers.len(), |i| {
-                path::values(&scene.path, |s| anchor(i, s))
-            }),
+            stages: path.len(),
+            loads: those_set(path::load_factors(path, scene.loads.len())),
+            anchors: those_set(path::values(path, scene.linkers.len(), anchor)),
             first_anchor: scene.loads.len(),
-            ends: clamps.iter().map(|c| HeldEnd::new(c, rest)).collect(),
+            ends: moved.map(|(c, by)| HeldEnd::new(c, by, rest)).collect(),
         }
     }
 
@@ -112,8 +87,18 @@ impl Drive {
 
     /// Turn of a clamp's end (rad, rotation vector in the lab frame) at path parameter `u`.
     pub(crate) fn turn(&self, clamp: usize, u: f64) -> Vector3 {
-        let track = self.turns.iter().find(|track| track.what == clamp);
-        track.map_or_else(Vector3::zeros, |track| track.at(u).0)
+        self.motion(self.ends[clamp].turn.as_ref(), (u, 0.0)).0
+    }
+
+    /// Shift of a clamp's end (nm, lab frame) after so many stages.
+    pub(crate) fn shift_after(&self, clamp: usize, stages: usize) -> Vector3 {
+        let shift = self.ends[clamp].shift.as_ref();
+        shift.map_or_else(Vector3::zeros, |shift| shift.after(stages))
+    }
+
+    /// The ends of stages, counted from 1, at which a clamp's end is turned.
+    pub(super) fn turned_after(&self, clamp: usize) -> impl Iterator<Item = usize> + '_ {
+        self.ends[clamp].turn.iter().flat_map(Values::ends)
     }
 
     /// Puts controls and held bodies where they belong at path parameter `u`. Of an end that
@@ -125,35 +110,63 @@ impl Drive {
     /// The same while the path parameter grows at `rate` (1/ns): held points and frames get the
     /// velocities that go with it.
     pub(super) fn place_moving(&self, state: &mut State, u: f64, rate: f64) {
-        for track in &self.loads {
-            state.controls[track.what] = track.at(u).0.x;
+        for (load, factor) in &self.loads {
+            state.controls[*load] = self.at(factor, u).0;
         }
-        for track in &self.anchors {
-            let first = self.first_anchor + 3 * track.what;
-            let displacement = track.at(u).0;
+        for (linker, displacement) in &self.anchors {
+            let first = self.first_anchor + 3 * linker;
+            let displacement = self.at(displacement, u).0;
             state.controls[first..first + 3].copy_from_slice(displacement.as_slice());
         }
-        let motion = |tracks: &[Track], clamp| {
-            let track = tracks.iter().find(|track| track.what == clamp);
-            let (value, slope) = track.map_or_else(Default::default, |track| track.at(u));
-            (value, slope * rate)
-        };
-        for (clamp, end) in self.ends.iter().enumerate() {
-            let shift = motion(&self.shifts, clamp);
-            let turn = motion(&self.turns, clamp);
+        for end in &self.ends {
+            let [shift, turn] =
+                [&end.shift, &end.turn].map(|values| self.motion(values.as_ref(), (u, rate)));
             end.place(state, shift, turn);
         }
     }
+
+    /// Value at path parameter `u` and rate of change where that grows at `rate` (1/ns); zero of
+    /// what no stage sets.
+    fn motion(
+        &self,
+        values: Option<&Values<Vector3>>,
+        (u, rate): (f64, f64),
+    ) -> (Vector3, Vector3) {
+        let (value, slope) = values.map_or_else(Default::default, |values| self.at(values, u));
+        (value, slope * rate)
+    }
+
+    /// Value at path parameter `u`, linear within a stage, and its slope there.
+    fn at<T>(&self, values: &Values<T>, u: f64) -> (T, T)
+    where
+        T: Copy + Default + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
+    {
+        let last = self.stages;
+        let u = u.clamp(0.0, last as f64);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "clamped to the number of stages"
+        )]
+        let stage = (u.floor() as usize).min(last.saturating_sub(1));
+        let before = values.after(stage);
+        let slope = values.after((stage + 1).min(last)) - before;
+        (before + slope * (u - stage as f64), slope)
+    }
 }
 
-/// The tracks of those of `count` controls that some stage sets, whose `values` there are.
-fn tracks(count: usize, values: impl Fn(usize) -> Option<Vec<Vector3>>) -> Vec<Track> {
-    let track = |what| Some(Track::new(what, values(what)?));
-    (0..count).filter_map(track).collect()
+/// The values of those controls that some stage sets, with their indices.
+fn those_set<T>(all: Vec<Option<Values<T>>>) -> Vec<(usize, Values<T>)> {
+    let all = all.into_iter().enumerate();
+    all.filter_map(|(index, values)| Some((index, values?)))
+        .collect()
 }
+
+/// Shift and turn of an end, where some stage sets them.
+type Moved = (Option<Values<Vector3>>, Option<Values<Vector3>>);
 
 impl HeldEnd {
-    fn new(clamp: &Clamped, rest: &State) -> Self {
+    fn new(clamp: &Clamped, (shift, turn): Moved, rest: &State) -> Self {
         let point = |&i: &usize| (i, rest.points.position.get(i));
         let frame = |&i: &usize| (i, rest.frames.orientation.get(i));
         Self {
@@ -162,6 +175,8 @@ impl HeldEnd {
             about: clamp.about_nm,
             slides: clamp.slides,
             axis: clamp.axis,
+            shift,
+            turn,
         }
     }
 

@@ -5,7 +5,7 @@
 //! and 1. Which of the two holds depends on the clamps alone, not on what is resolved, so that
 //! resolving more does not move a monomer.
 
-use crate::scene::{Filament, MOST_BODIES, MOST_BONDS, Problem, Section};
+use crate::scene::{Filament, MOST_COUNTED, Problem, Section};
 
 /// Monomers and places of one section.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,28 +78,21 @@ pub(super) fn resolve(filament: &Filament, is_held: [bool; 2]) -> Result<Vec<Res
         .collect()
 }
 
-/// Refuses a boundary that more monomers reach, or a section that has more bonds, than memory
-/// would hold.
+/// Refuses a boundary that more monomers reach than are told apart.
 fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), Problem> {
     let sections = &filament.sections;
-    let (from_nm, to_nm) = sections[i].span_nm();
+    let (_, to_nm) = sections[i].span_nm();
     let has_monomers = matches!(sections[i], Section::Ellipsoids { .. });
-    let refuse = |count: f64, what: &str, most: f64| {
-        Err(Problem::new(
+    let reach = to_nm / lattice.rise_nm;
+    if reach > MOST_COUNTED && (has_monomers || sections.len() > 1) {
+        return Err(Problem::new(
             format!("filament.sections[{i}].to_nm"),
             format!("{to_nm:?}"),
-            format!("{count:.2e} {what}, at most {most:e} are allowed"),
-        ))
-    };
-    let reach = to_nm / lattice.rise_nm;
-    if reach > MOST_BODIES && (has_monomers || sections.len() > 1) {
-        return refuse(reach, "monomers reach this far", MOST_BODIES);
-    }
-    let monomers = &filament.monomers;
-    let each = monomers.lateral_bonds + monomers.longitudinal_bonds;
-    let bonds = (to_nm - from_nm) / lattice.rise_nm * each as f64;
-    if has_monomers && bonds > MOST_BONDS {
-        return refuse(bonds, "bonds are in this section", MOST_BONDS);
+            format!(
+                "{reach:.2e} monomers reach this far: from {MOST_COUNTED:.1e} on their places on \
+                 the lattice are not told apart"
+            ),
+        ));
     }
     Ok(())
 }

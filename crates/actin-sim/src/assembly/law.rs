@@ -85,20 +85,20 @@ impl Law {
         layout: &RodLayout,
         [start, end]: &[Vec<JoinedElement>; 2],
     ) -> Box<dyn Interaction> {
-        let curvature = SegmentCurvature::new(layout, start, end);
-        let (layout, material) = (layout.clone(), self.material);
+        let curvature = || SegmentCurvature::new(layout, start, end);
+        let (own, material) = (layout.clone(), self.material);
         match self.balance {
             ForceLaw::EnergyGradient => {
-                let rod = EnergyGradient::new(layout, material);
+                let rod = EnergyGradient::new(own, material);
                 match SegmentLaw::of(&material, self.twist_stretch) {
-                    Some(law) => Box::new(rod.with_extension(law, curvature)),
+                    Some(law) => Box::new(rod.with_extension(law, curvature())),
                     None => Box::new(rod),
                 }
             }
             ForceLaw::PaperBalance => {
-                let rod = PaperBalance::new(layout, material);
+                let rod = PaperBalance::new(own, material);
                 match self.twist_stretch {
-                    Some(law) => Box::new(rod.with_extension(law, curvature)),
+                    Some(law) => Box::new(rod.with_extension(law, curvature())),
                     None => Box::new(rod),
                 }
             }

@@ -26,13 +26,13 @@ pub(crate) use parts::Rod;
 pub use parts::{
     BodyKind, Counts, FilamentSpan, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term,
 };
-pub(crate) use ramp::Ramp;
+pub(crate) use ramp::{Ramp, StageTimes};
 pub use range::{BeyondRange, Fluctuations};
 pub use reaction::{Clamped, Reaction};
 pub(crate) use unstable_twist::TwistWatch;
 pub use unstable_twist::UnstableTwist;
 
-use crate::scene::{End, Monomers, Scene};
+use crate::scene::{End, HeldEnds, Monomers, Scene};
 use actin_coupling::Linker;
 use actin_mechanics::{State, System, UnitQuaternion, Vector3};
 use nalgebra::Unit;
@@ -59,6 +59,8 @@ pub struct Assembly {
     pub(crate) rods: Vec<Rod>,
     /// The ends that are held.
     pub clamps: Vec<Clamped>,
+    /// Which of them holds which end.
+    pub(crate) held: HeldEnds,
     /// The linkers, in the order of the scene.
     pub linkers: Vec<Linker>,
     /// For each term the arc lengths (nm) between which each of its elements lies; empty for loads
@@ -68,6 +70,8 @@ pub struct Assembly {
     pub drive: Drive,
     /// The state as built, unloaded and at rest.
     pub rest: State,
+    /// Memory that the task takes but for its records, estimated (bytes).
+    pub(crate) bytes: f64,
 }
 
 impl Assembly {
@@ -96,8 +100,13 @@ impl Assembly {
         let state = self.system.state();
         let free_points = points.clone().filter(|&i| state.points.is_free(i));
         let free_frames = frames.clone().filter(|&i| state.frames.is_free(i));
-        let sliders = state.sliders.iter();
-        let sliders = sliders.filter(|s| s.points.iter().any(|i| points.contains(i)));
+        let held = filaments
+            .clone()
+            .flat_map(|f| [(f, End::Start), (f, End::End)]);
+        let slides = held.filter_map(|(filament, end)| {
+            let clamp = self.clamp_at(filament, end)?;
+            Some(clamp.slides.directions(clamp.axis).len())
+        });
         let kinds = |kind| {
             let points = self.points[points.clone()].iter().map(|p| p.kind);
             points.filter(|k| *k == kind).count()
@@ -113,8 +122,7 @@ impl Assembly {
                 .map(SectionSpan::bonds)
                 .sum(),
             junctions: sections.map(|sections| sections.len() - 1).sum(),
-            dofs: 3 * (free_points.count() + free_frames.count())
-                + sliders.map(|s| s.directions.len()).sum::<usize>(),
+            dofs: 3 * (free_points.count() + free_frames.count()) + slides.sum::<usize>(),
         }
     }
 
@@ -146,11 +154,10 @@ impl Assembly {
     /// # Panics
     /// If there is no such section.
     pub fn filament_of_section(&self, section: usize) -> usize {
-        let has = |f: &FilamentSpan| f.sections.contains(&section);
-        self.filaments
-            .iter()
-            .position(has)
-            .expect("every section belongs to a filament")
+        let is_past = |f: &FilamentSpan| f.sections.end <= section;
+        let filament = self.filaments.partition_point(is_past);
+        assert!(filament < self.filaments.len(), "no section {section}");
+        filament
     }
 
     /// The filament that a point belongs to; points of one filament stand together.
@@ -165,8 +172,8 @@ impl Assembly {
 
     /// The clamp at one end of a filament; none if it is free.
     pub fn clamp_at(&self, filament: usize, end: End) -> Option<&Clamped> {
-        let is_there = |clamp: &&Clamped| (clamp.filament, clamp.end) == (filament, end);
-        self.clamps.iter().find(is_there)
+        let clamp = self.held.clamp_at(filament, end)?;
+        Some(&self.clamps[clamp])
     }
 
     /// Points whose mean is the tip of filament 0 at `end`: the last node of a rod, or the last two

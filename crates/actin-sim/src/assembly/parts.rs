@@ -42,7 +42,7 @@ pub struct FrameInfo {
 }
 
 /// What a term belongs to. Sections are counted through all filaments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
     /// A section, by its index.
     Section(usize),
@@ -63,6 +63,8 @@ pub struct FilamentSpan {
     pub points: Range<usize>,
     /// Its frames, contiguous; those of junctions and walls included.
     pub frames: Range<usize>,
+    /// Terms of its sections and junctions, contiguous.
+    pub terms: Range<usize>,
     /// Where arc length begins (nm, lab frame).
     pub origin_nm: Vector3,
     /// The turn from a filament along lab +z.

@@ -11,50 +11,70 @@ use actin_mechanics::State;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ramp {
     drive: Drive,
-    /// Duration of each stage (ns).
-    durations: Vec<f64>,
+    times: StageTimes,
 }
 
 impl Ramp {
-    fn new(drive: Drive, durations: Vec<f64>) -> Self {
-        Self { drive, durations }
-    }
-
     /// The ramps of an assembly's path; none where there is no path.
     pub(crate) fn of(assembly: &Assembly) -> Option<Self> {
         if assembly.drive.is_still() {
             return None;
         }
-        let stages = assembly.scene.path.iter();
-        let durations = stages.filter_map(|stage| stage.duration_ns).collect();
-        Some(Self::new(assembly.drive.clone(), durations))
+        let drive = assembly.drive.clone();
+        let times = StageTimes::of(assembly);
+        Some(Self { drive, times })
     }
 
     /// Time that all stages take (ns).
     pub(crate) fn duration(&self) -> f64 {
-        self.durations.iter().sum()
+        self.times.end
+    }
+}
+
+/// When the stages of a path begin, and how long they take.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct StageTimes {
+    /// Begin and duration of each stage (ns).
+    stages: Vec<(f64, f64)>,
+    /// When the last one ends (ns).
+    end: f64,
+}
+
+impl StageTimes {
+    fn new(durations: impl IntoIterator<Item = f64>) -> Self {
+        let mut end = 0.0;
+        let stages = durations.into_iter().map(|duration| {
+            let begin = end;
+            end += duration;
+            (begin, duration)
+        });
+        let stages = stages.collect();
+        Self { stages, end }
+    }
+
+    /// Those of an assembly's path.
+    pub(crate) fn of(assembly: &Assembly) -> Self {
+        let stages = assembly.scene.path.iter();
+        Self::new(stages.filter_map(|stage| stage.duration_ns))
     }
 
     /// Path parameter at `time` (ns) and its rate (1/ns).
     pub(crate) fn parameter(&self, time: f64) -> (f64, f64) {
-        let mut start = 0.0;
-        for (stage, duration) in self.durations.iter().enumerate() {
-            let x = (time - start) / duration;
-            if x < 1.0 {
-                let x = x.max(0.0);
-                let smooth = x.powi(3) * (10.0 + x * (6.0 * x - 15.0));
-                let rate = 30.0 * (x * (1.0 - x)).powi(2) / duration;
-                return (stage as f64 + smooth, rate);
-            }
-            start += duration;
-        }
-        (self.durations.len() as f64, 0.0)
+        let past = |&(begin, duration): &(f64, f64)| (time - begin) / duration >= 1.0;
+        let stage = self.stages.partition_point(past);
+        let Some(&(begin, duration)) = self.stages.get(stage) else {
+            return (stage as f64, 0.0);
+        };
+        let x = ((time - begin) / duration).max(0.0);
+        let smooth = x.powi(3) * (10.0 + x * (6.0 * x - 15.0));
+        let rate = 30.0 * (x * (1.0 - x)).powi(2) / duration;
+        (stage as f64 + smooth, rate)
     }
 }
 
 impl actin_mechanics::Drive for Ramp {
     fn place(&self, state: &mut State, time: f64) {
-        let (u, rate) = self.parameter(time);
+        let (u, rate) = self.times.parameter(time);
         self.drive.place_moving(state, u, rate);
     }
 }
@@ -66,7 +86,7 @@ mod tests {
     /// The rate is the derivative of the parameter, and nothing jumps between stages.
     #[test]
     fn ramps_are_smooth() {
-        let ramp = Ramp::new(Drive::default(), vec![2.0, 0.5]);
+        let ramp = StageTimes::new([2.0, 0.5]);
         assert_eq!(ramp.parameter(-1.0), (0.0, 0.0));
         assert!((ramp.parameter(1.0).0 - 0.5).abs() < 1e-15);
         assert_eq!(ramp.parameter(3.0), (2.0, 0.0));

@@ -4,6 +4,7 @@ use super::{Assembly, Rod};
 use actin_cosserat::BendingElement;
 use actin_mechanics::{State, Vector3};
 use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
 
 /// A rod goes further than the data that one of its laws was fitted to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -85,12 +86,11 @@ impl Assembly {
             return self.beyond_range_in_bath(states);
         }
         let mut worst: Vec<BeyondRange> = Vec::new();
+        let mut known: HashMap<(usize, usize, String), usize> = HashMap::new();
         for beyond in states.flat_map(|state| self.beyond_range(state)) {
-            let place = |b: &&mut BeyondRange| {
-                (b.filament, b.section, &b.quantity)
-                    == (beyond.filament, beyond.section, &beyond.quantity)
-            };
-            match worst.iter_mut().find(place) {
+            let place = (beyond.filament, beyond.section, beyond.quantity.clone());
+            let k = *known.entry(place).or_insert(worst.len());
+            match worst.get_mut(k) {
                 Some(known) if known.excess() >= beyond.excess() => {}
                 Some(known) => *known = beyond,
                 None => worst.push(beyond),

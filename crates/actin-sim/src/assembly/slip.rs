@@ -1,7 +1,8 @@
 //! Turns that segments cannot follow: past half a turn, two neighbours forget which way they came.
 
-use super::{Assembly, Clamped};
+use super::Assembly;
 use crate::scene::{End, Problem, Setting};
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 impl Assembly {
@@ -17,23 +18,22 @@ impl Assembly {
 
     fn check_slip_of(&self, filament: usize) -> Result<(), Problem> {
         let span = &self.filaments[filament];
-        let rod = self.rods.iter().find(|r| r.section == span.sections.start);
-        let held = |end| {
-            let is_there = |c: &Clamped| (c.filament, c.end) == (filament, end);
-            self.clamps.iter().position(is_there)
-        };
-        let (Some(rod), Some(start), Some(end)) = (rod, held(End::Start), held(End::End)) else {
+        let section = span.sections.start;
+        let rod = self.rods.binary_search_by_key(&section, |r| r.section);
+        let [start, end] = [End::Start, End::End].map(|end| self.held.clamp_at(filament, end));
+        let (Ok(rod), Some(start), Some(end)) = (rod, start, end) else {
             return Ok(());
         };
         if span.sections.len() > 1 {
             return Ok(());
         }
-        let joints = rod.layout.voronoi_lengths();
+        let joints = self.rods[rod].layout.voronoi_lengths();
         let length: f64 = joints.iter().sum();
         let longest = joints.iter().copied().fold(0.0, f64::max);
-        for stage in 0..self.drive.stages() {
-            let at_its_end = (stage + 1) as f64;
-            let turn = |clamp| self.drive.turn(clamp, at_its_end).dot(&span.axis());
+        let turned = [start, end].map(|clamp| self.drive.turned_after(clamp));
+        let stages: BTreeSet<usize> = turned.into_iter().flatten().collect();
+        for stages in stages {
+            let turn = |clamp| self.drive.turn(clamp, stages as f64).dot(&span.axis());
             let whole = (turn(end) - turn(start)).abs();
             let each = whole * longest / length;
             if each >= PI {
@@ -43,7 +43,11 @@ impl Assembly {
                      other, {each:.0} deg in a joint of two segments: from 180 deg on it slips; \
                      use more segments"
                 );
-                return Err(Problem::new(self.key_of_turn(filament, stage), "", rule));
+                return Err(Problem::new(
+                    self.key_of_turn(filament, stages - 1),
+                    "",
+                    rule,
+                ));
             }
         }
         Ok(())

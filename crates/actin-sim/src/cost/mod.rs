@@ -1,19 +1,23 @@
 //! What a scene costs, known before it runs: evaluations, what each evaluates, and seconds at
 //! measured rates. How accurate the answer will be is told by `advice`.
+//!
+//! Seconds are those of `actin run` on one core of the [reference machine](REFERENCE), from reading
+//! the scene to the last file. `cargo xtask costs` prints them beside measured ones.
 
+mod newton;
 mod rates;
 
 pub use rates::{
-    BONDS_PER_S, ELEMENTS_PER_S, LAW_ELEMENTS_PER_S, NEWTON_BONDS_PER_S, NEWTON_ELEMENTS_PER_S,
-    NEWTON_LAW_ELEMENTS_PER_S, NOISY_BODIES_PER_S,
+    BONDS_PER_S, DRAWN_BONDS_PER_S, ELEMENTS_PER_S, FILAMENTS_PER_S, FINAL_BODIES_PER_S,
+    LAW_ELEMENTS_PER_S, NEWTON_BONDS_PER_S, NEWTON_ELEMENTS_PER_S, NEWTON_LAW_ELEMENTS_PER_S,
+    NEWTON_TERMS_PER_S, NOISY_BODIES_PER_S, RECORDED_BODIES_PER_S, REFERENCE, SOLID_ANGLES_PER_S,
+    TERMS_PER_S, TRIAL_BODIES_PER_S,
 };
 
-use crate::scene::{Problem, RodLaw, Task};
-use crate::{Assembly, Estimate};
-
-/// Newton steps of one equilibrium that the estimate takes: the middle of what `cargo xtask
-/// tradeoff` counts, which is 4 to 70.
-const NEWTON_STEPS: u64 = 20;
+use crate::run::shears_softly;
+use crate::scene::{Dynamics, Problem, RodLaw, Task};
+use crate::{Assembly, Estimate, memory, shape};
+use std::fmt;
 
 /// What one evaluation of the loads evaluates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -29,10 +33,32 @@ pub struct Work {
 pub struct Cost {
     /// What one evaluation evaluates.
     pub work: Work,
-    /// Evaluations of the loads in a motion, at most; Newton steps of an equilibrium, about.
+    /// Evaluations of the loads in a motion, at most; Newton steps of all equilibria, about.
     pub evaluations: u64,
-    /// Time on one core (s).
-    pub seconds: f64,
+    /// Equilibria of a path, about; one without a path, none of a motion.
+    pub equilibria: u64,
+    /// Time on one core of the reference machine.
+    pub seconds: Seconds,
+    /// Memory (bytes), records included.
+    pub bytes: f64,
+}
+
+/// Time on one core of the reference machine (s), by what it goes into.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seconds {
+    /// Reading, building, and finding the time step of a motion.
+    pub set_up: f64,
+    /// The motion, or Newton's method with its certificates.
+    pub solve: f64,
+    /// Records and files.
+    pub results: f64,
+}
+
+impl Seconds {
+    /// All together (s).
+    pub fn total(&self) -> f64 {
+        self.set_up + self.solve + self.results
+    }
 }
 
 impl Work {
@@ -48,7 +74,7 @@ impl Work {
     /// Of one filament.
     fn of_one(assembly: &Assembly, filament: usize) -> Self {
         let counts = assembly.counts_of(filament);
-        let scene = assembly.scene.filaments().nth(filament);
+        let scene = assembly.scene.filament_at(filament);
         let attached = scene.map_or(0, |one| one.junction.attached_monomers);
         Self {
             bonds: counts.bonds,
@@ -60,30 +86,35 @@ impl Work {
 impl Cost {
     /// Of an assembled scene; `estimate` is that of its motion, none of an equilibrium.
     pub fn of(assembly: &Assembly, estimate: Option<&Estimate>) -> Self {
-        let work = Work::of(assembly);
-        let of_elements = |rate: fn(&RodLaw) -> f64| -> f64 {
-            let filaments = assembly.scene.filaments().enumerate();
-            filaments
-                .map(|(i, one)| Work::of_one(assembly, i).elements as f64 / rate(&one.rod.law))
-                .sum()
+        let elements = Elements::of(assembly);
+        let (evaluations, equilibria, records) = match (&assembly.scene.task, estimate) {
+            (Task::Dynamics(dynamics), Some(estimate)) => {
+                let records = estimate.records(dynamics);
+                (estimate.force_evaluations, 0, records)
+            }
+            _ => {
+                let (steps, equilibria) = newton::steps(assembly);
+                (steps, equilibria, equilibria as f64)
+            }
         };
-        let bonds = work.bonds as f64;
-        let (evaluations, each, noise) = match estimate {
-            Some(estimate) => (
-                estimate.force_evaluations,
-                bonds / BONDS_PER_S + of_elements(rates::elements_per_s),
-                seconds_of_noise(assembly, estimate),
-            ),
-            None => (
-                NEWTON_STEPS * equilibria(assembly),
-                bonds / NEWTON_BONDS_PER_S + of_elements(rates::newton_elements_per_s),
-                0.0,
-            ),
+        let solve = match (&assembly.scene.task, estimate) {
+            (Task::Dynamics(dynamics), Some(estimate)) => {
+                evaluations as f64 * elements.seconds_of_evaluation()
+                    + seconds_of_noise(assembly, dynamics, estimate)
+            }
+            _ => newton::counted(evaluations, equilibria) * elements.seconds_of_newton_step(),
         };
+        let record = memory::of_record(assembly.system.state(), assembly.terms.len());
         Self {
-            work,
+            work: elements.work,
             evaluations,
-            seconds: evaluations as f64 * each + noise,
+            equilibria,
+            seconds: Seconds {
+                set_up: elements.seconds_of_set_up(assembly),
+                solve,
+                results: elements.seconds_of_results(assembly, records),
+            },
+            bytes: assembly.bytes + records * record,
         }
     }
 
@@ -107,34 +138,131 @@ impl Cost {
     }
 }
 
+impl fmt::Display for Cost {
+    /// What is evaluated, how long it takes, and the memory for it.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.equilibria == 0 {
+            write!(f, "at most {} force evaluations", self.evaluations)?;
+        } else {
+            let (steps, of) = (self.evaluations, self.equilibria);
+            write!(f, "about {steps} Newton steps, {of} equilibria")?;
+        }
+        let Seconds {
+            set_up,
+            solve,
+            results,
+        } = self.seconds;
+        write!(
+            f,
+            ", each of {} bonds and {} elements: {:.1e} evaluations of bonds, {:.1e} of elements; an \
+             estimated {} on one core of the reference machine ({REFERENCE}): {} to set up, {} to \
+             solve, {} for results; about {} of memory",
+            self.work.bonds,
+            self.work.elements,
+            self.bond_evaluations(),
+            self.element_evaluations(),
+            time(self.seconds.total()),
+            time(set_up),
+            time(solve),
+            time(results),
+            memory::in_words(self.bytes)
+        )
+    }
+}
+
+/// A time in words, to the digits that an estimate has.
+fn time(seconds: f64) -> String {
+    match seconds {
+        s if s < 1.0 => format!("{s:.1e} s"),
+        s if s < 10.0 => format!("{s:.1} s"),
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.0} h", s / 3600.0),
+    }
+}
+
+/// What a scene is made of, as far as it takes time.
+struct Elements {
+    work: Work,
+    /// Elements of rods of constant rigidities, and of those under laws.
+    constant: f64,
+    following: f64,
+    terms: f64,
+    bodies: f64,
+}
+
+impl Elements {
+    fn of(assembly: &Assembly) -> Self {
+        let mut all = Self {
+            work: Work::default(),
+            constant: 0.0,
+            following: 0.0,
+            terms: assembly.terms.len() as f64,
+            bodies: (assembly.points.len() + assembly.frames.len()) as f64,
+        };
+        for (i, filament) in assembly.scene.filaments().enumerate() {
+            let one = Work::of_one(assembly, i);
+            all.work.bonds += one.bonds;
+            all.work.elements += one.elements;
+            let elements = match filament.rod.law {
+                RodLaw::Constant => &mut all.constant,
+                _ => &mut all.following,
+            };
+            *elements += one.elements as f64;
+        }
+        all
+    }
+
+    /// Of one evaluation of the loads, with its share of a step.
+    fn seconds_of_evaluation(&self) -> f64 {
+        self.work.bonds as f64 / BONDS_PER_S
+            + self.constant / ELEMENTS_PER_S
+            + self.following / LAW_ELEMENTS_PER_S
+            + self.terms / TERMS_PER_S
+    }
+
+    fn seconds_of_newton_step(&self) -> f64 {
+        self.work.bonds as f64 / NEWTON_BONDS_PER_S
+            + self.constant / NEWTON_ELEMENTS_PER_S
+            + self.following / NEWTON_LAW_ELEMENTS_PER_S
+            + self.terms / NEWTON_TERMS_PER_S
+    }
+
+    fn seconds_of_set_up(&self, assembly: &Assembly) -> f64 {
+        let filaments = assembly.filaments.len() as f64;
+        let built = filaments / FILAMENTS_PER_S + self.work.bonds as f64 / DRAWN_BONDS_PER_S;
+        let Task::Dynamics(_) = assembly.scene.task else {
+            return built;
+        };
+        let trials = trials(assembly.counts().dofs);
+        let each = self.seconds_of_evaluation() + self.bodies / TRIAL_BODIES_PER_S;
+        let mut laws = assembly.scene.filaments().map(|one| &one.rod.law);
+        // The same filaments with constant rods are built and asked too.
+        if self.following > 0.0 && laws.any(shears_softly) {
+            2.0 * (built + trials * each)
+        } else {
+            built + trials * each
+        }
+    }
+
+    fn seconds_of_results(&self, assembly: &Assembly, records: f64) -> f64 {
+        let angles = shape::solid_angles(assembly);
+        (records * self.bodies) / RECORDED_BODIES_PER_S
+            + self.bodies / FINAL_BODIES_PER_S
+            + angles / SOLID_ANGLES_PER_S
+    }
+}
+
+/// Evaluations that the largest frequency of so many degrees of freedom takes.
+fn trials(dofs: usize) -> f64 {
+    2.0 * dofs.min(actin_integrate::KRYLOV_VECTORS) as f64
+}
+
 /// Time that thermal noise adds to a motion (s): two half steps for each point and each frame.
-fn seconds_of_noise(assembly: &Assembly, estimate: &Estimate) -> f64 {
-    let Task::Dynamics(dynamics) = &assembly.scene.task else {
-        return 0.0;
-    };
+fn seconds_of_noise(assembly: &Assembly, dynamics: &Dynamics, estimate: &Estimate) -> f64 {
     let bodies = assembly.counts().dofs as f64 / 3.0;
     let draws = 2.0 * bodies * estimate.steps as f64;
     dynamics.thermal.map_or(0.0, |_| draws / NOISY_BODIES_PER_S)
-}
-
-/// Equilibria on the path of a scene: steps of the largest length, and a few shorter ones at the
-/// start of each stage.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the conversion saturates, and a count is positive"
-)]
-fn equilibria(assembly: &Assembly) -> u64 {
-    let Task::Equilibrium(equilibrium) = &assembly.scene.task else {
-        return 1;
-    };
-    let stages = assembly.scene.path.len() as u64;
-    let steps = (1.0 / equilibrium.largest_step).ceil() as u64;
-    if stages == 0 {
-        1
-    } else {
-        stages.saturating_mul(steps.saturating_add(2))
-    }
 }
 
 #[cfg(test)]
@@ -163,7 +291,9 @@ mod tests {
         let rod = cost("Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)", MOTION);
         assert_eq!((rod.work.bonds, rod.work.elements), (0, 6));
         assert_eq!(rod.evaluations, 4000);
-        assert!((rod.seconds - 24_000.0 / ELEMENTS_PER_S).abs() < 1e-12);
+        // One term for the rod and one for its load.
+        let expected = 24_000.0 / ELEMENTS_PER_S + 8000.0 / TERMS_PER_S;
+        assert!((rod.seconds.solve - expected).abs() < 1e-12);
         let mixed = cost(
             "Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0, segments: 3)",
             MOTION,
@@ -187,7 +317,7 @@ mod tests {
         let still = cost(rod, &task(""));
         let heated = cost(rod, &task(", thermal: (temperature_k: 298.0, seed: 1)"));
         assert_eq!(heated.evaluations, still.evaluations);
-        let noise = heated.seconds - still.seconds;
+        let noise = heated.seconds.solve - still.seconds.solve;
         assert!((noise - 24_000.0 / NOISY_BODIES_PER_S).abs() < 1e-12);
     }
 
@@ -196,7 +326,49 @@ mod tests {
     fn an_equilibrium_counts_newton_steps() {
         let monomers = "Ellipsoids(from_nm: 0.0, to_nm: 60.0)";
         let still = cost(monomers, "Equilibrium()");
-        assert_eq!(still.evaluations, NEWTON_STEPS);
-        assert!(still.seconds < cost(monomers, "Dynamics(duration_ns: 100.0)").seconds);
+        // 22 monomers: as many steps as of 60.
+        assert_eq!((still.evaluations, still.equilibria), (12, 1));
+        let motion = cost(monomers, "Dynamics(duration_ns: 100.0)");
+        assert!(still.seconds.total() < motion.seconds.total());
+        assert_eq!(motion.equilibria, 0);
+    }
+
+    /// Twice the filaments take twice the time and the memory, whatever the task: the counts behind
+    /// them are sums.
+    #[test]
+    fn costs_are_proportional_to_the_number_of_filaments() {
+        let of = |count: usize, task: &str| {
+            let filament = "Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)]),";
+            let filaments = filament.repeat(count);
+            let text = format!("Scene(filaments: [{filaments}], task: {task})");
+            let scene = Scene::from_ron(&text).unwrap();
+            Cost::estimated(&Assembly::build(&scene).unwrap()).unwrap()
+        };
+        for task in [MOTION, "Equilibrium()"] {
+            let [one, two] = [20, 40].map(|count| of(count, task));
+            assert_eq!(one.evaluations, two.evaluations);
+            for (a, b) in [
+                (one.seconds.set_up, two.seconds.set_up),
+                (one.seconds.solve, two.seconds.solve),
+                (one.seconds.results, two.seconds.results),
+                (one.bytes, two.bytes),
+            ] {
+                // Round-off, and the writhe, which costs the square of few nodes.
+                assert!((b - 2.0 * a).abs() <= 1e-12 * b, "{task}: {a} and {b}");
+            }
+        }
+    }
+
+    /// What is told names the machine and says that it is an estimate.
+    #[test]
+    fn the_words_say_what_is_estimated() {
+        let words = cost("Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)", MOTION).to_string();
+        let expected = "at most 4000 force evaluations, each of 0 bonds and 6 elements: 0.0e0 \
+                        evaluations of bonds, 2.4e4 of elements; an estimated ";
+        assert!(words.starts_with(expected), "{words}");
+        assert!(
+            words.contains("on one core of the reference machine"),
+            "{words}"
+        );
     }
 }

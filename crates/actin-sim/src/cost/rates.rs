@@ -1,9 +1,11 @@
 //! How fast loads and Newton steps go, measured: constants of the estimates of time.
 //!
 //! Printed by `cargo xtask tradeoff rates`: whole steps of motion and Newton's method on one thread,
-//! the best of seven, in a release build on an otherwise idle 3.0 GHz x86-64 with AVX2.
+//! the best of seven, in a release build on the otherwise idle [reference machine](REFERENCE); from
+//! terms on as by `cargo xtask costs`.
 
-use crate::scene::RodLaw;
+/// The machine of these rates, of which an estimate takes one core.
+pub const REFERENCE: &str = "3.0 GHz x86-64 with AVX2";
 
 /// Bonds between monomers per second, in whole steps of a motion.
 pub const BONDS_PER_S: f64 = 7.12e8;
@@ -20,19 +22,21 @@ pub const NEWTON_BONDS_PER_S: f64 = 2.76e7;
 pub const NEWTON_ELEMENTS_PER_S: f64 = 7.29e5;
 /// The same where a law follows curvature, twist or shear.
 pub const NEWTON_LAW_ELEMENTS_PER_S: f64 = 3.61e5;
-
-/// Elements per second in whole steps under a rod law.
-pub(super) fn elements_per_s(law: &RodLaw) -> f64 {
-    match law {
-        RodLaw::Constant => ELEMENTS_PER_S,
-        _ => LAW_ELEMENTS_PER_S,
-    }
-}
-
-/// Elements per second of a Newton step under a rod law.
-pub(super) fn newton_elements_per_s(law: &RodLaw) -> f64 {
-    match law {
-        RodLaw::Constant => NEWTON_ELEMENTS_PER_S,
-        _ => NEWTON_LAW_ELEMENTS_PER_S,
-    }
-}
+/// Terms (sections, junctions, loads, linkers) per second, in whole steps: what each costs beside its
+/// bonds and elements.
+pub const TERMS_PER_S: f64 = 1.0e7;
+/// The same of a Newton step.
+pub const NEWTON_TERMS_PER_S: f64 = 1.0e6;
+/// Filaments per second that are read, checked and built, beside their bonds.
+pub const FILAMENTS_PER_S: f64 = 2.0e4;
+/// Bonds per second that are drawn.
+pub const DRAWN_BONDS_PER_S: f64 = 1.0e6;
+/// Points and frames per second of a trial motion, beside its loads: see
+/// [`largest_frequency`](actin_integrate::largest_frequency).
+pub const TRIAL_BODIES_PER_S: f64 = 2.0e7;
+/// Points and frames per second that are recorded and written as states and pictures.
+pub const RECORDED_BODIES_PER_S: f64 = 2.0e6;
+/// Points and frames per second of what is written once: summary and profile.
+pub const FINAL_BODIES_PER_S: f64 = 5.0e5;
+/// Solid angles of the writhe per second.
+pub const SOLID_ANGLES_PER_S: f64 = 9.0e7;

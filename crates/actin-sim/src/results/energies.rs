@@ -2,6 +2,8 @@
 
 use super::{RunDirectoryError, finite::ensure_finite};
 use crate::{Assembly, Part, Record, Term};
+use std::collections::HashMap;
+use std::hash::Hash;
 use std::io::{self, Write};
 
 /// Energies of one record, in pN nm.
@@ -41,14 +43,31 @@ pub(super) fn sum_where(terms: &[Term], record: &Record, belongs: impl Fn(&Term)
 }
 
 /// The different values of `of`, in the order in which the terms bring them.
-pub(super) fn distinct<T: PartialEq>(terms: &[Term], of: impl Fn(&Term) -> T) -> Vec<T> {
-    let mut values = Vec::new();
-    for value in terms.iter().map(of) {
-        if !values.contains(&value) {
+pub(super) fn distinct<T: Eq + Hash + Copy>(terms: &[Term], of: impl Fn(&Term) -> T) -> Vec<T> {
+    places(terms, of).0
+}
+
+/// The same, and for each term the place of its value among them.
+fn places<T: Eq + Hash + Copy>(terms: &[Term], of: impl Fn(&Term) -> T) -> (Vec<T>, Vec<usize>) {
+    let (mut values, mut known) = (Vec::new(), HashMap::new());
+    let place = |value: T| {
+        *known.entry(value).or_insert_with(|| {
             values.push(value);
-        }
+            values.len() - 1
+        })
+    };
+    let places = terms.iter().map(of).map(place).collect();
+    (values, places)
+}
+
+/// The sums of the energies of a record's terms (pN nm) over each of `count` places.
+fn sums(record: &Record, places: &[usize], count: usize) -> Vec<f64> {
+    // What the sum of no numbers is: a term of -0 stays as it is.
+    let mut sums = vec![-0.0; count];
+    for (energy, &place) in record.energies_pn_nm.iter().zip(places) {
+        sums[place] += energy;
     }
-    values
+    sums
 }
 
 /// The table: a header and one row for each record.
@@ -62,13 +81,17 @@ impl EnergyTable {
     /// The table of `records`, whose energies belong to the terms of `assembly`.
     pub(super) fn new(assembly: &Assembly, records: &[Record]) -> Self {
         let terms = &assembly.terms;
-        let names = distinct(terms, |term| term.name);
-        let parts = distinct(terms, |term| term.part);
+        let names = places(terms, |term| term.name);
+        let parts = places(terms, |term| term.part);
         Self {
-            header: header(assembly, &names, &parts),
+            header: header(assembly, &names.0, &parts.0),
             rows: records
                 .iter()
-                .map(|record| row(terms, &names, &parts, record))
+                .map(|record| {
+                    let by_name = sums(record, &names.1, names.0.len());
+                    let by_part = sums(record, &parts.1, parts.0.len());
+                    row(terms, record, by_name.into_iter().chain(by_part))
+                })
                 .collect(),
         }
     }
@@ -113,14 +136,9 @@ fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
         .collect()
 }
 
-fn row(terms: &[Term], names: &[&str], parts: &[Part], record: &Record) -> Vec<f64> {
+/// One row, with sums of energies by name and by part.
+fn row(terms: &[Term], record: &Record, sums: impl Iterator<Item = f64>) -> Vec<f64> {
     let totals = Totals::new(terms, record);
-    let by_name = names
-        .iter()
-        .map(|&name| sum_where(terms, record, |term| term.name == name));
-    let by_part = parts
-        .iter()
-        .map(|&part| sum_where(terms, record, |term| term.part == part));
     [
         record.time_ns,
         totals.total,
@@ -129,8 +147,7 @@ fn row(terms: &[Term], names: &[&str], parts: &[Part], record: &Record) -> Vec<f
         totals.kinetic,
     ]
     .into_iter()
-    .chain(by_name)
-    .chain(by_part)
+    .chain(sums)
     .chain([record.residual_force_pn, record.residual_torque_pn_nm])
     .collect()
 }
@@ -256,7 +273,8 @@ mod tests {
     fn names_and_parts_each_add_up_to_the_potential() {
         let assembly = fixture::clamped_start();
         let (header, rows) = table_of(&assembly, &fixture::trajectory(&assembly).records);
-        let names = distinct(&assembly.terms, |term| term.name.to_owned());
+        let names = distinct(&assembly.terms, |term| term.name);
+        let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
         let parts = distinct(&assembly.terms, |term| term.part);
         let parts: Vec<String> = parts.iter().map(|part| assembly.name_of(*part)).collect();
         for row in &rows {

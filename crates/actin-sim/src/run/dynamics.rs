@@ -1,11 +1,12 @@
 //! Motion in time: the time step, the run loop and the records.
 
 use super::bound::kinetic_limit;
+use super::equilibrium::check_points;
 use super::keep::{Clock, Keeper, Kept, Standing};
 use super::{Progress, Record, RunError, RunReport, Trajectory};
-use crate::Assembly;
 use crate::assembly::Ramp;
 use crate::scene::{Dynamics, Integrator, Problem, RodLaw, StopRule, Task};
+use crate::{Assembly, memory};
 use actin_integrate::{
     Bath, Checkpoint, Composition, Drag, Moment, Observer, Outcome, Pause, Reason, Run, RunFailure,
 };
@@ -14,9 +15,6 @@ use std::ops::ControlFlow;
 
 /// Records of a run, unless the scene says otherwise.
 const DEFAULT_RECORDS: f64 = 100.0;
-
-/// Most states of bodies that a run may record: at about 100 bytes each, beyond it memory runs out.
-const MOST_RECORDED: f64 = 1e8;
 
 /// What a scene will cost, known before it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,28 +50,44 @@ impl Integrator {
 ///
 /// # Errors
 /// A time step above the stability limit that the scene does not explicitly allow, a turn that its
-/// segments cannot follow, and more steps or records than can be counted or kept.
+/// segments cannot follow, more steps than can be counted, and more records, of either task, than
+/// memory holds.
 pub fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, Problem> {
     match &assembly.scene.task {
         Task::Dynamics(dynamics) => estimate_of(assembly, dynamics).map(Some),
-        Task::Equilibrium(_) => Ok(None),
+        Task::Equilibrium(settings) => check_points(assembly, settings).map(|()| None),
     }
 }
 
 fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Problem> {
     assembly.check_slip()?;
-    let scheme = dynamics.integrator.composition();
-    let refused = |what: String| Problem::new("filament", what, "has no stable time step");
-    let frequency_of = |assembly: &Assembly| {
-        actin_integrate::largest_frequency(&assembly.system)
-            .map_err(|error| refused(error.to_string()))
-    };
     let mut frequency = frequency_of(assembly)?;
     if let Some(constant) = with_constant_rods(assembly)? {
         frequency = frequency.max(frequency_of(&constant)?);
     }
-    let limit = actin_integrate::stable_step(scheme, frequency, 1.0)
-        .map_err(|error| refused(error.to_string()))?;
+    estimate_at(assembly, dynamics, frequency)
+}
+
+/// The largest frequency of an assembly as it stands (rad/ns).
+fn frequency_of(assembly: &Assembly) -> Result<f64, Problem> {
+    actin_integrate::largest_frequency(&assembly.system).map_err(|error| no_step(&error))
+}
+
+/// What leaves a filament without a time step.
+fn no_step(error: &dyn std::error::Error) -> Problem {
+    Problem::new("filament", error, "has no stable time step")
+}
+
+/// The same at a largest frequency (rad/ns) that is known: it is that of the filaments, whatever is
+/// asked of them.
+pub(crate) fn estimate_at(
+    assembly: &Assembly,
+    dynamics: &Dynamics,
+    frequency: f64,
+) -> Result<Estimate, Problem> {
+    let scheme = dynamics.integrator.composition();
+    let limit =
+        actin_integrate::stable_step(scheme, frequency, 1.0).map_err(|error| no_step(&error))?;
     let wanted = dynamics
         .time_step_ns
         .unwrap_or(limit * dynamics.step_safety);
@@ -112,32 +126,32 @@ fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Pr
 
 /// Refuses records that would not fit into memory.
 fn check_records(assembly: &Assembly, dynamics: &Dynamics, run: &Run) -> Result<(), Problem> {
-    let between = steps_between_records(dynamics, run.step());
-    let records = run.steps() / between + 1;
-    let bodies = assembly.points.len() + assembly.frames.len();
-    if records as f64 * bodies as f64 <= MOST_RECORDED {
-        return Ok(());
+    let records = number_of_records(dynamics, run.steps(), run.step());
+    let every = steps_between_records(dynamics, run.step()) as f64 * run.step();
+    let value = format!("{:?}", dynamics.record_every_ns.unwrap_or(every));
+    let state = assembly.system.state();
+    let bytes = assembly.bytes + records * memory::of_record(state, assembly.terms.len());
+    memory::check(bytes, ("task.record_every_ns", value), || {
+        let bodies = assembly.points.len() + assembly.frames.len();
+        format!("{records:.2e} records of {bodies} bodies need")
+    })
+}
+
+/// Records of a motion of so many steps of `step_ns`, the first and the last included.
+fn number_of_records(dynamics: &Dynamics, steps: u64, step_ns: f64) -> f64 {
+    (steps / steps_between_records(dynamics, step_ns) + 1) as f64
+}
+
+impl Estimate {
+    /// Records that the motion makes, if the stop rule does not end it before.
+    pub(crate) fn records(&self, dynamics: &Dynamics) -> f64 {
+        number_of_records(dynamics, self.steps, self.time_step_ns)
     }
-    let every = between as f64 * run.step();
-    Err(Problem::new(
-        "task.record_every_ns",
-        format!("{:?}", dynamics.record_every_ns.unwrap_or(every)),
-        format!(
-            "{records:.2e} records of {bodies} bodies, at most {MOST_RECORDED:e} states of bodies \
-             are kept",
-            records = records as f64
-        ),
-    ))
 }
 
 /// The same filaments with rods of constant rigidities, where rods resist shear only once they
 /// are sheared: what they show at rest is not what a motion meets.
 fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, Problem> {
-    let shears_softly = |law: &RodLaw| match law {
-        RodLaw::Constant | RodLaw::PublishedExtension | RodLaw::CouplingEnergy => false,
-        RodLaw::Fitted => true,
-        RodLaw::Laws(laws) => laws.shear.is_some(),
-    };
     let mut scene = assembly.scene.clone();
     let mut changes = false;
     for (i, filament) in scene.filaments_mut().enumerate() {
@@ -152,15 +166,24 @@ fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, Problem> 
     Assembly::build(&scene).map(Some)
 }
 
+/// Whether rods under a law resist shear only once they are sheared.
+pub(crate) fn shears_softly(law: &RodLaw) -> bool {
+    match law {
+        RodLaw::Constant | RodLaw::PublishedExtension | RodLaw::CouplingEnergy => false,
+        RodLaw::Fitted => true,
+        RodLaw::Laws(laws) => laws.shear.is_some(),
+    }
+}
+
 /// Runs the motion.
 pub(super) fn run(
     assembly: &mut Assembly,
-    dynamics: &Dynamics,
+    (dynamics, estimate): (&Dynamics, Option<&Estimate>),
     kept: Option<Kept>,
     keeper: &mut dyn Keeper,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<(Trajectory, RunReport), RunError> {
-    let (estimate, plan) = prepare(assembly, dynamics)?;
+    let (estimate, plan) = prepare(assembly, dynamics, estimate)?;
     let clock = Clock::new(kept.as_ref());
     let mut recorder = Recorder {
         trajectory: Trajectory::default(),
@@ -199,8 +222,15 @@ pub(super) fn run(
 }
 
 /// The run that the scene asks for; the scene is resolved and its path set going.
-fn prepare(assembly: &mut Assembly, dynamics: &Dynamics) -> Result<(Estimate, Run), Problem> {
-    let estimate = estimate_of(assembly, dynamics)?;
+fn prepare(
+    assembly: &mut Assembly,
+    dynamics: &Dynamics,
+    estimate: Option<&Estimate>,
+) -> Result<(Estimate, Run), Problem> {
+    let estimate = match estimate {
+        Some(known) => *known,
+        None => estimate_of(assembly, dynamics)?,
+    };
     let limit = kinetic_limit(assembly);
     let plan = plan(dynamics, &estimate)?
         .stopping_from(drive(assembly))

@@ -4,6 +4,7 @@ use super::keep::{Arrival, Clock, Keeper, Kept, PathStanding, Standing};
 use super::unknowns::newton;
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
+use crate::memory;
 use crate::scene::{Equilibrium as Settings, Load, Problem};
 use actin_equilibrium::{
     Certificate, Companion, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure, PathOptions,
@@ -40,6 +41,7 @@ pub(super) fn run(
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<(Trajectory, RunReport), RunError> {
     let clock = Clock::new(kept.as_ref());
+    check_points(assembly, settings)?;
     let mut newton = newton(assembly, settings)?;
     let mut state = assembly.system.state().clone();
     let mut follower = Follower::new(assembly, settings, kept, (keeper, watch), clock);
@@ -79,6 +81,22 @@ pub(super) fn run(
             report: Box::new(report),
         }),
     }
+}
+
+/// Refuses a path with more equilibria than memory holds: each stage has at least as many as steps of
+/// the largest length fill it.
+pub(super) fn check_points(assembly: &Assembly, settings: &Settings) -> Result<(), Problem> {
+    let least = assembly.drive.stages() as f64 / settings.largest_step;
+    let record = memory::of_record(assembly.system.state(), assembly.terms.len());
+    let value = format!("{:?}", settings.largest_step);
+    memory::check(
+        assembly.bytes + least * record,
+        ("task.largest_step", value),
+        || {
+            let bodies = assembly.points.len() + assembly.frames.len();
+            format!("{least:.2e} equilibria of {bodies} bodies and more need")
+        },
+    )
 }
 
 /// Why there is no equilibrium at the end, or none to rely on.

@@ -7,6 +7,7 @@ mod keep;
 mod unknowns;
 
 pub use dynamics::{Estimate, estimate};
+pub(crate) use dynamics::{estimate_at, shears_softly};
 pub use equilibrium::EquilibriumReport;
 pub use keep::{Arrival, Keeper, Kept, PathStanding, Standing, Unkept};
 pub(crate) use unknowns::newton as solver;
@@ -177,8 +178,28 @@ pub fn run_kept(
     keeper: &mut dyn Keeper,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<(Trajectory, RunReport), RunError> {
+    run_estimated(assembly, None, kept, keeper, watch)
+}
+
+/// The same with what [`estimate`] says of `assembly`, which a motion then does not ask again.
+///
+/// # Errors
+/// As [`run`].
+///
+/// # Panics
+/// As [`run_kept`].
+pub fn run_estimated(
+    assembly: &mut Assembly,
+    estimate: Option<&Estimate>,
+    kept: Option<Kept>,
+    keeper: &mut dyn Keeper,
+    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<(Trajectory, RunReport), RunError> {
     let result = match assembly.scene.task.clone() {
-        Task::Dynamics(dynamics) => dynamics::run(assembly, &dynamics, kept, keeper, watch),
+        Task::Dynamics(dynamics) => {
+            let asked = (&dynamics, estimate);
+            dynamics::run(assembly, asked, kept, keeper, watch)
+        }
         Task::Equilibrium(settings) => equilibrium::run(assembly, &settings, kept, keeper, watch),
     };
     look_for_use(assembly, result)

@@ -41,6 +41,9 @@ pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton,
 
 /// Bodies that linkers join and nothing else does: those of different filaments, or far apart in one.
 fn loose_pairs(assembly: &Assembly) -> Vec<[Coordinates; 2]> {
+    let reaches: Vec<f64> = (0..assembly.filaments.len())
+        .map(|filament| reach(assembly, filament))
+        .collect();
     let joined = assembly
         .linkers
         .iter()
@@ -52,7 +55,9 @@ fn loose_pairs(assembly: &Assembly) -> Vec<[Coordinates; 2]> {
         let with_all = |a| other.iter().map(move |&b| [a, b]).collect::<Vec<_>>();
         site.iter().flat_map(|&a| with_all(a)).collect::<Vec<_>>()
     });
-    pairs.filter(|&[a, b]| are_apart(assembly, a, b)).collect()
+    pairs
+        .filter(|&[a, b]| are_apart(assembly, &reaches, (a, b)))
+        .collect()
 }
 
 /// The bodies that a site follows.
@@ -61,27 +66,29 @@ fn bodies_of(site: &Site) -> Vec<Coordinates> {
     points.chain([Coordinates::Frame(site.frame())]).collect()
 }
 
-/// Whether no bond or segment couples two bodies.
-fn are_apart(assembly: &Assembly, a: Coordinates, b: Coordinates) -> bool {
+/// How far bonds and segments of a filament couple at most (nm, arc length).
+fn reach(assembly: &Assembly, filament: usize) -> f64 {
+    let sections = assembly.sections_of(filament).iter();
+    let longest = sections.map(|section| match section.resolution {
+        Resolution::Rod { segment_nm } => segment_nm,
+        Resolution::Ellipsoids { .. } => assembly.monomers_of(filament).rise_nm,
+    });
+    // Monomers reach the next but one, bending elements from middle to middle.
+    REACH * longest.fold(0.0, f64::max)
+}
+
+/// Whether no bond or segment couples two bodies; `reaches` are those of the filaments.
+fn are_apart(assembly: &Assembly, reaches: &[f64], (a, b): (Coordinates, Coordinates)) -> bool {
     let place = |body| match body {
         Coordinates::Point(i) => (assembly.filament_of_point(i), assembly.points[i].s_nm),
         Coordinates::Frame(i) => (assembly.filament_of_frame(i), assembly.frames[i].s_nm),
     };
     let ((f, s_a), (g, s_b)) = (place(a), place(b));
-    let longest = assembly
-        .sections_of(f)
-        .iter()
-        .map(|section| match section.resolution {
-            Resolution::Rod { segment_nm } => segment_nm,
-            Resolution::Ellipsoids { .. } => assembly.monomers_of(f).rise_nm,
-        });
-    // Monomers reach the next but one, bending elements from middle to middle.
-    let reach = REACH * longest.fold(0.0, f64::max);
-    f != g || (s_a - s_b).abs() > reach
+    f != g || (s_a - s_b).abs() > reaches[f]
 }
 
 /// Each filament's arc lengths behind those of the one before.
-fn order(assembly: &Assembly) -> BodyOrder {
+pub(crate) fn order(assembly: &Assembly) -> BodyOrder {
     let mut order = BodyOrder::default();
     let mut behind = 0.0;
     for filament in &assembly.filaments {

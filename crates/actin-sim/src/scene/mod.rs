@@ -24,6 +24,7 @@ pub use law::{
 };
 pub use linker::{Linker, LinkerSite};
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
+pub(crate) use place::HeldEnds;
 pub use problem::{Problem, SceneError};
 pub(crate) use support::is_across;
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
@@ -31,4 +32,4 @@ pub use types::{
     Clamp, Drag, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Load, Scene, Section,
     Setting, Slides, Stage, StopRule, Task,
 };
-pub(crate) use validate::{MOST_BODIES, MOST_BONDS, validate};
+pub(crate) use validate::{MOST_COUNTED, validate};

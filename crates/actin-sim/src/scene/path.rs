@@ -3,30 +3,61 @@
 
 use super::{Setting, Stage};
 
-/// Values of a control at the ends of the stages, the first of them before the path; `None` if no
-/// stage sets it.
+/// The values of a control at the ends of the stages, of which the first, 0, is before the path.
 ///
-/// It begins at zero and stays where a stage does not set it; of several settings in one stage the
-/// last counts. `find` gives the value that a setting has for the control.
-pub(crate) fn values<T: Copy + Default>(
-    path: &[Stage],
-    find: impl Fn(&Setting) -> Option<T>,
-) -> Option<Vec<T>> {
-    let mut values = vec![T::default()];
-    let mut is_set = false;
-    for stage in path {
-        let set = stage.set.iter().rev().find_map(&find);
-        is_set |= set.is_some();
-        values.push(set.unwrap_or(values[values.len() - 1]));
-    }
-    is_set.then_some(values)
+/// It begins at zero and stays where a stage does not set it. Only the stages that set it are kept,
+/// so that as many controls as stages take no square of either.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Values<T> {
+    /// Ends of stages, counted from 1, and what is set there; ascending.
+    set: Vec<(usize, T)>,
 }
 
-/// Factors of the load `index` at the ends of the stages, as [`values`]; `None` of a load that no
-/// stage sets, whose factor is [`UNSET`].
-pub(crate) fn load_factors(path: &[Stage], index: usize) -> Option<Vec<f64>> {
-    values(path, |setting| match *setting {
-        Setting::LoadFactor { load, factor } if load == index => Some(factor),
+impl<T: Copy + Default> Values<T> {
+    /// The value at the end of so many stages.
+    pub(crate) fn after(&self, stages: usize) -> T {
+        let known = self.set.partition_point(|(end, _)| *end <= stages);
+        known.checked_sub(1).map_or(T::default(), |k| self.set[k].1)
+    }
+
+    /// The ends of stages at which it is set, ascending.
+    pub(crate) fn ends(&self) -> impl Iterator<Item = usize> + '_ {
+        self.set.iter().map(|(end, _)| *end)
+    }
+
+    /// Sets it at the end of a stage that is not before any other that set it; of several settings
+    /// in one stage the last counts.
+    fn push(&mut self, end: usize, value: T) {
+        match self.set.last_mut() {
+            Some((last, known)) if *last == end => *known = value,
+            _ => self.set.push((end, value)),
+        }
+    }
+}
+
+/// The values of each of `count` controls; `None` of one that no stage sets. `find` gives the index
+/// and the value of the control that a setting sets, if it is one of these.
+pub(crate) fn values<T: Copy + Default>(
+    path: &[Stage],
+    count: usize,
+    find: impl Fn(&Setting) -> Option<(usize, T)>,
+) -> Vec<Option<Values<T>>> {
+    let mut values: Vec<Option<Values<T>>> = (0..count).map(|_| None).collect();
+    for (stage, end) in path.iter().zip(1..) {
+        for (index, value) in stage.set.iter().filter_map(&find) {
+            if let Some(control) = values.get_mut(index) {
+                control.get_or_insert_with(Values::default).push(end, value);
+            }
+        }
+    }
+    values
+}
+
+/// Factors of `count` loads, as [`values`]; `None` of a load that no stage sets, whose factor is
+/// [`UNSET`].
+pub(crate) fn load_factors(path: &[Stage], count: usize) -> Vec<Option<Values<f64>>> {
+    values(path, count, |setting| match *setting {
+        Setting::LoadFactor { load, factor } => Some((load, factor)),
         _ => None,
     })
 }
@@ -55,9 +86,24 @@ mod tests {
             stage(&[(1, 3.0), (0, 7.0), (1, 4.0)]),
             stage(&[(1, -1.0)]),
         ];
-        assert_eq!(load_factors(&path, 0).unwrap(), [0.0, 0.5, 7.0, 7.0]);
-        assert_eq!(load_factors(&path, 1).unwrap(), [0.0, 0.0, 4.0, -1.0]);
-        assert_eq!(load_factors(&path, 2), None);
-        assert_eq!(load_factors(&[], 0), None);
+        let factors = load_factors(&path, 3);
+        let of = |load: usize| {
+            let values = factors[load].as_ref().unwrap();
+            [0, 1, 2, 3].map(|stages| values.after(stages))
+        };
+        assert_eq!(of(0), [0.0, 0.5, 7.0, 7.0]);
+        assert_eq!(of(1), [0.0, 0.0, 4.0, -1.0]);
+        assert_eq!(factors[2], None);
+        assert_eq!(load_factors(&[], 1), [None]);
+    }
+
+    /// As many controls as stages, each set once: what is kept is what was written.
+    #[test]
+    fn what_is_kept_grows_with_the_settings_alone() {
+        let count = 300;
+        let path: Vec<Stage> = (0..count).map(|i| stage(&[(i, 1.0)])).collect();
+        let factors = load_factors(&path, count);
+        let kept = |values: &Option<Values<f64>>| values.as_ref().map_or(0, |v| v.set.len());
+        assert_eq!(factors.iter().map(kept).sum::<usize>(), count);
     }
 }

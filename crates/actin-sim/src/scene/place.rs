@@ -1,9 +1,7 @@
 //! Which filament a scene means by an index, and where each is built.
 
 use super::types::along_z;
-use super::{
-    Clamp, End, Filament, Hold, JunctionModel, Monomers, Problem, RodModel, Scene, Section, Slides,
-};
+use super::{End, Filament, JunctionModel, Monomers, Problem, RodModel, Scene, Section, Slides};
 use actin_mechanics::{UnitQuaternion, Vector3};
 use nalgebra::Quaternion;
 
@@ -114,20 +112,32 @@ impl Scene {
             Problem::new(key, index, rule)
         })
     }
+}
 
-    /// The clamp at one end of a filament; none if it is free.
-    pub(crate) fn clamp_at(&self, filament: usize, end: End) -> Option<&Clamp> {
-        let is_there = |clamp: &&Clamp| (clamp.filament, clamp.end) == (filament, end);
-        self.clamps.iter().find(is_there)
+/// Which clamp holds each end of each filament, found once for all of them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct HeldEnds(Vec<[Option<usize>; 2]>);
+
+impl HeldEnds {
+    /// Those of a scene. Of several clamps at one end the first counts, and what names no filament
+    /// holds none.
+    pub(crate) fn of(scene: &Scene) -> Self {
+        let mut held = vec![[None; 2]; scene.number_of_filaments()];
+        for (i, clamp) in scene.clamps.iter().enumerate() {
+            if let Some(ends) = held.get_mut(clamp.filament) {
+                ends[clamp.end as usize].get_or_insert(i);
+            }
+        }
+        Self(held)
     }
 
-    /// What is held at one end; nothing if it is free.
-    pub(crate) fn hold(&self, filament: usize, end: End) -> Option<Hold> {
-        self.clamp_at(filament, end).map(|clamp| clamp.hold)
+    /// The index of the clamp at one end of a filament; none if it is free.
+    pub(crate) fn clamp_at(&self, filament: usize, end: End) -> Option<usize> {
+        self.0.get(filament)?[end as usize]
     }
 
     /// Whether an end is held.
-    pub(crate) fn is_clamped(&self, filament: usize, end: End) -> bool {
+    pub(crate) fn is_held(&self, filament: usize, end: End) -> bool {
         self.clamp_at(filament, end).is_some()
     }
 }

@@ -1,7 +1,9 @@
 //! Whether a scene's loads are borne, and whether its turns go with how its ends slide.
 
-use super::{Filament, Load, Problem, Scene, Setting, Slides, path};
+use super::path::{self, Values};
+use super::{Filament, HeldEnds, Load, Problem, Scene, Setting, Slides};
 use actin_mechanics::Vector3;
+use std::collections::BTreeSet;
 
 /// Part of the forces below which what is left of them is a rounding: sums and components of a few
 /// forces are exact to a few units of 1e-16.
@@ -16,7 +18,7 @@ const DIGITS: f64 = 1e-3;
 
 /// In time, the inertia of an end that slides is that of its motion along straight lines: a turn must
 /// not swing it along them.
-pub(super) fn check_swings(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check_swings(scene: &Scene, held: &HeldEnds) -> Result<(), Problem> {
     for (i, stage) in scene.path.iter().enumerate() {
         for (k, setting) in stage.set.iter().enumerate() {
             let Setting::Turn {
@@ -27,7 +29,8 @@ pub(super) fn check_swings(scene: &Scene) -> Result<(), Problem> {
             else {
                 continue;
             };
-            let slides = scene.clamp_at(filament, end).map(|c| c.slides);
+            let clamp = held.clamp_at(filament, end);
+            let slides = clamp.map(|c| scene.clamps[c].slides);
             let axis = scene.filament_at(filament).map(Filament::axis);
             let tilts = axis.is_some_and(|axis| is_across(turn_deg.into(), axis));
             if slides == Some(Slides::Freely) || (slides == Some(Slides::AlongAxis) && tilts) {
@@ -58,109 +61,139 @@ pub(crate) fn is_across(vector: Vector3, axis: Vector3) -> bool {
 /// are linear within a stage, so that what balances at the ends of all stages balances between.
 pub(super) fn check_support(scene: &Scene) -> Result<(), Problem> {
     let joined = joined(scene);
-    let anchors = scene.linkers.iter().filter(|linker| linker.to.is_none());
-    let anchored: Vec<usize> = anchors.map(|linker| joined[linker.filament]).collect();
+    let groups = groups(scene, &joined);
+    let factors = path::load_factors(&scene.path, scene.loads.len());
     // Of each group the lowest index stands for all.
-    for group in (0..joined.len()).filter(|&f| joined[f] == f && !anchored.contains(&f)) {
-        let free = unheld(scene, &joined, group);
-        let loads = scene.loads.iter().enumerate().filter_map(|(i, load)| {
-            let Load::EndForce {
-                filament, force_pn, ..
-            } = load;
-            (joined[*filament] == group).then(|| (i, Vector3::from(*force_pn)))
-        });
-        let loads: Vec<(usize, Vector3)> = loads.collect();
-        for corner in 0..=scene.path.len() {
-            check_balance(scene, &loads, &free, corner)?;
+    groups
+        .iter()
+        .enumerate()
+        .filter(|(f, group)| joined[*f] == *f && !group.is_anchored)
+        .try_for_each(|(_, group)| group.check(&factors))
+}
+
+/// Filaments that linkers join.
+#[derive(Clone)]
+struct Group {
+    /// Whether a linker leads to an anchor.
+    is_anchored: bool,
+    /// Directions, orthonormal, along which the clamps let it move.
+    free: Vec<Vector3>,
+    /// Its loads by their indices, with their forces at factor 1 (pN).
+    loads: Vec<(usize, Vector3)>,
+}
+
+/// For each filament that stands for a group what holds and loads that group; what is joined to
+/// which is in `joined`.
+fn groups(scene: &Scene, joined: &[usize]) -> Vec<Group> {
+    let unheld = Group {
+        is_anchored: false,
+        free: Slides::Freely.directions(Vector3::z()),
+        loads: Vec::new(),
+    };
+    let mut groups = vec![unheld; joined.len()];
+    for linker in scene.linkers.iter().filter(|linker| linker.to.is_none()) {
+        groups[joined[linker.filament]].is_anchored = true;
+    }
+    for clamp in &scene.clamps {
+        let axis = scene.filament_at(clamp.filament).map(Filament::axis);
+        let slides = clamp.slides.directions(axis.unwrap_or_default());
+        groups[joined[clamp.filament]].hold(slides);
+    }
+    for (i, load) in scene.loads.iter().enumerate() {
+        let Load::EndForce {
+            filament, force_pn, ..
+        } = load;
+        let group = &mut groups[joined[*filament]];
+        group.loads.push((i, Vector3::from(*force_pn)));
+    }
+    groups
+}
+
+/// The factors of all loads of a scene, by their indices.
+type Factors = [Option<Values<f64>>];
+
+impl Group {
+    /// Holds it by a clamp that lets it move along the directions `slides` alone.
+    fn hold(&mut self, slides: Vec<Vector3>) {
+        let free = &mut self.free;
+        match slides.len() {
+            0 => free.clear(),
+            1 if free.len() == 1 && is_across(free[0], slides[0]) => free.clear(),
+            1 if !free.is_empty() => *free = slides,
+            _ => {}
         }
     }
-    Ok(())
-}
 
-/// Whether the forces of `loads` balance along the orthonormal directions `free` after so many stages.
-fn check_balance(
-    scene: &Scene,
-    loads: &[(usize, Vector3)],
-    free: &[Vector3],
-    stages: usize,
-) -> Result<(), Problem> {
-    let along = |force: &Vector3| -> Vector3 { free.iter().map(|d| d * d.dot(force)).sum() };
-    let forces = loads
-        .iter()
-        .map(|&(i, force)| force * factor(scene, i, stages));
-    let left_over = along(&forces.clone().sum());
-    let all: f64 = forces.clone().map(|force| force.norm()).sum();
-    if left_over.norm() <= ROUNDING * all {
-        return Ok(());
+    /// Whether its loads balance before the path and after each stage that changes one of them.
+    fn check(&self, factors: &Factors) -> Result<(), Problem> {
+        if self.free.is_empty() {
+            return Ok(());
+        }
+        let set = self.loads.iter().filter_map(|(i, _)| factors[*i].as_ref());
+        let ends: BTreeSet<usize> = set.flat_map(Values::ends).chain([0]).collect();
+        let mut ends = ends.into_iter();
+        ends.try_for_each(|stages| self.check_balance(factors, stages))
     }
-    let drifts = |force: &Vector3| along(force).norm() > ROUNDING * force.norm();
-    let Some(blamed) = forces.clone().position(|force| drifts(&force)) else {
-        return Ok(());
-    };
-    let (i, force) = loads[blamed];
-    let size = left_over.norm();
-    let mut rule = vec!["nothing holds the filament against this force".to_owned()];
-    if forces.filter(drifts).count() > 1 {
-        rule.push(format!(
-            ", and the others do not balance it: {size:.1e} pN are left over"
-        ));
-    }
-    if size <= DIGITS * all {
-        let [x, y, z] = (force - left_over / factor(scene, i, stages)).into();
-        rule.push(format!(" (it would be balanced as ({x:?}, {y:?}, {z:?}))"));
-    }
-    rule.push(": it has no equilibrium".to_owned());
-    let value = format!("{:?}", <[f64; 3]>::from(force));
-    Err(Problem::new(
-        format!("loads[{i}].force_pn"),
-        value,
-        rule.concat(),
-    ))
-}
 
-/// The factor of a load after so many stages.
-fn factor(scene: &Scene, index: usize, stages: usize) -> f64 {
-    path::load_factors(&scene.path, index).map_or(path::UNSET, |factors| factors[stages])
+    /// Whether the forces balance along the free directions after so many stages.
+    fn check_balance(&self, factors: &Factors, stages: usize) -> Result<(), Problem> {
+        let (loads, free) = (&self.loads, &self.free);
+        let factor = |i: usize| factors[i].as_ref().map_or(path::UNSET, |v| v.after(stages));
+        let along = |force: &Vector3| -> Vector3 { free.iter().map(|d| d * d.dot(force)).sum() };
+        let forces = loads.iter().map(|&(i, force)| force * factor(i));
+        let left_over = along(&forces.clone().sum());
+        let all: f64 = forces.clone().map(|force| force.norm()).sum();
+        if left_over.norm() <= ROUNDING * all {
+            return Ok(());
+        }
+        let drifts = |force: &Vector3| along(force).norm() > ROUNDING * force.norm();
+        let Some(blamed) = forces.clone().position(|force| drifts(&force)) else {
+            return Ok(());
+        };
+        let (i, force) = loads[blamed];
+        let size = left_over.norm();
+        let mut rule = vec!["nothing holds the filament against this force".to_owned()];
+        if forces.filter(drifts).count() > 1 {
+            rule.push(format!(
+                ", and the others do not balance it: {size:.1e} pN are left over"
+            ));
+        }
+        if size <= DIGITS * all {
+            let [x, y, z] = (force - left_over / factor(i)).into();
+            rule.push(format!(" (it would be balanced as ({x:?}, {y:?}, {z:?}))"));
+        }
+        rule.push(": it has no equilibrium".to_owned());
+        let value = format!("{:?}", <[f64; 3]>::from(force));
+        Err(Problem::new(
+            format!("loads[{i}].force_pn"),
+            value,
+            rule.concat(),
+        ))
+    }
 }
 
 /// For each filament the lowest index among those that linkers join it to, itself included.
 fn joined(scene: &Scene) -> Vec<usize> {
-    let mut lowest: Vec<usize> = (0..scene.number_of_filaments()).collect();
+    let mut lower: Vec<usize> = (0..scene.number_of_filaments()).collect();
     let pairs = scene
         .linkers
         .iter()
         .filter_map(|linker| Some((linker.filament, linker.to?.filament)));
     for (one, other) in pairs {
-        let (from, to) = (
-            lowest[one].max(lowest[other]),
-            lowest[one].min(lowest[other]),
-        );
-        lowest
-            .iter_mut()
-            .filter(|l| **l == from)
-            .for_each(|l| *l = to);
+        let (one, other) = (lowest(&mut lower, one), lowest(&mut lower, other));
+        lower[one.max(other)] = one.min(other);
     }
-    lowest
+    (0..lower.len()).map(|f| lowest(&mut lower, f)).collect()
 }
 
-/// Directions, orthonormal, along which the clamps of a group of joined filaments let it move.
-fn unheld(scene: &Scene, joined: &[usize], group: usize) -> Vec<Vector3> {
-    let mut free = Slides::Freely.directions(Vector3::z());
-    let clamps = scene
-        .clamps
-        .iter()
-        .filter(|clamp| joined[clamp.filament] == group);
-    for clamp in clamps {
-        let axis = scene.filament_at(clamp.filament).map(Filament::axis);
-        let slides = clamp.slides.directions(axis.unwrap_or_default());
-        free = match slides.len() {
-            0 => Vec::new(),
-            1 if free.len() == 1 && is_across(free[0], slides[0]) => Vec::new(),
-            1 if !free.is_empty() => slides,
-            _ => free,
-        };
+/// The lowest index that `filament` leads to, each one in `lower` leading to one of its group that is
+/// not above it; halves the way for those who come later.
+fn lowest(lower: &mut [usize], mut filament: usize) -> usize {
+    while lower[filament] != filament {
+        lower[filament] = lower[lower[filament]];
+        filament = lower[filament];
     }
-    free
+    filament
 }
 
 #[cfg(test)]

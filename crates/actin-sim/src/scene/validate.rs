@@ -2,8 +2,8 @@
 
 use super::support::{check_support, check_swings};
 use super::{
-    Anchors, Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Load, Monomers, Problem,
-    Scene, Section, Setting, Slides, Stage, StopRule, Task, linker, magnitude, thermal,
+    Anchors, Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, HeldEnds, Hold, Load, Monomers,
+    Problem, Scene, Section, Setting, Slides, Stage, StopRule, Task, linker, magnitude, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 use actin_mechanics::Vector3;
@@ -12,14 +12,12 @@ use std::fmt::Debug;
 /// Sections are contiguous if their boundaries agree to this length (nm).
 const BOUNDARY_TOLERANCE_NM: f64 = 1e-9;
 
-/// Most bodies that a scene may ask for: beyond it memory, not time, is what runs out.
-pub(crate) const MOST_BODIES: f64 = 2e7;
+/// Most bodies of a section, and the furthest place on the lattice: 2^53, up to which whole numbers
+/// are told apart. Memory runs out long before.
+pub(crate) const MOST_COUNTED: f64 = 9_007_199_254_740_992.0;
 
 /// Most bonds of one interface: with a hundredth of them the anchors' sampling noise is gone.
 const MOST_BONDS_PER_INTERFACE: usize = 10_000;
-
-/// Most bonds of a scene, for the same reason as the limit on bodies.
-pub(crate) const MOST_BONDS: f64 = 1e8;
 
 /// Checks every rule that does not need the filament to be built.
 ///
@@ -32,22 +30,23 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
         filament(one).map_err(named)?;
         check_place(one).map_err(named)?;
     }
+    let held = HeldEnds::of(scene);
     for (i, clamp) in scene.clamps.iter().enumerate() {
-        check_clamp(scene, i, clamp)?;
+        check_clamp(scene, &held, (i, clamp))?;
     }
     for (i, load) in scene.loads.iter().enumerate() {
-        check_load(scene, i, load)?;
+        check_load(scene, &held, (i, load))?;
     }
     for (i, linker) in scene.linkers.iter().enumerate() {
         linker::check(scene, i, linker)?;
     }
     for (i, stage) in scene.path.iter().enumerate() {
-        check_stage(scene, i, stage)?;
+        check_stage(scene, &held, (i, stage))?;
     }
     match &scene.task {
         Task::Dynamics(dynamics) => {
             check_durations(scene, dynamics.duration_ns)?;
-            check_swings(scene)?;
+            check_swings(scene, &held)?;
             check_dynamics(dynamics)?;
             let stop = dynamics.stop.as_ref();
             stop.map_or(Ok(()), |s| check_tolerance(scene, "task.stop", s.force_pn))
@@ -230,14 +229,10 @@ fn check_shortest(monomers: &Monomers) -> Result<(), Problem> {
     Ok(())
 }
 
-fn check_clamp(scene: &Scene, i: usize, clamp: &Clamp) -> Result<(), Problem> {
+fn check_clamp(scene: &Scene, held: &HeldEnds, (i, clamp): (usize, &Clamp)) -> Result<(), Problem> {
     let key = format!("clamps[{i}]");
     let filament = scene.named_filament(&format!("{key}.filament"), clamp.filament)?;
-    let place = (clamp.filament, clamp.end);
-    if scene.clamps[..i]
-        .iter()
-        .any(|c| (c.filament, c.end) == place)
-    {
+    if held.clamp_at(clamp.filament, clamp.end) != Some(i) {
         return Err(Problem::new(
             format!("{key}.end"),
             show(clamp.end),
@@ -255,7 +250,7 @@ fn check_clamp(scene: &Scene, i: usize, clamp: &Clamp) -> Result<(), Problem> {
     Ok(())
 }
 
-fn check_load(scene: &Scene, i: usize, load: &Load) -> Result<(), Problem> {
+fn check_load(scene: &Scene, held: &HeldEnds, (i, load): (usize, &Load)) -> Result<(), Problem> {
     let Load::EndForce {
         filament,
         end,
@@ -270,8 +265,8 @@ fn check_load(scene: &Scene, i: usize, load: &Load) -> Result<(), Problem> {
             "must be finite",
         ));
     }
-    let clamp = scene.clamp_at(*filament, *end);
-    if clamp.is_some_and(|c| c.slides == Slides::Nowhere) {
+    let clamp = held.clamp_at(*filament, *end);
+    if clamp.is_some_and(|c| scene.clamps[c].slides == Slides::Nowhere) {
         return Err(Problem::new(
             format!("{key}.end"),
             show(end),
@@ -357,7 +352,8 @@ fn check_tolerance(scene: &Scene, key: &str, force_pn: f64) -> Result<(), Proble
     Ok(())
 }
 
-fn check_stage(scene: &Scene, i: usize, stage: &Stage) -> Result<(), Problem> {
+fn check_stage(scene: &Scene, held: &HeldEnds, (i, stage): (usize, &Stage)) -> Result<(), Problem> {
+    let check_held = |prefix: &str, filament, end| check_held((scene, held), prefix, filament, end);
     for (k, setting) in stage.set.iter().enumerate() {
         let key = |name: &str| format!("path[{i}].set[{k}].{name}");
         let exists = |name: &str, index: usize, count: usize| {
@@ -384,7 +380,7 @@ fn check_stage(scene: &Scene, i: usize, stage: &Stage) -> Result<(), Problem> {
                 shift_nm,
             } => {
                 all_finite(&key("shift_nm"), shift_nm)?;
-                check_held(scene, &key(""), filament, end)?;
+                check_held(&key(""), filament, end)?;
             }
             Setting::Turn {
                 filament,
@@ -392,7 +388,7 @@ fn check_stage(scene: &Scene, i: usize, stage: &Stage) -> Result<(), Problem> {
                 turn_deg,
             } => {
                 all_finite(&key("turn_deg"), turn_deg)?;
-                check_held(scene, &key(""), filament, end)?;
+                check_held(&key(""), filament, end)?;
             }
         }
     }
@@ -400,9 +396,14 @@ fn check_stage(scene: &Scene, i: usize, stage: &Stage) -> Result<(), Problem> {
 }
 
 /// What a setting moves from outside is held; its keys begin with `prefix`.
-fn check_held(scene: &Scene, prefix: &str, filament: usize, end: End) -> Result<(), Problem> {
+fn check_held(
+    (scene, held): (&Scene, &HeldEnds),
+    prefix: &str,
+    filament: usize,
+    end: End,
+) -> Result<(), Problem> {
     scene.named_filament(&format!("{prefix}filament"), filament)?;
-    if scene.is_clamped(filament, end) {
+    if held.is_held(filament, end) {
         return Ok(());
     }
     let rule = "this end is free: only a clamped end is moved from outside";

@@ -1,8 +1,8 @@
 //! The link of a filament whose ends are held: what twist and writhe have to add up to.
 
-use crate::assembly::Ramp;
+use crate::assembly::StageTimes;
 use crate::scene::is_across;
-use crate::{Assembly, Clamped, End, Task};
+use crate::{Assembly, End, Task};
 use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
@@ -26,11 +26,14 @@ pub fn link(assembly: &Assembly, time_ns: f64) -> Option<f64> {
 /// # Panics
 /// If there is no such filament.
 pub fn link_of(assembly: &Assembly, filament: usize, time_ns: f64) -> Option<f64> {
-    let parameter = path_parameter(assembly, time_ns);
+    link_at(assembly, filament, path_parameter(assembly, time_ns))
+}
+
+/// The same at a path parameter.
+pub(crate) fn link_at(assembly: &Assembly, filament: usize, parameter: f64) -> Option<f64> {
     let axis = assembly.filaments[filament].axis();
     let turn = |end| {
-        let is_there = |c: &Clamped| (c.filament, c.end) == (filament, end);
-        let clamp = assembly.clamps.iter().position(is_there)?;
+        let clamp = assembly.held.clamp_at(filament, end)?;
         let turn: Vector3 = assembly.drive.turn(clamp, parameter);
         (!is_across(turn, axis)).then(|| turn.dot(&axis))
     };
@@ -38,9 +41,9 @@ pub fn link_of(assembly: &Assembly, filament: usize, time_ns: f64) -> Option<f64
 }
 
 /// Where on the path of the scene a record stands.
-fn path_parameter(assembly: &Assembly, time_ns: f64) -> f64 {
+pub(crate) fn path_parameter(assembly: &Assembly, time_ns: f64) -> f64 {
     match assembly.scene.task {
         Task::Equilibrium(_) => time_ns,
-        Task::Dynamics(_) => Ramp::of(assembly).map_or(0.0, |ramp| ramp.parameter(time_ns).0),
+        Task::Dynamics(_) => StageTimes::of(assembly).parameter(time_ns).0,
     }
 }

@@ -10,7 +10,9 @@ mod twist;
 mod writhe;
 
 pub use link::{link, link_of};
+pub(crate) use link::{link_at, path_parameter};
 pub use profile::{ProfilePoint, profile, profile_of};
 pub use ribbon::Ribbon;
+pub(crate) use ribbon::{solid_angles, writhe_of};
 pub use twist::twist;
 pub use writhe::{closed_writhe, extended_writhe};

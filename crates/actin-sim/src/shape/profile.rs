@@ -1,7 +1,7 @@
 //! Local fields along a filament: place, curvature, twist and energy per length.
 
 use super::Ribbon;
-use crate::{Assembly, Part};
+use crate::Assembly;
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 
 /// Frames closer than this along the filament (nm) are one and the same.
@@ -122,14 +122,9 @@ fn energy_per_length(
     cells: &[f64],
 ) -> Vec<f64> {
     let mut energies = vec![0.0; cells.len() - 1];
-    let sections = &assembly.filaments[filament].sections;
-    let is_part = |part: Part| match part {
-        Part::Section(i) | Part::Junction(i) => sections.contains(&i),
-        Part::Load(_) | Part::Linker(_) => false,
-    };
-    let terms = assembly.terms.iter().zip(&assembly.spans);
-    let terms = assembly.system.interactions().iter().zip(terms);
-    for (interaction, (_, spans)) in terms.filter(|(_, (term, _))| is_part(term.part)) {
+    let terms = assembly.filaments[filament].terms.clone();
+    let interactions = &assembly.system.interactions()[terms.clone()];
+    for (interaction, spans) in interactions.iter().zip(&assembly.spans[terms]) {
         let mut elements = vec![0.0; interaction.elements()];
         interaction.write_energies(state, &mut elements);
         for (energy, span) in elements.iter().zip(spans) {

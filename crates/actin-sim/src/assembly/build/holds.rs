@@ -12,7 +12,10 @@ impl Builder<'_> {
         let masses: Vec<f64> = self.stock.state.points.inverse_mass().to_vec();
         for (i, clamp) in self.scene.clamps.iter().enumerate() {
             let (points, frames) = self.hold(i, clamp)?;
-            let held_before = self.clamps.iter().any(|other| {
+            // Bodies belong to one filament: only its other clamp can hold them as well.
+            let others = [End::Start, End::End].map(|end| self.held.clamp_at(clamp.filament, end));
+            let others = others.into_iter().flatten().filter(|other| *other < i);
+            let held_before = others.map(|other| &self.clamps[other]).any(|other| {
                 points.clone().any(|p| other.points.contains(&p))
                     || frames.clone().any(|f| other.frames.contains(&f))
             });

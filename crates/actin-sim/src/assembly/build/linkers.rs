@@ -8,6 +8,7 @@ use actin_cosserat::RodLayout;
 use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, Site};
 use actin_ellipsoid::Monomers;
 use actin_mechanics::Vector3;
+use std::collections::HashMap;
 
 /// A site this close to a node (nm) is at it: room for the round-off of sums of lengths.
 const NODE_TOLERANCE_NM: f64 = 1e-9;
@@ -19,10 +20,11 @@ impl Builder<'_> {
     /// Pushes the linkers, three controls of each behind those of the loads: those of its anchor,
     /// without effect where it has none.
     pub(super) fn push_linkers(&mut self) -> Result<(), Problem> {
+        let mut nodes = Nodes::default();
         for (i, linker) in self.scene.linkers.iter().enumerate() {
             let control = self.stock.state.controls.len();
             self.stock.state.controls.extend([0.0; 3]);
-            let linker = self.linker(i, linker, control)?;
+            let linker = self.linker((i, linker), control, &mut nodes)?;
             self.stock
                 .push_term(Box::new(linker.clone()), Part::Linker(i));
             self.linkers.push(linker);
@@ -34,12 +36,17 @@ impl Builder<'_> {
     ///
     /// # Errors
     /// A linker that would have a direction but has none, both ends standing at one place.
-    fn linker(&self, i: usize, linker: &scene::Linker, control: usize) -> Result<Linker, Problem> {
+    fn linker(
+        &self,
+        (i, linker): (usize, &scene::Linker),
+        control: usize,
+        nodes: &mut Nodes,
+    ) -> Result<Linker, Problem> {
         let refused =
             |error: LinkerError| Problem::new(format!("linkers[{i}]"), "", error.to_string());
-        let site = self.site(&linker.site()).map_err(refused)?;
+        let site = self.site(&linker.site(), nodes).map_err(refused)?;
         let end = match &linker.to {
-            Some(other) => LinkerEnd::Site(self.site(other).map_err(refused)?),
+            Some(other) => LinkerEnd::Site(self.site(other, nodes).map_err(refused)?),
             None => LinkerEnd::Anchor(Anchor {
                 position: self.anchor(linker, &site),
                 control: Some(control),
@@ -67,18 +74,20 @@ impl Builder<'_> {
     }
 
     /// The site at an arc length, radius and azimuth of a filament.
-    fn site(&self, at: &LinkerSite) -> Result<Site, LinkerError> {
+    fn site(&self, at: &LinkerSite, nodes: &mut Nodes) -> Result<Site, LinkerError> {
         let strand = &self.strands[at.filament];
         let s_nm = at.at_nm;
         // A boundary belongs to the section before it; what monomers leave over at the end, to the
         // last section.
-        let within = |r: &Resolved| s_nm <= r.to_nm;
+        let is_past = |r: &Resolved| r.to_nm < s_nm;
         let last = strand.resolved.len() - 1;
-        let section = strand.resolved.iter().position(within).unwrap_or(last);
+        let section = strand.resolved.partition_point(is_past).min(last);
         let azimuth = at.azimuth_deg.to_radians();
         match &strand.bodies[section] {
             Body::Rod(layout) => {
-                let place = on_segment(layout, s_nm - strand.resolved[section].from_nm);
+                let nodes = nodes.of(strand.first_section + section, layout);
+                let from_start = s_nm - strand.resolved[section].from_nm;
+                let place = on_segment(nodes, layout.segment_lengths(), from_start);
                 Site::on_rod(layout, place, at.radius_nm, azimuth)
             }
             Body::Monomers(monomers) => {
@@ -97,11 +106,17 @@ impl Builder<'_> {
         monomers: &Monomers,
         place: Vector3,
     ) -> Result<Site, LinkerError> {
-        let distance = |k: usize| (strand.lattice.s_nm(monomers.index(k)) - place.z).abs();
-        // The first of equals: of two monomers equally near the lower one.
-        let nearest = (0..monomers.count)
-            .min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
-            .expect("a section has at least two monomers");
+        let distance = |k: &usize| (strand.lattice.s_nm(monomers.index(*k)) - place.z).abs();
+        let last = monomers.count - 1;
+        // The first monomer that is not below the place, or the one before it.
+        let above = partition_point(last, |k| strand.lattice.s_nm(monomers.index(k)) < place.z);
+        let below = above.saturating_sub(1);
+        // Of two equally near the lower one.
+        let nearest = if distance(&below) <= distance(&above) {
+            below
+        } else {
+            above
+        };
         let (point, frame) = (monomers.point(nearest), monomers.frame(nearest));
         let state = &self.stock.state;
         let arm = strand.place(place) - state.points.position.get(point);
@@ -110,18 +125,40 @@ impl Builder<'_> {
     }
 }
 
-/// Segment of a rod and share of its length at `s_nm` from the rod's start (nm); a node belongs to
-/// the segment before it.
-fn on_segment(layout: &RodLayout, s_nm: f64) -> (usize, f64) {
-    let lengths = layout.segment_lengths();
-    let mut start = 0.0;
-    for (segment, length) in lengths.iter().enumerate() {
-        if s_nm <= start + length + NODE_TOLERANCE_NM || segment + 1 == lengths.len() {
-            return (segment, ((s_nm - start) / length).clamp(0.0, 1.0));
-        }
-        start += length;
+/// Arc lengths of the nodes of those rods that linkers hold on to, found once for each rod.
+#[derive(Default)]
+struct Nodes(HashMap<usize, Vec<f64>>);
+
+impl Nodes {
+    /// Those of the rod of a section (nm from the rod's start).
+    fn of(&mut self, section: usize, layout: &RodLayout) -> &[f64] {
+        self.0
+            .entry(section)
+            .or_insert_with(|| layout.node_positions())
     }
-    unreachable!("a rod has at least one segment")
+}
+
+/// Segment of a rod of these nodes and lengths, and share of its length, at `s_nm` from the rod's
+/// start (nm); a node belongs to the segment before it.
+fn on_segment(nodes: &[f64], lengths: &[f64], s_nm: f64) -> (usize, f64) {
+    let is_past = |end: &f64| end + NODE_TOLERANCE_NM < s_nm;
+    let segment = nodes[1..].partition_point(is_past).min(lengths.len() - 1);
+    let share = (s_nm - nodes[segment]) / lengths[segment];
+    (segment, share.clamp(0.0, 1.0))
+}
+
+/// The first of `0..count` for which `is_before` does not hold, or `count`.
+fn partition_point(count: usize, is_before: impl Fn(usize) -> bool) -> usize {
+    let (mut from, mut to) = (0, count);
+    while from < to {
+        let middle = usize::midpoint(from, to);
+        if is_before(middle) {
+            from = middle + 1;
+        } else {
+            to = middle;
+        }
+    }
+    from
 }
 
 #[cfg(test)]

@@ -1,45 +1,53 @@
-//! How many bodies and bonds all filaments of a scene have: counted before any is allocated.
+//! How much memory all filaments of a scene take: estimated before any of it is allocated.
 
 use super::strand::Strand;
-use crate::scene::{MOST_BODIES, MOST_BONDS, Problem, Scene};
+use crate::memory;
+use crate::scene::{Problem, Scene, Section};
 
-/// Refuses a scene whose sections together have more than memory would hold, each of them alone
-/// being small enough.
+/// Refuses a scene whose sections together take more than memory holds, each of them alone being
+/// small enough; returns the estimate (bytes).
 ///
 /// # Errors
 /// The section with which it becomes too much.
-pub(super) fn check(scene: &Scene, strands: &[Strand<'_>]) -> Result<(), Problem> {
-    let mut totals = [0.0; 2];
+pub(super) fn check(scene: &Scene, strands: &[Strand<'_>]) -> Result<f64, Problem> {
+    let mut bytes = 0.0;
     for (index, strand) in strands.iter().enumerate() {
+        bytes += memory::of_filament(&scene.task);
         for i in 0..strand.filament.sections.len() {
             let named = |problem: Problem| problem.with_filament(&scene.filament_key(index));
-            add(&mut totals, strand, i).map_err(named)?;
+            add(&mut bytes, scene, (strand, i)).map_err(named)?;
         }
     }
-    Ok(())
+    Ok(bytes)
 }
 
-fn add(totals: &mut [f64; 2], strand: &Strand<'_>, i: usize) -> Result<(), Problem> {
-    let counts = match strand.resolved[i].monomers {
+fn add(bytes: &mut f64, scene: &Scene, (strand, i): (&Strand<'_>, usize)) -> Result<(), Problem> {
+    let filament = strand.filament;
+    let (count, what) = match strand.resolved[i].monomers {
         Some((first, last)) => {
-            let monomers = &strand.filament.monomers;
-            let each = monomers.lateral_bonds + monomers.longitudinal_bonds;
+            let monomers = &filament.monomers;
+            let bonds = monomers.lateral_bonds + monomers.longitudinal_bonds;
             let count = (last - first + 1) as f64;
-            [count, count * each as f64]
+            *bytes += memory::of_monomers(count, bonds, &scene.task);
+            (count, "monomers")
         }
-        None => [strand.segments(i)? as f64, 0.0],
+        None => {
+            let count = strand.segments(i)? as f64;
+            *bytes += memory::of_segments(count, &filament.rod, &scene.task);
+            (count, "segments")
+        }
     };
-    let limits = [("bodies", MOST_BODIES), ("bonds", MOST_BONDS)];
-    for ((total, count), (what, most)) in totals.iter_mut().zip(counts).zip(limits) {
-        *total += count;
-        if *total > most {
-            let (_, to_nm) = strand.filament.sections[i].span_nm();
-            return Err(Problem::new(
-                format!("filament.sections[{i}].to_nm"),
-                format!("{to_nm:?}"),
-                format!("{total:.2e} {what} up to this section, at most {most:e} are allowed"),
-            ));
+    let (name, value) = match filament.sections[i] {
+        Section::Rod {
+            segments: Some(written),
+            ..
+        } => ("segments", written.to_string()),
+        Section::Rod { to_nm, .. } | Section::Ellipsoids { to_nm, .. } => {
+            ("to_nm", format!("{to_nm:?}"))
         }
-    }
-    Ok(())
+    };
+    let key = format!("filament.sections[{i}].{name}");
+    memory::check(*bytes, (&key, value), || {
+        format!("with the {count:.2e} {what} of this section the scene needs")
+    })
 }

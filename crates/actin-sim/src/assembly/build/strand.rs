@@ -4,7 +4,7 @@ use super::Stock;
 use crate::assembly::lattice::{Lattice, Resolved, resolve};
 use crate::assembly::{BodyKind, FilamentSpan, FrameInfo, PointInfo, Resolution, SectionSpan};
 use crate::assembly::{law, models};
-use crate::scene::{End, Filament, Hold, MOST_BODIES, Problem, Scene, Section};
+use crate::scene::{End, Filament, Hold, MOST_COUNTED, Problem, Section};
 use actin_cosserat::{CrossSection, RodLayout, StraightRod, Walls};
 use actin_coupling::push_junction_frames;
 use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
@@ -22,10 +22,9 @@ pub(super) enum Body {
 
 /// A filament under construction. Problems name its keys as those of `filament`.
 pub(super) struct Strand<'a> {
-    scene: &'a Scene,
     pub(super) filament: &'a Filament,
-    /// Its index in the scene.
-    pub(super) index: usize,
+    /// What is held at start and end; nothing at a free one.
+    holds: [Option<Hold>; 2],
     /// Index of its first section among those of all filaments.
     pub(super) first_section: usize,
     /// Where arc length begins, and the turn from a filament along lab +z.
@@ -41,20 +40,20 @@ pub(super) struct Strand<'a> {
 }
 
 impl<'a> Strand<'a> {
-    /// Filament `index` of a scene, whose sections stand behind `first_section` others.
+    /// Filament `index` of a scene, with what is held at its ends, whose sections stand behind
+    /// `first_section` others.
     pub(super) fn new(
-        scene: &'a Scene,
         (index, filament): (usize, &'a Filament),
+        holds: [Option<Hold>; 2],
         first_section: usize,
     ) -> Result<Self, Problem> {
         let monomers = &filament.monomers;
         let density = monomers.mass_ag / monomers.rise_nm;
         let area = actin_cosserat::constants::CROSS_SECTION_AREA;
-        let is_held = [End::Start, End::End].map(|end| scene.is_clamped(index, end));
+        let is_held = holds.map(|hold| hold.is_some());
         Ok(Self {
-            scene,
             filament,
-            index,
+            holds,
             first_section,
             placement: Placement {
                 rotation: filament.rotation(),
@@ -93,6 +92,7 @@ impl<'a> Strand<'a> {
             sections: self.first_section..stock.sections.len(),
             points: first.0..stock.points.len(),
             frames: first.1..stock.frames.len(),
+            terms: 0..0,
             origin_nm: self.placement.translation,
             rotation: self.placement.rotation,
         })
@@ -133,7 +133,7 @@ impl<'a> Strand<'a> {
         };
         let frames = monomers.first_frame..monomers.first_frame + count;
         let tips = |end, held: usize, free: [usize; 2]| {
-            if self.scene.is_clamped(self.index, end) {
+            if self.holds[end as usize].is_some() {
                 vec![held]
             } else {
                 free.to_vec()
@@ -152,7 +152,7 @@ impl<'a> Strand<'a> {
         let length = (to_nm - from_nm) / segments as f64;
         let wall = |end| {
             let at_this_end = i == self.filament.end_index(end);
-            at_this_end && self.scene.hold(self.index, end) == Some(Hold::Wall)
+            at_this_end && self.holds[end as usize] == Some(Hold::Wall)
         };
         let rod = StraightRod {
             start: self.axis_at(from_nm),
@@ -177,7 +177,7 @@ impl<'a> Strand<'a> {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "checked to lie between 1 and the most bodies"
+        reason = "checked to lie between 1 and 2^53"
     )]
     pub(super) fn segments(&self, i: usize) -> Result<usize, Problem> {
         let Resolved { from_nm, to_nm, .. } = self.resolved[i];
@@ -191,15 +191,13 @@ impl<'a> Strand<'a> {
             let count = ((to_nm - from_nm) / DEFAULT_SEGMENT_NM).round().max(1.0);
             ("to_nm", format!("{to_nm:?}"), count)
         };
-        if count <= MOST_BODIES {
+        if count <= MOST_COUNTED {
             return Ok(count as usize);
         }
         Err(Problem::new(
             format!("filament.sections[{i}].{key}"),
             value,
-            format!(
-                "{count:.2e} segments are in this section, at most {MOST_BODIES:e} are allowed"
-            ),
+            format!("{count:.2e} segments in this section are more than can be counted"),
         ))
     }
 

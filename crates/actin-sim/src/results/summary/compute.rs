@@ -7,7 +7,7 @@ use super::{
 use crate::results::energies::{Totals, distinct, sum_where};
 use crate::scene;
 use crate::shape::{self, Ribbon};
-use crate::{Assembly, End, Part, Reaction, Record, RunReport, Term};
+use crate::{Assembly, End, Reaction, Record, RunReport};
 use actin_coupling::Linker;
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, State, Vector3};
@@ -65,28 +65,32 @@ impl FilamentSummary {
         for interaction in assembly.system.interactions() {
             interaction.add_loads(&last.state, &mut loads);
         }
+        let here = (last, shape::path_parameter(assembly, last.time_ns));
         let filaments = 0..assembly.filaments.len();
         filaments
-            .map(|filament| Self::new(assembly, filament, last, &loads))
+            .map(|filament| Self::new(assembly, filament, here, &loads))
             .collect()
     }
 
-    fn new(assembly: &Assembly, filament: usize, last: &Record, loads: &Loads) -> Self {
+    /// That of a filament under the loads of the last record, which stands at a `parameter` of the
+    /// path.
+    fn new(
+        assembly: &Assembly,
+        filament: usize,
+        (last, parameter): (&Record, f64),
+        loads: &Loads,
+    ) -> Self {
         let tip = reported_tip(assembly, filament);
         let tip_nm = assembly.tip_of(filament, &last.state, tip);
         let tip_at_rest_nm = assembly.tip_of(filament, &assembly.rest, tip);
-        let sections = &assembly.filaments[filament].sections;
-        let is_part = |term: &Term| match term.part {
-            Part::Section(i) | Part::Junction(i) => sections.contains(&i),
-            Part::Load(_) | Part::Linker(_) => false,
-        };
+        let terms = assembly.filaments[filament].terms.clone();
         Self {
             counts: assembly.counts_of(filament),
             tip_nm: tip_nm.into(),
             tip_displacement_nm: (tip_nm - tip_at_rest_nm).into(),
             end_reactions: EndReactions::new(assembly, filament, &last.state, loads),
-            elastic_pn_nm: sum_where(&assembly.terms, last, is_part),
-            shape: ShapeSummary::new(assembly, filament, last),
+            elastic_pn_nm: last.energies_pn_nm[terms].iter().sum(),
+            shape: ShapeSummary::new(assembly, filament, (&last.state, parameter)),
             seed: assembly.monomers_of(filament).seed,
         }
     }
@@ -147,12 +151,12 @@ impl EndReactions {
 }
 
 impl ShapeSummary {
-    fn new(assembly: &Assembly, filament: usize, record: &Record) -> Self {
-        let ribbon = Ribbon::of(assembly, filament, &record.state);
+    fn new(assembly: &Assembly, filament: usize, (state, parameter): (&State, f64)) -> Self {
+        let ribbon = Ribbon::of(assembly, filament, state);
         Self {
             twist_turns: ribbon.twist(),
-            writhe: ribbon.writhe(),
-            link_turns: shape::link_of(assembly, filament, record.time_ns),
+            writhe: shape::writhe_of(assembly, filament, &ribbon),
+            link_turns: shape::link_at(assembly, filament, parameter),
             largest_distance_nm: ribbon.largest_distance_nm(),
         }
     }

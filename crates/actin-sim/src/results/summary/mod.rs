@@ -174,7 +174,8 @@ pub struct EndReaction {
 pub struct ShapeSummary {
     /// Twist from end to end (turns); over-twist is positive.
     pub twist_turns: f64,
-    /// Writhe of the centre line; none of very many bodies.
+    /// Writhe of the centre line; none of filaments whose points times those of all filaments are more
+    /// than 1e8.
     pub writhe: Option<f64>,
     /// Turn of the end against the start (turns), which is twist plus writhe; none unless both ends
     /// are clamped and parallel.

@@ -29,9 +29,10 @@ pub(super) struct Drawing<'a> {
 impl<'a> Drawing<'a> {
     /// Prepares the pictures of a run.
     pub(super) fn new(assembly: &'a Assembly) -> Self {
-        let section: Vec<_> = (0..assembly.points.len())
-            .map(|i| assembly.sections.iter().position(|s| s.points.contains(&i)))
-            .collect();
+        let mut section = vec![None; assembly.points.len()];
+        for (index, span) in assembly.sections.iter().enumerate() {
+            section[span.points.clone()].fill(Some(index));
+        }
         let frame = (0..assembly.points.len())
             .map(|i| {
                 let own = assembly.points[i].frame;

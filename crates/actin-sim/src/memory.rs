@@ -1,0 +1,184 @@
+//! How much memory a scene takes, estimated from its numbers before any of it is allocated, and how
+//! much the machine has. Nothing but a refusal follows from the latter.
+
+use crate::scene::{ForceLaw, Problem, RodLaw, RodModel, Task};
+use actin_mechanics::State;
+use std::fs;
+use std::sync::OnceLock;
+
+/// Memory that is assumed where the system does not say how much there is (bytes).
+const ASSUMED: f64 = 8e9;
+
+/// What one of a kind takes (bytes) while it moves and while an equilibrium is sought: the most that
+/// a process had beyond an empty one, over the number of its bodies, from `cargo xtask costs`.
+#[derive(Clone, Copy, Debug)]
+struct Each {
+    motion: f64,
+    statics: f64,
+}
+
+/// A filament of its own: its text, its parameters and what it is reported as.
+const FILAMENT: Each = Each {
+    motion: 1.2e4,
+    statics: 1.2e4,
+};
+/// A segment of constant rigidities with its node: state, loads, trial motions; pattern and factor.
+const SEGMENT: Each = Each {
+    motion: 1.5e3,
+    statics: 6.6e3,
+};
+/// The same where a law follows curvature, twist or shear.
+const LAW_SEGMENT: Each = Each {
+    motion: 2.2e3,
+    statics: 1.2e4,
+};
+/// What trial motions of loads without an energy add: all of them are kept.
+const TRIAL_VECTORS: f64 = (6 * 8 * actin_integrate::KRYLOV_VECTORS) as f64;
+/// A monomer without its bonds.
+const MONOMER: Each = Each {
+    motion: 1.8e3,
+    statics: 1.9e4,
+};
+/// A bond: two ends and a rest length, as they are stored.
+const BOND: f64 = 56.0;
+
+impl Each {
+    fn of(self, task: &Task) -> f64 {
+        match task {
+            Task::Dynamics(_) => self.motion,
+            Task::Equilibrium(_) => self.statics,
+        }
+    }
+}
+
+/// Bytes of a filament beside its bodies.
+pub(crate) fn of_filament(task: &Task) -> f64 {
+    FILAMENT.of(task)
+}
+
+/// Bytes of so many segments.
+pub(crate) fn of_segments(count: f64, rod: &RodModel, task: &Task) -> f64 {
+    let each = match rod.law {
+        RodLaw::Constant => SEGMENT,
+        _ => LAW_SEGMENT,
+    };
+    let trials = match (rod.force_law, task) {
+        (ForceLaw::PaperBalance, Task::Dynamics(_)) => TRIAL_VECTORS,
+        _ => 0.0,
+    };
+    count * (each.of(task) + trials)
+}
+
+/// Bytes of so many monomers with so many bonds each.
+pub(crate) fn of_monomers(count: f64, bonds: usize, task: &Task) -> f64 {
+    count * (MONOMER.of(task) + BOND * bonds as f64)
+}
+
+/// Bytes of a recorded state with the energies of so many terms.
+pub(crate) fn of_record(state: &State, terms: usize) -> f64 {
+    // A point has 7 numbers, a frame 12, and energies are kept by term and by part.
+    let numbers = 7 * state.points.len() + 12 * state.frames.len() + state.controls.len();
+    8.0 * (numbers + 2 * terms) as f64
+}
+
+/// Refuses what takes more bytes than the machine has; `what` says what that is, in words that the
+/// estimate follows.
+///
+/// # Errors
+/// More than there is, with the value of `key` to blame.
+pub(crate) fn check(
+    bytes: f64,
+    (key, value): (&str, String),
+    what: impl FnOnce() -> String,
+) -> Result<(), Problem> {
+    let machine = machine();
+    if bytes <= machine.unwrap_or(ASSUMED) {
+        return Ok(());
+    }
+    let there_is = machine.map_or_else(
+        || format!("the {} that are assumed", in_words(ASSUMED)),
+        |bytes| format!("the {} of this machine", in_words(bytes)),
+    );
+    let (what, need) = (what(), in_words(bytes));
+    let rule = format!("{what} about {need} of memory, more than {there_is}");
+    Err(Problem::new(key, value, rule))
+}
+
+/// An amount of memory in words.
+pub(crate) fn in_words(bytes: f64) -> String {
+    match bytes {
+        b if b < 1e9 => format!("{:.0} MB", (b / 1e6).max(1.0)),
+        b if b < 1e10 => format!("{:.1} GB", b / 1e9),
+        b if b < 1e13 => format!("{:.0} GB", b / 1e9),
+        b => format!("{:.1e} GB", b / 1e9),
+    }
+}
+
+/// Memory of the machine, or what a control group leaves of it (bytes); `None` where the system does
+/// not say.
+fn machine() -> Option<f64> {
+    static BYTES: OnceLock<Option<f64>> = OnceLock::new();
+    *BYTES.get_or_init(|| {
+        let total = total(&fs::read_to_string("/proc/meminfo").ok()?)?;
+        let limits = [
+            "/sys/fs/cgroup/memory.max",
+            "/sys/fs/cgroup/memory/memory.limit_in_bytes",
+        ];
+        let limits = limits.into_iter().filter_map(|path| {
+            let text = fs::read_to_string(path).ok()?;
+            text.trim().parse::<f64>().ok()
+        });
+        Some(limits.fold(total, f64::min))
+    })
+}
+
+/// The total of `/proc/meminfo` (bytes).
+fn total(meminfo: &str) -> Option<f64> {
+    let line = meminfo.lines().find_map(|l| l.strip_prefix("MemTotal:"))?;
+    let kibibytes: f64 = line.trim().strip_suffix(" kB")?.parse().ok()?;
+    Some(kibibytes * 1024.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Assembly, Scene};
+
+    #[test]
+    fn the_total_is_read() {
+        let text = "MemTotal:       24623104 kB\nMemFree:        1 kB\n";
+        assert_eq!(total(text), Some(24_623_104.0 * 1024.0));
+        assert_eq!(total("MemFree: 1 kB"), None);
+        assert_eq!(total("MemTotal: 5 pages"), None);
+    }
+
+    #[test]
+    fn amounts_in_words() {
+        let words = [3e5, 145e6, 2.4e9, 24e9, 1.5e15].map(in_words);
+        assert_eq!(words, ["1 MB", "145 MB", "2.4 GB", "24 GB", "1.5e6 GB"]);
+    }
+
+    /// What no machine has is refused with its estimate, what every machine has is not.
+    #[test]
+    fn a_refusal_tells_the_estimate() {
+        let asked = |bytes| check(bytes, ("a.key", "7".into()), || "these need".into());
+        assert!(asked(1e6).is_ok());
+        let message = asked(1.5e20).unwrap_err().to_string();
+        let expected = "a.key = 7: these need about 1.5e11 GB of memory, more than the ";
+        assert!(message.starts_with(expected), "{message}");
+    }
+
+    /// A record is what a state holds: 3 + 3 + 1 numbers of a point, 4 + 3 + 5 of a frame.
+    #[test]
+    fn a_record_is_counted_as_it_is_stored() {
+        let text = "Scene(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)]),
+            task: Dynamics(duration_ns: 1.0),
+        )";
+        let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
+        let state = assembly.system.state();
+        assert_eq!((state.points.len(), state.frames.len()), (7, 6));
+        let expected = 8.0 * f64::from(7 * 7 + 6 * 12 + 2);
+        assert!((of_record(state, 1) - expected).abs() < 1e-9);
+    }
+}
