@@ -11,5 +11,6 @@ mod modes;
 mod order;
 mod paper_balance;
 mod record;
+mod rest;
 mod short_bonds;
 mod thermal;

@@ -19,6 +19,7 @@ mod joined;
 mod linkers;
 mod reciprocity;
 mod ring;
+mod saddles;
 mod second_derivatives;
 mod several;
 mod shape;

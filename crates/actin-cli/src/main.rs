@@ -17,8 +17,9 @@ use std::time::Duration;
 const EXIT_CODES: &str = "Exit codes:
     0  done (or --resume of a run that is)
     2  bad input: scene, arguments, directory or checkpoint; nothing has been computed or written over
-    3  numerical failure: the message names step, time, body and term, or the load that is lost in the
-       forces left over in an equilibrium; what was good is on disk
+    3  numerical failure: the message names step, time, body and term; or the run ended on a saddle, a
+       filament lost twist, or a load is lost in the forces left over in an equilibrium; what was good
+       is on disk
   130  interrupted (SIGINT, SIGTERM): --resume goes on; a second signal ends the program at once";
 
 /// Simulates actin filaments at two resolutions.

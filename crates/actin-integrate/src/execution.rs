@@ -164,7 +164,8 @@ impl<'a, 'o> Execution<'a, 'o> {
 
     /// Shows the state to everyone and says whether the run ends here.
     fn observe(&mut self) -> Option<Reason> {
-        let mut moment = Moment::new(self.step, self.run.time(self.step), self.system);
+        let time = self.run.time(self.step);
+        let mut moment = Moment::new(self.step, time, self.system);
         let mut interrupted = false;
         for observer in self.observers.iter_mut() {
             interrupted |= observer.observe(&mut moment).is_break();
@@ -172,16 +173,29 @@ impl<'a, 'o> Execution<'a, 'o> {
         let at_rest = self
             .run
             .stop
-            .filter(|_| moment.time >= self.run.stop_from)
+            .filter(|_| time >= self.run.stop_from)
             .is_some_and(|rule| rule.is_met(moment.residual(), moment.kinetic_energy()));
+        let goes_on = self.step < self.end() && !interrupted && self.intervene(time, at_rest);
         self.last_good = Mark::new(self.step, self.system, self.watch.largest_kinetic);
-        if at_rest {
+        if at_rest && !goes_on {
             Some(Reason::Converged)
         } else if self.step == self.end() {
             Some(Reason::Completed)
         } else {
             interrupted.then_some(Reason::Interrupted)
         }
+    }
+
+    /// Lets every observer change the state; returns whether one of them wants the run to go on.
+    fn intervene(&mut self, time: f64, at_rest: bool) -> bool {
+        let mut goes_on = false;
+        for observer in self.observers.iter_mut() {
+            goes_on |= observer.intervene(time, at_rest, self.system);
+        }
+        if goes_on {
+            self.mark_sound();
+        }
+        goes_on
     }
 
     /// Lets everyone keep what is needed to go on from here, or leave.

@@ -12,6 +12,7 @@ pub(crate) mod row;
 pub(crate) mod scenes;
 pub(crate) mod sizes;
 pub(crate) mod stability;
+pub(crate) mod straight;
 pub(crate) mod text;
 pub(crate) mod turns;
 pub(crate) mod verdict;
@@ -20,7 +21,7 @@ use row::Row;
 
 /// The whole table, in the order in which it is printed; `long` with the rows that take minutes.
 pub(crate) fn table(long: bool) -> Vec<Row> {
-    let groups: [(&str, &dyn Fn() -> Vec<Row>); 14] = [
+    let groups: [(&str, &dyn Fn() -> Vec<Row>); 16] = [
         ("time steps", &|| stability::rows(&stability::INTEGRATORS)),
         ("energy below the limit", &|| {
             stability::below(&stability::INTEGRATORS)
@@ -31,6 +32,8 @@ pub(crate) fn table(long: bool) -> Vec<Row> {
         ("stiffness contrast", &contrast::rows),
         ("twist", &|| turns::twist(true)),
         ("turns of a segment", &turns::one_segment),
+        ("turns that slip", &turns::slipping),
+        ("straight rods", &straight::rows),
         ("segments", &lengths::segments),
         ("bonds", &lengths::bonds),
         ("forces", &forces::rows),

@@ -8,6 +8,7 @@ mod bonded;
 mod build;
 mod describe;
 mod drive;
+mod imperfection;
 mod lattice;
 mod law;
 mod models;
@@ -61,7 +62,7 @@ pub struct Assembly {
     pub(crate) spans: Vec<Vec<[f64; 2]>>,
     /// What the path of the scene moves.
     pub drive: Drive,
-    /// The state as built, unloaded and at rest.
+    /// The state as built, unloaded and at rest, without imperfections.
     pub rest: State,
 }
 

@@ -131,6 +131,9 @@ pub(super) fn report() -> RunReport {
         time_step_ns: Some(3.5e-3),
         largest_frequency_rad_per_ns: Some(569.25),
         equilibrium: None,
+        at_rest: None,
+        saddles_left: 0,
+        pushes: Vec::new(),
         wall_s: 0.1,
     }
 }

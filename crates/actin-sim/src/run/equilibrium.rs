@@ -1,23 +1,18 @@
 //! Equilibria: Newton from the built state, or along the path of the scene.
 
 use super::keep::{Arrival, Clock, Keeper, Kept, PathStanding, Standing};
+use super::rest::{is_saddle, saddle};
+use super::slip::{LinkWatch, Slip};
+use super::unknowns::newton;
 use super::{Progress, Record, RunError, RunReport, Trajectory};
+use crate::Assembly;
 use crate::scene::{Equilibrium as Settings, Load, Problem};
-use crate::{Assembly, Resolution};
-use actin_coupling::{LinkerEnd, Site};
 use actin_equilibrium::{
-    BodyOrder, Certificate, Companion, Equilibrium, Iteration, Jumps, Layout, Newton,
-    NewtonOptions, Path, PathFailure, PathOptions, PathPoint, Residual, Saddles, Work,
+    Certificate, Companion, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure, PathOptions,
+    PathPoint, Saddles, Work,
 };
-use actin_mechanics::{Coordinates, Loads, State, System, Vector3};
+use actin_mechanics::{Loads, State, System, Vector3};
 use std::ops::ControlFlow;
-
-/// What is added to arc lengths from one filament to the next (nm), more than any rise or segment
-/// reaches beyond an end, so that filaments do not interleave.
-const BETWEEN_FILAMENTS_NM: f64 = 1e3;
-
-/// How many segments or rises a bond or segment reaches at most, with room.
-const REACH: f64 = 3.0;
 
 /// Forces left over that are a larger share of a load hide it.
 const RESOLVED: f64 = 0.01;
@@ -46,6 +41,7 @@ pub(super) fn run(
     keeper: &mut dyn Keeper,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<(Trajectory, RunReport), RunError> {
+    assembly.check_slip()?;
     let clock = Clock::new(kept.as_ref());
     let mut newton = newton(assembly, settings)?;
     let mut state = assembly.system.state().clone();
@@ -66,6 +62,9 @@ pub(super) fn run(
         force_evaluations: work.evaluations,
         time_step_ns: None,
         largest_frequency_rad_per_ns: None,
+        at_rest: None,
+        saddles_left: standing.saddles_left,
+        pushes: Vec::new(),
         equilibrium: report(standing, lowest.flatten(), work),
         wall_s: clock.wall_s(),
     };
@@ -82,6 +81,10 @@ pub(super) fn run(
             trajectory: Box::new(trajectory),
             report: Box::new(report),
         }),
+        Some(Trouble::Saddle(problem)) => Err(RunError::saddle(*problem, trajectory, report)),
+        Some(Trouble::Slipped(place, slip)) => {
+            Err(RunError::slipped((place, *slip), trajectory, report))
+        }
     }
 }
 
@@ -93,6 +96,10 @@ enum Trouble {
     Ended(String, Box<PathFailure>),
     /// A load is lost in what is left over.
     Lost(Box<Problem>),
+    /// The last equilibrium is a saddle.
+    Saddle(Box<Problem>),
+    /// Twist was lost: where, in words, and how much.
+    Slipped(String, Box<Slip>),
 }
 
 /// The first load that is lost in an equilibrium: the forces that are left, be it by rounding of
@@ -127,88 +134,14 @@ fn place(assembly: &Assembly, stages_done: usize) -> String {
     }
 }
 
-/// What may move, filament by filament in the order of arc length, and how far it is to be solved.
-///
-/// Where linkers join sites, unknowns are eliminated in an order that fills less if there is one, and
-/// joined bodies swing about each other as they will.
-pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, Problem> {
-    let refused =
-        |key: &str, error: &dyn std::error::Error| Problem::new(key, "", error.to_string());
-    let layout = Layout::new(assembly.system.state(), Some(&order(assembly)), Vec::new())
-        .map_err(|error| refused("filament", &error))?;
-    let loose = loose_pairs(assembly);
-    let layout = if loose.is_empty() {
-        layout
-    } else {
-        layout.with_least_fill().with_loose(loose)
-    };
-    let options = NewtonOptions {
-        tolerance: Residual {
-            force: settings.force_pn,
-            torque: settings.torque_pn_nm,
-        },
-        iterations: settings.iterations,
-        ..NewtonOptions::default()
-    };
-    Newton::new(layout, options).map_err(|error| refused("task", &error))
-}
-
-/// Bodies that linkers join and nothing else does: those of different filaments, or far apart in one.
-fn loose_pairs(assembly: &Assembly) -> Vec<[Coordinates; 2]> {
-    let joined = assembly
-        .linkers
-        .iter()
-        .filter_map(|linker| match linker.end() {
-            LinkerEnd::Anchor(_) => None,
-            LinkerEnd::Site(other) => Some((bodies_of(linker.site()), bodies_of(other))),
-        });
-    let pairs = joined.flat_map(|(site, other)| {
-        let with_all = |a| other.iter().map(move |&b| [a, b]).collect::<Vec<_>>();
-        site.iter().flat_map(|&a| with_all(a)).collect::<Vec<_>>()
-    });
-    pairs.filter(|&[a, b]| are_apart(assembly, a, b)).collect()
-}
-
-/// The bodies that a site follows.
-fn bodies_of(site: &Site) -> Vec<Coordinates> {
-    let points = site.shares().iter().map(|&(i, _)| Coordinates::Point(i));
-    points.chain([Coordinates::Frame(site.frame())]).collect()
-}
-
-/// Whether no bond or segment couples two bodies.
-fn are_apart(assembly: &Assembly, a: Coordinates, b: Coordinates) -> bool {
-    let place = |body| match body {
-        Coordinates::Point(i) => (assembly.filament_of_point(i), assembly.points[i].s_nm),
-        Coordinates::Frame(i) => (assembly.filament_of_frame(i), assembly.frames[i].s_nm),
-    };
-    let ((f, s_a), (g, s_b)) = (place(a), place(b));
-    let longest = assembly
-        .sections_of(f)
-        .iter()
-        .map(|section| match section.resolution {
-            Resolution::Rod { segment_nm } => segment_nm,
-            Resolution::Ellipsoids { .. } => assembly.monomers_of(f).rise_nm,
-        });
-    // Monomers reach the next but one, bending elements from middle to middle.
-    let reach = REACH * longest.fold(0.0, f64::max);
-    f != g || (s_a - s_b).abs() > reach
-}
-
-/// Each filament's arc lengths behind those of the one before.
-pub(crate) fn order(assembly: &Assembly) -> BodyOrder {
-    let mut order = BodyOrder::default();
-    let mut behind = 0.0;
-    for filament in &assembly.filaments {
-        let points = assembly.points[filament.points.clone()].iter();
-        let frames = assembly.frames[filament.frames.clone()].iter();
-        let first = order.points.len();
-        order.points.extend(points.map(|p| behind + p.s_nm));
-        order.frames.extend(frames.map(|f| behind + f.s_nm));
-        let furthest = order.points[first..].iter().copied().fold(behind, f64::max);
-        // Held monomers of the next stand a rise before its arc length 0.
-        behind = furthest + BETWEEN_FILAMENTS_NM;
+/// What the twist of filaments is compared with: how they begin.
+fn links(assembly: &Assembly) -> LinkWatch {
+    let mut start = assembly.system.state().clone();
+    // Without a path, held ends are where the caller has put them.
+    if !assembly.drive.is_still() {
+        assembly.drive.place(&mut start, 0.0);
     }
-    order
+    LinkWatch::new(assembly, &start)
 }
 
 fn path(settings: &Settings) -> Result<Path, Problem> {
@@ -240,6 +173,8 @@ struct Follower<'a> {
     trajectory: Trajectory,
     /// Where the run could be taken up again.
     standing: PathStanding,
+    links: LinkWatch,
+    slip: Option<Slip>,
     /// Whether the keeper wanted the run to be left.
     is_left: bool,
 }
@@ -262,6 +197,7 @@ impl<'a> Follower<'a> {
             waypoint: None,
             state: assembly.system.state().clone(),
             points: 0,
+            saddles_left: 0,
             last: None,
             work: Work::default(),
         };
@@ -282,6 +218,8 @@ impl<'a> Follower<'a> {
             clock,
             trajectory,
             standing,
+            links: links(assembly),
+            slip: None,
             is_left: false,
         }
     }
@@ -293,22 +231,42 @@ impl<'a> Follower<'a> {
         newton: &mut Newton,
         state: &mut State,
     ) -> Result<Option<Trouble>, Problem> {
-        let trouble = match self.follow(newton, state)? {
+        let ended = self.follow(newton, state)?;
+        if let Some(slip) = self.slip.take() {
+            state.copy_motion_from(&self.standing.state);
+            self.keep();
+            let place = place(self.assembly, self.standing.stage);
+            return Ok(Some(Trouble::Slipped(place, Box::new(slip))));
+        }
+        let trouble = match ended {
             Some(_) if self.is_left => Some(Trouble::Left),
             Some(failure) => {
                 let place = place(self.assembly, self.standing.stage);
                 Some(Trouble::Ended(place, failure))
             }
-            None => {
-                let last = self.trajectory.records.last();
-                let lost = last.and_then(|last| lost_load(self.assembly, last));
-                lost.map(|problem| Trouble::Lost(Box::new(problem)))
-            }
+            None => self.flaw(),
         };
         if trouble.is_some() {
             self.keep();
         }
         Ok(trouble)
+    }
+
+    /// What is wrong with the last equilibrium.
+    fn flaw(&self) -> Option<Trouble> {
+        let last = self.trajectory.records.last();
+        let lost = last.and_then(|last| lost_load(self.assembly, last));
+        let lost = lost.map(|problem| Trouble::Lost(Box::new(problem)));
+        lost.or_else(|| {
+            let certificate = self.standing.last.as_ref()?.certificate?;
+            let attempts = self.settings.leave_saddles;
+            let way = match attempts {
+                0 => "with 0 saddles are kept; with 1 or more they are left along the lowest mode",
+                _ => "more attempts may lead off it",
+            };
+            let problem = || Box::new(saddle(&certificate, attempts, way));
+            is_saddle(&certificate).then(|| Trouble::Saddle(problem()))
+        })
     }
 
     /// Follows all stages that are left, or solves once where there is none. Returns why it ended
@@ -324,8 +282,11 @@ impl<'a> Follower<'a> {
             self.solve(newton, state)
         } else {
             let path = path(self.settings)?;
-            (self.standing.stage..self.assembly.drive.stages())
-                .try_for_each(|stage| self.stage(&path, newton, state, stage))
+            let mut stages = self.standing.stage..self.assembly.drive.stages();
+            stages.try_for_each(|stage| match self.slip {
+                None => self.stage(&path, newton, state, stage),
+                Some(_) => Ok(()),
+            })
         };
         Ok(result.err())
     }
@@ -341,9 +302,10 @@ impl<'a> Follower<'a> {
         let solved = newton.minimize_observed(state, interactions, attempts, &mut |_| self.go_on());
         match solved {
             Ok(equilibrium) => {
-                self.record(0.0, state, &equilibrium);
-                self.standing.state.copy_motion_from(state);
-                self.standing.work = newton.work();
+                if self.record(0.0, state, &equilibrium).is_continue() {
+                    self.standing.state.copy_motion_from(state);
+                    self.standing.work = newton.work();
+                }
                 Ok(())
             }
             Err(failure) => {
@@ -386,11 +348,18 @@ impl<'a> Follower<'a> {
         .map(drop)
     }
 
-    fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) {
+    /// Records an equilibrium; breaks, with nothing recorded, where twist was lost on the way to it.
+    fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) -> ControlFlow<()> {
+        let before = self.trajectory.records.last().map(|record| &record.state);
+        self.slip = self.links.slip(self.assembly, (state, u), before);
+        if self.slip.is_some() {
+            return ControlFlow::Break(());
+        }
         self.trajectory
             .records
             .push(record(&self.assembly.system, u, state));
         self.standing.points += 1;
+        self.standing.saddles_left += equilibrium.saddles_left;
         self.standing.last = Some(Arrival {
             certificate: equilibrium.certificate,
             history: equilibrium
@@ -399,6 +368,7 @@ impl<'a> Follower<'a> {
                 .map(|step| (step.residual.force, step.residual.torque))
                 .collect(),
         });
+        ControlFlow::Continue(())
     }
 
     /// Notes where the path can be taken up again: at `point`, or at the beginning of the next
@@ -433,7 +403,7 @@ impl Companion for Follower<'_> {
         let u = stage as f64 + point.parameter;
         // The start of a later stage is the end of the one before.
         if stage == 0 || point.parameter > 0.0 {
-            self.record(u, point.state, point.equilibrium);
+            self.record(u, point.state, point.equilibrium)?;
         }
         self.note(point);
         let flow = (self.watch)(Progress {

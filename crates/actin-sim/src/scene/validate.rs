@@ -3,7 +3,8 @@
 use super::support::{check_support, check_swings};
 use super::{
     Anchors, Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, Hold, Load, Monomers, Problem,
-    Scene, Section, Setting, Slides, Stage, StopRule, Task, linker, magnitude, thermal,
+    Scene, Section, Setting, Slides, Stage, StopRule, Task, imperfection, linker, magnitude,
+    saddles, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 use actin_mechanics::Vector3;
@@ -31,6 +32,7 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
         let named = |problem: Problem| problem.with_filament(&scene.filament_key(i));
         filament(one).map_err(named)?;
         check_place(one).map_err(named)?;
+        imperfection::check(one).map_err(named)?;
     }
     for (i, clamp) in scene.clamps.iter().enumerate() {
         check_clamp(scene, i, clamp)?;
@@ -49,6 +51,7 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
             check_durations(scene, dynamics.duration_ns)?;
             check_swings(scene)?;
             check_dynamics(dynamics)?;
+            saddles::check(scene, dynamics)?;
             let stop = dynamics.stop.as_ref();
             stop.map_or(Ok(()), |s| check_tolerance(scene, "task.stop", s.force_pn))
         }
@@ -303,7 +306,7 @@ fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Problem> {
 }
 
 /// An equilibrium is a minimum of the energy, which the printed balance does not have.
-fn check_potential(filament: &Filament) -> Result<(), Problem> {
+pub(super) fn check_potential(filament: &Filament) -> Result<(), Problem> {
     let has_rod = filament
         .sections
         .iter()

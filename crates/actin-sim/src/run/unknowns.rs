@@ -1,0 +1,98 @@
+//! What may move in statics, in which order its unknowns stand, and how far it is solved.
+
+use crate::scene::{Equilibrium as Settings, Problem};
+use crate::{Assembly, Resolution};
+use actin_coupling::{LinkerEnd, Site};
+use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions, Residual};
+use actin_mechanics::Coordinates;
+
+/// What is added to arc lengths from one filament to the next (nm), more than any rise or segment
+/// reaches beyond an end, so that filaments do not interleave.
+const BETWEEN_FILAMENTS_NM: f64 = 1e3;
+
+/// How many segments or rises a bond or segment reaches at most, with room.
+const REACH: f64 = 3.0;
+
+/// What may move, filament by filament in the order of arc length, and how far it is to be solved.
+///
+/// Where linkers join sites, unknowns are eliminated in an order that fills less if there is one, and
+/// joined bodies swing about each other as they will.
+pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, Problem> {
+    let refused =
+        |key: &str, error: &dyn std::error::Error| Problem::new(key, "", error.to_string());
+    let layout = Layout::new(&assembly.rest, Some(&order(assembly)), Vec::new())
+        .map_err(|error| refused("filament", &error))?;
+    let loose = loose_pairs(assembly);
+    let layout = if loose.is_empty() {
+        layout
+    } else {
+        layout.with_least_fill().with_loose(loose)
+    };
+    let options = NewtonOptions {
+        tolerance: Residual {
+            force: settings.force_pn,
+            torque: settings.torque_pn_nm,
+        },
+        iterations: settings.iterations,
+        ..NewtonOptions::default()
+    };
+    Newton::new(layout, options).map_err(|error| refused("task", &error))
+}
+
+/// Bodies that linkers join and nothing else does: those of different filaments, or far apart in one.
+fn loose_pairs(assembly: &Assembly) -> Vec<[Coordinates; 2]> {
+    let joined = assembly
+        .linkers
+        .iter()
+        .filter_map(|linker| match linker.end() {
+            LinkerEnd::Anchor(_) => None,
+            LinkerEnd::Site(other) => Some((bodies_of(linker.site()), bodies_of(other))),
+        });
+    let pairs = joined.flat_map(|(site, other)| {
+        let with_all = |a| other.iter().map(move |&b| [a, b]).collect::<Vec<_>>();
+        site.iter().flat_map(|&a| with_all(a)).collect::<Vec<_>>()
+    });
+    pairs.filter(|&[a, b]| are_apart(assembly, a, b)).collect()
+}
+
+/// The bodies that a site follows.
+fn bodies_of(site: &Site) -> Vec<Coordinates> {
+    let points = site.shares().iter().map(|&(i, _)| Coordinates::Point(i));
+    points.chain([Coordinates::Frame(site.frame())]).collect()
+}
+
+/// Whether no bond or segment couples two bodies.
+fn are_apart(assembly: &Assembly, a: Coordinates, b: Coordinates) -> bool {
+    let place = |body| match body {
+        Coordinates::Point(i) => (assembly.filament_of_point(i), assembly.points[i].s_nm),
+        Coordinates::Frame(i) => (assembly.filament_of_frame(i), assembly.frames[i].s_nm),
+    };
+    let ((f, s_a), (g, s_b)) = (place(a), place(b));
+    let longest = assembly
+        .sections_of(f)
+        .iter()
+        .map(|section| match section.resolution {
+            Resolution::Rod { segment_nm } => segment_nm,
+            Resolution::Ellipsoids { .. } => assembly.monomers_of(f).rise_nm,
+        });
+    // Monomers reach the next but one, bending elements from middle to middle.
+    let reach = REACH * longest.fold(0.0, f64::max);
+    f != g || (s_a - s_b).abs() > reach
+}
+
+/// Each filament's arc lengths behind those of the one before.
+pub(crate) fn order(assembly: &Assembly) -> BodyOrder {
+    let mut order = BodyOrder::default();
+    let mut behind = 0.0;
+    for filament in &assembly.filaments {
+        let points = assembly.points[filament.points.clone()].iter();
+        let frames = assembly.frames[filament.frames.clone()].iter();
+        let first = order.points.len();
+        order.points.extend(points.map(|p| behind + p.s_nm));
+        order.frames.extend(frames.map(|f| behind + f.s_nm));
+        let furthest = order.points[first..].iter().copied().fold(behind, f64::max);
+        // Held monomers of the next stand a rise before its arc length 0.
+        behind = furthest + BETWEEN_FILAMENTS_NM;
+    }
+    order
+}
