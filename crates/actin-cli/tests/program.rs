@@ -439,10 +439,12 @@ fn lost_twist_is_a_failure() {
     let output = place.actin(&["run", "scene.ron", "--out", "a"]);
     assert_eq!(code(&output), 3, "{}", stdout(&output));
     let said = stderr(&output);
-    assert!(
-        said.contains("in stage 1 of 1, filament 0 has lost 1 turn(s)"),
-        "{said}"
-    );
+    for part in [
+        "in stage 1 of 1, at path parameter 0.",
+        "filament 0 has lost 1 turn(s)",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
     assert!(said.contains("the joint at s = "), "{said}");
     let shape = &summary(&place)["shape"];
     let number = |key: &str| shape[key].as_f64().unwrap();

@@ -1,9 +1,9 @@
 //! The equilibrium next to a state that is nearly at rest, be it a minimum or a saddle.
 
-use crate::certificate::{Certificate, certify};
+use crate::certificate::Certificate;
 use crate::direction::Solver;
 use crate::evaluation::Evaluation;
-use crate::newton::{NEAR_FLOOR, Newton};
+use crate::newton::{NEAR_FLOOR, Newton, STILL_FALLING};
 use crate::outcome::Trouble;
 use actin_mechanics::{Interaction, State};
 
@@ -48,7 +48,7 @@ impl Newton {
     ///
     /// [`solve`](Newton::solve) goes downhill to a minimum. Plain steps lead to the nearest stationary
     /// point of the energy, be it a minimum or a saddle: the one in which a motion has come to rest.
-    /// A residual within the tolerance of the options needs no step.
+    /// They go on until the residual no longer falls.
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.
@@ -59,9 +59,28 @@ impl Newton {
     ) -> Result<Option<Nearest>, Trouble> {
         Solver::check(interactions)?;
         let start = Evaluation::new(interactions, state);
-        let (mut there, mut here) = (state.clone(), start.clone());
+        let Some(state) = self.reach(state, start.clone(), interactions) else {
+            return Ok(None);
+        };
+        Ok(Some(Nearest {
+            energy_above: start.energy_above(&Evaluation::new(interactions, &state)),
+            certificate: self.certify(&state, interactions)?,
+            state,
+        }))
+    }
+
+    /// The state of least residual to which plain steps lead from `state`, whose evaluation is `here`,
+    /// if its residual is within the tolerance or what rounding leaves.
+    fn reach(
+        &mut self,
+        state: &State,
+        mut here: Evaluation,
+        interactions: &[Box<dyn Interaction>],
+    ) -> Option<State> {
         let tolerance = self.options().tolerance;
         let size = size(state).max(self.options().turn_length);
+        let mut there = state.clone();
+        let mut best: Option<(f64, State)> = None;
         for _ in 0..=STEPS {
             self.solver.work.evaluations += 1;
             if !here.is_finite() {
@@ -71,12 +90,15 @@ impl Newton {
             let (residual, _) = self.solver.residual_and_floor(&there);
             let is_reached =
                 residual.is_within(&tolerance) || self.solver.is_at_floor(&tolerance, NEAR_FLOOR);
-            if is_reached {
-                return Ok(Some(Nearest {
-                    energy_above: start.energy_above(&here),
-                    certificate: certify(&mut self.solver, &there, interactions),
-                    state: there,
-                }));
+            let residual = residual.relative_to(&tolerance);
+            // A residual within the tolerance would still pass for the sign of a neutral mode.
+            let falls = best
+                .as_ref()
+                .is_none_or(|(least, _)| residual < STILL_FALLING * least);
+            match (is_reached, falls) {
+                (true, true) => best = Some((residual, there.clone())),
+                (false, true) if best.is_none() => {}
+                _ => break,
             }
             let step = self.undamped_step();
             let extent = self.layout().step_extent(&step);
@@ -87,7 +109,7 @@ impl Newton {
             self.layout().apply(&mut there, &step, 1.0);
             here.update(interactions, &there);
         }
-        Ok(None)
+        best.map(|(_, state)| state)
     }
 
     /// The step to where the loads of the last assembly vanish, to first order.

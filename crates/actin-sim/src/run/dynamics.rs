@@ -3,7 +3,7 @@
 use super::bound::kinetic_limit;
 use super::keep::{Clock, Keeper, Kept};
 use super::recorder::{Ending, Recorder};
-use super::rest::{RestJudge, is_saddle, saddle};
+use super::rest::{is_saddle, saddle};
 use super::{Progress, RunError, RunReport, Trajectory};
 use crate::Assembly;
 use crate::assembly::Ramp;
@@ -162,11 +162,10 @@ pub(super) fn run(
 ) -> Result<(Trajectory, RunReport), RunError> {
     let (estimate, plan) = prepare(assembly, dynamics)?;
     let clock = Clock::new(kept.as_ref());
-    let judge = RestJudge::new(assembly, dynamics)?;
     // While it moves, the rest of the assembly is looked at.
     let nothing = System::new(State::default(), Vec::new());
     let mut system = std::mem::replace(&mut assembly.system, nothing);
-    let mut recorder = Recorder::new(assembly, dynamics, &system, (keeper, watch), (clock, judge));
+    let mut recorder = Recorder::new(assembly, dynamics, &system, (keeper, watch), clock);
     let outcome = recorder.execute(&plan, &mut system, kept);
     let ending = recorder.end(outcome, &mut system);
     let Recorder {

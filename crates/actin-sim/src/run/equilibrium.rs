@@ -235,7 +235,8 @@ impl<'a> Follower<'a> {
         if let Some(slip) = self.slip.take() {
             state.copy_motion_from(&self.standing.state);
             self.keep();
-            let place = place(self.assembly, self.standing.stage);
+            let stage = place(self.assembly, self.standing.stage);
+            let place = format!("{stage}at path parameter {:.4}, ", slip.time_ns);
             return Ok(Some(Trouble::Slipped(place, Box::new(slip))));
         }
         let trouble = match ended {
@@ -244,12 +245,34 @@ impl<'a> Follower<'a> {
                 let place = place(self.assembly, self.standing.stage);
                 Some(Trouble::Ended(place, failure))
             }
-            None => self.flaw(),
+            None => {
+                self.look_closer(newton, state);
+                self.flaw()
+            }
         };
         if trouble.is_some() {
             self.keep();
         }
         Ok(trouble)
+    }
+
+    /// Certifies the last equilibrium again if it seems to be a saddle, with the residual as small as it
+    /// gets: what the tolerance leaves of it may pass for the sign of a neutral mode.
+    fn look_closer(&mut self, newton: &mut Newton, state: &State) {
+        let certificate = self
+            .standing
+            .last
+            .as_mut()
+            .map(|last| &mut last.certificate);
+        let Some(Some(certificate)) = certificate else {
+            return;
+        };
+        if is_saddle(certificate) {
+            let nearest = newton.nearest(state, self.assembly.system.interactions());
+            if let Ok(Some(nearest)) = nearest {
+                *certificate = nearest.certificate;
+            }
+        }
     }
 
     /// What is wrong with the last equilibrium.

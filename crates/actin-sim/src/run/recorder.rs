@@ -22,7 +22,7 @@ pub(super) struct Recorder<'a> {
     rest_from_ns: f64,
     most_pushes: usize,
     clock: Clock,
-    judge: Option<RestJudge>,
+    judge: Option<RestJudge<'a>>,
     links: LinkWatch,
     slip: Option<Slip>,
     /// Where the run stood at the last record from which it went on.
@@ -55,7 +55,7 @@ impl<'a> Recorder<'a> {
         dynamics: &Dynamics,
         system: &System,
         (keeper, watch): (&'a mut dyn Keeper, Watch<'a>),
-        (clock, judge): (Clock, Option<RestJudge>),
+        clock: Clock,
     ) -> Self {
         Self {
             trajectory: Trajectory::default(),
@@ -65,7 +65,7 @@ impl<'a> Recorder<'a> {
             rest_from_ns: Ramp::of(assembly).map_or(0.0, |ramp| ramp.duration()),
             most_pushes: dynamics.leave_saddles,
             clock,
-            judge,
+            judge: RestJudge::new(assembly, dynamics),
             links: LinkWatch::new(assembly, system.state()),
             slip: None,
             last_good: None,

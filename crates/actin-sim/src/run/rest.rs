@@ -43,23 +43,17 @@ pub struct SaddlePush {
 
 /// Judges whether a motion is at rest.
 #[derive(Debug)]
-pub(super) struct RestJudge {
-    newton: Newton,
-    /// Whether each interaction is a load, whose energy says nothing of strain.
-    is_load: Vec<bool>,
+pub(super) struct RestJudge<'a> {
+    assembly: &'a Assembly,
+    /// Made when it is first needed: most motions still move.
+    newton: Option<Newton>,
 }
 
-impl RestJudge {
+impl<'a> RestJudge<'a> {
     /// A judge of the motions of an assembly; none in a heat bath, where nothing comes to rest.
-    pub(super) fn new(assembly: &Assembly, dynamics: &Dynamics) -> Result<Option<Self>, Problem> {
-        if dynamics.thermal.is_some() {
-            return Ok(None);
-        }
-        let terms = assembly.terms.iter();
-        Ok(Some(Self {
-            newton: newton(assembly, &Equilibrium::default())?,
-            is_load: terms.map(|t| matches!(t.part, Part::Load(_))).collect(),
-        }))
+    pub(super) fn new(assembly: &'a Assembly, dynamics: &Dynamics) -> Option<Self> {
+        let newton = None;
+        (dynamics.thermal.is_none()).then_some(Self { assembly, newton })
     }
 
     /// The equilibrium in which a motion is at rest; None if it still moves or has no potential.
@@ -71,20 +65,30 @@ impl RestJudge {
         system: &System,
         stop_rule_met: bool,
     ) -> Option<Nearest> {
-        let energies = record.energies_pn_nm.iter().zip(&self.is_load);
-        let elastic: f64 = energies
-            .filter(|(_, load)| !**load)
-            .map(|(e, _)| e.abs())
-            .sum();
-        let limit = REST * elastic + LEAST;
+        let limit = REST * self.elastic(record) + LEAST;
         if !stop_rule_met && record.kinetic_pn_nm > limit {
             return None;
         }
-        let nearest = self.newton.nearest(&record.state, system.interactions());
         // Without a potential there is nothing to be found.
+        let newton = self.newton()?;
+        let nearest = newton.nearest(&record.state, system.interactions());
         let nearest = nearest.ok().flatten()?;
         let height = record.kinetic_pn_nm + nearest.energy_above.abs();
         (stop_rule_met || height <= limit).then_some(nearest)
+    }
+
+    /// Energy of all interactions but loads (pN nm).
+    fn elastic(&self, record: &Record) -> f64 {
+        let energies = self.assembly.terms.iter().zip(&record.energies_pn_nm);
+        let elastic = energies.filter(|(term, _)| !matches!(term.part, Part::Load(_)));
+        elastic.map(|(_, energy)| energy.abs()).sum()
+    }
+
+    fn newton(&mut self) -> Option<&mut Newton> {
+        if self.newton.is_none() {
+            self.newton = newton(self.assembly, &Equilibrium::default()).ok();
+        }
+        self.newton.as_mut()
     }
 
     /// Pushes `system`, which is at rest on the saddle `nearest`, along the lowest mode; None, with the
@@ -96,7 +100,9 @@ impl RestJudge {
     ) -> Option<SaddlePush> {
         let mut state = system.state().clone();
         let interactions = system.interactions();
-        let pushed = self.newton.push_off_saddle(&mut state, interactions, &PUSH);
+        let pushed = self
+            .newton()?
+            .push_off_saddle(&mut state, interactions, &PUSH);
         let push = pushed.ok().flatten()?;
         system.state_mut().copy_motion_from(&state);
         Some(SaddlePush {
