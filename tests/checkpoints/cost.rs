@@ -4,7 +4,7 @@
 use crate::common::{build, checkpoints};
 use actin_integrate::{DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Run, advance, stable_step};
 use actin_mechanics::System;
-use actin_sim::{Keeper, RunDirectory, Scene, Standing};
+use actin_sim::{Keeper, MotionStanding, RunDirectory, Scene, Standing};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -97,7 +97,10 @@ impl Observer for First {
     }
 
     fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
-        self.0 = Some(Standing::Motion(Box::new(pause.checkpoint())));
+        self.0 = Some(Standing::Motion(Box::new(MotionStanding {
+            checkpoint: pause.checkpoint(),
+            pushes: Vec::new(),
+        })));
         ControlFlow::Break(())
     }
 }

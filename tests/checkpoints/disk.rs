@@ -29,11 +29,11 @@ fn a_failed_checkpoint_leaves_the_last_one() {
     let mut assembly = build(&scene);
     let mut files = checkpoints(&directory, &mut assembly);
     let kept = files.resume().unwrap();
-    let Standing::Motion(checkpoint) = &kept.standing else {
+    let Standing::Motion(standing) = &kept.standing else {
         panic!("a motion");
     };
-    let mut later = checkpoint.clone();
-    later.here.step += 1;
+    let mut later = standing.clone();
+    later.checkpoint.here.step += 1;
     let later = Standing::Motion(later);
     let obstacle = directory.path().join("checkpoint.bin.part");
     fs::create_dir(&obstacle).unwrap();

@@ -149,3 +149,34 @@ proptest! {
         compare(&choice.statics(), &leave);
     }
 }
+
+/// A straight rod that is pushed off its saddle: the push, how often it was made, and what is left of
+/// the motion survive being left before, at and after it.
+#[test]
+fn a_motion_is_pushed_off_a_saddle_once_however_often_it_is_left() {
+    let text = "Scene(
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 200.0, segments: 10)]),
+        clamps: [Clamp(end: Start), Clamp(end: End)],
+        path: [Stage(set: [Shift(end: End, shift_nm: (0.0, 0.0, -60.0))], duration_ns: 4.0)],
+        task: Dynamics(
+            duration_ns: 40.0, record_every_ns: 1.0, leave_saddles: 2,
+            drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+        ),
+    )";
+    let scene = Scene::from_ron(text).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let directory = RunDirectory::create(folder.path(), false).unwrap();
+    let (_, trajectory, report) = advance(&scene, &directory, false, u64::MAX);
+    let [push] = report.pushes[..] else {
+        panic!("{:?}", report.pushes);
+    };
+    // As many checks as lie before the push, and around it: at least one with each record.
+    let checks = trajectory
+        .records
+        .iter()
+        .filter(|r| r.time_ns <= push.time_ns);
+    let before = checks.count() as u64;
+    compare(&scene, &[before / 2, 1, before]);
+    compare(&scene, &[before, 1, 1]);
+    compare(&scene, &[3 * before, 2, 1]);
+}

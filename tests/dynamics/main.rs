@@ -12,5 +12,6 @@ mod order;
 mod paper_balance;
 mod range;
 mod record;
+mod rest;
 mod short_bonds;
 mod thermal;

@@ -1,13 +1,14 @@
 //! A rod rolled up by turning its end, which moves freely: couples only, so uniform curvature.
 
-use crate::common::{BEND, LENGTH, bisect, second_order_limit, solved};
+use crate::common::{BEND, LENGTH, bisect, build, run, second_order_limit};
 use actin_mechanics::Vector3;
-use actin_sim::{Assembly, End, RunReport};
+use actin_sim::{Assembly, End, RunError, RunReport};
 use std::f64::consts::PI;
 
-/// The rod with its end turned about y by `turn` (deg); `twist` is its twisting rigidity.
+/// The rod with its end turned about y by `turn` (deg), saddle or not; `twist` is its twisting
+/// rigidity.
 fn rolled(segments: usize, twist: f64, turn: f64) -> (Assembly, RunReport) {
-    solved(&format!(
+    let mut assembly = build(&format!(
         "Scene(
             filament: Filament(
                 sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
@@ -19,7 +20,13 @@ fn rolled(segments: usize, twist: f64, turn: f64) -> (Assembly, RunReport) {
             path: [Stage(set: [Turn(end: End, turn_deg: (0.0, {turn:?}, 0.0))])],
             task: Equilibrium(leave_saddles: 0),
         )"
-    ))
+    ));
+    let report = match run(&mut assembly) {
+        Ok((_, report)) => report,
+        Err(RunError::Saddle { report, .. }) => *report,
+        Err(error) => panic!("{error}"),
+    };
+    (assembly, report)
 }
 
 fn end_couple(assembly: &mut Assembly) -> Vector3 {

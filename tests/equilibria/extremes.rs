@@ -222,7 +222,7 @@ const TURNED: [(&str, &str, f64); 6] = [
     ("75 nm of monomers by -720 deg", MONOMERS_75, -720.0),
     ("75 nm of rod by 720 deg", ROD_75, 720.0),
     ("one segment by 170 deg", ONE_SEGMENT, 170.0),
-    ("one segment by 720 deg", ONE_SEGMENT, 720.0),
+    ("one segment by 350 deg", ONE_SEGMENT, 350.0),
     ("two monomers between rods by 360 deg", TWO_MONOMERS, 360.0),
 ];
 

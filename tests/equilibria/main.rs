@@ -20,6 +20,7 @@ mod joined;
 mod linkers;
 mod reciprocity;
 mod ring;
+mod saddles;
 mod second_derivatives;
 mod several;
 mod shape;

@@ -16,7 +16,7 @@ use cases::stability::{INTEGRATORS, MODELS, SHARES, energy_error, free};
 use cases::verdict::Verdict;
 use cases::{
     certificates, compression, contrast, directories, drag, drift, fields, forces, guards, lengths,
-    origin, sizes, stability, turns,
+    origin, sizes, stability, straight, turns,
 };
 
 /// Prints the rows and refuses any that is neither right nor says that it is not.
@@ -113,6 +113,33 @@ fn turns_are_right_up_to_half_a_turn_of_a_joint() {
     for row in &rows {
         let degrees: f64 = row.case.split(' ').next().unwrap().parse().unwrap();
         assert_eq!(is_correct(row), degrees < 180.0, "{row:?}");
+    }
+}
+
+/// Six segments that are turned by less than half a turn each are right; all else is refused or an
+/// error. Twist that slips without a word would be wrong by whole turns.
+#[test]
+fn twist_that_is_lost_is_said() {
+    let rows = turns::slipping();
+    assert_sound(&rows);
+    assert!(is_correct(&rows[0]), "{:?}", rows[0]);
+    assert!(rows[1..3].iter().all(is_refused));
+    let fails =
+        |row: &Row| matches!(&row.outcome, Outcome::Fails(message) if message.contains("lost"));
+    assert!(rows[3..].iter().all(fails), "{rows:?}");
+}
+
+/// Below the critical load a straight rod is right. Beyond, a motion that keeps it straight fails and
+/// names the saddle, and both ways off lead to the buckled state.
+#[test]
+fn straight_rods_buckle_or_are_said_to_be_saddles() {
+    let rows = straight::rows();
+    assert_sound(&rows);
+    for row in &rows {
+        let is_saddle =
+            matches!(&row.outcome, Outcome::Fails(message) if message.contains("saddle"));
+        let stays = row.case.ends_with("as it is") && !row.case.contains("by 0.001 ");
+        assert_eq!((is_saddle, is_correct(row)), (stays, !stays), "{row:?}");
     }
 }
 

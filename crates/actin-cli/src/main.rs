@@ -22,8 +22,9 @@ use std::time::Duration;
 const EXIT_CODES: &str = "Exit codes:
     0  done (or --resume of a run that is)
     2  bad input: scene, arguments, directory or checkpoint; nothing has been computed
-    3  numerical failure: the message names step, time, body and term, or the load that is lost in the
-       forces left over in an equilibrium; what was good is on disk
+    3  numerical failure: the message names step, time, body and term; or the run ended on a saddle, a
+       filament lost twist, a load is lost in the residual forces of an equilibrium, or the result is
+       beyond any use; what was good is on disk
    74  the run has ended, but its results could not be written (disk full, limit on file sizes): the
        message says whether a checkpoint holds them, from which --resume writes them
   130  interrupted (SIGINT, SIGTERM, SIGHUP): --resume goes on; a second SIGINT or SIGTERM ends the

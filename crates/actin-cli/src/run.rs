@@ -228,40 +228,24 @@ fn left(
 
 /// Keeps what a broken run has recorded, and says why it broke.
 fn broken(opened: &Opened, directory: &RunDirectory, error: RunError) -> Failure {
-    let (why, kept, trajectory, report) = match error {
-        RunError::Refused(problem) => return opened.refuse(&problem),
-        RunError::Ended {
-            place,
-            failure,
-            trajectory,
-            report,
-        } => (format!("{place}{failure}"), GOOD, trajectory, report),
-        RunError::Lost {
-            problem,
-            trajectory,
-            report,
-        } => {
-            let kept = "the equilibria in which it is lost are";
-            (opened.locate(&problem), kept, trajectory, report)
-        }
-        RunError::BeyondUse {
-            worst,
-            trajectory,
-            report,
-        } => {
+    let (why, kept) = match &error {
+        RunError::Refused(problem) => return opened.refuse(problem),
+        RunError::Lost { problem, .. } => (
+            opened.locate(problem),
+            "the equilibria in which it is lost are",
+        ),
+        RunError::BeyondUse { worst, .. } => {
             let worst: Vec<_> = worst.iter().map(ToString::to_string).collect();
             let why = format!("the result is beyond any use: {}", worst.join("; "));
-            (why, "all of it is", trajectory, report)
+            (why, "all of it is")
         }
-        RunError::Failed {
-            failure,
-            body,
-            trajectory,
-            report,
-        } => {
-            let why = format!("{failure}; {} is {body}", failure.body);
-            (why, GOOD, trajectory, report)
+        RunError::Saddle { problem, .. } => (opened.locate(problem), "all results are"),
+        RunError::Ended { .. } | RunError::Slipped { .. } | RunError::Failed { .. } => {
+            (error.to_string(), GOOD)
         }
+    };
+    let Some((trajectory, report)) = error.into_results() else {
+        return Failure::Numerical(why);
     };
     if trajectory.records.is_empty() {
         return Failure::Numerical(why);
@@ -277,15 +261,14 @@ const GOOD: &str = "everything up to the last good state is";
 
 fn print(summary: &Summary, out: &Path) {
     let work = &summary.work;
-    match &summary.stability {
-        Some(stability) => println!(
-            "equilibrium after {} Newton iterations and {} evaluations of the loads, {:.3} s: {}",
-            work.newton_iterations,
-            work.force_evaluations,
-            summary.wall_s,
-            stability_in_words(stability)
+    let stability = summary.stability.as_ref().map(stability_in_words);
+    match (&stability, summary.time_step_ns) {
+        (Some(stability), None) => println!(
+            "equilibrium after {} Newton iterations and {} evaluations of the loads, {:.3} s: \
+             {stability}",
+            work.newton_iterations, work.force_evaluations, summary.wall_s
         ),
-        None => println!(
+        _ => println!(
             "{} after {:.1} ns: {} steps, {} force evaluations, {:.1} s",
             in_words(summary.status),
             summary.time_ns,
@@ -310,7 +293,27 @@ fn print(summary: &Summary, out: &Path) {
     for note in &summary.notes {
         println!("note: {note}");
     }
-    println!("written to {}", out.display());
+    print_pushes(summary);
+    let ending = match (&stability, summary.time_step_ns) {
+        (Some(stability), None) => format!("{stability}; "),
+        (Some(stability), Some(_)) => format!("at rest, {stability}; "),
+        (None, _) => String::new(),
+    };
+    println!("{ending}written to {}", out.display());
+}
+
+fn print_pushes(summary: &Summary) {
+    for push in &summary.pushes {
+        println!(
+            "pushed off a saddle of {:.3} pN nm with {} negative eigenvalue(s) at {:.2} ns, by {:.1e} nm \
+             and {:.1e} rad at most",
+            push.energy_pn_nm,
+            push.negative_eigenvalues,
+            push.time_ns,
+            push.displacement_nm,
+            push.turn_rad
+        );
+    }
 }
 
 fn print_tips(summary: &Summary) {

@@ -30,9 +30,9 @@ use std::ops::ControlFlow;
 /// The residual counts as being at its floor below this multiple of the estimate.
 const AT_FLOOR: f64 = 8.0;
 /// Where no step helps any more, the same with more room, since the estimate is rough.
-const NEAR_FLOOR: f64 = 100.0;
+pub(crate) const NEAR_FLOOR: f64 = 100.0;
 /// A residual that falls less than by this factor in a step does not fall any more.
-const STILL_FALLING: f64 = 0.5;
+pub(crate) const STILL_FALLING: f64 = 0.5;
 
 /// A solver for equilibria of one model: layout, options, and the memory of earlier solves.
 ///

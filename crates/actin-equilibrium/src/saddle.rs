@@ -14,6 +14,15 @@ const FIRST: f64 = 1e-3;
 /// Largest extent (rad, or nm per turn length) to which the displacement is doubled.
 const LAST: f64 = 0.2;
 
+/// A push off a saddle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Push {
+    /// The mode along which it went.
+    pub mode: Mode,
+    /// How far bodies were moved and turned at most; strains are not looked at.
+    pub extent: Extent,
+}
+
 impl Newton {
     /// The lowest eigenvalue of the stiffness at `state` and its shape; `None` if nothing moves.
     ///
@@ -43,30 +52,16 @@ impl Newton {
         state: &mut State,
         interactions: &[Box<dyn Interaction>],
     ) -> Result<Option<Mode>, Trouble> {
-        let mode = self.lowest_mode(state, interactions)?;
-        let Some(mode) = mode.filter(|mode| mode.eigenvalue < -mode.error) else {
+        let Some(mode) = self.unstable_mode(state, interactions)? else {
             return Ok(None);
         };
         let extent = self.layout().step_extent(&mode.shape);
         let unit = 1.0 / largest(&extent, self.options().turn_length);
-        let start = Evaluation::new(interactions, state);
-        let mut there = start.clone();
-        let mut energy_at = |solver: &mut Self, amplitude: f64| {
-            let mut moved = state.clone();
-            solver.layout().apply(&mut moved, &mode.shape, amplitude);
-            there.update(interactions, &moved);
-            solver.solver.work.evaluations += 1;
-            (there.energy_above(&start), moved)
-        };
-        let (plus, minus) = (
-            energy_at(self, FIRST * unit),
-            energy_at(self, -FIRST * unit),
-        );
-        let side = if plus.0 <= minus.0 { unit } else { -unit };
-        let (mut best, mut moved) = if plus.0 <= minus.0 { plus } else { minus };
+        let ridge = Ridge::new(state, interactions, &mode);
+        let (side, (mut best, mut moved)) = ridge.lower_side(self, FIRST * unit);
         let mut amplitude = 2.0 * FIRST;
         while amplitude <= LAST {
-            let (energy, further) = energy_at(self, amplitude * side);
+            let (energy, further) = ridge.at(self, amplitude * unit * side);
             if energy.is_nan() || energy >= best {
                 break;
             }
@@ -75,6 +70,43 @@ impl Newton {
         }
         *state = moved;
         Ok(Some(mode))
+    }
+
+    /// Moves `state` off a saddle by a small amount: along the lowest mode to the side where the
+    /// energy is lower, until a body has moved or turned by as much as `largest` says. Velocities
+    /// stay as they are.
+    ///
+    /// Returns what was done, or `None`, with `state` as it was, if the lowest eigenvalue is not
+    /// negative beyond its error. The side is chosen as by [`leave_saddle`](Newton::leave_saddle).
+    ///
+    /// # Errors
+    /// If an interaction has no potential or no second derivatives.
+    pub fn push_off_saddle(
+        &mut self,
+        state: &mut State,
+        interactions: &[Box<dyn Interaction>],
+        largest: &Extent,
+    ) -> Result<Option<Push>, Trouble> {
+        let Some(mode) = self.unstable_mode(state, interactions)? else {
+            return Ok(None);
+        };
+        let extent = self.layout().step_extent(&mode.shape);
+        let amplitude =
+            (largest.displacement / extent.displacement).min(largest.rotation / extent.rotation);
+        let (_, (_, moved)) = Ridge::new(state, interactions, &mode).lower_side(self, amplitude);
+        *state = moved;
+        let extent = extent.scaled(amplitude);
+        Ok(Some(Push { mode, extent }))
+    }
+
+    /// The lowest mode, if its eigenvalue is negative beyond its error.
+    fn unstable_mode(
+        &mut self,
+        state: &State,
+        interactions: &[Box<dyn Interaction>],
+    ) -> Result<Option<Mode>, Trouble> {
+        let mode = self.lowest_mode(state, interactions)?;
+        Ok(mode.filter(|mode| mode.eigenvalue < -mode.error))
     }
 
     /// Moves `state` to a minimum: solves, and leaves saddles up to `attempts` times.
@@ -125,6 +157,47 @@ impl Newton {
         }
         equilibrium.work = self.work().since(&before);
         Ok(equilibrium)
+    }
+}
+
+/// A saddle, or a state next to one, and the direction in which the energy falls on both sides.
+struct Ridge<'a> {
+    state: &'a State,
+    interactions: &'a [Box<dyn Interaction>],
+    mode: &'a Mode,
+    energies: Evaluation,
+}
+
+impl<'a> Ridge<'a> {
+    fn new(state: &'a State, interactions: &'a [Box<dyn Interaction>], mode: &'a Mode) -> Self {
+        Self {
+            state,
+            interactions,
+            mode,
+            energies: Evaluation::new(interactions, state),
+        }
+    }
+
+    /// Energy above the saddle (pN nm) at `amplitude` times the mode, and the state there.
+    fn at(&self, newton: &mut Newton, amplitude: f64) -> (f64, State) {
+        let mut moved = self.state.clone();
+        newton
+            .layout()
+            .apply(&mut moved, &self.mode.shape, amplitude);
+        let there = Evaluation::new(self.interactions, &moved);
+        newton.solver.work.evaluations += 1;
+        (there.energy_above(&self.energies), moved)
+    }
+
+    /// The side (1 or -1) where the energy is lower, with what is `amplitude` away on it; 1 if both
+    /// are alike.
+    fn lower_side(&self, newton: &mut Newton, amplitude: f64) -> (f64, (f64, State)) {
+        let (plus, minus) = (self.at(newton, amplitude), self.at(newton, -amplitude));
+        if plus.0 <= minus.0 {
+            (1.0, plus)
+        } else {
+            (-1.0, minus)
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 mod common;
 
-use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability};
+use actin_equilibrium::{Extent, Layout, Newton, NewtonOptions, Stability};
 use actin_mechanics::testing::{Noise, perturb};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, State, Vector3};
 use common::{ACTIN, Rod, Springs, point};
@@ -154,4 +154,92 @@ fn rigid_motions_are_neutral() {
     let equilibrium = newton.solve(&mut state, &terms).unwrap();
     let stability = equilibrium.certificate.unwrap().stability();
     assert_eq!(stability, Stability::Neutral { modes: 6 });
+}
+
+/// The free bodies of a column moved at random by up to 1e-3 nm and 1e-4 rad per axis.
+fn disturbed(straight: &State) -> State {
+    let mut state = straight.clone();
+    perturb(&mut state, &mut Noise::new(4), 1e-3, 1e-4);
+    state
+        .points
+        .position
+        .set(0, straight.points.position.get(0));
+    let wall = straight.frames.orientation.get(0);
+    state.frames.orientation.set(0, wall);
+    state
+}
+
+/// From next to the straight column plain steps lead back to it, a minimum below the Euler load and a
+/// saddle above; downhill steps leave the saddle.
+#[test]
+fn the_nearest_equilibrium_may_be_a_saddle() {
+    for (force, negative) in [(2.0, 0), (8.0, 2)] {
+        let (straight, terms) = compressed(force);
+        let mut newton = COLUMN.newton(&straight);
+        let near = disturbed(&straight);
+        let nearest = newton.nearest(&near, &terms).unwrap().unwrap();
+        let tip = COLUMN.tip(&nearest.state);
+        assert!(tip.x.abs() + tip.y.abs() < 1e-6, "{tip}");
+        assert_eq!(nearest.certificate.negative, negative, "{force} pN");
+        let energy = |state: &State| terms.iter().map(|term| term.energy(state)).sum::<f64>();
+        let above = energy(&near) - energy(&nearest.state);
+        // Sums of energies of some 100 pN nm.
+        assert!((nearest.energy_above - above).abs() < 1e-11, "{above}");
+        let residual = newton.residual(&nearest.state, &terms);
+        assert!(residual.force < 1e-7 && residual.torque < 1e-7);
+    }
+    let (mut state, terms) = compressed(8.0);
+    let mut newton = COLUMN.newton(&state);
+    state = disturbed(&state);
+    let equilibrium = newton.solve(&mut state, &terms).unwrap();
+    assert!(!equilibrium.is_saddle(), "{:?}", COLUMN.tip(&state));
+}
+
+/// Two free points on a spring under a force have no equilibrium, and none is found.
+#[test]
+fn what_drifts_has_no_equilibrium_near_by() {
+    let mut state = State::default();
+    point(&mut state, Vector3::zeros());
+    point(&mut state, Vector3::x() * 3.0);
+    state.controls.push(1.0);
+    let load = PointLoad::new(&state, vec![(1, 1.0)], Vector3::x() * 0.5, 0);
+    let terms: Terms = vec![Box::new(Springs(vec![(1, 0, 10.0, 3.0)])), Box::new(load)];
+    let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
+    assert_eq!(newton.nearest(&state, &terms).unwrap(), None);
+}
+
+/// A push moves a body by as much as it may or turns one by as much, and no further, to a lower energy.
+/// Motion stays, and a minimum is not pushed.
+#[test]
+fn a_push_is_as_small_as_it_was_asked_for() {
+    let (mut state, terms) = compressed(8.0);
+    let mut newton = COLUMN.newton(&state);
+    newton.solve(&mut state, &terms).unwrap();
+    let energy = |state: &State| terms.iter().map(|term| term.energy(state)).sum::<f64>();
+    for (displacement, rotation) in [(0.01, 1.0), (10.0, 1e-4)] {
+        let largest = Extent {
+            displacement,
+            rotation,
+            strain: 0.0,
+        };
+        let mut pushed = state.clone();
+        let velocity = Vector3::new(1.0, 2.0, 3.0);
+        pushed.points.velocity.set(5, velocity);
+        let push = newton.push_off_saddle(&mut pushed, &terms, &largest);
+        let push = push.unwrap().unwrap();
+        let reached =
+            (push.extent.displacement / displacement).max(push.extent.rotation / rotation);
+        assert!((reached - 1.0).abs() < 1e-12, "{reached}");
+        let moved =
+            |i: usize| (pushed.points.position.get(i) - state.points.position.get(i)).norm();
+        let largest_moved = (0..17).map(moved).fold(0.0, f64::max);
+        assert!((largest_moved / push.extent.displacement - 1.0).abs() < 1e-9);
+        assert!(energy(&pushed) < energy(&state));
+        assert_eq!(pushed.points.velocity.get(5), velocity);
+    }
+    let (mut state, terms) = compressed(1.0);
+    newton.solve(&mut state, &terms).unwrap();
+    let before = state.clone();
+    let none = newton.push_off_saddle(&mut state, &terms, &Extent::default());
+    assert_eq!((none.unwrap(), state), (None, before));
 }

@@ -89,7 +89,12 @@ impl<'a, 'o> Execution<'a, 'o> {
         // The start of a continuation has not been shown, and no stop rule has seen it.
         let is_observed = self.step == self.last_good.step
             && (self.step > self.run.first_step || self.run.first_step == 0);
-        let ended = if is_observed && self.is_at_rest() {
+        // An observer that wanted to go on from here says so again.
+        let time = self.run.time(self.step);
+        let ends_at_rest = is_observed
+            && self.is_at_rest()
+            && (self.step >= self.end() || !self.intervene(time, true));
+        let ended = if ends_at_rest {
             Some(Reason::Converged)
         } else {
             (self.step >= self.end()).then_some(Reason::Completed)
@@ -176,14 +181,16 @@ impl<'a, 'o> Execution<'a, 'o> {
 
     /// Shows the state to everyone and says whether the run ends here.
     fn observe(&mut self) -> Option<Reason> {
-        let mut moment = Moment::new(self.step, self.run.time(self.step), self.system);
+        let time = self.run.time(self.step);
+        let mut moment = Moment::new(self.step, time, self.system);
         let mut interrupted = false;
         for observer in self.observers.iter_mut() {
             interrupted |= observer.observe(&mut moment).is_break();
         }
         let at_rest = self.is_at_rest();
+        let goes_on = self.step < self.end() && !interrupted && self.intervene(time, at_rest);
         self.last_good = Mark::new(self.step, self.system, self.watch.largest_kinetic);
-        if at_rest {
+        if at_rest && !goes_on {
             Some(Reason::Converged)
         } else if self.step == self.end() {
             Some(Reason::Completed)
@@ -199,6 +206,18 @@ impl<'a, 'o> Execution<'a, 'o> {
             .stop
             .filter(|_| moment.time >= self.run.stop_from)
             .is_some_and(|rule| rule.is_met(moment.residual(), moment.kinetic_energy()))
+    }
+
+    /// Lets every observer change the state; returns whether one of them wants the run to go on.
+    fn intervene(&mut self, time: f64, at_rest: bool) -> bool {
+        let mut goes_on = false;
+        for observer in self.observers.iter_mut() {
+            goes_on |= observer.intervene(time, at_rest, self.system);
+        }
+        if goes_on {
+            self.mark_sound();
+        }
+        goes_on
     }
 
     /// Lets everyone keep what is needed to go on from here, or leave.

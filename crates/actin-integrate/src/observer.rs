@@ -61,6 +61,14 @@ pub trait Observer {
     /// Looks at a moment; [`ControlFlow::Break`] ends the run there.
     fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()>;
 
+    /// May change the state after an observation, the last one excepted: push it off a saddle, for
+    /// instance. `at_rest` says whether the stop rule is met. Returns whether the run goes on even so.
+    ///
+    /// A change is part of what a checkpoint keeps.
+    fn intervene(&mut self, _time: f64, _at_rest: bool, _system: &mut System) -> bool {
+        false
+    }
+
     /// Is there at every check of the state, after the observation if there is one at that step:
     /// the places at which a run can be left and taken up again. [`ControlFlow::Break`] ends the
     /// run there.

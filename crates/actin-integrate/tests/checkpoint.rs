@@ -43,7 +43,8 @@ fn build(kind: usize) -> System {
     system
 }
 
-/// Notes what it sees, and leaves at the `leave`-th pause.
+/// Notes what it sees, leaves at the `leave`-th pause, and changes the state after every fifth
+/// observation if it `nudges`.
 #[derive(Default)]
 struct Witness {
     seen: Vec<(u64, f64, f64, f64)>,
@@ -52,6 +53,7 @@ struct Witness {
     kept: Option<Checkpoint>,
     /// Where the run has ended.
     ended: Option<Checkpoint>,
+    nudges: bool,
 }
 
 impl Observer for Witness {
@@ -61,6 +63,15 @@ impl Observer for Witness {
         let energy = moment.potential_energy() + moment.kinetic_energy();
         self.seen.push((moment.step, moment.time, energy, force));
         ControlFlow::Continue(())
+    }
+
+    fn intervene(&mut self, _: f64, _: bool, system: &mut System) -> bool {
+        let is_due = self.nudges && self.seen.len() % 5 == 2;
+        if is_due {
+            let position = &mut system.state_mut().points.position;
+            position.add(1, Vector3::new(0.01, 0.02, 0.0));
+        }
+        is_due
     }
 
     fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
@@ -121,15 +132,16 @@ proptest! {
         drag in prop_oneof![Just(0.0), 0.01..1.0],
         noise in proptest::option::of(any::<u64>()),
         stops: bool,
+        nudges: bool,
         leave in proptest::collection::vec(1_usize..40, 1..4),
     ) {
         let run = plan((scheme, steps, every), drag, noise, stops);
         let mut whole = build(kind);
-        let mut one = Witness::default();
+        let mut one = Witness { nudges, ..Witness::default() };
         let expected = execute(&run, &mut whole, &mut one);
 
         let mut system = build(kind);
-        let mut witness = Witness { leave: Some(leave[0]), ..Witness::default() };
+        let mut witness = Witness { leave: Some(leave[0]), nudges, ..Witness::default() };
         let mut outcome = execute(&run, &mut system, &mut witness);
         for next in leave.iter().skip(1).map(Some).chain([None]) {
             let Some(checkpoint) = witness.kept.take() else { break };

@@ -353,3 +353,61 @@ fn a_load_on_a_resting_state_is_no_explosion() {
     }
     assert!(distance(system.state(), stretched_chain().state()) < 1e-13);
 }
+
+/// Moves a point whenever the system has come to rest, up to twice.
+#[derive(Default)]
+struct Restless {
+    moved: Vec<f64>,
+    asked_at_end: bool,
+}
+
+impl Observer for Restless {
+    fn observe(&mut self, _: &mut Moment<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn intervene(&mut self, time: f64, at_rest: bool, system: &mut System) -> bool {
+        self.asked_at_end |= time >= 400.0;
+        let moves = at_rest && self.moved.len() < 2;
+        if moves {
+            self.moved.push(time);
+            system
+                .state_mut()
+                .points
+                .position
+                .add(4, Vector3::y() * 0.3);
+        }
+        moves
+    }
+}
+
+/// A run that is changed at rest goes on until it is at rest and left alone; nobody is asked once its
+/// time is up.
+#[test]
+fn a_run_goes_on_after_an_intervention() {
+    let rule = StopRule::new(1e-6, 1e-6, 1e-10).unwrap();
+    let run = |steps| {
+        Run::new(&POSITION_VERLET, 0.4, steps)
+            .unwrap()
+            .with_drag(Drag::new(0.7, 0.7).unwrap())
+            .with_stop_rule(rule)
+            .observing_every(10)
+            .unwrap()
+    };
+    let mut observer = Restless::default();
+    let outcome = run(100_000)
+        .execute(&mut stretched_chain(), &mut [&mut observer])
+        .unwrap();
+    assert_eq!(outcome.reason, Reason::Converged);
+    let [first, second] = observer.moved[..] else {
+        panic!("{:?}", observer.moved);
+    };
+    assert!(first < second && second < outcome.time);
+    // It comes to rest only after the second.
+    assert!(rule.is_met(outcome.residual, outcome.kinetic));
+    let mut observer = Restless::default();
+    run(1000)
+        .execute(&mut stretched_chain(), &mut [&mut observer])
+        .unwrap();
+    assert!(!observer.asked_at_end);
+}

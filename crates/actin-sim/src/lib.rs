@@ -36,13 +36,15 @@ pub use results::{
     RunLock, RunStatus, StabilitySummary, Summary, ThermalSummary,
 };
 pub use run::{
-    Arrival, EquilibriumReport, Estimate, Keeper, Kept, PathStanding, Progress, Record, RunError,
-    RunReport, Standing, Trajectory, Unkept, estimate, run, run_estimated, run_kept,
+    Arrival, EquilibriumReport, Estimate, Keeper, Kept, MotionStanding, PathStanding, Progress,
+    Record, RunError, RunReport, SaddlePush, Slip, Standing, Trajectory, Unkept, estimate, run,
+    run_estimated, run_kept,
 };
 pub use scene::fitted::laws as fitted_laws;
 pub use scene::{
     Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, Drag, Dynamics, End, Equilibrium, Filament,
-    ForceLaw, Hold, Integrator, JunctionModel, JunctionWeight, Linker, LinkerSite, Load, Material,
-    Monomers, Problem, RodLaw, RodLaws, RodModel, Scene, SceneError, Section, Setting, ShearLaw,
-    Slides, Stage, StopRule, StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
+    ForceLaw, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Linker, LinkerSite,
+    Load, Material, Monomers, Problem, RodLaw, RodLaws, RodModel, Scene, SceneError, Section,
+    Setting, ShearLaw, Slides, Stage, StopRule, StretchLaw, Task, Thermal, TwistLaw, TwistRise,
+    TwistStretchLaw,
 };

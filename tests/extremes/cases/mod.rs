@@ -15,6 +15,7 @@ pub(crate) mod row;
 pub(crate) mod scenes;
 pub(crate) mod sizes;
 pub(crate) mod stability;
+pub(crate) mod straight;
 pub(crate) mod text;
 pub(crate) mod turns;
 pub(crate) mod verdict;
@@ -23,7 +24,7 @@ use row::Row;
 
 /// The whole table, in the order in which it is printed; `long` with the rows that take minutes.
 pub(crate) fn table(long: bool) -> Vec<Row> {
-    let groups: [(&str, &dyn Fn() -> Vec<Row>); 15] = [
+    let groups: [(&str, &dyn Fn() -> Vec<Row>); 19] = [
         ("time steps", &|| stability::rows(&stability::INTEGRATORS)),
         ("energy below the limit", &|| {
             stability::below(&stability::INTEGRATORS)
@@ -34,6 +35,8 @@ pub(crate) fn table(long: bool) -> Vec<Row> {
         ("stiffness contrast", &contrast::rows),
         ("twist", &|| turns::twist(true)),
         ("turns of a segment", &turns::one_segment),
+        ("turns that slip", &turns::slipping),
+        ("straight rods", &straight::rows),
         ("segments", &lengths::segments),
         ("bonds", &lengths::bonds),
         ("forces", &forces::rows),

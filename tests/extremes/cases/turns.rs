@@ -2,6 +2,8 @@
 
 use super::row::{Outcome, Row};
 use super::scenes::{Parts, Ran, either};
+use actin_sim::Setting;
+use actin_sim::shape::Ribbon;
 
 const ROD: &str = "Rod(from_nm: 0.0, to_nm: 75.0)";
 const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 75.0)";
@@ -51,6 +53,76 @@ pub(crate) fn one_segment() -> Vec<Row> {
         rows.push(Row::new("turn", case("driven in time"), dynamics));
     }
     rows
+}
+
+/// Filaments that a turn twists beyond what their joints can follow: refused, or an error as soon as
+/// twist is lost. None may end with twist and writhe that miss the turn of its ends.
+pub(crate) fn slipping() -> Vec<Row> {
+    let six = "Rod(from_nm: 0.0, to_nm: 75.0, segments: 6)";
+    let mixed = "Rod(from_nm: 0.0, to_nm: 40.0, segments: 4), \
+                 Ellipsoids(from_nm: 40.0, to_nm: 60.0)";
+    let jumps = "Equilibrium(accept_jumps: true)";
+    let damped = "Dynamics(duration_ns: 5.0, integrator: PositionVerlet,
+        drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0))";
+    let cases = [
+        ("six segments of rod", six, 1070.0, jumps, ""),
+        ("six segments of rod", six, 5000.0, jumps, ""),
+        (
+            "six segments of rod",
+            six,
+            5000.0,
+            damped,
+            "duration_ns: 4.0",
+        ),
+        (
+            "six segments of rod, within 0.02 ns",
+            six,
+            900.0,
+            damped,
+            "duration_ns: 0.02",
+        ),
+        ("rod and monomers", mixed, 1500.0, jumps, ""),
+        (
+            "rod and monomers",
+            mixed,
+            1500.0,
+            damped,
+            "duration_ns: 4.0",
+        ),
+        (
+            "monomers",
+            "Ellipsoids(from_nm: 0.0, to_nm: 30.0)",
+            1500.0,
+            jumps,
+            "",
+        ),
+    ];
+    cases
+        .map(|(model, sections, degrees, task, duration)| {
+            let how = if duration.is_empty() {
+                "statics, across jumps"
+            } else {
+                "driven in time"
+            };
+            let case = format!("{model}, turned by {degrees} deg, {how}");
+            let outcome = either(linked(&turned(sections, degrees, task, duration)));
+            Row::new("turn", case, outcome)
+        })
+        .to_vec()
+}
+
+/// Twist plus writhe is the turn of the ends.
+fn linked(parts: &Parts) -> Result<Outcome, Outcome> {
+    let ran = parts.run()?;
+    let ribbon = Ribbon::new(&ran.assembly, ran.assembly.system.state());
+    let link = ran.assembly.scene.path.iter().flat_map(|stage| &stage.set);
+    let turns = link.map(|setting| match setting {
+        Setting::Turn { turn_deg, .. } => turn_deg[2] / 360.0,
+        _ => 0.0,
+    });
+    let sum = ribbon.twist() + ribbon.writhe().unwrap_or(f64::NAN);
+    let error = (sum - turns.sum::<f64>()).abs();
+    Ok(Outcome::correct("twist and writhe (turns)", error, 1e-9))
 }
 
 /// Twist is uniform, its couple `B3` times that.

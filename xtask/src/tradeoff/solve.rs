@@ -163,6 +163,7 @@ pub(super) fn motion(
         drag: actin_sim::Drag::default(),
         thermal: None,
         stop: None,
+        leave_saddles: 0,
         record_every_ns: Some(duration_ns),
     }
 }

@@ -11,6 +11,7 @@ mod strand;
 
 use super::{
     Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Part, PointInfo, Rod, SectionSpan, Term,
+    imperfection,
 };
 use crate::scene::{End, HeldEnds, Load, Problem, Scene, Section, path};
 use actin_coupling::Linker;
@@ -19,6 +20,11 @@ use strand::{Body, Strand};
 
 impl Assembly {
     /// Builds the scene: bodies in filament order, interactions, held ends and loads.
+    ///
+    /// Filaments with an imperfection begin displaced from their axis by
+    /// `u(s) = A sum_k sin(pi x) sin(k pi x) d_k / k^2`, k from 1 to 4, `x` the arc length over the
+    /// length, `d_k` random directions across the axis, `A` such that the largest displacement is the
+    /// amplitude: the same whatever resolves them, and zero with its slope at both ends.
     ///
     /// # Errors
     /// What only shows when a filament is built: a section without room for its bodies, an
@@ -134,12 +140,15 @@ impl<'a> Builder<'a> {
         let spans = self.spans();
         let drive = Drive::new(&scene, &self.held, &self.clamps, &self.stock.state);
         drive.place(&mut self.stock.state, 0.0);
-        let stock = self.stock;
+        let mut stock = self.stock;
+        let rest = stock.state.clone();
+        let bodies = (stock.points.as_slice(), stock.frames.as_slice());
+        imperfection::displace(&scene, &self.filaments, bodies, &mut stock.state);
         Assembly {
             drive,
             scene,
             bytes: self.bytes,
-            rest: stock.state.clone(),
+            rest,
             system: System::new(stock.state, stock.interactions),
             terms: stock.terms,
             points: stock.points,

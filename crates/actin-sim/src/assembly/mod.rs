@@ -9,6 +9,7 @@ mod bonded;
 mod build;
 mod describe;
 mod drive;
+mod imperfection;
 mod lattice;
 mod law;
 mod models;
@@ -68,7 +69,7 @@ pub struct Assembly {
     pub(crate) spans: Vec<Vec<[f64; 2]>>,
     /// What the path of the scene moves.
     pub drive: Drive,
-    /// The state as built, unloaded and at rest.
+    /// The state as built, unloaded and at rest, without imperfections.
     pub rest: State,
     /// Memory that the task takes but for its records, estimated (bytes).
     pub(crate) bytes: f64,

@@ -2,15 +2,15 @@
 
 use super::bound::kinetic_limit;
 use super::equilibrium::check_points;
-use super::keep::{Clock, Keeper, Kept, Standing};
-use super::{Progress, Record, RunError, RunReport, Trajectory};
+use super::keep::{Clock, Keeper, Kept};
+use super::recorder::{Ending, Recorder};
+use super::rest::{is_saddle, saddle};
+use super::{Progress, RunError, RunReport, Trajectory};
 use crate::assembly::Ramp;
 use crate::scene::{Dynamics, Integrator, Problem, RodLaw, StopRule, Task};
 use crate::{Assembly, memory};
-use actin_integrate::{
-    Bath, Checkpoint, Composition, Drag, Moment, Observer, Outcome, Pause, Reason, Run, RunFailure,
-};
-use actin_mechanics::{Split, System};
+use actin_integrate::{Bath, Composition, Drag, Reason, Run};
+use actin_mechanics::{Split, State, System};
 use std::ops::ControlFlow;
 
 /// Records of a run, unless the scene says otherwise.
@@ -55,7 +55,10 @@ impl Integrator {
 pub fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, Problem> {
     match &assembly.scene.task {
         Task::Dynamics(dynamics) => estimate_of(assembly, dynamics).map(Some),
-        Task::Equilibrium(settings) => check_points(assembly, settings).map(|()| None),
+        Task::Equilibrium(settings) => {
+            assembly.check_slip()?;
+            check_points(assembly, settings).map(|()| None)
+        }
     }
 }
 
@@ -185,39 +188,88 @@ pub(super) fn run(
 ) -> Result<(Trajectory, RunReport), RunError> {
     let (estimate, plan) = prepare(assembly, dynamics, estimate)?;
     let clock = Clock::new(kept.as_ref());
-    let mut recorder = Recorder {
-        trajectory: Trajectory::default(),
-        end_ns: dynamics.duration_ns,
-        clock,
-        is_left: false,
-        keeper,
-        watch,
-    };
-    let outcome = recorder.execute(&plan, &mut assembly.system, kept);
-    let report = |steps, force_evaluations| RunReport {
-        interrupted: recorder.is_left,
-        steps,
-        force_evaluations,
+    // While it moves, the rest of the assembly is looked at.
+    let nothing = System::new(State::default(), Vec::new());
+    let mut system = std::mem::replace(&mut assembly.system, nothing);
+    let mut recorder = Recorder::new(assembly, dynamics, &system, (keeper, watch), clock);
+    let outcome = recorder.execute(&plan, &mut system, kept);
+    let ending = recorder.end(outcome, &mut system);
+    let Recorder {
+        trajectory, pushes, ..
+    } = recorder;
+    assembly.system = system;
+    let report = RunReport {
+        saddles_left: pushes.len(),
+        pushes,
         ..estimate.report(clock)
     };
+    conclude(assembly, dynamics, ending, (trajectory, report))
+}
+
+/// The results of a motion, by how it ended.
+fn conclude(
+    assembly: &Assembly,
+    dynamics: &Dynamics,
+    ending: Ending,
+    (trajectory, report): (Trajectory, RunReport),
+) -> Result<(Trajectory, RunReport), RunError> {
     let evaluations = assembly.system.force_evaluations();
-    match outcome {
-        Ok(end) => {
+    let failed = |report: RunReport, steps| RunReport {
+        failed: true,
+        ..report.counting(steps, evaluations)
+    };
+    match ending {
+        Ending::Left(end) => {
+            let report = report.counting(end.steps, end.force_evaluations);
+            let interrupted = true;
+            Ok((
+                trajectory,
+                RunReport {
+                    interrupted,
+                    ..report
+                },
+            ))
+        }
+        Ending::Ended(end, at_rest) => {
             let report = RunReport {
                 converged: end.reason == Reason::Converged,
-                ..report(end.steps, end.force_evaluations)
+                failed: at_rest.as_ref().is_some_and(is_saddle),
+                at_rest,
+                ..report.counting(end.steps, end.force_evaluations)
             };
-            Ok((recorder.trajectory, report))
+            match at_rest.filter(is_saddle) {
+                None => Ok((trajectory, report)),
+                Some(certificate) => {
+                    let problem = saddle(&certificate, dynamics.leave_saddles, way_off(dynamics));
+                    Err(RunError::saddle(problem, trajectory, report))
+                }
+            }
         }
-        Err(failure) => Err(RunError::Failed {
-            report: Box::new(RunReport {
-                failed: true,
-                ..report(failure.last_good_step, evaluations)
-            }),
+        Ending::Slipped(slip, step) => {
+            let at = format!("at {:.4} ns, ", slip.time_ns);
+            Err(RunError::slipped(
+                (at, slip),
+                trajectory,
+                failed(report, step),
+            ))
+        }
+        Ending::Failed(failure) => Err(RunError::Failed {
+            report: Box::new(failed(report, failure.last_good_step)),
             body: assembly.describe(failure.body),
             failure: Box::new(failure),
-            trajectory: Box::new(recorder.trajectory),
+            trajectory: Box::new(trajectory),
         }),
+    }
+}
+
+/// What leads a motion off a saddle, or would have.
+fn way_off(dynamics: &Dynamics) -> &'static str {
+    match dynamics.leave_saddles {
+        0 => {
+            "with leave_saddles: 1 or more the motion is pushed off saddles and goes on; an \
+             imperfection of the filament, such as (amplitude_nm: 0.01, seed: 1), keeps it off them"
+        }
+        _ => "more pushes or a longer duration_ns may lead off it",
     }
 }
 
@@ -247,67 +299,6 @@ fn prepare(
     Ok((estimate, plan))
 }
 
-/// Records what is observed and lets the keeper keep it.
-struct Recorder<'a> {
-    trajectory: Trajectory,
-    end_ns: f64,
-    clock: Clock,
-    is_left: bool,
-    keeper: &'a mut dyn Keeper,
-    watch: &'a mut dyn FnMut(Progress) -> ControlFlow<()>,
-}
-
-impl Recorder<'_> {
-    /// Executes the plan, from where it was left if it was.
-    fn execute(
-        &mut self,
-        plan: &Run,
-        system: &mut System,
-        kept: Option<Kept>,
-    ) -> Result<Outcome, RunFailure> {
-        let Some(kept) = kept else {
-            return plan.execute(system, &mut [self]);
-        };
-        let Standing::Motion(checkpoint) = kept.standing else {
-            panic!("a path of equilibria is no motion in time");
-        };
-        self.trajectory = kept.trajectory;
-        plan.resume(&checkpoint, system, &mut [self])
-    }
-
-    fn keep(&mut self, checkpoint: Checkpoint) {
-        let standing = Standing::Motion(Box::new(checkpoint));
-        let records = &self.trajectory.records;
-        self.keeper.keep(&standing, records, self.clock.wall_s());
-    }
-}
-
-impl Observer for Recorder<'_> {
-    fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()> {
-        self.trajectory.records.push(record(moment));
-        (self.watch)(progress(moment, self.end_ns))
-    }
-
-    fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
-        self.is_left = self.keeper.is_interrupted();
-        if self.is_left || self.keeper.is_due() {
-            self.keep(pause.checkpoint());
-        }
-        if self.is_left {
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
-    }
-
-    fn finish(&mut self, end: &Pause<'_>) {
-        self.keep(end.checkpoint());
-    }
-
-    fn fail(&mut self, last_good: &Checkpoint) {
-        self.keep(last_good.clone());
-    }
-}
-
 impl Estimate {
     /// The report of a run that has taken the time of `clock` and has counted nothing yet.
     fn report(&self, clock: Clock) -> RunReport {
@@ -320,7 +311,9 @@ impl Estimate {
             time_step_ns: Some(self.time_step_ns),
             largest_frequency_rad_per_ns: Some(self.largest_frequency_rad_per_ns),
             equilibrium: None,
+            at_rest: None,
             saddles_left: 0,
+            pushes: Vec::new(),
             jumps: 0,
             beyond_use: Vec::new(),
             wall_s: clock.wall_s(),
@@ -394,26 +387,5 @@ impl Assembly {
         let between_records = steps_between_records(dynamics, step) as f64 * step;
         dynamics.time_step_ns = Some(step);
         dynamics.record_every_ns = Some(between_records);
-    }
-}
-
-fn progress(moment: &mut Moment<'_>, end_ns: f64) -> Progress {
-    Progress {
-        time_ns: moment.time,
-        end_ns,
-        steps: moment.step,
-        residual_force_pn: moment.residual().force,
-    }
-}
-
-fn record(moment: &mut Moment<'_>) -> Record {
-    let residual = moment.residual();
-    Record {
-        time_ns: moment.time,
-        state: moment.state().clone(),
-        energies_pn_nm: moment.energies(),
-        kinetic_pn_nm: moment.kinetic_energy(),
-        residual_force_pn: residual.force,
-        residual_torque_pn_nm: residual.torque,
     }
 }

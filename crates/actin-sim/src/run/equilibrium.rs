@@ -1,6 +1,8 @@
 //! Equilibria: Newton from the built state, or along the path of the scene.
 
 use super::keep::{Arrival, Clock, Keeper, Kept, PathStanding, Standing};
+use super::rest::{is_saddle, saddle};
+use super::slip::{LinkWatch, Slip};
 use super::unknowns::newton;
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
@@ -40,6 +42,7 @@ pub(super) fn run(
     keeper: &mut dyn Keeper,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<(Trajectory, RunReport), RunError> {
+    assembly.check_slip()?;
     let clock = Clock::new(kept.as_ref());
     check_points(assembly, settings)?;
     let mut newton = newton(assembly, settings)?;
@@ -61,8 +64,10 @@ pub(super) fn run(
         force_evaluations: work.evaluations,
         time_step_ns: None,
         largest_frequency_rad_per_ns: None,
+        at_rest: None,
         saddles_left: standing.saddles_left,
         jumps: standing.jumps,
+        pushes: Vec::new(),
         equilibrium: report(standing, lowest.flatten(), work),
         beyond_use: Vec::new(),
         wall_s: clock.wall_s(),
@@ -80,6 +85,10 @@ pub(super) fn run(
             trajectory: Box::new(trajectory),
             report: Box::new(report),
         }),
+        Some(Trouble::Saddle(problem)) => Err(RunError::saddle(*problem, trajectory, report)),
+        Some(Trouble::Slipped(place, slip)) => {
+            Err(RunError::slipped((place, *slip), trajectory, report))
+        }
     }
 }
 
@@ -107,6 +116,10 @@ enum Trouble {
     Ended(String, Box<PathFailure>),
     /// A load is lost in what is left over.
     Lost(Box<Problem>),
+    /// The last equilibrium is a saddle.
+    Saddle(Box<Problem>),
+    /// Twist was lost: where, in words, and how much.
+    Slipped(String, Box<Slip>),
 }
 
 /// The first load that is lost in an equilibrium: the forces that are left, be it by rounding of
@@ -141,6 +154,16 @@ fn place(assembly: &Assembly, stages_done: usize) -> String {
     }
 }
 
+/// What the twist of filaments is compared with: how they begin.
+fn links(assembly: &Assembly) -> LinkWatch {
+    let mut start = assembly.system.state().clone();
+    // Without a path, held ends are where the caller has put them.
+    if !assembly.drive.is_still() {
+        assembly.drive.place(&mut start, 0.0);
+    }
+    LinkWatch::new(assembly, &start)
+}
+
 fn path(settings: &Settings) -> Result<Path, Problem> {
     let options = PathOptions {
         first_step: settings.largest_step.min(0.1).max(settings.smallest_step),
@@ -170,6 +193,8 @@ struct Follower<'a> {
     trajectory: Trajectory,
     /// Where the run could be taken up again.
     standing: PathStanding,
+    links: LinkWatch,
+    slip: Option<Slip>,
     /// Whether the keeper wanted the run to be left.
     is_left: bool,
 }
@@ -214,6 +239,8 @@ impl<'a> Follower<'a> {
             clock,
             trajectory,
             standing,
+            links: links(assembly),
+            slip: None,
             is_left: false,
         }
     }
@@ -225,20 +252,63 @@ impl<'a> Follower<'a> {
         newton: &mut Newton,
         state: &mut State,
     ) -> Result<Option<Trouble>, Problem> {
-        let trouble = match self.follow(newton, state)? {
+        let ended = self.follow(newton, state)?;
+        if let Some(slip) = self.slip.take() {
+            state.copy_motion_from(&self.standing.state);
+            self.keep();
+            let stage = place(self.assembly, self.standing.stage);
+            let place = format!("{stage}at path parameter {:.4}, ", slip.time_ns);
+            return Ok(Some(Trouble::Slipped(place, Box::new(slip))));
+        }
+        let trouble = match ended {
             Some(_) if self.is_left => Some(Trouble::Left),
             Some(failure) => {
                 let place = place(self.assembly, self.standing.stage);
                 Some(Trouble::Ended(place, failure))
             }
             None => {
-                let last = self.trajectory.records.last();
-                let lost = last.and_then(|last| lost_load(self.assembly, last));
-                lost.map(|problem| Trouble::Lost(Box::new(problem)))
+                self.look_closer(newton, state);
+                self.flaw()
             }
         };
         self.keep();
         Ok(trouble)
+    }
+
+    /// Certifies the last equilibrium again if it seems to be a saddle, with the residual as small as it
+    /// gets: what the tolerance leaves of it may pass for the sign of a neutral mode.
+    fn look_closer(&mut self, newton: &mut Newton, state: &State) {
+        let certificate = self
+            .standing
+            .last
+            .as_mut()
+            .map(|last| &mut last.certificate);
+        let Some(Some(certificate)) = certificate else {
+            return;
+        };
+        if is_saddle(certificate) {
+            let nearest = newton.nearest(state, self.assembly.system.interactions());
+            if let Ok(Some(nearest)) = nearest {
+                *certificate = nearest.certificate;
+            }
+        }
+    }
+
+    /// What is wrong with the last equilibrium.
+    fn flaw(&self) -> Option<Trouble> {
+        let last = self.trajectory.records.last();
+        let lost = last.and_then(|last| lost_load(self.assembly, last));
+        let lost = lost.map(|problem| Trouble::Lost(Box::new(problem)));
+        lost.or_else(|| {
+            let certificate = self.standing.last.as_ref()?.certificate?;
+            let attempts = self.settings.leave_saddles;
+            let way = match attempts {
+                0 => "with 0 saddles are kept; with 1 or more they are left along the lowest mode",
+                _ => "more attempts may lead off it",
+            };
+            let problem = || Box::new(saddle(&certificate, attempts, way));
+            is_saddle(&certificate).then(|| Trouble::Saddle(problem()))
+        })
     }
 
     /// Follows all stages that are left, or solves once where there is none. Returns why it ended
@@ -254,8 +324,11 @@ impl<'a> Follower<'a> {
             self.solve(newton, state)
         } else {
             let path = path(self.settings)?;
-            (self.standing.stage..self.assembly.drive.stages())
-                .try_for_each(|stage| self.stage(&path, newton, state, stage))
+            let mut stages = self.standing.stage..self.assembly.drive.stages();
+            stages.try_for_each(|stage| match self.slip {
+                None => self.stage(&path, newton, state, stage),
+                Some(_) => Ok(()),
+            })
         };
         Ok(result.err())
     }
@@ -271,9 +344,10 @@ impl<'a> Follower<'a> {
         let solved = newton.minimize_observed(state, interactions, attempts, &mut |_| self.go_on());
         match solved {
             Ok(equilibrium) => {
-                self.record(0.0, state, &equilibrium);
-                self.standing.state.copy_motion_from(state);
-                self.standing.work = newton.work();
+                if self.record(0.0, state, &equilibrium).is_continue() {
+                    self.standing.state.copy_motion_from(state);
+                    self.standing.work = newton.work();
+                }
                 Ok(())
             }
             Err(failure) => {
@@ -316,7 +390,13 @@ impl<'a> Follower<'a> {
         .map(drop)
     }
 
-    fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) {
+    /// Records an equilibrium; breaks, with nothing recorded, where twist was lost on the way to it.
+    fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) -> ControlFlow<()> {
+        let before = self.trajectory.records.last().map(|record| &record.state);
+        self.slip = self.links.slip(self.assembly, (state, u), before);
+        if self.slip.is_some() {
+            return ControlFlow::Break(());
+        }
         self.trajectory
             .records
             .push(record(&self.assembly.system, u, state));
@@ -330,6 +410,7 @@ impl<'a> Follower<'a> {
                 .map(|step| (step.residual.force, step.residual.torque))
                 .collect(),
         });
+        ControlFlow::Continue(())
     }
 
     /// Notes where the path can be taken up again: at `point`, or at the beginning of the next
@@ -364,7 +445,7 @@ impl Companion for Follower<'_> {
         let u = stage as f64 + point.parameter;
         // The start of a later stage is the end of the one before.
         if stage == 0 || point.parameter > 0.0 {
-            self.record(u, point.state, point.equilibrium);
+            self.record(u, point.state, point.equilibrium)?;
         }
         self.standing.jumps += usize::from(point.jumped);
         self.note(point);

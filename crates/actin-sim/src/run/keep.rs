@@ -2,7 +2,7 @@
 //!
 //! What is kept is values; files are the business of `results`.
 
-use super::{Record, Trajectory};
+use super::{Record, SaddlePush, Trajectory};
 use actin_equilibrium::{Certificate, Waypoint, Work};
 use actin_integrate::Checkpoint;
 use actin_mechanics::State;
@@ -12,9 +12,18 @@ use std::time::Instant;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Standing {
     /// A motion in time, at a check of its state.
-    Motion(Box<Checkpoint>),
+    Motion(Box<MotionStanding>),
     /// A path of equilibria, at one of them.
     Path(Box<PathStanding>),
+}
+
+/// Where a motion in time stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionStanding {
+    /// What the integrator carries.
+    pub checkpoint: Checkpoint,
+    /// How it was pushed off saddles so far.
+    pub pushes: Vec<SaddlePush>,
 }
 
 /// Where a path of equilibria stands.

@@ -4,17 +4,22 @@ mod bound;
 mod dynamics;
 mod equilibrium;
 mod keep;
+mod recorder;
+mod rest;
+mod slip;
 mod unknowns;
 
 pub use dynamics::{Estimate, estimate};
 pub(crate) use dynamics::{estimate_at, shears_softly};
 pub use equilibrium::EquilibriumReport;
-pub use keep::{Arrival, Keeper, Kept, PathStanding, Standing, Unkept};
+pub use keep::{Arrival, Keeper, Kept, MotionStanding, PathStanding, Standing, Unkept};
+pub use rest::SaddlePush;
+pub use slip::Slip;
 pub(crate) use unknowns::newton as solver;
 
 use crate::scene::{Problem, Task};
 use crate::{Assembly, BeyondUse};
-use actin_equilibrium::PathFailure;
+use actin_equilibrium::{Certificate, PathFailure};
 use actin_integrate::RunFailure;
 use actin_mechanics::State;
 use std::ops::ControlFlow;
@@ -56,8 +61,9 @@ pub struct Trajectory {
 pub struct RunReport {
     /// Whether the stop rule was met.
     pub converged: bool,
-    /// Whether the run broke off (a state exploded, a path ended early), or what it reached is of no
-    /// use (a load is lost in it, neighbours have passed through each other).
+    /// Whether the run broke off (a state exploded, twist was lost, a path ended early), ended on a
+    /// saddle, or what it reached is of no use (a load is lost in it, neighbours have passed through
+    /// each other).
     pub failed: bool,
     /// Whether the run was left at the wish of its keeper, to be taken up again.
     pub interrupted: bool,
@@ -71,14 +77,36 @@ pub struct RunReport {
     pub largest_frequency_rad_per_ns: Option<f64>,
     /// What is known of the equilibrium; none of a motion in time.
     pub equilibrium: Option<EquilibriumReport>,
-    /// How many saddles were left on the path.
+    /// Counts of eigenvalues at the equilibrium in which a motion has come to rest; none of one that
+    /// still moves, that is in a heat bath, or whose loads have no potential.
+    pub at_rest: Option<Certificate>,
+    /// How many saddles were left, on the whole path or in the whole motion.
     pub saddles_left: usize,
+    /// How a motion was pushed off saddles.
+    pub pushes: Vec<SaddlePush>,
     /// How often the path went on from where a sudden jump led.
     pub jumps: usize,
     /// What is beyond any use in its states, the worst of all records; a run with any has failed.
     pub beyond_use: Vec<BeyondUse>,
     /// Time that the run took (s).
     pub wall_s: f64,
+}
+
+impl RunReport {
+    /// What the stiffness says of the state in which the run ended, if that is an equilibrium.
+    pub fn certificate(&self) -> Option<&Certificate> {
+        let of_equilibrium = self.equilibrium.as_ref().map(|e| &e.certificate);
+        of_equilibrium.or(self.at_rest.as_ref())
+    }
+
+    /// The same with these counts.
+    fn counting(self, steps: u64, force_evaluations: u64) -> Self {
+        Self {
+            steps,
+            force_evaluations,
+            ..self
+        }
+    }
 }
 
 /// How far a run has come.
@@ -132,6 +160,28 @@ pub enum RunError {
         /// What the run cost.
         report: Box<RunReport>,
     },
+    /// The run ended, but on a saddle.
+    #[error("{problem}")]
+    Saddle {
+        /// How many negative eigenvalues there are, and what leads off it.
+        problem: Box<Problem>,
+        /// All records.
+        trajectory: Box<Trajectory>,
+        /// Their cost.
+        report: Box<RunReport>,
+    },
+    /// A filament lost twist.
+    #[error("{place}{slip}")]
+    Slipped {
+        /// When, or in which stage, in words.
+        place: String,
+        /// Which filament and how much.
+        slip: Box<Slip>,
+        /// What was recorded up to the last good state.
+        trajectory: Box<Trajectory>,
+        /// Cost up to there.
+        report: Box<RunReport>,
+    },
     /// The state exploded.
     #[error("{failure}; {} is {body}", failure.body)]
     Failed {
@@ -146,14 +196,59 @@ pub enum RunError {
     },
 }
 
+impl RunError {
+    /// What was recorded up to there, and its cost; none of a scene that was refused.
+    pub fn into_results(self) -> Option<(Trajectory, RunReport)> {
+        match self {
+            Self::Refused(_) => None,
+            Self::Ended {
+                trajectory, report, ..
+            }
+            | Self::Lost {
+                trajectory, report, ..
+            }
+            | Self::BeyondUse {
+                trajectory, report, ..
+            }
+            | Self::Saddle {
+                trajectory, report, ..
+            }
+            | Self::Slipped {
+                trajectory, report, ..
+            }
+            | Self::Failed {
+                trajectory, report, ..
+            } => Some((*trajectory, *report)),
+        }
+    }
+
+    fn saddle(problem: Problem, trajectory: Trajectory, report: RunReport) -> Self {
+        Self::Saddle {
+            problem: Box::new(problem),
+            trajectory: Box::new(trajectory),
+            report: Box::new(report),
+        }
+    }
+
+    fn slipped((place, slip): (String, Slip), trajectory: Trajectory, report: RunReport) -> Self {
+        Self::Slipped {
+            place,
+            slip: Box::new(slip),
+            trajectory: Box::new(trajectory),
+            report: Box::new(report),
+        }
+    }
+}
+
 /// Runs the scene of `assembly`; `watch` sees its progress and may break it off.
 ///
 /// The assembly's scene afterwards holds the time step that was taken, and its system the last
 /// state.
 ///
 /// # Errors
-/// What [`estimate`] refuses; a state that explodes, a path that ends early or an equilibrium in which
-/// a load is lost, with all records up to the last good one; states that are beyond any use.
+/// What [`estimate`] refuses; a state that explodes, a path that ends early, twist that is lost, an
+/// end on a saddle or in an equilibrium in which a load is lost, with all records up to the last good
+/// one; states that are beyond any use.
 pub fn run(
     assembly: &mut Assembly,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
@@ -245,6 +340,12 @@ impl RunError {
                 trajectory, report, ..
             }
             | Self::BeyondUse {
+                trajectory, report, ..
+            }
+            | Self::Saddle {
+                trajectory, report, ..
+            }
+            | Self::Slipped {
                 trajectory, report, ..
             }
             | Self::Failed {

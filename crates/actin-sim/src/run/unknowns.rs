@@ -20,7 +20,7 @@ const REACH: f64 = 3.0;
 pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, Problem> {
     let refused =
         |key: &str, error: &dyn std::error::Error| Problem::new(key, "", error.to_string());
-    let layout = Layout::new(assembly.system.state(), Some(&order(assembly)), Vec::new())
+    let layout = Layout::new(&assembly.rest, Some(&order(assembly)), Vec::new())
         .map_err(|error| refused("filament", &error))?;
     let loose = loose_pairs(assembly);
     let layout = if loose.is_empty() {

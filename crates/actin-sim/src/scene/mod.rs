@@ -4,6 +4,7 @@
 //! [`validate`] then checks what numbers may be. Both report line and column.
 
 pub(crate) mod fitted;
+mod imperfection;
 mod law;
 mod linker;
 mod locate;
@@ -13,12 +14,14 @@ pub(crate) mod path;
 mod place;
 mod problem;
 mod read;
+mod saddles;
 mod support;
 mod thermal;
 mod types;
 mod validate;
 mod written;
 
+pub use imperfection::Imperfection;
 pub use law::{
     BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw,
 };

@@ -16,6 +16,7 @@ impl Filament {
             at_nm: [0.0; 3],
             direction: along_z(),
             roll_deg: 0.0,
+            imperfection: None,
         }
     }
 

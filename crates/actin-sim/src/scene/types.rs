@@ -1,7 +1,7 @@
 //! What a scene says: filaments, clamps, loads and task. Where filaments are is in `place.rs`.
 
 use super::model::{JunctionModel, Monomers, RodModel};
-use super::{Linker, Thermal, written::Written};
+use super::{Imperfection, Linker, Thermal, written::Written};
 use serde::{Deserialize, Serialize};
 
 /// A scene: filaments, what holds, loads and links them, and what is asked of them.
@@ -113,6 +113,9 @@ pub struct Filament {
     /// turn from lab z to the direction makes of lab +x.
     #[serde(default)]
     pub roll_deg: f64,
+    /// A small displacement from the axis with which a run begins; none by default.
+    #[serde(default)]
+    pub imperfection: Option<Imperfection>,
 }
 
 pub(super) fn along_z() -> [f64; 3] {
@@ -245,8 +248,8 @@ pub struct Equilibrium {
     pub largest_step: f64,
     /// Smallest step, below which the path ends with what it has.
     pub smallest_step: f64,
-    /// How often a saddle is left along its lowest mode, for one equilibrium; a saddle that is not
-    /// left is reported as one.
+    /// How often a saddle is left along its lowest mode, for one equilibrium. With 0 saddles are kept
+    /// on the path. A run whose last equilibrium is a saddle fails, with all its results.
     pub leave_saddles: usize,
     /// Whether the path goes on from where a sudden jump leads; it ends there if not.
     pub accept_jumps: bool,
@@ -296,6 +299,11 @@ pub struct Dynamics {
     /// When to stop early; never by default.
     #[serde(default)]
     pub stop: Option<StopRule>,
+    /// How often a motion that has come to rest on a saddle is pushed off it along its lowest mode,
+    /// by 0.01 nm or 1e-3 rad, whichever a body reaches first. With 0, the default, a saddle ends the
+    /// run as a failure, with all its results.
+    #[serde(default)]
+    pub leave_saddles: usize,
     /// Time between recorded states (ns); by default a hundredth of the duration.
     #[serde(default)]
     pub record_every_ns: Option<f64>,

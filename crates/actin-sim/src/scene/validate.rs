@@ -3,7 +3,8 @@
 use super::support::{check_support, check_swings};
 use super::{
     Anchors, Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, HeldEnds, Hold, Load, Monomers,
-    Problem, Scene, Section, Setting, Slides, Stage, StopRule, Task, linker, magnitude, thermal,
+    Problem, Scene, Section, Setting, Slides, Stage, StopRule, Task, imperfection, linker,
+    magnitude, saddles, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 use actin_mechanics::Vector3;
@@ -29,6 +30,7 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
         let named = |problem: Problem| problem.with_filament(&scene.filament_key(i));
         filament(one).map_err(named)?;
         check_place(one).map_err(named)?;
+        imperfection::check(one).map_err(named)?;
     }
     let held = HeldEnds::of(scene);
     for (i, clamp) in scene.clamps.iter().enumerate() {
@@ -48,6 +50,7 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
             check_durations(scene, dynamics.duration_ns)?;
             check_swings(scene, &held)?;
             check_dynamics(dynamics)?;
+            saddles::check(scene, dynamics)?;
             let stop = dynamics.stop.as_ref();
             stop.map_or(Ok(()), |s| check_tolerance(scene, "task.stop", s.force_pn))
         }
@@ -298,7 +301,7 @@ fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Problem> {
 }
 
 /// An equilibrium is a minimum of the energy, which the printed balance does not have.
-fn check_potential(filament: &Filament) -> Result<(), Problem> {
+pub(super) fn check_potential(filament: &Filament) -> Result<(), Problem> {
     let has_rod = filament
         .sections
         .iter()

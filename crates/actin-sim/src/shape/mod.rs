@@ -4,6 +4,7 @@
 //! its edges, the same for monomers, rods and both. Nothing here knows files.
 
 mod link;
+mod linking;
 mod profile;
 mod ribbon;
 mod twist;

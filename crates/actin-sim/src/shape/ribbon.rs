@@ -138,12 +138,17 @@ impl Ribbon {
 
     /// Twist in turns from end to end, ends included: see [`twist`].
     pub fn twist(&self) -> f64 {
+        let (frames, tangents) = self.edges();
+        twist(&frames, &tangents)
+    }
+
+    /// Frames and unit vectors of all edges, the straight ones beyond both ends included: at vertex `i`
+    /// edge `i` meets edge `i + 1`.
+    pub(super) fn edges(&self) -> (Vec<UnitQuaternion>, Vec<Vector3>) {
         let tangents = self.tangents();
         let [first, last] = self.extensions(&tangents);
         let inside = self.frames.iter().copied().zip(tangents);
-        let all = std::iter::once(first).chain(inside).chain([last]);
-        let (frames, tangents): (Vec<_>, Vec<_>) = all.unzip();
-        twist(&frames, &tangents)
+        std::iter::once(first).chain(inside).chain([last]).unzip()
     }
 
     /// Writhe of the filament, which goes on straight beyond both ends: see [`extended_writhe`].

@@ -19,6 +19,12 @@ use std::f64::consts::PI;
 /// assert!((turns - 2.0 / std::f64::consts::TAU).abs() < 1e-15);
 /// ```
 pub fn twist(frames: &[UnitQuaternion], tangents: &[Vector3]) -> f64 {
+    angles(frames, tangents).iter().sum::<f64>() / (2.0 * PI)
+}
+
+/// The angle (rad, within half a turn) by which each frame is turned about the curve against the one
+/// before: `n` frames have `n - 1` angles.
+pub(super) fn angles(frames: &[UnitQuaternion], tangents: &[Vector3]) -> Vec<f64> {
     let across: Vec<Vector3> = frames
         .iter()
         .zip(tangents)
@@ -29,7 +35,7 @@ pub fn twist(frames: &[UnitQuaternion], tangents: &[Vector3]) -> f64 {
         let sin = before.cross(&across[i]).dot(&tangents[i]);
         sin.atan2(before.dot(&across[i]))
     });
-    angles.sum::<f64>() / (2.0 * PI)
+    angles.collect()
 }
 
 /// `v` after the shortest turn that brings the unit vector `from` to the unit vector `to`; as it

@@ -83,7 +83,7 @@ fn ray_and_ray(t: Vector3, d: Vector3, u: Vector3) -> f64 {
 /// Signed solid angle of the triangle of three directions of any length, within `(-2 pi, 2 pi]`;
 /// positive where they are clockwise as seen from the origin, which is the sense of a right-handed
 /// crossing.
-fn triangle(a: Vector3, b: Vector3, c: Vector3) -> f64 {
+pub(super) fn triangle(a: Vector3, b: Vector3, c: Vector3) -> f64 {
     let (p, q, r) = (a.norm(), b.norm(), c.norm());
     let volume = a.dot(&b.cross(&c));
     let across = p * q * r + a.dot(&b) * r + b.dot(&c) * p + c.dot(&a) * q;

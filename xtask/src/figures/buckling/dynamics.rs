@@ -86,6 +86,7 @@ fn dynamics() -> Dynamics {
             torque_pn_nm: STOP,
             kinetic_pn_nm: 1e-6,
         }),
+        leave_saddles: 0,
         record_every_ns: None,
     }
 }

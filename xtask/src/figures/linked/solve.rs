@@ -3,7 +3,7 @@
 use super::case::Case;
 use super::centre_line::CentreLine;
 use crate::figures::viewer::Snapshot;
-use actin_sim::{Assembly, Equilibrium, Record, RunReport, Scene, Task};
+use actin_sim::{Assembly, Equilibrium, Record, RunError, RunReport, Scene, Task};
 use std::ops::ControlFlow;
 
 /// Turns of the built filament about its axis from which equilibria are sought (deg).
@@ -126,8 +126,13 @@ fn balance_with(
         Start::State(record) => *assembly.system.state_mut() = record.state.clone(),
     }
     let watch = &mut |_| ControlFlow::Continue(());
-    let (trajectory, report) =
-        actin_sim::run(&mut assembly, watch).map_err(|error| format!("Newton: {error}"))?;
+    let run = match actin_sim::run(&mut assembly, watch) {
+        Err(saddle @ RunError::Saddle { .. }) if settings.leave_saddles == 0 => {
+            saddle.into_results().ok_or("no record")?
+        }
+        run => run.map_err(|error| format!("Newton: {error}"))?,
+    };
+    let (trajectory, report) = run;
     let last = trajectory.records.last().ok_or("no record")?;
     Ok(describe(&assembly, last, &report))
 }

@@ -2,13 +2,16 @@
 
 use super::Damage;
 use super::bytes::{Reader, Writer};
-use crate::run::{Arrival, PathStanding, Record, Standing};
+use crate::run::{Arrival, MotionStanding, PathStanding, Record, SaddlePush, Standing};
 use actin_equilibrium::{Certificate, Waypoint, Work};
 use actin_integrate::{Checkpoint, Mark};
 use actin_mechanics::State;
 
 const MOTION: u64 = 1;
 const PATH: u64 = 2;
+
+/// Bytes of a push.
+const PUSH: usize = 48;
 
 /// What time changes of a state, array by array.
 fn arrays(state: &State) -> [&[f64]; 14] {
@@ -103,11 +106,14 @@ pub(super) fn read_record(
 
 pub(super) fn write_standing(writer: &mut Writer, standing: &Standing) {
     match standing {
-        Standing::Motion(checkpoint) => {
+        Standing::Motion(standing) => {
+            let MotionStanding { checkpoint, pushes } = standing.as_ref();
             writer.count(MOTION);
             write_mark(writer, &checkpoint.here);
             write_mark(writer, &checkpoint.last_good);
             writer.count(checkpoint.evaluations_before);
+            writer.size(pushes.len());
+            pushes.iter().for_each(|push| write_push(writer, push));
         }
         Standing::Path(standing) => {
             writer.count(PATH);
@@ -118,14 +124,34 @@ pub(super) fn write_standing(writer: &mut Writer, standing: &Standing) {
 
 pub(super) fn read_standing(reader: &mut Reader<'_>, like: &State) -> Result<Standing, Damage> {
     match reader.count()? {
-        MOTION => Ok(Standing::Motion(Box::new(Checkpoint {
-            here: read_mark(reader, like)?,
-            last_good: read_mark(reader, like)?,
-            evaluations_before: reader.count()?,
+        MOTION => Ok(Standing::Motion(Box::new(MotionStanding {
+            checkpoint: Checkpoint {
+                here: read_mark(reader, like)?,
+                last_good: read_mark(reader, like)?,
+                evaluations_before: reader.count()?,
+            },
+            pushes: reader.list(PUSH, read_push)?,
         }))),
         PATH => read_path(reader, like).map(|standing| Standing::Path(Box::new(standing))),
         other => Err(Damage::Contents(format!("a task of kind {other}"))),
     }
+}
+
+fn write_push(writer: &mut Writer, push: &SaddlePush) {
+    writer.numbers(&[push.time_ns, push.energy_pn_nm]);
+    writer.size(push.negative_eigenvalues);
+    writer.numbers(&[push.lowest_eigenvalue, push.displacement_nm, push.turn_rad]);
+}
+
+fn read_push(reader: &mut Reader<'_>) -> Result<SaddlePush, Damage> {
+    Ok(SaddlePush {
+        time_ns: reader.number()?,
+        energy_pn_nm: reader.number()?,
+        negative_eigenvalues: reader.size()?,
+        lowest_eigenvalue: reader.number()?,
+        displacement_nm: reader.number()?,
+        turn_rad: reader.number()?,
+    })
 }
 
 fn write_mark(writer: &mut Writer, mark: &Mark) {

@@ -1,12 +1,13 @@
 //! `summary.json`: the last record of a run in numbers.
 
 mod compute;
+mod pushes;
 mod thermal;
 
 pub use thermal::ThermalSummary;
 
 use super::{RunDirectoryError, finite::ensure_finite};
-use crate::{BeyondRange, BeyondUse, Counts, UnstableTwist};
+use crate::{BeyondRange, BeyondUse, Counts, SaddlePush, UnstableTwist};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -26,11 +27,15 @@ pub struct Summary {
     pub time_step_ns: Option<f64>,
     /// Largest frequency found at the start (rad/ns); none of an equilibrium.
     pub largest_frequency_rad_per_ns: Option<f64>,
-    /// Whether the equilibrium is stable; none of a motion in time.
+    /// Whether the equilibrium is stable, or that in which a motion has come to rest; none of a motion
+    /// that has not, that is in a heat bath, or whose loads have no potential.
     pub stability: Option<StabilitySummary>,
-    /// How many saddles were left, on the whole path.
+    /// How many saddles were left, on the whole path or in the whole motion.
     #[serde(default)]
     pub saddles_left: usize,
+    /// How a motion was pushed off saddles; no key where it was not.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pushes: Vec<SaddlePush>,
     /// How often a path of equilibria went on from where a sudden jump led.
     #[serde(default)]
     pub jumps: usize,
@@ -114,7 +119,8 @@ pub enum RunStatus {
     Converged,
     /// The time that was asked for has passed.
     Completed,
-    /// The run broke off; the record is the last good one.
+    /// The run broke off, and the record is the last good one; or it ended on a saddle or in an
+    /// equilibrium in which a load is lost.
     Failed,
     /// The run was left and can be resumed; the record is the last one made.
     Interrupted,
@@ -287,6 +293,7 @@ impl Summary {
         let key = "thermal.kinetic_temperature_k".to_owned();
         scalars.extend(thermal.map(|kelvin| (key, kelvin)));
         scalars.extend(self.shape.scalars());
+        scalars.extend(self.pushes.iter().enumerate().flat_map(pushes::scalars));
         let eigenvalue = self.lowest_stiffness_eigenvalue.into_iter();
         scalars.extend(eigenvalue.map(|value| ("lowest_stiffness_eigenvalue".to_owned(), value)));
         scalars
@@ -413,6 +420,8 @@ mod tests {
         "/residual/force_pn",
         "/residual/torque_pn_nm",
         "/lowest_stiffness_eigenvalue",
+        "/stability",
+        "/saddles_left",
         "/work/steps",
         "/work/force_evaluations",
         "/work/newton_iterations",

@@ -1,0 +1,40 @@
+//! A small imperfection of a filament in a scene, and its rules.
+
+use super::{Filament, Problem, validate};
+use serde::{Deserialize, Serialize};
+
+/// Largest amplitude, as a share of the filament's length: larger ones would stretch it noticeably.
+const LARGEST: f64 = 0.01;
+
+/// A smooth displacement of a filament from its axis, with which a run begins.
+///
+/// It breaks the symmetry of a straight filament, which otherwise stays straight under any
+/// compression. The filament is displaced but not changed: its shape without strain stays straight,
+/// and equilibria are those of the perfect filament. Where and how: [`crate::Assembly::build`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Imperfection {
+    /// Largest displacement of the axis (nm).
+    pub amplitude_nm: f64,
+    /// Seed of its shape.
+    pub seed: u64,
+}
+
+/// Checks the imperfection of a filament.
+pub(super) fn check(filament: &Filament) -> Result<(), Problem> {
+    let Some(imperfection) = &filament.imperfection else {
+        return Ok(());
+    };
+    let key = "filament.imperfection.amplitude_nm";
+    let amplitude = imperfection.amplitude_nm;
+    validate::positive(key, amplitude)?;
+    let limit = LARGEST * filament.length_nm();
+    if amplitude > limit {
+        let rule = format!(
+            "must be at most a hundredth of the filament's length, {limit} nm: it is meant to break \
+             the symmetry, not to load the filament"
+        );
+        return Err(Problem::new(key, format!("{amplitude:?}"), rule));
+    }
+    Ok(())
+}

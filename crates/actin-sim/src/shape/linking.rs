@@ -1,0 +1,175 @@
+//! Twist plus writhe of a filament whose ends are held, and the joint where it is twisted most.
+//!
+//! As a filament moves between held ends their sum stays as it is. It changes by a whole turn where a
+//! joint is turned past half a turn, since the twist of a joint is known within half a turn only, and by
+//! two where the filament passes through itself or through the straight line beyond an end.
+
+use super::Ribbon;
+use super::twist::angles;
+use super::writhe::triangle;
+use actin_mechanics::Vector3;
+use std::f64::consts::PI;
+
+/// Ends count as parallel if the cosine of their angle differs from one by less than this: their
+/// writhe then belongs to a closed curve, to 1e-4 of a turn.
+const PARALLEL: f64 = 1e-8;
+
+impl Ribbon {
+    /// Twist plus writhe (turns): the link up to a whole number that depends on the way here.
+    ///
+    /// Costs one pass where every edge points forward along the ends; elsewhere the double sum of the
+    /// writhe. None where an end is free, the ends are not parallel, or the writhe is not computed.
+    pub(crate) fn linking(&self) -> Option<f64> {
+        let [Some(_), Some(_)] = self.ends else {
+            return None;
+        };
+        let (frames, tangents) = self.edges();
+        let (first, last) = (tangents[0], tangents[tangents.len() - 1]);
+        if 1.0 - first.dot(&last) > PARALLEL {
+            return None;
+        }
+        let twist = angles(&frames, &tangents).iter().sum::<f64>() / (2.0 * PI);
+        let writhe = forward_writhe(&tangents).or_else(|| self.writhe())?;
+        Some(twist + writhe)
+    }
+
+    /// Arc length (nm) and angle (rad) of the joint with the largest twist.
+    pub(crate) fn most_twisted(&self) -> (f64, f64) {
+        let (frames, tangents) = self.edges();
+        let joints = self.s_nm.iter().copied().zip(angles(&frames, &tangents));
+        let largest = joints.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        largest.unwrap_or_default()
+    }
+}
+
+/// Writhe of a curve with these unit vectors, the first and the last of them alike, where all point to
+/// the side of the first; None elsewhere.
+///
+/// Such a curve can be flattened onto a straight line without passing through itself, so that its
+/// writhe is the area that its tangents enclose on the sphere, over `2 pi`: a sum of triangles with the
+/// first tangent as common corner.
+///
+/// # Source
+/// F. B. Fuller, PNAS 75 (1978) 3557, second theorem.
+fn forward_writhe(tangents: &[Vector3]) -> Option<f64> {
+    let axis = tangents[0];
+    if !tangents.iter().all(|t| t.dot(&axis) > 0.0) {
+        return None;
+    }
+    let areas = tangents.windows(2).map(|t| -triangle(axis, t[0], t[1]));
+    Some(areas.sum::<f64>() / (2.0 * PI))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Assembly, Scene, shape::link};
+    use actin_mechanics::State;
+    use actin_mechanics::rotation;
+    use actin_mechanics::testing::{Noise, perturb};
+
+    const SECTIONS: [&str; 3] = [
+        "Rod(from_nm: 0.0, to_nm: 60.0)",
+        "Ellipsoids(from_nm: 0.0, to_nm: 60.0)",
+        "Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0)",
+    ];
+
+    fn build(sections: &str) -> Assembly {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [{sections}]),
+                clamps: [Clamp(end: Start), Clamp(end: End)],
+                task: Equilibrium(),
+            )"
+        );
+        Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
+    }
+
+    /// Free bodies displaced at random, held ones as they are.
+    fn shaken(assembly: &Assembly, noise: &mut Noise, size: f64) -> State {
+        let mut state = assembly.rest.clone();
+        perturb(&mut state, noise, size, 0.2 * size);
+        for clamp in &assembly.clamps {
+            for &i in &clamp.points {
+                let place = assembly.rest.points.position.get(i);
+                state.points.position.set(i, place);
+            }
+            for &i in &clamp.frames {
+                let q = assembly.rest.frames.orientation.get(i);
+                state.frames.orientation.set(i, q);
+            }
+        }
+        state
+    }
+
+    /// In every model, by the one pass and by the double sum, the sum is that of the ends: zero where
+    /// nothing slips, a whole number in any case.
+    #[test]
+    fn twist_and_writhe_add_up_to_a_whole_number() {
+        let mut noise = Noise::new(11);
+        for sections in SECTIONS {
+            let assembly = build(sections);
+            // Small enough for all edges to point forward, and too large.
+            for (size, points_forward) in [(0.3, true), (30.0, false)] {
+                let state = shaken(&assembly, &mut noise, size);
+                let ribbon = Ribbon::new(&assembly, &state);
+                let (_, tangents) = ribbon.edges();
+                let forward = forward_writhe(&tangents);
+                assert_eq!(forward.is_some(), points_forward, "{sections}");
+                if let Some(forward) = forward {
+                    // Round-off of some hundred solid angles.
+                    let whole = ribbon.writhe().unwrap();
+                    assert!((forward - whole).abs() < 1e-12, "{forward} {whole}");
+                    assert!(ribbon.linking().unwrap().abs() < 1e-12);
+                }
+                let sum = ribbon.linking().unwrap();
+                assert!((sum - sum.round()).abs() < 1e-11, "{sum}");
+            }
+        }
+    }
+
+    /// A helix has all its edges forward and a writhe of its own sign; the one pass gives that of the
+    /// double sum.
+    #[test]
+    fn the_area_of_the_tangents_has_the_right_sign() {
+        let tangent = |k: i32| {
+            let about = rotation::exp(Vector3::z() * (0.3 * f64::from(k)));
+            about * Vector3::new(0.5, 0.0, 1.0).normalize()
+        };
+        let edges: Vec<Vector3> = (0..60).map(tangent).collect();
+        let mut points = vec![Vector3::zeros()];
+        for edge in &edges {
+            points.push(points[points.len() - 1] + edge);
+        }
+        let mut all = vec![Vector3::z()];
+        all.extend(edges);
+        all.push(Vector3::z());
+        let whole = super::super::extended_writhe(&points, [Vector3::z(); 2]);
+        assert!(whole > 0.1, "{whole}");
+        assert!((forward_writhe(&all).unwrap() - whole).abs() < 1e-12);
+    }
+
+    /// A segment turned against its neighbours by 170 deg and then by 190 deg loses a turn, and that
+    /// joint is the one that is found.
+    #[test]
+    fn a_joint_past_half_a_turn_loses_one() {
+        let assembly = build(SECTIONS[0]);
+        let turned = |degrees: f64| {
+            let mut state = assembly.rest.clone();
+            // Every free segment from 25 nm on, up to the held wall.
+            for (i, info) in assembly.frames.iter().enumerate() {
+                if info.s_nm > 30.0 {
+                    let q = rotation::exp(Vector3::z() * degrees.to_radians());
+                    state.frames.orientation.set(i, q);
+                }
+            }
+            Ribbon::new(&assembly, &state)
+        };
+        let sums = [170.0, 190.0].map(|degrees| turned(degrees).linking().unwrap());
+        // The wall at the end was turned too.
+        assert!((sums[0] - 170.0 / 360.0).abs() < 1e-13 && (sums[1] + 170.0 / 360.0).abs() < 1e-13);
+        let (s_nm, angle) = turned(170.0).most_twisted();
+        assert!((s_nm - 30.0).abs() < 1e-12 && (angle - 170.0_f64.to_radians()).abs() < 1e-12);
+        assert_eq!(link(&assembly, 0.0), Some(0.0));
+    }
+}

@@ -1,0 +1,194 @@
+//! Where motions come to rest: certificates, saddles, and two ways off a saddle.
+
+use actin_sim::{Assembly, RunError, RunReport, Scene, Trajectory, run};
+use std::ops::ControlFlow;
+
+/// A rod of 200 nm between two walls, pushed together by 60 nm within 5 ns.
+fn pushed(filament: &str, task: &str) -> String {
+    format!(
+        "Scene(
+            filament: Filament(
+                sections: [Rod(from_nm: 0.0, to_nm: 200.0, segments: 10)], {filament}
+            ),
+            clamps: [Clamp(end: Start), Clamp(end: End)],
+            path: [Stage(set: [Shift(end: End, shift_nm: (0.0, 0.0, -60.0))], duration_ns: 5.0)],
+            task: {task},
+        )"
+    )
+}
+
+/// A damped motion of up to 400 ns; `keys` stand behind its others.
+fn damped(keys: &str) -> String {
+    format!(
+        "Dynamics(
+            duration_ns: 400.0, record_every_ns: 1.0,
+            drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0), {keys}
+        )"
+    )
+}
+
+const STOP: &str = "stop: (force_pn: 1e-6, torque_pn_nm: 1e-6, kinetic_pn_nm: 1e-10),";
+
+fn moved(text: &str) -> Result<(Trajectory, RunReport), RunError> {
+    let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let mut assembly = Assembly::build(&scene).unwrap();
+    run(&mut assembly, &mut |_| ControlFlow::Continue(()))
+}
+
+fn energy(trajectory: &Trajectory) -> f64 {
+    trajectory.records.last().unwrap().potential_pn_nm()
+}
+
+/// Energy of the buckled rod, by statics.
+fn buckled() -> f64 {
+    let (trajectory, report) = moved(&pushed("", "Equilibrium()")).unwrap();
+    assert_eq!(report.certificate().unwrap().negative, 0);
+    assert!(report.saddles_left > 0);
+    energy(&trajectory)
+}
+
+/// Pushed exactly along its axis, the rod stays straight at `S3 strain^2 L / 2` = 306000 pN nm, where
+/// the buckled one has a thousandth of that. Whether a stop rule or the time ends the motion, it is
+/// said to be a saddle, with all records.
+#[test]
+fn a_straight_rod_that_stays_straight_is_a_saddle() {
+    for keys in ["", STOP] {
+        let Err(RunError::Saddle {
+            problem,
+            trajectory,
+            report,
+        }) = moved(&pushed("", &damped(keys)))
+        else {
+            panic!("no saddle");
+        };
+        let straight = 0.5 * 3.4e4 * 0.3_f64.powi(2) * 200.0;
+        assert!((energy(&trajectory) / straight - 1.0).abs() < 1e-9);
+        assert!(report.failed && report.at_rest.unwrap().negative > 0);
+        assert_eq!(report.converged, !keys.is_empty());
+        assert_eq!(trajectory.records[0].time_ns, 0.0);
+        assert_eq!(problem.key, "task.leave_saddles");
+        assert!(problem.rule.contains("imperfection"), "{problem}");
+        assert!(buckled() < 1e-2 * straight);
+    }
+}
+
+/// With an imperfection of 0.01 nm the motion ends in the buckled state of statics. The displacement
+/// is one of the start alone, so that nothing of it is left: what differs is the stop rule's residual,
+/// of second order in the energy.
+#[test]
+fn an_imperfection_leads_to_the_buckled_state() {
+    let imperfection = "imperfection: (amplitude_nm: 0.01, seed: 1),";
+    let (trajectory, report) = moved(&pushed(imperfection, &damped(STOP))).unwrap();
+    let error = energy(&trajectory) / buckled() - 1.0;
+    println!("imperfection: {error:.1e} from statics");
+    assert!(error.abs() < 1e-8, "{error:e}");
+    assert!(report.converged && report.at_rest.unwrap().negative == 0);
+    assert!(report.pushes.is_empty());
+}
+
+/// So does a motion that is pushed off the saddle, with and without a stop rule; the push is said.
+#[test]
+fn a_motion_is_pushed_off_saddles() {
+    // Without a rule that ends it, a motion counts as at rest at 1e-6 of its energy.
+    for (stop, bound) in [(STOP, 1e-8), ("", 1e-6)] {
+        let task = damped(&format!("leave_saddles: 3, {stop}"));
+        let (trajectory, report) = moved(&pushed("", &task)).unwrap();
+        let error = energy(&trajectory) / buckled() - 1.0;
+        println!("pushed: {error:.1e} from statics, {:?}", report.pushes);
+        assert!(error.abs() < bound, "{error:e}");
+        assert_eq!(report.at_rest.unwrap().negative, 0);
+        assert_eq!(report.saddles_left, report.pushes.len());
+        let push = report.pushes[0];
+        // The path takes 5 ns; the energy is that of the straight rod.
+        assert!(push.time_ns >= 5.0 && push.negative_eigenvalues > 0);
+        assert!((push.energy_pn_nm / 306_000.0 - 1.0).abs() < 1e-6);
+        let size = (push.displacement_nm / 0.01).max(push.turn_rad / 1e-3);
+        assert!((size - 1.0).abs() < 1e-12 && push.lowest_eigenvalue < 0.0);
+    }
+}
+
+/// A stable end is certified; one that still moves, that is warm or whose law has no energy is not.
+#[test]
+fn certificates_belong_to_motions_at_rest() {
+    let bent = |filament: &str, task: &str| {
+        let text = format!(
+            "Scene(
+                filament: Filament(
+                    sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)], {filament}
+                ),
+                clamps: [Clamp(end: Start)],
+                loads: [EndForce(end: End, force_pn: (2.0, 0.0, -1.0))],
+                task: Dynamics(duration_ns: {task}),
+            )"
+        );
+        let (_, report) = moved(&text).unwrap();
+        report.at_rest
+    };
+    let drag = "drag: (translational_per_ns: 3.0, rotational_per_ns: 3.0)";
+    let at_rest = bent("", &format!("60.0, {drag}")).unwrap();
+    assert_eq!((at_rest.negative, at_rest.unresolved), (0, 0));
+    assert_eq!(bent("", "5.0"), None);
+    assert_eq!(bent("", &format!("0.5, {drag}")), None);
+    let bath = "thermal: (temperature_k: 1e-20, seed: 1)";
+    assert_eq!(bent("", &format!("60.0, {drag}, {bath}")), None);
+    let printed = "rod: RodModel(force_law: PaperBalance),";
+    assert_eq!(bent(printed, &format!("60.0, {drag}")), None);
+}
+
+/// A free filament at rest has six neutral modes, and one that drifts is not at rest.
+#[test]
+fn a_free_filament_is_neutral() {
+    let text = "Scene(
+        filament: Filament(
+            sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)],
+            imperfection: (amplitude_nm: 0.1, seed: 3),
+        ),
+        task: Dynamics(
+            duration_ns: 60.0, drag: (translational_per_ns: 3.0, rotational_per_ns: 3.0),
+        ),
+    )";
+    let (_, report) = moved(text).unwrap();
+    let at_rest = report.at_rest.unwrap();
+    assert_eq!((at_rest.negative, at_rest.unresolved), (0, 6));
+    let pulled = text.replace(
+        "task:",
+        "loads: [EndForce(end: End, force_pn: (0.0, 0.0, 1.0))], task:",
+    );
+    assert_eq!(moved(&pulled).unwrap().1.at_rest, None);
+}
+
+/// Twist that slips ends the run, with the last good state: two turns and a half in a few ps, faster
+/// than they spread over six segments.
+#[test]
+fn twist_that_slips_is_an_error() {
+    let text = "Scene(
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)]),
+        clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
+        path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 900.0))], duration_ns: 0.02)],
+        task: Dynamics(
+            duration_ns: 2.0, record_every_ns: 0.002,
+            drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+        ),
+    )";
+    let scene = Scene::from_ron(text).unwrap();
+    let mut assembly = Assembly::build(&scene).unwrap();
+    let Err(RunError::Slipped {
+        place,
+        slip,
+        trajectory,
+        report,
+    }) = run(&mut assembly, &mut |_| ControlFlow::Continue(()))
+    else {
+        panic!("nothing slipped");
+    };
+    println!("{place}{slip}");
+    assert!(slip.lost_turns().abs() == 1.0 && slip.joint_deg.abs() > 90.0);
+    assert!(report.failed && !report.converged);
+    let last = trajectory.records.last().unwrap();
+    assert!(last.time_ns < slip.time_ns);
+    assert_eq!(assembly.system.state(), &last.state);
+    // Slowly enough, the same turn arrives.
+    let slowly = text.replace("duration_ns: 0.02", "duration_ns: 1.5");
+    let (trajectory, _) = moved(&slowly).unwrap();
+    assert_eq!(trajectory.records.last().unwrap().time_ns, 2.0);
+}

@@ -1,0 +1,106 @@
+//! Paths that end on a saddle, and twist that slips on the way: neither is a result.
+
+use crate::common::{build, cantilever, run};
+use actin_sim::{RunError, Scene};
+
+/// The straight column beyond its critical load of 3.76 pN is kept by `leave_saddles: 0` and reported
+/// as what it is, with its certificate; left, it buckles.
+#[test]
+fn a_column_that_is_kept_straight_is_a_saddle() {
+    let column = |task: &str| run(&mut build(&cantilever(8, [0.0, 0.0, -6.0], task)));
+    let Err(RunError::Saddle {
+        problem,
+        trajectory,
+        report,
+    }) = column("task: Equilibrium(leave_saddles: 0)")
+    else {
+        panic!("no saddle");
+    };
+    assert!(report.failed && report.saddles_left == 0);
+    // Both planes.
+    assert_eq!(report.certificate().unwrap().negative, 2);
+    assert_eq!(trajectory.records.len(), 1);
+    assert_eq!(
+        (problem.key.as_str(), problem.value.as_str()),
+        ("task.leave_saddles", "0")
+    );
+
+    let (_, report) = column("task: Equilibrium()").unwrap();
+    assert!(report.saddles_left > 0 && report.certificate().unwrap().negative == 0);
+}
+
+/// An imperfection is a displacement of the start: the load that acts at once then buckles the column
+/// without a saddle on the way, towards the side that the seed chooses.
+#[test]
+fn an_imperfection_chooses_the_side() {
+    let tip = |seed: u64| {
+        let imperfection = format!("imperfection: (amplitude_nm: 0.1, seed: {seed}), rod:");
+        let text = cantilever(8, [0.0, 0.0, -6.0], "task: Equilibrium(leave_saddles: 0)");
+        let mut assembly = build(&text.replace("rod:", &imperfection));
+        let (_, report) = run(&mut assembly).unwrap();
+        assert_eq!(report.saddles_left, 0);
+        let tip = assembly.tip_nm(assembly.system.state(), actin_sim::End::End);
+        tip.y.atan2(tip.x)
+    };
+    let sides = [1, 2, 3].map(tip);
+    println!("{sides:?}");
+    let apart = |a: f64, b: f64| (a - b).sin().hypot(1.0 - (a - b).cos()) > 0.1;
+    assert!(apart(sides[0], sides[1]) && apart(sides[1], sides[2]));
+}
+
+fn turned(sections: &str, degrees: f64, task: &str) -> String {
+    format!(
+        "Scene(
+            filament: Filament(sections: [{sections}]),
+            clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
+            path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, {degrees:?}))])],
+            task: Equilibrium({task}),
+        )"
+    )
+}
+
+/// A rod whose joints cannot follow is refused before it starts; a mixed filament, whose twist is not
+/// uniform, when a turn is lost: with the path up to there, and never with a result.
+#[test]
+fn twist_is_not_lost_without_a_word() {
+    let six = "Rod(from_nm: 0.0, to_nm: 75.0, segments: 6)";
+    let mut assembly = build(&turned(six, 5000.0, "accept_jumps: true"));
+    let refused = actin_sim::estimate(&assembly).unwrap_err();
+    assert!(refused.rule.contains("833 deg in a joint"), "{refused}");
+    let Err(RunError::Refused(problem)) = run(&mut assembly) else {
+        panic!("not refused");
+    };
+    assert_eq!(problem, refused);
+
+    let mixed =
+        "Rod(from_nm: 0.0, to_nm: 40.0, segments: 4), Ellipsoids(from_nm: 40.0, to_nm: 60.0)";
+    let mut assembly = build(&turned(mixed, 1500.0, "accept_jumps: true"));
+    let Err(RunError::Slipped {
+        place,
+        slip,
+        trajectory,
+        report,
+    }) = run(&mut assembly)
+    else {
+        panic!("nothing slipped");
+    };
+    println!("{place}{slip}");
+    assert!(slip.lost_turns().abs() >= 1.0 && report.failed);
+    let last = trajectory.records.last().unwrap();
+    assert!(last.time_ns < slip.time_ns && slip.time_ns <= 1.0);
+    assert_eq!(assembly.system.state().points, last.state.points);
+    assert_eq!(report.equilibrium.unwrap().points, trajectory.records.len());
+}
+
+/// What a caller has turned by hand counts as the start, not as lost: the path of this scene is empty.
+#[test]
+fn a_start_that_is_twisted_has_lost_nothing() {
+    let text = turned("Rod(from_nm: 0.0, to_nm: 75.0, segments: 8)", 700.0, "");
+    let mut assembly = build(&text);
+    let (trajectory, _) = run(&mut assembly).unwrap();
+    let mut scene = Scene::from_ron(&text).unwrap();
+    scene.path.clear();
+    let mut again = actin_sim::Assembly::build(&scene).unwrap();
+    *again.system.state_mut() = trajectory.records.last().unwrap().state.clone();
+    assert!(run(&mut again).is_ok());
+}
