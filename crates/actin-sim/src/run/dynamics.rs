@@ -105,7 +105,7 @@ fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Pr
         format!(
             "above the stability limit of {limit:.4e} ns ({} at the largest frequency, \
              {frequency:.1} rad/ns); allow_unstable_step: true runs it all the same",
-            scheme.name
+            scheme.name()
         ),
     )
 }
