@@ -22,9 +22,10 @@ pub(crate) fn check(path: &Path) -> Result<(), Failure> {
     print_sections(&opened.assembly);
     print_counts(&opened.assembly);
     print_linkers(&opened.assembly);
-    print_thermal(&opened.assembly);
+    print_thermal(&opened.assembly, estimate.as_ref());
     if let Some(estimate) = &estimate {
         print_step(estimate);
+        print_notes(estimate, &written.task);
     }
     print_cost(
         &Cost::of(&opened.assembly, estimate.as_ref()),
@@ -89,8 +90,8 @@ fn print_counts(assembly: &Assembly) {
     );
 }
 
-fn print_thermal(assembly: &Assembly) {
-    let Task::Dynamics(dynamics) = &assembly.scene.task else {
+fn print_thermal(assembly: &Assembly, estimate: Option<&Estimate>) {
+    let (Task::Dynamics(dynamics), Some(estimate)) = (&assembly.scene.task, estimate) else {
         return;
     };
     if let Some(thermal) = &dynamics.thermal {
@@ -100,18 +101,34 @@ fn print_thermal(assembly: &Assembly) {
             thermal.temperature_k,
             0.5 * energy * assembly.counts().dofs as f64
         );
+        println!(
+            "// positions of the fastest mode have {:.4} times the temperature at this step, slower \
+             ones are nearer to it",
+            estimate.warmth_of_the_fastest_mode(dynamics)
+        );
     }
 }
 
 fn print_step(estimate: &Estimate) {
     println!(
         "// largest frequency {:.2} rad/ns, stability limit {:.4e} ns, time step {:.4e} ns, at most \
-         {} steps",
+         {} steps, a record every {:.6} ns",
         estimate.largest_frequency_rad_per_ns,
         estimate.stability_limit_ns,
         estimate.time_step_ns,
-        estimate.steps
+        estimate.steps,
+        estimate.record_every_ns
     );
+}
+
+/// Where step and records are not those that were asked for, and what strong drag does.
+fn print_notes(estimate: &Estimate, task: &Task) {
+    let Task::Dynamics(dynamics) = task else {
+        return;
+    };
+    for note in estimate.notes(dynamics) {
+        println!("// note: {note}");
+    }
 }
 
 fn print_cost(cost: &Cost, moves: bool) {

@@ -178,6 +178,33 @@ impl Composition {
             .zip(self.coefficients.iter().copied())
     }
 
+    /// `<k x^2>/kT` of an oscillator in a heat bath, 1 in theory, if a conservative step of this method
+    /// lasts `theta` radians of it, `theta = b omega h` with `b` of
+    /// [`Drag::time_rescaling`](crate::Drag::time_rescaling). Velocities have exactly `kT`.
+    ///
+    /// One step takes `(x, v/omega)` by a matrix `[[a, b], [c, a]]` of determinant 1, which leaves
+    /// `-c x^2 + b (v/omega)^2` as it is: the ratio is `-b/c`. It has no meaning above the stability
+    /// limit.
+    ///
+    /// ```
+    /// // Positions are too cold by (omega h)^2/4 with position Verlet.
+    /// let ratio = actin_integrate::POSITION_VERLET.configurational_temperature(1.0);
+    /// assert!((ratio - 0.75).abs() < 1e-15);
+    /// ```
+    pub fn configurational_temperature(&self, theta: f64) -> f64 {
+        let column = |mut x: f64, mut v: f64| {
+            for (stage, coefficient) in self.stages() {
+                match stage {
+                    Stage::Drift => x += coefficient * theta * v,
+                    Stage::Kick => v -= coefficient * theta * x,
+                }
+            }
+            (x, v)
+        };
+        let ((_, c), (b, _)) = (column(1.0, 0.0), column(0.0, 1.0));
+        -b / c
+    }
+
     /// Evaluations of the loads per step in a long run.
     ///
     /// A method that ends with a kick leaves loads that its next step begins with; the very first

@@ -200,25 +200,6 @@ impl Interaction for Traps {
     fn write_energies(&self, _: &State, _: &mut [f64]) {}
 }
 
-/// `<k x^2> / <m v^2>` in the stationary state of an oscillator whose conservative step, for
-/// `theta = b omega h`, is that of `scheme`.
-///
-/// One step takes `(x, v/omega)` by a matrix `[[a, b], [c, a]]` of determinant 1, which leaves
-/// `-c x^2 + b (v/omega)^2` as it is; the bath leaves `v` with its own variance.
-fn configurational(scheme: &Composition, theta: f64) -> f64 {
-    let column = |mut x: f64, mut v: f64| {
-        for (stage, coefficient) in scheme.stages() {
-            match stage {
-                actin_integrate::Stage::Drift => x += coefficient * theta * v,
-                actin_integrate::Stage::Kick => v -= coefficient * theta * x,
-            }
-        }
-        (x, v)
-    };
-    let ((_, c), (b, _)) = (column(1.0, 0.0), column(0.0, 1.0));
-    -b / c
-}
-
 /// Velocities have exactly kT; positions are too warm or too cold by the error of the scheme.
 ///
 /// For the Verlet methods that is in closed form, by 1/(1 - (b omega h)^2/4) where kicks come first
@@ -236,7 +217,7 @@ fn oscillator_has_the_temperature_of_its_scheme() {
     ] {
         // The drag is the frequency, and rescales the conservative step.
         let rescaled = theta * Drag::new(1.0, 0.0).unwrap().time_rescaling(theta).0;
-        let expected = configurational(&scheme, rescaled);
+        let expected = scheme.configurational_temperature(rescaled);
         let quarter = 0.25 * rescaled * rescaled;
         if scheme == POSITION_VERLET {
             assert!((expected - (1.0 - quarter)).abs() < 1e-14);
@@ -348,7 +329,7 @@ fn points_drift_and_diffuse_as_they_should_at_any_step() {
 #[test]
 fn error_of_the_temperature_is_of_the_order_of_the_scheme() {
     for scheme in Composition::all() {
-        let error = |theta| (configurational(scheme, theta) - 1.0).abs();
+        let error = |theta| (scheme.configurational_temperature(theta) - 1.0).abs();
         let order = (error(0.2) / error(0.1)).log2();
         println!(
             "{scheme}: error {:.2e} at 0.1, order {order:.3}",

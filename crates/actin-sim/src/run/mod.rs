@@ -4,6 +4,7 @@ mod bound;
 mod dynamics;
 mod equilibrium;
 mod keep;
+mod steps;
 
 pub use dynamics::{Estimate, estimate};
 pub use equilibrium::EquilibriumReport;

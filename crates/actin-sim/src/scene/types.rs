@@ -278,12 +278,14 @@ pub struct Dynamics {
     /// Integrator.
     #[serde(default)]
     pub integrator: Integrator,
-    /// Time step (ns); by default the stability limit times `step_safety`.
+    /// Longest time step (ns); by default the stability limit times `step_safety`. Steps are shorter
+    /// where whole ones are to make up the duration and the interval of records.
     #[serde(default)]
     pub time_step_ns: Option<f64>,
-    /// Share of the estimated stability limit that the default time step takes.
-    #[serde(default = "default_step_safety")]
-    pub step_safety: f64,
+    /// Share of the estimated stability limit that the default time step takes; by default a half,
+    /// and a quarter for monomers in a heat bath.
+    #[serde(default)]
+    pub step_safety: Option<f64>,
     /// Whether a time step above the estimated stability limit may be run all the same.
     #[serde(default)]
     pub allow_unstable_step: bool,
@@ -296,13 +298,9 @@ pub struct Dynamics {
     /// When to stop early; never by default.
     #[serde(default)]
     pub stop: Option<StopRule>,
-    /// Time between recorded states (ns); by default a hundredth of the duration.
+    /// Time between recorded states (ns); by default about a hundredth of the duration.
     #[serde(default)]
     pub record_every_ns: Option<f64>,
-}
-
-fn default_step_safety() -> f64 {
-    actin_integrate::SAFETY
 }
 
 /// Integrators by name.

@@ -418,14 +418,8 @@ fn check_dynamics(dynamics: &Dynamics) -> Result<(), Problem> {
     if let Some(every) = dynamics.record_every_ns {
         positive(&key("record_every_ns"), every)?;
     }
-    let safety = dynamics.step_safety;
-    positive(&key("step_safety"), safety)?;
-    if safety >= 1.0 {
-        return Err(Problem::new(
-            key("step_safety"),
-            show(safety),
-            "must be below 1, the stability limit",
-        ));
+    if let Some(safety) = dynamics.step_safety {
+        check_safety(&key("step_safety"), safety)?;
     }
     non_negative(
         &key("drag.translational_per_ns"),
@@ -437,6 +431,15 @@ fn check_dynamics(dynamics: &Dynamics) -> Result<(), Problem> {
     )?;
     thermal::check(dynamics)?;
     dynamics.stop.as_ref().map_or(Ok(()), check_stop)
+}
+
+fn check_safety(key: &str, safety: f64) -> Result<(), Problem> {
+    positive(key, safety)?;
+    if safety < 1.0 {
+        return Ok(());
+    }
+    let rule = "must be below 1, the stability limit";
+    Err(Problem::new(key, show(safety), rule))
 }
 
 fn check_stop(stop: &StopRule) -> Result<(), Problem> {
