@@ -1,5 +1,5 @@
-//! Whether monomers in a heat bath have its temperature in their positions, at which share of the
-//! stability limit: what the default step of such a scene follows from.
+//! Whether monomers in a heat bath have its temperature in their positions at the default step, half the
+//! stability limit, or need a shorter one.
 //!
 //! Velocities have the temperature at any step. Positions are asked by two identities that hold for
 //! every potential, `<B . grad U> = kT <div B>`, with two fields `B`:
@@ -10,7 +10,9 @@
 //!   step that is too long makes too warm.
 
 use crate::filaments::KBT;
-use actin_integrate::{Bath, Drag, PEFRL, SAFETY, advance_in, largest_frequency, stable_step};
+use actin_integrate::{
+    Bath, Drag, PEFRL, Run, SAFETY, advance, advance_in, largest_frequency, stable_step,
+};
 use actin_mechanics::{Coordinates, State, Stiffness, System, UnitQuaternion, Vector3};
 use actin_sim::{Assembly, Scene};
 
@@ -120,6 +122,11 @@ fn relative(state: &State, i: usize) -> (Vector3, UnitQuaternion) {
     (back * (x.get(i) - x.get(i - 1)), back * q.get(i))
 }
 
+/// Steps of `h` in a time (ns).
+fn steps(h: f64, time: f64) -> u64 {
+    Run::over(&PEFRL, h, time).unwrap().steps()
+}
+
 /// What is run: bonds per interface, share of the stability limit of PEFRL, drag (1/ns).
 #[derive(Clone, Copy, Debug)]
 struct Case {
@@ -136,10 +143,9 @@ fn sample(case: Case, blocks: usize, samples: usize, seed: u64) -> Blocks {
     let drag = Drag::new(case.rate, case.rate).unwrap();
     let bath = Bath::new(drag, KBT, seed).unwrap();
     let mut thermometer = Thermometer::new(system.state());
-    let steps = |time: f64| (time / h).ceil() as u64;
-    let apart = steps(APART_NS);
+    let apart = steps(h, APART_NS);
     // Until the energy at the start, which is none, is forgotten to exp(-10).
-    let mut now = steps(10.0 / case.rate);
+    let mut now = steps(h, 10.0 / case.rate);
     advance_in(&mut system, &PEFRL, h, now, &bath, 0);
     let mut all: Blocks = Default::default();
     for _ in 0..blocks {
@@ -202,6 +208,37 @@ fn temperatures_of_positions_at_shares_of_the_limit() {
                 let words: Vec<_> = words.collect();
                 println!("{case:?}: {}", words.join(", "));
             }
+        }
+    }
+}
+
+/// By how much the energy of monomers at 298 K grows without drag, per ns and relative to `kT` for each
+/// degree of freedom: what the step adds, which a bath of drag `g` takes away at an excess of
+/// temperature of this over `g`.
+#[test]
+#[ignore = "takes minutes; run by hand with --ignored --nocapture"]
+fn energy_that_the_step_adds_at_room_temperature() {
+    const TIME_NS: f64 = 100.0;
+    for bonds in [64, 16] {
+        for share in [1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0] {
+            let growth = (0..8).map(|seed| {
+                let mut system = monomers(bonds);
+                let frequency = largest_frequency(&system).unwrap();
+                let h = stable_step(&PEFRL, frequency, share).unwrap();
+                let bath = Bath::new(Drag::new(5.0, 5.0).unwrap(), KBT, seed).unwrap();
+                advance_in(&mut system, &PEFRL, h, steps(h, 2.0), &bath, 0);
+                let before = system.total_energy();
+                advance(&mut system, &PEFRL, h, steps(h, TIME_NS), &Drag::NONE);
+                let state = system.state();
+                let coordinates = 3.0 * (state.points.len() + state.frames.len()) as f64;
+                (system.total_energy() - before) / (KBT * coordinates * TIME_NS)
+            });
+            let growth: Vec<f64> = growth.collect();
+            let mean = growth.iter().sum::<f64>() / growth.len() as f64;
+            let largest = growth.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
+            println!(
+                "{bonds} bonds, {share:.3} of the limit: mean {mean:.1e} per ns, largest {largest:.1e}"
+            );
         }
     }
 }

@@ -25,7 +25,9 @@ pub(crate) fn check(path: &Path) -> Result<(), Failure> {
     print_thermal(&opened.assembly, estimate.as_ref());
     if let Some(estimate) = &estimate {
         print_step(estimate);
-        print_notes(estimate, &written.task);
+    }
+    for note in estimate.iter().flat_map(|e| e.notes(&written.task)) {
+        println!("// note: {note}");
     }
     print_cost(
         &Cost::of(&opened.assembly, estimate.as_ref()),
@@ -119,16 +121,6 @@ fn print_step(estimate: &Estimate) {
         estimate.steps,
         estimate.record_every_ns
     );
-}
-
-/// Where step and records are not those that were asked for, and what strong drag does.
-fn print_notes(estimate: &Estimate, task: &Task) {
-    let Task::Dynamics(dynamics) = task else {
-        return;
-    };
-    for note in estimate.notes(dynamics) {
-        println!("// note: {note}");
-    }
 }
 
 fn print_cost(cost: &Cost, moves: bool) {

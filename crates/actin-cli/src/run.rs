@@ -6,7 +6,7 @@ use crate::progress::Progress;
 use crate::signals;
 use actin_sim::{
     Checkpoints, Estimate, Kept, RunDirectory, RunDirectoryError, RunError, RunLock, RunReport,
-    RunStatus, StabilitySummary, Summary, Task, Trajectory,
+    RunStatus, StabilitySummary, Summary, Trajectory,
 };
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -18,7 +18,12 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut opened = Opened::open(path)?;
     let estimate =
         actin_sim::estimate(&opened.assembly).map_err(|problem| opened.refuse(&problem))?;
-    print_notes(&opened, estimate.as_ref());
+    for note in estimate
+        .iter()
+        .flat_map(|e| e.notes(&opened.assembly.scene.task))
+    {
+        println!("note: {note}");
+    }
     let by_default = || Path::new("runs").join(path.file_stem().unwrap_or_default());
     let out = arguments.out.clone().unwrap_or_else(by_default);
     let directory = RunDirectory::existing(&out);
@@ -50,15 +55,6 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     directory.remove_checkpoint()?;
     print(&summary, &out);
     Ok(())
-}
-
-/// Where step and records are not those that the scene asks for, and what strong drag does.
-fn print_notes(opened: &Opened, estimate: Option<&Estimate>) {
-    if let (Some(estimate), Task::Dynamics(dynamics)) = (estimate, &opened.assembly.scene.task) {
-        for note in estimate.notes(dynamics) {
-            println!("note: {note}");
-        }
-    }
 }
 
 /// Makes or opens the run directory; what keeps other runs out of it.

@@ -3,7 +3,9 @@
 use super::row::{Outcome, Row, larger};
 use super::scenes::{build, either};
 use super::stability::{MODELS, free};
-use actin_integrate::{Bath, Drag, PEFRL, advance, advance_in, largest_frequency, stable_step};
+use actin_integrate::{
+    Bath, Drag, PEFRL, Run, advance, advance_in, largest_frequency, stable_step,
+};
 use actin_mechanics::testing::momenta;
 use actin_mechanics::{State, System, Vector3};
 use actin_sim::{Assembly, End, Record, RunError};
@@ -85,6 +87,12 @@ fn flights() -> Vec<Row> {
 fn default_step(system: &System) -> f64 {
     let frequency = largest_frequency(system).expect("loads at rest are finite");
     stable_step(&PEFRL, frequency, 0.5).expect("it is positive")
+}
+
+/// Steps of `h` in a time (ns).
+fn steps(h: f64, time: f64) -> u64 {
+    let run = Run::over(&PEFRL, h, time).expect("steps and times are positive");
+    run.steps()
 }
 
 /// Momentum decays as `exp(-gamma t)` whatever the filament does, at any step.
@@ -243,7 +251,7 @@ fn diffusion(mut system: System, rate: f64) -> Outcome {
     let bath = Bath::new(drag, KT, 29).expect("it is positive");
     let g_h = rate * h;
     // Ways are then independent to a few percent.
-    let each = (10.0 / g_h).ceil() as u64;
+    let each = steps(h, 10.0 / rate);
     let mut place = centre(system.state()).1;
     let mut square = 0.0;
     for sample in 0..=SAMPLES {
@@ -277,7 +285,7 @@ fn temperature(mut system: System, rate: f64) -> Outcome {
     let coordinates = 3.0 * (system.state().points.len() + system.state().frames.len()) as f64;
     // The slowest mode, of 30 rad/ns, relaxes in g/900 ns^2 or in 2/g.
     let memory = (rate / 900.0).max(2.0 / rate);
-    let (each, samples) = ((0.5 * memory / h).ceil() as u64, 1000);
+    let (each, samples) = (steps(h, 0.5 * memory), 1000);
     let mut now = 20 * each;
     advance_in(&mut system, &PEFRL, h, now, &bath, 0);
     let (mut kinetic, mut strain) = (0.0, 0.0);

@@ -218,7 +218,7 @@ fn approach(
             translational_per_ns: drag,
             rotational_per_ns: drag,
         },
-        step_safety: Some(0.9),
+        step_safety: 0.9,
         record_every_ns: Some(0.5),
         ..solve::motion(LONGEST_NS, integrator, None)
     };

@@ -158,7 +158,7 @@ pub(super) fn motion(
         duration_ns,
         integrator,
         time_step_ns,
-        step_safety: None,
+        step_safety: 0.5,
         allow_unstable_step: false,
         drag: actin_sim::Drag::default(),
         thermal: None,

@@ -2,7 +2,7 @@
 
 use super::bound::kinetic_limit;
 use super::keep::{Clock, Keeper, Kept, Standing};
-use super::steps::{Steps, share_of_limit};
+use super::steps::Steps;
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
 use crate::assembly::Ramp;
@@ -78,7 +78,7 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Pro
         .map_err(|error| refused(error.to_string()))?;
     let wanted = dynamics
         .time_step_ns
-        .unwrap_or_else(|| limit * share_of_limit(assembly, dynamics));
+        .unwrap_or(limit * dynamics.step_safety);
     if wanted > limit && !dynamics.allow_unstable_step {
         return Err(unstable(scheme, wanted, limit, frequency));
     }

@@ -1,9 +1,8 @@
 //! How many time steps a motion takes and how many lie between its records.
 
 use super::Estimate;
-use crate::Assembly;
-use crate::scene::{Dynamics, Problem};
-use actin_integrate::{Drag, SAFETY};
+use crate::scene::{Dynamics, Problem, Task};
+use actin_integrate::Drag;
 
 /// Records of a run, unless the scene says otherwise.
 const DEFAULT_RECORDS: f64 = 100.0;
@@ -24,23 +23,8 @@ const WHOLE: f64 = 1e-9;
 /// Round-off of a quotient that is whole, which shall not cost a step.
 const ROUND_OFF: f64 = 1e-12;
 
-/// Share of the stability limit that monomers in a heat bath take by default: at half of it their
-/// positions are too warm (`docs/numerics.md`).
-pub(super) const SAFETY_OF_MONOMERS_IN_A_BATH: f64 = 0.25;
-
 /// A drift that is recorded more than this share too small is worth a note.
 const RECORDED_DRIFT: f64 = 0.01;
-
-/// The share of the stability limit that the step takes where the scene gives no step.
-pub(super) fn share_of_limit(assembly: &Assembly, dynamics: &Dynamics) -> f64 {
-    let is_warm = dynamics.thermal.is_some() && assembly.counts().monomers > 0;
-    let default = if is_warm {
-        SAFETY_OF_MONOMERS_IN_A_BATH
-    } else {
-        SAFETY
-    };
-    dynamics.step_safety.unwrap_or(default)
-}
 
 /// The steps of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,10 +126,13 @@ fn between_records(duration: f64, every: f64, fewest: f64) -> Option<f64> {
 }
 
 impl Estimate {
-    /// What a user should know of the time step and the records of a motion that asked for
-    /// `dynamics`: where they are not those that were asked for, and what strong drag does to what is
-    /// recorded. One sentence each.
-    pub fn notes(&self, dynamics: &Dynamics) -> Vec<String> {
+    /// What a user should know of the time step and the records of a `task` as it was written: where
+    /// they are not those that were asked for, and what strong drag does to what is recorded. One
+    /// sentence each.
+    pub fn notes(&self, task: &Task) -> Vec<String> {
+        let Task::Dynamics(dynamics) = task else {
+            return Vec::new();
+        };
         let notes = [
             self.note_on_step(dynamics),
             self.note_on_records(dynamics),
@@ -229,7 +216,6 @@ impl Estimate {
 mod tests {
     use super::*;
     use crate::Scene;
-    use crate::scene::Task;
 
     fn dynamics(task: &str) -> Dynamics {
         let text = format!(
@@ -272,7 +258,7 @@ mod tests {
         let steps = Steps::of(&task, 0.003).unwrap();
         assert_eq!((steps.count, steps.between_records), (265, 34));
         assert!((steps.record_every_ns - 0.777 / 265.0 * 34.0).abs() < 1e-12);
-        let notes = estimate(&steps).notes(&task);
+        let notes = estimate(&steps).notes(&Task::Dynamics(task));
         assert_eq!(notes.len(), 2);
         assert!(
             notes[0].contains("steps of 2.932075e-3 ns are taken"),
@@ -299,7 +285,7 @@ mod tests {
     fn notes(task: &str) -> Vec<String> {
         let task = dynamics(task);
         let steps = Steps::of(&task, task.time_step_ns.unwrap_or(0.003)).unwrap();
-        estimate(&steps).notes(&task)
+        estimate(&steps).notes(&Task::Dynamics(task))
     }
 
     /// A step that was written is the longest there is; a shorter one is told, and so is strong drag.

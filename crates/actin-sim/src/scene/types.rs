@@ -282,10 +282,9 @@ pub struct Dynamics {
     /// where whole ones are to make up the duration and the interval of records.
     #[serde(default)]
     pub time_step_ns: Option<f64>,
-    /// Share of the estimated stability limit that the default time step takes; by default a half,
-    /// and a quarter for monomers in a heat bath.
-    #[serde(default)]
-    pub step_safety: Option<f64>,
+    /// Share of the estimated stability limit that the default time step takes.
+    #[serde(default = "default_step_safety")]
+    pub step_safety: f64,
     /// Whether a time step above the estimated stability limit may be run all the same.
     #[serde(default)]
     pub allow_unstable_step: bool,
@@ -301,6 +300,10 @@ pub struct Dynamics {
     /// Time between recorded states (ns); by default about a hundredth of the duration.
     #[serde(default)]
     pub record_every_ns: Option<f64>,
+}
+
+fn default_step_safety() -> f64 {
+    actin_integrate::SAFETY
 }
 
 /// Integrators by name.

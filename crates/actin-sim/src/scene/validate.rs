@@ -418,8 +418,14 @@ fn check_dynamics(dynamics: &Dynamics) -> Result<(), Problem> {
     if let Some(every) = dynamics.record_every_ns {
         positive(&key("record_every_ns"), every)?;
     }
-    if let Some(safety) = dynamics.step_safety {
-        check_safety(&key("step_safety"), safety)?;
+    let safety = dynamics.step_safety;
+    positive(&key("step_safety"), safety)?;
+    if safety >= 1.0 {
+        return Err(Problem::new(
+            key("step_safety"),
+            show(safety),
+            "must be below 1, the stability limit",
+        ));
     }
     non_negative(
         &key("drag.translational_per_ns"),
@@ -431,15 +437,6 @@ fn check_dynamics(dynamics: &Dynamics) -> Result<(), Problem> {
     )?;
     thermal::check(dynamics)?;
     dynamics.stop.as_ref().map_or(Ok(()), check_stop)
-}
-
-fn check_safety(key: &str, safety: f64) -> Result<(), Problem> {
-    positive(key, safety)?;
-    if safety < 1.0 {
-        return Ok(());
-    }
-    let rule = "must be below 1, the stability limit";
-    Err(Problem::new(key, show(safety), rule))
 }
 
 fn check_stop(stop: &StopRule) -> Result<(), Problem> {

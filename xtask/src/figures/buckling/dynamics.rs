@@ -74,7 +74,7 @@ fn dynamics() -> Dynamics {
         duration_ns: LONGEST_NS,
         integrator: Integrator::PositionVerlet,
         time_step_ns: None,
-        step_safety: Some(0.9),
+        step_safety: 0.9,
         allow_unstable_step: false,
         drag: Drag {
             translational_per_ns: DRAG_PER_NS,
