@@ -2,7 +2,9 @@
 //!
 //! The tables of `docs/numerics.md` are what these tests print with `--nocapture`.
 
+mod damped;
 mod energy;
+mod equipartition;
 mod filaments;
 mod invariants;
 mod joined;

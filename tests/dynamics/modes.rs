@@ -74,6 +74,20 @@ impl Modes {
         self.frequencies.partition_point(|f| *f < frequency)
     }
 
+    /// The displacement of coordinate `c` under a small constant load on coordinate `by`, if a mode of
+    /// frequency `omega` answers a load of one by `answer(omega)`; coordinates count three for each
+    /// body, points first. What is held does not move.
+    pub(crate) fn response(&self, c: usize, by: (usize, f64), answer: impl Fn(f64) -> f64) -> f64 {
+        let (place, load) = by;
+        let load = self.weights[place] * load;
+        let moves = |k: &usize| self.frequencies[*k] > 1e-6 * self.largest();
+        let each = (0..self.frequencies.len()).filter(moves).map(|k| {
+            let shape = self.shapes.column(k);
+            shape[c] * shape[place] * answer(self.frequencies[k])
+        });
+        self.weights[c] * load * each.sum::<f64>()
+    }
+
     /// Sets the filament in motion along a random mixture of its slow modes, with `level` kBT for
     /// each of them on average, and without rigid motion.
     pub(crate) fn set_slow_motion(&self, state: &mut State, level: f64, seed: u64) {
@@ -101,11 +115,12 @@ impl Modes {
     }
 }
 
-/// Inverse square roots of masses and moments.
+/// Inverse square roots of masses and moments; zero of what is held.
 fn weights(state: &State) -> DVector<f64> {
     let points = state.points.inverse_mass().iter().flat_map(|m| [*m; 3]);
     let frames = (0..state.frames.len()).flat_map(|i| {
-        let inverse: [f64; 3] = state.frames.inverse_moments(i).into();
+        let mobility = f64::from(u8::from(state.frames.is_free(i)));
+        let inverse: [f64; 3] = (mobility * state.frames.inverse_moments(i)).into();
         inverse
     });
     DVector::from_vec(points.chain(frames).map(f64::sqrt).collect())

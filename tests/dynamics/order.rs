@@ -67,12 +67,12 @@ fn every_method_has_its_order_on_every_filament() {
                 .collect();
             println!(
                 "  {}, 1/{fraction} rad: errors {}, orders {orders:.3?}",
-                scheme.name,
+                scheme.name(),
                 scientific(&coarse)
             );
             for order in orders {
                 assert!(
-                    (order - f64::from(scheme.order)).abs() < 0.05,
+                    (order - f64::from(scheme.order())).abs() < 0.05,
                     "{}, {scheme}: {order}",
                     filament.0
                 );

@@ -207,8 +207,10 @@ fn the_smallest_filaments_move_and_smaller_ones_are_refused() {
     assert!(rows.iter().all(is_correct));
 }
 
+/// From none to far beyond what a step resolves: momentum, terminal velocity, creep, rest, diffusion and
+/// temperature.
 #[test]
-fn drag_takes_momentum_exactly_at_any_rate() {
+fn drag_does_what_it_should_at_any_rate() {
     let rows = drag::rows();
     assert_sound(&rows);
     assert!(rows.iter().all(is_correct));

@@ -22,12 +22,15 @@ pub(crate) fn check(path: &Path) -> Result<(), Failure> {
     print_sections(&opened.assembly);
     print_counts(&opened.assembly);
     print_linkers(&opened.assembly);
-    print_thermal(&opened.assembly);
+    print_thermal(&opened.assembly, estimate.as_ref());
     for note in opened.assembly.notes() {
         println!("// note: {note}");
     }
     if let Some(estimate) = &estimate {
         print_step(estimate);
+    }
+    for note in estimate.iter().flat_map(|e| e.notes(&written.task)) {
+        println!("// note: {note}");
     }
     let (assembly, estimate) = (&opened.assembly, estimate.as_ref());
     println!("// cost: {}", Cost::of(assembly, estimate));
@@ -90,13 +93,21 @@ fn print_counts(assembly: &Assembly) {
     );
 }
 
-fn print_thermal(assembly: &Assembly) {
-    if let Some(thermal) = assembly.scene.thermal() {
+fn print_thermal(assembly: &Assembly, estimate: Option<&Estimate>) {
+    let (Task::Dynamics(dynamics), Some(estimate)) = (&assembly.scene.task, estimate) else {
+        return;
+    };
+    if let Some(thermal) = &dynamics.thermal {
         let energy = thermal.energy_pn_nm();
         println!(
             "// thermal energy {energy:.4} pN nm at {} K, mean kinetic energy {:.2} pN nm",
             thermal.temperature_k,
             0.5 * energy * assembly.counts().dofs as f64
+        );
+        println!(
+            "// positions of the fastest mode have {:.4} times the temperature at this step, slower \
+             ones are nearer to it",
+            estimate.warmth_of_the_fastest_mode(dynamics)
         );
     }
 }
@@ -104,10 +115,11 @@ fn print_thermal(assembly: &Assembly) {
 fn print_step(estimate: &Estimate) {
     println!(
         "// largest frequency {:.2} rad/ns, stability limit {:.4e} ns, time step {:.4e} ns, at most \
-         {} steps",
+         {} steps, a record every {:.6} ns",
         estimate.largest_frequency_rad_per_ns,
         estimate.stability_limit_ns,
         estimate.time_step_ns,
-        estimate.steps
+        estimate.steps,
+        estimate.record_every_ns
     );
 }

@@ -18,6 +18,12 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut opened = Opened::open(path)?;
     let estimate =
         actin_sim::estimate(&opened.assembly).map_err(|problem| opened.refuse(&problem))?;
+    for note in estimate
+        .iter()
+        .flat_map(|e| e.notes(&opened.assembly.scene.task))
+    {
+        println!("note: {note}");
+    }
     let by_default = || Path::new("runs").join(path.file_stem().unwrap_or_default());
     let out = arguments.out.clone().unwrap_or_else(by_default);
     let directory = RunDirectory::existing(&out);

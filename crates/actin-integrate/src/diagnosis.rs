@@ -139,11 +139,11 @@ impl Split for Probe<'_> {
         self.system.drift(h);
     }
 
-    fn kick(&mut self, h: f64) {
+    fn kick(&mut self, translation: f64, rotation: f64) {
         if self.culprit.is_none() && self.system.state().is_finite() {
             self.culprit = broken_load(self.system);
         }
-        self.system.kick(h);
+        self.system.kick(translation, rotation);
     }
 
     fn damp(&mut self, translational: f64, rotational: f64) {

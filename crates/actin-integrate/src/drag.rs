@@ -6,7 +6,8 @@ use thiserror::Error;
 ///
 /// `dv/dt = -gamma_t v` on velocities and `dl/dt = -gamma_r l` on angular momenta, rates in 1/ns.
 /// Over a time `t` this multiplies them by `exp(-gamma t)`, which is how it is applied: half a
-/// step before and half a step after each conservative step, never within.
+/// step before and half a step after each conservative step, never within. The conservative step
+/// is rescaled in time, see [`time_rescaling`](Self::time_rescaling).
 ///
 /// ```
 /// use actin_integrate::Drag;
@@ -62,6 +63,53 @@ impl Drag {
         (
             (-self.translational * t).exp(),
             (-self.rotational * t).exp(),
+        )
+    }
+
+    /// Durations of the conservative step of points and of frames, in units of the step `h` (ns):
+    /// `b = sqrt(tanh(gamma h/2) / (gamma h/2))`, 1 without drag and `1 - (gamma h)^2/24` where it is
+    /// weak.
+    ///
+    /// With them a body under a constant force `F` moves by `F h/(m gamma)` a step once its velocity
+    /// is terminal, and in a heat bath it diffuses with `kT/(m gamma)`, both at any step. Steps
+    /// that are not rescaled are too large by `(gamma h/2) coth(gamma h/2)` in both.
+    ///
+    /// ```
+    /// use actin_integrate::Drag;
+    /// let (translation, rotation) = Drag::new(2.0, 0.0).unwrap().time_rescaling(1.0);
+    /// assert!((translation * translation - 1.0f64.tanh()).abs() < 1e-15);
+    /// assert_eq!(rotation, 1.0);
+    /// ```
+    ///
+    /// # Source
+    /// Sivak, Chodera and Crooks, J. Phys. Chem. B 118 (2014) 6466, equation 11.
+    pub fn time_rescaling(&self, h: f64) -> (f64, f64) {
+        let b = |rate: f64| {
+            let x = 0.5 * rate * h;
+            if x == 0.0 { 1.0 } else { (x.tanh() / x).sqrt() }
+        };
+        (b(self.translational), b(self.rotational))
+    }
+
+    /// Terminal velocities and angular velocities at the ends of steps of `h` (ns), relative to the
+    /// displacement over a step: `b x/sinh(x)` with `x = gamma h/2`, `1 - (gamma h)^2/12` where drag
+    /// is weak. What is at the end of a step has just been slowed for half a step.
+    ///
+    /// ```
+    /// use actin_integrate::Drag;
+    /// let (translation, rotation) = Drag::new(0.1, 0.0).unwrap().recorded_drift(1.0);
+    /// assert!((translation - (1.0 - 0.01 / 12.0)).abs() < 1e-5);
+    /// assert_eq!(rotation, 1.0);
+    /// ```
+    pub fn recorded_drift(&self, h: f64) -> (f64, f64) {
+        let (translation, rotation) = self.time_rescaling(h);
+        let share = |rate: f64, b: f64| {
+            let x = 0.5 * rate * h;
+            if x == 0.0 { 1.0 } else { b * x / x.sinh() }
+        };
+        (
+            share(self.translational, translation),
+            share(self.rotational, rotation),
         )
     }
 }

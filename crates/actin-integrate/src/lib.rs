@@ -37,7 +37,7 @@ mod surroundings;
 
 pub use bath::{Bath, BathError};
 pub use checkpoint::{Checkpoint, Mark, Pause};
-pub use composition::{Composition, Stage, UnknownScheme};
+pub use composition::{Composition, CompositionError, Stage, UnknownScheme};
 pub use drag::{Drag, DragError};
 pub use failure::{Body, Problem, RunFailure};
 pub use frequency::{FrequencyError, KRYLOV_VECTORS, largest_frequency, largest_frequency_with};

@@ -12,24 +12,31 @@ pub(crate) trait Surroundings<S: Split + ?Sized> {
     /// Acts for half a step, after one.
     fn after(&mut self, system: &mut S);
 
+    /// How long loads act within a conservative step, relative to its stages: on points and on
+    /// frames.
+    fn kicks(&self) -> (f64, f64) {
+        (1.0, 1.0)
+    }
+
+    /// Applies `stage` for a time `t` within a conservative step.
+    #[inline]
+    fn apply(&self, stage: Stage, system: &mut S, t: f64) {
+        match stage {
+            Stage::Drift => system.drift(t),
+            Stage::Kick => {
+                let (translation, rotation) = self.kicks();
+                system.kick(t * translation, t * rotation);
+            }
+        }
+    }
+
     /// What lies between the inner stages of two steps: `stage` for a time `t`, the halves, and
     /// `stage` again.
     fn between(&mut self, system: &mut S, stage: Stage, t: f64) {
-        stage.apply(system, t);
+        self.apply(stage, system, t);
         self.after(system);
         self.before(system);
-        stage.apply(system, t);
-    }
-}
-
-impl Stage {
-    /// Applies the stage for a time `t`.
-    #[inline]
-    pub(crate) fn apply<S: Split + ?Sized>(self, system: &mut S, t: f64) {
-        match self {
-            Self::Drift => system.drift(t),
-            Self::Kick => system.kick(t),
-        }
+        self.apply(stage, system, t);
     }
 }
 
@@ -42,21 +49,60 @@ impl<S: Split + ?Sized> Surroundings<S> for Nothing {
     fn after(&mut self, _: &mut S) {}
 
     fn between(&mut self, system: &mut S, stage: Stage, t: f64) {
-        stage.apply(system, 2.0 * t);
+        self.apply(stage, system, 2.0 * t);
+    }
+}
+
+/// Factors on the motion of points and of frames.
+type Factors = (f64, f64);
+
+/// One factor times another, for points and for frames.
+fn times(a: Factors, b: Factors) -> Factors {
+    (a.0 * b.0, a.1 * b.1)
+}
+
+/// The two halves of drag about a conservative step that is rescaled in time.
+///
+/// Such a step lasts `b h`, with `b` of [`Drag::time_rescaling`]. It is made as a step of `h` with
+/// `b` times the velocities, in which loads act for `b^2` of each stage: what is held or driven
+/// then moves in its own time.
+#[derive(Clone, Copy, Debug)]
+struct Halves {
+    /// Decay and the change to rescaled velocities.
+    before: Factors,
+    /// The change back, and decay.
+    after: Factors,
+    /// `b`.
+    rescaling: Factors,
+    /// `b^2`.
+    kicks: Factors,
+}
+
+impl Halves {
+    /// Those of `drag` in steps of `h` (ns).
+    fn of(drag: &Drag, h: f64) -> Self {
+        let decay = drag.factors(0.5 * h);
+        let b = drag.time_rescaling(h);
+        Self {
+            before: times(decay, b),
+            after: (decay.0 / b.0, decay.1 / b.1),
+            rescaling: b,
+            kicks: times(b, b),
+        }
     }
 }
 
 /// Drag: the halves on either side become one.
 pub(crate) struct Dragging {
-    half: (f64, f64),
-    whole: (f64, f64),
+    halves: Halves,
+    whole: Factors,
 }
 
 impl Dragging {
     /// Drag in steps of `h` (ns).
     pub(crate) fn over(drag: &Drag, h: f64) -> Self {
         Self {
-            half: drag.factors(0.5 * h),
+            halves: Halves::of(drag, h),
             whole: drag.factors(h),
         }
     }
@@ -64,25 +110,29 @@ impl Dragging {
 
 impl<S: Split + ?Sized> Surroundings<S> for Dragging {
     fn before(&mut self, system: &mut S) {
-        system.damp(self.half.0, self.half.1);
+        system.damp(self.halves.before.0, self.halves.before.1);
     }
 
     fn after(&mut self, system: &mut S) {
-        system.damp(self.half.0, self.half.1);
+        system.damp(self.halves.after.0, self.halves.after.1);
+    }
+
+    fn kicks(&self) -> (f64, f64) {
+        self.halves.kicks
     }
 
     fn between(&mut self, system: &mut S, stage: Stage, t: f64) {
-        stage.apply(system, t);
+        self.apply(stage, system, t);
         system.damp(self.whole.0, self.whole.1);
-        stage.apply(system, t);
+        self.apply(stage, system, t);
     }
 }
 
 /// A heat bath: the halves stay apart, so that no bit depends on where steps were counted in one
 /// call and where in two.
 pub(crate) struct Heating {
-    factors: (f64, f64),
-    spreads: (f64, f64),
+    halves: Halves,
+    spreads: Factors,
     noise: Noise,
     step: u64,
 }
@@ -92,28 +142,40 @@ impl Heating {
     /// points and frames.
     pub(crate) fn over(bath: &Bath, h: f64, step: u64, bodies: (usize, usize)) -> Self {
         Self {
-            factors: bath.drag().factors(0.5 * h),
+            halves: Halves::of(bath.drag(), h),
             spreads: bath.spreads(0.5 * h),
             noise: Noise::new(bath.seed(), bodies),
             step,
         }
     }
 
-    /// The exact step of the Ornstein-Uhlenbeck process over half a step.
-    fn act<S: Agitate + ?Sized>(&mut self, system: &mut S, half: Half) {
-        self.noise.draw(self.step, half, self.spreads);
-        system.damp(self.factors.0, self.factors.1);
+    /// The exact step of the Ornstein-Uhlenbeck process over half a step: decay by `factors`, and
+    /// impulses of the standard deviations `spreads`.
+    fn act<S: Agitate + ?Sized>(
+        &mut self,
+        system: &mut S,
+        half: Half,
+        factors: Factors,
+        spreads: Factors,
+    ) {
+        self.noise.draw(self.step, half, spreads);
+        system.damp(factors.0, factors.1);
         system.agitate(&self.noise.points, &self.noise.frames);
     }
 }
 
 impl<S: Agitate + ?Sized> Surroundings<S> for Heating {
     fn before(&mut self, system: &mut S) {
-        self.act(system, Half::Before);
+        let rescaled = times(self.spreads, self.halves.rescaling);
+        self.act(system, Half::Before, self.halves.before, rescaled);
     }
 
     fn after(&mut self, system: &mut S) {
-        self.act(system, Half::After);
+        self.act(system, Half::After, self.halves.after, self.spreads);
         self.step += 1;
+    }
+
+    fn kicks(&self) -> (f64, f64) {
+        self.halves.kicks
     }
 }

@@ -200,29 +200,10 @@ impl Interaction for Traps {
     fn write_energies(&self, _: &State, _: &mut [f64]) {}
 }
 
-/// `<k x^2> / <m v^2>` in the stationary state of an oscillator whose conservative step, for
-/// `theta = omega h`, is that of `scheme`.
-///
-/// One step takes `(x, v/omega)` by a matrix `[[a, b], [c, a]]` of determinant 1, which leaves
-/// `-c x^2 + b (v/omega)^2` as it is; the bath leaves `v` with its own variance.
-fn configurational(scheme: &Composition, theta: f64) -> f64 {
-    let column = |mut x: f64, mut v: f64| {
-        for (stage, coefficient) in scheme.stages() {
-            match stage {
-                actin_integrate::Stage::Drift => x += coefficient * theta * v,
-                actin_integrate::Stage::Kick => v -= coefficient * theta * x,
-            }
-        }
-        (x, v)
-    };
-    let ((_, c), (b, _)) = (column(1.0, 0.0), column(0.0, 1.0));
-    -b / c
-}
-
 /// Velocities have exactly kT; positions are too warm or too cold by the error of the scheme.
 ///
-/// For the Verlet methods that is in closed form, by 1/(1 - (omega h)^2/4) where kicks come first
-/// and by 1 - (omega h)^2/4 where drifts do. A bath inside the steps, or its halves on one side
+/// For the Verlet methods that is in closed form, by 1/(1 - (b omega h)^2/4) where kicks come first
+/// and by 1 - (b omega h)^2/4 where drifts do. A bath inside the steps, or its halves on one side
 /// only, would change both.
 #[test]
 fn oscillator_has_the_temperature_of_its_scheme() {
@@ -234,8 +215,10 @@ fn oscillator_has_the_temperature_of_its_scheme() {
         (PEFRL, 1.5),
         (PEFRL, 2.5),
     ] {
-        let expected = configurational(&scheme, theta);
-        let quarter = 0.25 * theta * theta;
+        // The drag is the frequency, and rescales the conservative step.
+        let rescaled = theta * Drag::new(1.0, 0.0).unwrap().time_rescaling(theta).0;
+        let expected = scheme.configurational_temperature(rescaled);
+        let quarter = 0.25 * rescaled * rescaled;
         if scheme == POSITION_VERLET {
             assert!((expected - (1.0 - quarter)).abs() < 1e-14);
         } else if scheme == VELOCITY_VERLET {
@@ -275,17 +258,84 @@ fn oscillator_temperatures(scheme: &Composition, theta: f64) -> [f64; 2] {
     means
 }
 
+/// Every point pulled by the same force.
+#[derive(Debug)]
+struct Pull(Vector3);
+
+impl Interaction for Pull {
+    fn term(&self) -> &'static str {
+        "pull"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        (0..state.points.len()).for_each(|i| loads.force.add(i, self.0));
+    }
+
+    fn elements(&self) -> usize {
+        0
+    }
+
+    fn write_energies(&self, _: &State, _: &mut [f64]) {}
+}
+
+/// Under a force points drift with `F/(m g)` and diffuse with `kT/(m g)`, at any step.
+///
+/// From the start, where all have the same velocity of a temperature: the variance grows as
+/// `2 kT/(m g) (t - c (1 - exp(-g t))/g)`, with `c = g h/sinh(g h)` where time is continuous 1. Steps
+/// that are not rescaled in time are too far in both by `(g h/2) coth(g h/2)`, 1.66 and 15 of the last.
+#[test]
+fn points_drift_and_diffuse_as_they_should_at_any_step() {
+    let (mass, gamma, steps) = (0.07, 2.0, 60);
+    for scheme in [POSITION_VERLET, PEFRL] {
+        for g_h in [0.03, 0.3, 3.0, 30.0] {
+            let h = g_h / gamma;
+            let mut state = crowd(4000).state().clone();
+            state.points.velocity = Vectors::zeros(4000);
+            let pull = Pull(Vector3::new(3.0, 0.0, 0.0));
+            let mut system = System::new(state, vec![Box::new(pull)]);
+            let bath = bath(gamma, 1.0, KT, 41);
+            // Until velocities have their law.
+            let warm = Run::over(&PEFRL, h, 20.0 / gamma).unwrap().steps();
+            advance_in(&mut system, &scheme, h, warm, &bath, 0);
+            let start = system.state().points.position.clone();
+            advance_in(&mut system, &scheme, h, steps, &bath, warm);
+            let end = &system.state().points.position;
+            let t = h * steps as f64;
+            let law = |mean: f64| {
+                let slower = g_h / g_h.sinh() * (1.0 - (-gamma * t).exp()) / gamma;
+                [mean, 2.0 * KT / (mass * gamma) * (t - slower)]
+            };
+            let all = [(&start.x, &end.x), (&start.y, &end.y), (&start.z, &end.z)];
+            let drift = 3.0 * t / (mass * gamma);
+            for ((start, end), [mean, variance]) in
+                all.into_iter().zip([law(drift), law(0.0), law(0.0)])
+            {
+                let way = || start.iter().zip(end).map(|(a, b)| b - a);
+                let n = way().len();
+                let average = way().sum::<f64>() / n as f64;
+                let square = way().map(|d| (d - mean).powi(2)).sum::<f64>() / n as f64;
+                println!(
+                    "{scheme}, g h {g_h}: drift {average:.3} of {mean:.3}, <d^2> over theory {:.4}",
+                    square / variance
+                );
+                assert_mean("drift", average, mean, variance, n);
+                assert_mean("diffusion", square, variance, 2.0 * variance * variance, n);
+            }
+        }
+    }
+}
+
 /// The share by which positions are too warm or too cold is of the order of the method.
 #[test]
 fn error_of_the_temperature_is_of_the_order_of_the_scheme() {
     for scheme in Composition::all() {
-        let error = |theta| (configurational(scheme, theta) - 1.0).abs();
+        let error = |theta| (scheme.configurational_temperature(theta) - 1.0).abs();
         let order = (error(0.2) / error(0.1)).log2();
         println!(
             "{scheme}: error {:.2e} at 0.1, order {order:.3}",
             error(0.1)
         );
-        assert!((order - f64::from(scheme.order)).abs() < 0.1, "{order}");
+        assert!((order - f64::from(scheme.order())).abs() < 0.1, "{order}");
     }
 }
 

@@ -5,8 +5,11 @@ mod common;
 use actin_integrate::{
     Composition, Drag, PEFRL, POSITION_VERLET, Reason, Run, StopRule, VEFRL, advance,
 };
-use actin_mechanics::{Frame, Inertia, Point, State, System, UnitQuaternion, Vector3};
-use common::{chain, distance, three_tops};
+use actin_mechanics::{
+    Frame, Inertia, Interaction, Loads, Point, Slider, State, System, UnitQuaternion, Vector3,
+    rotation,
+};
+use common::{Springs, chain, distance, spinning_tops, three_tops};
 
 /// A free point and a free top in motion, and a driven point.
 fn free_bodies() -> System {
@@ -48,6 +51,188 @@ fn free_motion_decays_exponentially_at_any_step() {
             let l_start = start.frames.angular_momentum.get(0).norm();
             assert!((l / (-3.0f64).exp() / l_start - 1.0).abs() < 1e-12);
             assert_eq!(system.state().points.velocity.get(1), Vector3::y());
+            // What is driven goes on in its own time, whatever drag does to that of free bodies.
+            let moved = system.state().points.position.get(1) - Vector3::y();
+            assert!(moved.norm() < 1e-12, "{moved:?}");
+        }
+    }
+}
+
+/// A constant force on every point and a constant body torque on every frame.
+#[derive(Debug)]
+struct Constant {
+    force: Vector3,
+    torque: Vector3,
+}
+
+impl Interaction for Constant {
+    fn term(&self) -> &'static str {
+        "constant"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        (0..state.points.len()).for_each(|i| loads.force.add(i, self.force));
+        (0..state.frames.len()).for_each(|i| loads.torque.add(i, self.torque));
+    }
+
+    fn elements(&self) -> usize {
+        0
+    }
+
+    fn write_energies(&self, _: &State, _: &mut [f64]) {}
+}
+
+const MASS: f64 = 0.07;
+const AXIAL: f64 = 2.0;
+
+/// A free point, a pair of points that slides along z as one body of mass 0.3, and a top, under
+/// loads along z, at their terminal velocities as they are at the end of a step.
+fn driven_bodies(force: f64, torque: f64, drag: &Drag, h: f64) -> System {
+    let mut state = State::default();
+    for _ in 0..3 {
+        let position = Vector3::zeros();
+        let mass = MASS;
+        state.points.push(Point { position, mass });
+    }
+    (1..3).for_each(|i| state.points.hold(i));
+    state.sliders.push(Slider {
+        points: vec![1, 2],
+        directions: vec![Vector3::z()],
+        mass: 0.3,
+    });
+    state.frames.push(Frame {
+        orientation: UnitQuaternion::identity(),
+        inertia: Inertia::from_moments([1.0, 1.0, AXIAL]).unwrap(),
+    });
+    let (translation, rotation) = drag.recorded_drift(h);
+    let speed = translation * force / drag.translational();
+    // Both points of the slider are pulled.
+    for (i, speed) in [speed / MASS, 2.0 * speed / 0.3, 2.0 * speed / 0.3]
+        .into_iter()
+        .enumerate()
+    {
+        state.points.velocity.set(i, Vector3::z() * speed);
+    }
+    let momentum = rotation * torque / drag.rotational();
+    state
+        .frames
+        .angular_momentum
+        .set(0, Vector3::z() * momentum);
+    let loads = Constant {
+        force: Vector3::z() * force,
+        torque: Vector3::z() * torque,
+    };
+    System::new(state, vec![Box::new(loads)])
+}
+
+/// `F h/(m gamma)` a step from 1e-3 to 1e4 per ns, for points, sliders and tops under rates of their
+/// own. Without the rescaling of time the last would be 15 times too far.
+#[test]
+fn terminal_motion_is_exact_at_any_step() {
+    let (h, steps) = (0.003, 100);
+    for scheme in Composition::all() {
+        for (translational, rotational) in [(1e-3, 1e4), (1.0, 1e3), (1e2, 10.0), (1e4, 0.1)] {
+            let drag = Drag::new(translational, rotational).unwrap();
+            // A turn of 0.3 rad in all.
+            let (force, torque) = (2.0, rotational * AXIAL);
+            let mut system = driven_bodies(force, torque, &drag, h);
+            let start = system.state().clone();
+            advance(&mut system, scheme, h, steps, &drag);
+            let (t, state) = (h * steps as f64, system.state());
+            let z = |i: usize| state.points.position.get(i).z;
+            let expected = force * t / (MASS * translational);
+            let of_slider = 2.0 * force * t / (0.3 * translational);
+            for (z, expected) in [(z(0), expected), (z(1), of_slider), (z(2), of_slider)] {
+                assert!(
+                    (z / expected - 1.0).abs() < 1e-12,
+                    "{scheme}, {translational}: {z}"
+                );
+            }
+            let turn = rotation::log(state.frames.orientation.get(0)).z;
+            assert!(
+                (turn / t - 1.0).abs() < 1e-12,
+                "{scheme}, {rotational}: {turn}"
+            );
+            // That is a steady state: velocities at the ends of steps are the recorded ones.
+            let (before, after) = (&start.points.velocity, &state.points.velocity);
+            assert!((after.z[0] - before.z[0]).abs() <= 1e-12 * before.z[0]);
+        }
+    }
+}
+
+/// A point on a spring of frequency `omega` that has relaxed for a while: the rate at which it goes
+/// on (1/ns).
+fn relaxation(scheme: &Composition, gamma: f64, omega: f64, h: f64, rate: f64) -> f64 {
+    let mut state = State::default();
+    for _ in 0..2 {
+        let (position, mass) = (Vector3::zeros(), 1.0);
+        state.points.push(Point { position, mass });
+    }
+    state.points.hold(0);
+    state.points.position.set(1, Vector3::x());
+    let spring = Springs {
+        name: "spring",
+        pairs: vec![(0, 1)],
+        stiffness: omega * omega,
+        rest: 0.0,
+    };
+    let mut system = System::new(state, vec![Box::new(spring)]);
+    let drag = Drag::new(gamma, 0.0).unwrap();
+    // The fast part is then below 1e-13 of the slow one.
+    let gap = gamma - 2.0 * rate;
+    let steps_of = |time: f64| Run::over(&PEFRL, h, time).unwrap().steps();
+    let warm = steps_of(30.0 / gap);
+    let steps = steps_of((1.0 / rate).min(3000.0 * h));
+    advance(&mut system, scheme, h, warm, &drag);
+    let before = system.state().points.position.get(1).x;
+    advance(&mut system, scheme, h, steps, &drag);
+    let after = system.state().points.position.get(1).x;
+    (before / after).ln() / (steps as f64 * h)
+}
+
+/// A mode that creeps does so at the rate `r = g/2 - sqrt(g^2/4 - omega^2)`, to `r h/2`, relative, at
+/// any drag: steps need follow the relaxation alone.
+#[test]
+fn modes_relax_at_their_rate_at_any_drag() {
+    let h = 1.0;
+    for scheme in Composition::all() {
+        for gamma in [0.1f64, 1.0, 10.0, 100.0, 1000.0] {
+            for omega in [0.03, 0.1, 0.4, 1.0] {
+                if gamma < 2.2 * omega {
+                    continue;
+                }
+                let rate =
+                    2.0 * omega * omega / (gamma + (gamma * gamma - 4.0 * omega * omega).sqrt());
+                let error = relaxation(scheme, gamma, omega, h, rate) / rate - 1.0;
+                println!(
+                    "{scheme}, g h {gamma}, omega h {omega}: r h {rate:.1e}, error {error:.1e} = \
+                     {:.2} r h",
+                    error / rate
+                );
+                // Round-off of differences of logarithms over few digits of decay.
+                assert!(
+                    error.abs() < 0.5 * rate * h + 1e-8,
+                    "{scheme}, {gamma}, {omega}"
+                );
+            }
+        }
+    }
+}
+
+/// Back in time drag speeds up, and the rescaling of time is undone: the way back ends where it began.
+#[test]
+fn steps_with_drag_are_symmetric_in_time() {
+    for (translational, rotational) in [(0.3, 40.0), (40.0, 0.3)] {
+        let drag = Drag::new(translational, rotational).unwrap();
+        for scheme in Composition::all() {
+            let mut system = spinning_tops();
+            let start = system.state().clone();
+            advance(&mut system, scheme, 0.1, 2, &drag);
+            assert!(distance(system.state(), &start) > 0.1);
+            advance(&mut system, scheme, -0.1, 2, &drag);
+            let error = distance(system.state(), &start);
+            // Round-off times exp(8).
+            assert!(error < 1e-10, "{scheme}: {error:e}");
         }
     }
 }

@@ -51,7 +51,7 @@ fn order_on_a_spinning_state() {
         ];
         println!("{scheme}: errors {errors:?}, orders {orders:.4?}");
         assert!(
-            (orders[1] - f64::from(scheme.order)).abs() < 0.05,
+            (orders[1] - f64::from(scheme.order())).abs() < 0.05,
             "{scheme}: {orders:?}"
         );
     }

@@ -2,6 +2,7 @@
 
 mod drift;
 
+use crate::inertia::is_inertia;
 use crate::{Inertia, Quaternions, UnitQuaternion, Vector3, Vectors, vectors, wide};
 use drift::Drift;
 
@@ -41,12 +42,22 @@ impl Frames {
     }
 
     /// Appends a frame at rest and returns its index.
+    ///
+    /// # Panics
+    /// If a moment of inertia, or its inverse, is not positive and finite.
     pub fn push(&mut self, frame: Frame) -> usize {
         let Inertia {
             axis,
             axial,
             transverse,
         } = frame.inertia;
+        assert!(
+            [axial, transverse]
+                .iter()
+                .all(|m| is_inertia(*m) && is_inertia(1.0 / m)),
+            "moments of inertia and their inverses must be positive and finite, got {axial} axial, \
+             {transverse} transverse"
+        );
         self.orientation.push(frame.orientation);
         self.angular_momentum.push(Vector3::zeros());
         self.inverse_transverse.push(1.0 / transverse);
@@ -60,6 +71,9 @@ impl Frames {
     /// given from outside (zero unless driven).
     ///
     /// Its inertia is kept, so that a driven frame turns by the same exact flow as a free one.
+    ///
+    /// # Panics
+    /// If there is no frame `i`.
     pub fn hold(&mut self, i: usize) {
         self.mobility[i] = 0.0;
         self.angular_momentum.set(i, Vector3::zeros());
@@ -91,6 +105,13 @@ impl Frames {
             &excess.z,
             &self.mobility,
         ]
+    }
+
+    /// Asserts that there are as many orientations and angular momenta as frames.
+    pub(crate) fn assert_shape(&self) {
+        let count = self.len();
+        self.orientation.assert_len("orientations", count);
+        self.angular_momentum.assert_len("angular momenta", count);
     }
 
     /// Turns every frame freely for a time `h`: the exact flow of [`Inertia::free_flow`].
@@ -198,6 +219,27 @@ mod tests {
         frames.angular_momentum.set(0, Vector3::new(1.0, 2.0, 3.0));
         (0..100_000).for_each(|_| frames.drift(0.37));
         assert!((frames.orientation.get(0).norm() - 1.0).abs() < 4e-16);
+    }
+
+    /// Without an axial moment a frame would spin infinitely fast under any torque.
+    #[test]
+    fn moments_without_a_meaning_are_refused() {
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-310] {
+            for (axial, transverse) in [(bad, 1.0), (1.0, bad)] {
+                let inertia = Inertia {
+                    axis: crate::Axis::Z,
+                    axial,
+                    transverse,
+                };
+                let orientation = UnitQuaternion::identity();
+                let frame = Frame {
+                    orientation,
+                    inertia,
+                };
+                let push = || Frames::default().push(frame);
+                assert!(std::panic::catch_unwind(push).is_err(), "{bad}");
+            }
+        }
     }
 
     #[test]

@@ -39,6 +39,11 @@ pub enum InertiaError {
     Asymmetric([f64; 3]),
 }
 
+/// Whether a mass, a moment or the inverse of one is what a body can have: positive and finite.
+pub(crate) fn is_inertia(value: f64) -> bool {
+    value.is_finite() && value > 0.0
+}
+
 /// Principal moments of inertia of a symmetric top in its body axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inertia {
@@ -63,7 +68,7 @@ impl Inertia {
     /// assert!(Inertia::from_moments([1.0, 2.0, 3.0]).is_err());
     /// ```
     pub fn from_moments(moments: [f64; 3]) -> Result<Self, InertiaError> {
-        if moments.iter().any(|m| !(m.is_finite() && *m > 0.0)) {
+        if !moments.iter().all(|m| is_inertia(*m)) {
             return Err(InertiaError::NotPositive(moments));
         }
         let [x, y, z] = moments;

@@ -6,18 +6,42 @@ use crate::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointLoad {
     /// Points and the share of the force that each takes.
-    pub shares: Vec<(usize, f64)>,
+    shares: Vec<(usize, f64)>,
     /// Where each of these points has zero potential, lab frame.
-    pub origin: Vec<Vector3>,
+    origin: Vec<Vector3>,
     /// Force at control value 1, lab frame.
-    pub force: Vector3,
+    force: Vector3,
     /// Index of the load factor in [`State::controls`].
-    pub control: usize,
+    control: usize,
 }
 
 impl PointLoad {
-    /// The load with its zero of potential at the present positions.
+    /// The load of `force` (lab frame, at control value 1) shared among points, with its zero of
+    /// potential at the present positions; `control` is the index of its factor in
+    /// [`State::controls`].
+    ///
+    /// # Panics
+    /// If `state` has no such point or control, or if the force or a share is not finite.
     pub fn new(state: &State, shares: Vec<(usize, f64)>, force: Vector3, control: usize) -> Self {
+        let (points, controls) = (state.points.len(), state.controls.len());
+        for &(i, share) in &shares {
+            assert!(
+                i < points,
+                "there are {points} points, a load acts on point {i}"
+            );
+            assert!(
+                share.is_finite(),
+                "shares of a load must be finite, got {share}"
+            );
+        }
+        assert!(
+            control < controls,
+            "there are {controls} controls, a load has control {control}"
+        );
+        assert!(
+            force.iter().all(|f| f.is_finite()),
+            "a force must be finite, got {force:?}"
+        );
         let origin = shares
             .iter()
             .map(|&(i, _)| state.points.position.get(i))
@@ -65,4 +89,27 @@ impl Interaction for PointLoad {
 impl SecondOrder for PointLoad {
     /// A dead load has no stiffness.
     fn add_stiffness(&self, _state: &State, _stiffness: &mut Stiffness) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Point;
+
+    #[test]
+    fn loads_on_what_is_not_there_are_refused() {
+        let mut state = State::default();
+        let (position, mass) = (Vector3::zeros(), 1.0);
+        state.points.push(Point { position, mass });
+        state.controls.push(1.0);
+        let is_refused = |point, share, force, control| {
+            let make = || PointLoad::new(&state, vec![(point, share)], force, control);
+            std::panic::catch_unwind(make).is_err()
+        };
+        assert!(!is_refused(0, 1.0, Vector3::x(), 0));
+        assert!(is_refused(1, 1.0, Vector3::x(), 0));
+        assert!(is_refused(0, 1.0, Vector3::x(), 1));
+        assert!(is_refused(0, f64::NAN, Vector3::x(), 0));
+        assert!(is_refused(0, 1.0, Vector3::repeat(f64::INFINITY), 0));
+    }
 }

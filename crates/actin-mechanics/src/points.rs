@@ -1,5 +1,6 @@
 //! Points: positions with a mass.
 
+use crate::inertia::is_inertia;
 use crate::{Vector3, Vectors, vectors};
 
 /// One point, as it enters a [`Points`].
@@ -33,15 +34,27 @@ impl Points {
     }
 
     /// Appends a point at rest and returns its index.
+    ///
+    /// # Panics
+    /// If the mass, or its inverse, is not positive and finite.
     pub fn push(&mut self, point: Point) -> usize {
+        let inverse = 1.0 / point.mass;
+        assert!(
+            is_inertia(point.mass) && is_inertia(inverse),
+            "a mass and its inverse must be positive and finite, got {}",
+            point.mass
+        );
         self.position.push(point.position);
         self.velocity.push(Vector3::zeros());
-        self.inverse_mass.push(1.0 / point.mass);
+        self.inverse_mass.push(inverse);
         self.len() - 1
     }
 
     /// Takes point `i` out of the reach of forces: its inverse mass becomes zero, and it keeps
     /// whatever velocity it is given from outside (zero unless driven).
+    ///
+    /// # Panics
+    /// If there is no point `i`.
     pub fn hold(&mut self, i: usize) {
         self.inverse_mass[i] = 0.0;
         self.velocity.set(i, Vector3::zeros());
@@ -55,6 +68,17 @@ impl Points {
     /// Inverse masses; zero for held points.
     pub fn inverse_mass(&self) -> &[f64] {
         &self.inverse_mass
+    }
+
+    /// Asserts that there are as many positions and velocities as points.
+    pub(crate) fn assert_shape(&self) {
+        let count = self.len();
+        for (what, vectors) in [
+            ("positions", &self.position),
+            ("velocities", &self.velocity),
+        ] {
+            vectors.assert_len(what, count);
+        }
     }
 
     /// Moves every point along its velocity for a time `h`.
@@ -88,5 +112,20 @@ impl Points {
             .filter(moving)
             .map(|i| 0.5 * self.velocity.get(i).norm_squared() / self.inverse_mass[i])
             .sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A negative mass would count as held, and one that is no number as anything.
+    #[test]
+    fn masses_without_a_meaning_are_refused() {
+        for mass in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-310] {
+            let position = Vector3::zeros();
+            let push = || Points::default().push(Point { position, mass });
+            assert!(std::panic::catch_unwind(push).is_err(), "{mass}");
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Many unit quaternions, stored component by component.
 
-use crate::UnitQuaternion;
+use crate::{UnitQuaternion, vectors};
 use nalgebra::{Quaternion, Unit};
 
 /// `n` unit quaternions (body to lab) as four arrays, scalar part first.
@@ -48,6 +48,11 @@ impl Quaternions {
         self.x.push(q.i);
         self.y.push(q.j);
         self.z.push(q.k);
+    }
+
+    /// Asserts that there are `count` of these quaternions, which are `what`.
+    pub(crate) fn assert_len(&self, what: &str, count: usize) {
+        vectors::assert_lengths(what, &[&self.w, &self.x, &self.y, &self.z], count);
     }
 
     /// Takes over the quaternions of `other`, which has as many.

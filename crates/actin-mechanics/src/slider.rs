@@ -1,22 +1,56 @@
 //! Held bodies that slide together along some directions, as one rigid body.
 
+use crate::inertia::is_inertia;
 use crate::{State, Vector3, Vectors};
 
 /// Points that keep their places relative to each other and move together along `directions`.
 ///
 /// The points themselves are held; what is free is their common displacement along each
 /// direction. Frames that belong to the body do not turn, so they need no mention.
+///
+/// A [`System`](crate::System) panics if it has a slider without points, of points that do not exist,
+/// whose directions are not orthonormal or whose mass is not positive and finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slider {
     /// The points.
     pub points: Vec<usize>,
-    /// Orthonormal directions, lab frame.
+    /// Orthonormal directions, lab frame, at most three.
     pub directions: Vec<Vector3>,
     /// Mass of the whole body.
     pub mass: f64,
 }
 
 impl Slider {
+    /// Asserts what a slider among `count` points must have: points that exist, orthonormal
+    /// directions, a positive mass.
+    pub(crate) fn assert_sound(&self, count: usize) {
+        let Self {
+            points,
+            directions,
+            mass,
+        } = self;
+        assert!(!points.is_empty(), "a slider has at least one point");
+        for &i in points {
+            assert!(
+                i < count,
+                "there are {count} points, a slider has point {i}"
+            );
+        }
+        assert!(
+            is_inertia(*mass) && is_inertia(1.0 / mass),
+            "the mass of a slider must be positive and finite, got {mass}"
+        );
+        for (k, d) in directions.iter().enumerate() {
+            for (l, other) in directions[..=k].iter().enumerate() {
+                let expected = if k == l { 1.0 } else { 0.0 };
+                assert!(
+                    (d.dot(other) - expected).abs() < 1e-9,
+                    "directions of a slider must be orthonormal, got {directions:?}"
+                );
+            }
+        }
+    }
+
     /// Total force along each direction.
     pub fn forces<'a>(&'a self, force: &'a Vectors) -> impl Iterator<Item = f64> + 'a {
         self.directions
@@ -96,7 +130,7 @@ mod tests {
         let load = PointLoad::new(&state, vec![(1, 1.0)], force, 0);
         let mut system = System::new(state, vec![Box::new(load)]);
         assert!((system.residual().0 - 2.0).abs() < 1e-15);
-        system.kick(0.5);
+        system.kick(0.5, 0.5);
         system.drift(2.0);
         for i in 0..2 {
             let x = system.state().points.position.get(i);

@@ -42,6 +42,18 @@ impl State {
             .all(|c| c.is_finite())
     }
 
+    /// Asserts that every body has a place and a motion, and that sliders are of bodies that exist.
+    ///
+    /// # Panics
+    /// If not, with what is missing.
+    pub(crate) fn assert_shape(&self) {
+        self.points.assert_shape();
+        self.frames.assert_shape();
+        for slider in &self.sliders {
+            slider.assert_sound(self.points.len());
+        }
+    }
+
     /// Takes over everything that time changes from `other`, a state of the same bodies: places,
     /// motion, controls and time. Allocates nothing.
     ///

@@ -7,8 +7,9 @@ pub trait Split {
     /// Moves everything freely for a time `h` (which may be negative).
     fn drift(&mut self, h: f64);
 
-    /// Applies the loads at the present positions for a time `h` (which may be negative).
-    fn kick(&mut self, h: f64);
+    /// Applies the loads at the present positions: forces for a time `translation`, torques for a
+    /// time `rotation` (which may be negative).
+    fn kick(&mut self, translation: f64, rotation: f64);
 
     /// Multiplies velocities by `translational` and angular momenta by `rotational`.
     fn damp(&mut self, translational: f64, rotational: f64);
@@ -50,19 +51,28 @@ pub struct System {
     interactions: Vec<Box<dyn Interaction>>,
     loads: Loads,
     loads_are_current: bool,
+    /// Whether the state may have been changed from outside since it was last looked at.
+    changed_outside: bool,
     force_evaluations: u64,
     drive: Option<Box<dyn Drive>>,
 }
 
 impl System {
     /// A system; nothing is evaluated yet.
+    ///
+    /// # Panics
+    /// If not every body has a place and a motion, or if a [`Slider`](crate::Slider) is not sound.
+    /// An interaction panics if it acts on a body or a control that is not there, when loads or
+    /// energies are first evaluated.
     pub fn new(state: State, interactions: Vec<Box<dyn Interaction>>) -> Self {
+        state.assert_shape();
         let loads = Loads::zeros(&state);
         Self {
             state,
             interactions,
             loads,
             loads_are_current: false,
+            changed_outside: false,
             force_evaluations: 0,
             drive: None,
         }
@@ -81,9 +91,11 @@ impl System {
         &self.state
     }
 
-    /// The present state, to be changed from outside.
+    /// The present state, to be changed from outside: places, motion, controls, inertia and what is
+    /// held, but not the numbers of bodies, for which the system was made.
     pub fn state_mut(&mut self) -> &mut State {
         self.loads_are_current = false;
+        self.changed_outside = true;
         &mut self.state
     }
 
@@ -111,8 +123,16 @@ impl System {
     }
 
     /// The loads at the present positions.
+    ///
+    /// # Panics
+    /// If the state has other numbers of bodies than the system was made with, or is no longer one
+    /// that [`new`](Self::new) takes.
     pub fn loads(&mut self) -> &Loads {
         if !self.loads_are_current {
+            if self.changed_outside {
+                self.assert_same_bodies();
+                self.changed_outside = false;
+            }
             self.loads.clear();
             for interaction in &self.interactions {
                 interaction.add_loads(&self.state, &mut self.loads);
@@ -121,6 +141,21 @@ impl System {
             self.loads_are_current = true;
         }
         &self.loads
+    }
+
+    /// Asserts that the state still has the bodies that the loads are for.
+    fn assert_same_bodies(&self) {
+        self.state.assert_shape();
+        let made_with = (self.loads.force.len(), self.loads.torque.len());
+        let now = (self.state.points.len(), self.state.frames.len());
+        assert!(
+            now == made_with,
+            "the system was made with {} points and {} frames, its state now has {} and {}",
+            made_with.0,
+            made_with.1,
+            now.0,
+            now.1
+        );
     }
 
     /// Largest norm of a force on a free point and of a torque on a free frame.
@@ -160,12 +195,13 @@ impl Split for System {
         }
     }
 
-    fn kick(&mut self, h: f64) {
+    fn kick(&mut self, translation: f64, rotation: f64) {
         self.loads();
-        self.state.points.kick(&self.loads.force, h);
-        self.state.frames.kick(&self.loads.torque, h);
-        for slider in &self.state.sliders {
-            slider.kick(&mut self.state.points.velocity, &self.loads.force, h);
+        let (state, force) = (&mut self.state, &self.loads.force);
+        state.points.kick(force, translation);
+        state.frames.kick(&self.loads.torque, rotation);
+        for slider in &state.sliders {
+            slider.kick(&mut state.points.velocity, force, translation);
         }
     }
 
@@ -244,6 +280,37 @@ mod tests {
         }
         state.frames.hold(1);
         System::new(state, Vec::new())
+    }
+
+    /// Bodies that are added later would have no loads, and those that lose their velocity would not
+    /// be moved: both without a word if nobody looked.
+    #[test]
+    fn states_that_lose_their_shape_are_refused() {
+        let is_refused = |change: fn(&mut State)| {
+            let run = || {
+                let mut system = bodies();
+                system.kick(1.0, 1.0);
+                change(system.state_mut());
+                system.kick(1.0, 1.0);
+            };
+            std::panic::catch_unwind(run).is_err()
+        };
+        assert!(!is_refused(|state| state.points.hold(0)));
+        assert!(is_refused(|state| {
+            let (position, mass) = (Vector3::zeros(), 1.0);
+            state.points.push(Point { position, mass });
+        }));
+        assert!(is_refused(|state| state.points.velocity = Vectors::zeros(1)));
+        assert!(is_refused(
+            |state| state.frames.angular_momentum = Vectors::zeros(3)
+        ));
+        assert!(is_refused(|state| state.frames.orientation.w.clear()));
+        assert!(is_refused(|state| state.sliders[0].points.clear()));
+        assert!(is_refused(|state| state.sliders[0].points.push(4)));
+        assert!(is_refused(|state| state.sliders[0].mass = 0.0));
+        assert!(is_refused(|state| state.sliders[0]
+            .directions
+            .push(Vector3::z())));
     }
 
     /// Impulses go as the root of the inertia, so that energies do not: each component that

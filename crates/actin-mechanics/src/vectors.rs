@@ -67,6 +67,11 @@ impl Vectors {
         self.z.push(v.z);
     }
 
+    /// Asserts that there are `count` of these vectors, which are `what`.
+    pub(crate) fn assert_len(&self, what: &str, count: usize) {
+        assert_lengths(what, &[&self.x, &self.y, &self.z], count);
+    }
+
     /// Sets every vector to zero.
     pub fn clear_to_zero(&mut self) {
         self.x.fill(0.0);
@@ -101,6 +106,17 @@ impl FromIterator<Vector3> for Vectors {
         let mut all = Self::default();
         vectors.into_iter().for_each(|v| all.push(v));
         all
+    }
+}
+
+/// Asserts that each of `components` has `count` entries.
+pub(crate) fn assert_lengths(what: &str, components: &[&Vec<f64>], count: usize) {
+    for component in components {
+        let length = component.len();
+        assert!(
+            length == count,
+            "there must be {count} {what}, one for each body, got {length}"
+        );
     }
 }
 

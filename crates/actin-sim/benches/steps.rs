@@ -38,7 +38,7 @@ fn steps(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(STEPS));
     let mut bench = |name: &str, section: &str, scheme: &'static Composition| {
         let mut system = assembly(section).system;
-        group.bench_function(BenchmarkId::new(name, scheme.name), |bencher| {
+        group.bench_function(BenchmarkId::new(name, scheme.name()), |bencher| {
             bencher.iter(|| advance(&mut system, scheme, STEP_NS, STEPS, &Drag::NONE));
         });
     };

@@ -136,7 +136,7 @@ fn cost(name: &str, sections: &'static str) {
         let free = best(&|system| advance(system, scheme, h, steps, &Drag::NONE));
         println!(
             "{name}, {}: {free:.2} us a step, {damped:.2} with drag, {heated:.2} in the bath",
-            scheme.name
+            scheme.name()
         );
     }
 }
@@ -227,7 +227,7 @@ impl Case {
              {:6.2} +- {:.2}; kT lp {:.2e} +- {:.0e}, C {:.2e} +- {:.0e}; U/n {:.4} +- {:.4}",
             self.name,
             self.temperature,
-            self.scheme.name,
+            self.scheme.name(),
             sums[0].step,
             self.share,
             bend / 1000.0,

@@ -147,7 +147,7 @@ const ENERGY_ROUNDING: f64 = 2e-8;
 /// Twice the share of its energy by which a mode at the share `s` of its limit wavers: `s^2/(1 - s^2)`
 /// with Verlet's method, exactly, and less than `s^4/(1 - s^2)` in order four.
 fn wavering(scheme: &Composition, share: f64) -> f64 {
-    let order = scheme.order.cast_signed();
+    let order = scheme.order().cast_signed();
     2.0 * share.powi(order) / (1.0 - share * share)
 }
 

@@ -31,7 +31,7 @@ pub(super) fn limits(out: &Path) -> Result<(), String> {
         let mut system = free(sections).map_err(|outcome| outcome.words())?;
         let point = |(_, integrator): (&str, actin_sim::Integrator)| {
             let limits = stability::limits(&mut system, integrator);
-            let predicted = integrator.composition().stability_limit;
+            let predicted = integrator.composition().stability_limit();
             (predicted, predicted * limits.measured / limits.predicted)
         };
         all.push(series(model, colour, INTEGRATORS.map(point).to_vec(), true));

@@ -168,6 +168,7 @@ mod tests {
             "Dynamics(duration_ns: 100.0, integrator: PositionVerlet)",
             "Dynamics(duration_ns: 100.0, time_step_ns: 0.001)",
             "Dynamics(duration_ns: 100.0, step_safety: 0.9)",
+            "Dynamics(duration_ns: 100.0, drag: (translational_per_ns: 2e4, rotational_per_ns: 1.0))",
             "Dynamics(duration_ns: 100.0, drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0), \
              thermal: (temperature_k: 298.0, seed: 1))",
         ] {

@@ -88,8 +88,8 @@ impl Cost {
     pub fn of(assembly: &Assembly, estimate: Option<&Estimate>) -> Self {
         let elements = Elements::of(assembly);
         let (evaluations, equilibria, records) = match (&assembly.scene.task, estimate) {
-            (Task::Dynamics(dynamics), Some(estimate)) => {
-                let records = estimate.records(dynamics);
+            (Task::Dynamics(_), Some(estimate)) => {
+                let records = estimate.records();
                 (estimate.force_evaluations, 0, records)
             }
             _ => {

@@ -5,6 +5,7 @@ use super::equilibrium::check_points;
 use super::keep::{Clock, Keeper, Kept};
 use super::recorder::{Ending, Recorder};
 use super::rest::{is_saddle, saddle};
+use super::steps::Steps;
 use super::{Progress, RunError, RunReport, Trajectory};
 use crate::assembly::Ramp;
 use crate::scene::{Dynamics, Integrator, Problem, RodLaw, StopRule, Task};
@@ -12,9 +13,6 @@ use crate::{Assembly, memory};
 use actin_integrate::{Bath, Composition, Drag, Reason, Run};
 use actin_mechanics::{Split, State, System};
 use std::ops::ControlFlow;
-
-/// Records of a run, unless the scene says otherwise.
-const DEFAULT_RECORDS: f64 = 100.0;
 
 /// What a scene will cost, known before it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +26,10 @@ pub struct Estimate {
     pub time_step_ns: f64,
     /// Steps, if the stop rule does not end the run before.
     pub steps: u64,
+    /// Steps between two records.
+    pub steps_between_records: u64,
+    /// Time between two records (ns).
+    pub record_every_ns: f64,
     /// Load evaluations in these steps.
     pub force_evaluations: u64,
 }
@@ -97,20 +99,16 @@ pub(crate) fn estimate_at(
     if wanted > limit && !dynamics.allow_unstable_step {
         return Err(unstable(scheme, wanted, limit, frequency));
     }
-    let run = Run::over(scheme, wanted, dynamics.duration_ns).map_err(|_| {
-        Problem::new(
-            "task.duration_ns",
-            format!("{:?}", dynamics.duration_ns),
-            format!("takes more steps of {wanted:.4e} ns than can be counted, 2^53"),
-        )
-    })?;
-    check_records(assembly, dynamics, &run)?;
+    let steps = Steps::of(dynamics, wanted)?;
+    check_records(assembly, dynamics, &steps)?;
     Ok(Estimate {
         largest_frequency_rad_per_ns: frequency,
         stability_limit_ns: limit,
-        time_step_ns: run.step(),
-        steps: run.steps(),
-        force_evaluations: run.steps() * scheme.force_evaluations_per_step() as u64,
+        time_step_ns: steps.length_ns,
+        steps: steps.count,
+        steps_between_records: steps.between_records,
+        record_every_ns: steps.record_every_ns,
+        force_evaluations: steps.count * scheme.force_evaluations_per_step() as u64,
     })
 }
 
@@ -122,16 +120,18 @@ fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Pr
         format!(
             "above the stability limit of {limit:.4e} ns ({} at the largest frequency, \
              {frequency:.1} rad/ns); allow_unstable_step: true runs it all the same",
-            scheme.name
+            scheme.name()
         ),
     )
 }
 
 /// Refuses records that would not fit into memory.
-fn check_records(assembly: &Assembly, dynamics: &Dynamics, run: &Run) -> Result<(), Problem> {
-    let records = number_of_records(dynamics, run.steps(), run.step());
-    let every = steps_between_records(dynamics, run.step()) as f64 * run.step();
-    let value = format!("{:?}", dynamics.record_every_ns.unwrap_or(every));
+fn check_records(assembly: &Assembly, dynamics: &Dynamics, steps: &Steps) -> Result<(), Problem> {
+    let records = number_of_records(steps.count, steps.between_records);
+    let value = format!(
+        "{:?}",
+        dynamics.record_every_ns.unwrap_or(steps.record_every_ns)
+    );
     let state = assembly.system.state();
     let bytes = assembly.bytes + records * memory::of_record(state, assembly.terms.len());
     memory::check(bytes, ("task.record_every_ns", value), || {
@@ -140,15 +140,15 @@ fn check_records(assembly: &Assembly, dynamics: &Dynamics, run: &Run) -> Result<
     })
 }
 
-/// Records of a motion of so many steps of `step_ns`, the first and the last included.
-fn number_of_records(dynamics: &Dynamics, steps: u64, step_ns: f64) -> f64 {
-    (steps / steps_between_records(dynamics, step_ns) + 1) as f64
+/// Records of a motion of so many steps, the first and the last included.
+fn number_of_records(steps: u64, between_records: u64) -> f64 {
+    (steps / between_records + 1) as f64
 }
 
 impl Estimate {
     /// Records that the motion makes, if the stop rule does not end it before.
-    pub(crate) fn records(&self, dynamics: &Dynamics) -> f64 {
-        number_of_records(dynamics, self.steps, self.time_step_ns)
+    pub(crate) fn records(&self) -> f64 {
+        number_of_records(self.steps, self.steps_between_records)
     }
 }
 
@@ -344,7 +344,7 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, Problem> {
     let step = estimate.time_step_ns;
     let scheme = dynamics.integrator.composition();
     let run = Run::new(scheme, step, estimate.steps)
-        .and_then(|run| run.observing_every(steps_between_records(dynamics, step)))
+        .and_then(|run| run.observing_every(estimate.steps_between_records))
         .map_err(|error| refused("time_step_ns", &error))?;
     let run = match &dynamics.thermal {
         None => run.with_drag(drag),
@@ -365,27 +365,13 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, Problem> {
         .map_err(|error| refused("stop", &error))
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a positive quotient; the conversion saturates"
-)]
-fn steps_between_records(dynamics: &Dynamics, step_ns: f64) -> u64 {
-    let every = dynamics
-        .record_every_ns
-        .unwrap_or(dynamics.duration_ns / DEFAULT_RECORDS);
-    ((every / step_ns).round() as u64).max(1)
-}
-
 impl Assembly {
     /// Writes the time step and the interval of records that a motion will have into the scene.
     pub fn resolve(&mut self, estimate: &Estimate) {
         let Task::Dynamics(dynamics) = &mut self.scene.task else {
             return;
         };
-        let step = estimate.time_step_ns;
-        let between_records = steps_between_records(dynamics, step) as f64 * step;
-        dynamics.time_step_ns = Some(step);
-        dynamics.record_every_ns = Some(between_records);
+        dynamics.time_step_ns = Some(estimate.time_step_ns);
+        dynamics.record_every_ns = Some(estimate.record_every_ns);
     }
 }

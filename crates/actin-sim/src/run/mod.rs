@@ -7,6 +7,7 @@ mod keep;
 mod recorder;
 mod rest;
 mod slip;
+mod steps;
 mod unknowns;
 
 pub use dynamics::{Estimate, estimate};

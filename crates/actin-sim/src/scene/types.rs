@@ -281,7 +281,8 @@ pub struct Dynamics {
     /// Integrator.
     #[serde(default)]
     pub integrator: Integrator,
-    /// Time step (ns); by default the stability limit times `step_safety`.
+    /// Longest time step (ns); by default the stability limit times `step_safety`. Steps are shorter
+    /// where whole ones are to make up the duration and the interval of records.
     #[serde(default)]
     pub time_step_ns: Option<f64>,
     /// Share of the estimated stability limit that the default time step takes.
@@ -304,7 +305,7 @@ pub struct Dynamics {
     /// run as a failure, with all its results.
     #[serde(default)]
     pub leave_saddles: usize,
-    /// Time between recorded states (ns); by default a hundredth of the duration.
+    /// Time between recorded states (ns); by default about a hundredth of the duration.
     #[serde(default)]
     pub record_every_ns: Option<f64>,
 }

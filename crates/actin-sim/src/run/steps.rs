@@ -1,0 +1,340 @@
+//! How many time steps a motion takes and how many lie between its records.
+
+use super::Estimate;
+use crate::scene::{Dynamics, Problem, Task};
+use actin_integrate::Drag;
+
+/// Records of a run, unless the scene says otherwise.
+const DEFAULT_RECORDS: f64 = 100.0;
+
+/// Most steps that are counted: whole numbers beyond it are no longer exact.
+const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
+
+/// By how much more than the fewest steps there may be between records, so that whole steps make up
+/// both their interval and the duration.
+const MOST_EXTRA: f64 = 1.2;
+
+/// Most records after which a record and the end of the run may meet again.
+const MOST_PERIOD: u64 = 1000;
+
+/// To what a quotient counts as whole, relative.
+const WHOLE: f64 = 1e-9;
+
+/// Round-off of a quotient that is whole, which shall not cost a step.
+const ROUND_OFF: f64 = 1e-12;
+
+/// A drift that is recorded more than this share too small is worth a note.
+const RECORDED_DRIFT: f64 = 0.01;
+
+/// The steps of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Steps {
+    /// Their length (ns), the duration over their number.
+    pub(super) length_ns: f64,
+    /// Their number.
+    pub(super) count: u64,
+    /// How many lie between two records.
+    pub(super) between_records: u64,
+    /// Time between two records (ns): as asked for, where whole steps make it up.
+    pub(super) record_every_ns: f64,
+}
+
+impl Steps {
+    /// Steps of at most `largest_ns` that make up the duration of `dynamics` and, where that takes
+    /// few more of them, the interval of its records.
+    ///
+    /// # Errors
+    /// More steps than can be counted.
+    pub(super) fn of(dynamics: &Dynamics, largest_ns: f64) -> Result<Self, Problem> {
+        let duration = dynamics.duration_ns;
+        let (count, between, record_every_ns) = match dynamics.record_every_ns {
+            Some(every) if every < duration => recorded_every(duration, every, largest_ns),
+            every => {
+                let count = at_least(duration, largest_ns);
+                let length = duration / count;
+                let wanted = every.unwrap_or(duration / DEFAULT_RECORDS);
+                let between = (wanted / length).round().max(1.0);
+                (count, between, between * length)
+            }
+        };
+        let is_countable = |steps: f64| (1.0..=MOST_STEPS).contains(&steps);
+        if !is_countable(count) {
+            return Err(uncountable(dynamics, largest_ns));
+        }
+        Ok(Self {
+            length_ns: duration / count,
+            count: whole(count),
+            between_records: whole(between),
+            record_every_ns,
+        })
+    }
+}
+
+/// More steps than can be counted, because they are so short or because records are so close.
+fn uncountable(dynamics: &Dynamics, largest_ns: f64) -> Problem {
+    match dynamics.record_every_ns {
+        Some(every) if every < largest_ns => Problem::new(
+            "task.record_every_ns",
+            format!("{every:?}"),
+            "takes more steps than can be counted, 2^53: none is longer than this",
+        ),
+        _ => Problem::new(
+            "task.duration_ns",
+            format!("{:?}", dynamics.duration_ns),
+            format!("takes more steps of {largest_ns:.4e} ns than can be counted, 2^53"),
+        ),
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a whole number that is not negative; the conversion saturates"
+)]
+fn whole(number: f64) -> u64 {
+    number as u64
+}
+
+/// The least number of steps of at most `largest` in `time`.
+fn at_least(time: f64, largest: f64) -> f64 {
+    (time / largest * (1.0 - ROUND_OFF)).ceil().max(1.0)
+}
+
+/// Steps of at most `largest` in a run of `duration`, steps between records, and their interval, which
+/// is `every`, or shorter by less than a step's share of it where no step makes up both times.
+fn recorded_every(duration: f64, every: f64, largest: f64) -> (f64, f64, f64) {
+    let fewest = at_least(every, largest);
+    if let Some(between) = between_records(duration, every, fewest) {
+        return ((duration / every * between).round(), between, every);
+    }
+    let count = at_least(duration, every / fewest);
+    (count, fewest, duration / count * fewest)
+}
+
+/// Steps between records, `fewest` or a little more, so that the run is a whole number of them as well;
+/// `None` where that takes many more.
+fn between_records(duration: f64, every: f64, fewest: f64) -> Option<f64> {
+    let intervals = duration / every;
+    // The duration is a whole number of steps if their number is a multiple of such a period.
+    let is_period = |period: &u64| {
+        let product = *period as f64 * intervals;
+        (product - product.round()).abs() <= WHOLE * product
+    };
+    let period = (1..=MOST_PERIOD).find(is_period)? as f64;
+    let between = period * (fewest / period).ceil();
+    (period <= 1.0 || between <= MOST_EXTRA * fewest).then_some(between)
+}
+
+impl Estimate {
+    /// What a user should know of the time step and the records of a `task` as it was written: where
+    /// they are not those that were asked for, and what strong drag does to what is recorded. One
+    /// sentence each.
+    pub fn notes(&self, task: &Task) -> Vec<String> {
+        let Task::Dynamics(dynamics) = task else {
+            return Vec::new();
+        };
+        let notes = [
+            self.note_on_step(dynamics),
+            self.note_on_records(dynamics),
+            self.note_on_drag(dynamics),
+        ];
+        notes.into_iter().flatten().collect()
+    }
+
+    /// Temperature of the positions of the fastest mode in a heat bath, relative to that of the bath, as
+    /// the integrator leaves it.
+    pub fn warmth_of_the_fastest_mode(&self, dynamics: &Dynamics) -> f64 {
+        let (rates, step) = (dynamics.drag, self.time_step_ns);
+        let drag = Drag::new(rates.translational_per_ns, rates.rotational_per_ns);
+        let (translation, rotation) = drag.unwrap_or(Drag::NONE).time_rescaling(step);
+        // Of points and frames: the mode is either's, and nearer to the truth where drag is stronger.
+        let theta = translation.max(rotation) * self.largest_frequency_rad_per_ns * step;
+        let scheme = dynamics.integrator.composition();
+        scheme.configurational_temperature(theta)
+    }
+
+    fn note_on_step(&self, dynamics: &Dynamics) -> Option<String> {
+        let asked = dynamics.time_step_ns?;
+        let step = self.time_step_ns;
+        let differs = (step / asked - 1.0).abs() > WHOLE;
+        let whole = match dynamics.record_every_ns {
+            Some(every) if every < dynamics.duration_ns => {
+                "the interval of records and the duration"
+            }
+            _ => "the duration",
+        };
+        differs.then(|| {
+            format!(
+                "task.time_step_ns = {asked:?}: steps of {step:.6e} ns are taken, so that whole \
+                 steps make up {whole}"
+            )
+        })
+    }
+
+    fn note_on_records(&self, dynamics: &Dynamics) -> Option<String> {
+        let asked = dynamics.record_every_ns?;
+        let (every, duration) = (self.record_every_ns, dynamics.duration_ns);
+        if asked >= duration {
+            return (asked > duration).then(|| {
+                format!(
+                    "task.record_every_ns = {asked:?}: longer than the motion, whose start and end \
+                     are recorded"
+                )
+            });
+        }
+        let differs = (every / asked - 1.0).abs() > WHOLE;
+        differs.then(|| {
+            format!(
+                "task.record_every_ns = {asked:?}: records are {every:.6} ns apart, because no step \
+                 of about {:.2e} ns makes up both that interval and the duration of {duration:?} ns",
+                self.time_step_ns
+            )
+        })
+    }
+
+    fn note_on_drag(&self, dynamics: &Dynamics) -> Option<String> {
+        let rates = dynamics.drag;
+        let drag = Drag::new(rates.translational_per_ns, rates.rotational_per_ns).ok()?;
+        let step = self.time_step_ns;
+        let (translation, rotation) = drag.recorded_drift(step);
+        let recorded = translation.min(rotation);
+        (recorded < 1.0 - RECORDED_DRIFT).then(|| {
+            format!(
+                "drag: within a step velocities decay by exp(-{:.2}) and angular velocities by \
+                 exp(-{:.2}); displacements, diffusion and states at rest are right, what relaxes in \
+                 a time T does so to within {:.1e} ns / T, but velocities and kinetic energies are \
+                 recorded just after drag: {translation:.3} and {rotation:.3} of a steady drift show",
+                drag.translational() * step,
+                drag.rotational() * step,
+                0.5 * step
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+
+    fn dynamics(task: &str) -> Dynamics {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)]),
+                task: Dynamics({task}),
+            )"
+        );
+        match Scene::from_ron(&text).unwrap().task {
+            Task::Dynamics(dynamics) => dynamics,
+            Task::Equilibrium(_) => unreachable!("the text above is a motion"),
+        }
+    }
+
+    fn steps(task: &str, largest: f64) -> (u64, u64, f64) {
+        let steps = Steps::of(&dynamics(task), largest).unwrap();
+        (steps.count, steps.between_records, steps.record_every_ns)
+    }
+
+    /// 17.9 steps of 0.0028 ns in 0.05 ns become 18; rounding alone made records every 0.0504 ns.
+    #[test]
+    fn steps_make_up_the_interval_of_records() {
+        let task = "duration_ns: 1.0, record_every_ns: 0.05";
+        assert_eq!(steps(task, 0.0028), (360, 18, 0.05));
+        // 33 1/3 intervals: the steps between records are a multiple of three.
+        let task = "duration_ns: 1.0, record_every_ns: 0.03";
+        assert_eq!(steps(task, 0.0017), (600, 18, 0.03));
+        // A record at every step, however short.
+        let task = "duration_ns: 1.0, record_every_ns: 0.001";
+        assert_eq!(steps(task, 0.0028), (1000, 1, 0.001));
+        // Step and interval that are whole up to round-off cost no step more.
+        let task = "duration_ns: 0.3, record_every_ns: 0.1";
+        assert_eq!(steps(task, 0.1), (3, 1, 0.1));
+    }
+
+    /// Where the interval and the duration have no step in common, the duration is met.
+    #[test]
+    fn intervals_that_do_not_fit_are_rounded_and_told() {
+        let task = dynamics("duration_ns: 0.777, record_every_ns: 0.1, time_step_ns: 0.003");
+        let steps = Steps::of(&task, 0.003).unwrap();
+        assert_eq!((steps.count, steps.between_records), (265, 34));
+        assert!((steps.record_every_ns - 0.777 / 265.0 * 34.0).abs() < 1e-12);
+        let notes = estimate(&steps).notes(&Task::Dynamics(task));
+        assert_eq!(notes.len(), 2);
+        assert!(
+            notes[0].contains("steps of 2.932075e-3 ns are taken"),
+            "{notes:?}"
+        );
+        assert!(
+            notes[1].contains("records are 0.099691 ns apart"),
+            "{notes:?}"
+        );
+    }
+
+    fn estimate(steps: &Steps) -> Estimate {
+        Estimate {
+            largest_frequency_rad_per_ns: 500.0,
+            stability_limit_ns: 0.006,
+            time_step_ns: steps.length_ns,
+            steps: steps.count,
+            steps_between_records: steps.between_records,
+            record_every_ns: steps.record_every_ns,
+            force_evaluations: 0,
+        }
+    }
+
+    fn notes(task: &str) -> Vec<String> {
+        let task = dynamics(task);
+        let steps = Steps::of(&task, task.time_step_ns.unwrap_or(0.003)).unwrap();
+        estimate(&steps).notes(&Task::Dynamics(task))
+    }
+
+    /// A step that was written is the longest there is; a shorter one is told, and so is strong drag.
+    #[test]
+    fn what_was_not_asked_for_is_told() {
+        let told = notes("duration_ns: 1.0, record_every_ns: 0.05, time_step_ns: 0.003");
+        assert_eq!(
+            told,
+            [
+                "task.time_step_ns = 0.003: steps of 2.941176e-3 ns are taken, so that whole steps make \
+              up the interval of records and the duration"
+            ]
+        );
+        assert!(notes("duration_ns: 1.0, record_every_ns: 0.05, time_step_ns: 0.0025").is_empty());
+        let drag = |rate: f64| {
+            notes(&format!(
+                "duration_ns: 1.0, record_every_ns: 0.05,
+                 drag: (translational_per_ns: {rate:?}, rotational_per_ns: 0.0)"
+            ))
+        };
+        assert!(drag(100.0).is_empty());
+        let strong = drag(1000.0);
+        // x = 1000 * 0.05/17/2: b x/sinh(x).
+        assert!(
+            strong[0].contains("0.558 and 1.000 of a steady drift"),
+            "{strong:?}"
+        );
+    }
+
+    /// What a run writes into its scene gives the same steps again, to the bit.
+    #[test]
+    fn resolved_steps_stay_as_they_are() {
+        for (duration, every) in [
+            (1.0, 0.05),
+            (0.777, 0.1),
+            (20.0, 0.3),
+            (1.0, 0.07),
+            (3.0, 5.0),
+        ] {
+            for largest in [0.0028, 0.00131, 0.9, 1e-6] {
+                let open = format!("duration_ns: {duration:?}, record_every_ns: {every:?}");
+                let first = Steps::of(&dynamics(&open), largest).unwrap();
+                let resolved = format!(
+                    "duration_ns: {duration:?}, record_every_ns: {:?}",
+                    first.record_every_ns
+                );
+                let again = Steps::of(&dynamics(&resolved), first.length_ns).unwrap();
+                assert_eq!(again, first, "{open}, {largest}");
+            }
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! Whether monomers in a heat bath have its temperature in their positions at the default step, half the
+//! stability limit, or need a shorter one.
+//!
+//! Velocities have the temperature at any step. Positions are asked by two identities that hold for
+//! every potential, `<B . grad U> = kT <div B>`, with two fields `B`:
+//!
+//! - the displacement and the turn of each monomer against the one before, from how they stand at
+//!   rest, which weigh all motions alike;
+//! - `M^-1 grad U`, which weighs each mode by the square of its frequency: the fastest modes, which a
+//!   step that is too long makes too warm.
+
+use crate::filaments::KBT;
+use actin_integrate::{
+    Bath, Drag, PEFRL, Run, SAFETY, advance, advance_in, largest_frequency, stable_step,
+};
+use actin_mechanics::{Coordinates, State, Stiffness, System, UnitQuaternion, Vector3};
+use actin_sim::{Assembly, Scene};
+
+/// Time between samples (ns): the slowest motions of so short a filament turn in it.
+const APART_NS: f64 = 0.05;
+/// Standard errors that an estimate may be off by.
+const ERRORS: f64 = 4.5;
+
+/// 35.6 nm of free monomers with so many bonds per interface.
+fn monomers(bonds: usize) -> System {
+    let text = format!(
+        "Scene(
+            filament: Filament(
+                sections: [Ellipsoids(from_nm: 0.0, to_nm: 35.6)],
+                monomers: (seed: 1, lateral_bonds: {bonds}, longitudinal_bonds: {bonds}),
+            ),
+            task: Dynamics(duration_ns: 1.0),
+        )"
+    );
+    let scene = Scene::from_ron(&text).unwrap();
+    Assembly::build(&scene).unwrap().system
+}
+
+/// Sums of `B . grad U` and of `kT div B` over samples.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    work: f64,
+    divergence: f64,
+}
+
+impl Sums {
+    fn add(&mut self, work: f64, divergence: f64) {
+        self.work += work;
+        self.divergence += KBT * divergence;
+    }
+}
+
+/// The two temperatures of positions, by blocks: sums of each.
+type Blocks = [Vec<Sums>; 2];
+
+/// What asks a state for its temperature.
+struct Thermometer {
+    /// Place and orientation of each monomer against the one before, at rest.
+    relative: Vec<(Vector3, UnitQuaternion)>,
+    stiffness: Stiffness,
+}
+
+impl Thermometer {
+    fn new(rest: &State) -> Self {
+        Self {
+            relative: (1..rest.frames.len()).map(|i| relative(rest, i)).collect(),
+            stiffness: Stiffness::default(),
+        }
+    }
+
+    /// Adds a state to the sums of both fields.
+    fn read(&mut self, system: &mut System, sums: &mut [Sums; 2]) {
+        let loads = system.loads().clone();
+        let state = system.state();
+        let (mut work, mut divergence) = (0.0, 0.0);
+        for (k, (place, orientation)) in self.relative.iter().enumerate() {
+            let (moved, turned) = relative(state, k + 1);
+            let displacement = state.frames.orientation.get(k) * (moved - place);
+            work -= displacement.dot(&loads.force.get(k + 1));
+            // The axial vector of the matrix has the trace as its divergence under turns of the body.
+            let turn = orientation.inverse() * turned;
+            let trace = turn.to_rotation_matrix().matrix().trace();
+            work -= (turn.imag() * (2.0 * turn.w)).dot(&loads.torque.get(k + 1));
+            divergence += 3.0 + trace;
+        }
+        sums[0].add(work, divergence);
+        let (work, divergence) = self.weighted(system, &loads);
+        sums[1].add(work, divergence);
+    }
+
+    /// Squares of the loads over the inertia, and the trace of stiffness over inertia.
+    fn weighted(&mut self, system: &System, loads: &actin_mechanics::Loads) -> (f64, f64) {
+        let state = system.state();
+        let inverse = |body: Coordinates| match body {
+            Coordinates::Point(i) => Vector3::repeat(state.points.inverse_mass()[i]),
+            Coordinates::Frame(i) => state.frames.inverse_moments(i),
+        };
+        let square = |load: Vector3, body| load.component_mul(&load).dot(&inverse(body));
+        let forces = loads.force.iter().enumerate();
+        let torques = loads.torque.iter().enumerate();
+        let work = forces
+            .map(|(i, f)| square(f, Coordinates::Point(i)))
+            .sum::<f64>()
+            + torques
+                .map(|(i, t)| square(t, Coordinates::Frame(i)))
+                .sum::<f64>();
+        self.stiffness.clear();
+        for interaction in system.interactions() {
+            let known = interaction.second_order().expect("bonds know theirs");
+            known.add_stiffness(state, &mut self.stiffness);
+        }
+        let blocks = self.stiffness.blocks().iter().filter(|(a, b, _)| a == b);
+        let trace = blocks.map(|(a, _, block)| block.diagonal().dot(&inverse(*a)));
+        (work, trace.sum())
+    }
+}
+
+/// Place and orientation of monomer `i` in the axes of the one before.
+fn relative(state: &State, i: usize) -> (Vector3, UnitQuaternion) {
+    let (x, q) = (&state.points.position, &state.frames.orientation);
+    let back = q.get(i - 1).inverse();
+    (back * (x.get(i) - x.get(i - 1)), back * q.get(i))
+}
+
+/// Steps of `h` in a time (ns).
+fn steps(h: f64, time: f64) -> u64 {
+    Run::over(&PEFRL, h, time).unwrap().steps()
+}
+
+/// What is run: bonds per interface, share of the stability limit of PEFRL, drag (1/ns).
+#[derive(Clone, Copy, Debug)]
+struct Case {
+    bonds: usize,
+    share: f64,
+    rate: f64,
+}
+
+/// Both temperatures of positions, in so many blocks of so many samples.
+fn sample(case: Case, blocks: usize, samples: usize, seed: u64) -> Blocks {
+    let mut system = monomers(case.bonds);
+    let frequency = largest_frequency(&system).unwrap();
+    let h = stable_step(&PEFRL, frequency, case.share).unwrap();
+    let drag = Drag::new(case.rate, case.rate).unwrap();
+    let bath = Bath::new(drag, KBT, seed).unwrap();
+    let mut thermometer = Thermometer::new(system.state());
+    let apart = steps(h, APART_NS);
+    // Until the energy at the start, which is none, is forgotten to exp(-10).
+    let mut now = steps(h, 10.0 / case.rate);
+    advance_in(&mut system, &PEFRL, h, now, &bath, 0);
+    let mut all: Blocks = Default::default();
+    for _ in 0..blocks {
+        let mut sums = [Sums::default(); 2];
+        for _ in 0..samples {
+            advance_in(&mut system, &PEFRL, h, apart, &bath, now);
+            now += apart;
+            thermometer.read(&mut system, &mut sums);
+        }
+        for (blocks, sums) in all.iter_mut().zip(sums) {
+            blocks.push(sums);
+        }
+    }
+    all
+}
+
+/// The ratio of all sums, and its standard error from the scatter of the blocks about it.
+fn ratio(blocks: &[Sums]) -> (f64, f64) {
+    let n = blocks.len() as f64;
+    let divergence: f64 = blocks.iter().map(|b| b.divergence).sum();
+    let mean = blocks.iter().map(|b| b.work).sum::<f64>() / divergence;
+    let square = |b: &Sums| (b.work - mean * b.divergence).powi(2);
+    let scatter: f64 = blocks.iter().map(square).sum();
+    (mean, (scatter * n / (n - 1.0)).sqrt() / divergence)
+}
+
+const FIELDS: [&str; 2] = ["all motions alike", "weighted by frequency squared"];
+
+/// At the default step of a scene positions of monomers have the temperature of their bath within 1 %,
+/// which is asked for before anything is measured.
+#[test]
+fn monomers_have_the_temperature_at_their_default_step() {
+    let case = Case {
+        bonds: 16,
+        share: SAFETY,
+        rate: 5.0,
+    };
+    let all = sample(case, 40, 60, 5);
+    for (what, blocks) in FIELDS.iter().zip(&all) {
+        let (mean, error) = ratio(blocks);
+        println!("{what}: {mean:.4} +- {error:.4}");
+        assert!((mean - 1.0).abs() < 0.01 + ERRORS * error, "{what}");
+        assert!(error < 0.015, "{what}: {error}");
+    }
+}
+
+/// The table of `docs/numerics.md`.
+#[test]
+#[ignore = "takes half an hour; run by hand with --ignored --nocapture"]
+fn temperatures_of_positions_at_shares_of_the_limit() {
+    for bonds in [64, 16] {
+        for rate in [5.0, 0.1] {
+            for share in [1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0] {
+                let case = Case { bonds, share, rate };
+                let all = sample(case, 60, 600, 11);
+                let words = FIELDS.iter().zip(&all).map(|(what, blocks)| {
+                    let (mean, error) = ratio(blocks);
+                    format!("{what} {mean:.4} +- {error:.4}")
+                });
+                let words: Vec<_> = words.collect();
+                println!("{case:?}: {}", words.join(", "));
+            }
+        }
+    }
+}
+
+/// By how much the energy of monomers at 298 K grows without drag, per ns and relative to `kT` for each
+/// degree of freedom: what the step adds, which a bath of drag `g` takes away at an excess of
+/// temperature of this over `g`.
+#[test]
+#[ignore = "takes minutes; run by hand with --ignored --nocapture"]
+fn energy_that_the_step_adds_at_room_temperature() {
+    const TIME_NS: f64 = 100.0;
+    for bonds in [64, 16] {
+        for share in [1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0] {
+            let growth = (0..8).map(|seed| {
+                let mut system = monomers(bonds);
+                let frequency = largest_frequency(&system).unwrap();
+                let h = stable_step(&PEFRL, frequency, share).unwrap();
+                let bath = Bath::new(Drag::new(5.0, 5.0).unwrap(), KBT, seed).unwrap();
+                advance_in(&mut system, &PEFRL, h, steps(h, 2.0), &bath, 0);
+                let before = system.total_energy();
+                advance(&mut system, &PEFRL, h, steps(h, TIME_NS), &Drag::NONE);
+                let state = system.state();
+                let coordinates = 3.0 * (state.points.len() + state.frames.len()) as f64;
+                (system.total_energy() - before) / (KBT * coordinates * TIME_NS)
+            });
+            let growth: Vec<f64> = growth.collect();
+            let mean = growth.iter().sum::<f64>() / growth.len() as f64;
+            let largest = growth.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
+            println!(
+                "{bonds} bonds, {share:.3} of the limit: mean {mean:.1e} per ns, largest {largest:.1e}"
+            );
+        }
+    }
+}
