@@ -1,24 +1,23 @@
 //! The search from one start.
 
-use crate::acceleration::{Curving, acceleration};
+use crate::acceleration::{Probe, accelerated};
 use crate::options::Options;
 use crate::problem::{Linearisation, Problem};
 use crate::report::{Ending, Progress, StartReport};
-use crate::step::{Damped, LARGEST_DAMPING, Room, SMALLEST_DAMPING};
+use crate::step::{Damped, LARGEST_DAMPING, Room, SMALLEST_DAMPING, Step};
 use faer::Mat;
 
 /// Least part of the promised decrease that a step must bring.
 const LEAST_RATIO: f64 = 1e-4;
 /// Steps taken on trust where rounding hides whether chi squared falls.
 const TRUSTED_STEPS: usize = 20;
-/// A search may be bent where the last step kept less of its promise than this ...
+/// Acceleration is added where the last step kept less of its promise than this ...
 const KEPT: f64 = 0.9;
 /// ... and where damping leaves less than this of the length of the full step.
 const SHORTENED: f64 = 0.9;
-/// What is left of a step that was refused; of one that was refused often before.
+/// What is left of the length of a step that was refused, the first `HALVINGS` times and later.
 const SHORTER: [f64; 2] = [0.5, 0.1];
-/// How often is often.
-const OFTEN: usize = 8;
+const HALVINGS: usize = 8;
 
 /// A search: a point, its residuals and the state of the damping.
 struct Descent<'a> {
@@ -47,9 +46,10 @@ enum Trial {
 /// Levenberg and Marquardt's search from one start, with the step lengths of a trust region.
 ///
 /// The first step is at most as long as the start, in the scaled norm. A step that is refused is
-/// halved. One that kept less than half of its promise is followed by steps of the length that a
-/// parabola through both ends would have liked; a better one by less damping. Where the way bends,
-/// steps are bent with it, which takes one more evaluation.
+/// halved. After a step that kept less than half of its promise, damping grows so that the step would
+/// have ended where a parabola along it is least; after a better one it falls. Where steps must be
+/// short because the model curves, half the acceleration along the step is added to it, for one more
+/// evaluation.
 ///
 /// # Source
 /// More, Lecture Notes in Mathematics 630 (1978) 105, for scaling and lengths; Nielsen,
@@ -180,14 +180,17 @@ impl<'a> Descent<'a> {
         for refused in 0.. {
             let step = damped.step(damping);
             let length = damped.length(&step.values);
-            let tired =
-                damping > LARGEST_DAMPING || self.moved(damped.room, &step.values) == self.p;
-            if tired {
+            if damping > LARGEST_DAMPING || self.moved(damped.room, &step.values) == self.p {
                 break;
             }
-            let bends = self.kept < KEPT && length < SHORTENED * most;
-            if let Some(bent) = self.bend(damped, derivatives, damping, &step, bends) {
-                let (moved, residuals, chi_squared) = self.evaluate(damped.room, &bent);
+            let curves = self.kept < KEPT && length < SHORTENED * most;
+            let curved = if curves {
+                self.accelerated(damped, derivatives, damping, &step)
+            } else {
+                Some(step.values.clone())
+            };
+            if let Some(curved) = curved {
+                let (moved, residuals, chi_squared) = self.evaluate(damped.room, &curved);
                 self.kept = (self.chi_squared - chi_squared) / damped.linear.promised(&step.values);
                 if self.kept > LEAST_RATIO {
                     self.damping = Some(relaxed(damped, damping, length, self.kept));
@@ -195,33 +198,29 @@ impl<'a> Descent<'a> {
                     return Trial::Taken;
                 }
             }
-            let shorter = SHORTER[usize::from(refused >= OFTEN)] * length;
+            let shorter = SHORTER[usize::from(refused >= HALVINGS)] * length;
             damping = damped.damping_for(shorter, damping).max(2.0 * damping);
         }
         self.damping = Some(damping);
         Trial::Ended(Ending::Stalled)
     }
 
-    /// A step with its bend, if it `bends`; `None` where it bends so much that it must be shorter.
-    fn bend(
+    /// A step and half its acceleration; `None` where the model curves so much that the step must be
+    /// shorter.
+    fn accelerated(
         &mut self,
         damped: &Damped<'_>,
         derivatives: &Mat<f64>,
         damping: f64,
-        step: &crate::step::Step,
-        bends: bool,
+        step: &Step,
     ) -> Option<Vec<f64>> {
-        if !bends {
-            return Some(step.values.clone());
-        }
-        let probe = Curving::probe(&step.values);
-        let (_, residuals, _) = self.evaluate(damped.room, &probe);
-        let curving = Curving {
+        let (_, residuals, _) = self.evaluate(damped.room, &Probe::of(&step.values));
+        let probe = Probe {
             before: &self.residuals,
             after: &residuals,
             derivatives,
         };
-        acceleration(damped, &curving, damping, step)
+        accelerated(damped, &probe, damping, step)
     }
 
     /// Takes a full step though rounding hides whether chi squared falls, a few times: the

@@ -107,12 +107,14 @@ fn column_lengths(matrix: MatRef<'_, f64>, units: &[f64], tolerance: f64) -> Vec
     let lengths: Vec<f64> = (0..matrix.ncols())
         .map(|j| matrix.col(j).norm_l2())
         .collect();
-    let effects: Vec<f64> = lengths.iter().zip(units).map(|(l, u)| l * u).collect();
-    let largest = effects.iter().copied().fold(0.0, f64::max);
-    lengths
-        .iter()
-        .zip(&effects)
-        .map(|(&length, &effect)| (effect > tolerance * largest).then_some(length))
+    // As logarithms: a length times the distance of bounds may overflow.
+    let pairs = lengths.iter().zip(units);
+    let effects: Vec<f64> = pairs.map(|(l, u)| l.ln() + u.ln()).collect();
+    let largest = effects.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let least = largest + tolerance.ln();
+    let pairs = lengths.iter().zip(&effects);
+    pairs
+        .map(|(&length, &effect)| (effect > least).then_some(length))
         .collect()
 }
 

@@ -21,8 +21,8 @@ const SAME_CHI_SQUARED: f64 = 1e-9;
 ///
 /// Steps are measured by the largest lengths of the columns of derivatives so far, so that units of
 /// parameters do not matter: the same search results in nm and in m. A step that would cross a bound
-/// ends on it. Where a model curves so much that straight steps must be short, steps are bent along
-/// it, for one more evaluation each.
+/// ends on it. Where a model curves so much that straight steps must be short, their acceleration is
+/// added, for one more evaluation each.
 ///
 /// The results are the same in each run on one machine; on another one the last digits differ, as
 /// those of exponential functions and of the kernels for matrices do.

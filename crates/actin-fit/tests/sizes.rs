@@ -163,6 +163,23 @@ fn variances_that_are_no_numbers_are_refused() {
     assert!(message.starts_with("length of column 0 is "), "{message}");
 }
 
+/// Bounds as far apart as numbers go do not hide what the data determine.
+#[test]
+fn wide_bounds_change_nothing() {
+    let y = Observations::new(&noisy(1.0)).unwrap();
+    let data = Data::new(&places(0.0, 3.0, 15), y).unwrap();
+    let starts = Starts::at(&[5.0, 0.2]);
+    let within = |size: f64| {
+        let bounds = Bounds::new(&[(-size, size); 2]).unwrap();
+        let fit = LevenbergMarquardt::default().fit(&decay(1.0), &data, &bounds, &starts);
+        let fit = fit.unwrap();
+        assert_eq!(fit.statuses, [Status::Determined; 2], "{size:e}");
+        errors(&fit)
+    };
+    assert_eq!(within(1e3), within(1e307));
+    assert_eq!(within(1e3), within(f64::MAX));
+}
+
 /// An exponential that overflows at the start, and one that is too large to be squared, are no fit,
 /// and the message names the point.
 #[test]
@@ -205,9 +222,9 @@ proptest! {
         let size = |k: &i32| 10.0_f64.powi(k % narrow);
         let y: Vec<f64> = y.iter().zip(&sizes).map(|(y, k)| y.signum() * size(k)).collect();
         let s: Vec<f64> = deviations.iter().map(size).collect();
-        let observed = Observations::new(&y).and_then(|o| match is_known {
-            true => o.with_deviations(&s),
-            false => o.with_weights(&s),
+        let observed = Observations::new(&y);
+        let observed = observed.and_then(|o| {
+            if is_known { o.with_deviations(&s) } else { o.with_weights(&s) }
         });
         let line = ClosureModel::new(
             2,

@@ -243,31 +243,33 @@ pub(super) fn stretched(column: &Column) -> Result<LawFit<StretchLaw>, String> {
         let starts = Starts::at(&[rigidity, rigidity, 0.1 * most]).and_drawn(STARTS.0, STARTS.1);
         Found::search(&STRETCHED, &Stretched, &data, bounds, &starts)
     };
-    let has_sides = [-1.0, 1.0]
-        .iter()
-        .all(|sign| column.on_side(*sign) >= FEWEST);
+    let has_sides = [-1.0, 1.0].map(|sign| column.on_side(sign) >= FEWEST) == [true; 2];
     let found = if has_sides {
         unless_simple(&data, &constant, full)?
     } else {
         None
     };
-    if let Some(found) = found {
-        let law = Stretched::law(&found.fit.parameters);
-        let basis = Basis::Full(found);
-        return Ok(LawFit { law, basis });
-    }
-    let basis = Basis::Simple {
-        note: if has_sides {
-            "one rigidity meets both sides as well as two"
-        } else {
-            "one rigidity: two need three values on either side"
+    Ok(match found {
+        Some(found) => LawFit {
+            law: Stretched::law(&found.fit.parameters),
+            basis: Basis::Full(found),
         },
-        names: &["strain per force (1/pN)"],
-        fit: constant,
-    };
-    let law = StretchLaw::Constant(rigidity);
-    Ok(LawFit { law, basis })
+        None => LawFit {
+            law: StretchLaw::Constant(rigidity),
+            basis: Basis::Simple {
+                note: ONE_RIGIDITY[usize::from(has_sides)],
+                names: &["strain per force (1/pN)"],
+                fit: constant,
+            },
+        },
+    })
 }
+
+/// Why there is one rigidity, where the data are not and where they are on both sides.
+const ONE_RIGIDITY: [&str; 2] = [
+    "one rigidity: two need three values on either side",
+    "one rigidity meets both sides as well as two",
+];
 
 /// Checks that keys name parameters of searches.
 ///

@@ -269,6 +269,16 @@ fn what_the_data_do_not_tell_is_refused() {
     );
 }
 
+/// A rod of 75 nm with this law, turned by a quarter.
+fn scene_with(law: &str) -> Scene {
+    let text = format!(
+        "Scene(title: \"mine\", filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 75.0)], \
+         rod: RodModel(law:\n{law})), clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)], \
+         path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 90.0))])], task: Equilibrium())"
+    );
+    Scene::from_ron(&text).unwrap()
+}
+
 /// The example of the documentation is a table, its law is written, and a scene with that law as
 /// written runs and shows the rigidities of the table.
 #[test]
@@ -281,12 +291,7 @@ fn a_scene_takes_what_is_written() {
     std::fs::write(&file, example).unwrap();
     run(&options(&file, &out, &[])).unwrap();
     let law = std::fs::read_to_string(out.join("rod-law.ron")).unwrap();
-    let text = format!(
-        "Scene(title: \"mine\", filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 75.0)], \
-         rod: RodModel(law:\n{law})), clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)], \
-         path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 90.0))])], task: Equilibrium())"
-    );
-    let scene = Scene::from_ron(&text).unwrap();
+    let scene = scene_with(&law);
     let rod = scene.filament.rod.clone();
     let mut assembly = Assembly::build(&scene).unwrap();
     actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())).unwrap();

@@ -80,15 +80,16 @@ impl Neg for Dual {
 
 /// The four operations, with numbers on either side.
 macro_rules! operation {
-    ($trait:ident, $name:ident, |$a:ident, $b:ident| $value:expr, $by_a:expr, $by_b:expr) => {
+    ($trait:ident, $name:ident, |$a:ident, $b:ident| $value:expr, |$s:ident, $t:ident| $slope:expr) => {
         impl $trait for Dual {
             type Output = Dual;
 
             fn $name(self, other: Dual) -> Dual {
                 let ($a, $b) = (self.value, other.value);
                 let mut slopes = self.slopes;
-                for (s, t) in slopes.iter_mut().zip(other.slopes) {
-                    *s = *s * $by_a + t * $by_b;
+                for (slope, $t) in slopes.iter_mut().zip(other.slopes) {
+                    let $s = *slope;
+                    *slope = $slope;
                 }
                 Dual {
                     value: $value,
@@ -115,7 +116,7 @@ macro_rules! operation {
     };
 }
 
-operation!(Add, add, |a, b| a + b, 1.0, 1.0);
-operation!(Sub, sub, |a, b| a - b, 1.0, -1.0);
-operation!(Mul, mul, |a, b| a * b, b, a);
-operation!(Div, div, |a, b| a / b, b.recip(), -a / (b * b));
+operation!(Add, add, |a, b| a + b, |s, t| s + t);
+operation!(Sub, sub, |a, b| a - b, |s, t| s - t);
+operation!(Mul, mul, |a, b| a * b, |s, t| s * b + t * a);
+operation!(Div, div, |a, b| a / b, |s, t| (s - t * a / b) / b);

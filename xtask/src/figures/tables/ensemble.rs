@@ -48,6 +48,7 @@ impl Kind {
         match self.anchors {
             Anchors::Independent => "independent",
             Anchors::Identical => "identical",
+            Anchors::Cubature => "weighted",
         }
     }
 
