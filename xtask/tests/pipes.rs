@@ -9,7 +9,7 @@ fn task(arguments: &[&str], out: Option<&Path>, has_reader: bool) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
     command
         .args(arguments)
-        .args(out.map(|path| path.as_os_str()));
+        .args(out.map(Path::as_os_str));
     command.stderr(Stdio::piped());
     if has_reader {
         return command.output().unwrap();

@@ -4,9 +4,7 @@
 
 mod common;
 
-use common::{
-    ATTEMPTS, MOTION, Workplace, assert_same_files, code, contents, files, stderr, stdout,
-};
+use common::{ATTEMPTS, MOTION, Workplace, assert_same_files, code, contents, stderr, stdout};
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
@@ -232,8 +230,8 @@ fn assert_nothing_is_lost(
         0 => assert_same_files(&place.path("whole"), &a),
         2 => assert!(!kept, "{message}"),
         74 => {
-            let names: Vec<_> = files_if_any(&a);
-            let unfinished = names.iter().any(|name| name.ends_with(".part"));
+            let names = names(&a);
+            let unfinished = names.iter().any(|name| name.contains(".part"));
             assert!(!unfinished && !a.join("summary.json").exists(), "{names:?}");
             let says = if kept {
                 "a checkpoint is kept"
@@ -254,12 +252,12 @@ fn assert_nothing_is_lost(
     (code(&output), kept)
 }
 
-/// Names of all files, where there is a directory.
-fn files_if_any(folder: &Path) -> Vec<String> {
-    if !folder.join("vtk").exists() {
-        return Vec::new();
-    }
-    files(folder).into_iter().map(|(name, _)| name).collect()
+/// Names of all files of a run directory and its pictures, as far as there are any.
+fn names(folder: &Path) -> Vec<String> {
+    let folders = [folder.to_owned(), folder.join("vtk")];
+    let there = folders.iter().filter(|folder| folder.exists());
+    let paths = there.flat_map(|folder| contents(folder).into_keys());
+    paths.map(|path| path.display().to_string()).collect()
 }
 
 /// Every limit on the size of files, in steps of half a kilobyte, for an equilibrium, a path and a motion:

@@ -104,9 +104,8 @@ pub(super) fn sync_all(paths: &[PathBuf]) -> Result<(), (&Path, io::Error)> {
         let threads: Vec<_> = (0..SYNCED_AT_ONCE.min(paths.len()))
             .map(|_| scope.spawn(work))
             .collect();
-        let done = threads.into_iter().map(std::thread::ScopedJoinHandle::join);
-        done.map(|outcome| outcome.expect("waiting for the disk does not panic"))
-            .collect()
+        let mut done = threads.into_iter().map(std::thread::ScopedJoinHandle::join);
+        done.try_for_each(|outcome| outcome.expect("waiting for the disk does not panic"))
     })
 }
 

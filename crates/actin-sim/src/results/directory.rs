@@ -105,14 +105,8 @@ impl RunDirectory {
     /// # Errors
     /// The file or link, or a refusal of the file system.
     pub fn reopen(&self) -> Result<(), RunDirectoryError> {
-        let mut manifest = match Manifest::read(&self.path)? {
-            Some(manifest) => manifest,
-            None => {
-                let mut manifest = Manifest::new();
-                manifest.add_all_found(&self.path)?;
-                manifest
-            }
-        };
+        let listed = Manifest::read(&self.path)?;
+        let mut manifest = listed.map_or_else(|| Manifest::of_all_in(&self.path), Ok)?;
         manifest.add(BEFORE_RESULTS);
         manifest.ensure_own(&self.path)?;
         manifest.write(&self.path)

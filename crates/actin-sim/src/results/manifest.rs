@@ -50,6 +50,16 @@ impl Manifest {
         }
     }
 
+    /// A manifest that lists everything in `folder` that has a name which runs write.
+    ///
+    /// # Errors
+    /// A refusal of the file system.
+    pub(super) fn of_all_in(folder: &Path) -> Result<Self, RunDirectoryError> {
+        let mut manifest = Self::new();
+        manifest.add(found(folder)?.into_iter().map(|entry| entry.name));
+        Ok(manifest)
+    }
+
     /// The manifest in `folder`, if there is one.
     ///
     /// # Errors
@@ -103,12 +113,6 @@ impl Manifest {
     /// Lists more names.
     pub(super) fn add<S: Into<String>>(&mut self, names: impl IntoIterator<Item = S>) {
         self.files.extend(names.into_iter().map(Into::into));
-    }
-
-    /// Lists everything in `folder` that has a name which runs write.
-    pub(super) fn add_all_found(&mut self, folder: &Path) -> Result<(), RunDirectoryError> {
-        self.add(found(folder)?.into_iter().map(|entry| entry.name));
-        Ok(())
     }
 
     /// Notes what `scene.ron` will hold.

@@ -70,7 +70,12 @@ impl SceneError {
     /// An error at a place. What the text has made longer than anybody reads is cut.
     pub(super) fn new((line, column): (usize, usize), message: &str) -> Self {
         let words = message.split_inclusive(char::is_whitespace);
-        let message: String = words.map(|word| cut(word, LONGEST_WORD)).collect();
+        let message: String = words
+            .flat_map(|word| {
+                let (word, space) = word.split_at(word.trim_end().len());
+                [cut(word, LONGEST_WORD), space.into()]
+            })
+            .collect();
         Self {
             line,
             column,
@@ -100,7 +105,7 @@ fn cut(text: &str, most: usize) -> Cow<'_, str> {
         None => text.into(),
         Some((end, _)) => {
             let (start, all) = (&text[..end], text.chars().count());
-            format!("{start}... ({all} characters) ").into()
+            format!("{start}... ({all} characters)").into()
         }
     }
 }
@@ -126,10 +131,10 @@ mod tests {
         let key = "\u{e9}".repeat(1 << 20);
         let long = message(&format!("unknown key {key}: write b"));
         assert!(long.starts_with("unknown key \u{e9}\u{e9}"), "{long}");
-        assert!(long.ends_with("... (1048578 characters) write b"), "{long}");
+        assert!(long.ends_with("... (1048577 characters) write b"), "{long}");
         assert!(long.chars().count() < 200);
         let words = message(&"a b ".repeat(1 << 18));
-        assert!(words.ends_with("... (1048576 characters) "), "{words}");
+        assert!(words.ends_with("... (1048576 characters)"), "{words}");
         assert!(words.len() < 2100);
     }
 }
