@@ -191,7 +191,7 @@ fn let_go(integrator: &str, share: f64, rate: f64) -> Vec<Vector3> {
 fn position_verlet_follows_slow_motion_under_drag() {
     for rate in [0.0, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4] {
         let reference = let_go("Pefrl", 0.06, rate);
-        let size: f64 = reference.iter().map(|x| x.norm_squared()).sum();
+        let size: f64 = reference.iter().map(Vector3::norm_squared).sum();
         let error = |integrator| {
             let tips = let_go(integrator, 0.5, rate);
             let apart = tips

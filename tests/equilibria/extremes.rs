@@ -7,7 +7,7 @@
 use crate::common::{build, run};
 use actin_equilibrium::{PathFailure, Stability};
 use actin_mechanics::Vector3;
-use actin_sim::{Assembly, End, Load, Record, RunError};
+use actin_sim::{Assembly, End, Load, Record, RunError, RunReport, Trajectory};
 use std::time::Instant;
 
 /// Largest force and torque on a free body at an equilibrium (pN, pN nm).
@@ -83,24 +83,7 @@ impl Extreme {
         let clock = Instant::now();
         let result = run(&mut assembly);
         let seconds = clock.elapsed().as_secs_f64();
-        let (trajectory, report, failure) = match result {
-            Ok((trajectory, report)) => (trajectory, report, None),
-            Err(RunError::Ended {
-                failure,
-                trajectory,
-                report,
-                ..
-            }) => (*trajectory, *report, Some(failure)),
-            Err(RunError::BeyondUse {
-                worst,
-                trajectory,
-                report,
-            }) => {
-                println!("{}: beyond any use: {}", self.name, worst[0]);
-                (*trajectory, *report, None)
-            }
-            Err(other) => panic!("{}: {other}", self.name),
-        };
+        let (trajectory, report, failure) = self.take(result);
         let ended = match (&failure, &report.equilibrium) {
             (Some(failure), _) => failure.to_string(),
             (None, found) => format!("{:?}", found.as_ref().unwrap().certificate.stability()),
@@ -126,6 +109,31 @@ impl Extreme {
             self.check_report(failure);
         }
         failure.is_none()
+    }
+
+    /// The results, and why there are no more. What is beyond any use is an equilibrium all the same.
+    fn take(
+        &self,
+        result: Result<(Trajectory, RunReport), RunError>,
+    ) -> (Trajectory, RunReport, Option<Box<PathFailure>>) {
+        match result {
+            Ok((trajectory, report)) => (trajectory, report, None),
+            Err(RunError::Ended {
+                failure,
+                trajectory,
+                report,
+                ..
+            }) => (*trajectory, *report, Some(failure)),
+            Err(RunError::BeyondUse {
+                worst,
+                trajectory,
+                report,
+            }) => {
+                println!("{}: beyond any use: {}", self.name, worst[0]);
+                (*trajectory, *report, None)
+            }
+            Err(other) => panic!("{}: {other}", self.name),
+        }
     }
 
     /// The last state is an equilibrium: small residual, and walls that bear the loads.

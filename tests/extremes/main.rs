@@ -175,7 +175,7 @@ fn forces_over_eighteen_decades_are_right_or_said_to_be_lost() {
             let is_said = |words: &str| row.outcome.words().contains(words);
             let is_beyond = is_said("beyond any use") || (across && is_said("no equilibrium"));
             assert!(is_beyond != is_correct(row), "{row:?}");
-            assert!(is_beyond || size == 1e4, "{row:?}");
+            assert!(is_beyond || size < 1e5, "{row:?}");
         }
     }
 }
@@ -202,7 +202,8 @@ fn the_smallest_filaments_move_and_smaller_ones_are_refused() {
     let rows = sizes::smallest();
     assert_sound(&rows);
     assert_eq!(rows.iter().map(is_correct).filter(|is| *is).count(), 3);
-    let rows = sizes::largest(1000);
+    let mut rows = sizes::largest(1000);
+    rows.extend(sizes::stages(1000));
     assert_sound(&rows);
     assert!(rows.iter().all(is_correct));
 }

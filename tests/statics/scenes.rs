@@ -54,7 +54,8 @@ fn good_scenes_read_build_and_have_a_stable_step() {
 }
 
 /// Each bad scene begins with a line that holds its message: place, key, value and rule. The
-/// place is that of the culprit; the comment line counts.
+/// place is that of the culprit; the comment line counts. What follows dots differs from machine to
+/// machine.
 #[test]
 fn bad_scenes_say_what_is_wrong_and_where() {
     let folder = scenarios().join("bad");
@@ -65,7 +66,11 @@ fn bad_scenes_say_what_is_wrong_and_where() {
         let first = text.lines().next().unwrap();
         let expected = first.strip_prefix("// expect: ").unwrap();
         let found = check(&text).err().map(|error| error.to_string());
-        assert_eq!(found.as_deref(), Some(expected), "{}", path.display());
+        let found = found.unwrap_or_default();
+        match expected.strip_suffix("...") {
+            Some(start) => assert!(found.starts_with(start), "{}: {found}", path.display()),
+            None => assert_eq!(found, expected, "{}", path.display()),
+        }
     }
 }
 

@@ -133,6 +133,10 @@ fn is_finished(opened: &Opened, directory: &RunDirectory) -> Result<bool, Failur
         return Ok(false);
     };
     let place = directory.path().display();
+    if status == RunStatus::Failed {
+        let message = format!("{place} holds a run that failed; it keeps nothing to resume");
+        return Err(Failure::Numerical(message));
+    }
     println!(
         "{place} is finished ({}): nothing to resume",
         in_words(status)
@@ -240,11 +244,7 @@ fn broken(opened: &Opened, directory: &RunDirectory, error: RunError) -> Failure
             opened.locate(problem),
             "the equilibria in which it is lost are",
         ),
-        RunError::BeyondUse { worst, .. } => {
-            let worst: Vec<_> = worst.iter().map(ToString::to_string).collect();
-            let why = format!("the result is beyond any use: {}", worst.join("; "));
-            (why, "all of it is")
-        }
+        RunError::BeyondUse { .. } => (error.to_string(), "all of it is"),
         RunError::Saddle { problem, .. } => (opened.locate(problem), "all results are"),
         RunError::Ended { .. } | RunError::Slipped { .. } | RunError::Failed { .. } => {
             (error.to_string(), GOOD)

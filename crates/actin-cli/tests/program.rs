@@ -398,7 +398,8 @@ fn check_tells_cost_and_advice() {
         let output = place.actin(&["check", "scene.ron"]);
         assert_eq!(code(&output), 0, "{}", stderr(&output));
         let printed = stdout(&output);
-        let cost = "// cost: about 20 Newton steps, each of 7616 bonds and 0 elements: ";
+        let cost =
+            "// cost: about 12 Newton steps to 1 equilibrium, each of 7616 bonds and 0 elements: ";
         assert!(printed.contains(cost), "{printed}");
         assert!(printed.contains(advice), "{printed}");
     }
@@ -426,6 +427,9 @@ fn a_result_beyond_any_use_is_a_failure() {
     let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
     assert!(summary.contains("\"status\": \"failed\""), "{summary}");
     assert!(summary.contains("\"quantity\": \"bonds\""), "{summary}");
+    let output = place.actin(&["run", "scene.ron", "--out", "a", "--resume"]);
+    assert_eq!(code(&output), 3, "{}", stdout(&output));
+    assert!(stderr(&output).contains("failed"), "{}", stderr(&output));
 }
 
 /// A column beyond its critical load leaves the straight state, from which it could have gone the other

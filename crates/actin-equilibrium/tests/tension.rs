@@ -36,7 +36,7 @@ fn pulled(force: f64, turn: UnitQuaternion) -> (State, Vec<Box<dyn Interaction>>
 #[test]
 fn a_straight_rod_stretches_linearly_at_any_tension() {
     for (force, is_saddle) in [(1e2, false), (3e4, false), (1e5, true), (1e6, true)] {
-        for tilt in [0.0, 0.9, -2.0] {
+        for tilt in [0.0_f64, 0.9, -2.0] {
             let is_exact = !is_saddle || tilt.abs() < 0.5;
             let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.3, -0.2, 0.9) * tilt);
             let (mut state, terms) = pulled(force, turn);

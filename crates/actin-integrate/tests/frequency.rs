@@ -241,3 +241,51 @@ fn loads_that_are_not_finite_are_named() {
         Err(FrequencyError { term: "linear" })
     );
 }
+
+/// Many terms, of which the last has a load that is no number: each is evaluated a few times until it
+/// is found, not all of them once for each.
+#[test]
+fn a_broken_term_among_many_is_found_in_few_evaluations() {
+    let terms: u64 = 1024;
+    let (system, _) = linear(2, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    let evaluations = Arc::new(AtomicU64::new(0));
+    let term = |i: u64| -> Box<dyn Interaction> {
+        let entry = if i + 1 == terms { f64::NAN } else { 1.0 };
+        Box::new(Linear {
+            rows: [Vector3::new(entry, 0.0, 0.0), Vector3::y(), Vector3::z()],
+            evaluations: Arc::clone(&evaluations),
+        })
+    };
+    let system = System::new(system.state().clone(), (0..terms).map(term).collect());
+    let error = largest_frequency(&system).unwrap_err();
+    assert_eq!(error, FrequencyError { term: "linear" });
+    // The trial motion, all again, prefixes by halving (less than all each), and the one found.
+    let most = terms * (3 + u64::from(terms.ilog2()));
+    let found = evaluations.load(Ordering::Relaxed);
+    assert!(found <= most, "{found} of at most {most}");
+}
+
+/// With sound loads every term is evaluated twice for each trial motion, however many there are.
+#[test]
+fn sound_terms_are_evaluated_twice_for_each_vector() {
+    for terms in [1_u64, 50] {
+        let (_, evaluations) = linear(1, [[0.0; 3]; 3]);
+        let mut state = State::default();
+        for i in 0..100_u32 {
+            state.points.push(Point {
+                position: Vector3::zeros(),
+                mass: 1.0 + f64::from(i),
+            });
+        }
+        let term = |_| -> Box<dyn Interaction> {
+            Box::new(Linear {
+                rows: [Vector3::x() * 8.0, Vector3::y() * 4.0, Vector3::z() * 2.0],
+                evaluations: Arc::clone(&evaluations),
+            })
+        };
+        let system = System::new(state, (0..terms).map(term).collect());
+        largest_frequency(&system).unwrap();
+        let expected = 2 * terms * KRYLOV_VECTORS as u64;
+        assert_eq!(evaluations.load(Ordering::Relaxed), expected);
+    }
+}

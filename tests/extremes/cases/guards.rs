@@ -29,9 +29,9 @@ const SCENES: [(&str, &str, &str); 10] = [
         "Equilibrium()",
     ),
     (
-        "1.5e7 segments, twice",
-        "Rod(from_nm: 0.0, to_nm: 30.0, segments: 15000000), Ellipsoids(from_nm: 30.0, to_nm: 60.0),
-         Rod(from_nm: 60.0, to_nm: 90.0, segments: 15000000)",
+        "1e11 segments, twice",
+        "Rod(from_nm: 0.0, to_nm: 30.0, segments: 100000000000), Ellipsoids(from_nm: 30.0, to_nm: 60.0),
+         Rod(from_nm: 60.0, to_nm: 90.0, segments: 100000000000)",
         "Equilibrium()",
     ),
     (

@@ -44,7 +44,8 @@ pub(crate) fn table(long: bool) -> Vec<Row> {
         ("compression", &compression::rows),
         ("sizes", &|| {
             let mut rows = sizes::smallest();
-            rows.extend(sizes::largest(if long { 100_000 } else { 1_000 }));
+            rows.extend(sizes::largest(if long { 1_000_000 } else { 1_000 }));
+            rows.extend(sizes::stages(if long { 100_000 } else { 1_000 }));
             rows
         }),
         ("drag", &drag::rows),

@@ -43,8 +43,8 @@ const PATIENCE_S: f64 = 60.0;
 /// Most bonds of a scene that is built: 400 monomers have half as many by default.
 const MOST_BONDS: f64 = 1e5;
 
-/// Bodies that are sure to be refused: beyond 2e7, and what sections lose to whole monomers.
-const TOO_MANY_BODIES: f64 = 3e7;
+/// Bodies that are sure to be refused: at a kilobyte each and more, what no machine has.
+const TOO_MANY_BODIES: f64 = 1e12;
 
 /// Whether building takes little: it is the reader that is tried here. What is refused for its size
 /// is refused at once.

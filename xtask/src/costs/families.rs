@@ -34,7 +34,7 @@ pub(super) const FAMILIES: [Family; 15] = [
     family("rod-statics", "segments", &[1_000, 10_000, 100_000], |n| {
         pulled(&rod(n))
     }),
-    family("rod-bent-statics", "segments", &[100, 1_000, 9_000], |n| {
+    family("rod-bent-statics", "segments", &[100, 1_000, 3_000], |n| {
         cantilever(&rod(n), "Constant", STATICS)
     }),
     family("monomers-motion", "monomers", &[300, 3_000, 30_000], |n| {

@@ -18,7 +18,7 @@ pub(crate) struct Options {
     /// Where to write the table and the pictures.
     #[arg(long, default_value = "target/extremes")]
     out: PathBuf,
-    /// Also the rows that take minutes: 1e5 bodies, 1e7 steps.
+    /// Also the rows that take minutes: 1e6 bodies, 1e7 steps.
     #[arg(long)]
     long: bool,
     /// Also into `docs/extremes.md`, tables and pictures, if all rows are sound.

@@ -146,6 +146,21 @@ mod tests {
         assert_eq!(shares(&curvature, 2), last);
     }
 
+    /// Each segment looks at its neighbours alone: a look at all elements for each of a million
+    /// segments would take hours.
+    #[test]
+    fn a_million_segments_have_two_neighbours_each() {
+        let n = 1_000_000;
+        let layout = RodLayout::new(0, 0, vec![10.0; n], Walls::default()).unwrap();
+        let curvature = SegmentCurvature::new(&layout, &[], &[]);
+        assert_eq!(curvature.around.len(), 2 * (n - 1));
+        let middle = n / 2;
+        let expected = [([middle - 1, middle], 0.5), ([middle, middle + 1], 0.5)];
+        assert_eq!(shares(&curvature, middle), expected);
+        let last = [([n - 2, n - 1], 1.0)];
+        assert_eq!(shares(&curvature, n - 1), last);
+    }
+
     #[test]
     fn free_ends_take_their_only_neighbour_and_a_lone_segment_has_none() {
         let mut state = State::default();

@@ -145,7 +145,8 @@ impl fmt::Display for Cost {
             write!(f, "at most {} force evaluations", self.evaluations)?;
         } else {
             let (steps, of) = (self.evaluations, self.equilibria);
-            write!(f, "about {steps} Newton steps, {of} equilibria")?;
+            let plural = if of == 1 { "um" } else { "a" };
+            write!(f, "about {steps} Newton steps to {of} equilibri{plural}")?;
         }
         let Seconds {
             set_up,

@@ -152,7 +152,7 @@ pub enum RunError {
         report: Box<RunReport>,
     },
     /// The run reached its end, but through or in states that are beyond any use.
-    #[error("beyond any use: {}{}", .worst[0], more(.worst.len() - 1))]
+    #[error("the result is beyond any use: {}{}", .worst[0], more(.worst.len() - 1))]
     BeyondUse {
         /// What goes too far, at least one.
         worst: Vec<BeyondUse>,

@@ -15,6 +15,7 @@ mod place;
 mod problem;
 mod read;
 mod saddles;
+mod stage;
 mod support;
 mod thermal;
 mod types;

@@ -43,11 +43,11 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
         linker::check(scene, i, linker)?;
     }
     for (i, stage) in scene.path.iter().enumerate() {
-        check_stage(scene, &held, (i, stage))?;
+        stage::check(scene, &held, (i, stage))?;
     }
     match &scene.task {
         Task::Dynamics(dynamics) => {
-            check_durations(scene, dynamics.duration_ns)?;
+            stage::check_durations(scene, dynamics.duration_ns)?;
             check_swings(scene, &held)?;
             check_dynamics(dynamics)?;
             saddles::check(scene, dynamics)?;
@@ -279,27 +279,6 @@ fn check_load(scene: &Scene, held: &HeldEnds, (i, load): (usize, &Load)) -> Resu
     Ok(())
 }
 
-/// In time, every stage takes some.
-fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Problem> {
-    for (i, stage) in scene.path.iter().enumerate() {
-        let key = format!("path[{i}].duration_ns");
-        let Some(duration) = stage.duration_ns else {
-            let rule = "in Dynamics every stage of the path takes a time: write duration_ns";
-            return Err(Problem::new(key, "none", rule));
-        };
-        positive(&key, duration)?;
-    }
-    let whole: f64 = scene.path.iter().filter_map(|s| s.duration_ns).sum();
-    if whole > duration_ns {
-        return Err(Problem::new(
-            "task.duration_ns",
-            show(duration_ns),
-            format!("ends before the path does, whose stages take {whole:?} ns"),
-        ));
-    }
-    Ok(())
-}
-
 /// An equilibrium is a minimum of the energy, which the printed balance does not have.
 pub(super) fn check_potential(filament: &Filament) -> Result<(), Problem> {
     let has_rod = filament
@@ -355,64 +334,6 @@ fn check_tolerance(scene: &Scene, key: &str, force_pn: f64) -> Result<(), Proble
     Ok(())
 }
 
-fn check_stage(scene: &Scene, held: &HeldEnds, (i, stage): (usize, &Stage)) -> Result<(), Problem> {
-    let check_held = |prefix: &str, filament, end| check_held((scene, held), prefix, filament, end);
-    for (k, setting) in stage.set.iter().enumerate() {
-        let key = |name: &str| format!("path[{i}].set[{k}].{name}");
-        let exists = |name: &str, index: usize, count: usize| {
-            let rule = format!("there are {count} {name}s, counted from 0");
-            let missing = || Problem::new(key(name), index, rule);
-            (index < count).then_some(()).ok_or_else(missing)
-        };
-        match *setting {
-            Setting::LoadFactor { load, factor } => {
-                exists("load", load, scene.loads.len())?;
-                finite(&key("factor"), factor)?;
-            }
-            Setting::Anchor { linker, shift_nm } => {
-                exists("linker", linker, scene.linkers.len())?;
-                if scene.linkers[linker].to.is_some() {
-                    let rule = "this linker joins two sites: it has no anchor to be moved";
-                    return Err(Problem::new(key("linker"), linker, rule));
-                }
-                all_finite(&key("shift_nm"), shift_nm)?;
-            }
-            Setting::Shift {
-                filament,
-                end,
-                shift_nm,
-            } => {
-                all_finite(&key("shift_nm"), shift_nm)?;
-                check_held(&key(""), filament, end)?;
-            }
-            Setting::Turn {
-                filament,
-                end,
-                turn_deg,
-            } => {
-                all_finite(&key("turn_deg"), turn_deg)?;
-                check_held(&key(""), filament, end)?;
-            }
-        }
-    }
-    Ok(())
-}
-
-/// What a setting moves from outside is held; its keys begin with `prefix`.
-fn check_held(
-    (scene, held): (&Scene, &HeldEnds),
-    prefix: &str,
-    filament: usize,
-    end: End,
-) -> Result<(), Problem> {
-    scene.named_filament(&format!("{prefix}filament"), filament)?;
-    if held.is_held(filament, end) {
-        return Ok(());
-    }
-    let rule = "this end is free: only a clamped end is moved from outside";
-    Err(Problem::new(format!("{prefix}end"), show(end), rule))
-}
-
 fn check_dynamics(dynamics: &Dynamics) -> Result<(), Problem> {
     let key = |name: &str| format!("task.{name}");
     positive(&key("duration_ns"), dynamics.duration_ns)?;
@@ -449,7 +370,7 @@ fn check_stop(stop: &StopRule) -> Result<(), Problem> {
     positive("task.stop.kinetic_pn_nm", stop.kinetic_pn_nm)
 }
 
-fn show(value: impl Debug) -> String {
+pub(super) fn show(value: impl Debug) -> String {
     format!("{value:?}")
 }
 
@@ -482,7 +403,7 @@ pub(super) fn non_negative(key: &str, value: f64) -> Result<(), Problem> {
     ))
 }
 
-fn all_finite(key: &str, values: [f64; 3]) -> Result<(), Problem> {
+pub(super) fn all_finite(key: &str, values: [f64; 3]) -> Result<(), Problem> {
     if values.iter().all(|v| v.is_finite()) {
         return Ok(());
     }
