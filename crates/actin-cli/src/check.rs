@@ -3,7 +3,7 @@
 use crate::failure::{Failure, Opened};
 use actin_sim::advice::Advice;
 use actin_sim::cost::Cost;
-use actin_sim::{Assembly, Estimate, Resolution, SectionSpan};
+use actin_sim::{Assembly, Estimate, Resolution, SectionSpan, Task};
 use std::path::Path;
 
 /// Validates the scene at `path` and prints it with every default, its counts and its cost.

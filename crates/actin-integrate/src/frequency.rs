@@ -53,8 +53,8 @@ pub fn largest_frequency_with(system: &System, vectors: usize) -> Result<f64, Fr
     let mut trial = Trial::new(system);
     let coordinates = trial.weights.len();
     let free = trial.weights.iter().filter(|w| **w > 0.0).count();
-    let has_energy = |interaction: &Box<dyn Interaction>| interaction.is_conservative();
-    let operator = if system.interactions().iter().all(has_energy) {
+    let mut interactions = system.interactions().iter();
+    let operator = if interactions.all(|interaction| interaction.is_conservative()) {
         Operator::Symmetric
     } else {
         Operator::Any

@@ -101,14 +101,11 @@ fn free(sections: &str) -> String {
 
 /// As many free filaments of these sections, 20 nm from each other.
 fn side_by_side(count: u32, sections: &str) -> String {
-    let filaments: String = (0..count)
-        .map(|i| {
-            format!(
-                "Filament(sections: [{sections}], at_nm: ({}.0, 0.0, 0.0)), ",
-                20 * i
-            )
-        })
-        .collect();
+    let filament = |i: u32| {
+        let at = 20 * i;
+        format!("Filament(sections: [{sections}], at_nm: ({at}.0, 0.0, 0.0)), ")
+    };
+    let filaments = (0..count).map(filament).collect::<Vec<_>>().concat();
     format!("Scene(filaments: [{filaments}], task: {MOTION})")
 }
 

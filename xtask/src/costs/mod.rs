@@ -11,7 +11,7 @@ mod measure;
 use crate::tradeoff;
 use families::{FAMILIES, Family};
 use measure::{Measured, measure};
-use std::path::PathBuf;
+use std::path::Path;
 use std::process::Command;
 
 /// What is measured.
@@ -70,7 +70,7 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
 }
 
 /// Measures a family from size to size.
-fn grow(family: &Family, largest: usize, out: &PathBuf, tally: &mut Tally) -> Result<(), String> {
+fn grow(family: &Family, largest: usize, out: &Path, tally: &mut Tally) -> Result<(), String> {
     let mut before: Option<(f64, [f64; 2])> = None;
     for &size in family.sizes.iter().filter(|size| **size <= largest) {
         let name = format!("{} {size} {}", family.name, family.counted);

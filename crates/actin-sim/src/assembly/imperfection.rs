@@ -205,7 +205,10 @@ mod tests {
             seed: 1,
         };
         let other = Imperfection { seed: 2, ..one };
-        let largest = places(&one, 0).iter().map(|u| u.norm()).fold(0.0, f64::max);
+        let largest = places(&one, 0)
+            .iter()
+            .map(Vector3::norm)
+            .fold(0.0, f64::max);
         assert!((largest / 0.01 - 1.0).abs() < 1e-2, "{largest}");
         assert!(places(&one, 0) != places(&one, 1) && places(&one, 0) != places(&other, 0));
         let straight = build(SECTIONS[3], CLAMPS[1], "");

@@ -2,9 +2,9 @@
 
 use super::support::{check_support, check_swings};
 use super::{
-    Anchors, Clamp, Dynamics, End, Equilibrium, Filament, ForceLaw, HeldEnds, Hold, Load, Monomers,
-    Problem, Scene, Section, Setting, Slides, Stage, StopRule, Task, imperfection, linker,
-    magnitude, saddles, thermal,
+    Anchors, Clamp, Dynamics, Equilibrium, Filament, ForceLaw, HeldEnds, Hold, Load, Monomers,
+    Problem, Scene, Section, Slides, StopRule, Task, imperfection, linker, magnitude, saddles,
+    stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 use actin_mechanics::Vector3;

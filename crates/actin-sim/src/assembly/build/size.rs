@@ -23,19 +23,16 @@ pub(super) fn check(scene: &Scene, strands: &[Strand<'_>]) -> Result<f64, Proble
 
 fn add(bytes: &mut f64, scene: &Scene, (strand, i): (&Strand<'_>, usize)) -> Result<(), Problem> {
     let filament = strand.filament;
-    let (count, what) = match strand.resolved[i].monomers {
-        Some((first, last)) => {
-            let monomers = &filament.monomers;
-            let bonds = monomers.lateral_bonds + monomers.longitudinal_bonds;
-            let count = (last - first + 1) as f64;
-            *bytes += memory::of_monomers(count, bonds, &scene.task);
-            (count, "monomers")
-        }
-        None => {
-            let count = strand.segments(i)? as f64;
-            *bytes += memory::of_segments(count, &filament.rod, &scene.task);
-            (count, "segments")
-        }
+    let (count, what) = if let Some((first, last)) = strand.resolved[i].monomers {
+        let monomers = &filament.monomers;
+        let bonds = monomers.lateral_bonds + monomers.longitudinal_bonds;
+        let count = (last - first + 1) as f64;
+        *bytes += memory::of_monomers(count, bonds, &scene.task);
+        (count, "monomers")
+    } else {
+        let count = strand.segments(i)? as f64;
+        *bytes += memory::of_segments(count, &filament.rod, &scene.task);
+        (count, "segments")
     };
     let (name, value) = match filament.sections[i] {
         Section::Rod {

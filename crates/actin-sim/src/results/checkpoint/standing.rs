@@ -113,7 +113,9 @@ pub(super) fn write_standing(writer: &mut Writer, standing: &Standing) {
             write_mark(writer, &checkpoint.last_good);
             writer.count(checkpoint.evaluations_before);
             writer.size(pushes.len());
-            pushes.iter().for_each(|push| write_push(writer, push));
+            for push in pushes {
+                write_push(writer, push);
+            }
         }
         Standing::Path(standing) => {
             writer.count(PATH);
