@@ -291,6 +291,12 @@ fn print(summary: &Summary, out: &Path) {
         summary.residual.force_pn,
         summary.residual.torque_pn_nm
     );
+    if let Some(floor) = &summary.residual_floor {
+        println!(
+            "the tolerance is below round-off, which leaves some {:.1e} pN, {:.1e} pN nm of the residual",
+            floor.force_pn, floor.torque_pn_nm
+        );
+    }
     print_beyond(summary);
     print_other_states(summary);
     for unstable in &summary.unstable_twist {

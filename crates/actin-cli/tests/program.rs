@@ -573,3 +573,26 @@ fn lost_twist_is_a_failure() {
     // Solid angles to round-off.
     assert!((sum - number("link_turns")).abs() < 1e-9);
 }
+
+/// A tolerance that no sum of such forces can meet: the equilibrium ends at the floor of rounding, which
+/// is told; one that can be met is met without a word.
+#[test]
+fn a_residual_at_the_floor_of_rounding_is_told() {
+    for (tolerance, told) in [("1e-7", false), ("1e-16", true)] {
+        let place = Workplace::with(&format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 160.0)]),
+                clamps: [Clamp(end: Start)],
+                loads: [EndForce(end: End, force_pn: (2.0, 0.0, 0.0))],
+                task: Equilibrium(force_pn: {tolerance}, torque_pn_nm: {tolerance}),
+            )"
+        ));
+        let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let words = "the tolerance is below round-off";
+        assert_eq!(stdout(&output).contains(words), told, "{}", stdout(&output));
+        let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+        let is_null = summary.contains("\"residual_floor\": null");
+        assert_eq!(is_null, !told, "{summary}");
+    }
+}

@@ -29,7 +29,7 @@ use std::ops::ControlFlow;
 
 /// The residual counts as being at its floor below this multiple of the estimate.
 const AT_FLOOR: f64 = 8.0;
-/// Where no step helps any more, the same with more room, since the estimate is rough.
+/// Where no step helps or is allowed any more, the same with more room, since the estimate is rough.
 pub(crate) const NEAR_FLOOR: f64 = 100.0;
 /// A residual that falls less than by this factor in a step does not fall any more.
 pub(crate) const STILL_FALLING: f64 = 0.5;
@@ -263,7 +263,7 @@ impl Run<'_> {
             return Ok(Some(ending));
         }
         if self.history.len() >= self.options.iterations {
-            return Err(Trouble::IterationLimit(self.options.iterations));
+            return self.give_up(descent, Trouble::IterationLimit(self.options.iterations));
         }
         self.previous = self.residual.relative_to(&self.options.tolerance);
         let before = descent.here.energy;
@@ -271,7 +271,7 @@ impl Run<'_> {
             self.solver
                 .assemble(self.interactions, &descent.state, &descent.here.loads);
             self.measure(descent);
-            return self.stagnation();
+            return self.give_up(descent, Trouble::Stagnated);
         };
         self.solver.work.iterations += 1;
         self.history.push(Iteration {
@@ -301,13 +301,14 @@ impl Run<'_> {
         (at_floor && !descent.is_on_excursion()).then_some(Ending::FloorReached)
     }
 
-    /// No step helps: either the floor is reached, or something is wrong.
-    fn stagnation(&self) -> Result<Option<Ending>, Trouble> {
+    /// No step helps or none is allowed any more: either the floor is reached, about which steps may
+    /// wander, or something is wrong.
+    fn give_up(&self, descent: &Descent, trouble: Trouble) -> Result<Option<Ending>, Trouble> {
         let tolerance = &self.options.tolerance;
-        if self.solver.is_at_floor(tolerance, NEAR_FLOOR) {
+        if !descent.is_on_excursion() && self.solver.is_at_floor(tolerance, NEAR_FLOOR) {
             Ok(Some(Ending::FloorReached))
         } else {
-            Err(Trouble::Stagnated)
+            Err(trouble)
         }
     }
 }

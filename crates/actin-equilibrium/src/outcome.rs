@@ -12,7 +12,7 @@ pub enum Ending {
     Converged,
     /// The residual is above the tolerance and does not fall any more, but the loads of each body
     /// are within the tolerance or within 8 times what rounding leaves of them at that body (100
-    /// times where no step, however short, helps).
+    /// times where no step, however short, helps, or the last one allowed has been made).
     FloorReached,
 }
 

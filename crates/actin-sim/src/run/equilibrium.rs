@@ -9,8 +9,8 @@ use crate::Assembly;
 use crate::memory;
 use crate::scene::{Equilibrium as Settings, Load, Problem};
 use actin_equilibrium::{
-    Certificate, Companion, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure, PathOptions,
-    PathPoint, Saddles, Work,
+    Certificate, Companion, Ending, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure,
+    PathOptions, PathPoint, Saddles, Work,
 };
 use actin_mechanics::{Loads, State, System, Vector3};
 use std::ops::ControlFlow;
@@ -30,6 +30,9 @@ pub struct EquilibriumReport {
     pub newton_iterations: u64,
     /// Equilibria on the path.
     pub points: usize,
+    /// Force (pN) and torque (pN nm) that rounding leaves, if the last equilibrium ended there and not
+    /// within its tolerance.
+    pub floor: Option<(f64, f64)>,
     /// Residual force (pN) and torque (pN nm) before each Newton step of the last equilibrium.
     pub history: Vec<(f64, f64)>,
 }
@@ -404,6 +407,8 @@ impl<'a> Follower<'a> {
         self.standing.saddles_left += equilibrium.saddles_left;
         self.standing.last = Some(Arrival {
             certificate: equilibrium.certificate,
+            floor: (equilibrium.ending == Ending::FloorReached)
+                .then_some((equilibrium.floor.force, equilibrium.floor.torque)),
             history: equilibrium
                 .history
                 .iter()
@@ -502,6 +507,7 @@ fn report(
         lowest_eigenvalue,
         newton_iterations: work.iterations,
         points: standing.points,
+        floor: last.floor,
         history: last.history,
     })
 }

@@ -52,6 +52,8 @@ pub struct PathStanding {
 pub struct Arrival {
     /// Counts of eigenvalues.
     pub certificate: Option<Certificate>,
+    /// Force (pN) and torque (pN nm) that rounding leaves, if it ended there and not within its tolerance.
+    pub floor: Option<(f64, f64)>,
     /// Residual force (pN) and torque (pN nm) before each Newton step.
     pub history: Vec<(f64, f64)>,
 }

@@ -245,6 +245,9 @@ fn write_arrival(writer: &mut Writer, arrival: &Arrival) {
         writer.number(certificate.resolution);
         writer.size(certificate.negative_pivots);
     });
+    writer.optional(arrival.floor, |writer, (force, torque)| {
+        writer.numbers(&[force, torque]);
+    });
     writer.size(arrival.history.len());
     for &(force, torque) in &arrival.history {
         writer.numbers(&[force, torque]);
@@ -260,9 +263,11 @@ fn read_arrival(reader: &mut Reader<'_>) -> Result<Arrival, Damage> {
             negative_pivots: reader.size()?,
         })
     })?;
+    let floor = reader.optional(|reader| Ok((reader.number()?, reader.number()?)))?;
     let history = reader.list(16, |reader| Ok((reader.number()?, reader.number()?)))?;
     Ok(Arrival {
         certificate,
+        floor,
         history,
     })
 }

@@ -44,6 +44,13 @@ impl Summary {
                 force_pn: last.residual_force_pn,
                 torque_pn_nm: last.residual_torque_pn_nm,
             },
+            residual_floor: equilibrium.and_then(|e| {
+                let (force_pn, torque_pn_nm) = e.floor?;
+                Some(ResidualSummary {
+                    force_pn,
+                    torque_pn_nm,
+                })
+            }),
             thermal: ThermalSummary::new(assembly, std::slice::from_ref(last)),
             lowest_stiffness_eigenvalue: equilibrium.and_then(|e| e.lowest_eigenvalue),
             work: WorkSummary {

@@ -76,6 +76,10 @@ pub struct Summary {
     pub shape: ShapeSummary,
     /// How far from an equilibrium the last record is.
     pub residual: ResidualSummary,
+    /// What rounding leaves of the residual (estimate), where an equilibrium ends there since its
+    /// tolerance is below that; none where the tolerance is met.
+    #[serde(default)]
+    pub residual_floor: Option<ResidualSummary>,
     /// Thermal motion; none unless the scene has a temperature.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thermal: Option<ThermalSummary>,
