@@ -257,7 +257,10 @@ fn broken(opened: &Opened, directory: &RunDirectory, error: RunError) -> Failure
         return Failure::Numerical(why);
     }
     match directory.write(&opened.assembly, &trajectory, &report) {
-        Ok(_) => Failure::Numerical(format!("{why}; {kept} in {}", directory.path().display())),
+        Ok(summary) => {
+            print_remarks(&summary);
+            Failure::Numerical(format!("{why}; {kept} in {}", directory.path().display()))
+        }
         Err(unwritten) => Failure::Numerical(format!("{why}; and {unwritten}")),
     }
 }
@@ -297,6 +300,17 @@ fn print(summary: &Summary, out: &Path) {
             floor.force_pn, floor.torque_pn_nm
         );
     }
+    print_remarks(summary);
+    let ending = match (&stability, summary.time_step_ns) {
+        (Some(stability), None) => format!("{stability}; "),
+        (Some(stability), Some(_)) => format!("at rest, {stability}; "),
+        (None, _) => String::new(),
+    };
+    println!("{ending}written to {}", out.display());
+}
+
+/// What to know beside the numbers, of a run that has failed as well.
+fn print_remarks(summary: &Summary) {
     print_beyond(summary);
     print_other_states(summary);
     for unstable in &summary.unstable_twist {
@@ -306,12 +320,6 @@ fn print(summary: &Summary, out: &Path) {
         println!("note: {note}");
     }
     print_pushes(summary);
-    let ending = match (&stability, summary.time_step_ns) {
-        (Some(stability), None) => format!("{stability}; "),
-        (Some(stability), Some(_)) => format!("at rest, {stability}; "),
-        (None, _) => String::new(),
-    };
-    println!("{ending}written to {}", out.display());
 }
 
 fn print_pushes(summary: &Summary) {

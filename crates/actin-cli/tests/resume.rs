@@ -176,7 +176,12 @@ fn a_full_disk_loses_no_checkpoint() {
 /// the reason. A run that is finished says so and is left alone.
 #[test]
 fn what_cannot_be_resumed_is_refused() {
-    let place = Workplace::with(&MOTION.replace("150.0", "1.0").replace("50.0", "0.5"));
+    let place = Workplace::with(
+        &MOTION
+            .replace("150.0", "1.0")
+            .replace("50.0", "0.5")
+            .replace("1.5", "0.5"),
+    );
     let absent = place.actin(&["--out", "a", "--resume"]);
     assert_eq!(code(&absent), 2);
     assert_eq!(
@@ -311,7 +316,12 @@ fn a_directory_in_use_is_left_alone() {
 /// written where the lock belongs is refused itself.
 #[test]
 fn files_of_others_are_left_alone() {
-    let place = Workplace::with(&MOTION.replace("150.0", "1.0").replace("50.0", "0.5"));
+    let place = Workplace::with(
+        &MOTION
+            .replace("150.0", "1.0")
+            .replace("50.0", "0.5")
+            .replace("1.5", "0.5"),
+    );
     fs::write(place.path("notes.txt"), "mine").unwrap();
     fs::write(place.path("lock"), "mine").unwrap();
     let before = contents(place.folder.path());
@@ -334,7 +344,12 @@ fn files_of_others_are_left_alone() {
 /// everybody from it, as a folder without permission to write does, and even an administrator.)
 #[test]
 fn what_writes_nothing_needs_no_lock() {
-    let place = Workplace::with(&MOTION.replace("150.0", "1.0").replace("50.0", "0.5"));
+    let place = Workplace::with(
+        &MOTION
+            .replace("150.0", "1.0")
+            .replace("50.0", "0.5")
+            .replace("1.5", "0.5"),
+    );
     assert_eq!(code(&place.actin(&["--out", "a"])), 0);
     fs::remove_file(place.path(LOCK)).unwrap();
     fs::create_dir(place.path(LOCK)).unwrap();

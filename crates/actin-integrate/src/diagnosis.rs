@@ -110,7 +110,7 @@ pub(crate) fn blame(
     // Loads at positions that are not finite say nothing: those before still do.
     let sighted = if broken.is_finite() { broken } else { before };
     // One buffer for all terms, of which nothing but the load on this body is read: a buffer for each
-    // would take the square of the number of filaments.
+    // would take the square of the number of terms.
     let mut loads = Loads::zeros(sighted);
     let strongest = interactions
         .iter()
@@ -177,7 +177,7 @@ fn broken_load(system: &System) -> Option<(Body, &'static str)> {
 /// if all are.
 ///
 /// The terms are halved until it is found: a look at all loads after each of them would take the
-/// square of the number of filaments.
+/// square of the number of terms.
 pub(crate) fn first_broken(
     interactions: &[Box<dyn Interaction>],
     state: &State,

@@ -91,7 +91,9 @@ impl<'a, 'o> Execution<'a, 'o> {
             && (self.step > self.run.first_step || self.run.first_step == 0);
         // An observer that wanted to go on from here says so again.
         let time = self.run.time(self.step);
+        // Loads that are not current are those of a state that was changed since it was observed.
         let ends_at_rest = is_observed
+            && self.system.loads_are_current()
             && self.is_at_rest()
             && (self.step >= self.end() || !self.intervene(time, true));
         let ended = if ends_at_rest {

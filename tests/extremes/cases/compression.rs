@@ -71,7 +71,7 @@ impl Law {
             ),
             task: "Equilibrium(leave_saddles: 0)".to_owned(),
         };
-        let ran = parts.run()?;
+        let ran = parts.run_to_saddle()?;
         let said = ran.assembly.unstable_twist(ran.assembly.system.state());
         if (share > 1.0) == said.is_empty() {
             return Err(Outcome::Wrong(format!("the run says {said:?}")));

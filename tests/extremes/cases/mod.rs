@@ -43,10 +43,17 @@ pub(crate) fn table(long: bool) -> Vec<Row> {
         ("neutral modes", &certificates::rows),
         ("compression", &compression::rows),
         ("sizes", &|| {
-            let mut rows = sizes::smallest();
-            rows.extend(sizes::largest(if long { 1_000_000 } else { 1_000 }));
-            rows.extend(sizes::stages(if long { 100_000 } else { 1_000 }));
-            rows
+            let (bodies, stages) = if long {
+                (1_000_000, 100_000)
+            } else {
+                (1_000, 1_000)
+            };
+            [
+                sizes::smallest(),
+                sizes::largest(bodies),
+                sizes::stages(stages),
+            ]
+            .concat()
         }),
         ("drag", &drag::rows),
         ("undamped motion", &|| {
@@ -54,9 +61,7 @@ pub(crate) fn table(long: bool) -> Vec<Row> {
         }),
         ("origin", &origin::rows),
         ("fields and guards", &|| {
-            let mut rows = fields::rows();
-            rows.extend(guards::rows());
-            rows
+            [fields::rows(), guards::rows()].concat()
         }),
         ("directories", &directories::rows),
     ];

@@ -67,6 +67,11 @@ impl Parts {
     pub(crate) fn run(&self) -> Result<Ran, Outcome> {
         run(&self.text())
     }
+
+    /// The same, where it may end on a saddle.
+    pub(crate) fn run_to_saddle(&self) -> Result<Ran, Outcome> {
+        run_to_saddle(&self.text())
+    }
 }
 
 /// A scene that ran to its end; the assembly is in its last state.
@@ -84,10 +89,22 @@ pub(crate) fn build(text: &str) -> Result<Assembly, Outcome> {
 
 /// A scene, run to its end.
 pub(crate) fn run(text: &str) -> Result<Ran, Outcome> {
+    let ran = run_to_saddle(text)?;
+    if ran.report.failed {
+        return Err(Outcome::Fails("the run ends on a saddle".to_owned()));
+    }
+    Ok(ran)
+}
+
+/// The same, where it may end on a saddle.
+fn run_to_saddle(text: &str) -> Result<Ran, Outcome> {
     let mut assembly = build(text)?;
-    let run = actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(()));
-    match run {
+    match actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())) {
         Ok((_, report)) => Ok(Ran { assembly, report }),
+        Err(RunError::Saddle { report, .. }) => Ok(Ran {
+            assembly,
+            report: *report,
+        }),
         Err(RunError::Refused(problem)) => Err(refused(&problem, text)),
         Err(error) => Err(Outcome::Fails(error.to_string())),
     }

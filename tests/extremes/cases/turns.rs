@@ -64,38 +64,22 @@ pub(crate) fn slipping() -> Vec<Row> {
     let jumps = "Equilibrium(accept_jumps: true)";
     let damped = "Dynamics(duration_ns: 5.0, integrator: PositionVerlet,
         drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0))";
+    let monomers = "Ellipsoids(from_nm: 0.0, to_nm: 30.0)";
+    let (rod, slow, fast) = (
+        "six segments of rod",
+        "duration_ns: 4.0",
+        "duration_ns: 0.02",
+    );
+    let rod_fast = "six segments of rod, within 0.02 ns";
+    let both = "rod and monomers";
     let cases = [
-        ("six segments of rod", six, 1070.0, jumps, ""),
-        ("six segments of rod", six, 5000.0, jumps, ""),
-        (
-            "six segments of rod",
-            six,
-            5000.0,
-            damped,
-            "duration_ns: 4.0",
-        ),
-        (
-            "six segments of rod, within 0.02 ns",
-            six,
-            900.0,
-            damped,
-            "duration_ns: 0.02",
-        ),
-        ("rod and monomers", mixed, 1500.0, jumps, ""),
-        (
-            "rod and monomers",
-            mixed,
-            1500.0,
-            damped,
-            "duration_ns: 4.0",
-        ),
-        (
-            "monomers",
-            "Ellipsoids(from_nm: 0.0, to_nm: 30.0)",
-            1500.0,
-            jumps,
-            "",
-        ),
+        (rod, six, 1070.0, jumps, ""),
+        (rod, six, 5000.0, jumps, ""),
+        (rod, six, 5000.0, damped, slow),
+        (rod_fast, six, 900.0, damped, fast),
+        (both, mixed, 1500.0, jumps, ""),
+        (both, mixed, 1500.0, damped, slow),
+        ("monomers", monomers, 1500.0, jumps, ""),
     ];
     cases
         .map(|(model, sections, degrees, task, duration)| {

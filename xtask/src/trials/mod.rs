@@ -156,10 +156,8 @@ fn try_all(kind: Kind, options: &Options, program: &Program, corpus: &[String]) 
             }
         }
     }
-    let counts: Vec<String> = tally
-        .iter()
-        .map(|(what, n)| format!("{n} {what}"))
-        .collect();
+    let counted = tally.iter().map(|(what, n)| format!("{n} {what}"));
+    let counts: Vec<String> = counted.collect();
     println!(
         "{name}: {cases} cases in {:.0} s: {}; {failures} failed",
         clock.elapsed().as_secs_f64(),

@@ -159,18 +159,17 @@ mod tests {
         if cubic {
             material = material.with_shear(shear).unwrap();
         }
-        let law = SegmentLaw::of(
-            &material,
-            Some(TwistStretch::Rooted(RootedStretch {
-                slope: -0.29,
-                bend: 0.46,
-                half: 6.6e-3,
-                cubic: 27.6,
-                range: 0.0472,
-            })),
-        );
+        let law = SegmentLaw::of(&material, Some(TwistStretch::Rooted(ROOTED)));
         (material, law.unwrap())
     }
+
+    const ROOTED: RootedStretch = RootedStretch {
+        slope: -0.29,
+        bend: 0.46,
+        half: 6.6e-3,
+        cubic: 27.6,
+        range: 0.0472,
+    };
 
     /// The strain with this shear under the force `tension` (pN).
     fn strain_under(

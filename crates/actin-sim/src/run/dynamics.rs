@@ -1,8 +1,8 @@
 //! Motion in time: the time step, the run loop and the records.
 
 use super::bound::kinetic_limit;
-use super::equilibrium::check_points;
 use super::keep::{Clock, Keeper, Kept};
+use super::points::check_points;
 use super::recorder::{Ending, Recorder};
 use super::rest::{is_saddle, saddle};
 use super::steps::Steps;
@@ -220,15 +220,9 @@ fn conclude(
     };
     match ending {
         Ending::Left(end) => {
-            let report = report.counting(end.steps, end.force_evaluations);
-            let interrupted = true;
-            Ok((
-                trajectory,
-                RunReport {
-                    interrupted,
-                    ..report
-                },
-            ))
+            let mut report = report.counting(end.steps, end.force_evaluations);
+            report.interrupted = true;
+            Ok((trajectory, report))
         }
         Ending::Ended(end, at_rest) => {
             let report = RunReport {
@@ -237,13 +231,11 @@ fn conclude(
                 at_rest,
                 ..report.counting(end.steps, end.force_evaluations)
             };
-            match at_rest.filter(is_saddle) {
-                None => Ok((trajectory, report)),
-                Some(certificate) => {
-                    let problem = saddle(&certificate, dynamics.leave_saddles, way_off(dynamics));
-                    Err(RunError::saddle(problem, trajectory, report))
-                }
-            }
+            let Some(certificate) = at_rest.filter(is_saddle) else {
+                return Ok((trajectory, report));
+            };
+            let problem = saddle(&certificate, dynamics.leave_saddles, way_off(dynamics));
+            Err(RunError::saddle(problem, trajectory, report))
         }
         Ending::Slipped(slip, step) => {
             let at = format!("at {:.4} ns, ", slip.time_ns);

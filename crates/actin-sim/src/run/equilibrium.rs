@@ -1,12 +1,12 @@
 //! Equilibria: Newton from the built state, or along the path of the scene.
 
 use super::keep::{Arrival, Clock, Keeper, Kept, PathStanding, Standing};
+use super::points::check_points;
 use super::rest::{is_saddle, saddle};
 use super::slip::{LinkWatch, Slip};
 use super::unknowns::newton;
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
-use crate::memory;
 use crate::scene::{Equilibrium as Settings, Load, Problem};
 use actin_equilibrium::{
     Certificate, Companion, Ending, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure,
@@ -75,6 +75,15 @@ pub(super) fn run(
         beyond_use: Vec::new(),
         wall_s: clock.wall_s(),
     };
+    conclude(trouble, trajectory, report)
+}
+
+/// The results of a path or an equilibrium, by what went wrong.
+fn conclude(
+    trouble: Option<Trouble>,
+    trajectory: Trajectory,
+    report: RunReport,
+) -> Result<(Trajectory, RunReport), RunError> {
     match trouble {
         None | Some(Trouble::Left) => Ok((trajectory, report)),
         Some(Trouble::Ended(place, failure)) => Err(RunError::Ended {
@@ -93,22 +102,6 @@ pub(super) fn run(
             Err(RunError::slipped((place, *slip), trajectory, report))
         }
     }
-}
-
-/// Refuses a path with more equilibria than memory holds: each stage has at least as many as steps of
-/// the largest length fill it.
-pub(super) fn check_points(assembly: &Assembly, settings: &Settings) -> Result<(), Problem> {
-    let least = assembly.drive.stages() as f64 / settings.largest_step;
-    let record = memory::of_record(assembly.system.state(), assembly.terms.len());
-    let value = format!("{:?}", settings.largest_step);
-    memory::check(
-        assembly.bytes + least * record,
-        ("task.largest_step", value),
-        || {
-            let bodies = assembly.points.len() + assembly.frames.len();
-            format!("{least:.2e} equilibria of {bodies} bodies and more need")
-        },
-    )
 }
 
 /// Why there is no equilibrium at the end, or none to rely on.

@@ -4,6 +4,7 @@ mod bound;
 mod dynamics;
 mod equilibrium;
 mod keep;
+mod points;
 mod recorder;
 mod rest;
 mod slip;

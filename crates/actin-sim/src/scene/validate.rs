@@ -156,7 +156,19 @@ fn check_model(filament: &Filament) -> Result<(), Problem> {
             "a junction attaches 1 or 2 monomers",
         ));
     }
-    let m = &filament.monomers;
+    check_monomers(&filament.monomers)?;
+    if let super::Material::Rigidities {
+        shear_pn,
+        bend_pn_nm2,
+    } = filament.rod.material
+    {
+        each_positive("filament.rod.material.shear_pn", shear_pn)?;
+        each_positive("filament.rod.material.bend_pn_nm2", bend_pn_nm2)?;
+    }
+    Ok(())
+}
+
+fn check_monomers(m: &Monomers) -> Result<(), Problem> {
     for (key, value) in [
         ("rise_nm", m.rise_nm),
         ("radius_nm", m.radius_nm),
@@ -184,14 +196,6 @@ fn check_model(filament: &Filament) -> Result<(), Problem> {
             m.seed,
             "weighted bonds are not drawn: leave the seed out, or write anchors: Independent",
         ));
-    }
-    if let super::Material::Rigidities {
-        shear_pn,
-        bend_pn_nm2,
-    } = filament.rod.material
-    {
-        each_positive("filament.rod.material.shear_pn", shear_pn)?;
-        each_positive("filament.rod.material.bend_pn_nm2", bend_pn_nm2)?;
     }
     Ok(())
 }

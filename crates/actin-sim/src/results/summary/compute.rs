@@ -40,17 +40,8 @@ impl Summary {
             beyond_use: report.beyond_use.clone(),
             linkers: LinkerSummary::all(assembly, &last.state),
             shape: first.shape,
-            residual: ResidualSummary {
-                force_pn: last.residual_force_pn,
-                torque_pn_nm: last.residual_torque_pn_nm,
-            },
-            residual_floor: equilibrium.and_then(|e| {
-                let (force_pn, torque_pn_nm) = e.floor?;
-                Some(ResidualSummary {
-                    force_pn,
-                    torque_pn_nm,
-                })
-            }),
+            residual: (last.residual_force_pn, last.residual_torque_pn_nm).into(),
+            residual_floor: equilibrium.and_then(|e| e.floor).map(Into::into),
             thermal: ThermalSummary::new(assembly, std::slice::from_ref(last)),
             lowest_stiffness_eigenvalue: equilibrium.and_then(|e| e.lowest_eigenvalue),
             work: WorkSummary {
@@ -122,6 +113,15 @@ impl StabilitySummary {
             negative_eigenvalues: certificate.negative,
             unresolved_eigenvalues: certificate.unresolved,
             resolution_pn_per_nm: certificate.resolution,
+        }
+    }
+}
+
+impl From<(f64, f64)> for ResidualSummary {
+    fn from((force_pn, torque_pn_nm): (f64, f64)) -> Self {
+        Self {
+            force_pn,
+            torque_pn_nm,
         }
     }
 }

@@ -1,0 +1,197 @@
+//! How runs end: results beyond use, saddles, twist that is lost, residuals at the floor of rounding.
+
+mod common;
+
+use common::{Workplace, code, stderr, stdout};
+use std::fs;
+
+/// Monomers that are pushed through their own wall: exit code 3, what is beyond use and where, and all of
+/// it on disk with the status of a failure.
+#[test]
+fn a_result_beyond_any_use_is_a_failure() {
+    let place = Workplace::with(
+        "Scene(
+            filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 30.0)]),
+            clamps: [Clamp(end: Start)],
+            loads: [EndForce(end: End, force_pn: (0.0, 0.0, -1e5))],
+            task: Equilibrium(),
+        )",
+    );
+    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+    assert_eq!(code(&output), 3, "{}", stdout(&output));
+    let message = stderr(&output);
+    println!("{message}");
+    for part in ["beyond any use: the bonds at s = ", " (limit 1)", "is in a"] {
+        assert!(message.contains(part), "{part:?} in {message}");
+    }
+    let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+    assert!(summary.contains("\"status\": \"failed\""), "{summary}");
+    assert!(summary.contains("\"quantity\": \"bonds\""), "{summary}");
+    let again = place.actin(&["run", "scene.ron", "--out", "a", "--resume"]);
+    assert_eq!((code(&again), stderr(&again)), (3, message));
+}
+
+/// A column beyond its critical load leaves the straight state, from which it could have gone the other
+/// way; under less there is nothing to say.
+#[test]
+fn other_stable_states_are_told_where_there_are_signs_of_them() {
+    for (force, likely) in [(2.0, false), (8.0, true)] {
+        let place = Workplace::with(&format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 160.0)]),
+                clamps: [Clamp(end: Start)],
+                loads: [EndForce(end: End, force_pn: (0.0, 0.0, -{force:?}))],
+                task: Equilibrium(),
+            )"
+        ));
+        let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let words = "other stable states are likely: ";
+        assert_eq!(
+            stdout(&output).contains(words),
+            likely,
+            "{}",
+            stdout(&output)
+        );
+        let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+        let key = format!("\"other_states_likely\": {likely}");
+        assert!(summary.contains(&key), "{summary}");
+    }
+}
+
+/// A rod between two walls that is pushed together along its axis within 2 ns.
+fn straight(filament: &str, task: &str) -> Workplace {
+    Workplace::with(&format!(
+        "Scene(
+            filament: Filament(
+                sections: [Rod(from_nm: 0.0, to_nm: 100.0, segments: 5)], {filament}
+            ),
+            clamps: [Clamp(end: Start), Clamp(end: End)],
+            path: [Stage(set: [Shift(end: End, shift_nm: (0.0, 0.0, -20.0))], duration_ns: 2.0)],
+            task: {task},
+        )"
+    ))
+}
+
+fn damped(keys: &str) -> String {
+    format!(
+        "Dynamics(duration_ns: 60.0, {keys}
+            drag: (translational_per_ns: 3.0, rotational_per_ns: 3.0))"
+    )
+}
+
+fn summary(place: &Workplace) -> serde_json::Value {
+    let text = fs::read_to_string(place.path("a/summary.json")).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+/// A run that ends on a saddle, in time or by statics, is no success: exit code 3, with all results and
+/// a summary that says so. The same when it is resumed.
+#[test]
+fn an_end_on_a_saddle_is_a_failure() {
+    for task in [damped(""), "Equilibrium(leave_saddles: 0)".into()] {
+        let place = straight("", &task);
+        let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+        assert_eq!(code(&output), 3, "{}", stdout(&output));
+        let said = stderr(&output);
+        println!("{said}");
+        assert!(said.starts_with("error: scene.ron:7:"), "{said}");
+        assert!(
+            said.contains("task.leave_saddles = 0: the run ends on a saddle"),
+            "{said}"
+        );
+        assert!(said.trim_end().ends_with("all results are in a"), "{said}");
+        let json = summary(&place);
+        assert_eq!(
+            (&json["status"], &json["stability"]["stable"]),
+            (&"failed".into(), &false.into())
+        );
+        assert!(json["stability"]["negative_eigenvalues"].as_u64() > Some(0));
+        assert!(place.path("a/states.npz").is_file());
+        let again = place.actin(&["run", "scene.ron", "--out", "a", "--resume"]);
+        assert_eq!((code(&again), stderr(&again)), (3, said));
+    }
+}
+
+/// A motion that comes to rest says in what, in its last line and in the summary; how it was pushed off a
+/// saddle stands there, too.
+#[test]
+fn a_motion_at_rest_says_in_what() {
+    let imperfection = "imperfection: (amplitude_nm: 0.01, seed: 1),";
+    for (filament, keys, pushes) in [(imperfection, "", 0), ("", "leave_saddles: 3,", 1)] {
+        let place = straight(filament, &damped(keys));
+        let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let last = stdout(&output).lines().last().unwrap();
+        println!("{}", stdout(&output));
+        assert!(
+            last.starts_with("at rest, stable") && last.ends_with("; written to a"),
+            "{last}"
+        );
+        assert_eq!(
+            stdout(&output).matches("pushed off a saddle").count(),
+            pushes
+        );
+        let json = summary(&place);
+        assert_eq!(json["stability"]["negative_eigenvalues"], 0);
+        assert_eq!(json["saddles_left"], pushes);
+        assert_eq!(
+            json.get("pushes")
+                .map_or(0, |p| p.as_array().unwrap().len()),
+            pushes
+        );
+    }
+}
+
+/// Twist that slips through a joint ends a run with exit code 3 and its last good state.
+#[test]
+fn lost_twist_is_a_failure() {
+    let place = Workplace::with(
+        "Scene(
+            filament: Filament(sections: [
+                Rod(from_nm: 0.0, to_nm: 40.0, segments: 4), Ellipsoids(from_nm: 40.0, to_nm: 60.0),
+            ]),
+            clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
+            path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 1500.0))])],
+            task: Equilibrium(accept_jumps: true),
+        )",
+    );
+    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+    assert_eq!(code(&output), 3, "{}", stdout(&output));
+    let said = stderr(&output);
+    for part in [
+        "in stage 1 of 1, at path parameter 0.",
+        "filament 0 has lost 1 turn(s)",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+    assert!(said.contains("the joint at s = "), "{said}");
+    let shape = &summary(&place)["shape"];
+    let number = |key: &str| shape[key].as_f64().unwrap();
+    let sum = number("twist_turns") + number("writhe");
+    // Solid angles to round-off.
+    assert!((sum - number("link_turns")).abs() < 1e-9);
+}
+
+/// A tolerance that no sum of such forces can meet: the equilibrium ends at the floor of rounding, which
+/// is told; one that can be met is met without a word.
+#[test]
+fn a_residual_at_the_floor_of_rounding_is_told() {
+    for (tolerance, told) in [("1e-7", false), ("1e-16", true)] {
+        let place = Workplace::with(&format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 160.0)]),
+                clamps: [Clamp(end: Start)],
+                loads: [EndForce(end: End, force_pn: (2.0, 0.0, 0.0))],
+                task: Equilibrium(force_pn: {tolerance}, torque_pn_nm: {tolerance}),
+            )"
+        ));
+        let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let words = "the tolerance is below round-off";
+        assert_eq!(stdout(&output).contains(words), told, "{}", stdout(&output));
+        let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+        let is_null = summary.contains("\"residual_floor\": null");
+        assert_eq!(is_null, !told, "{summary}");
+    }
+}
