@@ -1,9 +1,9 @@
 //! How runs end: results beyond use, saddles, twist that is lost, residuals at the floor of rounding.
 
-mod common;
+mod workplace;
 
-use common::{Workplace, code, stderr, stdout};
 use std::fs;
+use workplace::{Workplace, code, stderr, stdout};
 
 /// Monomers that are pushed through their own wall: exit code 3, what is beyond use and where, and all of
 /// it on disk with the status of a failure.

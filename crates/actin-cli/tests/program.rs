@@ -1,11 +1,11 @@
 //! The built program, from its arguments to its exit code, its two streams and its files.
 
-mod common;
+mod workplace;
 
 use actin_sim::Scene;
-use common::{Workplace, code, stderr, stdout};
 use std::fs;
 use std::path::{Path, PathBuf};
+use workplace::{Workplace, code, stderr, stdout};
 
 /// A short rod, monomers and a junction under a force; a thousand steps or so.
 const TINY: &str = "Scene(

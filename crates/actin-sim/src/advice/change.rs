@@ -40,7 +40,7 @@ pub enum Expected {
 
 /// Error of the tip of a filament of monomers and rod that is let go, over 20 ns, with position Verlet
 /// at its default step: 8e-6 without drag (`cargo xtask tradeoff vibration`), at most 1.6e-5 under drag
-/// up to [`MOST_DRAG`] (`position_verlet_follows_slow_motion_under_drag` in `tests/dynamics`).
+/// up to 1e4 per ns (`position_verlet_follows_slow_motion_under_drag` in `tests/dynamics`).
 pub const SLOW_MOTION: f64 = 2e-5;
 
 /// Largest drag under which that was measured (1/ns).
