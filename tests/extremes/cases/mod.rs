@@ -42,19 +42,7 @@ pub(crate) fn table(long: bool) -> Vec<Row> {
         ("forces", &forces::rows),
         ("neutral modes", &certificates::rows),
         ("compression", &compression::rows),
-        ("sizes", &|| {
-            let (bodies, stages) = if long {
-                (1_000_000, 100_000)
-            } else {
-                (1_000, 1_000)
-            };
-            [
-                sizes::smallest(),
-                sizes::largest(bodies),
-                sizes::stages(stages),
-            ]
-            .concat()
-        }),
+        ("sizes", &|| of_sizes(long)),
         ("drag", &drag::rows),
         ("undamped motion", &|| {
             drift::rows(if long { 10_000_000 } else { 100_000 })
@@ -72,4 +60,19 @@ pub(crate) fn table(long: bool) -> Vec<Row> {
         println!("{name}: {:.1} s", clock.elapsed().as_secs_f64());
     }
     table
+}
+
+/// Numbers of bodies and of stages.
+fn of_sizes(long: bool) -> Vec<Row> {
+    let (bodies, stages) = if long {
+        (1_000_000, 100_000)
+    } else {
+        (1_000, 1_000)
+    };
+    [
+        sizes::smallest(),
+        sizes::largest(bodies),
+        sizes::stages(stages),
+    ]
+    .concat()
 }

@@ -146,7 +146,7 @@ fn rod(segments: usize) -> (f64, String) {
 
 fn monomers(count: usize) -> (f64, String) {
     // A section of monomers ends half a rise beyond the last.
-    let length = RISE_NM * (count as f64 + 0.5);
+    let length = RISE_NM * (count as f64 - 0.5);
     (
         length,
         format!("Ellipsoids(from_nm: 0.0, to_nm: {length:?})"),

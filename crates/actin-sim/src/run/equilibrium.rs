@@ -3,7 +3,7 @@
 use super::keep::{Arrival, Clock, Keeper, Kept, PathStanding, Standing};
 use super::points::check_points;
 use super::rest::{is_saddle, saddle};
-use super::slip::{LinkWatch, Slip};
+use super::slip::{LinkWatch, Slip, links};
 use super::unknowns::newton;
 use super::{Progress, Record, RunError, RunReport, Trajectory};
 use crate::Assembly;
@@ -148,16 +148,6 @@ fn place(assembly: &Assembly, stages_done: usize) -> String {
         0 => String::new(),
         stages => format!("in stage {} of {stages}, ", stages_done + 1),
     }
-}
-
-/// What the twist of filaments is compared with: how they begin.
-fn links(assembly: &Assembly) -> LinkWatch {
-    let mut start = assembly.system.state().clone();
-    // Without a path, held ends are where the caller has put them.
-    if !assembly.drive.is_still() {
-        assembly.drive.place(&mut start, 0.0);
-    }
-    LinkWatch::new(assembly, &start)
 }
 
 fn path(settings: &Settings) -> Result<Path, Problem> {
