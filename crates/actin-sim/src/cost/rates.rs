@@ -1,8 +1,9 @@
 //! How fast loads and Newton steps go, measured: constants of the estimates of time.
 //!
 //! Printed by `cargo xtask tradeoff rates`: whole steps of motion and Newton's method on one thread,
-//! the best of seven, in a release build on the otherwise idle [reference machine](REFERENCE); from
-//! terms on as by `cargo xtask costs`.
+//! the best of seven, in a release build on the otherwise idle [reference machine](REFERENCE). Rates from
+//! `TERMS_PER_S` on are not measured there: they are orders of magnitude, seen in a build without
+//! link-time optimisation on a busy machine. `cargo xtask costs` prints by how much estimates miss.
 
 /// The machine of these rates, of which an estimate takes one core.
 pub const REFERENCE: &str = "3.0 GHz x86-64 with AVX2";
