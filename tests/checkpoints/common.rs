@@ -27,12 +27,12 @@ const FILAMENTS: [&str; 4] = [
     "filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)])",
     "filament: Filament(
          sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0), Rod(from_nm: 12.0, to_nm: 42.0)],
-         monomers: Monomers(lateral_bonds: 6, longitudinal_bonds: 6))",
+         monomers: Monomers(anchors: Independent, lateral_bonds: 6, longitudinal_bonds: 6))",
     "filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)], rod: RodModel(law: Fitted))",
     "filaments: [
          Filament(
              sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0), Rod(from_nm: 12.0, to_nm: 42.0)],
-             monomers: Monomers(lateral_bonds: 6, longitudinal_bonds: 6)),
+             monomers: Monomers(anchors: Independent, lateral_bonds: 6, longitudinal_bonds: 6)),
          Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)], at_nm: (12.0, 0.0, 0.0),
                   roll_deg: 40.0)]",
 ];

@@ -132,7 +132,7 @@ fn a_free_filament_turns_as_the_couple_says() {
                 "Scene(
                     filament: Filament(
                         sections: [{sections}],
-                        monomers: (lateral_bonds: 16, longitudinal_bonds: 16),
+                        monomers: (anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
                     ),
                     loads: [
                         EndForce(end: End, force_pn: (0.0, {force:?}, 0.0)),

@@ -27,7 +27,7 @@ fn monomers(bonds: usize) -> System {
         "Scene(
             filament: Filament(
                 sections: [Ellipsoids(from_nm: 0.0, to_nm: 35.6)],
-                monomers: (seed: 1, lateral_bonds: {bonds}, longitudinal_bonds: {bonds}),
+                monomers: (anchors: Independent, seed: 1, lateral_bonds: {bonds}, longitudinal_bonds: {bonds}),
             ),
             task: Dynamics(duration_ns: 1.0),
         )"

@@ -43,7 +43,7 @@ pub(crate) fn assemble_of((_, sections): Filament, rod: &str) -> Assembly {
         "Scene(
             filament: Filament(
                 sections: [{sections}],
-                monomers: (seed: 1, lateral_bonds: 16, longitudinal_bonds: 16),
+                monomers: (anchors: Independent, seed: 1, lateral_bonds: 16, longitudinal_bonds: 16),
                 rod: ({rod}),
             ),
             task: Dynamics(duration_ns: 1.0),

@@ -19,7 +19,7 @@ fn tumbling() -> System {
                         Ellipsoids(from_nm: 0.0, to_nm: 22.0),
                         Rod(from_nm: 22.0, to_nm: 42.0, segments: 2),
                     ],
-                    monomers: (seed: 1, lateral_bonds: 16, longitudinal_bonds: 16),
+                    monomers: (anchors: Independent, seed: 1, lateral_bonds: 16, longitudinal_bonds: 16),
                 ),
                 (
                     sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)],

@@ -10,12 +10,7 @@ use actin_sim::{Assembly, ForceLaw};
 /// The bonds of the filament of ellipsoids, built a second time, since the assembly's own cannot
 /// be asked for their ends.
 fn bonds_of(assembly: &Assembly) -> Bonds {
-    let mut parameters = EllipsoidParameters {
-        seed: 1,
-        ..EllipsoidParameters::default()
-    };
-    parameters.lateral.bonds = 16;
-    parameters.longitudinal.bonds = 16;
+    let parameters = EllipsoidParameters::drawn(16, 1);
     let placement = Placement {
         rotation: UnitQuaternion::identity(),
         translation: Vector3::zeros(),

@@ -200,7 +200,7 @@ fn end_of_scene(seed: u64, record_every_ns: f64) -> State {
                     Ellipsoids(from_nm: 0.0, to_nm: 30.0),
                     Rod(from_nm: 30.0, to_nm: 60.0),
                 ],
-                monomers: (lateral_bonds: 16, longitudinal_bonds: 16),
+                monomers: (anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
             ),
             clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
             task: Dynamics(

@@ -11,7 +11,7 @@ fn scene(task: &str) -> String {
                     Ellipsoids(from_nm: 0.0, to_nm: 20.0),
                     Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
                 ],
-                monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+                monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
             ),
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: (-2.0, 0.5, 0.0))],

@@ -21,7 +21,7 @@ fn clamped(displaced: [Vector3; 2], shifts: Option<[Vector3; 2]>, task: &str) ->
                     Ellipsoids(from_nm: 0.0, to_nm: 20.0),
                     Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
                 ],
-                monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+                monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
             ),
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: (0.0, 1.0, 0.0))],

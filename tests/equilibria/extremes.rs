@@ -65,7 +65,7 @@ impl Extreme {
             "Scene(
                 filament: Filament(
                     sections: [{}],
-                    monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+                    monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
                 ),
                 clamps: [{}],
                 loads: [{}],

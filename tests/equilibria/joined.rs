@@ -113,14 +113,14 @@ fn tied(task: &str) -> String {
                         Ellipsoids(from_nm: 0.0, to_nm: 20.0),
                         Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
                     ],
-                    monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+                    monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
                 ),
                 Filament(
                     sections: [
                         Rod(from_nm: 0.0, to_nm: 20.0, segments: 2),
                         Ellipsoids(from_nm: 20.0, to_nm: 40.0),
                     ],
-                    monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+                    monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
                     at_nm: (9.0, 2.0, 0.0), direction: (-0.1, 0.1, 1.0),
                 ),
             ],

@@ -59,7 +59,7 @@ fn check(name: &str, sections: &str, clamps: &str) {
         "Scene(
             filament: Filament(
                 sections: [{sections}],
-                monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+                monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
             ),
             clamps: [{clamps}],
             task: Equilibrium(),

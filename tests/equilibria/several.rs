@@ -11,7 +11,7 @@ const TIGHT: &str = "Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)";
 /// Monomers and rod, clamped, a force on the tip.
 const MIXED: &str = "sections: [
     Ellipsoids(from_nm: 0.0, to_nm: 20.0), Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
-], monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16)";
+], monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16)";
 
 /// A rod elsewhere, askew.
 const ASKEW: &str = "sections: [Rod(from_nm: 0.0, to_nm: 50.0, segments: 5)],

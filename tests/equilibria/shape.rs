@@ -11,7 +11,7 @@ fn buckled(sections: &str, turn: f64) -> String {
         "Scene(
             filament: Filament(
                 sections: [{sections}],
-                monomers: Monomers(lateral_bonds: 32, longitudinal_bonds: 32),
+                monomers: Monomers(anchors: Independent, lateral_bonds: 32, longitudinal_bonds: 32),
             ),
             clamps: [Clamp(end: Start), Clamp(end: End)],
             path: [

@@ -96,7 +96,7 @@ fn scene(sections: &str, law: &str, weight: &str, turns_deg: &[f64], seed: u64) 
             filament: Filament(
                 sections: [{sections}],
                 rod: RodModel(law: {law}),
-                monomers: Monomers(seed: {seed}),
+                monomers: Monomers(anchors: Independent, seed: {seed}),
                 junction: JunctionModel(weight: {weight}),
             ),
             clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],

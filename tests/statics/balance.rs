@@ -15,7 +15,7 @@ fn settled(sections: &str, clamped: &str, loaded: &str) -> Settled {
         "Scene(
             filament: Filament(
                 sections: [{sections}],
-                monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+                monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
             ),
             clamps: [Clamp(end: {clamped})],
             loads: [EndForce(end: {loaded}, force_pn: ({x:?}, {y:?}, {z:?}))],

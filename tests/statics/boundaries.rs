@@ -26,7 +26,7 @@ fn filament(ends: &[f64], monomers_first: bool, clamps: &str) -> Assembly {
         "Scene(
             filament: Filament(
                 sections: [{sections}],
-                monomers: Monomers(seed: 5, lateral_bonds: 3, longitudinal_bonds: 3),
+                monomers: Monomers(anchors: Independent, seed: 5, lateral_bonds: 3, longitudinal_bonds: 3),
             ),
             clamps: [{clamps}],
             task: Dynamics(duration_ns: 1.0),

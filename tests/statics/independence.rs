@@ -40,7 +40,7 @@ fn settled(way: Way) -> Settled {
                     Ellipsoids(from_nm: 0.0, to_nm: 30.0),
                     Rod(from_nm: 30.0, to_nm: 60.0, segments: 3),
                 ],
-                monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+                monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
             ),
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: (2.0, 0.0, 0.0))],

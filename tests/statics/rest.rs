@@ -9,7 +9,7 @@ fn loads_at_rest(sections: &str, seed: u64, junction: &str, clamps: &str) -> (f6
         "Scene(
             filament: Filament(
                 sections: [{sections}],
-                monomers: Monomers(seed: {seed}),
+                monomers: Monomers(anchors: Independent, seed: {seed}),
                 junction: JunctionModel({junction}),
             ),
             clamps: [{clamps}],

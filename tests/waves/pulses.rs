@@ -137,7 +137,9 @@ fn filament(pulse: Pulse, segment: f64, beyond: Beyond) -> (Assembly, f64) {
                 "Rod(from_nm: 0.0, to_nm: {half:?}, segments: {count}), \
                  Ellipsoids(from_nm: {half:?}, to_nm: {end:?})"
             ),
-            format!("monomers: (seed: {seed}), junction: (weight: {weight}),"),
+            format!(
+                "monomers: (anchors: Independent, seed: {seed}), junction: (weight: {weight}),"
+            ),
         ),
         Beyond::Rod => (
             format!("Rod(from_nm: 0.0, to_nm: {end:?}, segments: {})", 2 * count),

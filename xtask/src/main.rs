@@ -5,6 +5,7 @@
 mod streams;
 
 mod bench;
+mod bonds;
 mod check;
 mod costs;
 mod docs;
@@ -32,6 +33,8 @@ enum Task {
     Bench(bench::Options),
     /// Measures what scenes cost beside their estimates, and how that grows with their size.
     Costs(costs::Options),
+    /// Compares drawn and weighted bonds, and the shortest bond, on the paper's tables and figures.
+    Bonds(bonds::Options),
     /// Formatting, lints as errors, documentation, benches that build, random input, tidiness.
     Check,
     /// Takes every number of a scene to where it breaks and writes what becomes of it.
@@ -51,6 +54,7 @@ enum Task {
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Bench(options) => bench::run(&options),
+        Task::Bonds(options) => bonds::run(&options),
         Task::Check => check::run(),
         Task::Costs(options) => costs::run(&options),
         Task::Extremes(options) => extremes::run(&options),

@@ -15,7 +15,7 @@ const TINY: &str = "Scene(
             Ellipsoids(from_nm: 0.0, to_nm: 10.0),
             Rod(from_nm: 10.0, to_nm: 30.0),
         ],
-        monomers: Monomers(lateral_bonds: 8, longitudinal_bonds: 8),
+        monomers: Monomers(anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8),
     ),
     clamps: [Clamp(end: Start)],
     loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],

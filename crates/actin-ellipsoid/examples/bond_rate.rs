@@ -12,18 +12,20 @@ use std::time::Instant;
 fn main() -> Result<(), Box<dyn Error>> {
     for monomers in [60, 1000] {
         for bonds in [10, 64] {
-            let (state, bonds) = filament(monomers, bonds)?;
-            print_rates(&state, &bonds);
+            let (state, bonds) = filament(monomers, EllipsoidParameters::drawn(bonds, 0))?;
+            print_rates("drawn", &state, &bonds);
         }
+        let (state, bonds) = filament(monomers, EllipsoidParameters::default())?;
+        print_rates("weighted", &state, &bonds);
     }
     Ok(())
 }
 
 /// A filament away from rest.
-fn filament(count: usize, bonds: usize) -> Result<(State, Bonds), Box<dyn Error>> {
-    let mut parameters = EllipsoidParameters::default();
-    parameters.lateral.bonds = bonds;
-    parameters.longitudinal.bonds = bonds;
+fn filament(
+    count: usize,
+    parameters: EllipsoidParameters,
+) -> Result<(State, Bonds), Box<dyn Error>> {
     let model = EllipsoidModel::new(parameters)?;
     let mut state = State::default();
     let monomers = model.build(&mut state, &Placement::default(), 0, count);
@@ -33,7 +35,7 @@ fn filament(count: usize, bonds: usize) -> Result<(State, Bonds), Box<dyn Error>
 }
 
 /// Prints both rates of one filament.
-fn print_rates(state: &State, bonds: &Bonds) {
+fn print_rates(kind: &str, state: &State, bonds: &Bonds) {
     let number = bonds.number_of_bonds();
     let mut loads = Loads::zeros(state);
     let of_loads = seconds(500_000 / number, || {
@@ -47,7 +49,7 @@ fn print_rates(state: &State, bonds: &Bonds) {
     });
     let million_per_second = 1e-6 * number as f64;
     println!(
-        "{:5} monomers, {:5} bonds: loads {:6.1}, second derivatives {:5.1} million bonds/s ({:.1} us)",
+        "{:5} monomers, {:5} {kind} bonds: loads {:6.1}, second derivatives {:5.1} million bonds/s ({:.1} us)",
         bonds.monomers().count,
         number,
         million_per_second / of_loads,

@@ -3,15 +3,12 @@
 //!
 //! `cargo run -p actin-ellipsoid --example weighted_bonds [POINTS] [SHORTEST_NM]`
 
-use actin_ellipsoid::{Anchors, Cubature, EllipsoidParameters, InterfaceKind};
+use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind};
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
-    let mut parameters = EllipsoidParameters {
-        anchors: Anchors::Cubature,
-        ..EllipsoidParameters::default()
-    };
+    let mut parameters = EllipsoidParameters::default();
     let points = arguments.next().map_or(Ok(12), |text| text.parse())?;
     let shortest: Option<f64> = arguments.next().map(|text| text.parse()).transpose()?;
     for interface in [&mut parameters.lateral, &mut parameters.longitudinal] {

@@ -16,7 +16,7 @@ use actin_mechanics::{Inertia, State};
 /// let monomers = model.build(&mut state, &Placement::default(), -1, 30);
 /// let bonds = model.bonds(&monomers).unwrap();
 /// assert_eq!(bonds.elements(), 29 + 28); // one per lateral and longitudinal interface
-/// assert_eq!(bonds.number_of_bonds(), (29 + 28) * 64);
+/// assert_eq!(bonds.number_of_bonds(), (29 + 28) * 12);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct EllipsoidModel {

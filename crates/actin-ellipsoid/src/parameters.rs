@@ -10,7 +10,7 @@ pub const FEWEST_POINTS: usize = 4;
 pub const MOST_POINTS: usize = 64;
 
 /// Parameters of the ellipsoid model. The default is Table 1 and Table 4 of the paper, with the
-/// choices named in [`constants`].
+/// choices named in [`constants`] and weighted bonds; [`Self::drawn`] has bonds drawn at random.
 ///
 /// ```
 /// let parameters = actin_ellipsoid::EllipsoidParameters::default();
@@ -35,9 +35,9 @@ pub struct EllipsoidParameters {
     pub lateral: InterfaceParameters,
     /// Interface between monomers `i` and `i + 2`.
     pub longitudinal: InterfaceParameters,
-    /// Whether each interface draws anchors of its own.
+    /// How bonds are chosen.
     pub anchors: Anchors,
-    /// Seed of the anchors.
+    /// Seed of drawn bonds.
     pub seed: u64,
     /// Which of the independent samplings of this seed: one for each filament of a scene.
     pub sampling: u64,
@@ -62,12 +62,12 @@ pub struct InterfaceParameters {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Anchors {
     /// Each interface has anchors of its own.
-    #[default]
     Independent,
     /// All interfaces of a kind share one pattern in the body frame of their lower monomer.
     Identical,
     /// All interfaces of a kind have the same weighted bonds, which stand for all that could be
     /// drawn: see [`crate::Cubature`]. Nothing is drawn, and seed and sampling do not matter.
+    #[default]
     Cubature,
 }
 
@@ -114,13 +114,13 @@ impl Default for EllipsoidParameters {
             semi_axes: constants::SEMI_AXES,
             lateral: InterfaceParameters {
                 rigidity: constants::LATERAL_RIGIDITY,
-                bonds: constants::BONDS_PER_INTERFACE,
+                bonds: constants::POINTS_PER_INTERFACE,
                 minimum_length: constants::MINIMUM_LENGTH,
                 maximum_length: constants::LATERAL_MAXIMUM_LENGTH,
             },
             longitudinal: InterfaceParameters {
                 rigidity: constants::LONGITUDINAL_RIGIDITY,
-                bonds: constants::BONDS_PER_INTERFACE,
+                bonds: constants::POINTS_PER_INTERFACE,
                 minimum_length: constants::MINIMUM_LENGTH,
                 maximum_length: constants::LONGITUDINAL_MAXIMUM_LENGTH,
             },
@@ -133,6 +133,18 @@ impl Default for EllipsoidParameters {
 }
 
 impl EllipsoidParameters {
+    /// The default with so many bonds drawn for each interface, as the paper has them.
+    pub fn drawn(bonds: usize, seed: u64) -> Self {
+        let mut parameters = Self {
+            anchors: Anchors::Independent,
+            seed,
+            ..Self::default()
+        };
+        parameters.lateral.bonds = bonds;
+        parameters.longitudinal.bonds = bonds;
+        parameters
+    }
+
     /// Checks every number; [`crate::EllipsoidModel::new`] does so.
     ///
     /// # Errors
@@ -324,7 +336,6 @@ mod tests {
                 anchors,
                 ..EllipsoidParameters::default()
             };
-            parameters.lateral.bonds = 12;
             parameters.longitudinal.bonds = bonds;
             let refused = EllipsoidModel::new(parameters).err();
             refused.map_or_else(String::new, |error| error.to_string())

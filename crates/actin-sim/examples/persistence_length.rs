@@ -162,7 +162,7 @@ impl Case {
             "Scene(
                 filament: Filament(
                     sections: [{sections}],
-                    monomers: (seed: {seed}, {monomers}),
+                    monomers: (anchors: Independent, seed: {seed}, {monomers}),
                     rod: RodModel(law: {law}),
                 ),
                 task: Dynamics(duration_ns: 1.0),

@@ -137,7 +137,7 @@ fn scene(sections: &str, rest: &str, duration: f64, rate: f64, extra: &str) -> S
         "Scene(
             filament: Filament(
                 sections: [{sections}],
-                monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+                monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
             ),
             {rest}
             task: Dynamics(

@@ -87,7 +87,7 @@ fn short_bonds(lateral: f64, longitudinal: f64) -> Result<Outcome, Outcome> {
             filament: Filament(
                 sections: [Ellipsoids(from_nm: 0.0, to_nm: 20.0)],
                 monomers: Monomers(
-                    lateral_bonds: 16, lateral_max_bond_nm: {lateral:?},
+                    anchors: Independent, lateral_bonds: 16, lateral_max_bond_nm: {lateral:?},
                     longitudinal_bonds: 16, longitudinal_max_bond_nm: {longitudinal:?},
                 ),
             ),

@@ -18,7 +18,7 @@ const SCENE: &str = "Scene(
             Ellipsoids(from_nm: 0.0, to_nm: 14.0),
             Rod(from_nm: 14.0, to_nm: 34.0, segments: 4),
         ],
-        monomers: Monomers(lateral_bonds: 16, longitudinal_bonds: 16),
+        monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
     ),
     loads: [EndForce(end: End, force_pn: (1.0, 2.0, 3.0))],
     linkers: [Linker(at_nm: 10.0, radius_nm: 1.8, displaced_nm: (3.0, 0.0, 0.0),

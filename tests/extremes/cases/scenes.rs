@@ -49,7 +49,7 @@ impl Parts {
             "Scene(
                 filament: Filament(
                     sections: [{sections}],
-                    monomers: Monomers(lateral_bonds: {BONDS}, longitudinal_bonds: {BONDS}),
+                    monomers: Monomers(anchors: Independent, lateral_bonds: {BONDS}, longitudinal_bonds: {BONDS}),
                     {models}
                 ),
                 {rest}

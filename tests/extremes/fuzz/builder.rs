@@ -49,7 +49,8 @@ fn monomers() -> impl Strategy<Value = String> {
             axes[top] = 1.9 * f[1];
             let [a, b, c] = axes;
             format!(
-                "Monomers(seed: {seed}, lateral_bonds: {lateral}, longitudinal_bonds: {longitudinal},
+                "Monomers(anchors: Independent, seed: {seed},
+                 lateral_bonds: {lateral}, longitudinal_bonds: {longitudinal},
                  semi_axes_nm: ({a:?}, {b:?}, {c:?}), radius_nm: {:?}, rise_nm: {:?},
                  mass_ag: {:?}, lateral_rigidity_pn_per_nm: {:?}, lateral_max_bond_nm: {:?},
                  longitudinal_max_bond_nm: {:?}, turn_deg: {angle:?})",

@@ -100,7 +100,7 @@ fn scene(motion: &Motion) -> String {
             let length = (count as f64 - 2.5) * RISE_NM;
             format!(
                 "sections: [Ellipsoids(from_nm: 0.0, to_nm: {length:?})],
-                 monomers: (lateral_bonds: 10, longitudinal_bonds: 10)"
+                 monomers: (anchors: Independent, lateral_bonds: 10, longitudinal_bonds: 10)"
             )
         }
         Filament::Mixed => {

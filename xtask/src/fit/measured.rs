@@ -4,10 +4,10 @@ use super::column::Column;
 use super::data::TwistData;
 use actin_sim::Monomers;
 use actin_sim::measure::{
-    Curve, MeasureError, Specimen, bend_by_couples, bend_by_tip_force, bend_twisted,
-    over_samplings, over_samplings_and_azimuths, sampled_by, shear_by_force, stretch_by_force,
-    twist,
+    Curve, MeasureError, Specimen, bend_by_couples, bend_by_tip_force, bend_twisted, sampled_by,
+    shear_by_force, stretch_by_force, twist,
 };
+use rayon::prelude::*;
 
 /// Rises between the inner held monomers of a twisted filament (73.94 nm), as for Table 3.
 const SHORT: f64 = 27.0;
@@ -40,7 +40,7 @@ pub(super) struct Point {
     pub length_nm: f64,
     /// What was prescribed.
     pub x: f64,
-    /// Mean, and its standard error.
+    /// Mean, and its standard error over azimuths.
     pub mean: f64,
     pub error: f64,
 }
@@ -69,33 +69,34 @@ fn failed(what: &str) -> impl Fn(MeasureError) -> String + '_ {
     move |error| format!("{what}: {error}")
 }
 
-/// B3 and dL/L over `samplings` bond samplings of the default filament.
-pub(super) fn twisted(samplings: u64) -> Result<TwistData, String> {
-    let seeds: Vec<u64> = (0..samplings).collect();
+/// B3 and dL/L of the default filament, whose bonds have no samplings.
+pub(super) fn twisted() -> Result<TwistData, String> {
     let turns: Vec<f64> = TURNS_DEG.iter().flat_map(|&turn| [-turn, turn]).collect();
-    let curves = over_samplings(&filament(SHORT), &seeds, |s| twist(s, &turns))
-        .map_err(failed("twisting"))?;
+    let curve = twist(&filament(SHORT), &turns).map_err(failed("twisting"))?;
     let column = |value: fn(&actin_sim::measure::TwistPoint) -> f64| {
         let mut column = Column::default();
-        for (k, sample) in sampled_by(&curves, |p| p.curvature_rad_per_nm, value) {
-            column.push(k, sample.mean);
+        for point in &curve.points {
+            column.push(point.curvature_rad_per_nm, value(point));
         }
         column
     };
     Ok(TwistData {
-        source: format!("{samplings} bond samplings of 73.9 nm, measured now"),
+        source: "the mean filament, 73.9 nm, measured now".to_owned(),
         rigidity: column(|p| p.rigidity_pn_nm2),
         length: column(|p| p.relative_length_change),
     })
 }
 
-/// All samplings at all azimuths.
+/// All azimuths, in parallel.
 fn around<P: Send>(
     specimen: &Specimen,
-    seeds: &[u64],
     measure: impl Fn(&Specimen, f64) -> Result<Curve<P>, MeasureError> + Sync,
 ) -> Result<Vec<Curve<P>>, MeasureError> {
-    over_samplings_and_azimuths(specimen, seeds, &AZIMUTHS_DEG, measure)
+    let curves: Vec<_> = AZIMUTHS_DEG
+        .par_iter()
+        .map(|&azimuth| measure(specimen, azimuth))
+        .collect();
+    curves.into_iter().collect()
 }
 
 fn points<P>(curves: &[Curve<P>], x: impl Fn(&P) -> f64, y: impl Fn(&P) -> f64) -> Vec<Point> {
@@ -106,41 +107,35 @@ fn points<P>(curves: &[Curve<P>], x: impl Fn(&P) -> f64, y: impl Fn(&P) -> f64) 
             length_nm,
             x,
             mean: sample.mean,
-            error: sample.error,
+            // Of one value there is none.
+            error: if sample.count > 1 { sample.error } else { 0.0 },
         })
         .collect()
 }
 
 impl BendData {
-    /// Measures `samplings` bond samplings of the default filament at four azimuths.
-    pub(super) fn measure(samplings: u64) -> Result<Self, String> {
-        let seeds: Vec<u64> = (0..samplings).collect();
-        let bent = around(&filament(LONG[0]), &seeds, |s, a| {
+    /// Measures the default filament at four azimuths.
+    pub(super) fn measure() -> Result<Self, String> {
+        let bent = around(&filament(LONG[0]), |s, a| {
             bend_by_couples(s, &CURVATURES, a)
         });
         let bent = bent.map_err(failed("bending"))?;
-        let tips = around(
-            &Specimen::ellipsoids(160.0, Monomers::default()),
-            &seeds,
-            |s, a| bend_by_tip_force(s, &TIP_FORCES, a),
-        );
+        let tips = around(&Specimen::ellipsoids(160.0, Monomers::default()), |s, a| {
+            bend_by_tip_force(s, &TIP_FORCES, a)
+        });
         let tips = tips.map_err(failed("cantilevers"))?;
         let mut guided = Vec::new();
         for rises in LONG {
-            let curves = around(&filament(rises), &seeds, |s, a| {
-                shear_by_force(s, &SHEAR_FORCES, a)
-            });
+            let curves = around(&filament(rises), |s, a| shear_by_force(s, &SHEAR_FORCES, a));
             let curves = curves.map_err(failed("shearing"))?;
             guided.extend(points(&curves, |p| p.force_pn, |p| p.shift_nm));
         }
-        let stretched = over_samplings(&filament(SHORT), &seeds, |s| {
-            stretch_by_force(s, &AXIAL_FORCES)
-        });
-        let stretched = stretched.map_err(failed("stretching"))?;
+        let stretched = stretch_by_force(&filament(SHORT), &AXIAL_FORCES);
+        let stretched = [stretched.map_err(failed("stretching"))?];
         Ok(Self {
             stretch: points(&stretched, |p| p.force_pn, |p| p.rigidity_pn),
             bend: points(&bent, |p| p.curvature_rad_per_nm, |p| p.rigidity_pn_nm2),
-            twisted: twisted_bends(&seeds)?,
+            twisted: twisted_bends()?,
             tips: points(&tips, |p| p.force_pn, |p| p.deflection_nm),
             guided,
         })
@@ -148,13 +143,11 @@ impl BendData {
 }
 
 /// Bending rigidities of twisted filaments, the short ones: long ones would turn too far.
-fn twisted_bends(seeds: &[u64]) -> Result<Vec<[f64; 3]>, String> {
+fn twisted_bends() -> Result<Vec<[f64; 3]>, String> {
     let mut all = Vec::new();
     for k3 in TWISTS {
-        let curves = around(&filament(SHORT), seeds, |s, a| {
-            bend_twisted(s, k3, &TILTS, a)
-        })
-        .map_err(failed("bending of twisted filaments"))?;
+        let curves = around(&filament(SHORT), |s, a| bend_twisted(s, k3, &TILTS, a))
+            .map_err(failed("bending of twisted filaments"))?;
         let rigidities = points(&curves, |p| p.tilt_rad_per_nm, |p| p.rigidity_pn_nm2);
         let curvatures = points(&curves, |p| p.tilt_rad_per_nm, |p| p.curvature_rad_per_nm);
         let pairs = rigidities.iter().zip(&curvatures);

@@ -26,9 +26,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Bond samplings behind measured twist, and behind measured bending.
-const SAMPLINGS: [u64; 2] = [16, 8];
-
 /// What is fitted, and where the result goes.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
@@ -75,7 +72,7 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
 /// Fits the paper's tables, or filaments measured on the spot.
 fn tables(options: &Options, out: &Path) -> Result<(), String> {
     let data = if options.measure {
-        measured::twisted(SAMPLINGS[0])?
+        measured::twisted()?
     } else {
         TwistData::from_paper(options.all_rows)?
     };
@@ -85,7 +82,7 @@ fn tables(options: &Options, out: &Path) -> Result<(), String> {
     let mut bend = None;
     if options.measure {
         println!("measuring bending and shear ...");
-        let data = BendData::measure(SAMPLINGS[1])?;
+        let data = BendData::measure()?;
         let fits = BendFits::new(&data)?;
         print::bend(&data, &fits);
         faults.extend(fits.faults());

@@ -39,7 +39,7 @@ pub(crate) struct Options {
     /// Where to write tables and pictures.
     #[arg(long, default_value = "target/tradeoff")]
     out: PathBuf,
-    /// Fewer settings and samplings.
+    /// Fewer settings, azimuths and samplings.
     #[arg(long)]
     quick: bool,
 }
@@ -123,8 +123,8 @@ fn show(rows: &[Row], out: &Path) -> Result<(), String> {
     let Some(first) = rows.first() else {
         return Ok(());
     };
-    let (name, samplings) = (&first.scene, first.seeds);
-    let title = |what: &str| format!("{name}: {what}, rms over {samplings} sampling(s)");
+    let (name, azimuths) = (&first.scene, first.azimuths);
+    let title = |what: &str| format!("{name}: {what}, rms over {azimuths} azimuth(s)");
     let displacement = Picture {
         title: &title("error of the displacement"),
         y_label: "relative error of the displacement",

@@ -8,7 +8,8 @@ use actin_mechanics::Vector3;
 use actin_sim::advice::{Setting, scenes, table};
 use actin_sim::cost::Work;
 use actin_sim::{
-    Assembly, Drag, Dynamics, End, Equilibrium, Integrator, RodLaw, RunReport, Scene, Task,
+    Assembly, Drag, Dynamics, End, Equilibrium, Integrator, Monomers, RodLaw, RunReport, Scene,
+    Task,
 };
 use rayon::prelude::*;
 use std::ops::ControlFlow;
@@ -88,10 +89,10 @@ fn row(scene: &str, factor: &str, setting: String, of: &Run) -> Row {
         setting,
         law: "Constant".into(),
         segment_nm: 10.0,
-        bonds_per_interface: 64,
+        bonds_per_interface: Monomers::default().lateral_bonds,
         weight: "Shared".into(),
         attached: 2,
-        seeds: 1,
+        azimuths: 1,
         bonds: of.work.bonds,
         elements: of.work.elements,
         dofs: of.dofs,

@@ -124,7 +124,7 @@ fn render(picture: &Picture<'_>, points: &[Point], root: &Area<'_>) -> Outcome {
     if let Some(level) = scatter.filter(|level| (y0..y1).contains(level)) {
         let line = [(x0, level), (x1, level)];
         plane.draw_series([PathElement::new(line, BLACK.mix(0.35).stroke_width(1))])?;
-        let text = Text::new("sd over samplings of the bonds", (6, -16), FONT);
+        let text = Text::new("sd over filaments of 64 drawn bonds", (6, -16), FONT);
         plane.draw_series([EmptyElement::at((x0, level)) + text])?;
     }
     let front = points.iter().filter(|p| p.on_front).map(|p| p.place);

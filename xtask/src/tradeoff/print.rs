@@ -19,7 +19,7 @@ pub(super) fn table(rows: &[Row]) {
 
 fn heading(first: &Row) {
     println!(
-        "{}: sd over samplings in %: displacement {}, energy {}, force {}, torque {}, local {}",
+        "{}: sd over filaments of 64 drawn bonds in %: displacement {}, energy {}, force {}, torque {}, local {}",
         first.scene,
         percent(first.scatter_displacement),
         percent(first.scatter_energy),
@@ -94,7 +94,7 @@ pub(super) fn advice(rows: &[Row]) -> Vec<Measured> {
             bonds: row.bonds_per_interface,
             weight: row.weight.clone(),
             attached: row.attached,
-            seeds: row.seeds,
+            azimuths: row.azimuths,
             displacement: rounded(row.error_displacement),
             energy: rounded(row.error_energy),
             force: rounded(row.error_force),

@@ -7,10 +7,10 @@ use std::path::Path;
 
 /// One setting of one scene. What does not apply is null in JSON and empty in CSV.
 ///
-/// Errors are relative, against the same filament with every monomer resolved and the same sampling
-/// of its bonds (in a motion, against the same motion in far smaller steps): rms over the samplings,
+/// Errors are relative, against the same filament with every monomer resolved at the same azimuth of
+/// its lattice (in a motion, against the same motion in far smaller steps): rms over the azimuths,
 /// and for sizes the mean of signed differences (`bias_...`). `scatter_...` is the standard
-/// deviation of the fully resolved filament over samplings, relative to its mean.
+/// deviation of fully resolved filaments over samplings of 64 drawn bonds, relative to its mean.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(super) struct Row {
     pub scene: String,
@@ -24,14 +24,14 @@ pub(super) struct Row {
     pub bonds_per_interface: usize,
     pub weight: String,
     pub attached: usize,
-    pub seeds: usize,
+    pub azimuths: usize,
     pub bonds: usize,
     /// Segments of rods and bonds of junctions.
     pub elements: usize,
     pub dofs: usize,
     pub integrator: Option<String>,
     pub time_step_ns: Option<f64>,
-    /// Of a motion: those that it took; of an equilibrium: mean over samplings, all starts.
+    /// Of a motion: those that it took; of an equilibrium: mean over azimuths, all starts.
     pub force_evaluations: Option<f64>,
     /// Evaluations times bonds and elements.
     pub element_evaluations: Option<f64>,

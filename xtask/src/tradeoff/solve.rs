@@ -4,7 +4,7 @@ use super::observe::Observed;
 use super::study::Study;
 use actin_sim::advice::Setting;
 use actin_sim::cost::{Cost, Work};
-use actin_sim::{Assembly, Counts, Dynamics, Integrator, Scene, Task};
+use actin_sim::{Anchors, Assembly, Counts, Dynamics, Integrator, Scene, Task};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 
@@ -38,12 +38,11 @@ pub(super) struct MotionCost {
     pub counted_per_ns: f64,
 }
 
-/// The scene of a study in one setting, with a sampling of the bonds.
-pub(super) fn scene(study: &Study, setting: &Setting, seed: u64) -> Scene {
+/// The scene of a study in one setting, at one of the azimuths of the lattice.
+pub(super) fn scene(study: &Study, setting: &Setting, azimuth: u64) -> Scene {
     let mut scene = setting.apply(&study.scene);
-    scene.filament.monomers.seed = seed;
     if study.turned {
-        scene.filament.monomers.azimuth_deg = seed as f64 * 360.0 / study.seeds as f64;
+        scene.filament.monomers.azimuth_deg = azimuth as f64 * 360.0 / study.azimuths as f64;
     }
     scene
 }
@@ -51,27 +50,55 @@ pub(super) fn scene(study: &Study, setting: &Setting, seed: u64) -> Scene {
 /// A filament on its way to an equilibrium: that, or why there is none.
 pub(super) type Attempt = Result<Solved, String>;
 
-/// Equilibria of every setting and sampling, by setting.
+/// Equilibria of filaments with every monomer resolved that differ in the sampling of their bonds, and
+/// in azimuth where the study turns them.
+pub(super) fn drawn(study: &Study) -> Vec<Attempt> {
+    let bonds = Anchors::Independent.usual_bonds();
+    let setting = Setting {
+        bonds,
+        ..study.settings[0].2.clone()
+    };
+    let of_sampling = |seed| {
+        let mut turned = study.clone();
+        turned.azimuths = study.samplings;
+        let mut scene = scene(&turned, &setting, seed);
+        scene.filament.monomers.anchors = Anchors::Independent;
+        scene.filament.monomers.seed = seed;
+        lowest(study, &scene).map_err(|e| format!("{}, seed {seed}: {e}", study.name))
+    };
+    (0..study.samplings)
+        .into_par_iter()
+        .map(of_sampling)
+        .collect()
+}
+
+/// Equilibria of every setting and azimuth, by setting.
 pub(super) fn all(study: &Study) -> Vec<Vec<Attempt>> {
-    let solve_one = |setting, seed| equilibrium(study, setting, seed);
+    let solve_one = |setting, azimuth| equilibrium(study, setting, azimuth);
     study
         .settings
         .par_iter()
         .map(|(_, _, setting)| {
-            let seeds = (0..study.seeds).into_par_iter();
-            seeds.map(|seed| solve_one(setting, seed)).collect()
+            let azimuths = (0..study.azimuths).into_par_iter();
+            azimuths
+                .map(|azimuth| solve_one(setting, azimuth))
+                .collect()
         })
         .collect()
 }
 
 /// The lowest equilibrium over the starts of the study.
-pub(super) fn equilibrium(study: &Study, setting: &Setting, seed: u64) -> Attempt {
-    let scene = scene(study, setting, seed);
+pub(super) fn equilibrium(study: &Study, setting: &Setting, azimuth: u64) -> Attempt {
+    let scene = scene(study, setting, azimuth);
+    lowest(study, &scene).map_err(|e| format!("{}, azimuth {azimuth}: {e}", study.name))
+}
+
+/// The lowest equilibrium of a scene over the starts of the study.
+fn lowest(study: &Study, scene: &Scene) -> Attempt {
     let mut lowest: Option<Solved> = None;
     let (mut steps, mut evaluations, mut wall_s) = (0, 0, 0.0);
     for &start in study.starts_deg {
-        let found =
-            from(study, &scene, start).map_err(|e| format!("{}, seed {seed}: {e}", study.name))?;
+        let found = from(study, scene, start)?;
         steps += found.newton_steps;
         evaluations += found.evaluations;
         wall_s += found.wall_s;
@@ -89,7 +116,7 @@ pub(super) fn equilibrium(study: &Study, setting: &Setting, seed: u64) -> Attemp
             wall_s,
             ..low
         })
-        .ok_or_else(|| format!("{}: no start", study.name))
+        .ok_or_else(|| "no start".to_owned())
 }
 
 /// The equilibrium from one start.
@@ -112,7 +139,7 @@ fn from(study: &Study, scene: &Scene, start_deg: f64) -> Result<Solved, String> 
     })
 }
 
-/// Least time of a short motion per ns (s), on the first sampling.
+/// Least time of a short motion per ns (s), at the first azimuth.
 pub(super) fn motion_seconds_per_ns(study: &Study, setting: &Setting) -> Result<f64, String> {
     let mut scene = scene(study, setting, 0);
     scene.path.clear();

@@ -18,10 +18,11 @@ pub(super) fn rows(study: &Study) -> Result<Vec<Row>, String> {
     let reference_cost = solve::motion_cost(study, &study.settings[0].2)?;
     let reference_time = time(study, &study.settings[0].2).ok_or("no time of the reference")?;
     let reference_motion = solve::motion_seconds_per_ns(study, &study.settings[0].2)?;
-    let scatter = scatter(reference);
+    let drawn: Result<Vec<Solved>, String> = solve::drawn(study).into_iter().collect();
+    let scatter = scatter(&drawn?);
     let mut rows = Vec::new();
     for ((factor, name, setting), attempts) in study.settings.iter().zip(&attempts) {
-        // Samplings that have no equilibrium are counted and left out.
+        // Azimuths that have no equilibrium are counted and left out.
         let pairs: Vec<(&Solved, &Solved)> = (attempts.iter().zip(reference))
             .filter_map(|(attempt, reference)| Some((attempt.as_ref().ok()?, reference)))
             .collect();
@@ -77,7 +78,7 @@ fn counted(row: Row, pairs: &[(&Solved, &Solved)], cost: &MotionCost) -> Row {
     let evaluations = over(|s| s.evaluations as f64);
     let each = (cost.work.bonds + cost.work.elements) as f64;
     Row {
-        seeds: pairs.len(),
+        azimuths: pairs.len(),
         bonds: cost.work.bonds,
         elements: cost.work.elements,
         dofs: cost.counts.dofs,
@@ -90,7 +91,7 @@ fn counted(row: Row, pairs: &[(&Solved, &Solved)], cost: &MotionCost) -> Row {
     }
 }
 
-/// Least time of Newton's method on the first sampling (s), alone on the machine as far as this
+/// Least time of Newton's method at the first azimuth (s), alone on the machine as far as this
 /// program can see to it.
 fn time(study: &Study, setting: &Setting) -> Option<f64> {
     let (mut spent, mut least) = (0.0, f64::INFINITY);

@@ -102,13 +102,16 @@ pub(super) struct Study {
     pub field: Field,
     /// Where the field is compared (nm).
     pub window: [f64; 2],
-    /// Whether samplings differ in the azimuth of the lattice too, as filaments on a wall do.
+    /// Whether filaments are compared at several azimuths of the lattice, as filaments on a wall have them.
     pub turned: bool,
     /// Turns from which equilibria of a free filament are sought (deg): the lowest counts.
     pub starts_deg: &'static [f64],
     /// The first is the reference.
     pub settings: Vec<Varied>,
-    pub seeds: u64,
+    /// Azimuths of the lattice.
+    pub azimuths: u64,
+    /// Samplings of drawn bonds, for the scatter.
+    pub samplings: u64,
 }
 
 /// A setting, its name, and what is varied in it.
@@ -133,12 +136,12 @@ struct Question {
     free: bool,
 }
 
-/// Bonds per interface that are tried; 64 is the default.
-const BONDS: [usize; 3] = [16, 32, 128];
+/// Weighted bonds per interface that are tried; 12 is the default.
+const BONDS: [usize; 3] = [8, 16, 24];
 /// Lengths of segments that are tried (nm); 10 is the default.
 const SEGMENTS_NM: [f64; 3] = [20.0, 5.0, 2.5];
 
-/// The studies named, or all; fewer settings and samplings if `quick`.
+/// The studies named, or all; fewer settings, azimuths and samplings if `quick`.
 pub(super) fn studies(names: &[String], quick: bool) -> Vec<Study> {
     let wanted = |name: &str| names.is_empty() || names.iter().any(|n| n == name);
     let scenes = scenes::all().into_iter();
@@ -323,13 +326,14 @@ fn buckling(name: &'static str, length: f64) -> Question {
 
 impl Question {
     fn study(&self, scene: Scene, quick: bool) -> Study {
+        let turned = self.displacement == Displacement::Tip;
         Study {
             name: self.name,
             displacement: self.displacement,
             reaction: self.reaction,
             field: self.field,
             window: self.window,
-            turned: self.displacement == Displacement::Tip,
+            turned,
             starts_deg: if self.free {
                 &[0.0, 90.0, 180.0, 270.0]
             } else {
@@ -337,7 +341,12 @@ impl Question {
             },
             settings: self.settings(length(&scene), quick),
             scene,
-            seeds: if quick { 2 } else { 6 },
+            azimuths: match (turned, quick) {
+                (false, _) => 1,
+                (true, true) => 2,
+                (true, false) => 6,
+            },
+            samplings: if quick { 2 } else { 6 },
         }
     }
 
@@ -398,11 +407,11 @@ impl Question {
         let (name, monomers) = &self.shares[self.default - 1];
         let less = || Setting::of(monomers.clone(), RodLaw::Fitted);
         let (mut cheap, mut coarse) = (less(), less());
-        (cheap.segment_nm, cheap.bonds) = (5.0, 32);
+        (cheap.segment_nm, cheap.bonds) = (5.0, 8);
         (coarse.segment_nm, coarse.attached) = (20.0, 1);
         let combined = Factor::Combination;
         let mixed = vec![
-            (combined, "segments-5+bonds-32".into(), cheap),
+            (combined, "segments-5+bonds-8".into(), cheap),
             (combined, "segments-20+one-attached".into(), coarse),
         ];
         let mut fine = Setting::of(Vec::new(), RodLaw::Fitted);
@@ -419,7 +428,7 @@ impl Question {
     }
 }
 
-/// A setting with other numbers of bonds.
+/// A setting with other numbers of weighted bonds.
 fn fewer_bonds(setting: &Setting) -> Vec<Varied> {
     let with = |bonds| Setting {
         bonds,

@@ -12,12 +12,12 @@ fn study(name: &str, settings: &[&str]) -> study::Study {
     study
 }
 
-/// The reference is its own: a comparison that mixed up samplings or settings would show. Every number
+/// The reference is its own: a comparison that mixed up azimuths or settings would show. Every number
 /// is finite, and the front holds the reference, which nothing beats in accuracy.
 #[test]
 fn the_reference_has_no_error() {
     let mut study = study("twist", &["none/Constant", "middle-37/Fitted"]);
-    study.seeds = 2;
+    study.samplings = 2;
     let rows = statics::rows(&study).unwrap();
     let reference = &rows[0];
     let errors = [
@@ -56,7 +56,7 @@ fn the_committed_table_is_what_is_measured() {
         })
         .collect();
     assert_eq!(committed.len(), 1);
-    assert_eq!(committed[0].seeds, again.seeds);
+    assert_eq!(committed[0].azimuths, again.azimuths);
     for (a, b) in [
         (committed[0].displacement, again.displacement),
         (committed[0].energy, again.energy),

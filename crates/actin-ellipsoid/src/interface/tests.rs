@@ -6,15 +6,20 @@ use InterfaceKind::{Lateral, Longitudinal};
 
 /// Default parameters with many bonds, for statistics.
 fn with_bonds(bonds: usize) -> EllipsoidParameters {
-    let mut parameters = EllipsoidParameters::default();
-    parameters.lateral.bonds = bonds;
-    parameters.longitudinal.bonds = bonds;
+    EllipsoidParameters::drawn(bonds, 0)
+}
+
+/// Default parameters as they are without a shortest bond, with drawn bonds.
+fn without_shortest(bonds: usize, seed: u64) -> EllipsoidParameters {
+    let mut parameters = EllipsoidParameters::drawn(bonds, seed);
+    parameters.lateral.minimum_length = 0.0;
+    parameters.longitudinal.minimum_length = 0.0;
     parameters
 }
 
 /// The gap of an interface with the default parameters.
 fn gap(kind: InterfaceKind) -> Gap {
-    Gap::new(&EllipsoidParameters::default(), kind)
+    Gap::new(&without_shortest(1, 0), kind)
 }
 
 /// Bonds run along the line of centres, from surface to surface, and no further than they
@@ -104,7 +109,7 @@ fn sampled_bonds_fill_the_interface() {
     let e = (1.0 - (c / a).powi(2)).sqrt();
     let surface = std::f64::consts::TAU * (a * a + c * c / e * e.atanh());
     for kind in InterfaceKind::ALL {
-        let interface = Interface::draw(&with_bonds(20_000), kind, 0).unwrap();
+        let interface = Interface::draw(&without_shortest(20_000, 0), kind, 0).unwrap();
         let axis = interface.neighbour.offset.normalize();
         let slopes = interface.bonds.iter().map(|bond| {
             let normal = gap(kind).ellipsoid.normal(bond.lower);
@@ -121,7 +126,7 @@ fn sampled_bonds_fill_the_interface() {
 /// A bond limit below the gap leaves nothing: a typed error, not an endless loop.
 #[test]
 fn a_limit_below_the_gap_is_an_error() {
-    let mut parameters = EllipsoidParameters::default();
+    let mut parameters = without_shortest(64, 0);
     parameters.longitudinal.maximum_length = 0.05;
     let model = EllipsoidModel::new(parameters).unwrap();
     assert!(model.interface(Lateral, 0).is_ok());
@@ -151,7 +156,7 @@ fn a_limit_that_leaves_hardly_any_bonds_is_an_error() {
         .map(|bond| bond.rest_length)
         .collect();
     lengths.sort_by(f64::total_cmp);
-    let mut parameters = with_bonds(1000);
+    let mut parameters = without_shortest(1000, 0);
     parameters.lateral.maximum_length = lengths[20];
     let error = Interface::draw(&parameters, Lateral, 0).unwrap_err();
     let InterfaceError::FewBonds {
@@ -215,10 +220,7 @@ fn draws_are_keyed_by_kind_and_index() {
 /// between machines, hence the tolerance.
 #[test]
 fn anchors_are_those_of_the_first_release() {
-    let parameters = EllipsoidParameters {
-        seed: 7,
-        ..EllipsoidParameters::default()
-    };
+    let parameters = without_shortest(64, 7);
     for ((kind, index), (lower, upper, length)) in GOLDEN {
         let bond = Interface::draw(&parameters, kind, index).unwrap().bonds[0];
         assert!((bond.lower - Vector3::from(lower)).norm() < 1e-14);
@@ -279,3 +281,21 @@ const GOLDEN: [Golden; 3] = [
         ),
     ),
 ];
+
+/// Bonds below the shortest are drawn again: those that are left are the ones drawn without it, in the
+/// same order, and a length below all of them changes nothing.
+#[test]
+fn short_bonds_are_drawn_again() {
+    let draw = |shortest, bonds| {
+        let mut parameters = without_shortest(bonds, 5);
+        parameters.longitudinal.minimum_length = shortest;
+        Interface::draw(&parameters, Longitudinal, 3).unwrap().bonds
+    };
+    let lengths = |bonds: &[Bond]| bonds.iter().map(|b| b.rest_length).collect::<Vec<_>>();
+    let all = lengths(&draw(0.0, 500));
+    let least = all.iter().copied().fold(f64::INFINITY, f64::min);
+    assert_eq!(lengths(&draw(0.999 * least, 500)), all);
+    let long: Vec<f64> = all.iter().copied().filter(|l| *l >= 0.3).collect();
+    assert!(long.len() < all.len() && long.len() > 400);
+    assert_eq!(lengths(&draw(0.3, long.len())), long);
+}

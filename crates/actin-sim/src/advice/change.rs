@@ -294,7 +294,7 @@ fn write_errors(row: &Measured, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     if let Some(scatter) = row.scatter {
         write!(
             f,
-            " (samplings of the bonds scatter by {:.1} %",
+            " (filaments of 64 drawn bonds scatter by {:.1} %",
             100.0 * scatter
         )?;
         write!(f, "; measured on {})", row.scene)?;

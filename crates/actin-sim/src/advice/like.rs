@@ -16,7 +16,7 @@ const AZIMUTH_DEG: f64 = 4.0;
 
 /// Whether `scene` asks what `measured` asks, however it is resolved: the same ends held, the same
 /// loads, linkers and path within a tenth (forces within a factor of two), monomers and rods of the
-/// default parameters but for seed, azimuth and bonds. More than one filament was not measured.
+/// default parameters but for azimuth and number of bonds. More than one filament was not measured.
 pub(super) fn is_like(scene: &Scene, measured: &Scene) -> bool {
     scene.further.is_empty()
         && comes_to_rest(&scene.task)
@@ -135,7 +135,6 @@ fn has_default_models(scene: &Scene) -> bool {
     let filament = &scene.filament;
     let given = &filament.monomers;
     let default = Monomers {
-        seed: given.seed,
         azimuth_deg: given.azimuth_deg,
         lateral_bonds: given.lateral_bonds,
         longitudinal_bonds: given.longitudinal_bonds,

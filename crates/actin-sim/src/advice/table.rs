@@ -1,7 +1,7 @@
 //! What was measured: the rows behind the advice, one for each scene and setting.
 //!
 //! `measured.csv` is `advice.csv` as `cargo xtask tradeoff` writes it; errors are relative, rms over
-//! the samplings of bonds, against the same filament with every monomer resolved.
+//! azimuths of the lattice, against the same filament with every monomer resolved.
 
 use super::Setting;
 use crate::scene::{JunctionWeight, RodLaw, RodLaws};
@@ -28,8 +28,8 @@ pub struct Measured {
     pub weight: String,
     /// Monomers that a junction attaches to.
     pub attached: usize,
-    /// Samplings of the bonds.
-    pub seeds: usize,
+    /// Azimuths of the lattice.
+    pub azimuths: usize,
     /// Error of the displacement.
     pub displacement: Option<f64>,
     /// Error of the elastic energy.
@@ -40,7 +40,7 @@ pub struct Measured {
     pub torque: Option<f64>,
     /// Error of curvature or twist about the site of interest.
     pub local: Option<f64>,
-    /// Scatter of the displacement over samplings, fully resolved: sd over mean.
+    /// Scatter of the displacement over samplings of 64 drawn bonds, fully resolved: sd over mean.
     pub scatter: Option<f64>,
 }
 

@@ -297,9 +297,9 @@ mod tests {
             MOTION,
         );
         assert_eq!(mixed.work.elements, 5);
-        // 12 monomers with the outer held one: 11 lateral and 10 longitudinal interfaces of 64.
-        assert_eq!(mixed.work.bonds, 21 * 64);
-        assert!((mixed.bond_evaluations() - 4000.0 * 21.0 * 64.0).abs() < 1e-6);
+        // 12 monomers with the outer held one: 11 lateral and 10 longitudinal interfaces of 12.
+        assert_eq!(mixed.work.bonds, 21 * 12);
+        assert!((mixed.bond_evaluations() - 4000.0 * 21.0 * 12.0).abs() < 1e-6);
     }
 
     /// A held end leaves 6 points and 6 frames, each with two half steps in each of 1000 steps.

@@ -19,12 +19,7 @@ fn rod(length_nm: f64, segments: usize) -> Specimen {
 
 /// So many rises of monomers with 160 bonds per interface.
 fn monomers(rises: f64, seed: u64) -> Specimen {
-    let monomers = Monomers {
-        seed,
-        lateral_bonds: 160,
-        longitudinal_bonds: 160,
-        ..Monomers::default()
-    };
+    let monomers = Monomers::drawn(160, seed);
     Specimen::ellipsoids(rises * monomers.rise_nm, monomers)
 }
 
@@ -204,11 +199,15 @@ fn mixed_filaments_are_measured_like_any_other() {
             segments: Some(4),
         },
     ]));
-    let curve = twist(&mixed, &[60.0, 120.0]).unwrap();
-    for point in &curve.points {
+    let whole = Specimen::ellipsoids(80.0, Monomers::default());
+    let turns = [40.0, 80.0];
+    let curve = twist(&mixed, &turns).unwrap();
+    let softer = twist(&whole, &turns).unwrap();
+    for (point, monomers) in curve.points.iter().zip(&softer.points) {
         assert!((point.torque_pn_nm + point.near_torque_pn_nm).abs() < 1e-5);
-        // Between the monomers' secant at these curvatures and the rod's, both read above.
-        assert!(point.rigidity_pn_nm2 > 7e3 && point.rigidity_pn_nm2 < 1.3e4);
+        // Stiffer than monomers alone, whose secant grows with the twist, softer than the rod.
+        assert!(point.rigidity_pn_nm2 > monomers.rigidity_pn_nm2);
+        assert!(point.rigidity_pn_nm2 < 1.3e4);
         assert!(point.evidence.is_stable() && point.relative_length_change < 0.0);
     }
     let bent = bend_by_couples(&mixed, &[0.01], 0.0).unwrap();

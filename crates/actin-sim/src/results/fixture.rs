@@ -10,7 +10,7 @@ const CLAMPED_START: &str = r#"Scene(
     filament: Filament(sections: [
         Ellipsoids(from_nm: 0.0, to_nm: 12.0),
         Rod(from_nm: 12.0, to_nm: 42.0, segments: 3),
-    ], monomers: Monomers(seed: 18446744073709551615)),
+    ], monomers: Monomers(anchors: Independent, seed: 18446744073709551615)),
     clamps: [Clamp(end: Start)],
     loads: [EndForce(end: End, force_pn: (2.0, -1.0, 0.5))],
     task: Dynamics(duration_ns: 1.0),

@@ -227,8 +227,10 @@ mod tests {
         assert_eq!(bonds("anchors: Identical, lateral_bonds: 20"), (20, 64));
         assert_eq!(bonds("anchors: Cubature"), (12, 12));
         assert_eq!(bonds("anchors: Cubature, longitudinal_bonds: 16"), (12, 16));
+        assert_eq!(bonds(""), (12, 12));
         assert_eq!(monomers(""), Monomers::default());
         assert_eq!(monomers("anchors: Cubature"), Monomers::weighted(12));
+        assert_eq!(Monomers::default(), Monomers::weighted(12));
         let drawn = "anchors: Independent, lateral_bonds: 9, longitudinal_bonds: 9, seed: 4";
         assert_eq!(monomers(drawn), Monomers::drawn(9, 4));
     }

@@ -201,26 +201,34 @@ fn check_monomers(m: &Monomers) -> Result<(), Problem> {
 }
 
 fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(), Problem> {
-    let (range, what) = match anchors {
-        Anchors::Independent | Anchors::Identical => (1..=MOST_BONDS_PER_INTERFACE, ""),
-        Anchors::Cubature => (FEWEST_POINTS..=MOST_POINTS, "weighted "),
+    let drawn = 1..=MOST_BONDS_PER_INTERFACE;
+    let (range, rule) = match anchors {
+        Anchors::Independent | Anchors::Identical => {
+            let rule = format!("an interface has 1 to {MOST_BONDS_PER_INTERFACE} bonds");
+            (drawn, rule)
+        }
+        Anchors::Cubature => {
+            let weighted = format!("{FEWEST_POINTS} to {MOST_POINTS} weighted bonds");
+            let rule = format!("an interface has {weighted}, or others with anchors: Independent");
+            (FEWEST_POINTS..=MOST_POINTS, rule)
+        }
     };
     if range.contains(&bonds) {
         return Ok(());
     }
-    let (fewest, most) = (range.start(), range.end());
     Err(Problem::new(
         format!("filament.monomers.{key}"),
         bonds,
-        format!("an interface has {fewest} to {most} {what}bonds"),
+        rule,
     ))
 }
 
-/// Both kinds of interface have the same shortest bond.
+/// Both kinds of interface have the same shortest bond. The default one is not to blame.
 fn check_shortest(monomers: &Monomers) -> Result<(), Problem> {
     let key = "filament.monomers.min_bond_nm";
     let shortest = monomers.min_bond_nm;
     non_negative(key, shortest)?;
+    let is_default = shortest.total_cmp(&Monomers::default().min_bond_nm).is_eq();
     for (longest_key, longest) in [
         ("lateral_max_bond_nm", monomers.lateral_max_bond_nm),
         (
@@ -228,6 +236,11 @@ fn check_shortest(monomers: &Monomers) -> Result<(), Problem> {
             monomers.longitudinal_max_bond_nm,
         ),
     ] {
+        if shortest >= longest && is_default {
+            let key = format!("filament.monomers.{longest_key}");
+            let rule = format!("must be greater than min_bond_nm = {shortest:?}");
+            return Err(Problem::new(key, show(longest), rule));
+        }
         if shortest >= longest {
             let rule = format!("must be less than {longest_key} = {longest:?}");
             return Err(Problem::new(key, show(shortest), rule));
