@@ -39,7 +39,8 @@ const STEPS: [Step; 5] = [
     },
     Step {
         purpose: "benches build",
-        arguments: &["bench", "--workspace", "--no-run"],
+        // In the profile of the tests, which build the same libraries.
+        arguments: &["test", "--workspace", "--benches", "--no-run"],
         variable: None,
     },
     Step {
