@@ -19,8 +19,8 @@ pub(super) struct Plan {
     pub moving: bool,
 }
 
-/// Bonds per interface of the numbers to compare with.
-const PROTOTYPE_BONDS: usize = 32;
+/// Bonds per interface of the earlier calculation.
+const EARLIER_BONDS: usize = 32;
 
 impl Plan {
     pub(super) fn eight(quick: bool) -> Self {
@@ -56,7 +56,7 @@ impl Plan {
             hold,
             bonds,
         };
-        let (bonds, fewer) = (DEFAULT_BONDS, PROTOTYPE_BONDS);
+        let (bonds, fewer) = (DEFAULT_BONDS, EARLIER_BONDS);
         match self.figure {
             Figure::Eight => vec![
                 ("", group(false, Hold::TwoNodesAndFrame, bonds)),

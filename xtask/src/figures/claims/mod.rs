@@ -1,17 +1,14 @@
 //! What the paper claims in words, as measured quantities with a verdict.
 //!
-//! Every claim is computed from rows of its artefact; a claim whose rows a run does not have
-//! (`--quick` follows no motion) is left out. Claims that need more than rows are with their recipes.
+//! Bounds follow the rule of [`super::bounds`]. Every claim is computed from rows of its artefact; a claim
+//! whose rows a run does not have (`--quick` follows no motion) is left out. Claims that need more than
+//! rows are with their recipes. A claim is judged once, on the paper's own model.
 
 mod bending;
 mod parameters;
 mod twisting;
 
 use super::report::{Origin, Row};
-
-/// Share by which two numbers differ where the paper itself speaks of a difference: the halves of
-/// Figure 7.
-const A_DIFFERENCE: f64 = 0.1;
 
 /// The claims on an artefact with these rows.
 pub(super) fn rows(id: &'static str, rows: &[Row]) -> Vec<Row> {

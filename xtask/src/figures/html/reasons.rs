@@ -30,10 +30,7 @@ impl Cause {
             Self::Models => {
                 format!("{count} concern{s} statements that the models here do not bear out")
             }
-            Self::Elsewhere => format!(
-                "{count} concern{s} expectations from outside the paper (an earlier, independent \
-                 calculation, or a bound set for this page)"
-            ),
+            Self::Elsewhere => format!("{count} concern{s} bounds that were set for this page"),
         }
     }
 }
@@ -64,8 +61,35 @@ pub(super) fn of(row: &Row) -> Option<&'static Reason> {
     REASONS.iter().find(|reason| reason.covers(row))
 }
 
+/// Misses without a reason, and reasons without a miss in an artefact that was computed, a line each.
+pub(in crate::figures) fn unexplained(rows: &[Row]) -> Vec<String> {
+    let missed: Vec<&Row> = rows.iter().filter(|row| row.pass == Some(false)).collect();
+    let mut all = Vec::new();
+    for row in &missed {
+        let count = REASONS.iter().filter(|reason| reason.covers(row)).count();
+        if count != 1 {
+            let Row {
+                artefact, quantity, ..
+            } = row;
+            all.push(format!(
+                "{artefact}:{quantity} is missed and has {count} reasons"
+            ));
+        }
+    }
+    let is_run = |reason: &&Reason| rows.iter().any(|row| row.artefact == reason.artefact);
+    for reason in REASONS.iter().filter(is_run) {
+        if !missed.iter().any(|row| reason.covers(row)) {
+            let Reason {
+                artefact, title, ..
+            } = reason;
+            all.push(format!("{artefact}: nothing is missed for: {title}"));
+        }
+    }
+    all
+}
+
 /// In the order in which they are told: what concerns most of the paper first.
-pub(super) const REASONS: [Reason; 10] = [
+pub(super) const REASONS: [Reason; 13] = [
     Reason {
         artefact: "fig4",
         quantities: &["claim/printed_deflection", "tip_drop/preceding-paper/rod"],
@@ -135,27 +159,67 @@ pub(super) const REASONS: [Reason; 10] = [
                Only at rest is next to nothing left in a long one (b3/length-109/under/rest).",
     },
     Reason {
+        artefact: "table4",
+        quantities: &["b1/cantilever"],
+        cause: Cause::Paper,
+        title: "At the force that the paper names its own formula for the bending rigidity does not hold",
+        text: "The paper takes B1 from the deflection of a cantilever, F L^3 / 3 Delta, and names 2 pN and 160 \
+               nm. The tip then goes more than a third of the length to the side, where the formula for small \
+               deflections reads too much: of the same deflection the exact theory reads less (row \
+               b1/cantilever/elastica). End couples of 0.01 rad/nm read what the paper prints (row b1), to \
+               the tolerance that is stated there.",
+    },
+    Reason {
+        artefact: "table4",
+        quantities: &[
+            "persistence_length_um/thermal",
+            "persistence_length_unscaled_um/thermal",
+        ],
+        cause: Cause::Models,
+        title: "At room temperature monomers are stiffer than their rigidity without heat",
+        text: "The paper turns a rigidity measured on a filament at rest into a persistence length. Moved by \
+               heat, monomers bend less than that, with and without the factor 1.4: directions in which \
+               they move freely at rest stiffen the filament once they are warm. Both lengths are in the range of \
+               8 to 20 um that is measured (row claim/persistence_thermal).",
+    },
+    Reason {
+        artefact: "table1",
+        quantities: &["rise_per_strand_step"],
+        cause: Cause::Paper,
+        title: "The printed rise and the printed period do not belong together",
+        text: "26 monomers in 71.2 nm rise by 5.477 nm every second monomer; 5.52 nm is printed, as the rise of \
+               every one. The simulations use the period.",
+    },
+    Reason {
+        artefact: "fig6",
+        quantities: &["claim/node_spread"],
+        cause: Cause::Models,
+        title: "On linkers all round shapes differ by a little more than the radius of the helix",
+        text: "The paper calls the agreement still good and gives no number; what is asked here is what Figure 5 \
+               meets. Shapes differ most where the filament is free to give way, and by how much depends on \
+               the random bonds (row node_spread/mean and its note).",
+    },
+    Reason {
+        artefact: "table4",
+        quantities: &[
+            "s3",
+            "persistence_length_um",
+            "persistence_length_unscaled_um",
+        ],
+        cause: Cause::Bonds,
+        title: "With bonds of no less than 0.20 nm filaments are 3 % softer than Table 4 says",
+        text: "Stretch and bending depend little on the random bonds, so that the tolerance is little more than \
+               the rounding. The shortest bond was chosen so that Tables 3, 4 and 5 are met best together, and \
+               costs this much in stretch and bending. The printed persistence length is not that of the printed \
+               bending rigidity either: 3.9e4 pN nm^2 are 9.5 um, and 9.8 um are printed.",
+    },
+    Reason {
         artefact: "table2",
         quantities: &["area/least", "area/most"],
         cause: Cause::Paper,
         title: "The printed cross-sections are twice those of the printed diameters",
         text: "Table 2 is said to follow from a filament 5 to 7 nm across. Circles so wide have half the \
                areas that are printed. The simulations use 38.5 nm^2, the circle of 7 nm.",
-    },
-    Reason {
-        artefact: "fig8",
-        quantities: &[
-            "couple/over/180/ellipsoids",
-            "couple/over/180/rod-40",
-            "couple/under/180/ellipsoids",
-            "couple/under/180/rod-40",
-        ],
-        cause: Cause::Elsewhere,
-        title: "Couples with 64 bonds an interface, beside an earlier calculation with 32",
-        text: "The paper prints no couples; the numbers compared with are those of an earlier, independent \
-               calculation in which 32 bonds join two monomers. Here they are 64, which makes monomers \
-               stiffer in twist, so that couples are larger where much of the filament is monomers. \
-               With 32 bonds all couples agree (rows bonds-32/couple/...).",
     },
     Reason {
         artefact: "fig10",
@@ -166,15 +230,6 @@ pub(super) const REASONS: [Reason; 10] = [
                pure rod included, and these two are the farthest apart; the mixed filaments alone lie \
                within 0.6 nm (see the note). The extended rod still takes most of the spread away (row \
                claim/height_improves/over/270).",
-    },
-    Reason {
-        artefact: "fig10",
-        quantities: &["standard/height_spread/over/180"],
-        cause: Cause::Elsewhere,
-        title: "Constant rods spread a little less than an earlier calculation led to expect",
-        text: "The paper gives no number. At least 5 nm between monomers and rod was expected from an \
-               earlier, independent calculation with 32 bonds between two monomers; with the 64 of this \
-               page monomers are stiffer in twist and nearer to the rod.",
     },
 ];
 
@@ -189,15 +244,12 @@ mod tests {
     #[test]
     fn every_miss_has_its_reason() {
         let rows = report::read(&workspace_root().join("docs/report.json")).unwrap();
-        let missed: Vec<&Row> = rows.iter().filter(|row| row.pass == Some(false)).collect();
-        for row in &missed {
-            let count = REASONS.iter().filter(|reason| reason.covers(row)).count();
-            assert_eq!(count, 1, "{} {}", row.artefact, row.quantity);
-        }
-        for reason in &REASONS {
-            let has_one = missed.iter().any(|row| reason.covers(row));
-            assert!(has_one, "nothing is missed for: {}", reason.title);
-        }
+        let open = unexplained(&rows);
+        assert!(open.is_empty(), "{}", open.join("\n"));
+        let miss = |quantity| Row::measured("fig1", quantity, "nm", 1.0, "").against(2.0, 0.5);
+        let told = unexplained(&[miss("a"), miss("b")]);
+        assert_eq!(told.len(), 2);
+        assert_eq!(told[1], "fig1:b is missed and has 0 reasons");
     }
 
     /// A name covers itself and, with a slash at its end, what lies below. Symptom of a bare prefix: 10

@@ -9,6 +9,7 @@ mod parameters;
 mod pictures;
 mod rigidities;
 mod statistics;
+mod thermal;
 mod twisted;
 
 pub(super) use parameters::{table1, table2};
