@@ -62,7 +62,15 @@ pub(crate) fn write_quick(rows: &[Row]) -> Result<(), String> {
     };
     let ours: BTreeSet<&str> = rows.iter().map(|row| row.artefact).collect();
     all.retain(|(artefact, _), _| !ours.contains(artefact.as_str()));
-    all.extend(by_name(rows.to_vec()));
+    // Notes are long and not compared.
+    all.extend(by_name(
+        rows.iter()
+            .map(|row| Row {
+                note: String::new(),
+                ..row.clone()
+            })
+            .collect(),
+    ));
     println!("written: {COMMITTED}");
     save(&path, &report::text(all.into_values().collect())?)
 }
