@@ -37,7 +37,13 @@ pub(super) fn write(page: &mut String, artefacts: &[Artefact]) {
     if lines.is_empty() {
         return;
     }
-    page.push_str("<h2>What agrees</h2>\n<details><summary>What decides: one rule for all figures</summary><dl>");
+    page.push_str(
+        "<h2>What agrees</h2>\n<p>One rule decides in all figures and tables. A printed number is met \
+         within half a unit of its last digit and, where bonds are drawn, twice the standard deviation of a \
+         single filament; shapes called alike within 1.8 nm, the radius of the helix; numbers called alike \
+         within 10 %, which the paper calls a difference itself; an order by its sign.</p>\n\
+         <details><summary>The rule in full, and what is not judged</summary><dl>",
+    );
     for (of, bound) in RULE {
         let (of, bound) = (escape(of), escape(bound));
         push(page, format_args!("<dt>{of}</dt><dd>{bound}.</dd>"));
