@@ -43,7 +43,10 @@ fn is_in_full(row: &Row) -> bool {
     let quantity = row.quantity.as_str();
     let is_rod = quantity.ends_with("/rod") && !quantity.starts_with("in_plane");
     match row.artefact {
-        "table1" | "table2" | "fig9" => true,
+        "table1" | "table2" => true,
+        "fig9" => ["p/", "lambda/", "b3_rms/", "xi_rms/"]
+            .iter()
+            .any(|path| quantity.starts_with(path)),
         "table3" | "table5" => quantity.contains("/seed-0/") || quantity == "printed_length",
         "table4" => quantity.starts_with("printed/") || quantity.starts_with("s_p"),
         "fig5" | "fig6" => quantity.starts_with("energy/"),
