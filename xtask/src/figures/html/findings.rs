@@ -41,8 +41,8 @@ const FINDINGS: [Finding; 16] = [
     Finding {
         artefact: "fig4",
         quantities: &["claim/tips_overlap"],
-        stands: "tips of mixed cantilevers of every resolution lie within 1.8 nm of each other (Figure 4)",
-        fails: "that tips of mixed cantilevers of every resolution lie within 1.8 nm of each other (Figure 4)",
+        stands: "tips of mixed cantilevers of every resolution lie within 1.8 nm (Figure 4)",
+        fails: "that tips of mixed cantilevers of every resolution lie within 1.8 nm (Figure 4)",
     },
     Finding {
         artefact: "fig4",

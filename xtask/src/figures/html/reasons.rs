@@ -161,7 +161,7 @@ pub(super) const REASONS: [Reason; 13] = [
         quantities: &["b1/cantilever"],
         cause: Cause::Paper,
         title: "At the force that the paper names its own formula for the bending rigidity does not hold",
-        text: "The paper takes B1 from the deflection of a cantilever, F L^3 / 3 Delta, and names 2 pN and 160 \
+        text: "The paper takes B1 from the deflection of a cantilever, F L^3 over 3 Delta, and names 2 pN and 160 \
                nm. The tip then goes more than a third of the length to the side, where the formula for small \
                deflections reads too much: of the same deflection the exact theory reads less (row \
                b1/cantilever/elastica). End couples of 0.01 rad/nm read what the paper prints (row b1), to \
