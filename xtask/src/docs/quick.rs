@@ -183,7 +183,10 @@ mod tests {
             )]
         );
         assert_eq!(moved(39.4, 0.1).len(), 1);
-        assert_eq!(against_quick(&[height.clone()], &committed).len(), 1);
+        assert_eq!(
+            against_quick(std::slice::from_ref(&height), &committed).len(),
+            1
+        );
         let more = [height, row("fig8", "force", 16.0), row("fig8", "new", 1.0)];
         assert_eq!(against_quick(&more, &committed).len(), 1);
     }
