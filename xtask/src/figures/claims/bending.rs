@@ -5,7 +5,7 @@ use crate::figures::bounds::{A_DIFFERENCE, SHAPE_NM};
 use crate::figures::report::Row;
 
 /// Exact inextensible elastica of 160 nm under 2 pN with B = 3.9e4 pN nm^2 (nm).
-const ELASTICA_NM: f64 = 59.8;
+pub(super) const ELASTICA_NM: f64 = 59.8;
 /// Force (pN), length (nm), E (pN/nm^2) and I (nm^4) of the deflection that Section 4.1 computes.
 const PRINTED: [f64; 4] = [2.0, 160.0, 2000.0, 120.0];
 
