@@ -1,7 +1,8 @@
 //! Numbers to compare with, where the paper prints none: those of an independent prototype (Newton
 //! statics, 32 independent bonds per interface, weight `Shared`).
 
-use super::case::{Figure, Resolved};
+use super::case::Resolved;
+use super::group::Figure;
 
 /// Rods with two nodes and a frame held, constant rigidities: (resolution, height in nm, couple
 /// in pN nm) over-twisted by 180 deg.
