@@ -13,32 +13,61 @@ use std::path::Path;
 const PUBLISHED: usize = 0;
 const SAME_FORM: usize = 1;
 const SMALLEST: usize = 3;
+/// Our own filaments: samplings, and the mean filament.
+const DRAWN: usize = 2;
+const MEAN: usize = 4;
 /// Points of a curve.
 const CURVE: i32 = 300;
+
+/// Numbers to be drawn beside what is fitted.
+pub(crate) struct Beside<'a> {
+    pub data: &'a TwistData,
+    /// Whether they are drawn as dots instead of a line.
+    pub dots: bool,
+}
 
 /// Writes `figure-9a.svg` and `figure-9b.svg`; returns their names and captions.
 pub(crate) fn draw(
     data: &TwistData,
     fits: &TwistFits,
+    beside: &[Beside<'_>],
     out: &Path,
 ) -> Result<Vec<(String, String)>, String> {
     let mut pictures = Vec::new();
-    for (chart, file, what) in [
+    let columns: [(_, _, _, fn(&TwistData) -> &Column, f64); 2] = [
         (
             rigidity(data, fits),
             "figure-9a.svg",
             "Secant twisting rigidity",
+            |data| &data.rigidity,
+            1e-3,
         ),
         (
             length(data, fits),
             "figure-9b.svg",
             "Relative change of length",
+            |data| &data.length,
+            100.0,
         ),
-    ] {
+    ];
+    for (mut chart, file, what, column, scale) in columns {
+        let others = beside.iter().map(|other| Series {
+            colour: palette::line(if other.dots { DRAWN } else { MEAN }),
+            dots: other.dots,
+            ..dots(column(other.data), &other.data.source, scale)
+        });
+        let label = if beside.is_empty() { "data" } else { "paper" };
+        chart.series.push(dots(column(data), label, scale));
+        chart.series.extend(others);
         draw_chart(&chart, &out.join(file))?;
         let caption = format!(
-            "{what} against twist, with three fits. Data: {}.",
-            data.source
+            "{what} against twist, with three fits. Data: {}.{}",
+            data.source,
+            if beside.is_empty() {
+                ""
+            } else {
+                " Our own monomers, measured in this run, are not fitted."
+            }
         );
         pictures.push((file.to_owned(), caption));
     }
@@ -63,7 +92,6 @@ fn rigidity(data: &TwistData, fits: &TwistFits) -> Chart<'static> {
             curve("saturating to either side", SMALLEST, range, |k| {
                 1e-3 * sided.secant(k)
             }),
-            dots(&data.rigidity, "data", 1e-3),
         ],
         equal_axes: false,
     }
@@ -85,7 +113,6 @@ fn length(data: &TwistData, fits: &TwistFits) -> Chart<'static> {
                 100.0 * polynomial.extension(k)
             }),
             curve("two slopes", SMALLEST, range, |k| 100.0 * rooted.jet(k)[0]),
-            dots(&data.length, "data", 100.0),
         ],
         equal_axes: false,
     }

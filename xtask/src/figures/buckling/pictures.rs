@@ -92,8 +92,8 @@ fn caption(figure: Figure, panel: &str) -> String {
     match panel {
         "plane" => format!(
             "Centre lines, drawn bonds (seed 0), {}; every filament is turned about the axis until its \
-             own plane of buckling lies in the page. {} Black: the mean filament, all monomers. The \
-             scales of the two axes differ.",
+             own plane of buckling lies in the page. {} Black: the mean filament, all \
+             monomers. The scales of the two axes differ.",
             rods(figure),
             palette::chosen().ends()
         ),
@@ -168,7 +168,7 @@ fn view(
         ..plan.main()
     };
     let mean = results.of(Case::new(group, Resolved::Ellipsoids, turn, 0));
-    let mean = mean.map(|outcome| line(outcome, group.words().into(), group.colour()));
+    let mean = mean.map(|outcome| line(outcome, "mean, ellipsoids".into(), group.colour()));
     drawn.chain(mean).collect()
 }
 

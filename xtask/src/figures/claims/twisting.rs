@@ -35,7 +35,7 @@ fn height_grows(known: &Known<'_>, model: &str, direction: &str) -> Option<Row> 
          which the height (nm) grows: {}",
         listed(&heights)
     );
-    let quantity = format!("{model}height_grows_with_rod/{direction}/180");
+    let quantity = format!("height_grows_with_rod/{model}{direction}/180");
     let holds = Holds::AtLeast(1.0);
     (values.len() > 1).then(|| known.claim(&quantity, "", rising(&values), holds, note))
 }
@@ -63,7 +63,7 @@ fn improves(known: &Known<'_>, model: &str, observable: &str, turn: &str) -> Opt
         "the extended rod improves the agreement between resolutions; spread of the {observable} \
          over that with constant rigidities, {extended:.3} over {standard:.3}"
     );
-    let quantity = format!("{model}{observable}_improves/{turn}");
+    let quantity = format!("{observable}_improves/{model}{turn}");
     let ratio = extended / standard;
     Some(known.claim(&quantity, "", ratio, Holds::AtMost(1.0), note))
 }
