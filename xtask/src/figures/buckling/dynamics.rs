@@ -50,7 +50,13 @@ pub(super) fn cases(plan: &Plan) -> Vec<Case> {
 pub(super) fn run(case: &Case) -> Result<Motion, String> {
     let fail = |error: &dyn std::fmt::Display| format!("{}: dynamics: {error}", case.name());
     let mut scene = case.scene()?;
-    scene.task = Task::Dynamics(dynamics(LONGEST_NS));
+    scene.task = Task::Dynamics(dynamics(
+        LONGEST_NS,
+        Drag {
+            translational_per_ns: DRAG_PER_NS,
+            rotational_per_ns: DRAG_PER_NS,
+        },
+    ));
     let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
     let watch = &mut |_| ControlFlow::Continue(());
     let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
@@ -70,17 +76,14 @@ pub(super) fn run(case: &Case) -> Result<Motion, String> {
 }
 
 /// Damped motion of at most so many ns.
-pub(super) fn dynamics(duration_ns: f64) -> Dynamics {
+pub(super) fn dynamics(duration_ns: f64, drag: Drag) -> Dynamics {
     Dynamics {
         duration_ns,
         integrator: Integrator::PositionVerlet,
         time_step_ns: None,
         step_safety: 0.9,
         allow_unstable_step: false,
-        drag: Drag {
-            translational_per_ns: DRAG_PER_NS,
-            rotational_per_ns: DRAG_PER_NS,
-        },
+        drag,
         thermal: None,
         stop: Some(StopRule {
             force_pn: STOP,

@@ -112,8 +112,10 @@ impl Group {
     /// In legends, what tells it from the first group of its figure.
     pub(super) fn words(self) -> &'static str {
         let main = Self::main(self.figure);
-        if self.mean {
-            return "mean filament";
+        match self.rods {
+            Rods::PaperBalance => return "balance as printed, mean filament",
+            _ if self.mean => return "mean filament",
+            _ => {}
         }
         if self.weight != main.weight {
             return "junction as printed";
@@ -123,10 +125,9 @@ impl Group {
         }
         match (self.figure, self.rods) {
             (Figure::Eight, _) => "drawn bonds",
-            (Figure::Ten, Rods::Extended) => "drawn bonds, B3(kappa), xi(kappa)",
             (Figure::Ten, Rods::Constant) => "constant rigidities",
-            (Figure::Ten, Rods::PaperBalance) => "balance as printed",
             (Figure::Ten, Rods::CouplingEnergy) => "C3 energy",
+            (Figure::Ten, _) => "drawn bonds, B3(kappa), xi(kappa)",
         }
     }
 
@@ -135,14 +136,14 @@ impl Group {
         let main = Self::main(self.figure);
         match self {
             group if group == main => palette::line(3),
+            group if group.rods == Rods::PaperBalance => palette::line(0),
             group if group.mean => palette::DATA,
             group if group.hold != main.hold => palette::LIGHT_GREY,
             group if group.weight != main.weight => palette::line(0),
             group => match group.rods {
                 Rods::Constant => palette::line(1),
                 Rods::CouplingEnergy => palette::line(2),
-                Rods::PaperBalance => palette::line(0),
-                Rods::Extended => palette::GREY,
+                _ => palette::GREY,
             },
         }
     }
