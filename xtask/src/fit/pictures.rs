@@ -26,6 +26,15 @@ pub(crate) struct Beside<'a> {
     pub dots: bool,
 }
 
+/// One of the two pictures: its curves, and the column that it shows, in the unit of its axis.
+struct Panel {
+    chart: Chart<'static>,
+    file: &'static str,
+    what: &'static str,
+    column: fn(&TwistData) -> &Column,
+    scale: f64,
+}
+
 /// Writes `figure-9a.svg` and `figure-9b.svg`; returns their names and captions.
 pub(crate) fn draw(
     data: &TwistData,
@@ -33,45 +42,57 @@ pub(crate) fn draw(
     beside: &[Beside<'_>],
     out: &Path,
 ) -> Result<Vec<(String, String)>, String> {
-    let mut pictures = Vec::new();
-    let columns: [(_, _, _, fn(&TwistData) -> &Column, f64); 2] = [
-        (
-            rigidity(data, fits),
-            "figure-9a.svg",
-            "Secant twisting rigidity",
-            |data| &data.rigidity,
-            1e-3,
-        ),
-        (
-            length(data, fits),
-            "figure-9b.svg",
-            "Relative change of length",
-            |data| &data.length,
-            100.0,
-        ),
+    let panels = [
+        Panel {
+            chart: rigidity(data, fits),
+            file: "figure-9a.svg",
+            what: "Secant twisting rigidity",
+            column: |data| &data.rigidity,
+            scale: 1e-3,
+        },
+        Panel {
+            chart: length(data, fits),
+            file: "figure-9b.svg",
+            what: "Relative change of length",
+            column: |data| &data.length,
+            scale: 100.0,
+        },
     ];
-    for (mut chart, file, what, column, scale) in columns {
+    let pictures = panels.into_iter();
+    pictures
+        .map(|panel| panel.draw(data, beside, out))
+        .collect()
+}
+
+impl Panel {
+    /// Draws the data and what stands beside them over the curves; returns file and caption.
+    fn draw(
+        mut self,
+        data: &TwistData,
+        beside: &[Beside<'_>],
+        out: &Path,
+    ) -> Result<(String, String), String> {
+        let (label, more) = if beside.is_empty() {
+            ("data", "")
+        } else {
+            (
+                "paper",
+                " Our own monomers, measured in this run, are not fitted.",
+            )
+        };
+        let given = dots((self.column)(data), label, self.scale);
         let others = beside.iter().map(|other| Series {
             colour: palette::line(if other.dots { DRAWN } else { MEAN }),
             dots: other.dots,
-            ..dots(column(other.data), &other.data.source, scale)
+            ..dots((self.column)(other.data), &other.data.source, self.scale)
         });
-        let label = if beside.is_empty() { "data" } else { "paper" };
-        chart.series.push(dots(column(data), label, scale));
-        chart.series.extend(others);
-        draw_chart(&chart, &out.join(file))?;
-        let caption = format!(
-            "{what} against twist, with three fits. Data: {}.{}",
-            data.source,
-            if beside.is_empty() {
-                ""
-            } else {
-                " Our own monomers, measured in this run, are not fitted."
-            }
-        );
-        pictures.push((file.to_owned(), caption));
+        self.chart.series.push(given);
+        self.chart.series.extend(others);
+        draw_chart(&self.chart, &out.join(self.file))?;
+        let (what, source) = (self.what, &data.source);
+        let caption = format!("{what} against twist, with three fits. Data: {source}.{more}");
+        Ok((self.file.to_owned(), caption))
     }
-    Ok(pictures)
 }
 
 fn rigidity(data: &TwistData, fits: &TwistFits) -> Chart<'static> {

@@ -1,7 +1,7 @@
 //! What our own filaments of monomers show of twist, for Figure 9: the numbers of Tables 3 and 5.
 
 use super::ensemble::{Ensemble, Kind, core};
-use super::paper::{Table, entries};
+use super::paper::{Entry, Table, entries};
 use crate::figures::Run;
 use crate::fit::TwistData;
 
@@ -23,7 +23,7 @@ pub(in crate::figures) fn monomers(run: Run<'_>) -> Result<[TwistData; 2], Strin
 fn of(ensemble: &Ensemble, kind: Kind, source: String) -> Result<TwistData, String> {
     let column = |table| -> Result<Vec<(f64, f64)>, String> {
         let all = entries(table)?.into_iter();
-        let reliable = all.filter(|entry| entry.is_reliable());
+        let reliable = all.filter(Entry::is_reliable);
         let points = reliable.map(|e| (e.curvature, ensemble.sample(kind, &e, table).mean));
         Ok(points.collect())
     };

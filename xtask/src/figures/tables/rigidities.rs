@@ -60,15 +60,13 @@ fn rigidities(measured: &Measured, ensemble: &Ensemble, kind: Kind) -> Result<Ve
 
 /// The mean filament is ours: it stands beside the paper's numbers under a path of its own, without a
 /// verdict and so without a tolerance.
-fn of_mean_filament(row: Row) -> Row {
-    let note = row.note.split("; tolerance").next().unwrap_or_default();
-    Row {
-        quantity: format!("{}/{}", Kind::MEAN.name(), row.quantity),
-        note: note.to_owned(),
-        tolerance: None,
-        pass: None,
-        ..row
+fn of_mean_filament(mut row: Row) -> Row {
+    if let Some(tolerance) = row.note.find("; tolerance") {
+        row.note.truncate(tolerance);
     }
+    row.quantity = format!("{}/{}", Kind::MEAN.name(), row.quantity);
+    (row.tolerance, row.pass) = (None, None);
+    row
 }
 
 fn settings(measured: &Measured) -> String {
