@@ -1,9 +1,9 @@
 //! Figure 9: how twisting rigidity and length depend on twist, fitted.
 
-use super::Run;
 use super::bounds::CROSS_CHECK;
 use super::report::{Artefact, Origin, Picture, Row};
-use crate::fit::{TwistData, TwistFits, draw};
+use super::{Run, tables};
+use crate::fit::{Beside, TwistData, TwistFits, draw, rms};
 use actin_cosserat::{PolynomialStretch, TanhTwist};
 use std::time::Instant;
 
@@ -12,22 +12,28 @@ const ID: &str = "fig9";
 const PUBLISHED_B3_RMS: &str = "349";
 
 /// Fits the paper's rows and draws data, published and fitted curves.
-pub(super) fn reproduce(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
+pub(super) fn reproduce(run: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
     let data = TwistData::from_paper(false)?;
     let fits = TwistFits::new(&data)?;
-    let pictures = draw(&data, &fits, out)?;
+    let [drawn, mean] = tables::monomers(run)?;
+    let beside = [(&drawn, true), (&mean, false)].map(|(data, dots)| Beside { data, dots });
+    let pictures = draw(&data, &fits, &beside, run.out)?;
     let pictures = pictures.into_iter();
     let pictures = pictures.map(|(file, caption)| Picture { file, caption });
     let mut rows = rigidity_rows(&fits);
     rows.extend(length_rows(&fits));
     rows.extend(polynomial_rows(&fits));
     rows.extend(lambda_rows(&fits));
+    for (name, ours) in [("monomers", &drawn), ("mean-filament", &mean)] {
+        rows.extend(monomer_rows(name, ours, &data));
+    }
     Ok(Artefact {
         id: ID,
         title: "Twisting rigidity and change of length against twist, fitted",
         settings: format!(
-            "Least squares on {}; {} starts for each nonlinear fit.",
+            "Least squares on {}; {} starts for each nonlinear fit. Beside them our own filaments of \
+             Tables 3 and 5: 64 drawn bonds per interface, and the mean filament.",
             data.source,
             fits.tanh.fit.starts.len()
         ),
@@ -134,4 +140,30 @@ fn lambda_rows(fits: &TwistFits) -> Vec<Row> {
         .beside(paper, Origin::Derived)
     });
     rows.collect()
+}
+
+/// How far our own monomers are from the paper's rows, and from its laws.
+fn monomer_rows(name: &str, ours: &TwistData, paper: &TwistData) -> Vec<Row> {
+    let of = &ours.source;
+    let row = |quantity: &str, unit, value, from: &str| {
+        let note = format!("{of}; root mean square difference from {from}, to 200 deg");
+        Row::measured(ID, format!("{name}/{quantity}"), unit, value, note)
+    };
+    // Both columns hold the paper's curvatures in the same order.
+    let differences = |ours: &[f64], theirs: &[f64]| {
+        let squares = ours.iter().zip(theirs).map(|(a, b)| (a - b).powi(2));
+        (squares.sum::<f64>() / ours.len() as f64).sqrt()
+    };
+    let (b3, xi) = (TanhTwist::published(), PolynomialStretch::published());
+    let (rows, law) = ("the paper's rows", "the published law");
+    let b3_rows = differences(&ours.rigidity.value, &paper.rigidity.value);
+    let b3_law = rms(&ours.rigidity, |k| b3.secant(k), false);
+    let xi_rows = differences(&ours.length.value, &paper.length.value);
+    let xi_law = rms(&ours.length, |k| xi.extension(k), false);
+    vec![
+        row("b3_rms", "pN nm^2", b3_rows, rows),
+        row("b3_rms/published", "pN nm^2", b3_law, law),
+        row("xi_rms", "", xi_rows, rows),
+        row("xi_rms/published", "", xi_law, law),
+    ]
 }

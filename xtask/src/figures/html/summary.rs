@@ -152,7 +152,7 @@ fn reading(page: &mut String, shades: &mut Shades) {
 }
 
 /// Parts of the names of quantities, and what they stand for.
-const NAMES: [(&str, &str); 19] = [
+const NAMES: [(&str, &str); 20] = [
     (
         "…/over/180, …/under/180",
         "over-twist or under-twist of the ends against each other, in degrees",
@@ -189,6 +189,16 @@ const NAMES: [(&str, &str); 19] = [
     (
         "standard",
         "rods with constant rigidities, beside those that follow their twist",
+    ),
+    (
+        "mean-filament",
+        "12 weighted bonds between two monomers that stand for all that could be drawn, with nothing left to \
+         chance",
+    ),
+    (
+        "coupling-energy, paper-balance",
+        "rods that follow their twist in the two other ways of the paper: by an energy of twist times \
+         stretch, and by its balance of forces as printed",
     ),
     (
         "fitted, fine",

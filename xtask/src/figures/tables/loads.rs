@@ -86,25 +86,28 @@ struct Bent {
 }
 
 impl Measured {
-    /// Measures 16 samplings in stretch, 8 in bending and shear; 4 and 2 if `quick`.
+    /// Measures 16 samplings in stretch, 8 in bending and shear; 4 and 2 if `quick`; one if nothing is
+    /// drawn.
     pub(super) fn run(
         Run {
             quick, progress, ..
         }: Run<'_>,
+        kind: Kind,
     ) -> Result<Self, String> {
         let (stretch_seeds, bend_seeds) = if quick { (4, 2) } else { (16, 8) };
-        let seeds: Vec<u64> = (0..stretch_seeds).collect();
-        let cases: Vec<(u64, f64)> = (0..bend_seeds)
+        let seeds: Vec<u64> = kind.seeds(stretch_seeds).collect();
+        let cases: Vec<(u64, f64)> = kind
+            .seeds(bend_seeds)
             .flat_map(|seed| AZIMUTHS_DEG.map(|azimuth| (seed, azimuth)))
             .collect();
         progress.expect(seeds.len() + cases.len());
         let stretched: Vec<Stretched> = seeds
             .into_par_iter()
-            .map(|seed| counted(progress, stretched(seed)))
+            .map(|seed| counted(progress, stretched(kind, seed)))
             .collect::<Result<_, _>>()?;
         let bent: Vec<Bent> = cases
             .into_par_iter()
-            .map(|(seed, azimuth)| counted(progress, bent(seed, azimuth)))
+            .map(|(seed, azimuth)| counted(progress, bent(kind, seed, azimuth)))
             .collect::<Result<_, _>>()?;
         let length = bent[0].couples.length_nm;
         let rod = Specimen::rod(length, None, RodModel::default());
@@ -153,8 +156,8 @@ impl Measured {
         }
     }
 
-    /// Writes every measured state.
-    pub(super) fn write(&self, out: &Path) -> Result<(), String> {
+    /// Writes every measured state into the file `name`.
+    pub(super) fn write(&self, out: &Path, name: &str) -> Result<(), String> {
         let header = [
             "protocol",
             "seed",
@@ -167,7 +170,7 @@ impl Measured {
             "saddles_left",
             "jumps",
         ];
-        write_csv(out, "table4_samplings.csv", &header, self.lines.clone())
+        write_csv(out, name, &header, self.lines.clone())
     }
 }
 
@@ -177,8 +180,8 @@ fn counted<T>(progress: &Progress, outcome: T) -> T {
     outcome
 }
 
-fn stretched(seed: u64) -> Result<Stretched, String> {
-    let monomers = Kind::DEFAULT.monomers(seed);
+fn stretched(kind: Kind, seed: u64) -> Result<Stretched, String> {
+    let monomers = kind.monomers(seed);
     let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
     Ok(Stretched {
         by_force: stretch_by_force(&specimen, &FORCES_PN).map_err(|e| e.to_string())?,
@@ -186,10 +189,10 @@ fn stretched(seed: u64) -> Result<Stretched, String> {
     })
 }
 
-fn bent(seed: u64, azimuth: f64) -> Result<Bent, String> {
-    let monomers: Monomers = Kind::DEFAULT.monomers(seed);
+fn bent(kind: Kind, seed: u64, azimuth: f64) -> Result<Bent, String> {
+    let monomers: Monomers = kind.monomers(seed);
     let specimen = Specimen::ellipsoids(BENT_RISES * monomers.rise_nm, monomers);
-    let cantilever = Specimen::ellipsoids(CANTILEVER_NM, Kind::DEFAULT.monomers(seed));
+    let cantilever = Specimen::ellipsoids(CANTILEVER_NM, kind.monomers(seed));
     let fail = |error: actin_sim::measure::MeasureError| error.to_string();
     Ok(Bent {
         seed,

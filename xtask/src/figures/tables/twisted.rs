@@ -33,7 +33,10 @@ fn reproduce(table: Table, run: Run<'_>) -> Result<Artefact, String> {
     for entry in &entries {
         rows.push(mean_row(table, ensemble, entry));
     }
-    rows.extend(entries.iter().filter_map(|e| seed_row(table, ensemble, e)));
+    for one in [DEFAULT_FILAMENT, MEAN_FILAMENT] {
+        let row = |entry| filament_row(table, ensemble, one, entry);
+        rows.extend(entries.iter().filter_map(row));
+    }
     rows.extend(entries.iter().map(|e| returning_row(table, ensemble, e)));
     rows.push(printed_length(table, &entries));
     for kind in ensemble.kinds() {
@@ -101,8 +104,9 @@ fn settings(ensemble: &Ensemble, entries: &[Entry]) -> String {
     format!(
         "30 monomers, two held at each end, 73.94 nm between the inner held ones; the far pair is \
          turned about the axis and slides along it only; secants at the printed curvatures. {} \
-         samplings of the bonds of each kind, seeds from 0; the mean is over those of the default kind, 64 \
-         independent bonds. Of the default kind {}. {unreached}",
+         samplings of the bonds of each drawn kind, seeds from 0; the mean is over those with 64 \
+         independent bonds. Of these {}. The mean filament has 12 weighted bonds at each interface that \
+         stand for all, and no seed. {unreached}",
         ensemble.seeds,
         doubts.describe()
     )
@@ -159,18 +163,32 @@ fn printed_length(table: Table, entries: &[Entry]) -> Row {
     }
 }
 
-/// The default filament itself.
-fn seed_row(table: Table, ensemble: &Ensemble, entry: &Entry) -> Option<Row> {
-    let points = ensemble.points(Kind::DEFAULT, entry);
+/// A filament without scatter: its kind, the name of its rows and what it is.
+type Filament = (Kind, &'static str, &'static str);
+const DEFAULT_FILAMENT: Filament = (Kind::DEFAULT, "seed-0/", "drawn bonds, seed 0");
+const MEAN_FILAMENT: Filament = (
+    Kind::MEAN,
+    "",
+    "mean filament: weighted bonds that stand for all, nothing drawn",
+);
+
+/// One filament itself, the first of its kind.
+fn filament_row(
+    table: Table,
+    ensemble: &Ensemble,
+    (kind, before, words): Filament,
+    entry: &Entry,
+) -> Option<Row> {
+    let points = ensemble.points(kind, entry);
     let (_, point) = points.iter().find(|(seed, _)| *seed == 0)?;
     let evidence = &point.evidence;
     let note = format!(
-        "default filament (seed 0); couple {:.3} pN nm, residual {:.1e} pN, {:?}",
+        "{words}; couple {:.3} pN nm, residual {:.1e} pN, {:?}",
         point.torque_pn_nm,
         evidence.residual_force_pn,
         evidence.stability()
     );
-    let quantity = path(table, "seed-0/", entry);
+    let quantity = of_kind(kind, path(table, before, entry));
     Some(Row {
         paper: Some(entry.value),
         origin: Some(Origin::Paper),
@@ -182,6 +200,14 @@ fn seed_row(table: Table, ensemble: &Ensemble, entry: &Entry) -> Option<Row> {
             note,
         )
     })
+}
+
+/// The mean filament has rows under a path of its own.
+fn of_kind(kind: Kind, quantity: String) -> String {
+    match kind {
+        Kind::MEAN => format!("{}/{quantity}", kind.name()),
+        _ => quantity,
+    }
 }
 
 /// The mean on the way back from the largest angle: where it differs there are two equilibria.
@@ -214,12 +240,17 @@ fn rms_row(table: Table, ensemble: &Ensemble, kind: Kind, entries: &[Entry]) -> 
         Table::Rigidity => ("relative difference", 1.0),
         Table::LengthChange => ("difference", rms(compared.iter().map(|entry| entry.value))),
     };
+    let (of, single) = match kind {
+        Kind::MEAN => ("the mean filament".to_owned(), String::new()),
+        _ => (
+            format!("the mean of {} samplings", ensemble.seeds),
+            single_rms(table, ensemble, kind, &compared),
+        ),
+    };
     let note = format!(
-        "rms {what} of the mean of {} samplings from the paper, 40 to 200 deg in both directions, \
-         mean {what} {:+.2e}; of a single sampling the rms is {}; {}",
-        ensemble.seeds,
+        "rms {what} of {of} from the paper, 40 to 200 deg in both directions, mean {what} \
+         {:+.2e}; {single}{}",
         sample(differences()).mean,
-        single_rms(table, ensemble, kind, &compared),
         ensemble.doubts(kind, &compared).describe()
     );
     let name = table.quantity();
@@ -227,7 +258,10 @@ fn rms_row(table: Table, ensemble: &Ensemble, kind: Kind, entries: &[Entry]) -> 
         let row = Row::measured(table.id(), format!("{name}_rms"), "", ours, note);
         return row.against(0.0, A_DIFFERENCE * scale).of(Origin::Bound);
     }
-    let quantity = format!("{name}_rms/{}", kind.name());
+    let quantity = match kind {
+        Kind::MEAN => of_kind(kind, format!("{name}_rms")),
+        _ => format!("{name}_rms/{}", kind.name()),
+    };
     Row::measured(table.id(), quantity, "", ours, note)
 }
 
@@ -238,7 +272,10 @@ fn single_rms(table: Table, ensemble: &Ensemble, kind: Kind, compared: &[Entry])
             .iter()
             .filter_map(|entry| Some(table.difference(sampling.value(entry, table)?, entry))))
     }));
-    format!("{:.2e} to {:.2e}", single.low, single.high)
+    format!(
+        "of a single sampling the rms is {:.2e} to {:.2e}; ",
+        single.low, single.high
+    )
 }
 
 fn is_compared(entry: &Entry) -> bool {
