@@ -152,7 +152,7 @@ fn reading(page: &mut String, shades: &mut Shades) {
 }
 
 /// Parts of the names of quantities, and what they stand for.
-const NAMES: [(&str, &str); 20] = [
+const NAMES: [(&str, &str); 21] = [
     (
         "…/over/180, …/under/180",
         "over-twist or under-twist of the ends against each other, in degrees",
