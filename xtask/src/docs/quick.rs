@@ -42,13 +42,15 @@ fn is_decided_by_rounding(row: &Row) -> bool {
 fn is_in_full(row: &Row) -> bool {
     let quantity = row.quantity.as_str();
     let is_rod = quantity.ends_with("/rod") && !quantity.starts_with("in_plane");
+    // The mean filament is one, however many samplings there are.
+    let is_mean = quantity.contains("mean-filament");
     match row.artefact {
         "table1" | "table2" => true,
-        "fig9" => ["p/", "lambda/", "b3_rms/", "xi_rms/"]
-            .iter()
-            .any(|path| quantity.starts_with(path)),
-        "table3" | "table5" => quantity.contains("/seed-0/") || quantity == "printed_length",
-        "table4" => quantity.starts_with("printed/") || quantity.starts_with("s_p"),
+        "fig9" => !quantity.contains("monomers"),
+        "table3" | "table5" => {
+            is_mean || quantity.contains("/seed-0/") || quantity == "printed_length"
+        }
+        "table4" => is_mean || quantity.starts_with("printed/") || quantity.starts_with("s_p"),
         "fig5" | "fig6" => quantity.starts_with("energy/"),
         "fig7" | "fig8" | "fig10" => is_rod && !is_decided_by_rounding(row),
         _ => false,
