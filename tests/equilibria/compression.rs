@@ -13,8 +13,8 @@ use std::f64::consts::PI;
 const LAWS: [(&str, f64); 2] = [
     // 566.01 / (2 x 20.508)
     ("PublishedExtension", 13.80),
-    // 225.65 / (0.460159 / 6.5873e-3)
-    ("Fitted", 3.230),
+    // 235.488 / (0.463366 / 6.02136e-3)
+    ("Fitted", 3.060),
 ];
 
 /// 100 nm between two walls, far from Euler's load, 154 pN.

@@ -1,12 +1,11 @@
-//! The law `Fitted` against filaments of monomers other than those it was fitted to.
+//! The law `Fitted` against filaments of monomers other than those it was fitted to: other lengths,
+//! azimuths and turns.
 
-use actin_sim::measure::{
-    Curve, Sampled, Specimen, bend_by_tip_force, over_samplings, sampled_by, twist,
-};
+use actin_sim::measure::{Curve, Sampled, Specimen, bend_by_tip_force, sampled_by, twist};
 use actin_sim::{Filament, JunctionModel, JunctionWeight, Monomers, RodLaw, RodModel, Section};
 
-/// Seeds of the bonds; those of the fit are below 100.
-const SEEDS: [u64; 8] = [100, 101, 102, 103, 104, 105, 106, 107];
+/// Azimuths of the force (deg) between those of the fit.
+const AZIMUTHS_DEG: [f64; 4] = [45.0, 135.0, 225.0, 315.0];
 
 fn rod(law: RodLaw) -> RodModel {
     RodModel {
@@ -24,18 +23,11 @@ fn rises(count: f64) -> f64 {
 /// rigidities misses by 28 %.
 #[test]
 fn cantilevers_of_rod_and_monomers_bend_alike() {
-    let length = rises(58.5);
+    let length = rises(80.5);
     let forces = [0.1, 0.5, 1.0, 2.0, 5.0];
     let filament = Specimen::ellipsoids(length, Monomers::default());
-    let curves: Vec<Curve<_>> = [0.0, 90.0]
-        .into_iter()
-        .flat_map(|azimuth| {
-            over_samplings(&filament, &SEEDS[..4], |s| {
-                bend_by_tip_force(s, &forces, azimuth)
-            })
-            .unwrap()
-        })
-        .collect();
+    let at = |azimuth| bend_by_tip_force(&filament, &forces, azimuth).unwrap();
+    let curves: Vec<Curve<_>> = AZIMUTHS_DEG.into_iter().map(at).collect();
     let measured = sampled_by(&curves, |p| p.force_pn, |p| p.deflection_nm);
     let of = |law| {
         let specimen = Specimen::rod(curves[0].length_nm, None, rod(law));
@@ -43,7 +35,7 @@ fn cantilevers_of_rod_and_monomers_bend_alike() {
     };
     let (fitted, constant) = (of(RodLaw::Fitted), of(RodLaw::Constant));
     for (k, (force, tips)) in measured.iter().enumerate() {
-        assert_eq!(tips.count, 8);
+        assert_eq!(tips.count, 4);
         let [fitted, constant] =
             [&fitted, &constant].map(|curve| curve.points[k].deflection_nm / tips.mean - 1.0);
         println!(
@@ -62,31 +54,28 @@ fn cantilevers_of_rod_and_monomers_bend_alike() {
 #[test]
 fn rod_and_monomers_twist_and_shorten_alike() {
     let turns = [
-        -200.0, -160.0, -120.0, -80.0, -40.0, -20.0, 20.0, 40.0, 80.0, 120.0, 160.0, 200.0,
+        -190.0, -160.0, -135.0, -110.0, -70.0, -50.0, -25.0, 25.0, 50.0, 70.0, 110.0, 135.0, 160.0,
+        190.0,
     ];
     let filament = Specimen::ellipsoids(rises(27.0), Monomers::default());
-    let curves = over_samplings(&filament, &SEEDS, |s| twist(s, &turns)).unwrap();
-    let secants = sampled_by(&curves, |p| p.turn_deg, |p| p.rigidity_pn_nm2);
-    let lengths = sampled_by(&curves, |p| p.turn_deg, |p| p.relative_length_change);
-    let specimen = Specimen::rod(curves[0].length_nm, None, rod(RodLaw::Fitted));
+    let monomers = twist(&filament, &turns).unwrap();
+    let specimen = Specimen::rod(monomers.length_nm, None, rod(RodLaw::Fitted));
     let fitted = twist(&specimen, &turns).unwrap();
-    for ((point, (turn, secant)), (_, length)) in fitted.points.iter().zip(&secants).zip(&lengths) {
-        let stiffer = point.rigidity_pn_nm2 / secant.mean - 1.0;
-        let longer = point.relative_length_change - length.mean;
+    for (rod, filament) in fitted.points.iter().zip(&monomers.points) {
+        let stiffer = rod.rigidity_pn_nm2 / filament.rigidity_pn_nm2 - 1.0;
+        let longer = rod.relative_length_change - filament.relative_length_change;
+        let turn = filament.turn_deg;
         println!(
-            "{turn} deg ({}): B3 {:.0}, se {:.0}, Fitted {:+.2} %; dL/L {:+.5}, se {:.5}, Fitted {longer:+.5}",
-            secant.count,
-            secant.mean,
-            secant.error,
+            "{turn} deg: B3 {:.0}, Fitted {:+.2} %; dL/L {:+.5}, Fitted {longer:+.5}",
+            filament.rigidity_pn_nm2,
             100.0 * stiffer,
-            length.mean,
-            length.error
+            filament.relative_length_change,
         );
         assert!(stiffer.abs() < 0.05 && longer.abs() < 5e-4, "{turn} deg");
     }
 }
 
-/// Mean tip deflection (nm) of mixed cantilevers of 160 nm with this much rod at the tip.
+/// Tip deflection (nm) of a mixed cantilever of 160 nm with this much rod at the tip.
 fn tip(rod_nm: f64, force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
     let boundary = 160.0 - rod_nm;
     let sections = vec![
@@ -108,9 +97,8 @@ fn tip(rod_nm: f64, force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
         },
         ..Filament::new(sections)
     });
-    let bend = |s: &Specimen| bend_by_tip_force(s, &[force], 180.0);
-    let curves = over_samplings(&specimen, &SEEDS[..4], bend).unwrap();
-    Sampled::of(curves.iter().map(|c| c.points[0].deflection_nm)).mean
+    let curve = bend_by_tip_force(&specimen, &[force], 180.0).unwrap();
+    curve.points[0].deflection_nm
 }
 
 /// Tips for 20, 40, ... 140 nm of rod, and their spread relative to their mean.

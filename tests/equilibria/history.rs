@@ -10,7 +10,10 @@ fn the_mixed_cantilever_converges_quadratically() {
         env!("CARGO_MANIFEST_DIR"),
         "/../../scenarios/cantilever-equilibrium.ron"
     );
-    let assembly = build(&std::fs::read_to_string(path).unwrap());
+    let text = std::fs::read_to_string(path).unwrap();
+    // Drawn bonds resist slip a little at rest; weighted ones do not, and their stiffness changes faster.
+    let drawn = "filament: Filament(monomers: Monomers(anchors: Independent), ";
+    let assembly = build(&text.replacen("filament: Filament(", drawn, 1));
     let mut state = assembly.system.state().clone();
     let mut newton = newton(&assembly, 1e-9);
     let found = newton.solve(&mut state, assembly.system.interactions());
@@ -38,11 +41,9 @@ fn the_mixed_cantilever_converges_quadratically() {
         .collect();
     assert!(!pairs.is_empty(), "no step in the quadratic range");
     // A linear fall by the same factor each time would not pass the next one; in the quadratic
-    // range one step lowers the residual by 1e3 at least, until rounding stops it.
-    assert!(
-        pairs.iter().any(|pair| pair[1] < 1e-3 * pair[0]),
-        "{pairs:?}"
-    );
+    // range one step lowers the residual by 1e3 at least, be it to where rounding stops it.
+    let falls_far = |pair: &[f64]| pair[0] < 0.1 && pair[1] < 1e-3 * pair[0];
+    assert!(sizes.windows(2).any(falls_far), "{pairs:?}");
     for pair in pairs {
         // The constant is the relative change of stiffness per pN: measured 0.2 to 0.4 per pN.
         assert!(pair[1] < 2.0 * pair[0] * pair[0], "{pair:?}");

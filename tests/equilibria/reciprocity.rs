@@ -115,7 +115,7 @@ fn couple_against_shift_is_force_against_turn() {
 /// eigenvalues at each inner node under the smallest tension, and gave way to a zigzag.
 #[test]
 fn tension_holds_a_rod_straight() {
-    for (law, pull) in [("CouplingEnergy", 3.4e4), ("Fitted", 3.29e4)] {
+    for (law, pull) in [("CouplingEnergy", 3.4e4), ("Fitted", 3.3544e4)] {
         for shift_nm in [1.5e-3, 0.15] {
             let held = Held::at(ROD, law, 0.0, shift_nm);
             let (force, _) = held.beside(0.0, 0.0);

@@ -8,7 +8,7 @@ use thiserror::Error;
 pub struct NewtonOptions {
     /// Residual at which a state is an equilibrium; 1e-8 pN and 1e-8 pN nm.
     pub tolerance: Residual,
-    /// Most Newton steps; 300.
+    /// Most Newton steps; 2000. Of 6000 monomers on a wall 800 are needed.
     pub iterations: usize,
     /// Largest turn of a body in one step (rad); 0.5.
     pub largest_rotation: f64,
@@ -33,7 +33,7 @@ impl Default for NewtonOptions {
                 force: 1e-8,
                 torque: 1e-8,
             },
-            iterations: 300,
+            iterations: 2000,
             largest_rotation: 0.5,
             largest_strain: 0.3,
             largest_displacement: f64::INFINITY,

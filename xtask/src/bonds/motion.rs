@@ -81,22 +81,7 @@ pub(super) fn table(extent: Extent) -> Result<Listing, String> {
                     drift
                 })
                 .collect::<Result<_, _>>()?;
-            let over = |of: fn(&Drift) -> f64| spread(all.iter().map(of));
-            let (gained, sd) = over(|d| d.gained);
-            let least = all.iter().map(|d| d.seconds).fold(f64::INFINITY, f64::min);
-            rows.push(vec![
-                format!(
-                    "{}, {:.1} nm",
-                    variant.bonds(),
-                    variant.monomers.min_bond_nm
-                ),
-                format!("{:.0}", over(|d| d.frequency).0),
-                format!("{share}"),
-                format!("{:.2}", 1e3 * over(|d| d.step).0),
-                format!("{:+.1e}", gained),
-                format!("{:.0e}", sd / (REPLICAS as f64).sqrt()),
-                format!("{:.1}", 1e3 * least),
-            ]);
+            rows.push(row(variant, share, &all));
         }
     }
     bar.finish_and_clear();
@@ -112,4 +97,24 @@ pub(super) fn table(extent: Extent) -> Result<Listing, String> {
         ],
         rows,
     })
+}
+
+/// One row of the table: a variant at one share of the largest step, over its replicas.
+fn row(variant: &Variant, share: f64, all: &[Drift]) -> Vec<String> {
+    let over = |of: fn(&Drift) -> f64| spread(all.iter().map(of));
+    let (gained, sd) = over(|d| d.gained);
+    let least = all.iter().map(|d| d.seconds).fold(f64::INFINITY, f64::min);
+    vec![
+        format!(
+            "{}, {:.1} nm",
+            variant.bonds(),
+            variant.monomers.min_bond_nm
+        ),
+        format!("{:.0}", over(|d| d.frequency).0),
+        format!("{share}"),
+        format!("{:.2}", 1e3 * over(|d| d.step).0),
+        format!("{gained:+.1e}"),
+        format!("{:.0e}", sd / (REPLICAS as f64).sqrt()),
+        format!("{:.1}", 1e3 * least),
+    ]
 }

@@ -157,8 +157,8 @@ impl Ending {
             )
         };
         let documented = matches!(self.code, Some(0 | 2 | 3 | 130));
-        let silent = self.code != Some(0) && self.stderr.trim().is_empty();
-        // The second signal of an interrupt that comes before the handler is there ends it at once.
+        let silent = self.code.is_some_and(|code| code != 0) && self.stderr.trim().is_empty();
+        // An interrupt that comes before the handler is there ends it at once, and without a word.
         let early = self.interrupted && self.signal == Some(2);
         if (documented || early) && !silent && !self.stderr.contains("panicked") {
             return Ok(());

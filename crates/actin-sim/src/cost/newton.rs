@@ -2,7 +2,7 @@
 //! filaments, by what a filament is made of and how it is led to its equilibrium.
 
 use crate::Assembly;
-use crate::scene::{Equilibrium, Load, RodLaw, Setting, Task};
+use crate::scene::{Anchors, Equilibrium, Load, RodLaw, Setting, Task};
 use actin_mechanics::Vector3;
 
 /// What a filament is made of, as far as Newton's method minds: the slowest of a scene counts.
@@ -28,11 +28,13 @@ const DRIVEN: Steps = [0.5, 2.0, 9.0];
 /// The same where the ends of a filament are pushed together, which buckles: 15, 20 to 40, 40 to 50.
 const PUSHED: Steps = [15.0, 29.0, 42.0];
 
-/// More monomers in a row than these take more steps from rest, by a power of their number: 43 to 61
-/// of 590, 81 of 2000, 171 of 4000.
+/// More monomers in a row than these take more steps from rest, by a power of their number.
 const SHORT: f64 = 60.0;
-/// That power.
-const GROWTH: f64 = 0.62;
+/// That power. Drawn bonds: 28 of 300, 44 of 600, 69 of 1200, 141 of 2400. Weighted ones, which leave all
+/// monomers alike, so that nothing keeps the borders of patches that give way to one side or the other:
+/// 61, 77, 207, 272, and 814 of 5842.
+const GROWTH_DRAWN: f64 = 0.62;
+const GROWTH_WEIGHTED: f64 = 0.92;
 
 /// Newton steps that one certificate is worth, and what is found once for a solver: where the entries
 /// of the stiffness and of its factor stand.
@@ -114,7 +116,16 @@ fn from_rest(assembly: &Assembly, kind: Kind) -> f64 {
         }
         _ => 0.0,
     };
-    (FROM_REST[kind as usize] * rows.max(1.0).powf(GROWTH)).max(of_rods)
+    let weighted = assembly
+        .scene
+        .filaments()
+        .any(|one| one.monomers.anchors == Anchors::Cubature);
+    let growth = if weighted {
+        GROWTH_WEIGHTED
+    } else {
+        GROWTH_DRAWN
+    };
+    (FROM_REST[kind as usize] * rows.max(1.0).powf(growth)).max(of_rods)
 }
 
 /// Equilibria of a stage: steps of the largest length, and a few shorter ones at its start.

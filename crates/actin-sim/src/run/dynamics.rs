@@ -188,7 +188,7 @@ pub(super) fn run(
 ) -> Result<(Trajectory, RunReport), RunError> {
     let (estimate, plan) = prepare(assembly, dynamics, estimate)?;
     let clock = Clock::new(kept.as_ref());
-    // While it moves, the rest of the assembly is looked at.
+    // Observers see the rest of the assembly while its system moves.
     let nothing = System::new(State::default(), Vec::new());
     let mut system = std::mem::replace(&mut assembly.system, nothing);
     let mut recorder = Recorder::new(assembly, dynamics, &system, (keeper, watch), clock);

@@ -262,7 +262,7 @@ impl Default for Equilibrium {
         Self {
             force_pn: 1e-7,
             torque_pn_nm: 1e-7,
-            iterations: 300,
+            iterations: 2000,
             largest_step: 0.25,
             smallest_step: 1e-4,
             leave_saddles: 3,

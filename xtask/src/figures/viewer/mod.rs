@@ -92,10 +92,17 @@ mod tests {
     use actin_mechanics::Vector3;
     use actin_sim::{Assembly, BodyKind, Scene};
 
-    fn built(scene: &str) -> Assembly {
+    fn text(scene: &str) -> String {
         let path = workspace_root().join("scenarios").join(scene);
-        let text = std::fs::read_to_string(path).unwrap();
-        Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
+        std::fs::read_to_string(path).unwrap()
+    }
+
+    fn assembled(text: &str) -> Assembly {
+        Assembly::build(&Scene::from_ron(text).unwrap()).unwrap()
+    }
+
+    fn built(scene: &str) -> Assembly {
+        assembled(&text(scene))
     }
 
     fn mixed() -> Assembly {
@@ -157,8 +164,8 @@ mod tests {
         }
     }
 
-    /// Linkers between filaments have no anchors, and no two filaments share their bonds, since each
-    /// has draws of its own.
+    /// Linkers between filaments have no anchors; all filaments have the same weighted bonds, and each
+    /// drawn ones of its own.
     #[test]
     fn linked_filaments_keep_their_sites_and_bonds_apart() {
         let assembly = built("crosslinked.ron");
@@ -169,10 +176,14 @@ mod tests {
             let gap = Vector3::new(bx - ax, by - ay, bz - az).norm();
             assert!((gap - 8.4).abs() < 0.02, "{gap}");
         }
-        let mut bonds = Vec::new();
-        snapshot.share_bonds(&mut bonds);
-        let sets: Vec<usize> = snapshot.strands.iter().map(|s| s.bonds).collect();
-        assert_eq!(sets, [0, 1, 1, 2, 2]);
+        let sets = |snapshot: &mut Snapshot| -> Vec<usize> {
+            snapshot.share_bonds(&mut Vec::new());
+            snapshot.strands.iter().map(|s| s.bonds).collect()
+        };
+        assert_eq!(sets(&mut snapshot), [0; 5]);
+        let drawn = "monomers: Monomers(anchors: Independent), sections: [";
+        let drawn = assembled(&text("crosslinked.ron").replace("sections: [", drawn));
+        assert_eq!(sets(&mut shown(&drawn).snapshot), [0, 1, 1, 2, 2]);
         let anchored = shown(&mixed()).snapshot;
         assert_eq!(anchored.anchors.len(), anchored.linkers.len());
     }
