@@ -27,6 +27,67 @@ pub(crate) struct Chart<'a> {
     pub equal_axes: bool,
 }
 
+impl Series {
+    /// The line in dashes, so that lines below it are seen; `equal_axes` is that of the chart. The
+    /// first dash keeps the label.
+    pub(crate) fn dashed(self, equal_axes: bool) -> Vec<Self> {
+        let Self {
+            mut label, colour, ..
+        } = self;
+        let dashes = dashes(&self.points, equal_axes).into_iter();
+        let series = dashes.map(|points| Self {
+            label: label.take(),
+            colour,
+            points,
+            dots: false,
+        });
+        series.collect()
+    }
+}
+
+/// Length of a dash, and of the gap behind it, as a share of the range of the line.
+const DASH: f64 = 0.018;
+/// Parts of a stretch between two points, each in a dash or in a gap.
+const PARTS: u8 = 8;
+
+/// Every other piece of a line.
+fn dashes(points: &[(f64, f64)], equal_axes: bool) -> Vec<Vec<(f64, f64)>> {
+    let width = range(points.iter().map(|p| p.0));
+    let height = range(points.iter().map(|p| p.1));
+    let [width, height] = if equal_axes {
+        [width.max(height); 2]
+    } else {
+        [width, height]
+    };
+    let (mut all, mut along, mut drawing) = (Vec::<Vec<_>>::new(), 0.0, false);
+    for pair in points.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        let part = ((to.0 - from.0) / width).hypot((to.1 - from.1) / height) / f64::from(PARTS);
+        let place = |k: u8| {
+            let t = f64::from(k) / f64::from(PARTS);
+            (from.0 + t * (to.0 - from.0), from.1 + t * (to.1 - from.1))
+        };
+        for k in 0..PARTS {
+            let draws = along % (2.0 * DASH) < DASH;
+            match all.last_mut() {
+                Some(dash) if draws && drawing => dash.push(place(k + 1)),
+                _ if draws => all.push(vec![place(k), place(k + 1)]),
+                _ => {}
+            }
+            drawing = draws;
+            along += part;
+        }
+    }
+    all
+}
+
+/// Largest minus smallest value, 1 if they are the same.
+fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let high = values.clone().fold(f64::NEG_INFINITY, f64::max);
+    let range = high - values.fold(f64::INFINITY, f64::min);
+    if range > 0.0 { range } else { 1.0 }
+}
+
 /// Size of a chart in pixels.
 const SIZE: (u32, u32) = (900, 560);
 /// Pixels of the plane inside labels and margins, used to make scales equal.
@@ -160,4 +221,34 @@ fn ranges(chart: &Chart<'_>) -> Option<(std::ops::Range<f64>, std::ops::Range<f6
 fn widen((low, high): (f64, f64), width: f64) -> (f64, f64) {
     let middle = 0.5 * (low + high);
     (middle - 0.5 * width, middle + 0.5 * width)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Half of a straight line is drawn, in pieces that follow one another, and one has the label.
+    #[test]
+    fn dashes_cover_half_of_a_line() {
+        let points = (0..=50).map(|k| (2.0 * f64::from(k), 7.0)).collect();
+        let line = Series {
+            label: Some("line".into()),
+            colour: BLACK,
+            points,
+            dots: false,
+        };
+        let dashes = line.dashed(true);
+        let ends = |dash: &Series| (dash.points[0].0, dash.points[dash.points.len() - 1].0);
+        let drawn: f64 = dashes.iter().map(ends).map(|(from, to)| to - from).sum();
+        // A part of a stretch is 0.25 long, and dashes of 1.8 begin and end at parts.
+        assert!((drawn - 50.0).abs() < 2.0, "{drawn}");
+        assert!(
+            dashes
+                .windows(2)
+                .all(|pair| ends(&pair[0]).1 < ends(&pair[1]).0)
+        );
+        let labels = dashes.iter().filter(|dash| dash.label.is_some());
+        assert_eq!(labels.count(), 1);
+        assert!(dashes[0].label.is_some());
+    }
 }

@@ -5,11 +5,11 @@ use crate::figures::report::Row;
 
 /// Distance of monomers' centres from the axis (nm): centre lines closer than that lie within one
 /// another's filament.
-const HELIX_RADIUS_NM: f64 = 1.8;
+pub(super) const HELIX_RADIUS_NM: f64 = 1.8;
 /// Radius of a filament with a section of 38.5 nm^2 (nm).
 const FILAMENT_RADIUS_NM: f64 = 3.5;
 /// Exact inextensible elastica of 160 nm under 2 pN with B = 3.9e4 pN nm^2 (nm).
-const ELASTICA_NM: f64 = 59.8;
+pub(super) const ELASTICA_NM: f64 = 59.8;
 /// Share by which B1 may be off in Table 4; no deflection is further off than its rigidity.
 const BENDING: f64 = 0.04;
 /// Force (pN), length (nm), E (pN/nm^2) and I (nm^4) of the deflection that Section 4.1 computes.

@@ -3,6 +3,7 @@
 //! Every claim is computed from rows of its artefact; a claim whose rows a run does not have
 //! (`--quick` follows no motion) is left out. Claims that need more than rows are with their recipes.
 
+mod as_printed;
 mod bending;
 mod parameters;
 mod twisting;
@@ -17,9 +18,17 @@ const A_DIFFERENCE: f64 = 0.1;
 pub(super) fn rows(id: &'static str, rows: &[Row]) -> Vec<Row> {
     let known = Known { id, rows };
     match id {
-        "fig4" => bending::cantilever(&known),
-        "fig5" => bending::linkers_in_plane(&known),
-        "fig6" => bending::linkers_all_round(&known),
+        "fig4" => [bending::cantilever(&known), as_printed::cantilever(&known)].concat(),
+        "fig5" => [
+            bending::linkers_in_plane(&known),
+            as_printed::linkers_in_plane(&known),
+        ]
+        .concat(),
+        "fig6" => [
+            bending::linkers_all_round(&known),
+            as_printed::linkers_all_round(&known),
+        ]
+        .concat(),
         "fig8" => twisting::constant_rods(&known),
         "fig10" => twisting::extended_rods(&known),
         "table3" => twisting::rigidity(&known),
