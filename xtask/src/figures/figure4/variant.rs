@@ -111,9 +111,10 @@ impl Variant {
         !self.stiff
     }
 
-    /// Whether the first flexural motion of its filaments is compared over resolutions.
+    /// Whether the first flexural motion of its filaments is compared over resolutions: of our model,
+    /// of the mean filament and of the paper's own model.
     pub(super) fn swings(self) -> bool {
-        !self.weak && !self.stiff
+        [Self::SHARED, Self::MEAN, Self::AS_PRINTED].contains(&self)
     }
 
     /// Changes the scene of [`Self::SHARED`] into its own.
