@@ -128,3 +128,64 @@ fn energies_close(known: &Known<'_>, spread: &str, suffix: &str) -> Option<Row> 
     let quantity = format!("energies_close{suffix}");
     Some(known.claim(&quantity, "", spread, Holds::AtMost(A_DIFFERENCE), note))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::rows;
+    use super::*;
+
+    fn verdict(id: &'static str, numbers: &[(&str, f64)], quantity: &str) -> Option<bool> {
+        let row = |&(quantity, ours): &(&str, f64)| Row::measured(id, quantity, "", ours, "");
+        let known: Vec<Row> = numbers.iter().map(row).collect();
+        let all = rows(id, &known);
+        let claim = all.into_iter().find(|row| row.quantity == quantity)?;
+        claim.pass
+    }
+
+    /// Tips 1.7 nm apart lie within the radius of the helix, tips 1.9 nm apart do not, and another
+    /// model's tips have no part in it.
+    #[test]
+    fn each_model_is_judged_by_its_own_tips() {
+        let tips = |apart| {
+            [
+                ("tip_drop/full/rod-20", 60.0),
+                ("tip_drop/full/rod-140", 60.0 - apart),
+                ("tip_drop/shared/rod-20", 60.0),
+                ("tip_drop/shared/rod-140", 50.0),
+            ]
+        };
+        let overlap = |apart| verdict("fig4", &tips(apart), "claim/tips_overlap/full");
+        assert_eq!((overlap(1.7), overlap(1.9)), (Some(true), Some(false)));
+        let printed = verdict("fig4", &tips(1.7), "claim/tips_overlap/paper-balance");
+        assert_eq!(printed, None);
+    }
+
+    /// Half a digit of the printed 10 nm, which the farthest of the resolutions has to meet.
+    #[test]
+    fn every_resolution_has_to_have_the_printed_deflection() {
+        let deflection = |farthest| {
+            let numbers = [
+                ("tip_drop/preceding-paper/full/rod-20", farthest),
+                ("tip_drop/preceding-paper/full/rod-140", 10.0),
+            ];
+            verdict("fig4", &numbers, "claim/deflection/preceding-paper")
+        };
+        assert_eq!(
+            (deflection(10.4), deflection(9.4)),
+            (Some(true), Some(false))
+        );
+    }
+
+    #[test]
+    fn shapes_and_energies_on_linkers_can_miss() {
+        let both = |value| {
+            let numbers = [("node_spread/full", value), ("energy_spread/full", value)];
+            ["node_spread", "energies_close"].map(|claim| {
+                let quantity = format!("claim/{claim}/full");
+                verdict("fig6", &numbers, &quantity)
+            })
+        };
+        assert_eq!(both(0.05), [Some(true); 2]);
+        assert_eq!(both(1.9), [Some(false); 2]);
+    }
+}

@@ -121,6 +121,9 @@ fn energy(result: &Result4) -> Row {
     Row::measured("fig4", quantity, "pN nm", result.elastic_pn_nm(), note)
 }
 
+/// What spreads: its quantity, the unit of the value, and the value.
+type Pick = (&'static str, &'static str, fn(&Result4) -> f64);
+
 /// Largest minus smallest tip drop and energy of the mixed resolutions, relative to their mean.
 fn spreads(results: &[Result4], variant: Variant) -> [Row; 2] {
     let mixed: Vec<&Result4> = results
@@ -132,7 +135,7 @@ fn spreads(results: &[Result4], variant: Variant) -> [Row; 2] {
         "" => "shared",
         name => name,
     };
-    let picks: [(_, _, fn(&Result4) -> f64); 2] = [
+    let picks: [Pick; 2] = [
         ("tip_spread", "nm", |r| r.tip_drop_nm),
         ("energy_spread", "pN nm", Result4::elastic_pn_nm),
     ];
