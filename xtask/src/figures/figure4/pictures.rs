@@ -257,13 +257,21 @@ fn series(results: &[Result4], value: fn(&Result4) -> f64) -> Vec<Series> {
                 .map(|r| (LENGTH_NM * r.case.rod_share(), value(r)))
                 .collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let label = is_computed.then(|| mixed.words());
-            [(label, false), (None, true)].map(|(label, dots)| Series {
+            let series = |label, dots| Series {
                 label,
                 colour,
                 points: points.clone(),
                 dots,
-            })
+            };
+            let line = series(is_computed.then(|| mixed.words()), false);
+            // It lies upon the line of the junction as printed alone.
+            let mut all = if mixed == Variant::AS_PRINTED {
+                line.dashed(false)
+            } else {
+                vec![line]
+            };
+            all.push(series(None, true));
+            all
         });
     all.collect()
 }
