@@ -165,7 +165,8 @@ fn newton_rows(results: &[Result4]) -> [Row; 2] {
             "nm",
             differences.fold(0.0, f64::max),
             "largest difference of the tip between the end of damped dynamics and Newton's method \
-             over all cases; what is left is the residual at which the dynamics stopped",
+             over all cases; what is left is the residual at which the dynamics stopped, or a second \
+             equilibrium close by",
         ),
         Row::measured(
             "fig4",
