@@ -47,8 +47,6 @@ impl Series {
 
 /// Length of a dash, and of the gap behind it, as a share of the range of the line.
 const DASH: f64 = 0.018;
-/// Parts of a stretch between two points, each in a dash or in a gap.
-const PARTS: u8 = 8;
 
 /// Every other piece of a line.
 fn dashes(points: &[(f64, f64)], equal_axes: bool) -> Vec<Vec<(f64, f64)>> {
@@ -59,23 +57,25 @@ fn dashes(points: &[(f64, f64)], equal_axes: bool) -> Vec<Vec<(f64, f64)>> {
     } else {
         [width, height]
     };
-    let (mut all, mut along, mut drawing) = (Vec::<Vec<_>>::new(), 0.0, false);
+    let mut all: Vec<Vec<(f64, f64)>> = vec![points.iter().copied().take(1).collect()];
+    let (mut left, mut draws) = (DASH, true);
     for pair in points.windows(2) {
         let (from, to) = (pair[0], pair[1]);
-        let part = ((to.0 - from.0) / width).hypot((to.1 - from.1) / height) / f64::from(PARTS);
-        let place = |k: u8| {
-            let t = f64::from(k) / f64::from(PARTS);
-            (from.0 + t * (to.0 - from.0), from.1 + t * (to.1 - from.1))
-        };
-        for k in 0..PARTS {
-            let draws = along % (2.0 * DASH) < DASH;
-            match all.last_mut() {
-                Some(dash) if draws && drawing => dash.push(place(k + 1)),
-                _ if draws => all.push(vec![place(k), place(k + 1)]),
-                _ => {}
+        let length = ((to.0 - from.0) / width).hypot((to.1 - from.1) / height);
+        let mut along = 0.0;
+        while along < length {
+            let step = f64::min(left, length - along);
+            along = if step < left { length } else { along + step };
+            left -= step;
+            let t = along / length;
+            let place = (from.0 + t * (to.0 - from.0), from.1 + t * (to.1 - from.1));
+            if let Some(dash) = all.last_mut().filter(|_| draws) {
+                dash.push(place);
             }
-            drawing = draws;
-            along += part;
+            if left <= 0.0 {
+                (left, draws) = (DASH, !draws);
+                all.extend(draws.then(|| vec![place]));
+            }
         }
     }
     all
@@ -227,28 +227,28 @@ fn widen((low, high): (f64, f64), width: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Half of a straight line is drawn, in pieces that follow one another, and one has the label.
+    /// Half of a straight line is drawn, in pieces that follow one another, and one has the label; so
+    /// it is with many points, and with two that are many dashes apart.
     #[test]
     fn dashes_cover_half_of_a_line() {
-        let points = (0..=50).map(|k| (2.0 * f64::from(k), 7.0)).collect();
-        let line = Series {
-            label: Some("line".into()),
-            colour: BLACK,
-            points,
-            dots: false,
-        };
-        let dashes = line.dashed(true);
-        let ends = |dash: &Series| (dash.points[0].0, dash.points[dash.points.len() - 1].0);
-        let drawn: f64 = dashes.iter().map(ends).map(|(from, to)| to - from).sum();
-        // A part of a stretch is 0.25 long, and dashes of 1.8 begin and end at parts.
-        assert!((drawn - 50.0).abs() < 2.0, "{drawn}");
-        assert!(
-            dashes
-                .windows(2)
-                .all(|pair| ends(&pair[0]).1 < ends(&pair[1]).0)
-        );
-        let labels = dashes.iter().filter(|dash| dash.label.is_some());
-        assert_eq!(labels.count(), 1);
-        assert!(dashes[0].label.is_some());
+        for stretches in [1, 50] {
+            let place = |k: u32| (100.0 * f64::from(k) / f64::from(stretches), 7.0);
+            let line = Series {
+                label: Some("line".into()),
+                colour: BLACK,
+                points: (0..=stretches).map(place).collect(),
+                dots: false,
+            };
+            let dashes = line.dashed(true);
+            let ends = |dash: &Series| (dash.points[0].0, dash.points[dash.points.len() - 1].0);
+            let drawn: f64 = dashes.iter().map(ends).map(|(from, to)| to - from).sum();
+            // A dash and a gap are 1.8 long each.
+            assert!((drawn - 50.0).abs() < 2.0, "{drawn}");
+            let follow = |pair: &[Series]| ends(&pair[0]).1 < ends(&pair[1]).0;
+            assert!(dashes.windows(2).all(follow));
+            let labels = dashes.iter().filter(|dash| dash.label.is_some());
+            assert_eq!(labels.count(), 1);
+            assert!(dashes[0].label.is_some());
+        }
     }
 }
