@@ -10,6 +10,8 @@ mod study;
 mod tables;
 mod variant;
 
+pub(crate) use heat::persistence_length_um;
+
 use crate::check::workspace_root;
 use std::fs;
 use std::path::PathBuf;

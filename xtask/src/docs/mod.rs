@@ -2,11 +2,17 @@
 //!
 //! A number that is followed by a mark, `36.74 <!-- fig8:height/over/180/rod-140 -->`, must be what
 //! the report holds under that name, to the digits shown; `marks.rs` says how marks are written. Where
-//! a number has no mark, the text says so (`unmarked.rs`).
+//! a number has no mark, the text says so (`unmarked.rs`). Whether the report itself is up to date a test
+//! finds with a quick run (`quick.rs`).
 
 mod marks;
 mod number;
+mod quick;
 mod unmarked;
+
+#[cfg(test)]
+pub(crate) use quick::stale;
+pub(crate) use quick::{tell_stale, write_quick};
 
 use crate::check::workspace_root;
 use crate::figures::report::{self, Row};
@@ -76,10 +82,15 @@ pub(crate) fn tell_differences(rows: &[Row]) -> Result<(), String> {
         differences.len(),
         rows.len()
     );
-    for difference in differences.iter().take(MOST_TOLD) {
-        println!("  {difference}");
-    }
+    list(&differences);
     Ok(())
+}
+
+/// Prints the first of some lines.
+fn list(lines: &[String]) {
+    for line in lines.iter().take(MOST_TOLD) {
+        println!("  {line}");
+    }
 }
 
 /// What differs, in words: new rows, rows that are gone from an artefact, other numbers, other

@@ -5,6 +5,7 @@
 //! anything but a simulation of that run. Artefacts follow one another; the runs of each are spread
 //! over threads and put together in an order that does not depend on them.
 
+mod bounds;
 mod buckling;
 mod claims;
 mod figure4;
@@ -43,6 +44,9 @@ pub(crate) struct Options {
     /// Fewer resolutions and samplings, and equilibria only.
     #[arg(long)]
     quick: bool,
+    /// Takes the numbers of a quick run over into docs/report-quick.json.
+    #[arg(long, requires = "quick")]
+    write: bool,
     /// Number of threads; one for each core by default. The results do not depend on it.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -110,9 +114,22 @@ pub(crate) fn reproduce(options: &Options) -> Result<(), String> {
     report::write(&artefacts, out)?;
     html::write(&artefacts, out, options.quick)?;
     println!("written: {}", out.join("report.html").display());
-    if !options.quick {
-        let rows: Vec<Row> = artefacts.into_iter().flat_map(|a| a.rows).collect();
-        crate::docs::tell_differences(&rows)?;
+    let rows: Vec<Row> = artefacts.into_iter().flat_map(|a| a.rows).collect();
+    tell(&rows, options)
+}
+
+/// How the rows differ from the committed ones, or takes them over; misses of a full run that nobody has
+/// explained.
+fn tell(rows: &[Row], options: &Options) -> Result<(), String> {
+    if options.write {
+        return crate::docs::write_quick(rows);
+    }
+    if options.quick {
+        return crate::docs::tell_stale(rows);
+    }
+    crate::docs::tell_differences(rows)?;
+    for line in html::unexplained(rows) {
+        println!("  {line}");
     }
     Ok(())
 }

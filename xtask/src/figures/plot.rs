@@ -27,6 +27,67 @@ pub(crate) struct Chart<'a> {
     pub equal_axes: bool,
 }
 
+impl Series {
+    /// The line in dashes, so that lines below it are seen; `equal_axes` is that of the chart. The
+    /// first dash keeps the label.
+    pub(crate) fn dashed(self, equal_axes: bool) -> Vec<Self> {
+        let Self {
+            mut label, colour, ..
+        } = self;
+        let dashes = dashes(&self.points, equal_axes).into_iter();
+        let series = dashes.map(|points| Self {
+            label: label.take(),
+            colour,
+            points,
+            dots: false,
+        });
+        series.collect()
+    }
+}
+
+/// Length of a dash, and of the gap behind it, as a share of the range of the line.
+const DASH: f64 = 0.018;
+
+/// Every other piece of a line.
+fn dashes(points: &[(f64, f64)], equal_axes: bool) -> Vec<Vec<(f64, f64)>> {
+    let width = range(points.iter().map(|p| p.0));
+    let height = range(points.iter().map(|p| p.1));
+    let [width, height] = if equal_axes {
+        [width.max(height); 2]
+    } else {
+        [width, height]
+    };
+    let mut all: Vec<Vec<(f64, f64)>> = vec![points.iter().copied().take(1).collect()];
+    let (mut left, mut draws) = (DASH, true);
+    for pair in points.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        let length = ((to.0 - from.0) / width).hypot((to.1 - from.1) / height);
+        let mut along = 0.0;
+        while along < length {
+            let step = f64::min(left, length - along);
+            along = if step < left { length } else { along + step };
+            left -= step;
+            let t = along / length;
+            let place = (from.0 + t * (to.0 - from.0), from.1 + t * (to.1 - from.1));
+            if let Some(dash) = all.last_mut().filter(|_| draws) {
+                dash.push(place);
+            }
+            if left <= 0.0 {
+                (left, draws) = (DASH, !draws);
+                all.extend(draws.then(|| vec![place]));
+            }
+        }
+    }
+    all
+}
+
+/// Largest minus smallest value, 1 if they are the same.
+fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let high = values.clone().fold(f64::NEG_INFINITY, f64::max);
+    let range = high - values.fold(f64::INFINITY, f64::min);
+    if range > 0.0 { range } else { 1.0 }
+}
+
 /// Size of a chart in pixels.
 const SIZE: (u32, u32) = (900, 560);
 /// Pixels of the plane inside labels and margins, used to make scales equal.
@@ -160,4 +221,34 @@ fn ranges(chart: &Chart<'_>) -> Option<(std::ops::Range<f64>, std::ops::Range<f6
 fn widen((low, high): (f64, f64), width: f64) -> (f64, f64) {
     let middle = 0.5 * (low + high);
     (middle - 0.5 * width, middle + 0.5 * width)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Half of a straight line is drawn, in pieces that follow one another, and one has the label; so
+    /// it is with many points, and with two that are many dashes apart.
+    #[test]
+    fn dashes_cover_half_of_a_line() {
+        for stretches in [1, 50] {
+            let place = |k: u32| (100.0 * f64::from(k) / f64::from(stretches), 7.0);
+            let line = Series {
+                label: Some("line".into()),
+                colour: BLACK,
+                points: (0..=stretches).map(place).collect(),
+                dots: false,
+            };
+            let dashes = line.dashed(true);
+            let ends = |dash: &Series| (dash.points[0].0, dash.points[dash.points.len() - 1].0);
+            let drawn: f64 = dashes.iter().map(ends).map(|(from, to)| to - from).sum();
+            // A dash and a gap are 1.8 long each.
+            assert!((drawn - 50.0).abs() < 2.0, "{drawn}");
+            let follow = |pair: &[Series]| ends(&pair[0]).1 < ends(&pair[1]).0;
+            assert!(dashes.windows(2).all(follow));
+            let labels = dashes.iter().filter(|dash| dash.label.is_some());
+            assert_eq!(labels.count(), 1);
+            assert!(dashes[0].label.is_some());
+        }
+    }
 }

@@ -16,40 +16,35 @@ fn literal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Literal, D::Err
 
 /// Where the number comes from that another is compared with.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 pub(crate) enum Origin {
-    /// The paper prints it.
+    /// The paper prints it, and a simulation gives ours.
     Paper,
+    /// The paper prints it, and it follows from other printed numbers: no simulation has a part in it.
+    Derived,
     /// The paper says it in words; the bound that decides is ours.
     Words,
-    /// The code holds it as the paper gives it: this shows that it was copied well, and no more.
+    /// The code holds it as the paper gives it: it is shown, and no row is judged by it.
     Parameter,
     /// A theorem, or a symmetry.
     Theory,
-    /// An earlier, independent calculation.
-    Prototype,
+    /// An earlier calculation that shares the modelling decisions of this code: a check of the arithmetic.
+    #[serde(alias = "prototype")]
+    CrossCheck,
     /// Asked for here.
     Bound,
 }
 
 impl Origin {
-    pub(super) const ALL: [Self; 6] = [
-        Self::Paper,
-        Self::Words,
-        Self::Parameter,
-        Self::Theory,
-        Self::Prototype,
-        Self::Bound,
-    ];
-
     /// In a table of rows.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
+            Self::Derived => "paper, from its own numbers",
             Self::Words => "paper, in words",
             Self::Parameter => "paper, copied",
             Self::Theory => "theory",
-            Self::Prototype => "earlier calculation",
+            Self::CrossCheck => "cross-check",
             Self::Bound => "bound set here",
         }
     }
@@ -165,16 +160,18 @@ pub(super) struct Artefact {
 /// Writes `report.json`: all rows, sorted, one a line.
 ///
 /// # Errors
-/// Those of [`text`], and a verdict that does not say who expects its number.
+/// Those of [`text`], a verdict that does not say who expects its number, and one on a parameter that
+/// was copied, which cannot fail.
 pub(super) fn write(artefacts: &[Artefact], out: &Path) -> Result<(), String> {
     let rows: Vec<Row> = artefacts.iter().flat_map(|a| a.rows.clone()).collect();
-    let is_unfounded = |row: &&Row| row.pass.is_some() && row.origin.is_none();
+    let is_unfounded =
+        |row: &&Row| row.pass.is_some() && matches!(row.origin, None | Some(Origin::Parameter));
     if let Some(row) = rows.iter().find(is_unfounded) {
         let Row {
             artefact, quantity, ..
         } = row;
         return Err(format!(
-            "{artefact} {quantity} has a verdict without an origin"
+            "{artefact} {quantity} has a verdict on a copied number, or without an origin"
         ));
     }
     write_atomically(&out.join("report.json"), &text(rows)?)
@@ -277,6 +274,7 @@ mod tests {
             write(&[artefact], folder.path())
         };
         assert!(written(None).unwrap_err().contains("fig1 q"));
+        assert!(written(Some(Origin::Parameter)).is_err());
         assert_eq!(written(Some(Origin::Theory)), Ok(()));
     }
 }

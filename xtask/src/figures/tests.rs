@@ -63,6 +63,7 @@ fn options(out: &Path) -> Options {
         ids: Vec::new(),
         out: out.to_path_buf(),
         quick: true,
+        write: false,
         threads: None,
         fresh: false,
         palette: Palette::default(),

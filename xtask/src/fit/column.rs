@@ -21,6 +21,16 @@ pub(super) enum Weight {
     Relative,
 }
 
+impl FromIterator<(f64, f64)> for Column {
+    fn from_iter<I: IntoIterator<Item = (f64, f64)>>(pairs: I) -> Self {
+        let mut column = Self::default();
+        for (x, value) in pairs {
+            column.push(x, value);
+        }
+        column
+    }
+}
+
 impl Column {
     pub(super) fn push(&mut self, x: f64, value: f64) {
         self.x.push(x);

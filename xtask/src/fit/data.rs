@@ -15,27 +15,36 @@ pub(crate) struct TwistData {
 }
 
 impl TwistData {
+    /// Pairs of twist and value in columns.
+    pub(crate) fn new(
+        source: String,
+        rigidity: impl IntoIterator<Item = (f64, f64)>,
+        length: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        Self {
+            source,
+            rigidity: rigidity.into_iter().collect(),
+            length: length.into_iter().collect(),
+        }
+    }
+
     /// Tables 3 and 5, without the rows that the paper calls unreliable unless `all_rows`.
     pub(crate) fn from_paper(all_rows: bool) -> Result<Self, String> {
-        let column = |table| -> Result<Column, String> {
-            let mut column = Column::default();
-            for entry in entries(table)? {
-                if all_rows || entry.is_reliable() {
-                    column.push(entry.curvature, entry.value);
-                }
-            }
-            Ok(column)
+        let column = |table| -> Result<Vec<(f64, f64)>, String> {
+            let wanted = entries(table)?.into_iter();
+            let wanted = wanted.filter(|entry| all_rows || entry.is_reliable());
+            Ok(wanted.map(|e| (e.curvature, e.value)).collect())
         };
         let rows = if all_rows {
             "all rows"
         } else {
             "rows to 200 deg"
         };
-        Ok(Self {
-            source: format!("Tables 3 and 5 of the paper, {rows}"),
-            rigidity: column(Table::Rigidity)?,
-            length: column(Table::LengthChange)?,
-        })
+        Ok(Self::new(
+            format!("Tables 3 and 5 of the paper, {rows}"),
+            column(Table::Rigidity)?,
+            column(Table::LengthChange)?,
+        ))
     }
 }
 

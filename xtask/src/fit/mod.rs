@@ -17,8 +17,8 @@ mod twist;
 mod write;
 
 pub(crate) use data::TwistData;
-pub(crate) use pictures::draw;
-pub(crate) use twist::TwistFits;
+pub(crate) use pictures::{Beside, draw};
+pub(crate) use twist::{TwistFits, rms};
 
 use bend::BendFits;
 use measured::BendData;
@@ -95,7 +95,7 @@ fn tables(options: &Options, out: &Path) -> Result<(), String> {
     }
     write::laws(&fits, bend.as_ref().map(|(_, fits)| fits), out)?;
     write::curves(&data, &fits, out)?;
-    draw(&data, &fits, out)?;
+    draw(&data, &fits, &[], out)?;
     Ok(())
 }
 

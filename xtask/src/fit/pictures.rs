@@ -13,36 +13,86 @@ use std::path::Path;
 const PUBLISHED: usize = 0;
 const SAME_FORM: usize = 1;
 const SMALLEST: usize = 3;
+/// Our own filaments: samplings, and the mean filament.
+const DRAWN: usize = 2;
+const MEAN: usize = 4;
 /// Points of a curve.
 const CURVE: i32 = 300;
+
+/// Numbers to be drawn beside what is fitted.
+pub(crate) struct Beside<'a> {
+    pub data: &'a TwistData,
+    /// Whether they are drawn as dots instead of a line.
+    pub dots: bool,
+}
+
+/// One of the two pictures: its curves, and the column that it shows, in the unit of its axis.
+struct Panel {
+    chart: Chart<'static>,
+    file: &'static str,
+    what: &'static str,
+    column: fn(&TwistData) -> &Column,
+    scale: f64,
+}
 
 /// Writes `figure-9a.svg` and `figure-9b.svg`; returns their names and captions.
 pub(crate) fn draw(
     data: &TwistData,
     fits: &TwistFits,
+    beside: &[Beside<'_>],
     out: &Path,
 ) -> Result<Vec<(String, String)>, String> {
-    let mut pictures = Vec::new();
-    for (chart, file, what) in [
-        (
-            rigidity(data, fits),
-            "figure-9a.svg",
-            "Secant twisting rigidity",
-        ),
-        (
-            length(data, fits),
-            "figure-9b.svg",
-            "Relative change of length",
-        ),
-    ] {
-        draw_chart(&chart, &out.join(file))?;
-        let caption = format!(
-            "{what} against twist, with three fits. Data: {}.",
-            data.source
-        );
-        pictures.push((file.to_owned(), caption));
+    let panels = [
+        Panel {
+            chart: rigidity(data, fits),
+            file: "figure-9a.svg",
+            what: "Secant twisting rigidity",
+            column: |data| &data.rigidity,
+            scale: 1e-3,
+        },
+        Panel {
+            chart: length(data, fits),
+            file: "figure-9b.svg",
+            what: "Relative change of length",
+            column: |data| &data.length,
+            scale: 100.0,
+        },
+    ];
+    let pictures = panels.into_iter();
+    pictures
+        .map(|panel| panel.draw(data, beside, out))
+        .collect()
+}
+
+impl Panel {
+    /// Draws the data and what stands beside them over the curves; returns file and caption.
+    fn draw(
+        mut self,
+        data: &TwistData,
+        beside: &[Beside<'_>],
+        out: &Path,
+    ) -> Result<(String, String), String> {
+        let (label, more) = if beside.is_empty() {
+            ("data", "")
+        } else {
+            (
+                "paper",
+                " Our own monomers, measured in this run, are not fitted.",
+            )
+        };
+        let given = dots((self.column)(data), label, self.scale);
+        let others = beside.iter().map(|other| Series {
+            colour: palette::line(if other.dots { DRAWN } else { MEAN }),
+            dots: other.dots,
+            ..dots((self.column)(other.data), &other.data.source, self.scale)
+        });
+        self.chart.series.push(given);
+        self.chart.series.extend(others);
+        draw_chart(&self.chart, &out.join(self.file))?;
+        let (what, source) = (self.what, &data.source);
+        let caption = format!("{what} against twist, with three fits. Data: {source}.{more}");
+        Ok((self.file.to_owned(), caption))
     }
-    Ok(pictures)
 }
 
 fn rigidity(data: &TwistData, fits: &TwistFits) -> Chart<'static> {
@@ -63,7 +113,6 @@ fn rigidity(data: &TwistData, fits: &TwistFits) -> Chart<'static> {
             curve("saturating to either side", SMALLEST, range, |k| {
                 1e-3 * sided.secant(k)
             }),
-            dots(&data.rigidity, "data", 1e-3),
         ],
         equal_axes: false,
     }
@@ -85,7 +134,6 @@ fn length(data: &TwistData, fits: &TwistFits) -> Chart<'static> {
                 100.0 * polynomial.extension(k)
             }),
             curve("two slopes", SMALLEST, range, |k| 100.0 * rooted.jet(k)[0]),
-            dots(&data.length, "data", 100.0),
         ],
         equal_axes: false,
     }

@@ -1,8 +1,9 @@
 //! One buckled filament: what it is made of, how it is held, turned and pushed together, and the
 //! scene that says so.
 
+use super::group::{Figure, Group};
 use crate::check::workspace_root;
-use actin_sim::{Hold, RodLaw, Scene, Section, Setting, Stage, Task};
+use actin_sim::{Hold, Scene, Section, Setting, Stage, Task};
 
 /// Length of the filament (nm).
 const LENGTH_NM: f64 = 300.0;
@@ -12,28 +13,6 @@ const MONOMERS_NM: f64 = 290.0;
 
 /// Lengths of the rod part (nm), split evenly between the ends, as in the paper.
 pub(super) const ROD_LENGTHS: [u32; 7] = [40, 73, 107, 140, 173, 207, 240];
-
-/// Which figure, and with it the rod law and the clamp of the numbers to compare with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Figure {
-    /// Rods of constant rigidities.
-    Eight,
-    /// Rods with the published `B3(kappa)` and `xi(kappa)`.
-    Ten,
-}
-
-/// What is compared across resolutions: one law, one clamp, one number of bonds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Group {
-    /// Whose scene.
-    pub figure: Figure,
-    /// Whether rods follow the figure's law, or constant rigidities.
-    pub extended: bool,
-    /// What clamps hold of rods.
-    pub hold: Hold,
-    /// Bonds per interface.
-    pub bonds: usize,
-}
 
 /// How much of the filament is rod.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,8 +60,6 @@ pub(super) struct Case {
 
 /// Largest step of a path in small steps, as a share of a stage.
 const SMALL_STEP: f64 = 0.04;
-/// Bonds per interface by default.
-pub(super) const DEFAULT_BONDS: usize = 64;
 
 impl Start {
     /// Twist first, pulled towards +x.
@@ -136,24 +113,6 @@ impl Resolved {
     }
 }
 
-impl Group {
-    /// The same group with what means nothing for `resolved` set to one value, so that a filament
-    /// is computed once only.
-    fn relevant_to(self, resolved: Resolved) -> Self {
-        match resolved {
-            Resolved::Rod => Self {
-                bonds: DEFAULT_BONDS,
-                ..self
-            },
-            Resolved::Mixed(_) => self,
-            Resolved::Ellipsoids => Self {
-                extended: false,
-                ..self
-            },
-        }
-    }
-}
-
 impl Case {
     /// A case from its default start.
     pub(super) fn new(group: Group, resolved: Resolved, turn_deg: i32, seed: u64) -> Self {
@@ -161,7 +120,11 @@ impl Case {
             group: group.relevant_to(resolved),
             resolved,
             turn_deg,
-            seed: if resolved == Resolved::Rod { 0 } else { seed },
+            seed: if resolved == Resolved::Rod {
+                0
+            } else {
+                group.seed(seed)
+            },
             start: Start::DEFAULT,
         }
     }
@@ -202,12 +165,7 @@ impl Case {
     fn apply(&self, scene: &mut Scene) {
         scene.title = self.name();
         scene.filament.sections = self.sections();
-        scene.filament.monomers.seed = self.seed;
-        scene.filament.monomers.lateral_bonds = self.group.bonds;
-        scene.filament.monomers.longitudinal_bonds = self.group.bonds;
-        if !self.group.extended {
-            scene.filament.rod.law = RodLaw::Constant;
-        }
+        self.group.apply(scene, self.seed);
         let hold = match self.resolved {
             Resolved::Ellipsoids => Hold::Wall,
             _ => self.group.hold,
@@ -280,12 +238,7 @@ mod tests {
     use super::*;
 
     fn case(turn_deg: i32, order: Order) -> Case {
-        let group = Group {
-            figure: Figure::Eight,
-            extended: false,
-            hold: Hold::TwoNodesAndFrame,
-            bonds: DEFAULT_BONDS,
-        };
+        let group = Group::main(Figure::Eight);
         let start = Start {
             order,
             ..Start::DEFAULT

@@ -28,7 +28,7 @@ pub(super) struct Motion {
 const DRAG_PER_NS: f64 = 0.3;
 /// Residual at which the motion is stopped (pN, pN nm). The plane of buckling may still turn then:
 /// what is compared does not depend on it.
-const STOP: f64 = 1e-3;
+pub(super) const STOP: f64 = 1e-3;
 /// Longest time (ns).
 const LONGEST_NS: f64 = 3000.0;
 /// Tolerances of what is compared between the end of the motion and the equilibrium: the residual
@@ -50,7 +50,13 @@ pub(super) fn cases(plan: &Plan) -> Vec<Case> {
 pub(super) fn run(case: &Case) -> Result<Motion, String> {
     let fail = |error: &dyn std::fmt::Display| format!("{}: dynamics: {error}", case.name());
     let mut scene = case.scene()?;
-    scene.task = Task::Dynamics(dynamics());
+    scene.task = Task::Dynamics(dynamics(
+        LONGEST_NS,
+        Drag {
+            translational_per_ns: DRAG_PER_NS,
+            rotational_per_ns: DRAG_PER_NS,
+        },
+    ));
     let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
     let watch = &mut |_| ControlFlow::Continue(());
     let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
@@ -69,17 +75,15 @@ pub(super) fn run(case: &Case) -> Result<Motion, String> {
     })
 }
 
-fn dynamics() -> Dynamics {
+/// Damped motion of at most so many ns.
+pub(super) fn dynamics(duration_ns: f64, drag: Drag) -> Dynamics {
     Dynamics {
-        duration_ns: LONGEST_NS,
+        duration_ns,
         integrator: Integrator::PositionVerlet,
         time_step_ns: None,
         step_safety: 0.9,
         allow_unstable_step: false,
-        drag: Drag {
-            translational_per_ns: DRAG_PER_NS,
-            rotational_per_ns: DRAG_PER_NS,
-        },
+        drag,
         thermal: None,
         stop: Some(StopRule {
             force_pn: STOP,

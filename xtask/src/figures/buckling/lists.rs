@@ -1,7 +1,8 @@
 //! Which cases belong to which figure.
 
-use super::case::{Case, DEFAULT_BONDS, Figure, Group, Order, ROD_LENGTHS, Resolved, Start};
-use actin_sim::Hold;
+use super::case::{Case, Order, ROD_LENGTHS, Resolved, Start};
+use super::group::{Figure, Group, Rods};
+use actin_sim::{Hold, JunctionWeight};
 
 /// Resolutions, samplings and starts of one run.
 #[derive(Clone, Debug)]
@@ -19,8 +20,8 @@ pub(super) struct Plan {
     pub moving: bool,
 }
 
-/// Bonds per interface of the numbers to compare with.
-const PROTOTYPE_BONDS: usize = 32;
+/// Turn (deg) beyond which the balance as printed is not followed: states are many there.
+const FEW_STATES_DEG: i32 = 270;
 
 impl Plan {
     pub(super) fn eight(quick: bool) -> Self {
@@ -50,40 +51,63 @@ impl Plan {
     /// Groups by the name that precedes their quantities; the first is the one that is compared
     /// and has no name.
     pub(super) fn groups(&self) -> Vec<(&'static str, Group)> {
-        let group = |extended, hold, bonds| Group {
-            figure: self.figure,
-            extended,
-            hold,
-            bonds,
+        let main = self.main();
+        let rods = |rods| Group { rods, ..main };
+        let wall = Group {
+            hold: Hold::Wall,
+            ..main
         };
-        let (bonds, fewer) = (DEFAULT_BONDS, PROTOTYPE_BONDS);
+        let full = Group {
+            weight: JunctionWeight::Full,
+            ..main
+        };
+        let mean = Group { mean: true, ..main };
+        let mut groups = vec![("", main), ("mean-filament/", mean), ("wall/", wall)];
         match self.figure {
-            Figure::Eight => vec![
-                ("", group(false, Hold::TwoNodesAndFrame, bonds)),
-                ("wall/", group(false, Hold::Wall, bonds)),
-                ("bonds-32/", group(false, Hold::TwoNodesAndFrame, fewer)),
-            ],
-            Figure::Ten => vec![
-                ("", group(true, Hold::NodeAndFrame, bonds)),
-                ("wall/", group(true, Hold::Wall, bonds)),
-                ("standard/", group(false, Hold::NodeAndFrame, bonds)),
-                ("bonds-32/", group(true, Hold::NodeAndFrame, fewer)),
-            ],
+            Figure::Eight => groups.push(("full/", full)),
+            Figure::Ten => {
+                groups.push(("standard/", rods(Rods::Constant)));
+                groups.push(("coupling-energy/", rods(Rods::CouplingEnergy)));
+                if self.moving {
+                    let printed = Group {
+                        rods: Rods::PaperBalance,
+                        ..mean
+                    };
+                    groups.push(("paper-balance/", printed));
+                }
+            }
         }
+        groups
+    }
+
+    /// The turns at which a group is compared (deg).
+    pub(super) fn turns_of(&self, group: Group) -> impl Iterator<Item = i32> {
+        let most = match group.rods {
+            Rods::PaperBalance => FEW_STATES_DEG,
+            _ => i32::MAX,
+        };
+        let turns = self.turns.iter().copied();
+        turns.filter(move |turn| turn.abs() <= most)
+    }
+
+    /// Samplings of the bonds of a group.
+    pub(super) fn seeds_of(&self, group: Group) -> u64 {
+        if group.mean { 1 } else { self.seeds }
     }
 
     /// The group that is compared.
     pub(super) fn main(&self) -> Group {
-        self.groups()[0].1
+        Group::main(self.figure)
     }
 
     /// Every case, none twice.
     pub(super) fn cases(&self) -> Vec<Case> {
         let mut all = Vec::new();
         for (_, group) in self.groups() {
-            for &turn in &self.turns {
+            let seeds = self.seeds_of(group);
+            for turn in self.turns_of(group) {
                 for &resolved in &self.resolved {
-                    all.extend((0..self.seeds).map(|s| Case::new(group, resolved, turn, s)));
+                    all.extend((0..seeds).map(|s| Case::new(group, resolved, turn, s)));
                 }
             }
         }
@@ -169,5 +193,22 @@ mod tests {
             let default = Case::new(plan.main(), Resolved::Mixed(240), 180, 2);
             assert_eq!(cases.iter().filter(|case| **case == default).count(), 1);
         }
+    }
+
+    /// What means nothing for a resolution makes no case of its own: eight of the mean filament, since
+    /// the rod has no bonds, and seven junctions as printed at each turn. The balance as printed is a
+    /// law of rods.
+    #[test]
+    fn every_group_adds_the_filaments_that_it_changes() {
+        let count = |plan: &Plan, is_in: fn(&Case) -> bool| {
+            plan.cases().iter().filter(|case| is_in(case)).count()
+        };
+        let (eight, ten) = (Plan::eight(false), Plan::ten(false));
+        assert_eq!(count(&eight, |case| case.group.mean), 2 * 8);
+        let full = |case: &Case| case.group.weight == JunctionWeight::Full;
+        assert_eq!(count(&eight, full), 2 * 7 * 8);
+        let printed = |case: &Case| case.group.rods == Rods::PaperBalance;
+        assert_eq!(count(&ten, printed), 4 * 8);
+        assert_eq!(count(&Plan::ten(true), printed), 0);
     }
 }

@@ -4,9 +4,11 @@
 //! statics; one resolution is also moved there in time. A pull of 1e-3 pN at half the length
 //! breaks the symmetry, so only what does not depend on its direction is compared.
 
+mod balance;
 mod case;
 mod dynamics;
 mod expected;
+mod group;
 mod lists;
 mod outcome;
 mod pictures;
@@ -19,8 +21,9 @@ mod tables;
 use super::Run;
 use super::progress::Progress;
 use super::report::Artefact;
-use case::{Case, Figure};
+use case::Case;
 use dynamics::Motion;
+use group::Figure;
 use lists::Plan;
 use outcome::Outcome;
 use rayon::prelude::*;
@@ -116,8 +119,8 @@ fn settings(plan: &Plan, results: &Results) -> String {
     };
     format!(
         "Scene scenarios/{folder}/rod-140.ron and what follows from it: {} equilibria at the end \
-         of paths, {} samplings of the bonds, seeds from 0; twist first unless named. Rods are 300 nm long; \
-         monomers alone 290 nm between the inner held ones, 300 nm where the clamp is Wall. A \
+         of paths, {} samplings of drawn bonds, seeds from 0, and the mean filament, which has none; \
+         twist first unless named. Rods are 300 nm long; monomers alone 290 nm between the inner held ones, 300 nm where the clamp is Wall. A \
          pull of 1e-3 pN at half the length, towards a point 100 nm aside, breaks the symmetry.",
         results.outcomes.len(),
         plan.seeds,

@@ -1,7 +1,9 @@
 //! What comes out of a case: the equilibrium, its certificate, and what does not depend on the
 //! plane in which the filament happens to buckle.
 
+use super::balance;
 use super::case::Case;
+use super::group::Rods;
 use crate::figures::viewer::Snapshot;
 use actin_sim::shape::Ribbon;
 use actin_sim::{Assembly, End, Part};
@@ -15,16 +17,30 @@ pub(super) type Place = [f64; 3];
 pub(super) struct Outcome {
     pub case: Case,
     pub measured: Measured,
-    /// Eigenvalues of the stiffness below zero, and those that cannot be told from it.
-    pub negative: usize,
-    pub unresolved: usize,
+    pub evidence: Evidence,
     /// Residual force (pN) and torque (pN nm).
     pub residual: (f64, f64),
-    /// Newton steps of the whole path, and equilibria on it.
-    pub iterations: u64,
-    pub points: usize,
     /// The state, without the pull that breaks the symmetry.
     pub snapshot: Snapshot,
+}
+
+/// How a state was found.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Evidence {
+    /// By Newton's method along the path, and certified.
+    Certificate {
+        /// Eigenvalues of the stiffness below zero, and those that cannot be told from it.
+        negative: usize,
+        unresolved: usize,
+        /// Newton steps of the whole path, and equilibria on it.
+        iterations: u64,
+        points: usize,
+    },
+    /// By damped motion to rest: its loads have no energy.
+    Motion {
+        time_ns: f64,
+        force_evaluations: u64,
+    },
 }
 
 /// What is seen of a state.
@@ -57,17 +73,32 @@ impl Measured {
 }
 
 impl Outcome {
+    /// Found by Newton's method, with a certificate.
+    pub(super) fn is_solved(&self) -> bool {
+        matches!(self.evidence, Evidence::Certificate { .. })
+    }
+
     /// A minimum of the energy beyond doubt.
     pub(super) fn is_stable(&self) -> bool {
-        self.negative == 0 && self.unresolved == 0
+        matches!(
+            self.evidence,
+            Evidence::Certificate {
+                negative: 0,
+                unresolved: 0,
+                ..
+            }
+        )
     }
 }
 
-/// Finds the equilibrium of `case` along its path.
+/// Finds the equilibrium of `case` along its path, or where loads without an energy come to rest.
 ///
 /// # Errors
 /// A scene that cannot be read or built, a path that ends early: in words, with the case.
 pub(super) fn solve(case: &Case) -> Result<Outcome, String> {
+    if case.group.rods == Rods::PaperBalance {
+        return balance::rest(case);
+    }
     let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", case.name());
     let mut assembly = Assembly::build(&case.scene()?).map_err(|e| fail(&e))?;
     outcome(case, &mut assembly)
@@ -88,11 +119,13 @@ pub(super) fn outcome(case: &Case, assembly: &mut Assembly) -> Result<Outcome, S
     Ok(Outcome {
         case: *case,
         measured: measure(case, assembly),
-        negative: found.certificate.negative,
-        unresolved: found.certificate.unresolved,
+        evidence: Evidence::Certificate {
+            negative: found.certificate.negative,
+            unresolved: found.certificate.unresolved,
+            iterations: found.newton_iterations,
+            points: found.points,
+        },
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
-        iterations: found.newton_iterations,
-        points: found.points,
         snapshot: Snapshot::of(assembly, &last.state).without_linkers(),
     })
 }

@@ -1,7 +1,8 @@
 //! Pictures of Figures 8 and 10: centre lines in the plane of buckling and from its side, and
 //! heights and couples against the length of rod.
 
-use super::case::{Case, Figure, Group, Resolved};
+use super::case::{Case, Resolved};
+use super::group::{Figure, Group};
 use super::lists::Plan;
 use super::outcome::{Outcome, Place};
 use super::plane::in_own_plane;
@@ -27,43 +28,78 @@ pub(super) fn draw(plan: &Plan, results: &Results, out: &Path) -> Result<Vec<Pic
     Ok(pictures)
 }
 
-/// Both views of the centre lines at one turn.
-fn lines(plan: &Plan, results: &Results, turn: i32, out: &Path) -> Result<Vec<Picture>, String> {
-    let id = artefact(plan.figure);
-    let what = format!("{} deg of {}", turn.abs(), direction(turn > 0));
-    let law = rods(plan.figure);
-    let front = Chart {
-        title: &format!("In each filament's own plane of buckling, {what} at each end"),
+/// A view of centre lines.
+struct Projection {
+    panel: &'static str,
+    from: &'static str,
+    x_label: &'static str,
+    y_label: &'static str,
+    project: fn(&Place) -> (f64, f64),
+    equal_axes: bool,
+}
+
+/// Along the axis, in the plane of buckling and out of it are the coordinates 0, 1 and 2.
+const PROJECTIONS: [Projection; 3] = [
+    Projection {
+        panel: "plane",
+        from: "In each filament's own plane of buckling",
         x_label: "along the axis, from the middle (nm)",
         y_label: "in the plane (nm)",
-        series: view(plan, results, turn, |p| (p[0], p[1])),
+        project: |p| (p[0], p[1]),
         equal_axes: false,
-    };
-    let side = Chart {
-        title: &format!("From the side of that plane, {what} at each end"),
+    },
+    Projection {
+        panel: "side",
+        from: "From the side of that plane",
         x_label: "along the axis, from the middle (nm)",
         y_label: "out of the plane (nm)",
-        series: view(plan, results, turn, |p| (p[0], p[2])),
+        project: |p| (p[0], p[2]),
         equal_axes: false,
-    };
+    },
+    Projection {
+        panel: "end",
+        from: "Along the axis, from the end",
+        x_label: "out of the plane (nm)",
+        y_label: "in the plane (nm)",
+        project: |p| (p[2], p[1]),
+        equal_axes: true,
+    },
+];
+
+/// The views of the centre lines at one turn.
+fn lines(plan: &Plan, results: &Results, turn: i32, out: &Path) -> Result<Vec<Picture>, String> {
+    let what = format!("{} deg of {}", turn.abs(), direction(turn > 0));
     let name = Case::turn_name(turn).replace('/', "_");
-    let captions = [
-        format!(
-            "Centre lines, seed 0, {law}; every filament is turned about the axis until its own \
-             plane of buckling lies in the page. {} The scales of the two axes differ.",
+    let views = PROJECTIONS.iter().map(|projection| {
+        let chart = Chart {
+            title: &format!("{}, {what} at each end", projection.from),
+            x_label: projection.x_label,
+            y_label: projection.y_label,
+            series: view(plan, results, turn, projection.project),
+            equal_axes: projection.equal_axes,
+        };
+        let file = format!("{}_{name}_{}.svg", artefact(plan.figure), projection.panel);
+        draw_chart(&chart, &out.join(&file))?;
+        Ok(Picture {
+            file,
+            caption: caption(plan.figure, projection.panel),
+        })
+    });
+    views.collect()
+}
+
+fn caption(figure: Figure, panel: &str) -> String {
+    match panel {
+        "plane" => format!(
+            "Centre lines, drawn bonds (seed 0), {}; every filament is turned about the axis until its \
+             own plane of buckling lies in the page. {} Black: the mean filament, all \
+             monomers. The scales of the two axes differ.",
+            rods(figure),
             palette::chosen().ends()
         ),
-        "The same lines from the side: what leaves the plane.".into(),
-    ];
-    let charts = [(front, "plane"), (side, "side")].into_iter();
-    charts
-        .zip(captions)
-        .map(|((chart, panel), caption)| {
-            let file = format!("{id}_{name}_{panel}.svg");
-            draw_chart(&chart, &out.join(&file))?;
-            Ok(Picture { file, caption })
-        })
-        .collect()
+        "side" => "The same lines from the side: what leaves the plane.".into(),
+        _ => "The same lines seen along the axis of the ends, at equal scales.".into(),
+    }
 }
 
 fn direction(over: bool) -> &'static str {
@@ -113,18 +149,27 @@ fn view(
     turn: i32,
     project: fn(&Place) -> (f64, f64),
 ) -> Vec<Series> {
-    drawn(plan, results, turn)
-        .into_iter()
-        .map(|outcome| Series {
-            label: Some(outcome.case.resolved.name()),
-            colour: palette::resolution(outcome.case.resolved.rod_share()),
-            points: in_own_plane(&outcome.measured.centre_line)
-                .iter()
-                .map(project)
-                .collect(),
-            dots: false,
-        })
-        .collect()
+    let line = |outcome: &Outcome, label, colour| Series {
+        label: Some(label),
+        colour,
+        points: in_own_plane(&outcome.measured.centre_line)
+            .iter()
+            .map(project)
+            .collect(),
+        dots: false,
+    };
+    let drawn = drawn(plan, results, turn).into_iter().map(|outcome| {
+        let resolved = outcome.case.resolved;
+        let colour = palette::resolution(resolved.rod_share());
+        line(outcome, resolved.name(), colour)
+    });
+    let group = Group {
+        mean: true,
+        ..plan.main()
+    };
+    let mean = results.of(Case::new(group, Resolved::Ellipsoids, turn, 0));
+    let mean = mean.map(|outcome| line(outcome, "mean, ellipsoids".into(), group.colour()));
+    drawn.chain(mean).collect()
 }
 
 /// An observable against the length of rod at one turn, all groups.
@@ -154,8 +199,8 @@ fn against_rod(
     let file = format!("{}_{turn}_{name}.svg", artefact(plan.figure));
     draw_chart(&chart, &out.join(&file))?;
     let caption = format!(
-        "{what} against the length of rod: means over {} samplings of the bonds. Monomers have 64 \
-         bonds per interface unless 32 are named.",
+        "{what} against the length of rod. Drawn bonds, 64 per interface, are means over {} samplings; \
+         the mean filament has 12 weighted bonds per interface that stand for all.",
         plan.seeds
     );
     Ok(Picture { file, caption })
@@ -163,36 +208,20 @@ fn against_rod(
 
 /// One curve for each group, with its points.
 fn curves(plan: &Plan, results: &Results, observable: Observable, turn: i32) -> Vec<Series> {
-    let groups = plan.groups();
     let mut series = Vec::new();
-    for (i, &(name, group)) in groups.iter().enumerate() {
-        // Groups are not resolutions, but as many; the first has the colour of all rod.
-        let share = 1.0 - i as f64 / (groups.len() - 1) as f64;
+    let groups = plan.groups().into_iter().map(|(_, group)| group);
+    for group in groups.filter(|&group| plan.turns_of(group).any(|t| t == turn)) {
         let points = means(plan, results, (group, turn), observable);
         let curve = |label, points, dots| Series {
             label,
-            colour: palette::resolution(share),
+            colour: group.colour(),
             points,
             dots,
         };
-        series.push(curve(Some(describe(name, group)), points.clone(), false));
+        series.push(curve(Some(group.words().into()), points.clone(), false));
         series.push(curve(None, points, true));
     }
     series
-}
-
-fn describe(name: &str, group: Group) -> String {
-    let law = if group.extended {
-        "extended"
-    } else {
-        "constant"
-    };
-    let bonds = if name.starts_with("bonds") {
-        ", 32 bonds"
-    } else {
-        ""
-    };
-    format!("{law}, {:?}{bonds}", group.hold)
 }
 
 fn means(

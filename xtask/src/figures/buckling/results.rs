@@ -1,6 +1,7 @@
 //! The outcomes of a figure, and samples of them.
 
-use super::case::{Case, Group, Resolved, Start};
+use super::case::{Case, Resolved, Start};
+use super::group::Group;
 use super::outcome::{Measured, Outcome};
 
 /// What came out of all cases.

@@ -2,16 +2,17 @@
 //! centre line that is drawn.
 
 use super::lists::Plan;
-use super::outcome::Outcome;
+use super::outcome::{Evidence, Outcome};
 use super::results::Results;
 use super::rows::artefact;
 use crate::figures::report::write_csv;
 use std::path::Path;
 
-const COLUMNS: [&str; 23] = [
+const COLUMNS: [&str; 26] = [
     "rods",
     "clamp",
-    "bonds_per_interface",
+    "junction",
+    "bonds",
     "turn_deg",
     "case",
     "seed",
@@ -31,6 +32,8 @@ const COLUMNS: [&str; 23] = [
     "residual_pn_nm",
     "newton_iterations",
     "equilibria_on_path",
+    "time_ns",
+    "force_evaluations",
     "rod_nm",
 ];
 
@@ -41,41 +44,58 @@ pub(super) fn write(plan: &Plan, results: &Results, out: &Path) -> Result<(), St
     write_csv(out, &format!("{id}.csv"), &COLUMNS, all)?;
     let drawn = results.outcomes.iter().filter(|o| o.case.seed == 0);
     let points = drawn.flat_map(|o| {
-        let [rods, clamp, bonds, turn, case] = identity(o);
-        let key = [rods, clamp, bonds, turn, case, o.case.start.name()];
+        let mut key = identity(o).to_vec();
+        key.push(o.case.start.name());
         o.measured.centre_line.iter().map(move |p| {
-            let mut row = key.to_vec();
+            let mut row = key.clone();
             row.extend(p.map(number));
             row
         })
     });
     let header = [
-        "rods",
-        "clamp",
-        "bonds_per_interface",
-        "turn_deg",
-        "case",
-        "start",
-        "x_nm",
-        "y_nm",
-        "z_nm",
+        "rods", "clamp", "junction", "bonds", "turn_deg", "case", "start", "x_nm", "y_nm", "z_nm",
     ];
     write_csv(out, &format!("{id}_centre_lines.csv"), &header, points)
 }
 
-fn identity(o: &Outcome) -> [String; 5] {
-    let rods = if o.case.group.extended {
-        "extended"
-    } else {
-        "constant"
-    };
+fn identity(o: &Outcome) -> [String; 6] {
+    let group = o.case.group;
     [
-        rods.into(),
-        format!("{:?}", o.case.group.hold),
-        o.case.group.bonds.to_string(),
+        group.rods.name().into(),
+        format!("{:?}", group.hold),
+        format!("{:?}", group.weight),
+        if group.mean { "weighted" } else { "drawn" }.into(),
         o.case.turn_deg.to_string(),
         o.case.resolved.name(),
     ]
+}
+
+/// Counts of the certificate and of its search, then time and work of a motion; empty where there are none.
+fn evidence(o: &Outcome) -> ([String; 2], [String; 4]) {
+    let none = String::new;
+    match o.evidence {
+        Evidence::Certificate {
+            negative,
+            unresolved,
+            iterations,
+            points,
+        } => (
+            [negative, unresolved].map(|n| n.to_string()),
+            [iterations.to_string(), points.to_string(), none(), none()],
+        ),
+        Evidence::Motion {
+            time_ns,
+            force_evaluations,
+        } => (
+            [none(), none()],
+            [
+                none(),
+                none(),
+                number(time_ns),
+                force_evaluations.to_string(),
+            ],
+        ),
+    }
 }
 
 /// One outcome under [`COLUMNS`].
@@ -95,17 +115,15 @@ fn columns(o: &Outcome) -> Vec<String> {
         ]
         .map(number),
     );
+    let (certificate, effort) = evidence(o);
     row.extend([
         m.beyond_per_nm.map_or(String::new(), number),
         o.is_stable().to_string(),
-        o.negative.to_string(),
-        o.unresolved.to_string(),
-        number(o.residual.0),
-        number(o.residual.1),
-        o.iterations.to_string(),
-        o.points.to_string(),
-        number(o.case.resolved.rod_nm()),
     ]);
+    row.extend(certificate);
+    row.extend([o.residual.0, o.residual.1].map(number));
+    row.extend(effort);
+    row.push(number(o.case.resolved.rod_nm()));
     row
 }
 

@@ -1,37 +1,13 @@
 //! One cantilever: which scene, what is changed in it, and what came out.
 
 use super::ringdown::{self, RingDown};
+use super::variant::Variant;
 use crate::check::workspace_root;
 use crate::figures::viewer::Snapshot;
 use actin_sim::{
-    Assembly, Drag, End, Equilibrium, JunctionWeight, Load, Material, Record, Scene, Section, Task,
+    Assembly, Drag, End, Equilibrium, ForceLaw, Record, RunReport, Scene, Section, Task,
 };
 use std::ops::ControlFlow;
-
-/// What is varied besides the resolution.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Variant {
-    /// 2 pN, the bonds of a junction share the rod's rigidity.
-    Shared,
-    /// 2 pN, every bond of a junction has the rod's full rigidity.
-    Full,
-    /// 0.5 pN, shared.
-    HalfPiconewton,
-    /// 2 pN, the preceding paper's rod.
-    PrecedingPaper,
-}
-
-impl Variant {
-    /// In words.
-    pub(super) fn words(self) -> &'static str {
-        match self {
-            Self::Shared => "2 pN, junction shared",
-            Self::Full => "2 pN, junction full",
-            Self::HalfPiconewton => "0.5 pN, junction shared",
-            Self::PrecedingPaper => "2 pN, the preceding paper's rod",
-        }
-    }
-}
 
 /// Which scene of `scenarios/figure-4` a case starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,9 +47,8 @@ pub(super) struct Result4 {
     pub monomers: Vec<[f64; 3]>,
     /// First flexural mode.
     pub ring_down: Option<RingDown>,
-    /// The same distance in the equilibrium that Newton's method finds (nm), and whether it is
-    /// certified as stable.
-    pub newton: (f64, bool),
+    /// The equilibrium that Newton's method finds; none for loads without a potential.
+    pub newton: Option<Newton>,
     /// Residual force (pN) and torque (pN nm) at the end.
     pub residual: (f64, f64),
     pub converged: bool,
@@ -81,6 +56,25 @@ pub(super) struct Result4 {
     pub force_evaluations: u64,
     /// The state at the end.
     pub snapshot: Snapshot,
+}
+
+/// An equilibrium by Newton's method.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Newton {
+    /// Distance by which the tip went along the force (nm).
+    pub tip_drop_nm: f64,
+    /// Elastic energy of monomers, junctions and rod (pN nm).
+    pub energy_pn_nm: f64,
+    /// Whether it is certified as stable.
+    pub certified: bool,
+}
+
+impl Result4 {
+    /// Elastic energy at equilibrium (pN nm), Newton's where there is one.
+    pub(super) fn elastic_pn_nm(&self) -> f64 {
+        let at_the_end = self.energy.last().map_or(f64::NAN, |e| e.1);
+        self.newton.map_or(at_the_end, |found| found.energy_pn_nm)
+    }
 }
 
 /// Drag rates while a filament swings (1/ns): the amplitude decays at half this rate.
@@ -103,13 +97,22 @@ impl Case {
     }
 
     pub(super) fn refined_rod(segments: usize) -> Self {
-        let (variant, resolved) = (Variant::Shared, Resolved::Rod(segments));
+        let (variant, resolved) = (Variant::SHARED, Resolved::Rod(segments));
         Self { variant, resolved }
     }
 
     pub(super) fn ellipsoids(variant: Variant, seed: u64) -> Self {
         let resolved = Resolved::Ellipsoids(seed);
         Self { variant, resolved }
+    }
+
+    /// Its name in quantities.
+    pub(super) fn path(&self) -> String {
+        let folders = match (self.variant, self.resolved) {
+            (Variant::SHARED, Resolved::Mixed(_)) => "shared/".into(),
+            (variant, _) => variant.path(),
+        };
+        folders + &self.name()
     }
 
     /// Share of rod, for the colour.
@@ -148,16 +151,7 @@ impl Case {
     }
 
     fn apply(&self, scene: &mut Scene) {
-        match self.variant {
-            Variant::Shared => {}
-            Variant::Full => scene.filament.junction.weight = JunctionWeight::Full,
-            Variant::HalfPiconewton => {
-                for Load::EndForce { force_pn, .. } in &mut scene.loads {
-                    *force_pn = force_pn.map(|f| f * 0.25);
-                }
-            }
-            Variant::PrecedingPaper => scene.filament.rod.material = Material::PrecedingPaper,
-        }
+        self.variant.apply(scene);
         match (self.resolved, &mut scene.filament.sections[0]) {
             (Resolved::Rod(n), Section::Rod { segments, .. }) => *segments = Some(n),
             (Resolved::Ellipsoids(seed), _) => scene.filament.monomers.seed = seed,
@@ -174,26 +168,25 @@ impl Case {
         Ok(scene)
     }
 
-    /// Runs the case to its end, in time if `moving`.
+    /// Runs the case to its end, in time if `moving` and its variant does.
     pub(super) fn run(&self, moving: bool) -> Result<Result4, String> {
-        let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", self.name());
-        let mut assembly = Assembly::build(&self.scene_of(moving)?).map_err(|e| fail(&e))?;
-        let watch = &mut |_| ControlFlow::Continue(());
-        let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
-        let last = trajectory
-            .records
-            .last()
-            .ok_or_else(|| fail(&"no record"))?;
+        let moving = moving && self.variant.moves();
+        let Done {
+            assembly,
+            records,
+            report,
+        } = self.done(&self.scene_of(moving)?)?;
+        let last = &records[records.len() - 1];
         let counts = assembly.counts();
-        let drop = |record: &Record| -displacement(&assembly, record);
+        let tip_drop_nm = tip_drop(&assembly, last);
         let positions = |keep: &dyn Fn(usize) -> Option<[f64; 3]>| -> Vec<[f64; 3]> {
             (0..assembly.points.len()).filter_map(keep).collect()
         };
         Ok(Result4 {
             case: *self,
-            tip_drop_nm: drop(last),
-            energy: energies(&assembly, &trajectory.records),
-            total: trajectory.records.iter().map(total_energy).collect(),
+            tip_drop_nm,
+            energy: energies(&assembly, &records),
+            total: records.iter().map(total_energy).collect(),
             moved: moving,
             work: report.force_evaluations as f64 * (counts.bonds + counts.segments) as f64,
             centre_line: positions(&|i| Some(assembly.centre_line_nm(&last.state, i).into())),
@@ -201,7 +194,7 @@ impl Case {
                 let monomer = assembly.points[i].frame.is_some();
                 monomer.then(|| last.state.points.position.get(i).into())
             }),
-            ring_down: self.ring_down(moving, drop(last))?,
+            ring_down: self.ring_down(moving, tip_drop_nm)?,
             newton: self.newton()?,
             residual: (last.residual_force_pn, last.residual_torque_pn_nm),
             converged: report.converged,
@@ -212,24 +205,52 @@ impl Case {
     }
 }
 
+/// A scene that has been run.
+struct Done {
+    assembly: Assembly,
+    /// At least one.
+    records: Vec<Record>,
+    report: RunReport,
+}
+
 impl Case {
-    /// Solves for the equilibrium directly, from the straight state.
-    fn newton(&self) -> Result<(f64, bool), String> {
-        let fail = |error: &dyn std::fmt::Display| format!("{}: Newton: {error}", self.name());
-        let mut scene = self.scene()?;
-        scene.task = Task::Equilibrium(Equilibrium::default());
-        let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
+    /// Runs `scene`.
+    fn done(&self, scene: &Scene) -> Result<Done, String> {
+        let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", self.path());
+        let mut assembly = Assembly::build(scene).map_err(|e| fail(&e))?;
         let watch = &mut |_| ControlFlow::Continue(());
         let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
-        let last = trajectory
-            .records
-            .last()
-            .ok_or_else(|| fail(&"no record"))?;
+        if trajectory.records.is_empty() {
+            return Err(fail(&"no record"));
+        }
+        Ok(Done {
+            assembly,
+            records: trajectory.records,
+            report,
+        })
+    }
+
+    /// Solves for the equilibrium directly, from the straight state; loads that the printed balance
+    /// gives have no potential, and no equilibrium in this sense.
+    fn newton(&self) -> Result<Option<Newton>, String> {
+        if self.variant.balance == ForceLaw::PaperBalance {
+            return Ok(None);
+        }
+        let Done {
+            assembly,
+            records,
+            report,
+        } = self.done(&self.scene_of(false)?)?;
+        let last = &records[records.len() - 1];
         let certified = report.equilibrium.is_some_and(|e| {
             let counts = e.certificate;
             counts.negative == 0 && counts.unresolved == 0
         });
-        Ok((-displacement(&assembly, last), certified))
+        Ok(Some(Newton {
+            tip_drop_nm: tip_drop(&assembly, last),
+            energy_pn_nm: internal_energy(&assembly, last),
+            certified,
+        }))
     }
 
     /// Lets the filament swing about its equilibrium with little drag, the same for all cases.
@@ -237,10 +258,9 @@ impl Case {
         if !moving || !self.swings() {
             return Ok(None);
         }
-        let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", self.name());
         let mut scene = self.scene()?;
         let Task::Dynamics(dynamics) = &mut scene.task else {
-            return Err(fail(&"the scene asks for no dynamics"));
+            return Err(format!("{}: the scene asks for no dynamics", self.path()));
         };
         dynamics.drag = Drag {
             translational_per_ns: SWING_DRAG_PER_NS,
@@ -248,13 +268,12 @@ impl Case {
         };
         dynamics.duration_ns = SWING_NS;
         dynamics.stop = None;
-        let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
-        let watch = &mut |_| ControlFlow::Continue(());
-        let (trajectory, _) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
-        let approach: Vec<(f64, f64)> = trajectory
-            .records
+        let Done {
+            assembly, records, ..
+        } = self.done(&scene)?;
+        let approach: Vec<(f64, f64)> = records
             .iter()
-            .map(|record| (record.time_ns, -displacement(&assembly, record)))
+            .map(|record| (record.time_ns, tip_drop(&assembly, record)))
             .collect();
         Ok(ringdown::fit(&approach, equilibrium_nm))
     }
@@ -265,13 +284,13 @@ impl Case {
             self.resolved,
             Resolved::Mixed(_) | Resolved::Rod(ROD_SEGMENTS) | Resolved::Ellipsoids(0)
         );
-        drawn && self.variant == Variant::Shared
+        drawn && self.variant.swings()
     }
 }
 
-/// Displacement of the tip along lab x (nm).
-fn displacement(assembly: &Assembly, record: &Record) -> f64 {
-    (assembly.tip_nm(&record.state, End::End) - assembly.tip_nm(&assembly.rest, End::End)).x
+/// Distance by which the tip went along the force, towards -x (nm).
+fn tip_drop(assembly: &Assembly, record: &Record) -> f64 {
+    -(assembly.tip_nm(&record.state, End::End) - assembly.tip_nm(&assembly.rest, End::End)).x
 }
 
 /// Energy with the potential of the load (pN nm).
@@ -303,14 +322,15 @@ pub(super) fn settings(results: &[Result4]) -> String {
     let worst = |pick: fn(&Result4) -> f64| results.iter().map(pick).fold(0.0, f64::max);
     let unfinished = results.iter().filter(|r| !r.converged).count();
     let how = if results.iter().any(|r| r.moved) {
-        "damped dynamics"
+        "damped dynamics, and equilibria by Newton's method where the preceding paper's rigidity is \
+         named"
     } else {
-        "equilibria by Newton's method"
+        "equilibria by Newton's method, none of the printed balance, which has no potential"
     };
     format!(
         "Scenes scenarios/figure-4/*.ron, {} cases, {how}; at the end every force is below {:.1e} \
          pN and every torque below {:.1e} pN nm; {unfinished} case(s) ended before. Seed 0 unless \
-         named.",
+         named; the mean filament has weighted bonds and no seed.",
         results.len(),
         worst(|r| r.residual.0),
         worst(|r| r.residual.1),

@@ -1,27 +1,28 @@
-//! The panels of Figure 4: side view, end view, energy against time.
+//! The panels of Figure 4: side view, end view, energy against time; and what equilibria are like
+//! against the length of rod.
 
-use super::case::{Resolved, Result4, Variant};
+use super::case::{ROD_SEGMENTS, Resolved, Result4};
+use super::variant::Variant;
 use crate::figures::palette;
 use crate::figures::plot::{Chart, Series, draw as draw_chart};
 use crate::figures::report::{Picture, View};
 use crate::figures::viewer::{self, Attitude, Shown};
+use plotters::style::RGBColor;
 use std::path::Path;
 
 /// Draws all panels.
 pub(super) fn draw(results: &[Result4], out: &Path) -> Result<Vec<Picture>, String> {
     let mut pictures = Vec::new();
-    for (variant, weight, force) in [
-        (Variant::Shared, "shared", "2 pN"),
-        (Variant::Full, "full", "2 pN"),
-        (Variant::HalfPiconewton, "shared", "0.5 pN"),
+    for (variant, mean, name) in [
+        (Variant::SHARED, Some(Variant::MEAN), "2_pN_shared"),
+        (Variant::FULL, None, "2_pN_full"),
+        (Variant::WEAK, Some(Variant::WEAK_MEAN), "0.5_pN_shared"),
+        (Variant::STIFF, Some(Variant::STIFF_MEAN), "preceding_paper"),
     ] {
-        let mut chosen: Vec<&Result4> = results
-            .iter()
-            .filter(|r| r.case.variant == variant && is_drawn(r.case.resolved))
-            .collect();
-        chosen.sort_by(|a, b| a.case.rod_share().total_cmp(&b.case.rod_share()));
-        pictures.extend(panels(&chosen, weight, force, out)?);
+        let panels = Panels::of(results, variant, mean);
+        pictures.extend(panels.draw(&format!("fig4_{name}"), out)?);
     }
+    pictures.extend(against_resolution(results, out)?);
     Ok(pictures)
 }
 
@@ -29,7 +30,7 @@ pub(super) fn draw(results: &[Result4], out: &Path) -> Result<Vec<Picture>, Stri
 fn is_drawn(resolved: Resolved) -> bool {
     matches!(
         resolved,
-        Resolved::Mixed(_) | Resolved::Rod(super::case::ROD_SEGMENTS) | Resolved::Ellipsoids(0)
+        Resolved::Mixed(_) | Resolved::Rod(ROD_SEGMENTS) | Resolved::Ellipsoids(0)
     )
 }
 
@@ -43,7 +44,7 @@ pub(super) fn view_in_space(results: &[Result4], out: &Path) -> Result<View, Str
     let shown: Vec<Shown> = drawn
         .into_iter()
         .map(|r| Shown {
-            group: r.case.variant.words().into(),
+            group: r.case.variant.words(),
             name: r.case.name(),
             share: r.case.rod_share(),
             snapshot: r.snapshot.clone(),
@@ -57,85 +58,220 @@ pub(super) fn view_in_space(results: &[Result4], out: &Path) -> Result<View, Str
 
 const X_LABEL: &str = "x (nm); the force pulls towards -x";
 
-fn panels(
-    results: &[&Result4],
-    weight: &str,
-    force: &str,
-    out: &Path,
-) -> Result<Vec<Picture>, String> {
-    let what = format!("{force}, junction weight {weight}");
-    let side = Chart {
-        title: &format!("Side view, {what}"),
-        x_label: "z along the unloaded filament (nm)",
-        y_label: X_LABEL,
-        series: view(results, |p| (p[2], p[0])),
-        equal_axes: true,
-    };
-    let end = Chart {
-        title: &format!("End view, {what}"),
-        x_label: "y (nm)",
-        y_label: X_LABEL,
-        series: view(results, |p| (p[1], p[0])),
-        equal_axes: true,
-    };
-    let energy = Chart {
-        title: &format!("Energy, {what}"),
-        x_label: "time (ns)",
-        y_label: "elastic and kinetic energy (pN nm)",
-        series: energies(results),
-        equal_axes: false,
-    };
-    let captions = captions(&what);
-    let charts = [(side, "side"), (end, "end"), (energy, "energy")];
-    let shown = charts.into_iter().zip(captions);
-    let shown = shown.filter(|((_, panel), _)| *panel != "energy" || results[0].moved);
-    shown
-        .map(|((chart, panel), caption)| {
-            let file = format!("fig4_{}_{weight}_{panel}.svg", force.replace(' ', "_"));
-            draw_chart(&chart, &out.join(&file))?;
-            Ok(Picture { file, caption })
-        })
-        .collect()
+/// One variant at all resolutions, beside the mean filament.
+struct Panels<'a> {
+    what: String,
+    /// From monomers to rod.
+    drawn: Vec<&'a Result4>,
+    /// Monomers with weighted bonds.
+    mean: Option<&'a Result4>,
 }
 
-/// What is seen on side view, end view and energy.
-fn captions(what: &str) -> [String; 3] {
+/// Name of the mean filament in legends.
+const MEAN: &str = "mean filament";
+
+impl<'a> Panels<'a> {
+    fn of(results: &'a [Result4], variant: Variant, mean: Option<Variant>) -> Self {
+        let of_variant = |variant| {
+            let all = results.iter().filter(move |r| r.case.variant == variant);
+            all.filter(|r| is_drawn(r.case.resolved))
+        };
+        let mut drawn: Vec<&Result4> = of_variant(variant).collect();
+        drawn.sort_by(|a, b| a.case.rod_share().total_cmp(&b.case.rod_share()));
+        let mean = mean.and_then(|mean| {
+            of_variant(mean).find(|r| matches!(r.case.resolved, Resolved::Ellipsoids(_)))
+        });
+        Self {
+            what: variant.words(),
+            drawn,
+            mean,
+        }
+    }
+
+    fn draw(&self, name: &str, out: &Path) -> Result<Vec<Picture>, String> {
+        let titles =
+            ["Side view", "End view", "Energy"].map(|view| format!("{view}, {}", self.what));
+        let z_label = "z along the unloaded filament (nm)";
+        let charts = [
+            self.view(&titles[0], z_label, |p| (p[2], p[0])),
+            self.view(&titles[1], "y (nm)", |p| (p[1], p[0])),
+            self.energies(&titles[2]),
+        ];
+        let shown = ["side", "end", "energy"]
+            .into_iter()
+            .zip(charts)
+            .zip(self.captions());
+        let moved = self.drawn[0].moved;
+        let shown = shown.filter(|((panel, _), _)| *panel != "energy" || moved);
+        shown
+            .map(|((panel, chart), caption)| {
+                let file = format!("{name}_{panel}.svg");
+                draw_chart(&chart, &out.join(&file))?;
+                Ok(Picture { file, caption })
+            })
+            .collect()
+    }
+
+    /// What is seen on side view, end view and energy.
+    fn captions(&self) -> [String; 3] {
+        let mean = match self.mean {
+            Some(_) => " Dashed: monomers alone with weighted bonds, the mean filament.",
+            None => "",
+        };
+        [
+            format!(
+                "Equilibria under {}. Lines: nodes of the rod, and the centre line of the monomers; \
+                 dots: monomer centres. {}{mean}",
+                self.what,
+                palette::chosen().ends()
+            ),
+            format!("The same states seen along the unloaded filament.{mean}"),
+            format!("Elastic and kinetic energy while the damped motion comes to rest.{mean}"),
+        ]
+    }
+
+    /// Monomer centres as dots under the centre lines, projected by `project`.
+    fn view<'t>(
+        &self,
+        title: &'t str,
+        x_label: &'t str,
+        project: fn(&[f64; 3]) -> (f64, f64),
+    ) -> Chart<'t> {
+        let dots = self.drawn.iter().map(|r| Series {
+            label: None,
+            colour: palette::resolution(r.case.rod_share()),
+            points: r.monomers.iter().map(project).collect(),
+            dots: true,
+        });
+        let lines = self.lines(true, |r| r.centre_line.iter().map(project).collect());
+        Chart {
+            title,
+            x_label,
+            y_label: X_LABEL,
+            series: dots.chain(lines).collect(),
+            equal_axes: true,
+        }
+    }
+
+    fn energies<'t>(&self, title: &'t str) -> Chart<'t> {
+        Chart {
+            title,
+            x_label: "time (ns)",
+            y_label: "elastic and kinetic energy (pN nm)",
+            series: self.lines(false, |r| r.energy.clone()),
+            equal_axes: false,
+        }
+    }
+
+    /// A line for each resolution, and above them dashes for the mean filament.
+    fn lines(&self, equal_axes: bool, points: impl Fn(&Result4) -> Vec<(f64, f64)>) -> Vec<Series> {
+        let line = |label: String, colour, r: &Result4| Series {
+            label: Some(label),
+            colour,
+            points: points(r),
+            dots: false,
+        };
+        let drawn = self.drawn.iter().map(|r| {
+            let colour = palette::resolution(r.case.rod_share());
+            line(r.case.name(), colour, r)
+        });
+        let mean = self.mean.map(|r| line(MEAN.into(), palette::DATA, r));
+        let mean = mean.into_iter().flat_map(|line| line.dashed(equal_axes));
+        drawn.chain(mean).collect()
+    }
+}
+
+/// Length of the filament (nm).
+const LENGTH_NM: f64 = 160.0;
+
+/// Curves against the length of rod: whose mixed filaments, whose pure ones, and the colour.
+fn curves() -> [(Variant, [Variant; 2], RGBColor); 4] {
     [
-        format!(
-            "Equilibria under {what}. Lines: nodes of the rod, and the centre line of the \
-             monomers; dots: monomer centres. {}",
-            palette::chosen().ends()
+        (
+            Variant::SHARED,
+            [Variant::SHARED, Variant::SHARED],
+            palette::line(0),
         ),
-        "The same states seen along the unloaded filament.".into(),
-        "Elastic and kinetic energy while the damped motion comes to rest.".into(),
+        (
+            Variant::FULL,
+            [Variant::SHARED, Variant::SHARED],
+            palette::line(1),
+        ),
+        (
+            Variant::AS_PRINTED,
+            [Variant::SHARED, Variant::AS_PRINTED],
+            palette::line(3),
+        ),
+        (
+            Variant::MEAN,
+            [Variant::MEAN, Variant::SHARED],
+            palette::DATA,
+        ),
     ]
 }
 
-/// Monomer centres as dots under the centre lines, projected by `project`.
-fn view(results: &[&Result4], project: fn(&[f64; 3]) -> (f64, f64)) -> Vec<Series> {
-    let dots = results.iter().map(|r| Series {
-        label: None,
-        colour: palette::resolution(r.case.rod_share()),
-        points: r.monomers.iter().map(project).collect(),
-        dots: true,
+/// Tips and elastic energies of equilibria under 2 pN against the length of rod.
+fn against_resolution(results: &[Result4], out: &Path) -> Result<Vec<Picture>, String> {
+    let x_label = "rod at the tip (nm)";
+    let tip = "distance of the tip along the force (nm)";
+    let energy = "elastic energy at equilibrium (pN nm)";
+    let charts = [
+        ("tips", tip, series(results, |r| r.tip_drop_nm)),
+        ("energies", energy, series(results, Result4::elastic_pn_nm)),
+    ];
+    let drawn = charts.into_iter().map(|(name, y_label, series)| {
+        let chart = Chart {
+            title: "Equilibria under 2 pN against resolution",
+            x_label,
+            y_label,
+            series,
+            equal_axes: false,
+        };
+        let file = format!("fig4_{name}.svg");
+        draw_chart(&chart, &out.join(&file))?;
+        let caption = format!(
+            "The {y_label} against the length of rod, monomers alone at 0 and rod alone at 160 nm; \
+             drawn bonds of the first sampling, and the mean filament (black)."
+        );
+        Ok(Picture { file, caption })
     });
-    let lines = results.iter().map(|r| Series {
-        label: Some(r.case.name()),
-        colour: palette::resolution(r.case.rod_share()),
-        points: r.centre_line.iter().map(project).collect(),
-        dots: false,
-    });
-    dots.chain(lines).collect()
+    drawn.collect()
 }
 
-fn energies(results: &[&Result4]) -> Vec<Series> {
-    results
-        .iter()
-        .map(|r| Series {
-            label: Some(r.case.name()),
-            colour: palette::resolution(r.case.rod_share()),
-            points: r.energy.clone(),
-            dots: false,
-        })
-        .collect()
+/// A line with a dot at each resolution for every curve that was computed.
+fn series(results: &[Result4], value: fn(&Result4) -> f64) -> Vec<Series> {
+    let all = curves()
+        .into_iter()
+        .flat_map(|(mixed, [ellipsoids, rod], colour)| {
+            let belongs = |r: &&Result4| {
+                let of = match r.case.resolved {
+                    Resolved::Mixed(_) => mixed,
+                    Resolved::Ellipsoids(_) => ellipsoids,
+                    Resolved::Rod(_) => rod,
+                };
+                r.case.variant == of && is_drawn(r.case.resolved)
+            };
+            let is_computed = results.iter().any(|r| r.case.variant == mixed);
+            let chosen = results.iter().filter(belongs).filter(|_| is_computed);
+            let mut points: Vec<(f64, f64)> = chosen
+                .map(|r| (LENGTH_NM * r.case.rod_share(), value(r)))
+                .collect();
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let series = |label, dots| Series {
+                label,
+                colour,
+                points: points.clone(),
+                dots,
+            };
+            let line = series(is_computed.then(|| mixed.words()), false);
+            // It lies upon the line of the junction as printed alone.
+            let mut all = if mixed == Variant::AS_PRINTED {
+                line.dashed(false)
+            } else {
+                vec![line]
+            };
+            all.push(series(None, true));
+            all
+        });
+    all.collect()
 }

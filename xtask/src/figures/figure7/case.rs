@@ -3,7 +3,7 @@
 use crate::check::workspace_root;
 use crate::figures::viewer::Snapshot;
 use actin_sim::shape::{ProfilePoint, Ribbon, profile};
-use actin_sim::{Assembly, Hold, Part, Scene, Slides};
+use actin_sim::{Assembly, Hold, Monomers, Part, RodLaw, Scene, Slides};
 use std::ops::ControlFlow;
 
 /// What resolves the filament.
@@ -11,8 +11,12 @@ use std::ops::ControlFlow;
 pub(super) enum Resolved {
     /// 19 segments, held so.
     Rod(Hold),
-    /// 67 monomers with so many bonds per interface.
+    /// The same with the energy of the supplement, which couples stretch and twist.
+    Coupled(Hold),
+    /// 67 monomers with so many drawn bonds per interface.
     Ellipsoids(usize),
+    /// 67 monomers with weighted bonds, which stand for all: the mean filament.
+    Mean,
 }
 
 /// Which ends slide along the axis. The linker then still holds the middle along the axis: with one
@@ -70,6 +74,15 @@ impl Halves {
 }
 
 impl Case {
+    pub(super) fn is_rod(&self) -> bool {
+        matches!(self.resolved, Resolved::Rod(_) | Resolved::Coupled(_))
+    }
+
+    /// Whether its bonds are drawn at random.
+    pub(super) fn is_sampled(&self) -> bool {
+        matches!(self.resolved, Resolved::Ellipsoids(_))
+    }
+
     /// Name of the kind in quantities.
     pub(super) fn kind(&self) -> String {
         let slides = match self.sliding {
@@ -80,15 +93,19 @@ impl Case {
         match self.resolved {
             Resolved::Rod(Hold::Wall) => format!("{slides}wall/rod"),
             Resolved::Rod(_) => format!("{slides}rod"),
+            Resolved::Coupled(Hold::Wall) => format!("{slides}coupling-energy/wall/rod"),
+            Resolved::Coupled(_) => format!("{slides}coupling-energy/rod"),
+            Resolved::Mean => format!("{slides}mean-filament/ellipsoid"),
             Resolved::Ellipsoids(32) => format!("{slides}bonds-32/ellipsoid"),
             Resolved::Ellipsoids(_) => format!("{slides}ellipsoid"),
         }
     }
 
     fn scene(&self) -> Result<Scene, String> {
-        let file = match self.resolved {
-            Resolved::Rod(_) => "rod.ron",
-            Resolved::Ellipsoids(_) => "ellipsoids.ron",
+        let file = if self.is_rod() {
+            "rod.ron"
+        } else {
+            "ellipsoids.ron"
         };
         let path = workspace_root().join("scenarios/figure-7").join(file);
         let text = std::fs::read_to_string(&path)
@@ -100,8 +117,13 @@ impl Case {
     }
 
     fn apply(&self, scene: &mut Scene) {
+        if let Resolved::Rod(hold) | Resolved::Coupled(hold) = self.resolved {
+            scene.clamps.iter_mut().for_each(|clamp| clamp.hold = hold);
+        }
         match self.resolved {
-            Resolved::Rod(hold) => scene.clamps.iter_mut().for_each(|clamp| clamp.hold = hold),
+            Resolved::Rod(_) => {}
+            Resolved::Coupled(_) => scene.filament.rod.law = RodLaw::CouplingEnergy,
+            Resolved::Mean => scene.filament.monomers = Monomers::default(),
             Resolved::Ellipsoids(bonds) => {
                 let monomers = &mut scene.filament.monomers;
                 monomers.seed = self.seed;

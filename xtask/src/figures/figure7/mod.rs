@@ -1,5 +1,7 @@
 //! Figure 7: a filament held at both ends and turned in its middle by a linker, as a rod, whose
-//! halves store the same, and as monomers, whose over-twisted half stores more.
+//! halves store the same, and as monomers, whose over-twisted half stores more. Beside them stand the
+//! mean filament and a rod with the energy of the supplement, which couples stretch and twist.
+//! Neither has a junction.
 
 mod case;
 mod rows;
@@ -11,6 +13,7 @@ use super::report::{Artefact, Picture, View};
 use super::viewer::{self, Attitude, Shown};
 use actin_sim::Hold;
 use case::{Case, Halves, Resolved, Sliding};
+use plotters::style::WHITE;
 use rayon::prelude::*;
 use std::path::Path;
 use std::time::Instant;
@@ -43,8 +46,8 @@ pub(super) fn reproduce(run: Run<'_>) -> Result<Artefact, String> {
         id: "fig7",
         title: "Turned in the middle: the energy of both halves",
         settings: format!(
-            "Scenes scenarios/figure-7/*.ron, {} equilibria; seeds of the bonds from 0, each pulled both \
-             ways; every force is below {:.1e} pN and \
+            "Scenes scenarios/figure-7/*.ron, {} equilibria; seeds of the bonds from 0 (the mean filament has \
+             none), each pulled both ways; every force is below {:.1e} pN and \
              every torque below {:.1e} pN nm.",
             results.len(),
             worst(|h| h.residual.0),
@@ -57,62 +60,98 @@ pub(super) fn reproduce(run: Run<'_>) -> Result<Artefact, String> {
     })
 }
 
-/// Rods with both clamps, monomers with 64 and 32 bonds; with both ends held along the axis, one or
-/// none.
+/// Rods with both clamps, monomers with 64 and 32 drawn bonds and with weighted ones; with both ends
+/// held along the axis, one or none.
 fn cases(seeds: u64) -> Vec<Case> {
-    let rods = [Hold::TwoNodesAndFrame, Hold::Wall].map(Resolved::Rod);
-    let monomers = [64, 32].map(Resolved::Ellipsoids);
+    let kinds = [
+        Resolved::Rod(Hold::TwoNodesAndFrame),
+        Resolved::Rod(Hold::Wall),
+        Resolved::Coupled(Hold::TwoNodesAndFrame),
+        Resolved::Coupled(Hold::Wall),
+        Resolved::Ellipsoids(64),
+        Resolved::Ellipsoids(32),
+        Resolved::Mean,
+    ];
     let mut all = Vec::new();
     for sliding in [Sliding::Neither, Sliding::FarEnd, Sliding::BothEnds] {
-        for resolved in rods.into_iter().chain(monomers) {
-            let is_rod = matches!(resolved, Resolved::Rod(_));
-            let seeds = if is_rod { 1 } else { seeds };
-            let directions: &[bool] = if is_rod { &[false] } else { &[false, true] };
+        for resolved in kinds {
+            let first = Case {
+                resolved,
+                seed: 0,
+                reversed: false,
+                sliding,
+            };
+            let seeds = if first.is_sampled() { seeds } else { 1 };
+            let directions: &[bool] = if first.is_rod() {
+                &[false]
+            } else {
+                &[false, true]
+            };
             for seed in 0..seeds {
-                all.extend(directions.iter().map(|&reversed| Case {
-                    resolved,
+                let pulled = |&reversed: &bool| Case {
                     seed,
                     reversed,
-                    sliding,
-                }));
+                    ..first
+                };
+                all.extend(directions.iter().map(pulled));
             }
         }
     }
     all
 }
 
-/// Energy per length: the rod, and the mean of the monomers with the default bonds.
+/// Energy per length: rods, the mean of the monomers with the default bonds, and the mean filament.
 fn picture(results: &[Halves], out: &Path) -> Result<Picture, String> {
-    let of_kind =
-        |kind: &str| -> Vec<&Halves> { results.iter().filter(|h| h.case.kind() == kind).collect() };
-    let curve = |label: &str, share: f64, halves: &[&Halves]| Series {
-        label: Some(label.into()),
-        colour: palette::resolution(share),
-        points: mean_profile(halves),
-        dots: false,
+    let curve = |label: &str, colour, kind: &str| {
+        let of_kind = results.iter().filter(|h| h.case.kind() == kind);
+        let halves: Vec<&Halves> = of_kind.collect();
+        Series {
+            label: Some(label.into()),
+            colour,
+            points: mean_profile(&halves),
+            dots: false,
+        }
     };
+    let [monomers, sliding, rod] = [0.0, 0.4, 1.0].map(palette::resolution);
+    let mut series = vec![
+        curve("rod", rod, "rod"),
+        curve("rod, C3 energy", palette::line(4), "coupling-energy/rod"),
+        curve("ellipsoids", monomers, "ellipsoid"),
+        curve(
+            "ellipsoids, both ends slide",
+            sliding,
+            "both-ends-slide/ellipsoid",
+        ),
+    ];
+    series.push(room_above(&series));
+    let mean = curve("mean filament", palette::DATA, "mean-filament/ellipsoid");
+    series.extend(mean.dashed(false));
     let chart = Chart {
         title: "Energy along the filament; the over-twisted half is on the right",
         x_label: "arc length from the middle (nm)",
         y_label: "elastic energy per length (pN)",
-        series: vec![
-            curve("rod", 1.0, &of_kind("rod")),
-            curve("ellipsoids", 0.0, &of_kind("ellipsoid")),
-            curve(
-                "ellipsoids, both ends slide",
-                0.4,
-                &of_kind("both-ends-slide/ellipsoid"),
-            ),
-        ],
+        series,
         equal_axes: false,
     };
     draw_chart(&chart, &out.join("fig7_energy.svg"))?;
     Ok(Picture {
         file: "fig7_energy.svg".into(),
         caption: "Elastic energy per length; of ellipsoids the mean over all samplings and both \
-                  directions of the pull."
+                  directions of the pull. Dashed: weighted bonds, the mean filament. C3 energy: \
+                  the coupling of stretch and twist of the paper's supplement."
             .into(),
     })
+}
+
+/// A white dot that makes room for the legend above all curves.
+fn room_above(series: &[Series]) -> Series {
+    let values = series.iter().flat_map(|s| s.points.iter().map(|p| p.1));
+    Series {
+        label: None,
+        colour: WHITE,
+        points: vec![(0.0, 1.4 * values.fold(0.0, f64::max))],
+        dots: true,
+    }
 }
 
 /// The pure cases with both ends held, the first sampling, for the viewer.

@@ -148,6 +148,7 @@ fn the_page_works_in_a_browser() {
         ids: KINDS.map(String::from).into(),
         out: folder.path().to_path_buf(),
         quick: true,
+        write: false,
         threads: None,
         fresh: false,
         palette: crate::figures::Palette::default(),

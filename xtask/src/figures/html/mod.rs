@@ -9,11 +9,13 @@ mod browser;
 mod errata;
 mod findings;
 mod reasons;
+mod score;
 mod shades;
 mod summary;
 mod tables;
 mod verdicts;
 
+pub(super) use reasons::unexplained;
 pub(super) use tables::significant;
 
 use super::palette;

@@ -30,10 +30,7 @@ impl Cause {
             Self::Models => {
                 format!("{count} concern{s} statements that the models here do not bear out")
             }
-            Self::Elsewhere => format!(
-                "{count} concern{s} expectations from outside the paper (an earlier, independent \
-                 calculation, or a bound set for this page)"
-            ),
+            Self::Elsewhere => format!("{count} concern{s} bounds that were set for this page"),
         }
     }
 }
@@ -64,8 +61,35 @@ pub(super) fn of(row: &Row) -> Option<&'static Reason> {
     REASONS.iter().find(|reason| reason.covers(row))
 }
 
+/// Misses without a reason, and reasons without a miss in an artefact that was computed, a line each.
+pub(in crate::figures) fn unexplained(rows: &[Row]) -> Vec<String> {
+    let missed: Vec<&Row> = rows.iter().filter(|row| row.pass == Some(false)).collect();
+    let mut all = Vec::new();
+    for row in &missed {
+        let count = REASONS.iter().filter(|reason| reason.covers(row)).count();
+        if count != 1 {
+            let Row {
+                artefact, quantity, ..
+            } = row;
+            all.push(format!(
+                "{artefact}:{quantity} is missed and has {count} reasons"
+            ));
+        }
+    }
+    let is_run = |reason: &&Reason| rows.iter().any(|row| row.artefact == reason.artefact);
+    for reason in REASONS.iter().filter(is_run) {
+        if !missed.iter().any(|row| reason.covers(row)) {
+            let Reason {
+                artefact, title, ..
+            } = reason;
+            all.push(format!("{artefact}: nothing is missed for: {title}"));
+        }
+    }
+    all
+}
+
 /// In the order in which they are told: what concerns most of the paper first.
-pub(super) const REASONS: [Reason; 10] = [
+pub(super) const REASONS: [Reason; 17] = [
     Reason {
         artefact: "fig4",
         quantities: &["claim/printed_deflection", "tip_drop/preceding-paper/rod"],
@@ -76,6 +100,45 @@ pub(super) const REASONS: [Reason; 10] = [
                The bending rigidity of Table 4, which is used everywhere else, gives 60 nm, and both \
                models here bend by that (row claim/theory among those that agree). So the printed \
                number is missed, and theory is met.",
+    },
+    Reason {
+        artefact: "fig4",
+        quantities: &["claim/deflection/preceding-paper"],
+        cause: Cause::Paper,
+        title: "With the rigidity behind the printed 10 nm the resolutions do not agree on a deflection",
+        text: "Rod and monomers are made as stiff in bending as the earlier paper's rod. The rod bends by \
+               1.5 nm more than printed, and monomers further: a filament that is bent so little is in the range \
+               where monomers are softer than a constant rod (rows tip_drop/preceding-paper/...).",
+    },
+    Reason {
+        artefact: "fig4",
+        quantities: &[
+            "claim/tips_overlap/full",
+            "claim/tips_overlap/paper-balance",
+        ],
+        cause: Cause::Models,
+        title: "With the junction as printed the tips do not overlap",
+        text: "Both bonds of a junction have the rod's full rigidity in the printed equations, so that the \
+               junction is a stiff spot, and a mixed filament bends less the nearer that spot is to \
+               the wall. The printed balance of the rod makes next to no difference.",
+    },
+    Reason {
+        artefact: "fig6",
+        quantities: &["claim/node_spread/full"],
+        cause: Cause::Models,
+        title: "With linkers all round, shapes lie further apart than the radius of the helix",
+        text: "The paper calls the agreement still good, and shows that it is worse than with linkers in a \
+               plane, which is so here, too. Asked for is 1.8 nm, the radius of the helix, as in Figure 5; \
+               centre lines differ by a little more where one is monomers and the other rod.",
+    },
+    Reason {
+        artefact: "fig7",
+        quantities: &["half_energy_ratio/coupling-energy/rod"],
+        cause: Cause::Models,
+        title: "A rod with the supplement's coupling energy over-states the difference of the halves",
+        text: "Its over-twisted half stores more than the other, as that of monomers does, but too much \
+               more, and it turns twice as far: monomers that are bent and pulled are stiffer in twist than the \
+               law of Table 3.",
     },
     Reason {
         artefact: "table4",
@@ -115,24 +178,87 @@ pub(super) const REASONS: [Reason; 10] = [
         title: "Twisted filaments shorten less than Table 5 says, though in the same way",
         text: "The paper measured one filament with one random set of bonds and does not say how many \
                bonds join two monomers; ours is the mean of filaments with 64. How much a twisted \
-               filament shortens depends on that number and on the set. Filaments with 20 bonds follow \
-               the paper's column closely (row dl_over_l_rms/independent-20), but would be too soft in \
-               Table 3. Those with 28 or 32 meet what is asked here of both tables. One set of a few \
-               bonds, repeated at all interfaces, can do so, too. The trends of the column agree in both \
+               filament shortens depends on that number and on the set: filaments with 20 bonds shorten more \
+               (row dl_over_l_rms/independent-20). The trends of the column agree in both \
                directions (rows claim/...). At 200 deg the paper's column makes a step, beyond which it \
                calls its own values unreliable.",
     },
     Reason {
         artefact: "table3",
-        quantities: &["b3/under/10"],
+        quantities: &["b3/under/", "b3/over/"],
         cause: Cause::Bonds,
-        title: "At the smallest angle of under-twist the filament is stiffer than Table 3 says",
-        text: "It depends on the random bonds, and the paper does not say how many join two monomers: the \
-               fewer, the softer. The tolerance is the paper's rounding and twice the scatter of one set of \
-               64 bonds, and is missed by a little. The held ends have a part in it: longer filaments are \
-               softer at this angle, but level off, and about two thirds of the rigidity at the paper's \
-               length is the filament's own (rows b3/length-14/under/10 to b3/length-109/under/10). \
-               Only at rest is next to nothing left in a long one (b3/length-109/under/rest).",
+        title: "Twisted filaments are softer than Table 3 says, though in the same way",
+        text: "How stiff a twisted filament is depends on the random bonds and most of all on the shortest of them; \
+               the paper says neither how many join two monomers nor how short they may be. None is shorter than \
+               0.20 nm here, which meets Tables 3, 4 and 5 best together, each of them a little off. The \
+               tolerance of an entry is the paper's rounding and twice the scatter of one set of 64 bonds, which \
+               is small. The held ends have a part in the smallest angles: longer filaments are softer there \
+               (rows b3/length-14/under/10 to b3/length-109/under/10).",
+    },
+    Reason {
+        artefact: "table4",
+        quantities: &["b1/cantilever"],
+        cause: Cause::Paper,
+        title: "At the force that the paper names its own formula for the bending rigidity does not hold",
+        text: "The paper takes B1 from the deflection of a cantilever, F L^3 over 3 Delta, and names 2 pN and 160 \
+               nm. The tip then goes more than a third of the length to the side, where the formula for small \
+               deflections reads too much: of the same deflection the exact theory reads less (row \
+               b1/cantilever/elastica). End couples of 0.01 rad/nm read what the paper prints (row b1), to \
+               the tolerance that is stated there.",
+    },
+    Reason {
+        artefact: "table4",
+        quantities: &[
+            "persistence_length_um/thermal",
+            "persistence_length_unscaled_um/thermal",
+        ],
+        cause: Cause::Models,
+        title: "At room temperature monomers are stiffer than their rigidity without heat",
+        text: "The paper turns a rigidity measured on a filament at rest into a persistence length. Moved by \
+               heat, monomers bend less than that, with and without the factor 1.4: directions in which \
+               they move freely at rest stiffen the filament once they are warm. Both lengths are in the range of \
+               8 to 20 um that is measured (row claim/persistence_thermal).",
+    },
+    Reason {
+        artefact: "table1",
+        quantities: &["rise_per_strand_step"],
+        cause: Cause::Paper,
+        title: "The printed rise and the printed period do not belong together",
+        text: "26 monomers in 71.2 nm rise by 5.477 nm every second monomer; 5.52 nm is printed, as the rise of \
+               every one. The simulations use the period.",
+    },
+    Reason {
+        artefact: "fig4",
+        quantities: &["claim/tips_overlap"],
+        cause: Cause::Models,
+        title: "Tips of mixed cantilevers differ by more than the radius of the helix",
+        text: "Monomers whose bonds are no shorter than 0.20 nm bend a little more easily than the rod, whose rigidity is \
+               that of Table 4, and the joint between them is a stiff spot. So the more of a \
+               cantilever is rod, the less it bends. The difference is a few per cent of the deflection, which is all \
+               that the paper's picture shows.",
+    },
+    Reason {
+        artefact: "fig6",
+        quantities: &["claim/node_spread"],
+        cause: Cause::Models,
+        title: "On linkers all round shapes differ by a little more than the radius of the helix",
+        text: "The paper calls the agreement still good and gives no number; what is asked here is what Figure 5 \
+               meets. Shapes differ most where the filament is free to give way, and by how much depends on \
+               the random bonds (row node_spread/mean and its note).",
+    },
+    Reason {
+        artefact: "table4",
+        quantities: &[
+            "s3",
+            "persistence_length_um",
+            "persistence_length_unscaled_um",
+        ],
+        cause: Cause::Bonds,
+        title: "With bonds of no less than 0.20 nm filaments are 3 % softer than Table 4 says",
+        text: "Stretch and bending depend little on the random bonds, so that the tolerance is little more than \
+               the rounding. The shortest bond was chosen so that Tables 3, 4 and 5 are met best together, and \
+               costs this much in stretch and bending. The printed persistence length is not that of the printed \
+               bending rigidity either: 3.9e4 pN nm^2 are 9.5 um, and 9.8 um are printed.",
     },
     Reason {
         artefact: "table2",
@@ -141,40 +267,6 @@ pub(super) const REASONS: [Reason; 10] = [
         title: "The printed cross-sections are twice those of the printed diameters",
         text: "Table 2 is said to follow from a filament 5 to 7 nm across. Circles so wide have half the \
                areas that are printed. The simulations use 38.5 nm^2, the circle of 7 nm.",
-    },
-    Reason {
-        artefact: "fig8",
-        quantities: &[
-            "couple/over/180/ellipsoids",
-            "couple/over/180/rod-40",
-            "couple/under/180/ellipsoids",
-            "couple/under/180/rod-40",
-        ],
-        cause: Cause::Elsewhere,
-        title: "Couples with 64 bonds an interface, beside an earlier calculation with 32",
-        text: "The paper prints no couples; the numbers compared with are those of an earlier, independent \
-               calculation in which 32 bonds join two monomers. Here they are 64, which makes monomers \
-               stiffer in twist, so that couples are larger where much of the filament is monomers. \
-               With 32 bonds all couples agree (rows bonds-32/couple/...).",
-    },
-    Reason {
-        artefact: "fig10",
-        quantities: &["height_spread/over/270"],
-        cause: Cause::Elsewhere,
-        title: "Heights at 270 deg of over-twist spread more than was asked for here",
-        text: "The paper gives no number. For this page 1.5 nm was asked for, the pure monomers and the \
-               pure rod included, and these two are the farthest apart; the mixed filaments alone lie \
-               within 0.6 nm (see the note). The extended rod still takes most of the spread away (row \
-               claim/height_improves/over/270).",
-    },
-    Reason {
-        artefact: "fig10",
-        quantities: &["standard/height_spread/over/180"],
-        cause: Cause::Elsewhere,
-        title: "Constant rods spread a little less than an earlier calculation led to expect",
-        text: "The paper gives no number. At least 5 nm between monomers and rod was expected from an \
-               earlier, independent calculation with 32 bonds between two monomers; with the 64 of this \
-               page monomers are stiffer in twist and nearer to the rod.",
     },
 ];
 
@@ -189,15 +281,12 @@ mod tests {
     #[test]
     fn every_miss_has_its_reason() {
         let rows = report::read(&workspace_root().join("docs/report.json")).unwrap();
-        let missed: Vec<&Row> = rows.iter().filter(|row| row.pass == Some(false)).collect();
-        for row in &missed {
-            let count = REASONS.iter().filter(|reason| reason.covers(row)).count();
-            assert_eq!(count, 1, "{} {}", row.artefact, row.quantity);
-        }
-        for reason in &REASONS {
-            let has_one = missed.iter().any(|row| reason.covers(row));
-            assert!(has_one, "nothing is missed for: {}", reason.title);
-        }
+        let open = unexplained(&rows);
+        assert!(open.is_empty(), "{}", open.join("\n"));
+        let miss = |quantity| Row::measured("fig1", quantity, "nm", 1.0, "").against(2.0, 0.5);
+        let told = unexplained(&[miss("a"), miss("b")]);
+        assert_eq!(told.len(), 2);
+        assert_eq!(told[1], "fig1:b is missed and has 0 reasons");
     }
 
     /// A name covers itself and, with a slash at its end, what lies below. Symptom of a bare prefix: 10
@@ -206,7 +295,9 @@ mod tests {
     fn names_are_matched_whole() {
         let row = |artefact, quantity: &str| Row::measured(artefact, quantity, "", 0.0, "");
         assert!(of(&row("table3", "b3/under/10")).is_some());
-        assert!(of(&row("table3", "b3/under/100")).is_none());
+        assert!(of(&row("table3", "b3/length-14/under/10")).is_none());
+        assert!(of(&row("table4", "s3")).is_some());
+        assert!(of(&row("table4", "s3_over_ea")).is_none());
         assert!(of(&row("table5", "dl_over_l/under/100")).is_some());
         assert!(of(&row("table4", "s1/secant/0.01")).is_none());
         assert!(of(&row("fig8", "couple/over/180/rod")).is_none());
@@ -228,9 +319,6 @@ mod tests {
         assert!(says("fig4", printed, &text), "{text}");
         let text = format!("gives {:.0} nm", row("fig4", "tip_drop/rod").ours);
         assert!(says("fig4", printed, &text), "{text}");
-        let own = length_limit(&rows) / row("table3", "b3/length-27/under/10").ours;
-        assert!((own - 2.0 / 3.0).abs() < 0.05, "{own}");
-        assert!(says("table3", "b3/under/10", "two thirds"));
         let within = |artefact: &str, path: &str, middle: f64| {
             let is_mixed = |row: &&Row| {
                 let name = row.quantity.strip_prefix(path);
@@ -249,24 +337,6 @@ mod tests {
             "claim/height_improves/under/270",
             "1 nm of 38 nm"
         ));
-        let note = &row("fig10", "height_spread/over/270").note;
-        let (_, after) = note.split_once("over mixed ones ").unwrap();
-        let spread: f64 = after[..after.find(';').unwrap()].parse().unwrap();
-        let text = format!("within {:.1} nm", (spread * 10.0).ceil() / 10.0);
-        assert!(says("fig10", "height_spread/over/270", &text), "{text}");
-    }
-
-    /// What b3 at 10 deg of under-twist tends to in long filaments: `c` of `c + a/L`, by least squares.
-    fn length_limit(rows: &[Row]) -> f64 {
-        let points = [14, 27, 28, 55, 109].map(|rises: u32| {
-            let quantity = format!("b3/length-{rises}/under/10");
-            let row = rows.iter().find(|row| row.quantity == quantity).unwrap();
-            (1.0 / f64::from(rises), row.ours)
-        });
-        let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / 5.0;
-        let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-        let slope = (mean(|p| p.0 * p.1) - x * y) / (mean(|p| p.0 * p.0) - x * x);
-        y - slope * x
     }
 
     /// Rows that the texts send a reader to are there.

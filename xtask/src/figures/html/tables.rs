@@ -14,16 +14,21 @@ pub(super) enum Among {
     All,
 }
 
-/// Writes the rows of an artefact in up to three tables.
+/// Writes the rows of an artefact in up to four tables.
 pub(super) fn write(page: &mut String, rows: &[Row]) {
+    // The second says of rows without a verdict whether a number stands beside them.
     let groups = [
-        (Some(false), "Missed"),
-        (Some(true), "Agree"),
-        (None, "Measured, with nothing to compare"),
+        (Some(false), None, "Missed"),
+        (Some(true), None, "Agree"),
+        (None, Some(true), "Shown beside another number, not judged"),
+        (None, Some(false), "Measured"),
     ];
     page.push_str("<h3>Numbers</h3>\n");
-    for (verdict, title) in groups {
-        let chosen: Vec<&Row> = rows.iter().filter(|row| row.pass == verdict).collect();
+    for (verdict, beside, title) in groups {
+        let is_in = |row: &&Row| {
+            row.pass == verdict && beside.is_none_or(|beside| row.paper.is_some() == beside)
+        };
+        let chosen: Vec<&Row> = rows.iter().filter(is_in).collect();
         if chosen.is_empty() {
             continue;
         }

@@ -2,7 +2,7 @@
 //! `solve.rs`.
 
 use crate::check::workspace_root;
-use actin_sim::{RodLaw, RodLaws, Scene, Section, fitted_laws};
+use actin_sim::{JunctionWeight, Monomers, RodLaw, RodLaws, Scene, Section, fitted_laws};
 
 /// A figure of a free filament on linkers.
 #[derive(Debug)]
@@ -49,6 +49,9 @@ pub(super) struct Variant {
     pub law: Law,
     /// Segments to 10 nm of rod.
     refinement: usize,
+    junction: JunctionWeight,
+    /// Weighted bonds that stand for all, the default of scenes, in place of drawn ones.
+    mean: bool,
 }
 
 /// Segments to 10 nm of a refined rod: 1.25 nm each.
@@ -58,30 +61,55 @@ const REFINEMENT: usize = 8;
 pub(super) const STANDARD: Variant = Variant {
     law: Law::Constant,
     refinement: 1,
+    junction: JunctionWeight::Shared,
+    mean: false,
+};
+
+/// The junction as printed: every bond of it has the rod's full rigidity.
+pub(super) const FULL: Variant = Variant {
+    junction: JunctionWeight::Full,
+    ..STANDARD
+};
+
+/// The mean filament.
+pub(super) const MEAN: Variant = Variant {
+    mean: true,
+    ..STANDARD
 };
 
 /// All variants, the standard one first.
-pub(super) const VARIANTS: [Variant; 5] = [
+pub(super) const VARIANTS: [Variant; 7] = [
     STANDARD,
     fine(Law::Constant),
     Variant {
         law: Law::Fitted,
-        refinement: 1,
+        ..STANDARD
     },
     fine(Law::Fitted),
     fine(Law::FittedWithoutShear),
+    FULL,
+    MEAN,
 ];
 
 const fn fine(law: Law) -> Variant {
     Variant {
         law,
         refinement: REFINEMENT,
+        ..STANDARD
     }
 }
 
 impl Variant {
     /// Name behind quantities; nothing for the standard one.
     pub(super) fn suffix(self) -> &'static str {
+        match self {
+            FULL => "/full",
+            MEAN => "/mean-filament",
+            _ => self.suffix_of_rod(),
+        }
+    }
+
+    fn suffix_of_rod(self) -> &'static str {
         match (self.law, self.refinement > 1) {
             (Law::Constant, false) => "",
             (Law::Constant, true) => "/fine",
@@ -94,12 +122,37 @@ impl Variant {
 
     /// In words.
     pub(super) fn words(self) -> String {
+        match self {
+            FULL => return "junction full".into(),
+            MEAN => return "mean filament".into(),
+            _ => {}
+        }
         let law = match self.law {
             Law::Constant => "constant rigidities",
             Law::Fitted => "law Fitted",
             Law::FittedWithoutShear => "law Fitted but constant shear",
         };
         format!("{law}, segments of {} nm", 10.0 / self.refinement as f64)
+    }
+
+    /// Whether it has samplings of the bonds.
+    pub(super) fn is_drawn_at_random(self) -> bool {
+        !self.mean
+    }
+
+    /// Whether it is a model of the paper: the rod of its figures, joined to the monomers as the text
+    /// means it or as the equations print it.
+    pub(super) fn is_of_the_paper(self) -> bool {
+        [STANDARD, FULL].contains(&self)
+    }
+
+    /// The variant that has the same filament of one model alone, as a rod or as monomers.
+    pub(super) fn of_pure(self, resolved: Resolved) -> Self {
+        match (self, resolved) {
+            (MEAN, Resolved::Ellipsoids) => MEAN,
+            (_, Resolved::Ellipsoids) | (FULL | MEAN, Resolved::Rod) => STANDARD,
+            _ => self,
+        }
     }
 
     fn rod_law(self) -> RodLaw {
@@ -161,6 +214,10 @@ impl Case {
             Scene::from_ron(&text).map_err(|error| format!("{}:{error}", path.display()))?;
         scene.filament.sections = self.sections();
         scene.filament.monomers.seed = self.seed;
+        if self.variant.mean {
+            scene.filament.monomers = Monomers::default();
+        }
+        scene.filament.junction.weight = self.variant.junction;
         scene.filament.rod.law = self.variant.rod_law();
         Ok(scene)
     }

@@ -13,7 +13,7 @@ mod spread;
 
 use super::Run;
 use super::report::Artefact;
-use case::{Case, Figure, Resolved, STANDARD, VARIANTS, Variant};
+use case::{Case, Figure, MEAN, Resolved, STANDARD, VARIANTS, Variant};
 use rayon::prelude::*;
 use solve::Outcome;
 use std::path::Path;
@@ -98,7 +98,7 @@ fn solve(figure: &'static Figure, run: Run<'_>, moving: bool) -> Result<Vec<Outc
     cases
         .par_iter()
         .map(|case| {
-            let outcome = Outcome::of(case, moving && is_drawn(case));
+            let outcome = Outcome::of(case, moving && (is_drawn(case) || is_mean(case)));
             run.progress.done();
             outcome
         })
@@ -110,6 +110,11 @@ fn is_drawn(case: &Case) -> bool {
     case.variant == STANDARD && case.seed == 0
 }
 
+/// The mean filament, monomers alone, is drawn beside them.
+fn is_mean(case: &Case) -> bool {
+    case.variant == MEAN && case.resolved == Resolved::Ellipsoids
+}
+
 fn cases(figure: &'static Figure, quick: bool) -> Vec<Case> {
     let (rods, seeds) = if quick {
         (figure.quick_rods, QUICK_SEEDS)
@@ -118,6 +123,11 @@ fn cases(figure: &'static Figure, quick: bool) -> Vec<Case> {
     };
     let mut all = Vec::new();
     for variant in VARIANTS {
+        let seeds = if variant.is_drawn_at_random() {
+            seeds
+        } else {
+            1
+        };
         for seed in 0..seeds {
             let kinds = resolutions(rods, variant, seed);
             all.extend(kinds.into_iter().map(|resolved| Case {
@@ -131,13 +141,15 @@ fn cases(figure: &'static Figure, quick: bool) -> Vec<Case> {
     all
 }
 
-/// What is resolved in so many ways: a rod has no bonds to sample, monomers no law to vary.
+/// What is resolved in so many ways: a rod has no bonds to sample, monomers no law to vary, and
+/// neither has a junction.
 fn resolutions(rods: &[u32], variant: Variant, seed: u64) -> Vec<Resolved> {
     let mut all: Vec<Resolved> = rods.iter().map(|&rod| Resolved::Mixed(rod)).collect();
-    if seed == 0 {
+    let is_own = |pure| variant.of_pure(pure) == variant;
+    if seed == 0 && is_own(Resolved::Rod) {
         all.push(Resolved::Rod);
     }
-    if variant == STANDARD {
+    if is_own(Resolved::Ellipsoids) {
         all.push(Resolved::Ellipsoids);
     }
     all

@@ -1,8 +1,8 @@
 //! The panels of Figures 5 and 6: two side views, a view along the filament, energy against time.
 
-use super::case::{Figure, Variant};
-use super::is_drawn;
+use super::case::{FULL, Figure, MEAN, Variant};
 use super::solve::{Motion, Outcome};
+use super::{is_drawn, is_mean};
 use crate::figures::palette;
 use crate::figures::plot::{Chart, Series, draw as draw_chart};
 use crate::figures::report::{Picture, View};
@@ -16,6 +16,8 @@ const DRAWN_TO: f64 = 2.0;
 const DRAWN_NS: f64 = 60.0;
 /// Dots of a limit across the time that is drawn.
 const LIMIT_DOTS: usize = 60;
+/// Which line is the mean filament.
+const IN_BLACK: &str = "Dashed: monomers alone with weighted bonds, the mean filament.";
 /// Half the width of the cross that marks an anchor (nm).
 const CROSS_NM: f64 = 0.8;
 const GREY: RGBColor = RGBColor(70, 70, 70);
@@ -29,14 +31,15 @@ pub(super) fn draw(
     outcomes: &[Outcome],
     out: &Path,
 ) -> Result<Vec<Picture>, String> {
-    let chosen = chosen(outcomes);
+    let mut chosen = chosen(outcomes);
+    chosen.extend(outcomes.iter().filter(|o| is_mean(&o.case)));
     let mut pictures = views(figure, &chosen, out)?;
     pictures.extend(energies(figure, &chosen, out)?);
     pictures.push(against_resolution(figure, outcomes, out)?);
     Ok(pictures)
 }
 
-/// What is drawn, from monomers to rod.
+/// What is drawn as a resolution, from monomers to rod.
 fn chosen(outcomes: &[Outcome]) -> Vec<&Outcome> {
     let mut chosen: Vec<&Outcome> = outcomes.iter().filter(|o| is_drawn(&o.case)).collect();
     chosen.sort_by(|a, b| a.case.rod_share().total_cmp(&b.case.rod_share()));
@@ -92,7 +95,7 @@ fn views(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Vec<Picture
         draw_chart(&chart, &out.join(&file))?;
         let caption = format!(
             "Certified equilibria, {title}. Lines: nodes of the rod, and the centre line of the \
-             monomers; dots: monomer centres; grey crosses: anchors. {}",
+             monomers; dots: monomer centres; grey crosses: anchors. {} {IN_BLACK}",
             palette::chosen().ends()
         );
         pictures.push(Picture { file, caption });
@@ -100,20 +103,52 @@ fn views(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Vec<Picture
     Ok(pictures)
 }
 
-/// Monomer centres under the centre lines, anchors above them, projected by `project`.
+/// The colour of a filament's curve.
+fn colour(outcome: &Outcome) -> RGBColor {
+    if is_mean(&outcome.case) {
+        palette::DATA
+    } else {
+        palette::resolution(outcome.case.rod_share())
+    }
+}
+
+/// Its name in legends.
+fn name(outcome: &Outcome) -> String {
+    if is_mean(&outcome.case) {
+        outcome.case.variant.words()
+    } else {
+        outcome.case.name()
+    }
+}
+
+/// A filament's line; dashes for the mean filament.
+fn line(outcome: &Outcome, points: Vec<(f64, f64)>, equal_axes: bool) -> Vec<Series> {
+    let line = Series {
+        label: Some(name(outcome)),
+        colour: colour(outcome),
+        points,
+        dots: false,
+    };
+    if is_mean(&outcome.case) {
+        line.dashed(equal_axes)
+    } else {
+        vec![line]
+    }
+}
+
+/// Monomer centres under the centre lines, anchors above them, projected by `project`; of the mean
+/// filament the centre line alone.
 fn lines(chosen: &[&Outcome], project: fn(&[f64; 3]) -> (f64, f64)) -> Vec<Series> {
-    let colour = |o: &Outcome| palette::resolution(o.case.rod_share());
-    let dots = chosen.iter().map(|o| Series {
+    let resolutions = chosen.iter().filter(|o| !is_mean(&o.case));
+    let dots = resolutions.map(|o| Series {
         label: None,
         colour: colour(o),
         points: o.lowest.monomers.iter().map(project).collect(),
         dots: true,
     });
-    let lines = chosen.iter().map(|o| Series {
-        label: Some(o.case.name()),
-        colour: colour(o),
-        points: o.lowest.centre_line.points().iter().map(project).collect(),
-        dots: false,
+    let lines = chosen.iter().flat_map(|o| {
+        let points = o.lowest.centre_line.points().iter().map(project);
+        line(o, points.collect(), true)
     });
     let anchors = chosen.iter().take(1).flat_map(|o| crosses(o, project));
     dots.chain(lines).chain(anchors).collect()
@@ -164,7 +199,7 @@ fn energies(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Option<P
     let caption = format!(
         "Energy of filament and linkers, kinetic energy included, in damped dynamics (drag 0.3 per \
          ns). It begins at {start:.0} pN nm, all of it in the linkers, and is drawn from {top:.0} \
-         pN nm on. Dotted: the certified equilibrium that each motion tends to."
+         pN nm on. Dotted: the certified equilibrium that each motion tends to. {IN_BLACK}"
     );
     Ok(Some(Picture { file, caption }))
 }
@@ -172,17 +207,14 @@ fn energies(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Option<P
 /// A line for each motion, and a dotted one for its limit.
 fn curves(moved: &[(&Outcome, &Motion)], top: f64) -> Vec<Series> {
     let series = |(o, motion): &(&Outcome, &Motion)| {
-        let colour = palette::resolution(o.case.rod_share());
-        let of = |label, points, dots| Series {
-            label,
-            colour,
-            points,
-            dots,
-        };
-        [
-            of(Some(o.case.name()), drawn(motion, top), false),
-            of(None, limit(motion), true),
-        ]
+        let mut series = line(o, drawn(motion, top), false);
+        series.push(Series {
+            label: None,
+            colour: colour(o),
+            points: limit(motion),
+            dots: true,
+        });
+        series
     };
     moved.iter().flat_map(series).collect()
 }
@@ -213,7 +245,11 @@ fn against_resolution(
         .iter()
         .enumerate()
         .flat_map(|(k, &variant)| {
-            let colour = palette::line(k);
+            let colour = match variant {
+                MEAN => palette::DATA,
+                FULL => palette::GREY,
+                _ => palette::line(k),
+            };
             let points = by_rod(outcomes, variant, length);
             let series = |label, dots| Series {
                 label,
@@ -237,7 +273,7 @@ fn against_resolution(
     draw_chart(&chart, &out.join(&file))?;
     let caption =
         "Certified equilibria against the length of the rod, pure monomers at 0 and pure \
-                   rod at the right end; the first sampling of the bonds."
+                   rod at the right end; the first sampling of the bonds, and the mean filament."
             .into();
     Ok(Picture { file, caption })
 }
@@ -256,11 +292,12 @@ fn room_below(outcomes: &[Outcome]) -> Option<Series> {
     })
 }
 
-/// Energies of a variant in order of the length of rod; monomers are the same in all of them.
+/// Energies of a variant in order of the length of rod; its pure filaments may be another's.
 fn by_rod(outcomes: &[Outcome], variant: Variant, length: f64) -> Vec<(f64, f64)> {
+    let belongs = |o: &&Outcome| o.case.variant == variant.of_pure(o.case.resolved);
     let first = outcomes.iter().filter(|o| o.case.seed == 0);
     let mut points: Vec<(f64, f64)> = first
-        .filter(|o| o.case.variant == variant || o.case.rod_share() == 0.0)
+        .filter(belongs)
         .map(|o| (o.case.rod_share() * length, o.lowest.energy))
         .collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -6,7 +6,7 @@ use crate::figures::Run;
 use actin_sim::measure::{
     Curve, MeasureError, Specimen, Stability, TwistPoint, twist, twist_in_order,
 };
-use actin_sim::{Anchors, Monomers};
+use actin_sim::{Anchors, Monomers, ellipsoid_constants as monomer};
 use rayon::prelude::*;
 use std::sync::OnceLock;
 
@@ -31,6 +31,12 @@ pub(super) struct Kind {
 }
 
 impl Kind {
+    /// Weighted bonds that stand for all that could be drawn: the default of scenes.
+    pub(super) const MEAN: Self = Self {
+        anchors: Anchors::Cubature,
+        bonds: monomer::POINTS_PER_INTERFACE,
+        returning: false,
+    };
     /// 64 bonds, drawn for each interface.
     pub(super) const DEFAULT: Self = Self {
         anchors: Anchors::Independent,
@@ -43,7 +49,10 @@ impl Kind {
         ..Self::DEFAULT
     };
 
-    /// `independent` or `identical`.
+    /// Those that every run measures.
+    pub(super) const CORE: [Self; 3] = [Self::DEFAULT, Self::MEAN, Self::RETURNING];
+
+    /// `independent`, `identical` or `weighted`.
     pub(super) fn anchors_name(&self) -> &'static str {
         match self.anchors {
             Anchors::Independent => "independent",
@@ -55,12 +64,24 @@ impl Kind {
     /// Name in quantities and legends.
     pub(super) fn name(&self) -> String {
         let way = if self.returning { "-returning" } else { "" };
-        format!("{}-{}{way}", self.anchors_name(), self.bonds)
+        match self.anchors {
+            Anchors::Cubature => "mean-filament".to_owned(),
+            _ => format!("{}-{}{way}", self.anchors_name(), self.bonds),
+        }
     }
 
     /// `out` or `back`.
     pub(super) fn way(&self) -> &'static str {
         if self.returning { "back" } else { "out" }
+    }
+
+    /// Seeds of its samplings, at most so many: one if nothing is drawn.
+    pub(super) fn seeds(&self, most: u64) -> std::ops::Range<u64> {
+        0..if self.anchors == Anchors::Cubature {
+            1
+        } else {
+            most
+        }
     }
 
     /// Twists a filament of this kind to all angles.
@@ -111,12 +132,28 @@ pub(super) struct Doubts {
     pub off_the_branch: usize,
 }
 
+static CORE: OnceLock<Result<Ensemble, String>> = OnceLock::new();
 static ENSEMBLE: OnceLock<Result<Ensemble, String>> = OnceLock::new();
 
-/// The ensemble, computed once for the tables that share it.
+/// Samplings of the default kind, on both ways, and the mean filament; computed once.
+pub(super) fn core(run: Run<'_>) -> Result<&'static Ensemble, String> {
+    CORE.get_or_init(|| Ensemble::run(run, Kind::CORE.into()))
+        .as_ref()
+        .map_err(Clone::clone)
+}
+
+/// The same with all other kinds, unless `quick`: computed once for the tables that share it.
 pub(super) fn ensemble(run: Run<'_>) -> Result<&'static Ensemble, String> {
+    if run.quick {
+        return core(run);
+    }
     ENSEMBLE
-        .get_or_init(|| Ensemble::run(run))
+        .get_or_init(|| {
+            let mut all = core(run)?.clone();
+            all.samplings
+                .extend(Ensemble::run(run, other_kinds())?.samplings);
+            Ok(all)
+        })
         .as_ref()
         .map_err(Clone::clone)
 }
@@ -126,12 +163,13 @@ impl Ensemble {
         Run {
             quick, progress, ..
         }: Run<'_>,
+        kinds: Vec<Kind>,
     ) -> Result<Self, String> {
         let turns = turns_deg()?;
         let seeds = if quick { QUICK_SEEDS } else { SEEDS };
-        let cases: Vec<(Kind, u64)> = kinds(quick)
+        let cases: Vec<(Kind, u64)> = kinds
             .into_iter()
-            .flat_map(|kind| (0..seeds).map(move |seed| (kind, seed)))
+            .flat_map(|kind| kind.seeds(seeds).map(move |seed| (kind, seed)))
             .collect();
         progress.expect(cases.len());
         let samplings = cases
@@ -269,10 +307,8 @@ fn out_and_back(specimen: &Specimen, turns: &[f64]) -> Result<Curve<TwistPoint>,
     Ok(curve)
 }
 
-fn kinds(quick: bool) -> Vec<Kind> {
-    if quick {
-        return vec![Kind::DEFAULT, Kind::RETURNING];
-    }
+/// Other numbers and patterns of bonds.
+fn other_kinds() -> Vec<Kind> {
     let kind = |anchors, bonds| Kind {
         anchors,
         bonds,
@@ -282,6 +318,6 @@ fn kinds(quick: bool) -> Vec<Kind> {
         .into_iter()
         .flat_map(|anchors| BONDS.map(|bonds| kind(anchors, bonds)))
         .chain(BONDS_BETWEEN.map(|bonds| kind(Anchors::Independent, bonds)))
-        .chain([Kind::RETURNING])
+        .filter(|kind| !Kind::CORE.contains(kind))
         .collect()
 }

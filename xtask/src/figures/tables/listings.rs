@@ -73,7 +73,12 @@ fn ensemble_row(table: Table, ensemble: &Ensemble, kind: Kind, entry: &Entry) ->
     ]);
     let numbers = [entry.value, s.mean, s.sd, s.low, s.high];
     row.extend(numbers.map(|x| format!("{x:.6e}")));
-    row.push(format!("{:.2}", (entry.value - s.mean) / s.sd));
+    // The mean filament has no scatter.
+    row.push(if s.count > 1 {
+        format!("{:.2}", (entry.value - s.mean) / s.sd)
+    } else {
+        String::new()
+    });
     let counts = [
         s.count,
         doubts.saddles,

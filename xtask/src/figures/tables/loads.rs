@@ -23,6 +23,9 @@ const STRAINS: [f64; 2] = [-0.001, 0.003];
 pub(super) const CURVATURES: [f64; 4] = [1e-4, 1e-3, 3e-3, 1e-2];
 /// Tip forces (pN).
 const TIP_PN: [f64; 3] = [0.1, 0.5, 2.0];
+/// Tip force (pN) and length (nm) of the cantilever that the paper describes.
+pub(super) const CANTILEVER_PN: f64 = 2.0;
+const CANTILEVER_NM: f64 = 160.0;
 /// Transverse forces on the guided end (pN).
 const SHEAR_PN: [f64; 3] = [0.01, 0.1, 1.0];
 /// Azimuths of bending and shear (deg).
@@ -36,6 +39,10 @@ pub(super) struct Measured {
     pub by_shift: Vec<(f64, Sample)>,
     pub by_couples: Vec<(f64, Sample)>,
     pub by_tip_force: Vec<(f64, Sample, Sample)>,
+    /// Of the paper's cantilever: by the linear formula, and by the elastica.
+    pub by_cantilever: [Sample; 2],
+    /// Its length, that of the nearest whole number of monomers (nm).
+    pub cantilever_nm: f64,
     pub by_shear: Vec<Sheared>,
     /// The smallest shear force on a rod with the rigidities of Table 4.
     pub rod_shear: f64,
@@ -74,29 +81,33 @@ struct Bent {
     azimuth: f64,
     couples: Curve<CouplePoint>,
     tip: Curve<TipForcePoint>,
+    cantilever: Curve<TipForcePoint>,
     shear: Curve<ShearPoint>,
 }
 
 impl Measured {
-    /// Measures 16 samplings in stretch, 8 in bending and shear; 4 and 2 if `quick`.
+    /// Measures 16 samplings in stretch, 8 in bending and shear; 4 and 2 if `quick`; one if nothing is
+    /// drawn.
     pub(super) fn run(
         Run {
             quick, progress, ..
         }: Run<'_>,
+        kind: Kind,
     ) -> Result<Self, String> {
         let (stretch_seeds, bend_seeds) = if quick { (4, 2) } else { (16, 8) };
-        let seeds: Vec<u64> = (0..stretch_seeds).collect();
-        let cases: Vec<(u64, f64)> = (0..bend_seeds)
+        let seeds: Vec<u64> = kind.seeds(stretch_seeds).collect();
+        let cases: Vec<(u64, f64)> = kind
+            .seeds(bend_seeds)
             .flat_map(|seed| AZIMUTHS_DEG.map(|azimuth| (seed, azimuth)))
             .collect();
         progress.expect(seeds.len() + cases.len());
         let stretched: Vec<Stretched> = seeds
             .into_par_iter()
-            .map(|seed| counted(progress, stretched(seed)))
+            .map(|seed| counted(progress, stretched(kind, seed)))
             .collect::<Result<_, _>>()?;
         let bent: Vec<Bent> = cases
             .into_par_iter()
-            .map(|(seed, azimuth)| counted(progress, bent(seed, azimuth)))
+            .map(|(seed, azimuth)| counted(progress, bent(kind, seed, azimuth)))
             .collect::<Result<_, _>>()?;
         let length = bent[0].couples.length_nm;
         let rod = Specimen::rod(length, None, RodModel::default());
@@ -124,6 +135,8 @@ impl Measured {
             by_shear: sheared(bent, by_couples[0].1.mean),
             by_couples,
             by_tip_force: tip_forces(bent),
+            by_cantilever: cantilevers(bent),
+            cantilever_nm: bent[0].cantilever.length_nm,
             rod_shear,
             anisotropy: anisotropy(bent, last),
             couple_mismatch: bent.iter().map(Bent::mismatch).fold(0.0, f64::max),
@@ -143,8 +156,8 @@ impl Measured {
         }
     }
 
-    /// Writes every measured state.
-    pub(super) fn write(&self, out: &Path) -> Result<(), String> {
+    /// Writes every measured state into the file `name`.
+    pub(super) fn write(&self, out: &Path, name: &str) -> Result<(), String> {
         let header = [
             "protocol",
             "seed",
@@ -157,7 +170,7 @@ impl Measured {
             "saddles_left",
             "jumps",
         ];
-        write_csv(out, "table4_samplings.csv", &header, self.lines.clone())
+        write_csv(out, name, &header, self.lines.clone())
     }
 }
 
@@ -167,8 +180,8 @@ fn counted<T>(progress: &Progress, outcome: T) -> T {
     outcome
 }
 
-fn stretched(seed: u64) -> Result<Stretched, String> {
-    let monomers = Kind::DEFAULT.monomers(seed);
+fn stretched(kind: Kind, seed: u64) -> Result<Stretched, String> {
+    let monomers = kind.monomers(seed);
     let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
     Ok(Stretched {
         by_force: stretch_by_force(&specimen, &FORCES_PN).map_err(|e| e.to_string())?,
@@ -176,15 +189,17 @@ fn stretched(seed: u64) -> Result<Stretched, String> {
     })
 }
 
-fn bent(seed: u64, azimuth: f64) -> Result<Bent, String> {
-    let monomers: Monomers = Kind::DEFAULT.monomers(seed);
+fn bent(kind: Kind, seed: u64, azimuth: f64) -> Result<Bent, String> {
+    let monomers: Monomers = kind.monomers(seed);
     let specimen = Specimen::ellipsoids(BENT_RISES * monomers.rise_nm, monomers);
+    let cantilever = Specimen::ellipsoids(CANTILEVER_NM, kind.monomers(seed));
     let fail = |error: actin_sim::measure::MeasureError| error.to_string();
     Ok(Bent {
         seed,
         azimuth,
         couples: bend_by_couples(&specimen, &CURVATURES, azimuth).map_err(fail)?,
         tip: bend_by_tip_force(&specimen, &TIP_PN, azimuth).map_err(fail)?,
+        cantilever: bend_by_tip_force(&cantilever, &[CANTILEVER_PN], azimuth).map_err(fail)?,
         shear: shear_by_force(&specimen, &SHEAR_PN, azimuth).map_err(fail)?,
     })
 }
@@ -192,13 +207,15 @@ fn bent(seed: u64, azimuth: f64) -> Result<Bent, String> {
 impl Bent {
     fn evidence(&self) -> Vec<Evidence> {
         let couples = self.couples.points.iter().map(|p| p.evidence);
-        let tip = self.tip.points.iter().map(|p| p.evidence);
+        let tip = self.tip.points.iter().chain(&self.cantilever.points);
+        let tip = tip.map(|p| p.evidence);
         let shear = self.shear.points.iter().map(|p| p.evidence);
         couples.chain(tip).chain(shear).collect()
     }
 
     fn unreached(&self) -> usize {
-        self.couples.unreached.len() + self.tip.unreached.len() + self.shear.unreached.len()
+        let tips = self.tip.unreached.len() + self.cantilever.unreached.len();
+        self.couples.unreached.len() + tips + self.shear.unreached.len()
     }
 
     fn mismatch(&self) -> f64 {
@@ -223,6 +240,10 @@ impl Bent {
         for p in &self.tip.points {
             let secant = p.elastica_rigidity_pn_nm2;
             lines.push(line("tip force, elastica", p.force_pn, secant, &p.evidence));
+        }
+        for p in &self.cantilever.points {
+            let secant = p.linear_rigidity_pn_nm2;
+            lines.push(line("cantilever, linear", p.force_pn, secant, &p.evidence));
         }
         for p in &self.shear.points {
             lines.push(line(
@@ -290,6 +311,18 @@ fn tip_forces(bent: &[Bent]) -> Vec<(f64, Sample, Sample)> {
     let elastica = over(bent, &TIP_PN, |b| &b.tip, |p| p.elastica_rigidity_pn_nm2);
     let pairs = linear.into_iter().zip(elastica);
     pairs.map(|((force, l), (_, e))| (force, l, e)).collect()
+}
+
+/// The paper's cantilever, by the linear formula and by the elastica.
+fn cantilevers(bent: &[Bent]) -> [Sample; 2] {
+    let reads: [fn(&TipForcePoint) -> f64; 2] =
+        [|p| p.linear_rigidity_pn_nm2, |p| p.elastica_rigidity_pn_nm2];
+    reads.map(|read| {
+        sample(
+            bent.iter()
+                .flat_map(|b| b.cantilever.points.iter().map(read)),
+        )
+    })
 }
 
 /// Shear with the bending of a guided beam of rigidity `bending` (pN nm^2) taken off.

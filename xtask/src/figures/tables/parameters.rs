@@ -7,9 +7,6 @@ use std::f64::consts::PI;
 use std::path::Path;
 use std::time::Instant;
 
-/// Round-off of a parameter that went through degrees or products.
-const ROUND_OFF: f64 = 1e-9;
-
 /// Computes Table 1.
 pub(in crate::figures) fn table1(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
@@ -99,9 +96,7 @@ fn published_monomers() -> Vec<Row> {
 
 /// A published parameter that the crates hold as it is.
 fn same(name: &str, unit: &'static str, ours: f64, paper: f64, note: &str) -> Row {
-    Row::measured("table1", name, unit, ours, note)
-        .against(paper, ROUND_OFF * paper)
-        .of(Origin::Parameter)
+    Row::measured("table1", name, unit, ours, note).beside(paper, Origin::Parameter)
 }
 
 fn published_geometry() -> Vec<Row> {
@@ -114,7 +109,7 @@ fn published_geometry() -> Vec<Row> {
     let axis = "the paper does not say which axis lies where: the thin one is radial here";
     let radius = "distance of centres from the axis";
     let rise = "printed as the rise per monomer, but every second monomer is meant; twice 71.2/26; \
-        tolerance: 5.52 and the period of 71.2 differ by 0.8 %, an erratum";
+        5.52 and the period of 71.2 differ by 0.8 %, an erratum";
     vec![
         same("dimension/radial", "nm", radial, 3.8, axis),
         same("dimension/tangential", "nm", tangential, 5.4, axis),
@@ -128,7 +123,7 @@ fn published_geometry() -> Vec<Row> {
             2.0 * m.rise_nm,
             rise,
         )
-        .against(5.52, 0.05),
+        .derived("5.52"),
         same(
             "effective_interaction_radius",
             "nm",
@@ -251,8 +246,8 @@ fn published_rod() -> Vec<Row> {
             "the paper: 40 to 75 in Table 2, 38.5 in Appendix B; diameters of 5 to 7 nm give 20 to \
              38",
         ),
-        area_of_diameter("least", 5.0).against(40.0, AREA_ROUNDING),
-        area_of_diameter("most", 7.0).against(75.0, AREA_ROUNDING),
+        area_of_diameter("least", 5.0).derived("40"),
+        area_of_diameter("most", 7.0).derived("75"),
         Row::measured(
             "table2",
             "young_modulus",
@@ -260,8 +255,7 @@ fn published_rod() -> Vec<Row> {
             rod::PRECEDING_PAPER_YOUNG_MODULUS,
             "",
         )
-        .against(2000.0, ROUND_OFF)
-        .of(Origin::Parameter),
+        .beside(2000.0, Origin::Parameter),
         Row::measured(
             "table2",
             "poisson_ratio",
@@ -269,8 +263,7 @@ fn published_rod() -> Vec<Row> {
             rod::PRECEDING_PAPER_POISSON_RATIO,
             "",
         )
-        .against(0.4, ROUND_OFF)
-        .of(Origin::Parameter),
+        .beside(0.4, Origin::Parameter),
         Row::measured(
             "table2",
             "shear_modulus",
@@ -279,12 +272,9 @@ fn published_rod() -> Vec<Row> {
             "E / 2 (1 + nu); the paper rounds to 700, tolerance half a unit of its one digit; with \
              the E = 330 of Appendix B it would be 118",
         )
-        .against(700.0, 50.0),
+        .derived("700"),
     ]
 }
-
-/// Half a unit of the last digit of the areas in Table 2 (nm^2), which end in 0 and 5.
-const AREA_ROUNDING: f64 = 2.5;
 
 /// The circular section of a diameter (nm) that Appendix A names.
 fn area_of_diameter(which: &str, diameter: f64) -> Row {
@@ -307,8 +297,7 @@ fn derived_rod() -> Vec<Row> {
     );
     let row = |name: &str, unit, ours, note: &str| Row::measured("table2", name, unit, ours, note);
     let given = |name, unit, ours, formula: f64, note| {
-        let row = row(name, unit, ours, note).against(formula, ROUND_OFF * formula);
-        row.of(Origin::Parameter)
+        row(name, unit, ours, note).beside(formula, Origin::Parameter)
     };
     let [s1, s3] = [rigidities.shear.x, rigidities.shear.z];
     let [b1, b3] = [rigidities.bend.x, rigidities.bend.z];
@@ -316,7 +305,7 @@ fn derived_rod() -> Vec<Row> {
     let six = "the paper gives E I1: six times the 3.9e4 of Table 4";
     let thirteen = "the paper gives G I3: thirteen times the 1.3e4 of Appendix B";
     vec![
-        row("i1", "nm^4", inertia, round).against(120.0, 5.0),
+        row("i1", "nm^4", inertia, round).derived("120"),
         row("i3", "nm^4", 2.0 * inertia, "A^2/2pi"),
         given("s1", "pN", s1, shear, "the paper gives 4 G A/3"),
         given("s3", "pN", s3, stretch, "the paper gives E A"),

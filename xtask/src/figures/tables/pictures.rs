@@ -31,11 +31,11 @@ pub(super) fn draw(
         of_default(table, ensemble, entries),
         format!(
             "{symbol} of 64 independent bonds per interface: mean and 2 sd over {seeds} samplings, \
-             the mean on the way back from the largest angle, and the default filament (seed 0). \
-             Dots: the paper; its entries above 200 deg, which it calls unreliable, are grey."
+             the mean on the way back from the largest angle, and one sampling (seed 0). Mean \
+             filament: 12 weighted bonds per interface that stand for all. Dots: the paper; its entries above 200 deg, which it calls unreliable, are grey."
         ),
     )?];
-    if ensemble.kinds().len() > 2 {
+    if ensemble.kinds().len() > Kind::CORE.len() {
         let [few, many] = palette::chosen().end_names();
         pictures.push(save(
             table,
@@ -44,7 +44,7 @@ pub(super) fn draw(
             of_kinds(table, ensemble, entries),
             format!(
                 "Means for 12 ({few}) to 160 ({many}) independent bonds, and mean with 2 sd for one \
-                 pattern of 40 bonds on all interfaces (grey)."
+                 pattern of 40 bonds on all interfaces (grey). The mean filament is the limit of many."
             ),
         )?);
     }
@@ -81,10 +81,10 @@ fn of_default(table: Table, ensemble: &Ensemble, entries: &[Entry]) -> Vec<Serie
     let blue = palette::resolution(1.0);
     let mut series = bars(table, ensemble, Kind::DEFAULT, entries, blue);
     let mean = means(table, ensemble, Kind::DEFAULT, entries);
-    series.push(line("mean, 2 sd", blue, mean));
+    series.push(line("drawn, mean and 2 sd", blue, mean));
     let back = means(table, ensemble, Kind::RETURNING, entries);
     series.push(line(
-        "mean, on the way back",
+        "drawn, mean on the way back",
         palette::resolution(0.75),
         back,
     ));
@@ -93,7 +93,13 @@ fn of_default(table: Table, ensemble: &Ensemble, entries: &[Entry]) -> Vec<Serie
         let (_, point) = points.into_iter().find(|(seed, _)| *seed == 0)?;
         Some((entry.curvature, super::ensemble::value(&point, table)))
     });
-    series.push(line("seed 0", palette::resolution(0.25), seed_0.collect()));
+    series.push(line(
+        "drawn, seed 0",
+        palette::resolution(0.25),
+        seed_0.collect(),
+    ));
+    let mean = means(table, ensemble, Kind::MEAN, entries);
+    series.push(line("mean filament", palette::line(4), mean));
     series.extend(paper(entries));
     series
 }
@@ -118,6 +124,8 @@ fn of_kinds(table: Table, ensemble: &Ensemble, entries: &[Entry]) -> Vec<Series>
         let label = format!("{} independent", kind.bonds);
         series.push(line(&label, colour, means(table, ensemble, *kind, entries)));
     }
+    let mean = means(table, ensemble, Kind::MEAN, entries);
+    series.push(line("mean filament", palette::line(4), mean));
     series.extend(paper(entries));
     series
 }
