@@ -167,7 +167,26 @@ fn key<'a>(
     }
 }
 
-/// The corner where the legend hides the fewest points.
+/// Dots, or places along a line at even steps between its points.
+fn along(series: &Series) -> Vec<(f64, f64)> {
+    if series.dots {
+        return series.points.clone();
+    }
+    let stretches = series.points.windows(2);
+    let steps = stretches.flat_map(|pair| {
+        (0..STEPS).map(move |k| {
+            let t = f64::from(k) / f64::from(STEPS);
+            let between = |from: f64, to: f64| from + t * (to - from);
+            (between(pair[0].0, pair[1].0), between(pair[0].1, pair[1].1))
+        })
+    });
+    steps.collect()
+}
+
+/// Places along a stretch of a line.
+const STEPS: u8 = 8;
+
+/// The corner where the legend hides the least of the lines and dots.
 fn emptiest_corner(chart: &Chart<'_>) -> SeriesLabelPosition {
     let Some((x, y)) = ranges(chart) else {
         return SeriesLabelPosition::UpperRight;
@@ -175,7 +194,7 @@ fn emptiest_corner(chart: &Chart<'_>) -> SeriesLabelPosition {
     let share = |value: f64, range: &std::ops::Range<f64>| {
         (value - range.start) / (range.end - range.start)
     };
-    let points = chart.series.iter().flat_map(|s| &s.points);
+    let points = chart.series.iter().flat_map(along);
     let places: Vec<(f64, f64)> = points.map(|p| (share(p.0, &x), share(p.1, &y))).collect();
     let hidden = |right: bool, upper: bool| {
         let is_hidden = |p: &&(f64, f64)| {

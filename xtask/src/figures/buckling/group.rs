@@ -113,7 +113,7 @@ impl Group {
     pub(super) fn words(self) -> &'static str {
         let main = Self::main(self.figure);
         match self.rods {
-            Rods::PaperBalance => return "balance as printed, mean filament",
+            Rods::PaperBalance => return "balance as printed",
             _ if self.mean => return "mean filament",
             _ => {}
         }
@@ -124,10 +124,9 @@ impl Group {
             return "clamp Wall";
         }
         match (self.figure, self.rods) {
-            (Figure::Eight, _) => "drawn bonds",
             (Figure::Ten, Rods::Constant) => "constant rigidities",
             (Figure::Ten, Rods::CouplingEnergy) => "C3 energy",
-            (Figure::Ten, _) => "drawn bonds, B3(kappa), xi(kappa)",
+            _ => "drawn bonds",
         }
     }
 

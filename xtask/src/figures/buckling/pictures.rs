@@ -199,9 +199,14 @@ fn against_rod(
     let file = format!("{}_{turn}_{name}.svg", artefact(plan.figure));
     draw_chart(&chart, &out.join(&file))?;
     let caption = format!(
-        "{what} against the length of rod. Drawn bonds, 64 per interface, are means over {} samplings; \
-         the mean filament has 12 weighted bonds per interface that stand for all.",
-        plan.seeds
+        "{what} against the length of rod, {}. Drawn bonds, 64 per interface, are means over {} samplings; \
+         the mean filament has 12 weighted bonds per interface that stand for all{}.",
+        rods(plan.figure),
+        plan.seeds,
+        match plan.figure {
+            Figure::Eight => "",
+            Figure::Ten => ", and the balance as printed is solved for it",
+        }
     );
     Ok(Picture { file, caption })
 }

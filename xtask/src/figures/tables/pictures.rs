@@ -114,11 +114,9 @@ fn of_kinds(table: Table, ensemble: &Ensemble, entries: &[Entry]) -> Vec<Series>
     let mut series = bars(table, ensemble, pattern, entries, grey);
     let mean = means(table, ensemble, pattern, entries);
     series.push(line("one pattern of 40", grey, mean));
-    let independent: Vec<Kind> = ensemble.kinds();
-    let independent: Vec<Kind> = independent
-        .into_iter()
-        .filter(|kind| kind.anchors == Anchors::Independent && !kind.returning)
-        .collect();
+    let mut independent: Vec<Kind> = ensemble.kinds();
+    independent.retain(|kind| kind.anchors == Anchors::Independent && !kind.returning);
+    independent.sort_by_key(|kind| kind.bonds);
     for (i, kind) in independent.iter().enumerate() {
         let colour = palette::resolution(i as f64 / (independent.len() - 1).max(1) as f64);
         let label = format!("{} independent", kind.bonds);
