@@ -8,7 +8,7 @@ use thiserror::Error;
 pub struct NewtonOptions {
     /// Residual at which a state is an equilibrium; 1e-8 pN and 1e-8 pN nm.
     pub tolerance: Residual,
-    /// Most Newton steps; 2000. Of 6000 monomers on a wall 800 are needed.
+    /// Most Newton steps; 2000.
     pub iterations: usize,
     /// Largest turn of a body in one step (rad); 0.5.
     pub largest_rotation: f64,

@@ -8,14 +8,15 @@ mod newton;
 mod rates;
 
 pub use rates::{
-    BONDS_PER_S, DRAWN_BONDS_PER_S, ELEMENTS_PER_S, FILAMENTS_PER_S, FINAL_BODIES_PER_S,
-    LAW_ELEMENTS_PER_S, NEWTON_BONDS_PER_S, NEWTON_ELEMENTS_PER_S, NEWTON_LAW_ELEMENTS_PER_S,
-    NEWTON_TERMS_PER_S, NOISY_BODIES_PER_S, RECORDED_BODIES_PER_S, REFERENCE, SOLID_ANGLES_PER_S,
-    TERMS_PER_S, TRIAL_BODIES_PER_S,
+    BONDS_PER_S, DIRECTORY_S, DRAWN_BONDS_PER_S, ELEMENTS_PER_S, FILAMENTS_PER_S,
+    FINAL_BODIES_PER_S, LAW_ELEMENTS_PER_S, MONOMERS_PER_S, MOVED_BODIES_PER_S, NEWTON_BONDS_PER_S,
+    NEWTON_ELEMENTS_PER_S, NEWTON_LAW_ELEMENTS_PER_S, NEWTON_MONOMERS_PER_S, NEWTON_TERMS_PER_S,
+    NOISY_BODIES_PER_S, RECORD_S, RECORDED_BODIES_PER_S, REFERENCE, SOLID_ANGLES_PER_S,
+    STAGES_PER_S, TERMS_PER_S, TRIAL_BODIES_PER_S,
 };
 
 use crate::run::shears_softly;
-use crate::scene::{Dynamics, Problem, RodLaw, Task};
+use crate::scene::{Anchors, Dynamics, Problem, RodLaw, Task};
 use crate::{Assembly, Estimate, memory, shape};
 use std::fmt;
 
@@ -97,6 +98,7 @@ impl Cost {
         let solve = match (&assembly.scene.task, estimate) {
             (Task::Dynamics(dynamics), Some(estimate)) => {
                 evaluations as f64 * elements.seconds_of_evaluation()
+                    + elements.bodies / MOVED_BODIES_PER_S
                     + seconds_of_noise(assembly, dynamics, estimate)
             }
             _ => newton::counted(evaluations, equilibria) * elements.seconds_of_newton_step(),
@@ -182,6 +184,9 @@ fn time(seconds: f64) -> String {
 /// What a scene is made of, as far as it takes time.
 struct Elements {
     work: Work,
+    monomers: f64,
+    /// Bonds that are drawn.
+    drawn: f64,
     /// Elements of rods of constant rigidities, and of those under laws.
     constant: f64,
     following: f64,
@@ -193,6 +198,8 @@ impl Elements {
     fn of(assembly: &Assembly) -> Self {
         let mut all = Self {
             work: Work::default(),
+            monomers: assembly.counts().monomers as f64,
+            drawn: 0.0,
             constant: 0.0,
             following: 0.0,
             terms: assembly.terms.len() as f64,
@@ -202,6 +209,9 @@ impl Elements {
             let one = Work::of_one(assembly, i);
             all.work.bonds += one.bonds;
             all.work.elements += one.elements;
+            if filament.monomers.anchors != Anchors::Cubature {
+                all.drawn += one.bonds as f64;
+            }
             let elements = match filament.rod.law {
                 RodLaw::Constant => &mut all.constant,
                 _ => &mut all.following,
@@ -214,6 +224,7 @@ impl Elements {
     /// Of one evaluation of the loads, with its share of a step.
     fn seconds_of_evaluation(&self) -> f64 {
         self.work.bonds as f64 / BONDS_PER_S
+            + self.monomers / MONOMERS_PER_S
             + self.constant / ELEMENTS_PER_S
             + self.following / LAW_ELEMENTS_PER_S
             + self.terms / TERMS_PER_S
@@ -221,6 +232,7 @@ impl Elements {
 
     fn seconds_of_newton_step(&self) -> f64 {
         self.work.bonds as f64 / NEWTON_BONDS_PER_S
+            + self.monomers / NEWTON_MONOMERS_PER_S
             + self.constant / NEWTON_ELEMENTS_PER_S
             + self.following / NEWTON_LAW_ELEMENTS_PER_S
             + self.terms / NEWTON_TERMS_PER_S
@@ -228,7 +240,9 @@ impl Elements {
 
     fn seconds_of_set_up(&self, assembly: &Assembly) -> f64 {
         let filaments = assembly.filaments.len() as f64;
-        let built = filaments / FILAMENTS_PER_S + self.work.bonds as f64 / DRAWN_BONDS_PER_S;
+        let stages = assembly.scene.path.len() as f64;
+        let built =
+            filaments / FILAMENTS_PER_S + self.drawn / DRAWN_BONDS_PER_S + stages / STAGES_PER_S;
         let Task::Dynamics(_) = assembly.scene.task else {
             return built;
         };
@@ -245,7 +259,8 @@ impl Elements {
 
     fn seconds_of_results(&self, assembly: &Assembly, records: f64) -> f64 {
         let angles = shape::solid_angles(assembly);
-        (records * self.bodies) / RECORDED_BODIES_PER_S
+        DIRECTORY_S
+            + records * (RECORD_S + self.bodies / RECORDED_BODIES_PER_S)
             + self.bodies / FINAL_BODIES_PER_S
             + angles / SOLID_ANGLES_PER_S
     }
@@ -289,8 +304,8 @@ mod tests {
         let rod = cost("Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)", MOTION);
         assert_eq!((rod.work.bonds, rod.work.elements), (0, 6));
         assert_eq!(rod.evaluations, 4000);
-        // One term for the rod and one for its load.
-        let expected = 24_000.0 / ELEMENTS_PER_S + 8000.0 / TERMS_PER_S;
+        // One term for the rod and one for its load; 7 points and 6 frames.
+        let expected = 24_000.0 / ELEMENTS_PER_S + 8000.0 / TERMS_PER_S + 13.0 / MOVED_BODIES_PER_S;
         assert!((rod.seconds.solve - expected).abs() < 1e-12);
         let mixed = cost(
             "Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0, segments: 3)",
@@ -331,7 +346,7 @@ mod tests {
         assert_eq!(motion.equilibria, 0);
     }
 
-    /// Twice the filaments take twice the time and the memory, whatever the task: the counts behind
+    /// As many filaments again take as much time and memory again, whatever the task: the counts behind
     /// them are sums.
     #[test]
     fn costs_are_proportional_to_the_number_of_filaments() {
@@ -343,16 +358,19 @@ mod tests {
             Cost::estimated(&Assembly::build(&scene).unwrap()).unwrap()
         };
         for task in [MOTION, "Equilibrium()"] {
-            let [one, two] = [20, 40].map(|count| of(count, task));
-            assert_eq!(one.evaluations, two.evaluations);
-            for (a, b) in [
-                (one.seconds.set_up, two.seconds.set_up),
-                (one.seconds.solve, two.seconds.solve),
-                (one.seconds.results, two.seconds.results),
-                (one.bytes, two.bytes),
+            let all = [20, 40, 60].map(|count| of(count, task));
+            assert_eq!(all[0].evaluations, all[2].evaluations);
+            for part in [
+                |cost: &Cost| cost.seconds.set_up,
+                |cost: &Cost| cost.seconds.solve,
+                |cost: &Cost| cost.seconds.results,
+                |cost: &Cost| cost.bytes,
             ] {
-                // Round-off, and the writhe, which costs the square of few nodes.
-                assert!((b - 2.0 * a).abs() <= 1e-12 * b, "{task}: {a} and {b}");
+                let [a, b, c] = all.each_ref().map(part);
+                assert!(
+                    ((c - b) - (b - a)).abs() <= 1e-12 * c,
+                    "{task}: {a}, {b}, {c}"
+                );
             }
         }
     }
