@@ -29,7 +29,6 @@ pub(crate) enum Origin {
     /// A theorem, or a symmetry.
     Theory,
     /// An earlier calculation that shares the modelling decisions of this code: a check of the arithmetic.
-    #[serde(alias = "prototype")]
     CrossCheck,
     /// Asked for here.
     Bound,

@@ -19,10 +19,10 @@ enum Kind {
 /// Steps of one equilibrium for each [`Kind`], in their order.
 type Steps = [f64; 3];
 
-/// From the state as built, of what is clamped: 4 to 5, 16 to 21, and 10 to 13 on 60 monomers.
-const FROM_REST: Steps = [5.0, 19.0, 12.0];
-/// From the state as built, of what nothing but linkers holds: 16 to 44, 24 to 34, 13 to 30.
-const FLOATING: Steps = [24.0, 28.0, 20.0];
+/// From the state as built, of what is clamped: 4 to 5, 7 to 48, and 9 to 13 on 60 monomers.
+const FROM_REST: Steps = [5.0, 24.0, 12.0];
+/// From the state as built, of what nothing but linkers holds: 16 to 44, 29 to 44, 12 to 63.
+const FLOATING: Steps = [32.0, 34.0, 27.0];
 /// Of a path from one to the next, turned, pulled or loaded: up to 1, 2, 8 to 10.
 const DRIVEN: Steps = [0.5, 2.0, 9.0];
 /// The same where the ends of a filament are pushed together, which buckles: 15, 20 to 40, 40 to 50.

@@ -31,7 +31,7 @@ pub const NEWTON_LAW_ELEMENTS_PER_S: f64 = 2.9e5;
 /// bonds and elements.
 pub const TERMS_PER_S: f64 = 1.0e7;
 /// The same of a Newton step.
-pub const NEWTON_TERMS_PER_S: f64 = 2.0e6;
+pub const NEWTON_TERMS_PER_S: f64 = 1.2e6;
 /// Filaments per second that are read, checked and built, beside their bonds.
 pub const FILAMENTS_PER_S: f64 = 4.0e4;
 /// Bonds per second that are drawn; weighted ones are known for the default geometry.
@@ -50,6 +50,6 @@ pub const MOVED_BODIES_PER_S: f64 = 1.2e5;
 /// Stages of a path per second that are read and checked.
 pub const STAGES_PER_S: f64 = 3.0e5;
 /// Time of a run directory (s): files that are created, written and flushed to the disk.
-pub const DIRECTORY_S: f64 = 6.0e-3;
+pub const DIRECTORY_S: f64 = 7.0e-3;
 /// Time of a record and its picture beside its bodies (s).
-pub const RECORD_S: f64 = 3.0e-4;
+pub const RECORD_S: f64 = 1.2e-4;
