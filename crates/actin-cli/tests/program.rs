@@ -353,7 +353,7 @@ fn check_tells_cost_and_advice() {
     for (force, advice) in [
         (
             "-2.0",
-            "// cheaper: replace the monomers of 40..160 nm by a rod with law Fitted: ",
+            "// cheaper: replace all monomers by a rod with law Fitted but for its shear: ",
         ),
         ("-50.0", "// cheaper: nothing like this scene was measured"),
     ] {
@@ -362,7 +362,7 @@ fn check_tells_cost_and_advice() {
         assert_eq!(code(&output), 0, "{}", stderr(&output));
         let printed = stdout(&output);
         let cost =
-            "// cost: about 12 Newton steps to 1 equilibrium, each of 7616 bonds and 0 elements: ";
+            "// cost: about 12 Newton steps to 1 equilibrium, each of 1428 bonds and 0 elements: ";
         assert!(printed.contains(cost), "{printed}");
         assert!(printed.contains(advice), "{printed}");
     }

@@ -31,7 +31,7 @@ const NEGLIGIBLE: f64 = 1e-2;
 /// about to give way far: without stiffening a step overshoots there and takes ten more to come back,
 /// all of them steps of the whole. With it steps are still quadratic near the end, since the
 /// stiffness of a tie goes with its motion.
-const KEPT: f64 = 1.0 / 256.0;
+const KEPT: f64 = 1.0 / 64.0;
 /// So many points, frames and groups are many.
 const MANY: usize = 2000;
 /// Factor by which the stiffening of ties is raised and lowered.

@@ -218,7 +218,7 @@ pub(super) const REASONS: [Reason; 18] = [
         text: "The paper takes B1 from the deflection of a cantilever, F L^3 over 3 Delta, and names 2 pN and 160 \
                nm. The tip then goes more than a third of the length to the side, where the formula for small \
                deflections reads too much: of the same deflection the exact theory reads less (row \
-               b1/cantilever/elastica). End couples of 0.01 rad/nm read what the paper prints (row b1), to \
+               b1/cantilever/elastica). End couples that bend it to a radius of 100 nm read what the paper prints (row b1), to \
                the tolerance that is stated there.",
     },
     Reason {
