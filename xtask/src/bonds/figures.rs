@@ -1,5 +1,6 @@
-//! Some of the paper's figures, all monomers: the cantilever of Figure 4, the turned filament of
-//! Figure 7 and the buckled one of Figure 8, for drawn and for weighted bonds.
+//! The paper's figures for drawn and for weighted bonds: all monomers the cantilever of Figure 4, the
+//! filaments on linkers of Figures 5 and 6, the turned one of Figure 7 and the buckled one of Figure 8;
+//! with 140 nm of rod the buckled one of Figure 10. Figure 9 draws Tables 3 and 5 (`study.rs`).
 
 use super::Extent;
 use super::page::Listing;
@@ -7,9 +8,10 @@ use super::study::bar;
 use super::tables::spread;
 use super::variant::Variant;
 use crate::check::workspace_root;
+use actin_mechanics::State;
 use actin_sim::shape::profile;
 use actin_sim::{
-    Assembly, Equilibrium, Hold, Load, RunReport, Scene, Section, Setting, Summary, Task,
+    Assembly, Equilibrium, Hold, Load, Record, Scene, Section, Setting, Summary, Task,
 };
 use rayon::prelude::*;
 use std::ops::ControlFlow;
@@ -37,16 +39,23 @@ fn variants() -> Vec<Variant> {
 /// One filament of one sampling: an observable of each scene.
 type Observed = Vec<f64>;
 
-const HEADER: [&str; 9] = [
+const HEADER: [&str; 16] = [
     "bonds, shortest",
     "fig4 tip at 2 pN (nm)",
     "fig4 tip at 0.1 pN (nm)",
+    "fig5 energy (pN nm)",
+    "fig5 middle (nm)",
+    "fig6 energy (pN nm)",
     "fig7 ratio of halves",
     "fig7 energy (pN nm)",
     "fig8 +180 height (nm)",
     "fig8 +180 couple (pN nm)",
     "fig8 -180 height (nm)",
     "fig8 -180 couple (pN nm)",
+    "fig10 +180 height (nm)",
+    "fig10 +180 couple (pN nm)",
+    "fig10 -180 height (nm)",
+    "fig10 -180 couple (pN nm)",
 ];
 
 /// The observables of all variants, mean and standard deviation over samplings.
@@ -94,9 +103,17 @@ fn observe(variant: &Variant, seed: u64) -> Result<Observed, String> {
     for force in TIP_PN {
         observed.push(tip(variant, seed, force)?);
     }
+    let planar = on_linkers("figure-5/linkers.ron", 160.0, variant, seed)?;
+    observed.extend(planar);
+    let [energy, _] = on_linkers("figure-6/linkers.ron", 210.0, variant, seed)?;
+    observed.push(energy);
     observed.extend(halves(variant, seed)?);
     for sense in [1.0, -1.0] {
-        observed.extend(buckled(variant, seed, sense)?);
+        observed.extend(buckled(all_monomers(variant, seed)?, sense)?);
+    }
+    for sense in [1.0, -1.0] {
+        let scene = scene("figure-10/rod-140.ron", variant, seed)?;
+        observed.extend(buckled(scene, sense)?);
     }
     Ok(observed)
 }
@@ -110,13 +127,12 @@ fn scene(file: &str, variant: &Variant, seed: u64) -> Result<Scene, String> {
     Ok(scene)
 }
 
-fn solved(scene: &Scene) -> Result<(Assembly, Summary, RunReport), String> {
-    let mut assembly = Assembly::build(scene).map_err(|e| e.to_string())?;
+/// What a run ends with.
+fn solved(assembly: &mut Assembly) -> Result<(Summary, Record), String> {
     let watch = &mut |_| ControlFlow::Continue(());
-    let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| e.to_string())?;
-    let last = trajectory.records.last().ok_or("no record")?;
-    let summary = Summary::new(&assembly, last, &report);
-    Ok((assembly, summary, report))
+    let (mut trajectory, report) = actin_sim::run(assembly, watch).map_err(|e| e.to_string())?;
+    let last = trajectory.records.pop().ok_or("no record")?;
+    Ok((Summary::new(assembly, &last, &report), last))
 }
 
 /// Deflection of the cantilever (nm).
@@ -127,7 +143,8 @@ fn tip(variant: &Variant, seed: u64, force: f64) -> Result<f64, String> {
         *force_pn = force_pn.map(|f| f * force / size);
     }
     scene.task = Task::Equilibrium(Equilibrium::default());
-    let (_, summary, _) = solved(&scene)?;
+    let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
+    let (summary, _) = solved(&mut assembly)?;
     let [x, y, _] = summary.tip_displacement_nm;
     Ok(x.hypot(y))
 }
@@ -135,8 +152,9 @@ fn tip(variant: &Variant, seed: u64, force: f64) -> Result<f64, String> {
 /// Ratio and sum of the energies of both halves (over-twisted over under-twisted; pN nm).
 fn halves(variant: &Variant, seed: u64) -> Result<[f64; 2], String> {
     let scene = scene("figure-7/ellipsoids.ron", variant, seed)?;
-    let (assembly, ..) = solved(&scene)?;
-    let points = profile(&assembly, assembly.system.state());
+    let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
+    let (_, last) = solved(&mut assembly)?;
+    let points = profile(&assembly, &last.state);
     let middle = 0.5 * assembly.length_nm();
     let mut energies = [0.0; 2];
     for point in &points {
@@ -148,8 +166,36 @@ fn halves(variant: &Variant, seed: u64) -> Result<[f64; 2], String> {
     Ok([over / under, energy])
 }
 
-/// Largest distance from the axis (nm) and couple at the end (pN nm).
-fn buckled(variant: &Variant, seed: u64, sense: f64) -> Result<[f64; 2], String> {
+/// Energy of a free filament and its linkers (pN nm), the least of those from four turns about the
+/// axis, and how far its middle has moved (nm).
+fn on_linkers(
+    file: &str,
+    length_nm: f64,
+    variant: &Variant,
+    seed: u64,
+) -> Result<[f64; 2], String> {
+    let mut scene = scene(file, variant, seed)?;
+    scene.filament.sections = vec![Section::Ellipsoids {
+        from_nm: 0.0,
+        to_nm: length_nm,
+    }];
+    scene.task = Task::Equilibrium(Equilibrium::default());
+    let mut found = Vec::new();
+    for turn in [0.0_f64, 90.0, 180.0, 270.0] {
+        let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
+        assembly.roll(turn.to_radians());
+        let (summary, record) = solved(&mut assembly)?;
+        let middle = assembly.points.len() / 2;
+        let position = |state: &State| state.points.position.get(middle);
+        let moved = position(&record.state) - position(&assembly.rest);
+        found.push([summary.energy_pn_nm.total, moved.norm()]);
+    }
+    let least = found.into_iter().min_by(|a, b| a[0].total_cmp(&b[0]));
+    least.ok_or_else(|| "no start".into())
+}
+
+/// The filament of Figure 8, all monomers.
+fn all_monomers(variant: &Variant, seed: u64) -> Result<Scene, String> {
     let mut scene = scene("figure-8/rod-140.ron", variant, seed)?;
     scene.filament.sections = vec![Section::Ellipsoids {
         from_nm: 0.0,
@@ -161,12 +207,18 @@ fn buckled(variant: &Variant, seed: u64, sense: f64) -> Result<[f64; 2], String>
     for linker in &mut scene.linkers {
         linker.at_nm = 0.5 * BUCKLED_NM;
     }
+    Ok(scene)
+}
+
+/// Largest distance from the axis (nm) and couple at the end (pN nm).
+fn buckled(mut scene: Scene, sense: f64) -> Result<[f64; 2], String> {
     for setting in scene.path.iter_mut().flat_map(|stage| &mut stage.set) {
         if let Setting::Turn { turn_deg, .. } = setting {
             *turn_deg = turn_deg.map(|angle| sense * angle);
         }
     }
-    let (_, summary, _) = solved(&scene)?;
+    let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
+    let (summary, _) = solved(&mut assembly)?;
     let couple = summary
         .end_reactions
         .end
