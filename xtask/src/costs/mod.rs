@@ -35,6 +35,8 @@ const TRADE: &str = "trade";
 
 /// By how much an estimate may be off either way.
 const FACTOR: f64 = 2.0;
+/// Time that a user may notice (s).
+const NOTICED_S: f64 = 0.05;
 
 /// Measures and prints.
 pub(crate) fn run(options: &Options) -> Result<(), String> {
@@ -128,28 +130,34 @@ fn row(name: &str, measured: &Measured, exponents: [Option<f64>; 2]) {
 /// How near the estimates are.
 #[derive(Default)]
 struct Tally {
-    /// Estimate over time, by name.
-    ratios: Vec<(String, f64)>,
+    /// Name, estimate over time, and by how many seconds it misses.
+    ratios: Vec<(String, f64, f64)>,
 }
 
 impl Tally {
     fn push(&mut self, name: String, measured: &Measured) {
-        let ratio = measured.cost.seconds.total() / measured.run_s;
-        self.ratios.push((name, ratio));
+        let estimate = measured.cost.seconds.total();
+        let ratio = estimate / measured.run_s;
+        self.ratios.push((name, ratio, estimate - measured.run_s));
     }
 
     fn print(&mut self) {
         let is_near = |ratio: f64| (1.0 / FACTOR..=FACTOR).contains(&ratio);
-        let near = self.ratios.iter().filter(|(_, ratio)| is_near(*ratio));
+        let near = self.ratios.iter().filter(|(_, ratio, _)| is_near(*ratio));
+        let far = self.ratios.iter().filter(|(_, ratio, _)| !is_near(*ratio));
+        let noticed = far.filter(|(.., seconds)| seconds.abs() > NOTICED_S);
         println!(
-            "within a factor of {FACTOR}: {} of {}",
+            "within a factor of {FACTOR}: {} of {}; of the others {} miss by more than {NOTICED_S} s",
             near.count(),
-            self.ratios.len()
+            self.ratios.len(),
+            noticed.count()
         );
         self.ratios
             .sort_by(|a, b| b.1.ln().abs().total_cmp(&a.1.ln().abs()));
-        for (name, ratio) in self.ratios.iter().filter(|(_, ratio)| !is_near(*ratio)) {
-            println!("  {ratio:.2} of the time of {name}");
+        for (name, ratio, seconds) in &self.ratios {
+            if !is_near(*ratio) {
+                println!("  {ratio:.2} of the time of {name}: {seconds:+.3} s");
+            }
         }
     }
 }

@@ -26,7 +26,7 @@ pub const NEWTON_MONOMERS_PER_S: f64 = 2.0e5;
 /// Elements per second of a Newton step, constant rigidities.
 pub const NEWTON_ELEMENTS_PER_S: f64 = 5.6e5;
 /// The same where a law follows curvature, twist or shear.
-pub const NEWTON_LAW_ELEMENTS_PER_S: f64 = 2.2e5;
+pub const NEWTON_LAW_ELEMENTS_PER_S: f64 = 2.5e5;
 /// Terms (sections, junctions, loads, linkers) per second, in whole steps: what each costs beside its
 /// bonds and elements.
 pub const TERMS_PER_S: f64 = 1.0e7;
@@ -50,6 +50,6 @@ pub const MOVED_BODIES_PER_S: f64 = 1.2e5;
 /// Stages of a path per second that are read and checked.
 pub const STAGES_PER_S: f64 = 3.0e5;
 /// Time of a run directory (s): files that are created, written and flushed to the disk.
-pub const DIRECTORY_S: f64 = 1.1e-2;
+pub const DIRECTORY_S: f64 = 9.0e-3;
 /// Time of a record and its picture beside its bodies (s).
 pub const RECORD_S: f64 = 1.2e-4;
