@@ -33,10 +33,10 @@ fn heated(filament: Filament, level: f64, share: f64) -> EnergyRecord {
     record
 }
 
-/// The energy wavers with that of the fastest modes, but its mean goes nowhere, at half the
+/// The energy fluctuates with that of the fastest modes, but its mean does not drift, at half the
 /// stability limit: the rod at room temperature, filaments with monomers at a hundredth of it
 /// (a tenth of the amplitude). Loads that are not the gradient of the energy pump it: the printed
-/// balance, at the same start, moves the mean of the mixed filament by twice the wavering.
+/// balance, at the same start, moves the mean of the mixed filament by twice the fluctuation.
 #[test]
 fn energy_is_bounded_without_a_trend_at_half_the_limit() {
     for (filament, level) in [

@@ -131,7 +131,7 @@ fn every_law_keeps_momenta() {
 }
 
 /// The energy goes nowhere: of rods that resist shear its mean stays where it was, and everywhere
-/// what it wavers by is the error of the step, of which half the step leaves a sixteenth. Without
+/// its fluctuation is the error of the step, of which half the step leaves a sixteenth. Without
 /// the couple that belongs to xi it would waver as much at any step.
 #[test]
 fn every_law_keeps_its_energy() {

@@ -18,6 +18,7 @@ mod helical;
 mod history;
 mod joined;
 mod linkers;
+mod lost_twist;
 mod reciprocity;
 mod ring;
 mod saddles;

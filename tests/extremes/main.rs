@@ -51,16 +51,16 @@ fn motion_grows_where_the_limit_says() {
 
 /// All methods on all filaments: a wrong coefficient costs an order, which shows at small steps.
 #[test]
-fn energy_wavers_within_its_bound_at_every_step() {
+fn energy_fluctuates_within_its_bound_at_every_step() {
     let rows = stability::below(&INTEGRATORS);
     assert_sound(&rows);
     assert!(rows.iter().all(is_correct));
 }
 
-/// Below the limit the energy wavers, by less the shorter the step: 81 times less at a third of it,
+/// Below the limit the energy fluctuates, less the shorter the step: 81 times less at a third of it,
 /// for a method of order four.
 #[test]
-fn energy_wavers_with_the_order_of_the_method() {
+fn energy_fluctuates_with_the_order_of_the_method() {
     for (model, sections) in MODELS {
         let mut system = free(sections).unwrap();
         let [.., coarse, _, _, _, _, _] = SHARES;

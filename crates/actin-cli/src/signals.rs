@@ -4,8 +4,8 @@ use std::io;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// A flag that SIGINT, SIGTERM and SIGHUP set. The second SIGINT or SIGTERM kills as if nobody had
-/// listened; SIGHUP, which a terminal that closes may send more than once, does not.
+/// A flag that SIGINT, SIGTERM and SIGHUP set. The second SIGINT or SIGTERM ends the program
+/// at once; SIGHUP, which a terminal that closes may send more than once, does not.
 ///
 /// SIGHUP stays ignored if it was when the program started, as `nohup` has it.
 pub(crate) fn interruption() -> io::Result<Arc<AtomicBool>> {

@@ -110,7 +110,20 @@ pub enum CubatureError {
          bonds below some length, or draw bonds"
     )]
     Touching,
-    /// Too few points for positive weights and lengths within bounds, or an odd geometry.
+    /// No search ended with positive weights and with lengths and places within bounds.
+    #[error(
+        "{points} points with lengths between {shortest_nm:?} and {longest_nm:?} nm were not found: \
+         allow a wider range of lengths, take more points, or draw bonds"
+    )]
+    OutOfBounds {
+        /// Number of points.
+        points: usize,
+        /// Least length of all bonds that could be drawn (nm).
+        shortest_nm: f64,
+        /// Largest length of all bonds that could be drawn (nm).
+        longest_nm: f64,
+    },
+    /// Too few points, or an odd geometry.
     #[error(
         "{points} points do not meet the moments of all bonds (nearest {nearest:.1e}, asked for \
          {MET:.0e}): take more points, raise the shortest length, or draw bonds"
@@ -119,7 +132,7 @@ pub enum CubatureError {
         /// Number of points.
         points: usize,
         /// Largest deviation of the moments of the best search with positive weights and lengths
-        /// and places within bounds; infinite if there was none.
+        /// and places within bounds.
         nearest: f64,
     },
 }
@@ -168,10 +181,26 @@ impl Cubature {
             }
         }
         let enough = |found: &Self| UNKNOWNS * count < MOMENTS || residual(found) <= MET;
-        let nearest = best.as_ref().map_or(f64::INFINITY, residual);
         let points = count;
-        best.filter(enough)
-            .ok_or(CubatureError::NotMet { points, nearest })
+        let [shortest_nm, longest_nm] = finder.drawn;
+        let best = best.ok_or(CubatureError::OutOfBounds {
+            points,
+            shortest_nm,
+            longest_nm,
+        })?;
+        if enough(&best) {
+            return Ok(best);
+        }
+        let nearest = residual(&best);
+        Err(CubatureError::NotMet { points, nearest })
+    }
+}
+
+impl Certificate {
+    /// Whether all moments are met: to 1e-3, a tenth of the 1 % to which the points are to stand for many
+    /// drawn bonds.
+    pub fn meets_moments(&self) -> bool {
+        self.residual <= MET
     }
 }
 

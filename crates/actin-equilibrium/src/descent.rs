@@ -20,7 +20,7 @@ const SHORTEN: [f64; 2] = [0.05, 0.5];
 const SHORTEST: f64 = 1e-12;
 /// Part of the predicted decrease that makes a step a good one.
 const GOOD: f64 = 0.5;
-/// Largest displacement in a step, in sizes of the whole: what nothing holds must not fly so
+/// Largest displacement in a step, in sizes of the whole: unconstrained directions must not fly so
 /// far that its coordinates lose all digits.
 const FARTHEST: f64 = 1e6;
 /// Below this part of the predicted decrease a step is a poor one.

@@ -122,7 +122,7 @@ fn energy_trend(scheme: &Composition, share: f64, seed: u64) -> [f64; 3] {
     trend
 }
 
-/// At half the stability limit the energy wavers, but its mean goes nowhere. A stage of a table
+/// At half the stability limit the energy fluctuates, but its mean does not drift. A stage of a table
 /// out of place, or drag by mistake, would show as a trend. VEFRL is held to 0.4 of its limit,
 /// where it has none; see the next test.
 #[test]

@@ -4,18 +4,19 @@
 //! What can be said of a scene before it runs is added to [`Assembly::notes`]; what only a run can
 //! tell, to the `notes` of its summary.
 
-use crate::Assembly;
-use crate::scene::{Material, RodLaw, RodModel};
+use crate::scene::{Anchors, Material, Monomers, RodLaw, RodModel, Task};
+use crate::{Assembly, Record, RunReport, shape};
+use actin_ellipsoid::{Certificate, Cubature, EllipsoidParameters, InterfaceKind};
 
 /// Persistence length (um) and twisting rigidity (pN nm^2) of free filaments of 110 nm at 298 K, from
 /// turns of cross-sections 22 to 66 nm apart; standard errors are 0.1 um and 0.5e2 pN nm^2 (monomers:
-/// 0.2 um and 1e2 pN nm^2).
+/// 0.2 um and 1e2 pN nm^2, with the default bonds).
 ///
 /// # Source
-/// `docs/validation.md`, "Persistence length from thermal motion".
+/// `docs/validation.md`, "Persistence length from thermal motion"; monomers: `docs/bonds.md`, "Heat".
 type InBath = (f64, f64);
 
-const MONOMERS: InBath = (11.1, 8.0e3);
+const MONOMERS: InBath = (11.7, 7.6e3);
 
 /// The same of rods under a law whose parameters come from equilibria of monomers at zero
 /// temperature, with the law's name.
@@ -36,6 +37,16 @@ impl Assembly {
     /// What there is to know of this scene before it runs, a sentence or two each.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
+        for (i, filament) in self.scene.filaments().enumerate() {
+            if self.counts_of(i).bonds > 0 {
+                let each = InterfaceKind::ALL.map(|kind| few_bonds(&filament.monomers, kind));
+                let new = each
+                    .into_iter()
+                    .flatten()
+                    .filter(|note| !notes.contains(note));
+                notes.extend(new.collect::<Vec<_>>());
+            }
+        }
         if self.scene.thermal().is_some() {
             for (i, filament) in self.scene.filaments().enumerate() {
                 let has_rod = self.counts_of(i).segments > 0;
@@ -45,6 +56,57 @@ impl Assembly {
         }
         notes
     }
+}
+
+impl RunReport {
+    /// What this run could not find out, a sentence each; `last` is its last record.
+    pub(crate) fn notes(&self, assembly: &Assembly, last: &Record) -> Vec<String> {
+        let mut notes = unknown_twist(assembly, last);
+        let is_motion = matches!(assembly.scene.task, Task::Dynamics(_));
+        if is_motion && self.converged && self.at_rest.is_none() {
+            notes.push(
+                "the stop rule was met, but it is not known whether the state at rest is stable: no \
+                 equilibrium of an energy was found next to it (force_law: PaperBalance has none)"
+                    .to_owned(),
+            );
+        }
+        notes
+    }
+}
+
+/// Filaments of which it is not known whether they have lost twist.
+fn unknown_twist(assembly: &Assembly, last: &Record) -> Vec<String> {
+    let filaments = 0..assembly.filaments.len();
+    let here = (&last.state, last.time_ns);
+    let unknown = filaments.filter(|&filament| shape::link_is_unknown(assembly, filament, here));
+    unknown
+        .map(|filament| {
+            format!(
+                "filament {filament}: whether it has lost twist is not known. Twist plus writhe tells \
+                 nothing where one end has passed the other, or where the ends are tilted and the \
+                 filament turns back"
+            )
+        })
+        .collect()
+}
+
+/// What there is to know of weighted bonds that are too few to stand for all.
+fn few_bonds(monomers: &Monomers, kind: InterfaceKind) -> Option<String> {
+    if monomers.anchors != Anchors::Cubature {
+        return None;
+    }
+    let parameters = EllipsoidParameters::from(monomers);
+    let found = Cubature::of(&parameters, kind).ok()?;
+    let Certificate { residual, .. } = found.certificate;
+    (!found.certificate.meets_moments()).then(|| {
+        format!(
+            "{} weighted bonds for a {kind} interface are too few to stand for all: a moment is off by \
+             {:.0} % of its root mean square. Eight make twist a quarter too soft, four many times \
+             (docs/bonds.md); 12 meet all moments, and anchors: Independent draws as many bonds as asked",
+            found.points.len(),
+            100.0 * residual
+        )
+    })
 }
 
 /// What there is to know of a rod's law in a heat bath. Nothing of constant rigidities that are not
@@ -90,6 +152,25 @@ mod tests {
 
     const BATH: &str = "drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
         thermal: (temperature_k: 298.0, seed: 1)";
+
+    /// Too few weighted bonds are noted for each kind of interface, once; drawn ones may be few.
+    #[test]
+    fn few_weighted_bonds_are_noted() {
+        let monomers = |model: &str| {
+            format!(
+                "Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0)],
+                    monomers: Monomers({model})),
+                 Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0)],
+                    monomers: Monomers({model}), at_nm: (20.0, 0.0, 0.0)),"
+            )
+        };
+        let found = notes(&monomers("lateral_bonds: 8, longitudinal_bonds: 8"), "");
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!(found[0].starts_with("8 weighted bonds for a lateral interface"));
+        assert_eq!(notes(&monomers(""), ""), [""; 0]);
+        let drawn = "anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8";
+        assert_eq!(notes(&monomers(drawn), ""), [""; 0]);
+    }
 
     /// Each law once, however many filaments have it; none without heat, and none of filaments
     /// without rods.

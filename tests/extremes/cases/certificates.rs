@@ -1,4 +1,4 @@
-//! What nothing holds: rigid motions of free filaments and floppy modes of monomers at rest, each
+//! Unconstrained directions: rigid motions of free filaments and floppy modes of monomers at rest, each
 //! counted as a mode without stiffness, none passed for stable.
 
 use super::row::{Outcome, Row};

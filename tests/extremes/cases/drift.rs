@@ -116,7 +116,7 @@ fn outcomes(
         Ok(drift) => drift,
         Err(outcome) => return vec![("", outcome)],
     };
-    // The wavering of the energy is the yardstick of its trend.
+    // The energy fluctuation is the yardstick of its trend.
     let (trend, largest) = (drift.trend().abs(), 0.1 * drift.largest);
     let means = "means of the last and first three tenths";
     let mut all = vec![(

@@ -144,9 +144,9 @@ pub(crate) fn energy_error(system: &mut System, integrator: Integrator, share: f
 /// Five times that, for many bodies.
 const ENERGY_ROUNDING: f64 = 2e-8;
 
-/// Twice the share of its energy by which a mode at the share `s` of its limit wavers: `s^2/(1 - s^2)`
+/// Twice the share of its energy by which a mode at the share `s` of its limit fluctuates: `s^2/(1 - s^2)`
 /// with Verlet's method, exactly, and less than `s^4/(1 - s^2)` in order four.
-fn wavering(scheme: &Composition, share: f64) -> f64 {
+fn fluctuation(scheme: &Composition, share: f64) -> f64 {
     let order = scheme.order().cast_signed();
     2.0 * share.powi(order) / (1.0 - share * share)
 }
@@ -159,10 +159,10 @@ pub(crate) fn below(integrators: &[(&str, Integrator)]) -> Vec<Row> {
             let outcome = free(sections).map(|mut system| {
                 let of_bound = |share| {
                     let error = energy_error(&mut system, integrator, share);
-                    error / (wavering(integrator.composition(), share) + ENERGY_ROUNDING)
+                    error / (fluctuation(integrator.composition(), share) + ENERGY_ROUNDING)
                 };
                 let share = SHARES.map(of_bound).into_iter().fold(0.0, larger);
-                let what = "wavering of the energy";
+                let what = "energy fluctuation";
                 Outcome::Bounded { what, share }
             });
             let case = format!("{model}, {name}, 0.001 to 0.99 of the limit");
@@ -220,7 +220,7 @@ fn at_share(
     // From rest without strain: the energy stays zero, the force's own included.
     let kinetic = ran.assembly.system.state().kinetic_energy();
     let error = energy.abs() / kinetic;
-    let bound = wavering(integrator.composition(), share).max(1e-8);
+    let bound = fluctuation(integrator.composition(), share).max(1e-8);
     let what = "energy against that of the motion";
     Ok(Outcome::correct(what, error, bound))
 }

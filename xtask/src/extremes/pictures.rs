@@ -46,7 +46,7 @@ pub(super) fn limits(out: &Path) -> Result<(), String> {
     draw(&chart, &out.join("extremes-limits.svg"))
 }
 
-/// Draws `extremes-energy.svg`: how far the energy wavers against the step, for the mixed filament.
+/// Draws `extremes-energy.svg`: fluctuation of the energy against the step, for the mixed filament.
 pub(super) fn energy(out: &Path) -> Result<(), String> {
     let (model, sections) = MODELS[2];
     let mut system = free(sections).map_err(|outcome| outcome.words())?;

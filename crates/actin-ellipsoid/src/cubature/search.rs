@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Steps of one search.
 const STEPS: usize = 600;
-/// A search has ended once no residual is above this: a tenth of what is asked for.
+/// A search has ended once no residual is above this: a hundredth of what is asked for.
 const ENDED: f64 = 1e-5;
 /// Damping of the first step, in units of the mean square of the slopes, and its least value.
 const DAMPING: (f64, f64) = (1e-2, 1e-13);

@@ -5,7 +5,7 @@ use crate::Assembly;
 use crate::scene::{Anchors, Equilibrium, Load, RodLaw, Setting, Task};
 use actin_mechanics::Vector3;
 
-/// What a filament is made of, as far as Newton's method minds: the slowest of a scene counts.
+/// What a filament is made of, by the number of Newton steps it takes: the slowest of a scene counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     /// Rods of constant rigidities.

@@ -33,7 +33,7 @@ struct Head {
 pub(super) struct Manifest {
     format: String,
     version: u32,
-    /// CRC-32 (IEEE) of `scene.ron` as the run has written it with its results: people edit that file.
+    /// CRC-32 (IEEE) of `scene.ron` as the run has written it: people edit that file.
     scene_crc32: Option<u32>,
     /// Names that the run has written or is about to write, relative to the directory.
     files: BTreeSet<String>,
@@ -126,7 +126,7 @@ impl Manifest {
     }
 
     /// Refuses a folder in which something has a name that runs write, and is not listed or not a
-    /// regular file; other files and folders are nobody's business.
+    /// regular file; other files and folders are ignored.
     ///
     /// # Errors
     /// The first such file or link.

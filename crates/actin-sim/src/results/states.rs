@@ -131,20 +131,30 @@ impl<'a> States<'a> {
     /// Those of `out`.
     pub(super) fn write(&self, out: &mut (impl Write + Seek)) -> io::Result<()> {
         let mut archive = ZipWriter::new(out);
+        match self.write_arrays(&mut archive) {
+            Ok(()) => archive.finish().map(drop).map_err(io::Error::from),
+            Err(error) => {
+                // Dropped, it would try to write its directory, fail again, and say so on standard error.
+                std::mem::forget(archive);
+                Err(error)
+            }
+        }
+    }
+
+    fn write_arrays<W: Write + Seek>(&self, archive: &mut ZipWriter<W>) -> io::Result<()> {
         for (name, values) in self.columns() {
-            write_array(&mut archive, name, &[values.len()], values)?;
+            write_array(archive, name, &[values.len()], values)?;
         }
         for (name, values) in self.kinds() {
-            write_array(&mut archive, name, &[values.len()], values)?;
+            write_array(archive, name, &[values.len()], values)?;
         }
         for (name, values) in self.filaments() {
-            write_array(&mut archive, name, &[values.len()], values)?;
+            write_array(archive, name, &[values.len()], values)?;
         }
         for field in self.fields() {
             let shape = field.shape(self.records);
-            write_array(&mut archive, field.name, &shape, field.values(self.records))?;
+            write_array(archive, field.name, &shape, field.values(self.records))?;
         }
-        archive.finish()?;
         Ok(())
     }
 }

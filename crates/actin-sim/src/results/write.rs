@@ -23,8 +23,13 @@ impl RunDirectory {
     /// # Errors
     /// A refusal of the file system.
     pub fn write_scene(&self, scene: &Scene) -> Result<(), RunDirectoryError> {
-        let path = self.path.join(SCENE);
-        let written = atomic::replace(&path, |out| out.write_all(scene.to_ron().as_bytes()));
+        let (path, text) = (self.path.join(SCENE), scene.to_ron());
+        // First, so that a run that is killed leaves a scene whose changes are noticed.
+        let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
+        manifest.add([SCENE]);
+        manifest.note_scene(&text);
+        manifest.write(&self.path)?;
+        let written = atomic::replace(&path, |out| out.write_all(text.as_bytes()));
         written.map_err(RunDirectoryError::io(&path))
     }
 

@@ -217,6 +217,8 @@ impl<'a> Follower<'a> {
             }) => (*standing, trajectory),
             Some(_) => panic!("a motion in time is no path of equilibria"),
         };
+        let mut links = links(assembly);
+        links.follow(assembly, &trajectory.records);
         Self {
             assembly,
             settings,
@@ -225,7 +227,7 @@ impl<'a> Follower<'a> {
             clock,
             trajectory,
             standing,
-            links: links(assembly),
+            links,
             slip: None,
             is_left: false,
         }

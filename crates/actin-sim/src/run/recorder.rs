@@ -91,6 +91,7 @@ impl<'a> Recorder<'a> {
         };
         let MotionStanding { checkpoint, pushes } = *standing;
         self.trajectory = kept.trajectory;
+        self.links.follow(self.assembly, &self.trajectory.records);
         self.pushes = pushes;
         self.is_behind = false;
         self.last_good = Some(Checkpoint {

@@ -2,10 +2,13 @@
 //! past half a turn, or by passing through itself.
 //!
 //! Twist plus writhe is compared with the turn of the ends at every record. It is off by whole turns or
-//! not at all, so that half a turn is the threshold.
+//! not at all, so that half a turn is the threshold. Where it is off by anything else (an end has passed
+//! the other, so that the straight lines beyond them overlap) the sum says nothing, and nothing is
+//! concluded.
 
+use super::Record;
 use crate::scene::Slides;
-use crate::shape::{Ribbon, link_of};
+use crate::shape::{Ribbon, WHOLE, turn_of_ends};
 use crate::{Assembly, End};
 use actin_mechanics::State;
 use std::fmt;
@@ -39,9 +42,9 @@ impl fmt::Display for Slip {
         let lost = self.lost_turns().abs();
         let how = if is_even(lost) {
             "it has passed through itself or through the straight line beyond an end, or a joint was \
-             turned past half a turn"
+             turned past half a turn on the way"
         } else {
-            "a joint was turned past half a turn"
+            "a joint was turned past half a turn on the way"
         };
         write!(
             f,
@@ -63,10 +66,13 @@ pub(super) struct LinkWatch {
 #[derive(Clone, Copy, Debug)]
 struct Held {
     filament: usize,
-    /// Twist plus writhe (turns) where the run begins, less the link there.
+    /// Twist plus writhe (turns) less the turn of the ends, where the run begins or since an end went
+    /// round the filament.
     offset_turns: f64,
-    /// Whether an end may go round the filament: then two turns more or less are nothing wrong.
+    /// Whether an end may go round the filament, which changes the sum by two turns.
     is_loose: bool,
+    /// Whether the filament pointed forward everywhere at the last record: then no end was going round.
+    was_forward: bool,
 }
 
 impl LinkWatch {
@@ -77,12 +83,13 @@ impl LinkWatch {
             let [Some(one), Some(other)] = ends else {
                 return None;
             };
-            let link = link_of(assembly, filament, 0.0)?;
-            let linking = Ribbon::of(assembly, filament, start).linking()?;
+            let turn = turn_of_ends(assembly, filament, 0.0)?;
+            let ribbon = Ribbon::of(assembly, filament, start);
             Some(Held {
                 filament,
-                offset_turns: linking - link,
+                offset_turns: ribbon.linking()? - turn,
                 is_loose: [one, other].iter().any(|c| c.slides == Slides::Freely),
+                was_forward: ribbon.is_forward(),
             })
         });
         Self {
@@ -90,29 +97,31 @@ impl LinkWatch {
         }
     }
 
+    /// Follows records that were found good when they were made.
+    pub(super) fn follow(&mut self, assembly: &Assembly, records: &[Record]) {
+        for record in records {
+            for held in &mut self.held {
+                held.compare(assembly, &record.state, record.time_ns);
+            }
+        }
+    }
+
     /// The first filament that has lost a turn in `state`, at `time_ns` (of an equilibrium the path
-    /// parameter); `before` is the last good state.
+    /// parameter); `before` is the last good state. To be asked at every record, in order.
     pub(super) fn slip(
-        &self,
+        &mut self,
         assembly: &Assembly,
         (state, time_ns): (&State, f64),
         before: Option<&State>,
     ) -> Option<Slip> {
-        self.held.iter().find_map(|held| {
-            let filament = held.filament;
-            let link_turns = link_of(assembly, filament, time_ns)?;
-            let linking = Ribbon::of(assembly, filament, state).linking()?;
-            let found_turns = linking - held.offset_turns;
-            let lost = (link_turns - found_turns).round();
-            if lost == 0.0 || (held.is_loose && is_even(lost)) {
-                return None;
-            }
+        self.held.iter_mut().find_map(|held| {
+            let (link_turns, found_turns) = held.compare(assembly, state, time_ns)?;
             let joints = [state, before.unwrap_or(state)]
-                .map(|state| Ribbon::of(assembly, filament, state).most_twisted());
+                .map(|state| Ribbon::of(assembly, held.filament, state).most_twisted());
             let is_second = joints[1].1.abs() > joints[0].1.abs();
             let (joint_s_nm, angle) = joints[usize::from(is_second)];
             Some(Slip {
-                filament,
+                filament: held.filament,
                 time_ns,
                 link_turns,
                 found_turns,
@@ -120,6 +129,28 @@ impl LinkWatch {
                 joint_deg: angle.to_degrees(),
             })
         })
+    }
+}
+
+impl Held {
+    /// The turn of the ends and the sum of twist and writhe (turns), if they tell of a slip.
+    fn compare(&mut self, assembly: &Assembly, state: &State, time_ns: f64) -> Option<(f64, f64)> {
+        let link_turns = turn_of_ends(assembly, self.filament, time_ns)?;
+        let ribbon = Ribbon::of(assembly, self.filament, state);
+        let is_forward = ribbon.is_forward();
+        let may_go_round = self.is_loose && !(is_forward && self.was_forward);
+        self.was_forward = is_forward;
+        let found_turns = ribbon.linking()? - self.offset_turns;
+        let off = link_turns - found_turns;
+        let lost = off.round();
+        if lost == 0.0 || (off - lost).abs() > WHOLE {
+            return None;
+        }
+        if may_go_round && is_even(lost) {
+            self.offset_turns -= lost;
+            return None;
+        }
+        Some((link_turns, found_turns))
     }
 }
 

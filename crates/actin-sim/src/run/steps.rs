@@ -193,6 +193,10 @@ impl Estimate {
     }
 
     fn note_on_drag(&self, dynamics: &Dynamics) -> Option<String> {
+        // In a bath velocities have their temperature at any drag.
+        if dynamics.thermal.is_some() {
+            return None;
+        }
         let rates = dynamics.drag;
         let drag = Drag::new(rates.translational_per_ns, rates.rotational_per_ns).ok()?;
         let step = self.time_step_ns;

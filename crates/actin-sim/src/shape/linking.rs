@@ -13,24 +13,48 @@ use std::f64::consts::PI;
 /// Ends count as parallel if the cosine of their angle differs from one by less than this: their
 /// writhe then belongs to a closed curve, to 1e-4 of a turn.
 const PARALLEL: f64 = 1e-8;
+/// Parallel lines this close (nm) count as one: far above round-off of places, far below any
+/// displacement that a scene asks for.
+const ONE_LINE_NM: f64 = 1e-6;
 
 impl Ribbon {
     /// Twist plus writhe (turns): the link up to a whole number that depends on the way here.
     ///
-    /// Costs one pass where every edge points forward along the ends; elsewhere the double sum of the
-    /// writhe. None where an end is free, the ends are not parallel, or the writhe is not computed.
+    /// Where the ends are not parallel, the area between the tangents is closed by the shortest arc from
+    /// the last to the first, and the link is the turn of the end carried back along that arc.
+    ///
+    /// Costs one pass where every edge points forward along the start; elsewhere the double sum of the
+    /// writhe. None where an end is free, where the ends are not parallel and an edge points backward,
+    /// where an end has passed the other, so that the straight lines beyond them overlap, and where the
+    /// writhe is not computed.
     pub(crate) fn linking(&self) -> Option<f64> {
         let [Some(_), Some(_)] = self.ends else {
             return None;
         };
         let (frames, tangents) = self.edges();
-        let (first, last) = (tangents[0], tangents[tangents.len() - 1]);
-        if 1.0 - first.dot(&last) > PARALLEL {
-            return None;
-        }
         let twist = angles(&frames, &tangents).iter().sum::<f64>() / (2.0 * PI);
-        let writhe = forward_writhe(&tangents).or_else(|| self.writhe())?;
+        let (first, last) = (tangents[0], tangents[tangents.len() - 1]);
+        let backward = || {
+            let is_closed = 1.0 - first.dot(&last) <= PARALLEL && !self.extensions_overlap(first);
+            is_closed.then(|| self.writhe()).flatten()
+        };
+        let writhe = forward_writhe(&tangents).or_else(backward)?;
         Some(twist + writhe)
+    }
+
+    /// Whether every edge points to the side of the first, the straight one beyond the start: then the
+    /// filament goes round neither end.
+    pub(crate) fn is_forward(&self) -> bool {
+        let (_, tangents) = self.edges();
+        tangents.iter().all(|t| t.dot(&tangents[0]) > 0.0)
+    }
+
+    /// Whether the straight lines beyond both ends, along `axis`, overlap.
+    fn extensions_overlap(&self, axis: Vector3) -> bool {
+        let points = &self.points_nm;
+        let whole = points[points.len() - 1] - points[0];
+        let along = whole.dot(&axis);
+        along <= 0.0 && (whole - along * axis).norm() <= ONE_LINE_NM
     }
 
     /// Arc length (nm) and angle (rad) of the joint with the largest twist.
@@ -42,8 +66,8 @@ impl Ribbon {
     }
 }
 
-/// Writhe of a curve with these unit vectors, the first and the last of them alike, where all point to
-/// the side of the first; None elsewhere.
+/// Writhe of a curve with these unit vectors, where all point to the side of the first; None elsewhere.
+/// The area is closed by the shortest arc from the last to the first.
 ///
 /// Such a curve can be flattened onto a straight line without passing through itself, so that its
 /// writhe is the area that its tangents enclose on the sphere, over `2 pi`: a sum of triangles with the
@@ -171,5 +195,52 @@ mod tests {
         let (s_nm, angle) = turned(170.0).most_twisted();
         assert!((s_nm - 30.0).abs() < 1e-12 && (angle - 170.0_f64.to_radians()).abs() < 1e-12);
         assert_eq!(link(&assembly, 0.0), Some(0.0));
+    }
+
+    /// Ends that are turned and tilted against each other by anything below a right angle: the sum of
+    /// twist and writhe is the turn of the ends, carried on from zero, for a filament that follows.
+    #[test]
+    fn twist_and_writhe_follow_tilted_ends() {
+        for (turn, segments) in [
+            ([0.0, 1.0, 300.0], 60),
+            ([0.0, 1.0, 3000.0], 120),
+            ([5.0, -30.0, 60.0], 60),
+            ([40.0, 10.0, -400.0], 60),
+        ] {
+            let text = format!(
+                "Scene(
+                    filament: Filament(sections: [
+                        Rod(from_nm: 0.0, to_nm: 120.0, segments: {segments})]),
+                    clamps: [Clamp(end: Start), Clamp(end: End)],
+                    path: [Stage(set: [Turn(end: End, turn_deg: ({:?}, {:?}, {:?}))])],
+                    task: Equilibrium(),
+                )",
+                turn[0], turn[1], turn[2]
+            );
+            let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+            // As if bending and twisting were spread evenly: each frame has its share of the turn.
+            for share in [0.3, 1.0] {
+                let mut state = assembly.rest.clone();
+                let whole = Vector3::from(turn).map(f64::to_radians) * share;
+                let mut place = Vector3::zeros();
+                for i in 0..segments {
+                    let frame = assembly.sections[0].frames.start + i;
+                    let s_nm = assembly.frames[frame].s_nm;
+                    let q = rotation::exp(whole * (s_nm / 120.0));
+                    let length = 120.0 / segments as f64;
+                    state.points.position.set(i, place);
+                    state.frames.orientation.set(frame, q);
+                    place += q * Vector3::z() * length;
+                    state.points.position.set(i + 1, place);
+                }
+                assembly.drive.place(&mut state, share);
+                let expected = super::super::turn_of_ends(&assembly, 0, share).unwrap();
+                let found = Ribbon::new(&assembly, &state).linking().unwrap();
+                assert!(
+                    (found - expected).abs() < 1e-9,
+                    "{turn:?} {share}: {found} {expected}"
+                );
+            }
+        }
     }
 }

@@ -10,8 +10,8 @@ mod ribbon;
 mod twist;
 mod writhe;
 
+pub(crate) use link::{WHOLE, link_at, link_is_unknown, path_parameter, turn_of_ends};
 pub use link::{link, link_of};
-pub(crate) use link::{link_at, path_parameter};
 pub use profile::{ProfilePoint, profile, profile_of};
 pub use ribbon::Ribbon;
 pub(crate) use ribbon::{solid_angles, writhe_of};

@@ -34,7 +34,7 @@ impl Summary {
             tip_nm: first.tip_nm,
             tip_displacement_nm: first.tip_displacement_nm,
             end_reactions: first.end_reactions,
-            notes: assembly.notes(),
+            notes: [assembly.notes(), report.notes(assembly, last)].concat(),
             beyond_range: assembly.beyond_range_over([&last.state]),
             unstable_twist: assembly.unstable_twist_over([&last.state]),
             beyond_use: report.beyond_use.clone(),
