@@ -1,6 +1,6 @@
 //! Tables as Markdown and CSV, and their places in the page.
 
-use crate::figures::report::{save, write_csv};
+use actin_draw::report::{save, write_csv};
 use std::path::Path;
 
 /// A table of texts.

@@ -15,7 +15,7 @@ pub(crate) use quick::stale;
 pub(crate) use quick::{tell_stale, write_quick};
 
 use crate::check::workspace_root;
-use crate::figures::report::{self, Row};
+use actin_draw::report::{self, Row};
 use marks::{Mark, Of, marks};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

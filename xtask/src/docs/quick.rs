@@ -4,7 +4,7 @@
 
 use super::{Report, by_name, save};
 use crate::check::workspace_root;
-use crate::figures::report::{self, Row};
+use actin_draw::report::{self, Row};
 use std::collections::BTreeSet;
 
 /// The committed quick run.

@@ -1,20 +1,19 @@
 //! Pictures of the stability limits and of the energy below them.
 
 use super::cases::stability::{self, INTEGRATORS, MODELS, SHARES, energy_error, free};
-use crate::figures::plot::{Chart, Series, draw};
-use plotters::style::RGBColor;
+use actin_draw::{Chart, Colour, Series};
 use std::path::Path;
 
 /// A colour for each integrator or model.
-const COLOURS: [RGBColor; 5] = [
-    RGBColor(30, 70, 180),
-    RGBColor(190, 25, 35),
-    RGBColor(235, 140, 20),
-    RGBColor(40, 150, 70),
-    RGBColor(120, 60, 150),
+const COLOURS: [Colour; 5] = [
+    Colour([30, 70, 180]),
+    Colour([190, 25, 35]),
+    Colour([235, 140, 20]),
+    Colour([40, 150, 70]),
+    Colour([120, 60, 150]),
 ];
 
-fn series(label: &str, colour: RGBColor, points: Vec<(f64, f64)>, dots: bool) -> Series {
+fn series(label: &str, colour: Colour, points: Vec<(f64, f64)>, dots: bool) -> Series {
     Series {
         label: Some(label.to_owned()),
         colour,
@@ -26,7 +25,7 @@ fn series(label: &str, colour: RGBColor, points: Vec<(f64, f64)>, dots: bool) ->
 /// Draws `extremes-limits.svg`: limits of `omega h` as measured against those of the methods.
 pub(super) fn limits(out: &Path) -> Result<(), String> {
     let diagonal = vec![(1.4, 1.4), (3.6, 3.6)];
-    let mut all = vec![series("equal", RGBColor(160, 160, 160), diagonal, false)];
+    let mut all = vec![series("equal", Colour([160, 160, 160]), diagonal, false)];
     for ((model, sections), colour) in MODELS.into_iter().zip(COLOURS) {
         let mut system = free(sections).map_err(|outcome| outcome.words())?;
         let point = |(_, integrator): (&str, actin_sim::Integrator)| {
@@ -43,7 +42,7 @@ pub(super) fn limits(out: &Path) -> Result<(), String> {
         series: all,
         equal_axes: false,
     };
-    draw(&chart, &out.join("extremes-limits.svg"))
+    chart.draw(&out.join("extremes-limits.svg"))
 }
 
 /// Draws `extremes-energy.svg`: fluctuation of the energy against the step, for the mixed filament.
@@ -66,5 +65,5 @@ pub(super) fn energy(out: &Path) -> Result<(), String> {
         series: all,
         equal_axes: false,
     };
-    draw(&chart, &out.join("extremes-energy.svg"))
+    chart.draw(&out.join("extremes-energy.svg"))
 }

@@ -1,10 +1,10 @@
 //! Figure 9: how twisting rigidity and length depend on twist, fitted.
 
 use super::bounds::CROSS_CHECK;
-use super::report::{Artefact, Origin, Picture, Row};
 use super::{Run, tables};
 use crate::fit::{Beside, TwistData, TwistFits, draw, rms};
 use actin_cosserat::{PolynomialStretch, TanhTwist};
+use actin_draw::report::{Artefact, Origin, Picture, Row};
 use std::time::Instant;
 
 const ID: &str = "fig9";

@@ -4,8 +4,8 @@
 //! folder and its record, with a hash of each file, follows under another name. A command that is
 //! ended in between leaves no record, so that the artefact counts as not computed.
 
-use super::report::{Artefact, write_atomically};
 use crate::check::workspace_root;
+use actin_draw::report::{Artefact, write_atomically};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;

@@ -15,10 +15,7 @@ mod html;
 mod kept;
 mod linked;
 pub(crate) mod palette;
-pub(crate) mod plot;
 mod progress;
-pub(crate) mod report;
-mod scene3d;
 mod schematics;
 mod settles;
 mod tables;
@@ -27,9 +24,9 @@ mod viewer;
 pub(crate) use palette::Palette;
 pub(crate) use tables::paper;
 
+use actin_draw::report::{self, Artefact, Row};
 use kept::{Kept, Reason, Shelf};
 use progress::Progress;
-use report::{Artefact, Row};
 use std::fs;
 use std::path::{Path, PathBuf};
 

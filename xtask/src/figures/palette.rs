@@ -2,7 +2,7 @@
 //!
 //! A run has one palette, chosen once before anything is drawn. Numbers never depend on it.
 
-use plotters::style::RGBColor;
+use actin_draw::{Colour, Ramp, lines};
 use serde::Serialize;
 use std::sync::OnceLock;
 
@@ -51,28 +51,6 @@ impl Things {
 /// The palette of this run.
 static CHOSEN: OnceLock<Palette> = OnceLock::new();
 
-/// The paper's order of hues, dark enough in the middle to be seen on white.
-const RED_YELLOW_BLUE: [[u8; 3]; 5] = [
-    [190, 25, 35],
-    [235, 110, 40],
-    [235, 180, 0],
-    [90, 165, 215],
-    [30, 70, 180],
-];
-/// Entries 7 to 2 of the eight of viridis: its yellow end would vanish on white, its black one
-/// could not be told from ink.
-///
-/// # Source
-/// S. van der Walt and N. Smith, matplotlib 1.5 (2015), as sampled by `viridisLite::viridis(8)`.
-const VIRIDIS: [[u8; 3]; 6] = [
-    [159, 218, 58],
-    [74, 193, 109],
-    [31, 161, 135],
-    [39, 127, 142],
-    [54, 92, 141],
-    [70, 51, 126],
-];
-
 /// Colours of things beside red monomers and blue rods.
 const BESIDE_RED_AND_BLUE: Things = Things {
     bonds: [[120, 40, 150], [0, 150, 140]],
@@ -100,29 +78,12 @@ const OKABE_ITO: Things = Things {
     force: [20, 20, 20],
 };
 
-/// Lines that are told apart by what they are and not by a resolution.
-const LINES: [[u8; 3]; 5] = [
-    [190, 25, 35],
-    [235, 150, 20],
-    [60, 150, 90],
-    [30, 70, 180],
-    [140, 70, 160],
-];
-/// The same from Okabe and Ito: vermilion, orange, bluish green, blue, reddish purple.
-const OKABE_ITO_LINES: [[u8; 3]; 5] = [
-    [213, 94, 0],
-    [230, 159, 0],
-    [0, 158, 115],
-    [0, 114, 178],
-    [204, 121, 167],
-];
-
 /// What is given by others: data, the paper's entries.
-pub(crate) const DATA: RGBColor = RGBColor(20, 20, 20);
+pub(crate) const DATA: Colour = Colour([20, 20, 20]);
 /// What stands back.
-pub(crate) const GREY: RGBColor = RGBColor(130, 130, 130);
+pub(crate) const GREY: Colour = Colour([130, 130, 130]);
 /// What stands back further.
-pub(crate) const LIGHT_GREY: RGBColor = RGBColor(165, 165, 165);
+pub(crate) const LIGHT_GREY: Colour = Colour([165, 165, 165]);
 
 /// Chooses the palette of this run; a second choice is not heard.
 pub(crate) fn choose(palette: Palette) {
@@ -135,24 +96,22 @@ pub(crate) fn chosen() -> Palette {
 }
 
 /// The colour of a share of rod between 0 (all monomers) and 1 (all rod).
-pub(crate) fn resolution(share: f64) -> RGBColor {
-    let [red, green, blue] = chosen().resolution(share);
-    RGBColor(red, green, blue)
+pub(crate) fn resolution(share: f64) -> Colour {
+    chosen().ramp().at(share)
 }
 
 /// The colour of the line number `k` of those that are not resolutions.
-pub(crate) fn line(k: usize) -> RGBColor {
+pub(crate) fn line(k: usize) -> Colour {
     let lines = chosen().lines();
-    let [red, green, blue] = lines[k % lines.len()];
-    RGBColor(red, green, blue)
+    Colour(lines[k % lines.len()])
 }
 
 impl Palette {
-    /// Colours at even steps of the share of rod, from 0 to 1.
-    pub(crate) fn stops(self) -> &'static [[u8; 3]] {
+    /// Colours of the share of rod, from 0 to 1.
+    pub(crate) fn ramp(self) -> Ramp {
         match self {
-            Self::Paper => &RED_YELLOW_BLUE,
-            Self::ColourBlind => &VIRIDIS,
+            Self::Paper => Ramp::RED_YELLOW_BLUE,
+            Self::ColourBlind => Ramp::VIRIDIS,
         }
     }
 
@@ -182,77 +141,36 @@ impl Palette {
 
     fn lines(self) -> &'static [[u8; 3]; 5] {
         match self {
-            Self::Paper => &LINES,
-            Self::ColourBlind => &OKABE_ITO_LINES,
+            Self::Paper => &lines::HUES,
+            Self::ColourBlind => &lines::OKABE_ITO,
         }
     }
-
-    /// Between the stops in a straight line.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a place between the first and the last stop, and a mean of two bytes"
-    )]
-    fn resolution(self, share: f64) -> [u8; 3] {
-        let stops = self.stops();
-        let place = share.clamp(0.0, 1.0) * (stops.len() - 1) as f64;
-        let i = (place as usize).min(stops.len() - 2);
-        let t = place - i as f64;
-        [0, 1, 2].map(|k| {
-            let (from, to) = (f64::from(stops[i][k]), f64::from(stops[i + 1][k]));
-            (from + t * (to - from)) as u8
-        })
-    }
-}
-
-/// Relative luminance of an sRGB colour.
-///
-/// # Source
-/// W3C, Web Content Accessibility Guidelines 2.1, relative luminance.
-#[cfg(test)]
-pub(super) fn luminance(colour: [u8; 3]) -> f64 {
-    let linear = colour.map(|byte| {
-        let v = f64::from(byte) / 255.0;
-        if v <= 0.03928 {
-            v / 12.92
-        } else {
-            ((v + 0.055) / 1.055).powf(2.4)
-        }
-    });
-    0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use actin_draw::page::{DARK_CARD, on_dark};
 
+    /// Things are seen on the dark page, in pictures and in views; those that stand back on white paper,
+    /// or are white, as much as there. Symptom of the plausible bug: a black axis is lifted to a dark grey.
     #[test]
-    fn the_ends_are_the_stops() {
-        assert_eq!(Palette::Paper.resolution(0.0), [190, 25, 35]);
-        assert_eq!(Palette::Paper.resolution(1.0), [30, 70, 180]);
-        assert_eq!(Palette::Paper.resolution(0.5), [235, 180, 0]);
-        assert_eq!(Palette::ColourBlind.resolution(-1.0), VIRIDIS[0]);
-        assert_eq!(Palette::ColourBlind.resolution(2.0), VIRIDIS[5]);
-    }
-
-    /// Resolutions are in the order of their lightness, so that they differ for every kind of sight
-    /// and in grey. Symptom of a swapped or mistyped stop: a step back.
-    #[test]
-    fn the_colour_blind_range_darkens_throughout() {
-        let shades: Vec<f64> = (0..=40)
-            .map(|k| luminance(Palette::ColourBlind.resolution(f64::from(k) / 40.0)))
-            .collect();
-        assert!(shades.is_sorted_by(|a, b| a > b), "{shades:?}");
-    }
-
-    /// Nothing is drawn that cannot be seen on white: 1.5 is the contrast of a light yellow pencil,
-    /// 1 that of white on white.
-    #[test]
-    fn every_resolution_is_seen_on_white() {
+    fn every_thing_is_seen_on_the_dark_card() {
+        let contrast = |one, other| Colour(one).contrast(Colour(other));
         for palette in [Palette::Paper, Palette::ColourBlind] {
-            for k in 0..=40 {
-                let shade = luminance(palette.resolution(f64::from(k) / 40.0));
-                assert!(1.05 / (shade + 0.05) > 1.5, "{palette:?} {k}");
+            let things = palette.things();
+            let [first, second] = things.bonds;
+            let [d1, d2, d3] = things.axes;
+            let single = [things.junction, things.node, things.clamp, things.linker];
+            let bound = [things.anchor, things.force];
+            let all = [first, second, d1, d2, d3]
+                .into_iter()
+                .chain(single)
+                .chain(bound);
+            for thing in all {
+                let least = contrast(thing, [255; 3]).min(3.0);
+                let found = contrast(on_dark(thing), DARK_CARD);
+                assert!(found >= least, "{palette:?} {thing:?}: {found} < {least}");
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Whether the energy of a damped motion only falls.
 
-use super::report::Row;
+use actin_draw::report::Row;
 
 /// The claim that energies decay as motions come to rest: `motions` are energies in time.
 ///

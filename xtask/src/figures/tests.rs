@@ -1,7 +1,7 @@
 //! Artefacts are computed once, and again where something is amiss. The recipes here are cheap.
 
 use super::*;
-use report::{Picture, save};
+use actin_draw::report::{Picture, save};
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 

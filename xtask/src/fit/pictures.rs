@@ -5,8 +5,8 @@ use super::data::TwistData;
 use super::own::Curve as LawCurve;
 use super::twist::TwistFits;
 use crate::figures::palette;
-use crate::figures::plot::{Chart, Series, draw as draw_chart};
 use actin_cosserat::{PolynomialStretch, TanhTwist};
+use actin_draw::{Chart, Series};
 use std::path::Path;
 
 /// Lines of the published parameters, of the same form refitted, and of a smaller form.
@@ -88,7 +88,7 @@ impl Panel {
         });
         self.chart.series.push(given);
         self.chart.series.extend(others);
-        draw_chart(&self.chart, &out.join(self.file))?;
+        self.chart.draw(&out.join(self.file))?;
         let (what, source) = (self.what, &data.source);
         let caption = format!("{what} against twist, with three fits. Data: {source}.{more}");
         Ok((self.file.to_owned(), caption))
@@ -185,5 +185,5 @@ pub(super) fn curve_with_data(curve: &LawCurve<'_>, out: &Path) -> Result<(), St
         series: vec![law, dots(curve.data, "data", 1.0)],
         equal_axes: false,
     };
-    draw_chart(&chart, &out.join(format!("{}.svg", curve.name)))
+    chart.draw(&out.join(format!("{}.svg", curve.name)))
 }

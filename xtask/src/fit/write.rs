@@ -4,10 +4,10 @@ use super::bend::BendFits;
 use super::data::TwistData;
 use super::measured::{BendData, Point};
 use super::twist::TwistFits;
-use crate::figures::report::{save, write_csv};
 use actin_cosserat::{
     PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistRise,
 };
+use actin_draw::report::{save, write_csv};
 use actin_sim::{BendLaw, RodLaws, TwistLaw, TwistStretchLaw};
 use std::path::Path;
 

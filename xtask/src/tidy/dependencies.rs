@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 /// Each crate and the crates of ours that it may depend on.
-const ALLOWED: [(&str, &[&str]); 10] = [
+const ALLOWED: [(&str, &[&str]); 11] = [
     ("crates/actin-mechanics", &[]),
     ("crates/actin-ellipsoid", &["actin-mechanics"]),
     ("crates/actin-cosserat", &["actin-mechanics"]),
@@ -16,6 +16,7 @@ const ALLOWED: [(&str, &[&str]); 10] = [
     ("crates/actin-integrate", &["actin-mechanics"]),
     ("crates/actin-equilibrium", &["actin-mechanics"]),
     ("crates/actin-fit", &[]),
+    ("crates/actin-draw", &[]),
     (
         "crates/actin-sim",
         &[
@@ -33,6 +34,7 @@ const ALLOWED: [(&str, &[&str]); 10] = [
         &[
             "actin-mechanics",
             "actin-sim",
+            "actin-draw",
             "actin-cosserat",
             "actin-fit",
             "actin-integrate",

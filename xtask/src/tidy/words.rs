@@ -1,7 +1,7 @@
 //! Words that a crate must not know.
 
 /// Crates, and words that none of their lines may hold.
-const FORBIDDEN: [(&str, &[&str]); 4] = [
+const FORBIDDEN: [(&str, &[&str]); 5] = [
     (
         "crates/actin-mechanics/src",
         &["monomer", "filament", "cosserat", "helix", "bond"],
@@ -18,6 +18,12 @@ const FORBIDDEN: [(&str, &[&str]); 4] = [
         "crates/actin-fit/src",
         &[
             "monomer", "actin ", "filament", "cosserat", "helix", "rigidity",
+        ],
+    ),
+    (
+        "crates/actin-draw/src",
+        &[
+            "monomer", "actin ", "filament", "cosserat", "helix", "bond", "linker", "rigidity",
         ],
     ),
 ];

@@ -5,8 +5,8 @@ use super::case::Case;
 use super::dynamics::{STOP, dynamics};
 use super::group::{Group, Rods};
 use super::outcome::{Evidence, Outcome, measure};
-use crate::figures::report::Row;
 use crate::figures::viewer::Snapshot;
+use actin_draw::report::Row;
 use actin_sim::{Assembly, Drag, Task};
 use std::ops::ControlFlow;
 

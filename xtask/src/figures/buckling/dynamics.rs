@@ -6,7 +6,7 @@ use super::outcome::{Measured, Outcome, measure, outcome};
 use super::results::{OBSERVABLES, Results};
 use super::rows::artefact;
 use super::starts::is_same;
-use crate::figures::report::{Origin, Row};
+use actin_draw::report::{Origin, Row};
 use actin_sim::{Assembly, Drag, Dynamics, Equilibrium, Integrator, Record, StopRule, Task};
 use std::ops::ControlFlow;
 

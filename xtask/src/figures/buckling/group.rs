@@ -2,8 +2,8 @@
 
 use super::case::Resolved;
 use crate::figures::palette;
+use actin_draw::Colour;
 use actin_sim::{ForceLaw, Hold, JunctionWeight, Monomers, RodLaw, Scene};
-use plotters::style::RGBColor;
 
 /// Which figure, and with it the clamp of the numbers to compare with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,7 +131,7 @@ impl Group {
     }
 
     /// In charts against the length of rod.
-    pub(super) fn colour(self) -> RGBColor {
+    pub(super) fn colour(self) -> Colour {
         let main = Self::main(self.figure);
         match self {
             group if group == main => palette::line(3),

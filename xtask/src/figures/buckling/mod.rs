@@ -20,7 +20,7 @@ mod tables;
 
 use super::Run;
 use super::progress::Progress;
-use super::report::Artefact;
+use actin_draw::report::Artefact;
 use case::Case;
 use dynamics::Motion;
 use group::Figure;

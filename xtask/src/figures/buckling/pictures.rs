@@ -9,9 +9,9 @@ use super::plane::in_own_plane;
 use super::results::{OBSERVABLES, Observable, Results};
 use super::rows::artefact;
 use crate::figures::palette;
-use crate::figures::plot::{Chart, Series, draw as draw_chart};
-use crate::figures::report::{Picture, View};
 use crate::figures::viewer::{self, Attitude, Shown};
+use actin_draw::report::{Picture, View};
+use actin_draw::{Chart, Series};
 use std::path::Path;
 
 /// Draws all pictures.
@@ -79,7 +79,7 @@ fn lines(plan: &Plan, results: &Results, turn: i32, out: &Path) -> Result<Vec<Pi
             equal_axes: projection.equal_axes,
         };
         let file = format!("{}_{name}_{}.svg", artefact(plan.figure), projection.panel);
-        draw_chart(&chart, &out.join(&file))?;
+        chart.draw(&out.join(&file))?;
         Ok(Picture {
             file,
             caption: caption(plan.figure, projection.panel),
@@ -197,7 +197,7 @@ fn against_rod(
     };
     let turn = Case::turn_name(turn).replace('/', "_");
     let file = format!("{}_{turn}_{name}.svg", artefact(plan.figure));
-    draw_chart(&chart, &out.join(&file))?;
+    chart.draw(&out.join(&file))?;
     let caption = format!(
         "{what} against the length of rod, {}. Drawn bonds, 64 per interface, are means over {} samplings; \
          the mean filament has 12 weighted bonds per interface that stand for all{}.",

@@ -7,8 +7,8 @@ use super::group::{Figure, Group};
 use super::lists::Plan;
 use super::outcome::{Evidence, Outcome};
 use super::results::{OBSERVABLES, Observable, Results, range};
-use crate::figures::bounds::{A_DIFFERENCE, CROSS_CHECK, ROUND_OFF, SHAPE_NM, printed};
-use crate::figures::report::{Origin, Row};
+use crate::figures::bounds::{A_DIFFERENCE, CROSS_CHECK, ROUND_OFF, SHAPE_NM};
+use actin_draw::report::{Origin, Row, printed};
 
 /// The extended rod, and what the paper prints or offers for the same.
 const EXTENDED: [&str; 3] = ["", "coupling-energy/", "paper-balance/"];

@@ -6,7 +6,7 @@ use super::lists::Plan;
 use super::outcome::Outcome;
 use super::results::{OBSERVABLES, Observable, Results};
 use super::rows::artefact;
-use crate::figures::report::Row;
+use actin_draw::report::Row;
 
 /// Equilibria are the same if their energies (pN nm), heights (nm) and couples (pN nm) are within
 /// these of each other. The pull that breaks the symmetry does less: 1e-3 pN over 40 nm.

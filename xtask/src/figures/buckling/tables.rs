@@ -5,7 +5,7 @@ use super::lists::Plan;
 use super::outcome::{Evidence, Outcome};
 use super::results::Results;
 use super::rows::artefact;
-use crate::figures::report::write_csv;
+use actin_draw::report::write_csv;
 use std::path::Path;
 
 const COLUMNS: [&str; 26] = [

@@ -6,7 +6,7 @@
 use super::bending::ELASTICA_NM;
 use super::{Holds, Known, range, spread};
 use crate::figures::bounds::{A_DIFFERENCE, SHAPE_NM};
-use crate::figures::report::Row;
+use actin_draw::report::Row;
 
 /// Models of Figure 4: their name in quantities, and what they are.
 const MODELS: [(&str, &str); 2] = [

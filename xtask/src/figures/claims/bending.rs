@@ -2,7 +2,7 @@
 
 use super::{Holds, Known, range, spread};
 use crate::figures::bounds::{A_DIFFERENCE, SHAPE_NM};
-use crate::figures::report::Row;
+use actin_draw::report::Row;
 
 /// Exact inextensible elastica of 160 nm under 2 pN with B = 3.9e4 pN nm^2 (nm).
 pub(super) const ELASTICA_NM: f64 = 59.8;

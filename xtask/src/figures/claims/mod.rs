@@ -9,7 +9,7 @@ mod bending;
 mod parameters;
 mod twisting;
 
-use super::report::{Origin, Row};
+use actin_draw::report::{Origin, Row};
 
 /// The claims on an artefact with these rows.
 pub(super) fn rows(id: &'static str, rows: &[Row]) -> Vec<Row> {

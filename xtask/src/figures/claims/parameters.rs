@@ -1,7 +1,7 @@
 //! Numbers that Appendix B derives from Table 4's.
 
 use super::{Holds, Known};
-use crate::figures::report::{Origin, Row};
+use actin_draw::report::{Origin, Row};
 use actin_sim::{ellipsoid_constants as monomer, rod_constants as rod};
 use std::f64::consts::PI;
 

@@ -2,7 +2,7 @@
 //! and what a rod makes of it.
 
 use super::{Holds, Known, listed, rising};
-use crate::figures::report::Row;
+use actin_draw::report::Row;
 
 /// Turns of Figure 10 (deg).
 const TURNS_DEG: [u32; 3] = [180, 270, 360];

@@ -13,7 +13,7 @@ mod tables;
 mod variant;
 
 use super::Run;
-use super::report::Artefact;
+use actin_draw::report::Artefact;
 use case::{Case, Result4};
 use rayon::prelude::*;
 use std::time::Instant;

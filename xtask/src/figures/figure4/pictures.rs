@@ -4,10 +4,9 @@
 use super::case::{ROD_SEGMENTS, Resolved, Result4};
 use super::variant::Variant;
 use crate::figures::palette;
-use crate::figures::plot::{Chart, Series, draw as draw_chart};
-use crate::figures::report::{Picture, View};
 use crate::figures::viewer::{self, Attitude, Shown};
-use plotters::style::RGBColor;
+use actin_draw::report::{Picture, View};
+use actin_draw::{Chart, Colour, Series};
 use std::path::Path;
 
 /// Draws all panels.
@@ -106,7 +105,7 @@ impl<'a> Panels<'a> {
         shown
             .map(|((panel, chart), caption)| {
                 let file = format!("{name}_{panel}.svg");
-                draw_chart(&chart, &out.join(&file))?;
+                chart.draw(&out.join(&file))?;
                 Ok(Picture { file, caption })
             })
             .collect()
@@ -185,7 +184,7 @@ impl<'a> Panels<'a> {
 const LENGTH_NM: f64 = 160.0;
 
 /// Curves against the length of rod: whose mixed filaments, whose pure ones, and the colour.
-fn curves() -> [(Variant, [Variant; 2], RGBColor); 4] {
+fn curves() -> [(Variant, [Variant; 2], Colour); 4] {
     [
         (
             Variant::SHARED,
@@ -228,7 +227,7 @@ fn against_resolution(results: &[Result4], out: &Path) -> Result<Vec<Picture>, S
             equal_axes: false,
         };
         let file = format!("fig4_{name}.svg");
-        draw_chart(&chart, &out.join(&file))?;
+        chart.draw(&out.join(&file))?;
         let caption = format!(
             "The {y_label} against the length of rod, monomers alone at 0 and rod alone at 160 nm; \
              drawn bonds of the first sampling, and the mean filament (black)."

@@ -2,8 +2,8 @@
 
 use super::case::{ROD_SEGMENTS, Resolved, Result4, SWING_DRAG_PER_NS};
 use super::variant::{Variant, stiffness_ratio};
-use crate::figures::report::Row;
 use crate::figures::settles::energy_decays;
+use actin_draw::report::Row;
 use actin_sim::ForceLaw;
 
 /// Exact inextensible elastica of 160 nm under 2 pN with B = 3.9e4 pN nm^2 (nm).

@@ -1,7 +1,7 @@
 //! The tables behind the rows and pictures of Figure 4.
 
 use super::case::Result4;
-use crate::figures::report::write_csv;
+use actin_draw::report::write_csv;
 use std::path::Path;
 
 /// Writes the tables behind the pictures.

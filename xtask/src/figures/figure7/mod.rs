@@ -8,12 +8,11 @@ mod rows;
 
 use super::Run;
 use super::palette;
-use super::plot::{Chart, Series, draw as draw_chart};
-use super::report::{Artefact, Picture, View};
 use super::viewer::{self, Attitude, Shown};
+use actin_draw::report::{Artefact, Picture, View};
+use actin_draw::{Chart, Colour, Series};
 use actin_sim::Hold;
 use case::{Case, Halves, Resolved, Sliding};
-use plotters::style::WHITE;
 use rayon::prelude::*;
 use std::path::Path;
 use std::time::Instant;
@@ -133,7 +132,7 @@ fn picture(results: &[Halves], out: &Path) -> Result<Picture, String> {
         series,
         equal_axes: false,
     };
-    draw_chart(&chart, &out.join("fig7_energy.svg"))?;
+    chart.draw(&out.join("fig7_energy.svg"))?;
     Ok(Picture {
         file: "fig7_energy.svg".into(),
         caption: "Elastic energy per length; of ellipsoids the mean over all samplings and both \
@@ -148,7 +147,7 @@ fn room_above(series: &[Series]) -> Series {
     let values = series.iter().flat_map(|s| s.points.iter().map(|p| p.1));
     Series {
         label: None,
-        colour: WHITE,
+        colour: Colour([255; 3]),
         points: vec![(0.0, 1.4 * values.fold(0.0, f64::max))],
         dots: true,
     }

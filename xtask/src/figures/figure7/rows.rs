@@ -2,7 +2,7 @@
 
 use super::case::Halves;
 use crate::figures::bounds::{CROSS_CHECK, ROUND_OFF};
-use crate::figures::report::{Origin, Row, write_csv};
+use actin_draw::report::{Origin, Row, write_csv};
 use std::path::Path;
 
 /// Rod held in two nodes and a frame, by an earlier calculation: energy (pN nm), turn (deg), pull (pN).

@@ -1,8 +1,8 @@
 //! What stands and what does not, in three sentences put together from the verdicts of the run.
 
 use super::reasons::{self, Cause};
-use super::{escape, push};
-use crate::figures::report::{Artefact, Row};
+use actin_draw::page::{escape, push};
+use actin_draw::report::{Artefact, Row};
 
 /// A statement of the paper that rests on some rows of one artefact.
 struct Finding {
@@ -201,7 +201,7 @@ fn causes(missed: &[&Row]) -> String {
 mod tests {
     use super::*;
     use crate::check::workspace_root;
-    use crate::figures::report;
+    use actin_draw::report;
 
     /// The artefacts of the committed report, with their rows and nothing else.
     fn committed() -> Vec<Artefact> {
@@ -278,7 +278,7 @@ mod tests {
                     assert!(!words.contains(&leaning), "{leaning}: {text}");
                 }
                 assert!(
-                    text.contains(&crate::figures::html::name(finding.artefact)),
+                    text.contains(&actin_draw::page::name(finding.artefact)),
                     "{text}"
                 );
             }

@@ -1,7 +1,8 @@
 //! Why comparisons fail, for a reader who has nothing but the page. What is said here was found by
 //! looking into each miss; a miss that nobody has looked into has no reason, and the page says so.
 
-use crate::figures::report::Row;
+use actin_draw::page::{Explained, Misses};
+use actin_draw::report::Row;
 
 /// Where a miss comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +62,34 @@ pub(super) fn of(row: &Row) -> Option<&'static Reason> {
     REASONS.iter().find(|reason| reason.covers(row))
 }
 
+/// What is said of misses without a reason.
+const OPEN: &str = "No reason is known for what follows. A quick run misses more than a full one: it has \
+                    fewer samplings and resolutions.";
+
+/// What was missed among the rows, under its reasons.
+pub(super) fn misses<'a>(rows: impl Iterator<Item = &'a Row>) -> Misses<'a> {
+    let missed: Vec<&Row> = rows.filter(|row| row.pass == Some(false)).collect();
+    let explained = REASONS.iter().map(|reason| Explained {
+        artefact: reason.artefact,
+        title: reason.title,
+        text: reason.text,
+        rows: missed
+            .iter()
+            .copied()
+            .filter(|row| reason.covers(row))
+            .collect(),
+    });
+    Misses {
+        explained: explained.collect(),
+        open: missed
+            .iter()
+            .copied()
+            .filter(|row| of(row).is_none())
+            .collect(),
+        open_note: OPEN,
+    }
+}
+
 /// Misses without a reason, and reasons without a miss in an artefact that was computed, a line each.
 pub(in crate::figures) fn unexplained(rows: &[Row]) -> Vec<String> {
     let missed: Vec<&Row> = rows.iter().filter(|row| row.pass == Some(false)).collect();
@@ -89,7 +118,7 @@ pub(in crate::figures) fn unexplained(rows: &[Row]) -> Vec<String> {
 }
 
 /// In the order in which they are told: what concerns most of the paper first.
-pub(super) const REASONS: [Reason; 18] = [
+const REASONS: [Reason; 18] = [
     Reason {
         artefact: "fig4",
         quantities: &["claim/printed_deflection", "tip_drop/preceding-paper/rod"],
@@ -289,7 +318,7 @@ pub(super) const REASONS: [Reason; 18] = [
 mod tests {
     use super::*;
     use crate::check::workspace_root;
-    use crate::figures::report;
+    use actin_draw::report;
 
     /// Every miss of the committed report has its reason, and every reason its miss: what is told of a
     /// number that agrees by now would be wrong.

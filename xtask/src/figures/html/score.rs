@@ -1,10 +1,9 @@
 //! The head of the page: what decides a verdict, and how many expected numbers are met, by where they come
 //! from: first what the paper prints, table by table, then what it says, then the rest.
 
-use super::verdicts::Verdicts;
-use super::{escape, name, push};
 use crate::figures::bounds::RULE;
-use crate::figures::report::{Artefact, Origin, Row};
+use actin_draw::page::{Verdicts, escape, name, push};
+use actin_draw::report::{Artefact, Origin, Row};
 
 /// Where expected numbers come from, and what the page says of it.
 const GROUPS: [(Origin, &str); 6] = [

@@ -1,22 +1,33 @@
 //! What a reader sees first: how many printed numbers agree, what stands and what does not, how to read the
 //! page, and every number that does not agree, with its reason.
 
-use super::shades::Shades;
-use super::tables::{self, Among};
-use super::verdicts::Verdicts;
-use super::{TITLE, escape, findings, name, push, score, version};
+use super::{TITLE, findings, reasons, score};
 use crate::figures::palette;
-use crate::figures::report::{Artefact, Row};
+use actin_draw::page::{Page, Verdicts, escape, name, push, write_misses};
+use actin_draw::report::Artefact;
 
-/// Writes title, counts, misses, and how to read the page.
-pub(super) fn write(page: &mut String, shades: &mut Shades, artefacts: &[Artefact], quick: bool) {
+/// Title, counts, misses, and how to read the page, as HTML.
+pub(super) fn html(
+    page: &mut Page<'_>,
+    artefacts: &[Artefact],
+    quick: bool,
+    version: &str,
+) -> String {
+    let stops = palette::chosen().ramp().stops().iter();
+    let stops: Vec<String> = stops.map(|&stop| page.colour(stop)).collect();
+    let mut html = String::new();
+    write(&mut html, &stops, artefacts, quick, version);
+    html
+}
+
+fn write(page: &mut String, stops: &[String], artefacts: &[Artefact], quick: bool, version: &str) {
     let all: Verdicts = artefacts.iter().map(|a| Verdicts::of(&a.rows)).sum();
     push(
         page,
         format_args!(
             "<h1 id=\"summary\">{TITLE}</h1>\n<p class=\"soft\">Gunaratne, Floyd, Ni, Papoian and \
              Erban, arXiv 2203.01284. Version {}.</p>\n",
-            escape(&version())
+            escape(version)
         ),
     );
     if quick {
@@ -44,7 +55,7 @@ pub(super) fn write(page: &mut String, shades: &mut Shades, artefacts: &[Artefac
     );
     page.push_str(CHOICES);
     counts(page, artefacts);
-    reading(page, shades);
+    reading(page, stops);
     misses(page, artefacts);
 }
 
@@ -110,10 +121,9 @@ fn bar(verdicts: Verdicts) -> String {
 }
 
 fn misses(page: &mut String, artefacts: &[Artefact]) {
-    let rows = artefacts.iter().flat_map(|a| &a.rows);
-    let missed: Vec<&Row> = rows.filter(|row| row.pass == Some(false)).collect();
+    let misses = reasons::misses(artefacts.iter().flat_map(|a| &a.rows));
     page.push_str("<h2>What was missed, and why</h2>\n");
-    if missed.is_empty() {
+    if artefacts.iter().all(|a| Verdicts::of(&a.rows).missed == 0) {
         page.push_str("<p>Nothing that was compared.</p>\n");
         return;
     }
@@ -122,16 +132,10 @@ fn misses(page: &mut String, artefacts: &[Artefact]) {
          of the full run of this version. The note of a row says how its number came about; the <a href=\"#errata\">errata</a> say where the paper is open or contradicts \
          itself.</p>\n",
     );
-    tables::missed(page, &missed, Among::All);
+    write_misses(page, &misses);
 }
 
-fn reading(page: &mut String, shades: &mut Shades) {
-    let palette = palette::chosen();
-    let stops: Vec<String> = palette
-        .stops()
-        .iter()
-        .map(|&stop| shades.variable(stop))
-        .collect();
+fn reading(page: &mut String, stops: &[String]) {
     push(
         page,
         format_args!(

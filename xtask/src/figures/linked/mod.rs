@@ -12,7 +12,7 @@ mod solve;
 mod spread;
 
 use super::Run;
-use super::report::Artefact;
+use actin_draw::report::Artefact;
 use case::{Case, Figure, MEAN, Resolved, STANDARD, VARIANTS, Variant};
 use rayon::prelude::*;
 use solve::Outcome;
@@ -75,7 +75,7 @@ pub(super) fn figure6(run: Run<'_>) -> Result<Artefact, String> {
 fn artefact(
     figure: &'static Figure,
     outcomes: &[Outcome],
-    rows: Vec<super::report::Row>,
+    rows: Vec<actin_draw::report::Row>,
     out: &Path,
     started: Instant,
 ) -> Result<Artefact, String> {

@@ -4,10 +4,9 @@ use super::case::{FULL, Figure, MEAN, Variant};
 use super::solve::{Motion, Outcome};
 use super::{is_drawn, is_mean};
 use crate::figures::palette;
-use crate::figures::plot::{Chart, Series, draw as draw_chart};
-use crate::figures::report::{Picture, View};
 use crate::figures::viewer::{self, Attitude, Shown};
-use plotters::style::RGBColor;
+use actin_draw::report::{Picture, View};
+use actin_draw::{Chart, Colour, Series};
 use std::path::Path;
 
 /// Energies are drawn from where they have come down to this multiple of the highest limit.
@@ -20,7 +19,7 @@ const LIMIT_DOTS: usize = 60;
 const IN_BLACK: &str = "Dashed: monomers alone with weighted bonds, the mean filament.";
 /// Half the width of the cross that marks an anchor (nm).
 const CROSS_NM: f64 = 0.8;
-const GREY: RGBColor = RGBColor(70, 70, 70);
+const GREY: Colour = Colour([70, 70, 70]);
 
 const SIDE_X: &str = "x (nm)";
 const SIDE_Z: &str = "z along the filament as built (nm)";
@@ -92,7 +91,7 @@ fn views(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Vec<Picture
             equal_axes: true,
         };
         let file = format!("{}_{panel}.svg", figure.id);
-        draw_chart(&chart, &out.join(&file))?;
+        chart.draw(&out.join(&file))?;
         let caption = format!(
             "Certified equilibria, {title}. Lines: nodes of the rod, and the centre line of the \
              monomers; dots: monomer centres; grey crosses: anchors. {} {IN_BLACK}",
@@ -104,7 +103,7 @@ fn views(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Vec<Picture
 }
 
 /// The colour of a filament's curve.
-fn colour(outcome: &Outcome) -> RGBColor {
+fn colour(outcome: &Outcome) -> Colour {
     if is_mean(&outcome.case) {
         palette::DATA
     } else {
@@ -195,7 +194,7 @@ fn energies(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Option<P
         equal_axes: false,
     };
     let file = format!("{}_energy.svg", figure.id);
-    draw_chart(&chart, &out.join(&file))?;
+    chart.draw(&out.join(&file))?;
     let caption = format!(
         "Energy of filament and linkers, kinetic energy included, in damped dynamics (drag 0.3 per \
          ns). It begins at {start:.0} pN nm, all of it in the linkers, and is drawn from {top:.0} \
@@ -270,7 +269,7 @@ fn against_resolution(
         equal_axes: false,
     };
     let file = format!("{}_resolution.svg", figure.id);
-    draw_chart(&chart, &out.join(&file))?;
+    chart.draw(&out.join(&file))?;
     let caption =
         "Certified equilibria against the length of the rod, pure monomers at 0 and pure \
                    rod at the right end; the first sampling of the bonds, and the mean filament."
@@ -286,7 +285,7 @@ fn room_below(outcomes: &[Outcome]) -> Option<Series> {
     let smallest = energies.iter().copied().reduce(f64::min)?;
     Some(Series {
         label: None,
-        colour: RGBColor(255, 255, 255),
+        colour: Colour([255, 255, 255]),
         points: vec![(0.0, smallest - 0.5 * (largest - smallest))],
         dots: true,
     })

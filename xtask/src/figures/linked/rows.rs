@@ -4,8 +4,8 @@ use super::case::{Case, Figure, STANDARD, VARIANTS, Variant};
 use super::solve::{self, Outcome, SAME_PN_NM};
 use super::spread::Spread;
 use crate::figures::bounds::SHAPE_NM;
-use crate::figures::report::{Origin, Row, write_csv};
 use crate::figures::settles::energy_decays;
+use actin_draw::report::{Origin, Row, write_csv};
 use std::path::Path;
 
 /// What is read off a spread.

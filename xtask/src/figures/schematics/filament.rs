@@ -2,7 +2,7 @@
 //! All filaments of a scene are drawn, each with its own parameters and about its own axis.
 
 use super::style;
-use crate::figures::scene3d::{Item, Solid, Stroke};
+use actin_draw::scene3d::{Item, Solid, Stroke};
 use actin_mechanics::{Matrix3, State, UnitQuaternion, Vector3};
 use actin_sim::{Assembly, BodyKind, End, JunctionBond, Load};
 

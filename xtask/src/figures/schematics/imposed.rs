@@ -2,7 +2,7 @@
 
 use super::filament::Drawn;
 use super::style;
-use crate::figures::scene3d::{Item, Stroke};
+use actin_draw::scene3d::{Item, Stroke};
 use actin_mechanics::{Vector3, rotation};
 use actin_sim::Setting;
 

@@ -15,9 +15,9 @@ pub(super) use models::reproduce as figure1;
 
 pub(in crate::figures) use filament::Drawn;
 
-use super::report::{Artefact, Picture, Row, save};
-use super::scene3d::Sheet;
 use super::viewer::{self, Attitude, Shown, Snapshot};
+use actin_draw::report::{Artefact, Picture, Row, save};
+use actin_draw::scene3d::Sheet;
 use solved::Solved;
 use std::path::Path;
 use std::time::Instant;

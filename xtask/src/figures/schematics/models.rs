@@ -5,8 +5,8 @@ use super::filament::Drawn;
 use super::solved::Solved;
 use super::{artefact, style};
 use crate::figures::Run;
-use crate::figures::report::{Artefact, Row};
-use crate::figures::scene3d::{Item, Label, Panel, Sheet, View};
+use actin_draw::report::{Artefact, Row};
+use actin_draw::scene3d::{Item, Label, Panel, Sheet, View};
 use actin_mechanics::Vector3;
 use std::time::Instant;
 

@@ -1,7 +1,7 @@
 //! Scenes of the schematics, solved.
 
 use crate::check::workspace_root;
-use crate::figures::report::Row;
+use actin_draw::report::Row;
 use actin_sim::{Assembly, BodyKind, Scene};
 use std::ops::ControlFlow;
 

@@ -1,7 +1,8 @@
 //! Colours of the schematics and their legend: one style for all of them.
 
 use crate::figures::palette::{self, Things};
-use crate::figures::scene3d::{Colour, Item, Key, Solid, Stroke};
+use actin_draw::Colour;
+use actin_draw::scene3d::{Item, Key, Solid, Stroke};
 use actin_mechanics::Vector3;
 
 /// What lies on a monomer's surface counts so much nearer than its middle (nm).
@@ -26,12 +27,12 @@ pub(super) fn axis(k: usize) -> Colour {
 
 /// Monomers: the end of the ramp where all is monomers.
 pub(super) fn monomer() -> Colour {
-    palette::resolution(0.0).into()
+    palette::resolution(0.0)
 }
 
 /// Rods: the end of the ramp where all is rod.
 pub(super) fn rod() -> Colour {
-    palette::resolution(1.0).into()
+    palette::resolution(1.0)
 }
 
 fn force() -> Stroke {

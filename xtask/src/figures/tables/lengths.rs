@@ -3,7 +3,7 @@
 use super::ensemble::Kind;
 use super::statistics::sample;
 use crate::figures::Run;
-use crate::figures::report::{Row, write_csv};
+use actin_draw::report::{Row, write_csv};
 use actin_sim::Monomers;
 use actin_sim::measure::{Curve, Specimen, TwistPoint, twist};
 use rayon::prelude::*;

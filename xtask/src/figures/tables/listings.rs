@@ -2,7 +2,7 @@
 
 use super::ensemble::{Ensemble, Kind, value};
 use super::paper::{Entry, Table};
-use crate::figures::report::write_csv;
+use actin_draw::report::write_csv;
 use actin_sim::measure::TwistPoint;
 use std::path::Path;
 

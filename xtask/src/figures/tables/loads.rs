@@ -4,7 +4,7 @@ use super::ensemble::{Kind, RISES};
 use super::statistics::{Sample, sample};
 use crate::figures::Run;
 use crate::figures::progress::Progress;
-use crate::figures::report::write_csv;
+use actin_draw::report::write_csv;
 use actin_sim::measure::{
     CouplePoint, Curve, Evidence, ShearPoint, Specimen, StretchPoint, TipForcePoint,
     bend_by_couples, bend_by_tip_force, shear_by_force, stretch_by_force, stretch_by_shift,

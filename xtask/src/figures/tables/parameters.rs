@@ -1,7 +1,7 @@
 //! Tables 1 and 2: parameters as published, as the crates hold them, and what follows from them.
 
 use crate::figures::Run;
-use crate::figures::report::{Artefact, Origin, Row, write_csv};
+use actin_draw::report::{Artefact, Origin, Row, write_csv};
 use actin_sim::{Material, Monomers, ellipsoid_constants as monomer, rod_constants as rod};
 use std::f64::consts::PI;
 use std::path::Path;

@@ -3,10 +3,9 @@
 use super::ensemble::{Ensemble, Kind};
 use super::paper::{Entry, Table};
 use crate::figures::palette;
-use crate::figures::plot::{Chart, Series, draw as draw_chart};
-use crate::figures::report::Picture;
+use actin_draw::report::Picture;
+use actin_draw::{Chart, Colour, Series};
 use actin_sim::Anchors;
-use plotters::style::RGBColor;
 use std::path::Path;
 
 /// Half the width of the cap of an error bar (rad/nm).
@@ -69,7 +68,7 @@ fn save(
         series: series.into_iter().map(|s| scaled(s, table)).collect(),
         equal_axes: false,
     };
-    draw_chart(&chart, path)?;
+    chart.draw(path)?;
     let name = path.file_name().unwrap_or_default();
     Ok(Picture {
         file: name.to_string_lossy().into_owned(),
@@ -139,7 +138,7 @@ fn bars(
     ensemble: &Ensemble,
     kind: Kind,
     entries: &[Entry],
-    colour: RGBColor,
+    colour: Colour,
 ) -> Vec<Series> {
     let bar = |entry: &Entry| {
         let s = ensemble.sample(kind, entry, table);
@@ -166,7 +165,7 @@ fn bars(
     entries.iter().map(bar).collect()
 }
 
-fn line(label: &str, colour: RGBColor, points: Vec<(f64, f64)>) -> Series {
+fn line(label: &str, colour: Colour, points: Vec<(f64, f64)>) -> Series {
     Series {
         label: Some(label.to_owned()),
         colour,

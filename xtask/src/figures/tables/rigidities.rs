@@ -7,8 +7,8 @@ use super::parameters::write_rows;
 use super::statistics::Sample;
 use super::thermal;
 use crate::figures::Run;
-use crate::figures::html::significant;
-use crate::figures::report::{Artefact, Row};
+use actin_draw::page::significant;
+use actin_draw::report::{Artefact, Row};
 use actin_sim::{Monomers, ellipsoid_constants as monomer};
 use std::time::Instant;
 

@@ -3,7 +3,7 @@
 use super::ensemble::Kind;
 use crate::bonds::persistence_length_um;
 use crate::figures::Run;
-use crate::figures::report::Row;
+use actin_draw::report::Row;
 use actin_sim::{Monomers, ellipsoid_constants as monomer};
 
 /// Filaments of each kind: a standard error of 2 to 3 %.

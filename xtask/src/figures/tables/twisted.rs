@@ -5,8 +5,9 @@ use super::paper::{CURVATURE_ROUNDING, Entry, Table, entries};
 use super::statistics::{rms, sample};
 use super::{lengths, listings, pictures};
 use crate::figures::Run;
-use crate::figures::bounds::{A_DIFFERENCE, DEVIATIONS};
-use crate::figures::report::{Artefact, Origin, Row};
+use crate::figures::bounds::A_DIFFERENCE;
+use actin_draw::report::DEVIATIONS;
+use actin_draw::report::{Artefact, Origin, Row};
 use std::time::Instant;
 
 /// Angles (deg) over which the root mean square is taken.

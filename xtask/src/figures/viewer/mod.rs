@@ -8,7 +8,7 @@ mod snapshot;
 
 pub(super) use snapshot::Snapshot;
 
-use super::report::{View, save};
+use actin_draw::report::{View, save};
 use serde::Serialize;
 use std::path::Path;
 

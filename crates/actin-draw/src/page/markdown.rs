@@ -1,21 +1,10 @@
-//! `docs/errata.md` as a section of the page.
+//! Markdown as a section of the page.
 
-use crate::check::workspace_root;
 use pulldown_cmark::{CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd, html};
-
-/// Writes the section.
-pub(super) fn write(page: &mut String) -> Result<(), String> {
-    let path = workspace_root().join("docs/errata.md");
-    let text = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-    page.push_str("<section id=\"errata\">\n");
-    page.push_str(&rendered(&text));
-    page.push_str("</section>\n");
-    Ok(())
-}
 
 /// Markdown as HTML one level of headings lower; cells of tables name their column, so that a
 /// narrow screen can show a row as a card.
-fn rendered(markdown: &str) -> String {
+pub(super) fn rendered(markdown: &str) -> String {
     let mut columns = Columns::default();
     let events = Parser::new_ext(markdown, Options::ENABLE_TABLES);
     let mut text = String::new();
@@ -117,17 +106,5 @@ mod tests {
         assert!(text.contains("<code>x</code></td>"));
         assert_eq!(text.matches("data-label=\"place\"").count(), 2);
         assert_eq!(text.matches("<td").count(), text.matches("</td>").count());
-    }
-
-    /// Every row of the errata is on the page.
-    #[test]
-    fn all_errata_are_shown() {
-        let mut page = String::new();
-        write(&mut page).unwrap();
-        let path = workspace_root().join("docs/errata.md");
-        let lines = std::fs::read_to_string(path).unwrap();
-        let rows = lines.lines().filter(|line| line.starts_with("| ")).count();
-        // The head is one of them.
-        assert_eq!(page.matches("data-label=\"finding\"").count(), rows - 1);
     }
 }

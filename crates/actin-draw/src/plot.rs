@@ -1,27 +1,32 @@
 //! Line charts as SVG, in one style for all figures.
 
+use crate::Colour;
 use plotters::prelude::*;
 use std::path::Path;
 
 /// One line of a chart.
 #[derive(Clone, Debug)]
-pub(crate) struct Series {
+pub struct Series {
     /// Name in the legend; series without a name are drawn only.
     pub label: Option<String>,
     /// Colour.
-    pub colour: RGBColor,
+    pub colour: Colour,
     /// Points in data coordinates.
     pub points: Vec<(f64, f64)>,
     /// Whether the points are drawn as dots instead of a line.
     pub dots: bool,
 }
 
-/// A chart.
+/// A chart of lines and dots on linear axes; the legend goes to the corner where it hides least.
 #[derive(Clone, Debug)]
-pub(crate) struct Chart<'a> {
+pub struct Chart<'a> {
+    /// Text above the chart.
     pub title: &'a str,
+    /// Quantity and unit of the horizontal axis.
     pub x_label: &'a str,
+    /// Quantity and unit of the vertical axis.
     pub y_label: &'a str,
+    /// What is drawn, the last on top.
     pub series: Vec<Series>,
     /// Whether both axes have the same scale.
     pub equal_axes: bool,
@@ -30,7 +35,7 @@ pub(crate) struct Chart<'a> {
 impl Series {
     /// The line in dashes, so that lines below it are seen; `equal_axes` is that of the chart. The
     /// first dash keeps the label.
-    pub(crate) fn dashed(self, equal_axes: bool) -> Vec<Self> {
+    pub fn dashed(self, equal_axes: bool) -> Vec<Self> {
         let Self {
             mut label, colour, ..
         } = self;
@@ -93,14 +98,16 @@ const SIZE: (u32, u32) = (900, 560);
 /// Pixels of the plane inside labels and margins, used to make scales equal.
 const PLANE: (f64, f64) = (800.0, 450.0);
 
-/// Draws `chart` into the SVG file `path`.
-///
-/// # Errors
-/// A chart without points, or a file that cannot be written.
-pub(crate) fn draw(chart: &Chart<'_>, path: &Path) -> Result<(), String> {
-    let (x, y) = ranges(chart).ok_or_else(|| format!("{}: nothing to draw", chart.title))?;
-    let root = SVGBackend::new(path, SIZE).into_drawing_area();
-    render(chart, &root, x, y).map_err(|e| format!("{}: {e}", path.display()))
+impl Chart<'_> {
+    /// Draws the chart into the SVG file `path`.
+    ///
+    /// # Errors
+    /// A chart without points, or a file that cannot be written.
+    pub fn draw(&self, path: &Path) -> Result<(), String> {
+        let (x, y) = ranges(self).ok_or_else(|| format!("{}: nothing to draw", self.title))?;
+        let root = SVGBackend::new(path, SIZE).into_drawing_area();
+        render(self, &root, x, y).map_err(|e| format!("{}: {e}", path.display()))
+    }
 }
 
 type Drawing<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
@@ -128,7 +135,7 @@ fn render(
         .light_line_style(TRANSPARENT)
         .draw()?;
     for series in &chart.series {
-        let colour = series.colour;
+        let colour = RGBColor::from(series.colour);
         let drawn = if series.dots {
             let dots = series.points.iter();
             plane.draw_series(dots.map(|&p| Circle::new(p, 2, colour.filled())))?
@@ -254,7 +261,7 @@ mod tests {
             let place = |k: u32| (100.0 * f64::from(k) / f64::from(stretches), 7.0);
             let line = Series {
                 label: Some("line".into()),
-                colour: BLACK,
+                colour: Colour([0; 3]),
                 points: (0..=stretches).map(place).collect(),
                 dots: false,
             };

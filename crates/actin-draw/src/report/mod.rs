@@ -1,4 +1,17 @@
-//! `report.json`: what the paper says, what we compute, and whether the two agree.
+//! Numbers beside what is expected of them: rows with verdicts, artefacts that hold them with their
+//! pictures, and the files that they are kept in.
+//!
+//! ```
+//! use actin_draw::report::Row;
+//! let row = Row::measured("fig1", "height", "nm", 36.7, "mean of 8");
+//! assert_eq!(row.pass, None);
+//! // 36 is printed; two may be off by 1.
+//! assert_eq!(row.against(36.0, 1.0).pass, Some(true));
+//! ```
+
+mod printed;
+
+pub use printed::{DEVIATIONS, printed};
 
 use serde::{Deserialize, Deserializer, Serialize};
 use std::fs;
@@ -6,7 +19,7 @@ use std::path::Path;
 
 /// A text that recipes write as a literal; read from a file it lives as long as the program, which
 /// reads each artefact once.
-pub(super) type Literal = &'static str;
+pub type Literal = &'static str;
 
 fn literal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Literal, D::Error> {
     Ok(Box::leak(
@@ -17,7 +30,7 @@ fn literal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Literal, D::Err
 /// Where the number comes from that another is compared with.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Origin {
+pub enum Origin {
     /// The paper prints it, and a simulation gives ours.
     Paper,
     /// The paper prints it, and it follows from other printed numbers: no simulation has a part in it.
@@ -36,7 +49,7 @@ pub(crate) enum Origin {
 
 impl Origin {
     /// In a table of rows.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
             Self::Derived => "paper, from its own numbers",
@@ -51,7 +64,7 @@ impl Origin {
 
 /// One number of an artefact.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-pub(crate) struct Row {
+pub struct Row {
     /// Which figure or table.
     #[serde(deserialize_with = "literal")]
     pub artefact: Literal,
@@ -77,7 +90,7 @@ pub(crate) struct Row {
 
 impl Row {
     /// A number with nothing to compare it to.
-    pub(crate) fn measured(
+    pub fn measured(
         artefact: &'static str,
         quantity: impl Into<String>,
         unit: &'static str,
@@ -98,7 +111,8 @@ impl Row {
     }
 
     /// The same number, compared to `paper`, which the paper prints.
-    pub(crate) fn against(self, paper: f64, tolerance: f64) -> Self {
+    #[must_use]
+    pub fn against(self, paper: f64, tolerance: f64) -> Self {
         Self {
             origin: Some(Origin::Paper),
             paper: Some(paper),
@@ -109,7 +123,8 @@ impl Row {
     }
 
     /// The same, with another origin of what it is compared with.
-    pub(crate) fn of(self, origin: Origin) -> Self {
+    #[must_use]
+    pub fn of(self, origin: Origin) -> Self {
         Self {
             origin: Some(origin),
             ..self
@@ -119,7 +134,7 @@ impl Row {
 
 /// A picture with its caption.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-pub(super) struct Picture {
+pub struct Picture {
     /// File name in the output folder.
     pub file: String,
     /// What is seen.
@@ -128,16 +143,16 @@ pub(super) struct Picture {
 
 /// States to be turned in the page's viewer.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-pub(super) struct View {
+pub struct View {
     /// A JSON file in the output folder.
     pub file: String,
     /// What is seen.
     pub caption: String,
 }
 
-/// A figure or table of the paper, computed.
+/// A figure or table, computed.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-pub(super) struct Artefact {
+pub struct Artefact {
     /// Which.
     #[serde(deserialize_with = "literal")]
     pub id: Literal,
@@ -161,7 +176,7 @@ pub(super) struct Artefact {
 /// # Errors
 /// Those of [`text`], a verdict that does not say who expects its number, and one on a parameter that
 /// was copied, which cannot fail.
-pub(super) fn write(artefacts: &[Artefact], out: &Path) -> Result<(), String> {
+pub fn write(artefacts: &[Artefact], out: &Path) -> Result<(), String> {
     let rows: Vec<Row> = artefacts.iter().flat_map(|a| a.rows.clone()).collect();
     let is_unfounded =
         |row: &&Row| row.pass.is_some() && matches!(row.origin, None | Some(Origin::Parameter));
@@ -180,7 +195,7 @@ pub(super) fn write(artefacts: &[Artefact], out: &Path) -> Result<(), String> {
 ///
 /// # Errors
 /// A row whose number is not finite, and two rows of one quantity.
-pub(crate) fn text(mut rows: Vec<Row>) -> Result<String, String> {
+pub fn text(mut rows: Vec<Row>) -> Result<String, String> {
     rows.sort_by(|a, b| (a.artefact, &a.quantity).cmp(&(b.artefact, &b.quantity)));
     if let Some(bad) = rows.iter().find(|row| !row.ours.is_finite()) {
         return Err(format!(
@@ -203,20 +218,29 @@ pub(crate) fn text(mut rows: Vec<Row>) -> Result<String, String> {
 }
 
 /// Reads a report.
-pub(crate) fn read(path: &Path) -> Result<Vec<Row>, String> {
+///
+/// # Errors
+/// A file that cannot be read or is no report.
+pub fn read(path: &Path) -> Result<Vec<Row>, String> {
     let text = fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
     serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))
 }
 
 /// Writes a text under another name and renames it, so that the file is whole or not there.
-pub(super) fn write_atomically(path: &Path, text: &str) -> Result<(), String> {
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write_atomically(path: &Path, text: &str) -> Result<(), String> {
     let unfinished = path.with_extension("unfinished");
     fs::write(&unfinished, text).map_err(|e| format!("{}: {e}", unfinished.display()))?;
     fs::rename(&unfinished, path).map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// Writes a table of numbers under a header.
-pub(crate) fn write_csv(
+/// Writes a table of numbers under a header, as CSV.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write_csv(
     out: &Path,
     name: &str,
     header: &[&str],
@@ -235,7 +259,10 @@ pub(crate) fn write_csv(
 }
 
 /// Writes a text file.
-pub(crate) fn save(out: &Path, name: &str, text: &str) -> Result<(), String> {
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn save(out: &Path, name: &str, text: &str) -> Result<(), String> {
     let path = out.join(name);
     fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))
 }

@@ -1,16 +1,17 @@
 //! Texts at points of the scene, placed inside the panel and clear of one another.
 
-use super::Colour;
+use super::Vector3;
 use super::panel::Frame;
 use super::solid::Stroke;
 use super::svg::{Align, Canvas, text_width};
-use actin_mechanics::Vector3;
+use crate::Colour;
 
 /// A text at a point.
 #[derive(Clone, Debug)]
-pub(crate) struct Label {
+pub struct Label {
     /// What it names (nm, lab frame).
     pub at: Vector3,
+    /// What is written.
     pub text: String,
     /// Where it stands from there in pixels, right and down; the text goes on in that direction.
     pub offset: [f64; 2],

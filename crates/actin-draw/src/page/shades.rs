@@ -3,8 +3,9 @@
 
 use std::collections::BTreeMap;
 
-/// The page's card and ink when it is dark, as in `style.css`.
-const DARK_CARD: [u8; 3] = [0x1c, 0x20, 0x24];
+/// The ground of pictures on a dark page, as in `style.css`.
+pub const DARK_CARD: [u8; 3] = [0x1c, 0x20, 0x24];
+/// The ink of a dark page, as in `style.css`.
 const DARK_INK: [u8; 3] = [0xe6, 0xe6, 0xe2];
 /// Colours whose components differ by less are greys.
 const GREY: u8 = 12;
@@ -86,7 +87,7 @@ fn parsed(digits: &str) -> Option<Colour> {
 
 /// A colour as it is on a dark page: greys between its card, for white, and its ink, for black;
 /// others lifted.
-pub(super) fn on_dark(colour: Colour) -> Colour {
+pub fn on_dark(colour: Colour) -> Colour {
     let (most, least) = colour.iter().fold((0, u8::MAX), |(most, least), &v| {
         (v.max(most), v.min(least))
     });
@@ -109,7 +110,6 @@ fn between(from: u8, to: u8, share: f64) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::palette::{Palette, luminance};
 
     const SVG: &str = "<svg><rect fill=\"#FFFFFF\" stroke=\"none\"/><g fill=\"url(#a)\">\
         <text fill=\"#000000\">fill=\"red\" #123456</text><path stroke=\"#be1923\" fill=\"#FFFFFF\"/>\
@@ -143,47 +143,6 @@ mod tests {
         let style = include_str!("style.css");
         for [red, green, blue] in [DARK_CARD, DARK_INK] {
             assert!(style.contains(&format!("#{red:02x}{green:02x}{blue:02x}")));
-        }
-    }
-
-    /// A contrast of 3 to the dark card, what graphics need to be told from their ground.
-    ///
-    /// # Source
-    /// W3C, Web Content Accessibility Guidelines 2.1, success criterion 1.4.11.
-    #[test]
-    fn every_resolution_is_seen_on_the_dark_card() {
-        for palette in [Palette::Paper, Palette::ColourBlind] {
-            for &stop in palette.stops() {
-                let contrast = contrast(on_dark(stop), DARK_CARD);
-                assert!(contrast > 3.0, "{palette:?} {stop:?}: {contrast}");
-            }
-        }
-    }
-
-    fn contrast(one: Colour, other: Colour) -> f64 {
-        let [one, other] = [one, other].map(|colour| luminance(colour) + 0.05);
-        (one / other).max(other / one)
-    }
-
-    /// The same of things, in pictures and in views; of those that stand back on white paper, or are
-    /// white, as much as there. Symptom of the plausible bug: a black axis is lifted to a dark grey.
-    #[test]
-    fn every_thing_is_seen_on_the_dark_card() {
-        for palette in [Palette::Paper, Palette::ColourBlind] {
-            let things = palette.things();
-            let [first, second] = things.bonds;
-            let [d1, d2, d3] = things.axes;
-            let single = [things.junction, things.node, things.clamp, things.linker];
-            let bound = [things.anchor, things.force];
-            let all = [first, second, d1, d2, d3]
-                .into_iter()
-                .chain(single)
-                .chain(bound);
-            for thing in all {
-                let least = contrast(thing, [255; 3]).min(3.0);
-                let found = contrast(on_dark(thing), DARK_CARD);
-                assert!(found >= least, "{palette:?} {thing:?}: {found} < {least}");
-            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Outlines of solids in the picture: the ellipse of an ellipsoid, the hull of a cylinder.
 
 use super::camera::Camera;
-use actin_mechanics::{Matrix3, Vector3};
+use super::{Matrix3, Vector3};
 
 /// An ellipse in the plane of the picture.
 #[derive(Clone, Copy, Debug)]
@@ -95,8 +95,8 @@ pub(super) fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::scene3d::camera::View;
-    use actin_mechanics::rotation;
+    use crate::scene3d::camera::View;
+    use nalgebra::Rotation3;
 
     /// In every direction of the picture the outline reaches exactly as far as the furthest
     /// projected point of the surface: an orthographic outline, or a centre that is the image of
@@ -108,9 +108,8 @@ mod tests {
             up: Vector3::z(),
         };
         let camera = Camera::new(&view, Vector3::new(2.0, 1.0, -1.0), 9.0);
-        let turn = rotation::exp(Vector3::new(0.3, 0.8, -0.4));
-        let semi_axes = turn.to_rotation_matrix().into_inner()
-            * Matrix3::from_diagonal(&Vector3::new(1.9, 2.7, 1.2));
+        let turn = Rotation3::new(Vector3::new(0.3, 0.8, -0.4));
+        let semi_axes = turn.into_inner() * Matrix3::from_diagonal(&Vector3::new(1.9, 2.7, 1.2));
         let centre = Vector3::new(0.5, 0.2, 0.3);
         let ellipse = ellipsoid(&camera, centre, &semi_axes);
         let mut surface = Vec::new();

@@ -1,10 +1,10 @@
 //! Where the viewer stands, and how points become places in the picture.
 
-use actin_mechanics::Vector3;
+use super::Vector3;
 
 /// From where a panel is seen.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct View {
+pub struct View {
     /// From the middle of the scene towards the viewer; of any length.
     pub towards_viewer: Vector3,
     /// What points upwards in the picture; not along the line of sight.

@@ -1,16 +1,20 @@
 //! A whole picture: panels and a legend below them.
 
-use super::Colour;
 use super::panel::Panel;
 use super::solid::Stroke;
 use super::svg::{Align, Canvas, Paint, text_width};
+use crate::Colour;
 
 /// What stands for an entry in the legend.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Key {
+pub enum Key {
+    /// A shaded ellipsoid.
     Ball(Colour),
+    /// A disc.
     Dot(Colour),
+    /// A line.
     Line(Stroke),
+    /// A line with a head.
     Arrow(Stroke),
     /// A filled rectangle of an opacity.
     Area(Colour, f64),
@@ -18,13 +22,16 @@ pub(crate) enum Key {
 
 /// A whole picture.
 #[derive(Clone, Debug)]
-pub(crate) struct Sheet {
+pub struct Sheet {
     /// Begins the names within the file; unlike those of other pictures of a page.
     pub prefix: &'static str,
+    /// Width in pixels.
     pub width: f64,
     /// Height without the legend, in pixels.
     pub height: f64,
+    /// Views, each in its own rectangle.
     pub panels: Vec<Panel>,
+    /// Entries of the legend, side by side below the panels.
     pub legend: Vec<(Key, String)>,
 }
 
@@ -36,7 +43,7 @@ const MARGIN: f64 = 16.0;
 
 impl Sheet {
     /// The picture as SVG.
-    pub(crate) fn svg(&self) -> String {
+    pub fn svg(&self) -> String {
         let places = self.legend_places();
         let rows = places.last().map_or(0.0, |[_, y]| y / ROW + 1.0);
         let size = [self.width, self.height + rows * ROW + MARGIN];

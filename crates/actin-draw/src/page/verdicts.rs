@@ -1,20 +1,23 @@
 //! How many numbers agree, how many do not, and how many have nothing to be compared with.
 
-use crate::figures::report::Row;
+use crate::report::Row;
 use std::iter::Sum;
 use std::ops::Add;
 
 /// Counts of verdicts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Verdicts {
+pub struct Verdicts {
+    /// Rows that are met.
     pub agree: usize,
+    /// Rows that are not.
     pub missed: usize,
-    /// Without a verdict.
+    /// Rows without a verdict.
     pub measured: usize,
 }
 
 impl Verdicts {
-    pub(super) fn of(rows: &[Row]) -> Self {
+    /// Of some rows.
+    pub fn of(rows: &[Row]) -> Self {
         let count = |verdict| rows.iter().filter(|row| row.pass == verdict).count();
         Self {
             agree: count(Some(true)),
@@ -23,12 +26,13 @@ impl Verdicts {
         }
     }
 
-    pub(super) fn compared(self) -> usize {
+    /// Rows with a verdict.
+    pub fn compared(self) -> usize {
         self.agree + self.missed
     }
 
     /// In a few words, for a list.
-    pub(super) fn in_words(self) -> String {
+    pub fn in_words(self) -> String {
         match (self.agree, self.missed) {
             (0, 0) => format!("{} measured", self.measured),
             (agree, 0) => format!("{agree} agree"),

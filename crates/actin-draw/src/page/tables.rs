@@ -1,8 +1,8 @@
-//! Numbers as tables: what is expected and by whom, ours, difference, verdict; what was missed first, under its reason.
+//! Numbers as tables: what is expected and by whom, ours, difference, verdict; what was missed first,
+//! under its reason.
 
-use super::reasons::{self, REASONS, Reason};
 use super::{escape, push};
-use crate::figures::report::{Origin, Row};
+use crate::report::{Origin, Row};
 
 /// Longer tables are folded away, unless they show what was missed.
 const LONG: usize = 12;
@@ -14,8 +14,32 @@ pub(super) enum Among {
     All,
 }
 
-/// Writes the rows of an artefact in up to four tables.
-pub(super) fn write(page: &mut String, rows: &[Row]) {
+/// Missed rows, sorted by the reason that they share.
+#[derive(Clone, Debug, Default)]
+pub struct Misses<'a> {
+    /// Those with a reason, in the order in which they are told.
+    pub explained: Vec<Explained<'a>>,
+    /// Those without.
+    pub open: Vec<&'a Row>,
+    /// What is said of those without.
+    pub open_note: &'a str,
+}
+
+/// Missed rows of one artefact and the reason that they share.
+#[derive(Clone, Debug)]
+pub struct Explained<'a> {
+    /// Name of the artefact.
+    pub artefact: &'a str,
+    /// What is found, as a heading.
+    pub title: &'a str,
+    /// The reason.
+    pub text: &'a str,
+    /// The rows; without any the reason is not told.
+    pub rows: Vec<&'a Row>,
+}
+
+/// Writes the rows of an artefact in up to four tables, those that are missed under their reasons.
+pub(super) fn write(page: &mut String, rows: &[Row], misses: &Misses<'_>) {
     // The second says of rows without a verdict whether a number stands beside them.
     let groups = [
         (Some(false), None, "Missed"),
@@ -46,7 +70,7 @@ pub(super) fn write(page: &mut String, rows: &[Row]) {
             ),
         );
         if verdict == Some(false) {
-            missed(page, &chosen, Among::Own);
+            missed(page, misses, Among::Own);
         } else {
             table(page, &chosen, Among::Own);
         }
@@ -55,29 +79,27 @@ pub(super) fn write(page: &mut String, rows: &[Row]) {
 }
 
 /// Writes what was missed: each reason, with the rows that it explains.
-pub(super) fn missed(page: &mut String, rows: &[&Row], among: Among) {
-    for reason in &REASONS {
-        let covered: Vec<&Row> = rows.iter().copied().filter(|r| reason.covers(r)).collect();
-        explained(page, reason, &covered, among);
+pub(super) fn missed(page: &mut String, misses: &Misses<'_>, among: Among) {
+    for one in &misses.explained {
+        explained(page, one, among);
     }
-    let open: Vec<&Row> = rows
-        .iter()
-        .copied()
-        .filter(|r| reasons::of(r).is_none())
-        .collect();
-    if !open.is_empty() {
-        page.push_str(
-            "<p class=\"why\"><strong>Not looked into.</strong> No reason is known for what follows. A \
-             quick run misses more than a full one: it has fewer samplings and resolutions.</p>\n",
+    if !misses.open.is_empty() {
+        push(
+            page,
+            format_args!(
+                "<p class=\"why\"><strong>Not looked into.</strong> {}</p>\n",
+                escape(misses.open_note)
+            ),
         );
-        table(page, &open, among);
+        table(page, &misses.open, among);
     }
 }
 
 /// Rows beyond this number are folded away below their reason.
 const MANY: usize = 6;
 
-fn explained(page: &mut String, reason: &Reason, rows: &[&Row], among: Among) {
+fn explained(page: &mut String, reason: &Explained<'_>, among: Among) {
+    let rows = &reason.rows;
     if rows.is_empty() {
         return;
     }
@@ -106,7 +128,7 @@ fn explained(page: &mut String, reason: &Reason, rows: &[&Row], among: Among) {
 }
 
 /// One table of rows.
-pub(super) fn table(page: &mut String, rows: &[&Row], among: Among) {
+fn table(page: &mut String, rows: &[&Row], among: Among) {
     page.push_str("<table><thead><tr>");
     if among == Among::All {
         page.push_str("<th>where</th>");
@@ -205,7 +227,13 @@ fn word(verdict: Option<bool>) -> &'static str {
 }
 
 /// Five significant digits, in the shorter of the two notations.
-pub(in crate::figures) fn significant(value: f64) -> String {
+///
+/// ```
+/// use actin_draw::page::significant;
+/// assert_eq!(significant(61.234_567), "61.235");
+/// assert_eq!(significant(-1.5e-7), "-1.5000e-7");
+/// ```
+pub fn significant(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude == 0.0 {
         "0".to_owned()
@@ -250,8 +278,12 @@ mod tests {
         let row = |i: usize| Row::measured("fig1", format!("q/{i}"), "nm", 1.0, "a < b");
         let mut rows: Vec<Row> = (0..40).map(|i| row(i).against(1.0, 0.1)).collect();
         rows.extend((40..60).map(|i| row(i).against(3.0, 0.1)));
+        let misses = Misses {
+            open: rows[40..].iter().collect(),
+            ..Misses::default()
+        };
         let mut page = String::new();
-        write(&mut page, &rows);
+        write(&mut page, &rows, &misses);
         let place = |text: &str| page.find(text).unwrap();
         assert!(place("Missed: 20") < place("Agree: 40"));
         assert!(page.contains("<details open><summary class=\"miss\">Missed"));

@@ -1,24 +1,26 @@
 //! What is drawn: solids in space, and how each is painted.
 
 use super::camera::Camera;
-use super::colour::Colour;
 use super::outline::{self, hull, rim};
 use super::panel::Frame;
 use super::svg::{Canvas, Paint};
-use actin_mechanics::{Matrix3, Vector3};
+use super::{Matrix3, Vector3};
+use crate::Colour;
 
 /// How a line looks.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stroke {
+pub struct Stroke {
+    /// Colour.
     pub colour: Colour,
     /// Width in pixels.
     pub width: f64,
+    /// Whether it has gaps.
     pub dashed: bool,
 }
 
 impl Stroke {
     /// A line without gaps.
-    pub(crate) fn solid(colour: Colour, width: f64) -> Self {
+    pub fn solid(colour: Colour, width: f64) -> Self {
         Self {
             colour,
             width,
@@ -29,25 +31,55 @@ impl Stroke {
 
 /// A solid (nm, lab frame).
 #[derive(Clone, Debug)]
-pub(crate) enum Solid {
+pub enum Solid {
     /// An ellipsoid, its semi-axes the columns of a matrix.
-    Ellipsoid { centre: Vector3, semi_axes: Matrix3 },
+    Ellipsoid {
+        /// Its middle.
+        centre: Vector3,
+        /// Its semi-axes as columns.
+        semi_axes: Matrix3,
+    },
     /// A cylinder with flat ends.
-    Cylinder { ends: [Vector3; 2], radius: f64 },
+    Cylinder {
+        /// Middles of its flat ends.
+        ends: [Vector3; 2],
+        /// Its radius.
+        radius: f64,
+    },
     /// A flat polygon.
-    Plate { corners: Vec<Vector3> },
+    Plate {
+        /// Its corners in order.
+        corners: Vec<Vector3>,
+    },
     /// A disc of so many pixels about a point.
-    Dot { at: Vector3, pixels: f64 },
+    Dot {
+        /// Its middle.
+        at: Vector3,
+        /// Its radius in pixels.
+        pixels: f64,
+    },
     /// A line.
-    Line { ends: [Vector3; 2], stroke: Stroke },
+    Line {
+        /// From where to where.
+        ends: [Vector3; 2],
+        /// How it looks.
+        stroke: Stroke,
+    },
     /// A line with a head at its second end.
-    Arrow { ends: [Vector3; 2], stroke: Stroke },
+    Arrow {
+        /// From where to where.
+        ends: [Vector3; 2],
+        /// How it looks.
+        stroke: Stroke,
+    },
 }
 
 /// A solid with its looks and its place in the order of painting.
 #[derive(Clone, Debug)]
-pub(crate) struct Item {
+pub struct Item {
+    /// Its shape and place.
     pub solid: Solid,
+    /// Its colour; lines and arrows have that of their stroke.
     pub colour: Colour,
     /// From 0, not seen, to 1.
     pub opacity: f64,
@@ -57,7 +89,7 @@ pub(crate) struct Item {
 
 impl Item {
     /// An opaque solid that counts where it is.
-    pub(crate) fn new(solid: Solid, colour: Colour) -> Self {
+    pub fn new(solid: Solid, colour: Colour) -> Self {
         Self {
             solid,
             colour,
@@ -67,17 +99,19 @@ impl Item {
     }
 
     /// A line.
-    pub(crate) fn line(ends: [Vector3; 2], stroke: Stroke) -> Self {
+    pub fn line(ends: [Vector3; 2], stroke: Stroke) -> Self {
         Self::new(Solid::Line { ends, stroke }, stroke.colour)
     }
 
     /// The same item with an opacity.
-    pub(crate) fn with_opacity(self, opacity: f64) -> Self {
+    #[must_use]
+    pub fn with_opacity(self, opacity: f64) -> Self {
         Self { opacity, ..self }
     }
 
     /// The same item, painted as if it were nearer (nm).
-    pub(crate) fn nearer(self, nearer_nm: f64) -> Self {
+    #[must_use]
+    pub fn nearer(self, nearer_nm: f64) -> Self {
         Self { nearer_nm, ..self }
     }
 

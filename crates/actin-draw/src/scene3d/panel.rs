@@ -1,20 +1,24 @@
 //! One view of a scene: fits it into a rectangle and paints it back to front.
 
-use super::Colour;
+use super::Vector3;
 use super::camera::{Camera, View};
 use super::labels::{self, LETTERS, Label};
 use super::solid::{Item, Stroke};
 use super::svg::{Align, Canvas};
-use actin_mechanics::Vector3;
+use crate::Colour;
 
 /// One view of a scene.
 #[derive(Clone, Debug)]
-pub(crate) struct Panel {
+pub struct Panel {
+    /// Text above the view.
     pub title: String,
     /// Left, top, width and height in pixels.
     pub place: [f64; 4],
+    /// From where it is seen.
     pub view: View,
+    /// What is seen, in any order.
     pub items: Vec<Item>,
+    /// Texts at points of the scene.
     pub labels: Vec<Label>,
     /// Length of the scale bar (nm).
     pub bar_nm: f64,
@@ -166,8 +170,8 @@ impl Panel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::scene3d::Solid;
-    use actin_mechanics::Matrix3;
+    use crate::scene3d::Matrix3;
+    use crate::scene3d::Solid;
 
     fn ball(x: f64, colour: [u8; 3]) -> Item {
         let solid = Solid::Ellipsoid {

@@ -1,7 +1,7 @@
 //! Writes shapes of the plane as SVG. Lengths are pixels, y points down.
 
-use super::colour::Colour;
 use super::solid::Stroke;
+use crate::Colour;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 

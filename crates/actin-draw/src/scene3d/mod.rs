@@ -2,10 +2,9 @@
 //!
 //! A [`Sheet`] holds panels and a legend; a [`Panel`] holds solids and labels and chooses scale
 //! and place so that all of them fit. Outlines are exact projections; what hides what is decided
-//! solid by solid, by the distance of its middle. Nothing here knows of filaments.
+//! solid by solid, by the distance of its middle.
 
 mod camera;
-mod colour;
 mod labels;
 mod outline;
 mod panel;
@@ -13,9 +12,13 @@ mod sheet;
 mod solid;
 mod svg;
 
-pub(super) use camera::View;
-pub(super) use colour::Colour;
-pub(super) use labels::Label;
-pub(super) use panel::Panel;
-pub(super) use sheet::{Key, Sheet};
-pub(super) use solid::{Item, Solid, Stroke};
+pub use camera::View;
+pub use labels::Label;
+pub use panel::Panel;
+pub use sheet::{Key, Sheet};
+pub use solid::{Item, Solid, Stroke};
+
+/// A vector of three components.
+pub type Vector3 = nalgebra::Vector3<f64>;
+/// A matrix of three rows and three columns.
+pub type Matrix3 = nalgebra::Matrix3<f64>;

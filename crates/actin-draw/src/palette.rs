@@ -1,0 +1,132 @@
+//! Colours that belong together: ramps between two ends, and sets of lines.
+
+use crate::Colour;
+
+/// Colours at even steps between two ends, each as red, green and blue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ramp(&'static [[u8; 3]]);
+
+/// Sets of colours for lines that have no order, each as red, green and blue.
+pub mod lines {
+    /// Five hues of one lightness: red, orange, green, blue, purple.
+    pub const HUES: [[u8; 3]; 5] = [
+        [190, 25, 35],
+        [235, 150, 20],
+        [60, 150, 90],
+        [30, 70, 180],
+        [140, 70, 160],
+    ];
+    /// Vermilion, orange, bluish green, blue and reddish purple, which all kinds of sight tell apart.
+    ///
+    /// # Source
+    /// M. Okabe and K. Ito, Color Universal Design (2008).
+    pub const OKABE_ITO: [[u8; 3]; 5] = [
+        [213, 94, 0],
+        [230, 159, 0],
+        [0, 158, 115],
+        [0, 114, 178],
+        [204, 121, 167],
+    ];
+}
+
+impl Ramp {
+    /// From red through yellow to blue, dark enough in the middle to be seen on white.
+    pub const RED_YELLOW_BLUE: Self = Self(&[
+        [190, 25, 35],
+        [235, 110, 40],
+        [235, 180, 0],
+        [90, 165, 215],
+        [30, 70, 180],
+    ]);
+    /// Entries 7 to 2 of the eight of viridis: its yellow end would vanish on white, its black one
+    /// could not be told from ink.
+    ///
+    /// # Source
+    /// S. van der Walt and N. Smith, matplotlib 1.5 (2015), as sampled by `viridisLite::viridis(8)`.
+    pub const VIRIDIS: Self = Self(&[
+        [159, 218, 58],
+        [74, 193, 109],
+        [31, 161, 135],
+        [39, 127, 142],
+        [54, 92, 141],
+        [70, 51, 126],
+    ]);
+
+    /// The colours at even steps, from the first end to the last.
+    pub fn stops(self) -> &'static [[u8; 3]] {
+        self.0
+    }
+
+    /// The colour at a share of the way, which is taken to be at least 0 and at most 1; between the
+    /// stops in a straight line.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a place between the first and the last stop, and a mean of two bytes"
+    )]
+    pub fn at(self, share: f64) -> Colour {
+        let stops = self.stops();
+        let place = share.clamp(0.0, 1.0) * (stops.len() - 1) as f64;
+        let i = (place as usize).min(stops.len() - 2);
+        let t = place - i as f64;
+        Colour([0, 1, 2].map(|k| {
+            let (from, to) = (f64::from(stops[i][k]), f64::from(stops[i + 1][k]));
+            (from + t * (to - from)) as u8
+        }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::page::{DARK_CARD, on_dark};
+
+    const BOTH: [Ramp; 2] = [Ramp::RED_YELLOW_BLUE, Ramp::VIRIDIS];
+
+    #[test]
+    fn the_ends_are_the_stops() {
+        assert_eq!(Ramp::RED_YELLOW_BLUE.at(0.0), Colour([190, 25, 35]));
+        assert_eq!(Ramp::RED_YELLOW_BLUE.at(1.0), Colour([30, 70, 180]));
+        assert_eq!(Ramp::RED_YELLOW_BLUE.at(0.5), Colour([235, 180, 0]));
+        assert_eq!(Ramp::VIRIDIS.at(-1.0), Colour(Ramp::VIRIDIS.stops()[0]));
+        assert_eq!(Ramp::VIRIDIS.at(2.0), Colour(Ramp::VIRIDIS.stops()[5]));
+    }
+
+    /// Colours are in the order of their lightness, so that they differ for every kind of sight
+    /// and in grey: each is seen better on white than the one before. Symptom of a swapped or mistyped
+    /// stop: a step back.
+    #[test]
+    fn viridis_darkens_throughout() {
+        let shades: Vec<f64> = (0..=40)
+            .map(|k| Ramp::VIRIDIS.at(f64::from(k) / 40.0))
+            .map(|colour| colour.contrast(Colour([255; 3])))
+            .collect();
+        assert!(shades.is_sorted_by(|a, b| a < b), "{shades:?}");
+    }
+
+    /// Nothing is drawn that cannot be seen on white: 1.5 is the contrast of a light yellow pencil,
+    /// 1 that of white on white.
+    #[test]
+    fn every_colour_is_seen_on_white() {
+        for ramp in BOTH {
+            for k in 0..=40 {
+                let contrast = ramp.at(f64::from(k) / 40.0).contrast(Colour([255; 3]));
+                assert!(contrast > 1.5, "{ramp:?} {k}");
+            }
+        }
+    }
+
+    /// A contrast of 3 to the dark card, what graphics need to be told from their ground.
+    ///
+    /// # Source
+    /// W3C, Web Content Accessibility Guidelines 2.1, success criterion 1.4.11.
+    #[test]
+    fn every_stop_is_seen_on_the_dark_card() {
+        for ramp in BOTH {
+            for &stop in ramp.stops() {
+                let contrast = Colour(on_dark(stop)).contrast(Colour(DARK_CARD));
+                assert!(contrast > 3.0, "{ramp:?} {stop:?}: {contrast}");
+            }
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Numbers as they are printed, and verdicts that follow from their last digit.
+
+use super::{Origin, Row};
+
+/// Standard deviations within which one sample counts as another.
+pub const DEVIATIONS: f64 = 2.0;
+
+/// A number as it is printed, and half a unit of its last digit.
+///
+/// Zeros that end an integer of three or more digits are none: `700` is known to 50, `75` to 0.5,
+/// `1.6e4` to 500.
+///
+/// ```
+/// use actin_draw::report::printed;
+/// assert_eq!(printed("700"), (700.0, 50.0));
+/// assert_eq!(printed("1.6e4"), (1.6e4, 500.0));
+/// ```
+///
+/// # Panics
+/// A text that is no number.
+pub fn printed(text: &str) -> (f64, f64) {
+    let value = text.parse().expect("a number as the paper prints it");
+    let (digits, exponent) = text.split_once('e').unwrap_or((text, "0"));
+    let exponent: i32 = exponent.parse().expect("a whole exponent");
+    let zeros = |text: &str| text.len() - text.trim_end_matches('0').len();
+    let last = match digits.split_once('.') {
+        Some((_, decimals)) => -places(decimals.len()),
+        None if digits.len() > 2 => places(zeros(digits)),
+        None => 0,
+    };
+    (value, 0.5 * 10f64.powi(exponent + last))
+}
+
+fn places(count: usize) -> i32 {
+    i32::try_from(count).expect("a few digits")
+}
+
+impl Row {
+    /// Compared with a number as the paper prints it; `sd` is the standard deviation of a single
+    /// sample, 0 where nothing is drawn.
+    ///
+    /// # Panics
+    /// A text that is no number.
+    #[must_use]
+    pub fn against_printed(self, text: &str, sd: f64) -> Self {
+        let (value, half) = printed(text);
+        self.against(value, half + DEVIATIONS * sd)
+    }
+
+    /// Compared with a printed number that follows from other printed ones: no simulation has a part
+    /// in it.
+    ///
+    /// # Panics
+    /// A text that is no number.
+    #[must_use]
+    pub fn derived(self, text: &str) -> Self {
+        self.against_printed(text, 0.0).of(Origin::Derived)
+    }
+
+    /// Shown beside an expected number, and not judged.
+    #[must_use]
+    pub fn beside(self, expected: f64, origin: Origin) -> Self {
+        Self {
+            paper: Some(expected),
+            origin: Some(origin),
+            ..self
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The last digit of every kind of number that the paper prints.
+    #[test]
+    fn half_a_unit_of_the_last_digit() {
+        let cases = [
+            ("1.6e4", 1.6e4, 500.0),
+            ("9.6e3", 9.6e3, 50.0),
+            ("10", 10.0, 0.5),
+            ("75", 75.0, 0.5),
+            ("120", 120.0, 5.0),
+            ("700", 700.0, 50.0),
+            ("5.52", 5.52, 0.005),
+            ("1.10", 1.1, 0.005),
+            ("349", 349.0, 0.5),
+            ("27.96", 27.96, 0.005),
+        ];
+        for (text, value, half) in cases {
+            let (found, tolerance) = printed(text);
+            assert!((found - value).abs() <= 1e-12 * value, "{text}");
+            assert!((tolerance - half).abs() <= 1e-12 * half, "{text}");
+        }
+    }
+
+    /// A scatter of 100 about 1.6e4: 500 and 200.
+    #[test]
+    fn scatter_counts_twice() {
+        let row = |ours| Row::measured("table4", "q", "pN", ours, "");
+        let judged = |ours| row(ours).against_printed("1.6e4", 100.0).pass;
+        assert_eq!(judged(1.669e4), Some(true));
+        assert_eq!(judged(1.671e4), Some(false));
+        assert_eq!(row(1.0).beside(2.0, Origin::Parameter).pass, None);
+        assert_eq!(row(120.0).derived("120").origin, Some(Origin::Derived));
+    }
+}
