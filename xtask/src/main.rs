@@ -54,14 +54,14 @@ enum Task {
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Bench(options) => bench::run(&options),
-        Task::Bonds(options) => bonds::run(&options),
+        Task::Bonds(options) => bonds::run(options),
         Task::Check => check::run(),
         Task::Costs(options) => costs::run(&options),
         Task::Extremes(options) => extremes::run(&options),
-        Task::FitParameters(options) => fit::run(&options),
-        Task::ReproduceFigures(options) => figures::reproduce(&options),
+        Task::FitParameters(options) => fit::run(options),
+        Task::ReproduceFigures(options) => figures::run(options),
         Task::CheckDocs(options) => docs::run(&options),
-        Task::Tradeoff(options) => tradeoff::run(&options),
+        Task::Tradeoff(options) => tradeoff::run(options),
         Task::Trials(options) => trials::run(&options),
     };
     match outcome.and_then(|()| streams::ending()) {

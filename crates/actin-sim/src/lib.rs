@@ -16,7 +16,6 @@ struct Readme;
 pub mod advice;
 mod assembly;
 pub mod cost;
-pub mod measure;
 mod memory;
 mod notes;
 mod results;
@@ -38,7 +37,7 @@ pub use results::{
 pub use run::{
     Arrival, EquilibriumReport, Estimate, Keeper, Kept, MotionStanding, PathStanding, Progress,
     Record, RunError, RunReport, SaddlePush, Slip, Standing, Trajectory, Unkept, estimate, run,
-    run_estimated, run_kept,
+    run_estimated, run_kept, solver,
 };
 pub use scene::fitted::laws as fitted_laws;
 pub use scene::{

@@ -8,7 +8,7 @@
 mod families;
 mod measure;
 
-use crate::tradeoff;
+use actin_paper::tradeoff;
 use families::{FAMILIES, Family};
 use measure::{Measured, measure};
 use std::path::Path;

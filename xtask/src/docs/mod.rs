@@ -3,21 +3,17 @@
 //! A number that is followed by a mark, `36.74 <!-- fig8:height/over/180/rod-140 -->`, must be what
 //! the report holds under that name, to the digits shown; `marks.rs` says how marks are written. Where
 //! a number has no mark, the text says so (`unmarked.rs`). Whether the report itself is up to date a test
-//! finds with a quick run (`quick.rs`).
+//! of `actin-paper` finds with a quick run.
 
 mod marks;
 mod number;
-mod quick;
 mod unmarked;
 
-#[cfg(test)]
-pub(crate) use quick::stale;
-pub(crate) use quick::{tell_stale, write_quick};
-
 use crate::check::workspace_root;
-use actin_draw::report::{self, Row};
+use actin_draw::report;
+use actin_paper::committed::{REFERENCE, Report, by_name};
 use marks::{Mark, Of, marks};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -25,12 +21,6 @@ use std::path::{Path, PathBuf};
 const DOCUMENTS: [&str; 2] = ["docs/validation.md", "docs/errata.md"];
 /// The document in which numbers without a mark are counted.
 const COUNTED: &str = "docs/validation.md";
-/// The report of a full run, which the documents are held to.
-const REFERENCE: &str = "docs/report.json";
-/// Rows of two reports agree within this share: what another processor's rounding leaves.
-const AGREES: f64 = 1e-6;
-/// Most differences that are told one by one.
-const MOST_TOLD: usize = 20;
 
 /// Which report, and what is done about differences.
 #[derive(clap::Args, Debug)]
@@ -42,9 +32,6 @@ pub(crate) struct Options {
     #[arg(long)]
     write: bool,
 }
-
-/// Rows by artefact and quantity.
-type Report = BTreeMap<(String, String), Row>;
 
 /// Checks the documents, or brings them up to date.
 pub(crate) fn run(options: &Options) -> Result<(), String> {
@@ -71,54 +58,6 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
         return Ok(());
     }
     Err(format!("documents:\n  {}", findings.join("\n  ")))
-}
-
-/// Tells how rows of a full run differ from those in `docs`, which is no error.
-pub(crate) fn tell_differences(rows: &[Row]) -> Result<(), String> {
-    let reference = by_name(report::read(&workspace_root().join(REFERENCE))?);
-    let differences = differences(rows, &reference);
-    println!(
-        "{} of {} rows differ from {REFERENCE} by more than {AGREES:e} of their value",
-        differences.len(),
-        rows.len()
-    );
-    list(&differences);
-    Ok(())
-}
-
-/// Prints the first of some lines.
-fn list(lines: &[String]) {
-    for line in lines.iter().take(MOST_TOLD) {
-        println!("  {line}");
-    }
-}
-
-/// What differs, in words: new rows, rows that are gone from an artefact, other numbers, other
-/// verdicts.
-fn differences(rows: &[Row], reference: &Report) -> Vec<String> {
-    let ours = by_name(rows.to_vec());
-    let artefacts: BTreeSet<&str> = rows.iter().map(|row| row.artefact).collect();
-    let mut all = Vec::new();
-    for ((artefact, quantity), row) in &ours {
-        let name = format!("{artefact}:{quantity}");
-        match reference.get(&(artefact.clone(), quantity.clone())) {
-            None => all.push(format!("{name} is new")),
-            Some(old) if old.pass != row.pass => all.push(format!(
-                "{name} has another verdict: {:?}, was {:?}",
-                row.pass, old.pass
-            )),
-            Some(old) => {
-                let scale = row.ours.abs().max(old.ours.abs());
-                if (row.ours - old.ours).abs() > AGREES * scale {
-                    all.push(format!("{name} is {}, was {}", row.ours, old.ours));
-                }
-            }
-        }
-    }
-    let gone = reference.keys().filter(|name| !ours.contains_key(name));
-    let gone = gone.filter(|name| artefacts.contains(name.0.as_str()));
-    all.extend(gone.map(|(artefact, quantity)| format!("{artefact}:{quantity} is gone")));
-    all
 }
 
 /// How many numbers are marked in the documents, and those that are not what the report holds.
@@ -175,13 +114,6 @@ fn updated(name: &str, text: &str, rows: &Report) -> Result<String, String> {
         lines[mark.line - 1].replace_range(place, &text?);
     }
     Ok(lines.join("\n") + "\n")
-}
-
-fn by_name(rows: Vec<Row>) -> Report {
-    let named = rows.into_iter();
-    named
-        .map(|row| ((row.artefact.to_owned(), row.quantity.clone()), row))
-        .collect()
 }
 
 fn read(path: &Path) -> Result<String, String> {

@@ -17,7 +17,7 @@ pub use equilibrium::EquilibriumReport;
 pub use keep::{Arrival, Keeper, Kept, MotionStanding, PathStanding, Standing, Unkept};
 pub use rest::SaddlePush;
 pub use slip::Slip;
-pub(crate) use unknowns::newton as solver;
+pub use unknowns::newton as solver;
 
 use crate::scene::{Problem, Task};
 use crate::{Assembly, BeyondUse};

@@ -13,11 +13,15 @@ const BETWEEN_FILAMENTS_NM: f64 = 1e3;
 /// How many segments or rises a bond or segment reaches at most, with room.
 const REACH: f64 = 3.0;
 
-/// What may move, filament by filament in the order of arc length, and how far it is to be solved.
+/// The solver of an assembly: what may move, filament by filament in the order of arc length, and how far
+/// it is to be solved.
 ///
 /// Where linkers join sites, unknowns are eliminated in an order that fills less if there is one, and
 /// joined bodies swing about each other as they will.
-pub(crate) fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, Problem> {
+///
+/// # Errors
+/// Tolerances or bodies that the solver refuses.
+pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, Problem> {
     let refused =
         |key: &str, error: &dyn std::error::Error| Problem::new(key, "", error.to_string());
     let layout = Layout::new(&assembly.rest, Some(&order(assembly)), Vec::new())

@@ -1,0 +1,344 @@
+//! From an assembly and its state to solids: what stands where comes from them, never from here.
+//! All filaments of a scene are drawn, each with its own parameters and about its own axis.
+
+use super::style;
+use actin_draw::scene3d::{Item, Solid, Stroke};
+use actin_mechanics::{Matrix3, State, UnitQuaternion, Vector3};
+use actin_sim::{Assembly, BodyKind, End, JunctionBond, Load};
+
+/// The filaments of an assembly in a state, to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::figures) struct Drawn<'a> {
+    pub assembly: &'a Assembly,
+    pub state: &'a State,
+    /// Arc lengths between which bodies are drawn (nm).
+    pub range_nm: [f64; 2],
+}
+
+/// Solids of the bonds between monomers, by kind.
+#[derive(Debug, Default)]
+pub(super) struct BondItems {
+    pub items: Vec<Item>,
+    /// Lateral and longitudinal bonds.
+    pub counts: [usize; 2],
+}
+
+impl<'a> Drawn<'a> {
+    /// Whole filaments in the last state of their system.
+    pub(super) fn whole(assembly: &'a Assembly) -> Self {
+        Self {
+            assembly,
+            state: assembly.system.state(),
+            range_nm: [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
+
+    /// Whole filaments in another state.
+    pub(in crate::figures) fn in_state(assembly: &'a Assembly, state: &'a State) -> Self {
+        Self {
+            state,
+            ..Self::whole(assembly)
+        }
+    }
+
+    fn shows(&self, s_nm: f64) -> bool {
+        (self.range_nm[0]..=self.range_nm[1]).contains(&s_nm)
+    }
+
+    /// Position of a point (nm, lab frame).
+    pub(in crate::figures) fn place(&self, point: usize) -> Vector3 {
+        self.state.points.position.get(point)
+    }
+
+    fn matrix(&self, frame: usize) -> Matrix3 {
+        let orientation = self.state.frames.orientation.get(frame);
+        orientation.to_rotation_matrix().into_inner()
+    }
+
+    /// Points of a kind that are shown.
+    pub(in crate::figures) fn points(&self, kind: BodyKind) -> Vec<usize> {
+        let points = self.assembly.points.iter().enumerate();
+        let shown = points.filter(|(_, info)| info.kind == kind && self.shows(info.s_nm));
+        shown.map(|(i, _)| i).collect()
+    }
+
+    /// Monomers, each with its semi-axes along its principal frame.
+    pub(super) fn monomers(&self, opacity: f64) -> Vec<Item> {
+        let monomers = self.points(BodyKind::Monomer).into_iter();
+        let body = monomers.filter_map(|i| Some((i, self.assembly.points[i].frame?)));
+        body.map(|(i, frame)| {
+            let filament = self.assembly.filament_of_point(i);
+            let semi_axes = Vector3::from(self.assembly.monomers_of(filament).semi_axes_nm);
+            let solid = Solid::Ellipsoid {
+                centre: self.place(i),
+                semi_axes: self.matrix(frame) * Matrix3::from_diagonal(&semi_axes),
+            };
+            Item::new(solid, style::monomer()).with_opacity(opacity)
+        })
+        .collect()
+    }
+
+    /// Every bond between monomers that are shown, from anchor to anchor.
+    pub(super) fn bonds(&self, width: f64) -> BondItems {
+        let mut drawn = BondItems::default();
+        let sections = 0..self.assembly.sections.len();
+        for bonds in sections.filter_map(|i| self.assembly.bonds_of(i)) {
+            for pair in bonds.pairs() {
+                let ends = [pair.lower, pair.upper].map(|k| bonds.monomers().point(k));
+                if !ends
+                    .iter()
+                    .all(|&i| self.shows(self.assembly.points[i].s_nm))
+                {
+                    continue;
+                }
+                let kind = pair.upper - pair.lower - 1;
+                let stroke = Stroke::solid(style::bond(kind), width);
+                let lines = bonds.ends_of(pair, self.state);
+                // Anchors lie on surfaces that the ellipsoids' middles are behind.
+                let lines = lines.map(|ends| Item::line(ends, stroke).nearer(style::ON_SURFACE_NM));
+                drawn.counts[kind] += pair.bonds;
+                drawn.items.extend(lines);
+            }
+        }
+        drawn
+    }
+
+    /// Radius of the circle that has the area of the rod's cross-section (nm).
+    pub(in crate::figures) fn rod_radius_nm() -> f64 {
+        let area = actin_sim::rod_constants::CROSS_SECTION_AREA;
+        (area / std::f64::consts::PI).sqrt()
+    }
+
+    /// Segments as cylinders of the rod's cross-section, their centre line and their nodes.
+    pub(super) fn rods(&self, opacity: f64) -> Vec<Item> {
+        let radius = Self::rod_radius_nm();
+        let mut items = Vec::new();
+        for ends in self.segments() {
+            let cylinder = Item::new(Solid::Cylinder { ends, radius }, style::rod());
+            items.push(cylinder.with_opacity(opacity));
+            let line = Item::line(ends, Stroke::solid(style::rod().darker(0.3), 1.6));
+            items.push(line.nearer(radius));
+        }
+        items.extend(self.points(BodyKind::Node).into_iter().map(|i| {
+            let dot = Solid::Dot {
+                at: self.place(i),
+                pixels: 3.4,
+            };
+            Item::new(dot, style::of(|t| t.node)).nearer(2.0 * radius)
+        }));
+        items
+    }
+
+    /// Both nodes of every segment that is shown.
+    fn segments(&self) -> Vec<[Vector3; 2]> {
+        let nodes = self.points(BodyKind::Node);
+        let next = nodes.windows(2).filter(|pair| {
+            let sections = self.assembly.sections.iter();
+            let same = |i: &usize| sections.clone().position(|s| s.points.contains(i));
+            pair[1] == pair[0] + 1 && same(&pair[0]) == same(&pair[1])
+        });
+        next.map(|pair| [self.place(pair[0]), self.place(pair[1])])
+            .collect()
+    }
+
+    /// Frames of segments, each at the middle of its segment.
+    pub(super) fn segment_frames(&self, length_nm: f64) -> Vec<Item> {
+        let mut items = Vec::new();
+        for section in self.assembly.sections.iter().filter(|s| !s.is_ellipsoids()) {
+            for (frame, node) in section.frames.clone().zip(section.points.clone()) {
+                let nodes = [node, node + 1];
+                if nodes
+                    .iter()
+                    .all(|&i| self.shows(self.assembly.points[i].s_nm))
+                {
+                    let middle = 0.5 * (self.place(node) + self.place(node + 1));
+                    items.extend(self.frame(frame, middle, length_nm));
+                }
+            }
+        }
+        items
+    }
+
+    /// The axes of a frame, drawn at a place.
+    pub(super) fn frame(&self, frame: usize, at: Vector3, length_nm: f64) -> Vec<Item> {
+        let axes = self.matrix(frame);
+        let axis = |k: usize| {
+            let ends = [at, at + axes.column(k) * length_nm];
+            let stroke = Stroke::solid(style::axis(k), 2.0);
+            Item::new(Solid::Arrow { ends, stroke }, stroke.colour).nearer(style::INSIDE_NM)
+        };
+        [0, 1, 2].map(axis).into()
+    }
+
+    /// Both ends of a bond of a junction: the monomer's centre, the rod's end (nm, lab frame).
+    pub(in crate::figures) fn ends_of(&self, bond: &JunctionBond) -> [Vector3; 2] {
+        [bond.monomer, bond.node].map(|i| self.place(i))
+    }
+
+    /// Bonds of all junctions.
+    pub(super) fn junction_bonds(&self, width: f64) -> Vec<Item> {
+        let bonds = self.assembly.junction_bonds().into_iter();
+        let edge = Stroke::solid(style::of(|t| t.junction).darker(0.55), width + 2.0);
+        let core = Stroke::solid(style::of(|t| t.junction), width);
+        bonds
+            .flat_map(|bond| {
+                let ends = self.ends_of(&bond);
+                let nearer = style::INSIDE_NM;
+                [
+                    Item::line(ends, edge).nearer(nearer),
+                    Item::line(ends, core).nearer(nearer + 0.01),
+                ]
+            })
+            .collect()
+    }
+
+    /// Corners of a plate at each clamped end, across the filament's axis there (nm, lab frame).
+    pub(in crate::figures) fn plates(&self, half_nm: f64) -> Vec<[Vector3; 4]> {
+        let clamps = self.assembly.clamps.iter();
+        clamps
+            .map(|clamp| {
+                let about = clamp.point_nm(self.state);
+                let built = self.assembly.filaments[clamp.filament].rotation;
+                let turn = self.turn_from_rest(clamp.frames[0]) * built;
+                let corner = |(x, y): (f64, f64)| about + turn * Vector3::new(x, y, 0.0) * half_nm;
+                [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner)
+            })
+            .collect()
+    }
+
+    /// Walls at clamped ends.
+    pub(super) fn walls(&self, half_nm: f64) -> Vec<Item> {
+        let plates = self.plates(half_nm).into_iter();
+        plates
+            .map(|corners| {
+                let plate = Solid::Plate {
+                    corners: corners.into(),
+                };
+                Item::new(plate, style::of(|t| t.clamp)).with_opacity(0.75)
+            })
+            .collect()
+    }
+
+    /// How a frame has turned since it was built.
+    fn turn_from_rest(&self, frame: usize) -> UnitQuaternion {
+        let rest = self.assembly.rest.frames.orientation.get(frame);
+        self.state.frames.orientation.get(frame) * rest.inverse()
+    }
+
+    /// Where the force of an end acts, and the force (nm, pN, lab frame).
+    pub(in crate::figures) fn forces(&self) -> Vec<(Vector3, Vector3)> {
+        let loads = self.assembly.scene.loads.iter();
+        loads
+            .map(|load| {
+                let Load::EndForce {
+                    filament,
+                    end,
+                    force_pn,
+                } = load;
+                let at = self.assembly.tip_of(*filament, self.state, *end);
+                (at, (*force_pn).into())
+            })
+            .collect()
+    }
+
+    /// Where a held end is (nm, lab frame), and unit vectors out of its filament and across it as
+    /// built; none if the end is free.
+    pub(super) fn held(&self, filament: usize, end: End) -> Option<[Vector3; 3]> {
+        let clamp = self.assembly.clamp_at(filament, end)?;
+        let built = self.assembly.filaments[filament].rotation;
+        let outward = match end {
+            End::Start => -Vector3::z(),
+            End::End => Vector3::z(),
+        };
+        Some([
+            clamp.point_nm(self.state),
+            built * outward,
+            built * Vector3::x(),
+        ])
+    }
+
+    /// Forces as arrows that begin where they act.
+    pub(super) fn arrows(&self, nm_per_pn: f64) -> Vec<Item> {
+        let forces = self.forces().into_iter();
+        forces
+            .map(|(at, force)| style::arrow([at, at + force * nm_per_pn]))
+            .collect()
+    }
+
+    /// Fixed or moved points that linkers pull towards (nm, lab frame).
+    pub(in crate::figures) fn anchors(&self) -> Vec<Vector3> {
+        let linkers = self.assembly.linkers.iter().enumerate();
+        let anchored = linkers.filter(|(i, _)| self.assembly.linked_to(*i).is_none());
+        anchored
+            .map(|(_, linker)| linker.end_position(self.state))
+            .collect()
+    }
+
+    /// Linkers from site to anchor or to the other site, and what they end on.
+    pub(super) fn linkers(&self) -> Vec<Item> {
+        let linkers = self.assembly.linkers.iter().enumerate();
+        linkers
+            .flat_map(|(i, linker)| {
+                let (site, end) = (
+                    linker.site().position(self.state),
+                    linker.end_position(self.state),
+                );
+                let stroke = Stroke {
+                    dashed: true,
+                    ..Stroke::solid(style::of(|t| t.linker), 2.2)
+                };
+                let dot = |at, pixels, colour| Item::new(Solid::Dot { at, pixels }, colour);
+                let on_body =
+                    |at| dot(at, 3.0, style::of(|t| t.linker)).nearer(2.0 * style::INSIDE_NM);
+                [
+                    Item::line([site, end], stroke).nearer(style::INSIDE_NM),
+                    on_body(site),
+                    match self.assembly.linked_to(i) {
+                        None => dot(end, 6.0, style::of(|t| t.anchor)),
+                        Some(_) => on_body(end),
+                    },
+                ]
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::workspace_root;
+    use actin_sim::Scene;
+
+    /// Three linked filaments, pulled at the tip of the third and not of the first.
+    fn linked() -> Assembly {
+        let path = workspace_root().join("scenarios/crosslinked.ron");
+        let text = std::fs::read_to_string(path).unwrap();
+        let pulled = text.replace("EndForce(end", "EndForce(filament: 2, end");
+        assert_ne!(pulled, text);
+        Assembly::build(&Scene::from_ron(&pulled).unwrap()).unwrap()
+    }
+
+    /// Symptom of the plausible bugs: nothing but the first filament, a segment from the end of one
+    /// filament to the start of the next, all forces and clamps at the first.
+    #[test]
+    fn all_filaments_are_drawn_each_at_its_place() {
+        let assembly = linked();
+        let drawn = Drawn::whole(&assembly);
+        let counts = assembly.counts();
+        assert_eq!(drawn.monomers(1.0).len(), counts.monomers);
+        assert_eq!(drawn.segments().len(), counts.segments);
+        assert!(drawn.segments().iter().all(|[a, b]| (b - a).norm() < 11.0));
+        assert_eq!(drawn.bonds(1.0).items.len(), counts.bonds);
+        // A line and what it ends on at either side.
+        assert_eq!(drawn.linkers().len(), 3 * assembly.linkers.len());
+        assert!(drawn.anchors().is_empty());
+        for (plate, axis_x) in drawn.plates(6.0).iter().zip([0.0, 12.0, 24.0]) {
+            let middle = plate.iter().sum::<Vector3>() / 4.0;
+            assert!((middle - Vector3::new(axis_x, 0.0, 0.0)).norm() < 1e-9);
+        }
+        let [(at, force)] = drawn.forces()[..] else {
+            panic!("one force");
+        };
+        assert!((at.x - 24.0).abs() < 1e-9 && (force.x + 2.0).abs() < 1e-12);
+    }
+}

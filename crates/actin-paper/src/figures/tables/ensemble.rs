@@ -1,0 +1,321 @@
+//! Twisted filaments of many bond samplings: what Tables 3 and 5 are made from.
+
+use super::paper::{Entry, Table, entries};
+use super::statistics::{Sample, sample};
+use crate::figures::Run;
+use crate::measure::{Curve, MeasureError, Specimen, Stability, TwistPoint, twist, twist_in_order};
+use actin_sim::{Anchors, Monomers, ellipsoid_constants as monomer};
+use rayon::prelude::*;
+use std::sync::OnceLock;
+
+/// Rises between the inner held monomers: 30 monomers, two held at each end, 73.94 nm.
+pub(super) const RISES: f64 = 27.0;
+/// Bonds per interface of the study; 64 is the default.
+const BONDS: [usize; 6] = [12, 20, 40, 64, 80, 160];
+/// The same, independent only: between these lie the numbers that may meet both tables.
+const BONDS_BETWEEN: [usize; 2] = [28, 32];
+/// Bond samplings of each kind.
+const SEEDS: u64 = 16;
+/// The same for `--quick`, of the default kind only.
+const QUICK_SEEDS: u64 = 4;
+
+/// How interfaces are bonded, and on which way the filament is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Kind {
+    pub anchors: Anchors,
+    pub bonds: usize,
+    /// Whether points are those on the way back from the largest angle.
+    pub returning: bool,
+}
+
+impl Kind {
+    /// Weighted bonds that stand for all that could be drawn: the default of scenes.
+    pub(super) const MEAN: Self = Self {
+        anchors: Anchors::Cubature,
+        bonds: monomer::POINTS_PER_INTERFACE,
+        returning: false,
+    };
+    /// 64 bonds, drawn for each interface.
+    pub(super) const DEFAULT: Self = Self {
+        anchors: Anchors::Independent,
+        bonds: 64,
+        returning: false,
+    };
+    /// The same on the way back.
+    pub(super) const RETURNING: Self = Self {
+        returning: true,
+        ..Self::DEFAULT
+    };
+
+    /// Those that every run measures.
+    pub(super) const CORE: [Self; 3] = [Self::DEFAULT, Self::MEAN, Self::RETURNING];
+
+    /// `independent`, `identical` or `weighted`.
+    pub(super) fn anchors_name(&self) -> &'static str {
+        match self.anchors {
+            Anchors::Independent => "independent",
+            Anchors::Identical => "identical",
+            Anchors::Cubature => "weighted",
+        }
+    }
+
+    /// Name in quantities and legends.
+    pub(super) fn name(&self) -> String {
+        let way = if self.returning { "-returning" } else { "" };
+        match self.anchors {
+            Anchors::Cubature => "mean-filament".to_owned(),
+            _ => format!("{}-{}{way}", self.anchors_name(), self.bonds),
+        }
+    }
+
+    /// `out` or `back`.
+    pub(super) fn way(&self) -> &'static str {
+        if self.returning { "back" } else { "out" }
+    }
+
+    /// Seeds of its samplings, at most so many: one if nothing is drawn.
+    pub(super) fn seeds(&self, most: u64) -> std::ops::Range<u64> {
+        0..if self.anchors == Anchors::Cubature {
+            1
+        } else {
+            most
+        }
+    }
+
+    /// Twists a filament of this kind to all angles.
+    fn twist(&self, seed: u64, turns: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
+        let monomers = self.monomers(seed);
+        let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
+        if self.returning {
+            out_and_back(&specimen, turns)
+        } else {
+            twist(&specimen, turns)
+        }
+    }
+
+    pub(super) fn monomers(&self, seed: u64) -> Monomers {
+        Monomers {
+            seed,
+            anchors: self.anchors,
+            lateral_bonds: self.bonds,
+            longitudinal_bonds: self.bonds,
+            ..Monomers::default()
+        }
+    }
+}
+
+/// One filament, twisted to all angles.
+#[derive(Clone, Debug)]
+pub(super) struct Sampling {
+    pub kind: Kind,
+    pub seed: u64,
+    /// Points in the order of the paper's entries.
+    pub curve: Curve<TwistPoint>,
+}
+
+/// All of them.
+#[derive(Clone, Debug)]
+pub(super) struct Ensemble {
+    pub samplings: Vec<Sampling>,
+    pub seeds: u64,
+}
+
+/// How many of a set of equilibria are not stable beyond doubt, and how they were reached.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Doubts {
+    pub states: usize,
+    pub saddles: usize,
+    pub neutral: usize,
+    /// States on the way to which a saddle was left or a jump made.
+    pub off_the_branch: usize,
+}
+
+static CORE: OnceLock<Result<Ensemble, String>> = OnceLock::new();
+static ENSEMBLE: OnceLock<Result<Ensemble, String>> = OnceLock::new();
+
+/// Samplings of the default kind, on both ways, and the mean filament; computed once.
+pub(super) fn core(run: Run<'_>) -> Result<&'static Ensemble, String> {
+    CORE.get_or_init(|| Ensemble::run(run, Kind::CORE.into()))
+        .as_ref()
+        .map_err(Clone::clone)
+}
+
+/// The same with all other kinds, unless `quick`: computed once for the tables that share it.
+pub(super) fn ensemble(run: Run<'_>) -> Result<&'static Ensemble, String> {
+    if run.quick {
+        return core(run);
+    }
+    ENSEMBLE
+        .get_or_init(|| {
+            let mut all = core(run)?.clone();
+            all.samplings
+                .extend(Ensemble::run(run, other_kinds())?.samplings);
+            Ok(all)
+        })
+        .as_ref()
+        .map_err(Clone::clone)
+}
+
+impl Ensemble {
+    fn run(
+        Run {
+            quick, progress, ..
+        }: Run<'_>,
+        kinds: Vec<Kind>,
+    ) -> Result<Self, String> {
+        let turns = turns_deg()?;
+        let seeds = if quick { QUICK_SEEDS } else { SEEDS };
+        let cases: Vec<(Kind, u64)> = kinds
+            .into_iter()
+            .flat_map(|kind| kind.seeds(seeds).map(move |seed| (kind, seed)))
+            .collect();
+        progress.expect(cases.len());
+        let samplings = cases
+            .into_par_iter()
+            .map(|(kind, seed)| {
+                let curve = kind
+                    .twist(seed, &turns)
+                    .map_err(|error| format!("{}, seed {seed}: {error}", kind.name()))?;
+                progress.done();
+                Ok(Sampling { kind, seed, curve })
+            })
+            .collect::<Result<_, String>>()?;
+        Ok(Self { samplings, seeds })
+    }
+
+    /// The kinds that were sampled.
+    pub(super) fn kinds(&self) -> Vec<Kind> {
+        let mut kinds: Vec<Kind> = self.samplings.iter().map(|s| s.kind).collect();
+        kinds.dedup();
+        kinds
+    }
+
+    /// The samplings of one kind.
+    pub(super) fn of_kind(&self, kind: Kind) -> impl Iterator<Item = &Sampling> {
+        self.samplings.iter().filter(move |s| s.kind == kind)
+    }
+
+    /// The points of one kind at the curvature of an entry, with their seeds.
+    pub(super) fn points(&self, kind: Kind, entry: &Entry) -> Vec<(u64, TwistPoint)> {
+        self.of_kind(kind)
+            .filter_map(|s| point_at(&s.curve, entry).map(|point| (s.seed, point)))
+            .collect()
+    }
+
+    /// Mean and scatter of what a table compares.
+    pub(super) fn sample(&self, kind: Kind, entry: &Entry, table: Table) -> Sample {
+        let points = self.points(kind, entry);
+        sample(points.iter().map(|(_, point)| value(point, table)))
+    }
+
+    /// Doubts about the states of a kind at the curvatures of some entries.
+    pub(super) fn doubts(&self, kind: Kind, entries: &[Entry]) -> Doubts {
+        let mut doubts = Doubts::default();
+        for entry in entries {
+            for (_, point) in self.points(kind, entry) {
+                doubts.add(&point);
+            }
+        }
+        doubts
+    }
+
+    /// Angles that were not reached: kind, seed, angle (deg) and reason.
+    pub(super) fn unreached(&self) -> Vec<String> {
+        let mut all = Vec::new();
+        for s in &self.samplings {
+            for missing in &s.curve.unreached {
+                let (kind, seed) = (s.kind.name(), s.seed);
+                let (turn, reason) = (missing.value, &missing.reason);
+                all.push(format!("{kind} seed {seed} at {turn:.1} deg: {reason}"));
+            }
+        }
+        all
+    }
+}
+
+impl Sampling {
+    /// What a table compares, at an entry that was reached.
+    pub(super) fn value(&self, entry: &Entry, table: Table) -> Option<f64> {
+        point_at(&self.curve, entry).map(|point| value(&point, table))
+    }
+}
+
+impl Doubts {
+    fn add(&mut self, point: &TwistPoint) {
+        self.states += 1;
+        match point.evidence.stability() {
+            Stability::Stable => {}
+            Stability::Neutral { .. } => self.neutral += 1,
+            Stability::Saddle { .. } => self.saddles += 1,
+        }
+        let left = point.evidence.saddles_left + point.evidence.jumps;
+        self.off_the_branch += usize::from(left > 0);
+    }
+
+    /// In words.
+    pub(super) fn describe(&self) -> String {
+        format!(
+            "{} of {} states are saddles, {} neutral; in {} a saddle was left or a jump made",
+            self.saddles, self.states, self.neutral, self.off_the_branch
+        )
+    }
+}
+
+/// What a table compares.
+pub(super) fn value(point: &TwistPoint, table: Table) -> f64 {
+    match table {
+        Table::Rigidity => point.rigidity_pn_nm2,
+        Table::LengthChange => point.relative_length_change,
+    }
+}
+
+/// The turn of our filament at the curvature of an entry (deg).
+pub(super) fn turn_deg(entry: &Entry) -> f64 {
+    (entry.curvature * RISES * Monomers::default().rise_nm).to_degrees()
+}
+
+fn turns_deg() -> Result<Vec<f64>, String> {
+    Ok(entries(Table::Rigidity)?.iter().map(turn_deg).collect())
+}
+
+fn point_at(curve: &Curve<TwistPoint>, entry: &Entry) -> Option<TwistPoint> {
+    let turn = turn_deg(entry);
+    // Neighbouring angles are ten degrees apart.
+    let found = curve
+        .points
+        .iter()
+        .find(|p| (p.turn_deg - turn).abs() < 1e-6);
+    found.copied()
+}
+
+/// Twists out to the largest angle and back, in both directions; the points of the way back.
+fn out_and_back(specimen: &Specimen, turns: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
+    let leg = |sign: f64| -> Result<Curve<TwistPoint>, MeasureError> {
+        let mut way: Vec<f64> = turns.iter().copied().filter(|t| t * sign > 0.0).collect();
+        way.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let back = way.len() - 1;
+        way.extend(way.clone().into_iter().rev().skip(1));
+        let mut curve = twist_in_order(specimen, &way)?;
+        curve.points.drain(..back.min(curve.points.len()));
+        Ok(curve)
+    };
+    let (mut curve, mut under) = (leg(1.0)?, leg(-1.0)?);
+    curve.points.append(&mut under.points);
+    curve.unreached.append(&mut under.unreached);
+    Ok(curve)
+}
+
+/// Other numbers and patterns of bonds.
+fn other_kinds() -> Vec<Kind> {
+    let kind = |anchors, bonds| Kind {
+        anchors,
+        bonds,
+        returning: false,
+    };
+    [Anchors::Independent, Anchors::Identical]
+        .into_iter()
+        .flat_map(|anchors| BONDS.map(|bonds| kind(anchors, bonds)))
+        .chain(BONDS_BETWEEN.map(|bonds| kind(Anchors::Independent, bonds)))
+        .filter(|kind| !Kind::CORE.contains(kind))
+        .collect()
+}

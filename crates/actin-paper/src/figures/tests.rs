@@ -1,0 +1,172 @@
+//! Artefacts are computed once, and again where something is amiss. The recipes here are cheap.
+
+use super::*;
+use actin_draw::report::{Picture, save};
+use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// Nothing is told.
+const SILENT: Tell<'static> = &|_| ();
+
+static FOLDERS: AtomicUsize = AtomicUsize::new(0);
+
+/// A folder for one test, which goes with it.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new() -> Self {
+        let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
+        let name = format!("actin-figures-{}-{number}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// An artefact with one picture and one table.
+fn drawn(id: &'static str, out: &Path) -> Result<Artefact, String> {
+    let picture = format!("{id}.svg");
+    save(out, &picture, "<svg/>")?;
+    save(out, &format!("{id}.csv"), "a,b\n")?;
+    Ok(Artefact {
+        id,
+        title: "A title",
+        settings: "seeds 0 to 3".into(),
+        // A third has no short decimal form: it must come back to the last bit.
+        rows: vec![Row::measured(id, "third", "nm", 1.0 / 3.0, "")],
+        pictures: vec![Picture {
+            file: picture,
+            caption: "Seen".into(),
+        }],
+        views: Vec::new(),
+        wall_s: 0.1,
+    })
+}
+
+fn one(Run { out, progress, .. }: Run<'_>) -> Result<Artefact, String> {
+    progress.expect(3);
+    (0..3).for_each(|_| progress.done());
+    drawn("fig1", out)
+}
+
+fn two(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
+    drawn("fig2", out)
+}
+
+const BOTH: [Recipe; 2] = [("fig1", one), ("fig2", two)];
+
+fn options(out: &Path) -> Options {
+    Options {
+        ids: Vec::new(),
+        out: out.to_path_buf(),
+        quick: true,
+        threads: None,
+        fresh: false,
+        palette: Palette::default(),
+    }
+}
+
+/// Both artefacts on a shelf with this fingerprint; why each was computed, if it was.
+fn reasons(options: &Options, fingerprint: &str) -> [Option<Reason>; 2] {
+    let shelf = Shelf::new(&options.out, fingerprint.to_owned()).unwrap();
+    BOTH.map(|recipe| artefact(recipe, &shelf, options, SILENT).unwrap().1)
+}
+
+#[test]
+fn finished_artefacts_are_kept_to_the_last_bit() {
+    let folder = Folder::new();
+    let options = options(&folder.0);
+    let first = artefacts(&BOTH, &options, SILENT).unwrap();
+    let again = artefacts(&BOTH, &options, SILENT).unwrap();
+    assert_eq!(first, again);
+    assert_eq!(reasons(&options, "other")[0], Some(Reason::Outdated));
+    assert_eq!(reasons(&options, "other"), [None, None]);
+    let shelf = Shelf::new(&folder.0, "other".into()).unwrap();
+    assert_eq!(shelf.find("fig1").unwrap().runs, 3);
+}
+
+/// A missing picture, a changed table, a broken record, a wish: what is amiss is computed, and
+/// nothing else.
+#[test]
+fn what_is_amiss_is_computed_again() {
+    let folder = Folder::new();
+    let out = folder.0.as_path();
+    let options = options(out);
+    let all = || reasons(&options, "same");
+    assert_eq!(all(), [Some(Reason::NotThere), Some(Reason::NotThere)]);
+    fs::remove_file(out.join("fig1.svg")).unwrap();
+    assert_eq!(all(), [Some(Reason::FileMissing("fig1.svg".into())), None]);
+    fs::write(out.join("fig2.csv"), "a,c\n").unwrap();
+    assert_eq!(all(), [None, Some(Reason::FileChanged("fig2.csv".into()))]);
+    let record = out.join(".artefacts").join("fig2.json");
+    let text = fs::read_to_string(&record).unwrap();
+    fs::write(&record, &text[..text.len() / 2]).unwrap();
+    assert!(matches!(all(), [None, Some(Reason::Unreadable(_))]));
+    assert_eq!(all(), [None, None]);
+    let fresh = Options {
+        fresh: true,
+        ..options.clone()
+    };
+    assert_eq!(
+        reasons(&fresh, "same"),
+        [Some(Reason::Asked), Some(Reason::Asked)]
+    );
+}
+
+static FAILS: AtomicBool = AtomicBool::new(true);
+
+/// Writes one of its files and stops, as a killed command does; the next time it goes through.
+fn stops(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
+    save(out, "half.csv", "a")?;
+    if FAILS.swap(false, Ordering::Relaxed) {
+        return Err("stopped".into());
+    }
+    drawn("fig2", out)
+}
+
+/// What an ended command left behind is not taken for a result, and what it had finished is kept.
+#[test]
+fn an_ended_command_goes_on_where_it_was() {
+    let folder = Folder::new();
+    let options = options(&folder.0);
+    let recipes: [Recipe; 2] = [("fig1", one), ("fig2", stops)];
+    assert_eq!(
+        artefacts(&recipes, &options, SILENT).unwrap_err(),
+        "stopped"
+    );
+    let names = || -> BTreeSet<String> {
+        let entries = fs::read_dir(&folder.0).unwrap();
+        let names = entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned());
+        names.collect()
+    };
+    let finished = [".artefacts", "fig1.csv", "fig1.svg"];
+    assert!(names().iter().eq(finished), "{:?}", names());
+    let shelf = Shelf::new(&folder.0, kept::fingerprint(&options.choices()).unwrap()).unwrap();
+    let again = recipes.map(|recipe| artefact(recipe, &shelf, &options, SILENT).unwrap().1);
+    assert_eq!(again, [None, Some(Reason::NotThere)]);
+    assert!(names().contains("fig2.svg"));
+}
+
+/// What changes an artefact changes its fingerprint, and nothing else does.
+#[test]
+fn fingerprints_tell_choices_apart() {
+    let quick = options(Path::new("a"));
+    let full = Options {
+        quick: false,
+        ..quick.clone()
+    };
+    let elsewhere = Options {
+        out: "b".into(),
+        threads: Some(1),
+        ..quick.clone()
+    };
+    let of = |options: &Options| kept::fingerprint(&options.choices()).unwrap();
+    assert_ne!(of(&quick), of(&full));
+    assert_eq!(of(&quick), of(&elsewhere));
+}

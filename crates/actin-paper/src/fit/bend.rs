@@ -1,0 +1,213 @@
+//! Fits of bending and shear: rigidity against curvature, and what shear and twist add to it.
+
+use super::column::Column;
+use super::found::{Fault, Form, Found};
+use super::measured::{BendData, Point};
+use super::search::{LawFit, stiffened};
+use crate::measure::{Specimen, bend_by_tip_force, shear_by_force};
+use actin_cosserat::Stiffening;
+use actin_fit::{ClosureModel, Data, FitError, LevenbergMarquardt, Observations, Options, Starts};
+use actin_sim::{RodLaw, RodLaws, RodModel, ShearLaw, StretchLaw};
+
+/// Segments of the rods that stand in for filaments (nm).
+const SEGMENT_NM: f64 = 5.0;
+/// Cosine at which the search for shear ends: 5e-5 standard errors from its minimum. Deflections are
+/// those of equilibria, solved to a residual, and leave a cosine of 7e-7.
+const COSINE: f64 = 1e-5;
+/// Share of a parameter by which it moves for a derivative.
+const MOVE: f64 = 1e-3;
+
+pub(super) const TWISTED: Form = Form {
+    what: "B against twist",
+    parameters: &[("bend.twist", "rad/nm")],
+};
+pub(super) const SHEARED: Form = Form {
+    what: "shear",
+    parameters: &[("shear.cubic", "pN"), ("bend.shear", "of strain")],
+};
+
+/// The fits and what they make together.
+#[derive(Debug)]
+pub(crate) struct BendFits {
+    /// Rest, rise and curvature.
+    pub bend: LawFit<Stiffening>,
+    /// Cubic shear (pN) and the shear strain that gains half the rise.
+    pub shear: Found,
+    /// The twist that gains half the rise (rad/nm).
+    pub twist: Found,
+    /// All of it.
+    pub law: Stiffening,
+    pub cubic_pn: f64,
+    /// Stretching rigidity in tension (pN).
+    pub stretch_pn: f64,
+    /// Relative deviations of deflections and shifts: length, force, share.
+    pub checks: Vec<[f64; 3]>,
+}
+
+impl BendFits {
+    /// Fits bending first, then what twist and shear add to it.
+    pub(crate) fn new(data: &BendData) -> Result<Self, String> {
+        let bend = stiffened(&column(&data.bend))?;
+        let mut law = bend.law;
+        let twist = fit_twist(data, law)?;
+        law.twist = twist.fit.parameters[0];
+        let shear = fit_shear(data, law)?;
+        law.shear = shear.fit.parameters[1];
+        let cubic_pn = shear.fit.parameters[0];
+        let tension = data.stretch.iter().filter(|p| p.x > 0.0).map(|p| p.mean);
+        let stretch_pn = tension.clone().sum::<f64>() / tension.count() as f64;
+        let checks = beams(data).map(|(is_tip, p)| {
+            let rod = shift(is_tip, &p, law, cubic_pn);
+            [p.length_nm, p.x, rod / p.mean - 1.0]
+        });
+        Ok(Self {
+            checks: checks.collect(),
+            bend,
+            shear,
+            twist,
+            law,
+            cubic_pn,
+            stretch_pn,
+        })
+    }
+
+    /// What must not become part of a law.
+    pub(super) fn faults(&self) -> Vec<Fault> {
+        let searches = [&self.twist, &self.shear].into_iter();
+        let faults = searches.flat_map(Found::faults);
+        faults.chain(self.bend.basis.faults()).collect()
+    }
+
+    /// The parts of a scene's law that they are.
+    pub(crate) fn laws(&self) -> RodLaws {
+        RodLaws {
+            stretch: Some(StretchLaw::Constant {
+                rigidity_pn: self.stretch_pn,
+            }),
+            ..laws(self.law, self.cubic_pn)
+        }
+    }
+}
+
+fn laws(law: Stiffening, cubic_pn: f64) -> RodLaws {
+    RodLaws {
+        bend: Some(super::write::stiffening(law)),
+        shear: Some(ShearLaw::Cubic {
+            linear_pn: [0.0; 2],
+            cubic_pn,
+        }),
+        ..RodLaws::default()
+    }
+}
+
+fn relative(x: &[f64], width: usize, y: &[f64]) -> Result<Data, FitError> {
+    let weights: Vec<f64> = y.iter().map(|v| v.powi(-2)).collect();
+    Data::from_rows(width, x, Observations::new(y)?.with_weights(&weights)?)
+}
+
+fn column(points: &[Point]) -> Column {
+    let mut column = Column::default();
+    for point in points {
+        column.push(point.x, point.mean);
+    }
+    column
+}
+
+/// The one scale by which twist stiffens bending.
+fn fit_twist(data: &BendData, law: Stiffening) -> Result<Found, String> {
+    let x: Vec<f64> = data
+        .twisted
+        .iter()
+        .flat_map(|row| [row[0], row[1]])
+        .collect();
+    let y: Vec<f64> = data.twisted.iter().map(|row| row[2]).collect();
+    let secant = move |x: &[f64], twist: f64| Stiffening { twist, ..law }.secant(x[1], x[0]);
+    let model = ClosureModel::new(
+        1,
+        move |x, p| secant(x, p[0]),
+        move |x, p, gradient: &mut [f64]| {
+            let h = MOVE * p[0];
+            gradient[0] = (secant(x, p[0] + h) - secant(x, p[0] - h)) / (2.0 * h);
+        },
+    );
+    let range = data
+        .twisted
+        .iter()
+        .fold(0.0, |most: f64, row| row[0].abs().max(most));
+    let bounds = vec![(5e-3 * range, 50.0 * range)];
+    let starts = Starts::at(&[0.15 * range]).and_drawn(10, 1);
+    let data = relative(&x, 2, &y).map_err(|e| format!("{}: {e}", TWISTED.what))?;
+    Found::search(&TWISTED, &model, &data, bounds, &starts)
+}
+
+/// Tips and guided ends with what they are.
+fn beams(data: &BendData) -> impl Iterator<Item = (bool, Point)> + '_ {
+    let tips = data.tips.iter().map(|p| (true, *p));
+    tips.chain(data.guided.iter().map(|p| (false, *p)))
+}
+
+/// Cubic shear and its share in stiffening, from rods under the same loads as the filaments.
+fn fit_shear(data: &BendData, law: Stiffening) -> Result<Found, String> {
+    let all: Vec<(bool, Point)> = beams(data).collect();
+    let x: Vec<f64> = (0..all.len()).map(|i| i as f64).collect();
+    let y: Vec<f64> = all.iter().map(|(_, p)| p.mean).collect();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "an index that was made a number"
+    )]
+    let rod = move |x: &[f64], p: &[f64]| {
+        let (is_tip, point) = all[x[0] as usize];
+        shift(is_tip, &point, Stiffening { shear: p[1], ..law }, p[0])
+    };
+    let slopes = {
+        let rod = rod.clone();
+        move |x: &[f64], p: &[f64], gradient: &mut [f64]| {
+            for j in 0..2 {
+                let h = MOVE * p[j];
+                let at = |side: f64| {
+                    let mut moved = [p[0], p[1]];
+                    moved[j] += side * h;
+                    rod(x, &moved)
+                };
+                gradient[j] = (at(1.0) - at(-1.0)) / (2.0 * h);
+            }
+        }
+    };
+    let bounds = vec![(1e4, 1e8), (1e-4, 1.0)];
+    let model = ClosureModel::new(2, rod, slopes);
+    let data = relative(&x, 1, &y).map_err(|e| format!("{}: {e}", SHEARED.what))?;
+    let options = Options {
+        cosine: COSINE,
+        ..Options::default()
+    };
+    let method = LevenbergMarquardt::new(options).map_err(|e| e.to_string())?;
+    let starts = Starts::at(&[1e6, 1e-2]);
+    Found::search_by(method, &SHEARED, &model, &data, bounds, &starts)
+}
+
+/// How far a rod of this law goes where a filament was measured (nm); not a number if it has no
+/// equilibrium there.
+fn shift(is_tip: bool, point: &Point, law: Stiffening, cubic_pn: f64) -> f64 {
+    let rod = RodModel {
+        law: RodLaw::Laws(Box::new(laws(law, cubic_pn))),
+        ..RodModel::default()
+    };
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "tens of segments"
+    )]
+    let segments = (point.length_nm / SEGMENT_NM).round() as usize;
+    let specimen = Specimen::rod(point.length_nm, Some(segments), rod);
+    let found = if is_tip {
+        bend_by_tip_force(&specimen, &[point.x], 0.0)
+            .ok()
+            .and_then(|curve| curve.points.first().map(|p| p.deflection_nm))
+    } else {
+        shear_by_force(&specimen, &[point.x], 0.0)
+            .ok()
+            .and_then(|curve| curve.points.first().map(|p| p.shift_nm))
+    };
+    found.unwrap_or(f64::NAN)
+}

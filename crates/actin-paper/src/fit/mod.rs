@@ -1,0 +1,100 @@
+//! A rod's laws fitted to tables or to filaments of monomers.
+
+mod bend;
+mod column;
+mod data;
+mod forms;
+mod found;
+mod measured;
+mod own;
+mod pictures;
+mod print;
+mod search;
+mod table;
+#[cfg(test)]
+mod tests;
+mod twist;
+mod write;
+
+pub(crate) use data::TwistData;
+pub(crate) use pictures::{Beside, draw};
+pub(crate) use twist::{TwistFits, rms};
+
+use crate::Tell;
+use bend::BendFits;
+use measured::BendData;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// What is fitted, and where the result goes.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Fits a table of one's own, with its columns of twist, length, bending or stretch
+    /// (docs/fitting.md).
+    pub data: Option<PathBuf>,
+    /// Measures filaments of monomers first and fits what they show, bending and shear included.
+    pub measure: bool,
+    /// Takes also the rows of the paper's tables above 200 degrees, which it calls unreliable.
+    pub all_rows: bool,
+    /// Accepts these parameters, such as `b3.rest,bend.rise`, at a bound of their search; any other
+    /// one there is a failure, and nothing is written.
+    pub allow_bounds: Vec<String>,
+    /// Where to write laws, curves and pictures.
+    pub out: PathBuf,
+}
+
+/// Fits, prints and writes.
+///
+/// # Errors
+/// Data that cannot be read or fitted, and a fit with a parameter at a bound that is not allowed, or
+/// that the data do not determine. Nothing is written then.
+pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
+    let started = Instant::now();
+    let out: &Path = &options.out;
+    search::check_keys(&options.allow_bounds)?;
+    match &options.data {
+        Some(path) => own::run(path, &options.allow_bounds, out, tell)?,
+        None => tables(options, out, tell)?,
+    }
+    tell(format_args!(
+        "written to {} in {:.1} s: laws as RON, curves as CSV, pictures as SVG",
+        out.display(),
+        started.elapsed().as_secs_f64()
+    ));
+    Ok(())
+}
+
+/// Fits the paper's tables, or filaments measured on the spot.
+fn tables(options: &Options, out: &Path, tell: Tell<'_>) -> Result<(), String> {
+    let data = if options.measure {
+        measured::twisted()?
+    } else {
+        TwistData::from_paper(options.all_rows)?
+    };
+    let fits = TwistFits::new(&data)?;
+    print::twist(tell, &data, &fits);
+    let mut faults = fits.faults();
+    let mut bend = None;
+    if options.measure {
+        tell(format_args!("measuring bending and shear ..."));
+        let data = BendData::measure()?;
+        let fits = BendFits::new(&data)?;
+        print::bend(tell, &data, &fits);
+        faults.extend(fits.faults());
+        bend = Some((data, fits));
+    }
+    found::accept(&faults, &options.allow_bounds)?;
+    create(out)?;
+    if let Some((data, fits)) = &bend {
+        write::bend_csv(data, fits, out)?;
+    }
+    write::laws(&fits, bend.as_ref().map(|(_, fits)| fits), out)?;
+    write::curves(&data, &fits, out)?;
+    draw(&data, &fits, &[], out)?;
+    Ok(())
+}
+
+fn create(out: &Path) -> Result<(), String> {
+    fs::create_dir_all(out).map_err(|e| format!("{}: {e}", out.display()))
+}

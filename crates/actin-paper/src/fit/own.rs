@@ -1,0 +1,205 @@
+//! Fits of a table of one's own: for each group of its columns the law that a scene has for it.
+
+use super::column::Column;
+use super::found::{self, Fault, Found};
+use super::search::{LawFit, rooted, sided, stiffened, stretched};
+use super::table::Table;
+use super::twist::rms;
+use super::{create, pictures, print, write};
+use crate::Tell;
+use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, StretchLaw};
+use actin_draw::report::write_csv;
+use actin_fit::{Goodness, Model};
+use actin_sim::RodLaws;
+use std::path::Path;
+
+/// The laws that a table has columns for.
+#[derive(Clone, Debug)]
+pub(super) struct OwnFits {
+    twist: Option<(SidedTwist, Found)>,
+    length: Option<LawFit<RootedStretch>>,
+    bend: Option<LawFit<Stiffening>>,
+    stretch: Option<LawFit<StretchLaw>>,
+}
+
+/// A law beside its data, as it is printed, written and drawn.
+pub(super) struct Curve<'a> {
+    /// Begin of file names.
+    pub name: &'static str,
+    pub title: &'static str,
+    pub x_label: &'static str,
+    pub y_label: &'static str,
+    pub data: &'a Column,
+    pub law: Box<dyn Fn(f64) -> f64 + 'a>,
+}
+
+/// Reads, fits, prints and writes.
+///
+/// # Errors
+/// A table that is refused, a fit that fails or may not become a law, a file that cannot be written.
+pub(super) fn run(
+    path: &Path,
+    allowed: &[String],
+    out: &Path,
+    tell: Tell<'_>,
+) -> Result<(), String> {
+    let table = Table::from_csv(path)?;
+    let fits = OwnFits::new(&table)?;
+    fits.print(tell, &table);
+    found::accept(&fits.faults(), allowed)?;
+    create(out)?;
+    write::law(&fits.laws(), "rod-law.ron", out)?;
+    for curve in fits.curves(&table) {
+        let rows = curve.data.pairs().map(|(x, value)| {
+            [x, value, (curve.law)(x)]
+                .map(|x| format!("{x:.8e}"))
+                .to_vec()
+        });
+        let header = [curve.x_label, curve.y_label, "law"];
+        write_csv(out, &format!("{}.csv", curve.name), &header, rows)?;
+        pictures::curve_with_data(&curve, out)?;
+    }
+    Ok(())
+}
+
+/// Nothing where a column is empty.
+fn fit<L>(
+    column: &Column,
+    fit: impl FnOnce(&Column) -> Result<L, String>,
+) -> Result<Option<L>, String> {
+    (!column.is_empty()).then(|| fit(column)).transpose()
+}
+
+impl OwnFits {
+    pub(super) fn new(table: &Table) -> Result<Self, String> {
+        Ok(Self {
+            twist: fit(&table.rigidity, sided)?,
+            length: fit(&table.length, rooted)?,
+            bend: fit(&table.bend, stiffened)?,
+            stretch: fit(&table.stretch, stretched)?,
+        })
+    }
+
+    /// What must not become part of a law.
+    pub(super) fn faults(&self) -> Vec<Fault> {
+        let twist = self.twist.iter().flat_map(|(_, found)| found.faults());
+        let length = self.length.iter().flat_map(|fit| fit.basis.faults());
+        let bend = self.bend.iter().flat_map(|fit| fit.basis.faults());
+        let stretch = self.stretch.iter().flat_map(|fit| fit.basis.faults());
+        twist.chain(length).chain(bend).chain(stretch).collect()
+    }
+
+    /// What a scene takes behind `law:`; what the table does not tell is left to the material.
+    pub(super) fn laws(&self) -> RodLaws {
+        RodLaws {
+            twist: self.twist.as_ref().map(|(law, _)| write::sided(*law)),
+            twist_stretch: self.length.as_ref().map(|fit| write::rooted(fit.law)),
+            bend: self.bend.as_ref().map(|fit| write::stiffening(fit.law)),
+            stretch: self.stretch.as_ref().map(|fit| write::stretch(fit.law)),
+            ..RodLaws::default()
+        }
+    }
+
+    fn print(&self, tell: Tell<'_>, table: &Table) {
+        tell(format_args!("data: {}", table.source));
+        if let Some((law, found)) = &self.twist {
+            let form = "B3 = rest + rise k^2/(k^2 + slow |k| + half^2)";
+            head(tell, form, &table.rigidity);
+            print::nonlinear(tell, found, None);
+            quality(tell, &table.rigidity, &found.fit.goodness, |k| {
+                law.secant(k)
+            });
+        }
+        if let Some(LawFit { law, basis }) = &self.length {
+            let form = "dL/L = slope k - bend (sqrt(k^2 + half^2) - half) + cubic k^3";
+            head(tell, form, &table.length);
+            print::basis(tell, basis);
+            quality(tell, &table.length, basis.goodness(), |k| law.jet(k)[0]);
+        }
+        if let Some(LawFit { law, basis }) = &self.bend {
+            let form = "B = rest + rise q/(1 + q), q = k^2/curvature^2";
+            head(tell, form, &table.bend);
+            print::basis(tell, basis);
+            quality(tell, &table.bend, basis.goodness(), |k| law.secant(k, 0.0));
+        }
+        if let Some(LawFit { law, basis }) = &self.stretch {
+            head(
+                tell,
+                "strain of a force, with one rigidity or two",
+                &table.stretch,
+            );
+            print::basis(tell, basis);
+            if let StretchLaw::Constant(rigidity) = law {
+                tell(format_args!("  rigidity {rigidity:.5e} pN"));
+            }
+            quality(tell, &table.stretch, basis.goodness(), |f| strain(*law, f));
+        }
+    }
+
+    pub(super) fn curves<'a>(&'a self, table: &'a Table) -> Vec<Curve<'a>> {
+        let mut curves = Vec::new();
+        let mut add = |name, title, labels: [&'static str; 2], data, law| {
+            curves.push(Curve {
+                name,
+                title,
+                x_label: labels[0],
+                y_label: labels[1],
+                data,
+                law,
+            });
+        };
+        if let Some((law, _)) = &self.twist {
+            let labels = ["kappa3_rad_per_nm", "b3_pn_nm2"];
+            let law = Box::new(|k| law.secant(k));
+            add("twist", "Twisting rigidity", labels, &table.rigidity, law);
+        }
+        if let Some(LawFit { law, .. }) = &self.length {
+            let labels = ["kappa3_rad_per_nm", "dl_over_l"];
+            let law = Box::new(|k| law.jet(k)[0]);
+            add("length", "Change of length", labels, &table.length, law);
+        }
+        if let Some(LawFit { law, .. }) = &self.bend {
+            let labels = ["curvature_rad_per_nm", "b_pn_nm2"];
+            let law = Box::new(|k| law.secant(k, 0.0));
+            add("bend", "Bending rigidity", labels, &table.bend, law);
+        }
+        if let Some(LawFit { law, .. }) = &self.stretch {
+            let labels = ["force_pn", "strain"];
+            let law = Box::new(|f| strain(*law, f));
+            add("stretch", "Strain", labels, &table.stretch, law);
+        }
+        curves
+    }
+}
+
+fn strain(law: StretchLaw, force: f64) -> f64 {
+    match law {
+        StretchLaw::Constant(rigidity) => force / rigidity,
+        StretchLaw::Sided {
+            tension,
+            compression,
+            width,
+        } => super::forms::Stretched.value(&[force], &[tension, compression, width]),
+    }
+}
+
+fn head(tell: Tell<'_>, form: &str, column: &Column) {
+    let weights = if column.is_known() {
+        "weighted by their standard errors"
+    } else {
+        "without standard errors"
+    };
+    tell(format_args!("\n{form}, {} values {weights}", column.len()));
+}
+
+/// How well a law meets its data.
+fn quality(tell: Tell<'_>, column: &Column, goodness: &Goodness, law: impl Fn(f64) -> f64) {
+    if column.is_known() {
+        print::chi_squared(tell, goodness);
+    }
+    tell(format_args!(
+        "  rms {:.3e}, largest {:.1e}",
+        rms(column, &law, false),
+        print::largest(column, &law, false)
+    ));
+}

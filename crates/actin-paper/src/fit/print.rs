@@ -1,0 +1,230 @@
+//! What the fits say, as text.
+
+use super::bend::BendFits;
+use super::column::Column;
+use super::data::TwistData;
+use super::found::Found;
+use super::measured::BendData;
+use super::search::Basis;
+use super::twist::{TwistFits, rms};
+use crate::Tell;
+use actin_cosserat::{PolynomialStretch, TanhTwist};
+use actin_fit::{Goodness, LinearFit, Precision, Status};
+
+/// Agreement of chi squared that counts starts as having found the same minimum.
+const SAME: f64 = 1e-6;
+
+/// Fits of B3 and xi.
+pub(super) fn twist(tell: Tell<'_>, data: &TwistData, fits: &TwistFits) {
+    tell(format_args!("data: {}", data.source));
+    length(tell, data, fits);
+    rigidity(tell, data, fits);
+}
+
+fn length(tell: Tell<'_>, data: &TwistData, fits: &TwistFits) {
+    let xi = &data.length;
+    tell(format_args!(
+        "\nxi - 1 = sum p_i kappa^i, {} values",
+        xi.value.len()
+    ));
+    let published = PolynomialStretch::published().coefficients;
+    polynomial(tell, &fits.polynomial, &published);
+    tell(format_args!(
+        "  rms of the published p_i: {:.3e}, without p_0 {:.3e}",
+        fits.published_xi_rms[0], fits.published_xi_rms[1]
+    ));
+    tell(format_args!("\nthe same without p_0"));
+    polynomial(tell, &fits.without_offset, &published[1..]);
+    tell(format_args!(
+        "\nxi - 1 = slope k - bend (sqrt(k^2 + half^2) - half) + cubic k^3"
+    ));
+    basis(tell, &fits.rooted.basis);
+    let law = fits.rooted.law;
+    tell(format_args!(
+        "  rms {:.3e}, largest {:.1e}",
+        fits.rooted.basis.goodness().rms,
+        largest(xi, |k| law.jet(k)[0], false)
+    ));
+}
+
+fn rigidity(tell: Tell<'_>, data: &TwistData, fits: &TwistFits) {
+    let b3 = &data.rigidity;
+
+    tell(format_args!(
+        "\nB3, published form, {} values, equal weights",
+        b3.value.len()
+    ));
+    let published = TanhTwist::published();
+    nonlinear(tell, &fits.tanh, Some(&published.lambda));
+    tell(format_args!(
+        "  rms {:.1} pN nm^2; of the published lambda {:.1} ({:.1} % relative)",
+        fits.tanh.fit.goodness.rms,
+        fits.published_b3_rms[0],
+        100.0 * fits.published_b3_rms[1]
+    ));
+    tell(format_args!("\nB3, published form, relative weights"));
+    nonlinear(tell, &fits.tanh_relative, Some(&published.lambda));
+    let relative = |found: &Found| 100.0 * rms(b3, |k| fits.tanh_law(&found.fit).secant(k), true);
+    tell(format_args!(
+        "  rms {:.2} % relative (equal weights: {:.2} %)",
+        relative(&fits.tanh_relative),
+        relative(&fits.tanh)
+    ));
+    saturating(tell, data, fits);
+}
+
+fn saturating(tell: Tell<'_>, data: &TwistData, fits: &TwistFits) {
+    let b3 = &data.rigidity;
+    tell(format_args!(
+        "\nB3 = rest + rise k^2/(k^2 + slow |k| + half^2), relative weights"
+    ));
+    nonlinear(tell, &fits.sided.1, None);
+    let law = fits.sided.0;
+    tell(format_args!(
+        "  rms {:.2} % relative, largest {:.1} %; {:.1} pN nm^2",
+        100.0 * rms(b3, |k| law.secant(k), true),
+        100.0 * largest(b3, |k| law.secant(k), true),
+        rms(b3, |k| law.secant(k), false)
+    ));
+}
+
+/// Largest difference, or relative difference, of `law` and a column.
+pub(super) fn largest(column: &Column, law: impl Fn(f64) -> f64, relative: bool) -> f64 {
+    let differences = column.pairs().map(|(k, value)| {
+        let scale = if relative { value } else { 1.0 };
+        ((law(k) - value) / scale).abs()
+    });
+    differences.fold(0.0, f64::max)
+}
+
+/// Fits of bending and shear.
+pub(super) fn bend(tell: Tell<'_>, data: &BendData, fits: &BendFits) {
+    tell(format_args!(
+        "\nB = rest + rise q/(1 + q), q = k^2/k0^2, {} values",
+        data.bend.len()
+    ));
+    basis(tell, &fits.bend.basis);
+    tell(format_args!("  twist in q: {} values", data.twisted.len()));
+    nonlinear(tell, &fits.twist, None);
+    tell(format_args!(
+        "  shear in q, and cubic: {} tips and guided ends",
+        fits.checks.len()
+    ));
+    nonlinear(tell, &fits.shear, None);
+    tell(format_args!(
+        "  stretching rigidity against axial force, turn blocked:"
+    ));
+    for p in &data.stretch {
+        tell(format_args!(
+            "    {:7.1} pN: {:.0} +- {:.0} pN",
+            p.x, p.mean, p.error
+        ));
+    }
+    tell(format_args!(
+        "  the law takes the mean in tension, {:.0} pN",
+        fits.stretch_pn
+    ));
+    tell(format_args!("  rods of this law against the filaments:"));
+    for [length, force, share] in &fits.checks {
+        tell(format_args!(
+            "    {length:6.1} nm, {force:6.3} pN: {:+.2} %",
+            100.0 * share
+        ));
+    }
+}
+
+fn polynomial(tell: Tell<'_>, fit: &LinearFit, published: &[f64]) {
+    let first = 7 - published.len();
+    for (j, (value, theirs)) in fit.parameters.iter().zip(published).enumerate() {
+        let error = standard_error(&fit.precision, j);
+        tell(format_args!(
+            "  p_{} = {value:13.5e} +- {error}, published {theirs:13.5e}",
+            j + first
+        ));
+    }
+    tell(format_args!(
+        "  rms {:.3e}, rank {}, condition {:.1e}",
+        fit.goodness.rms, fit.precision.rank, fit.precision.condition
+    ));
+}
+
+fn standard_error(precision: &Precision, j: usize) -> String {
+    precision
+        .standard_error(j)
+        .map_or_else(|| "   -   ".into(), |e| format!("{e:7.1e}"))
+}
+
+/// The fit behind a law.
+pub(super) fn basis(tell: Tell<'_>, basis: &Basis) {
+    match basis {
+        Basis::Full(found) => nonlinear(tell, found, None),
+        Basis::Simple { note, names, fit } => {
+            tell(format_args!("  {note}"));
+            for (j, (name, value)) in names.iter().zip(&fit.parameters).enumerate() {
+                let error = standard_error(&fit.precision, j);
+                tell(format_args!("  {name:24} = {value:12.5e} +- {error}"));
+            }
+        }
+    }
+}
+
+/// Chi squared of values with standard errors.
+pub(super) fn chi_squared(tell: Tell<'_>, goodness: &Goodness) {
+    let freedom = goodness.degrees_of_freedom;
+    tell(format_args!(
+        "  chi^2 = {:.4} for {freedom} degrees of freedom; errors are those of the given ones",
+        goodness.chi_squared
+    ));
+}
+
+pub(super) fn nonlinear(tell: Tell<'_>, found: &Found, published: Option<&[f64]>) {
+    let (fit, parameters) = (&found.fit, found.form.parameters);
+    for (j, ((key, unit), value)) in parameters.iter().zip(&fit.parameters).enumerate() {
+        let error = standard_error(&fit.precision, j);
+        let theirs = published.map_or_else(String::new, |p| format!(", published {:11.4e}", p[j]));
+        let status = match fit.statuses[j] {
+            Status::Determined => "",
+            Status::Weak => ", WEAK: known worse than its bounds",
+            Status::Undetermined => ", NOT DETERMINED by the data",
+            Status::AtLowerBound => ", AT ITS LOWER BOUND",
+            Status::AtUpperBound => ", AT ITS UPPER BOUND",
+            Status::Held => ", held",
+        };
+        tell(format_args!(
+            "  {key:18} = {value:12.5e} +- {error} {unit}{theirs}{status}"
+        ));
+    }
+    let keys: Vec<&str> = parameters.iter().map(|(key, _)| *key).collect();
+    tell(format_args!(
+        "  largest correlation {}",
+        strongest(&fit.precision, &keys)
+    ));
+    let converged = fit
+        .starts
+        .iter()
+        .filter(|s| s.ending.is_converged())
+        .count();
+    tell(format_args!(
+        "  {} of {} starts found this minimum, {converged} converged; condition {:.1e}",
+        fit.agreeing_starts(SAME),
+        fit.starts.len(),
+        fit.precision.condition
+    ));
+}
+
+/// The two parameters that the data tell apart worst.
+fn strongest(precision: &Precision, names: &[&str]) -> String {
+    let correlation = precision.correlation();
+    let mut worst = (0.0_f64, 0, 0);
+    for i in 0..names.len() {
+        for j in 0..i {
+            if correlation[(i, j)].abs() > worst.0.abs() {
+                worst = (correlation[(i, j)], i, j);
+            }
+        }
+    }
+    match worst {
+        (0.0, ..) => "none".into(),
+        (value, i, j) => format!("{value:+.3} ({}, {})", names[j], names[i]),
+    }
+}

@@ -1,0 +1,331 @@
+//! Tables of known laws: they come back within their errors, at any size, and a scene takes them.
+
+use super::column::Column;
+use super::forms::{Rooted, Sided, Stiffened, Stretched};
+use super::own::OwnFits;
+use super::search::{Basis, LawFit, rooted, sided, stiffened, stretched};
+use super::table::Table;
+use super::{Options, run};
+use crate::measure::{Specimen, bend_by_couples, stretch_by_force, twist};
+use actin_cosserat::StretchLaw;
+use actin_fit::{Fit, Model};
+use actin_sim::{Assembly, Scene};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// Normal numbers of mean 0 and deviation 1: sums of twelve uniform ones.
+struct Noise(u64);
+
+impl Noise {
+    fn next(&mut self) -> f64 {
+        let uniform = |_| {
+            // Knuth's linear congruence; the upper bits are taken.
+            self.0 = self
+                .0
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 11) as f64 / (1u64 << 53) as f64
+        };
+        (0..12).map(uniform).sum::<f64>() - 6.0
+    }
+}
+
+/// Places to both sides, closer at rest.
+fn sides(count: i32, range: f64) -> Vec<f64> {
+    let place = |i: i32| (f64::from(i) / f64::from(count)).powi(2) * range * f64::from(i.signum());
+    (-count..=count).map(place).collect()
+}
+
+/// Values of a model with noise of `share` of each, and that as standard error.
+fn observed(model: &dyn Model, x: &[f64], p: &[f64], share: f64, seed: u64) -> Column {
+    let mut noise = Noise(seed);
+    let mut column = Column::default();
+    for &x in x {
+        let value = model.value(&[x], p);
+        let error = share * value.abs().max(1e-12);
+        column.push(x, value + error * noise.next());
+        if share > 0.0 {
+            column.error.push(error);
+        }
+    }
+    column
+}
+
+/// Parameters within 4 standard errors of the truth; chi squared within 4 of its deviations.
+fn assert_near(fit: &Fit, truth: &[f64]) {
+    for (j, (got, is)) in fit.parameters.iter().zip(truth).enumerate() {
+        let error = fit.precision.standard_error(j).expect("determined");
+        assert!(
+            (got - is).abs() < 4.0 * error,
+            "{j}: {got:e} {is:e} +- {error:e}"
+        );
+        assert!(
+            error < is.abs(),
+            "{j}: an error that says nothing, {error:e} of {is:e}"
+        );
+    }
+    let freedom = fit.goodness.degrees_of_freedom as f64;
+    let excess = (fit.goodness.chi_squared - freedom) / (2.0 * freedom).sqrt();
+    assert!(
+        excess.abs() < 4.0,
+        "chi^2 {} of {freedom}",
+        fit.goodness.chi_squared
+    );
+}
+
+fn full<L>(fit: &LawFit<L>) -> &Fit {
+    match &fit.basis {
+        Basis::Full(found) => {
+            assert!(found.faults().is_empty(), "{:?}", found.faults());
+            &found.fit
+        }
+        Basis::Simple { note, .. } => panic!("{note}"),
+    }
+}
+
+/// Twisting rigidities of any size, with 1 % of noise; a search that is capped at 5e3 fails from
+/// the second size on.
+#[test]
+fn twist_comes_back_at_every_size() {
+    for (seed, rest) in [(1, 100.0), (2, 1e4), (3, 1e5), (4, 3e3)] {
+        for range in [0.05, 2e-3] {
+            let truth = [
+                rest,
+                2.0 * rest,
+                0.2 * range,
+                0.4 * range,
+                4.0 * rest,
+                0.3 * range,
+                0.3 * range,
+            ];
+            let column = observed(&Sided { range }, &sides(40, range), &truth, 0.01, seed);
+            let (law, found) = sided(&column).unwrap();
+            assert!(found.faults().is_empty(), "{rest}: {:?}", found.faults());
+            assert_near(&found.fit, &truth);
+            assert!((law.range / range - 1.0).abs() < 1e-12);
+        }
+    }
+}
+
+/// Without noise the parameters come back to many digits, whatever rigidities and lengths are.
+#[test]
+fn clean_tables_give_their_laws() {
+    let range = 0.05;
+    for size in [1e-3, 1.0, 1e5] {
+        let near = |fit: &Fit, truth: &[f64]| {
+            for (got, is) in fit.parameters.iter().zip(truth) {
+                assert!((got / is - 1.0).abs() < 1e-6, "{size}: {got} {is}");
+            }
+        };
+        let truth = [size, 3.0 * size, 0.01, 0.02, 5.0 * size, 0.012, 0.01];
+        let (_, found) = sided(&observed(
+            &Sided { range },
+            &sides(15, range),
+            &truth,
+            0.0,
+            1,
+        ))
+        .unwrap();
+        near(&found.fit, &truth);
+        let truth = [-0.3 * size, 0.45 * size, 7e-3, 30.0 * size];
+        let column = observed(&Rooted { range }, &sides(15, range), &truth, 0.0, 1);
+        near(full(&rooted(&column).unwrap()), &truth);
+        let truth = [size, 0.3 * size, 0.2 * range];
+        let x: Vec<f64> = sides(15, range)[16..].to_vec();
+        let column = observed(&Stiffened { range }, &x, &truth, 0.0, 1);
+        near(full(&stiffened(&column).unwrap()), &truth);
+        let truth = [3.0 * size, size, 1e-3];
+        let column = observed(&Stretched, &sides(15, 0.02 * size), &truth, 0.0, 1);
+        near(full(&stretched(&column).unwrap()), &truth);
+    }
+}
+
+#[test]
+fn bending_and_stretch_come_back_at_every_size() {
+    for (seed, rest) in [(5, 100.0), (6, 3e4), (7, 1e5)] {
+        let (range, truth) = (0.02, [rest, 0.4 * rest, 4e-3]);
+        let x: Vec<f64> = (1..60).map(|i| range * f64::from(i) / 59.0).collect();
+        let column = observed(&Stiffened { range }, &x, &truth, 0.01, seed);
+        assert_near(full(&stiffened(&column).unwrap()), &truth);
+        let truth = [3.0 * rest, rest, 1e-3];
+        let column = observed(&Stretched, &sides(30, 0.02 * rest), &truth, 0.01, seed);
+        assert_near(full(&stretched(&column).unwrap()), &truth);
+    }
+}
+
+/// A constant B, one rigidity on both sides and a single slope are told from their noise: the form
+/// with more parameters, two of which the data would not determine, is not taken.
+#[test]
+fn simpler_laws_are_taken_where_they_do() {
+    let x: Vec<f64> = (1..30).map(|i| 5e-4 * f64::from(i)).collect();
+    for share in [0.0, 0.02] {
+        let column = observed(&Stiffened { range: 0.015 }, &x, &[2e4, 0.0, 1e-3], share, 9);
+        let bend = stiffened(&column).unwrap();
+        assert!((bend.law.rest / 2e4 - 1.0).abs() < 0.02 && bend.law.rise.abs() < 1e-9);
+        bend.law.validate().unwrap();
+        let column = observed(&Stretched, &sides(12, 200.0), &[2e4, 2e4, 1e-3], share, 9);
+        let stretch = stretched(&column).unwrap().law;
+        let StretchLaw::Constant(rigidity) = stretch else {
+            panic!("{stretch:?}");
+        };
+        assert!((rigidity / 2e4 - 1.0).abs() < 0.02);
+        let truth = [-0.3, 0.0, 7e-3, 20.0];
+        let column = observed(&Rooted { range: 0.05 }, &sides(12, 0.05), &truth, share, 9);
+        let length = rooted(&column).unwrap().law;
+        assert!((length.slope / -0.3 - 1.0).abs() < 0.03 && length.bend.abs() < 1e-12);
+        length.validate().unwrap();
+    }
+    // Bending that softens is no constant.
+    let column = observed(&Stiffened { range: 0.015 }, &x, &[2e4, -8e3, 4e-3], 0.01, 9);
+    let message = stiffened(&column).unwrap_err();
+    assert!(message.contains("no law softens"), "{message}");
+}
+
+/// The command, with nothing told.
+fn fitted(options: &Options) -> Result<(), String> {
+    run(options, &|_| ())
+}
+
+/// The case that was capped: smooth rigidities of 8 to 20e3.
+#[test]
+fn stiff_data_are_met() {
+    let mut column = Column::default();
+    for x in sides(12, 0.05) {
+        column.push(x, 8e3 + 12e3 * x * x / (x * x + 4e-4));
+    }
+    let (law, found) = sided(&column).unwrap();
+    // The form lacks nothing: slow is zero, at its bound, or above it by rounding.
+    for (x, value) in column.pairs() {
+        assert!(
+            (law.secant(x) / value - 1.0).abs() < 1e-5,
+            "{x}: {} {value}",
+            law.secant(x)
+        );
+    }
+    assert!((found.fit.parameters[0] / 8e3 - 1.0).abs() < 1e-4);
+}
+
+fn options(data: &Path, out: &Path, allowed: &[&str]) -> Options {
+    Options {
+        data: Some(data.to_owned()),
+        measure: false,
+        all_rows: false,
+        allow_bounds: allowed.iter().map(|key| (*key).to_owned()).collect(),
+        out: out.to_owned(),
+    }
+}
+
+/// Rigidities that rise as the square of the twist, to no limit: the rises stop at their bounds. This
+/// is a failure that leaves nothing behind, unless each of them is allowed.
+#[test]
+fn a_parameter_at_a_bound_is_a_failure() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, out) = (folder.path().join("data.csv"), folder.path().join("out"));
+    let rows = sides(10, 0.05)
+        .into_iter()
+        .map(|k| format!("{k},{}\n", 500.0 + 1e7 * k * k));
+    let table = format!("kappa3_rad_per_nm,b3_pn_nm2\n{}", rows.collect::<String>());
+    std::fs::write(&file, table).unwrap();
+    let message = fitted(&options(&file, &out, &[])).unwrap_err();
+    assert!(
+        message.starts_with("no law is written: B3 against twist: b3."),
+        "{message}"
+    );
+    assert!(message.contains(" is at its upper bound, "), "{message}");
+    assert!(
+        message.contains("pN nm^2") && message.contains("--allow-bounds b3."),
+        "{message}"
+    );
+    assert!(!out.exists());
+    let (_, keys) = message.split_once("--allow-bounds ").unwrap();
+    let keys: Vec<&str> = keys.trim_end_matches(" accepts").split(',').collect();
+    let fewer = fitted(&options(&file, &out, &keys[1..])).unwrap_err();
+    assert!(fewer.contains(keys[0]) && !out.exists(), "{fewer}");
+    fitted(&options(&file, &out, &keys)).unwrap();
+    assert!(out.join("rod-law.ron").exists());
+    let unknown = fitted(&options(&file, &out, &["b3.rests"])).unwrap_err();
+    assert!(
+        unknown.starts_with("--allow-bounds b3.rests: must be of b3.rest, "),
+        "{unknown}"
+    );
+}
+
+/// Data on one side do not tell the other, and twist that is one place tells no law.
+#[test]
+fn what_the_data_do_not_tell_is_refused() {
+    let mut column = Column::default();
+    for x in (1..20).map(|i| 2e-3 * f64::from(i)) {
+        column.push(x, 1e3 + 1e6 * x);
+    }
+    let message = sided(&column).unwrap_err();
+    assert_eq!(
+        message,
+        "B3 against twist: 0 values of under-twist, at least 3 are needed"
+    );
+    let mut column = Column::default();
+    for i in 0..10 {
+        column.push(0.01 * f64::from(2 * (i % 2) - 1), 1e3 + f64::from(i));
+    }
+    let faults = sided(&column).unwrap().1.faults();
+    let message = super::found::accept(&faults, &[]).unwrap_err();
+    assert!(
+        message.contains("the data do not determine b3."),
+        "{message}"
+    );
+}
+
+/// A rod of 75 nm with this law, turned by a quarter.
+fn scene_with(law: &str) -> Scene {
+    let text = format!(
+        "Scene(title: \"mine\", filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 75.0)], \
+         rod: RodModel(law:\n{law})), clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)], \
+         path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 90.0))])], task: Equilibrium())"
+    );
+    Scene::from_ron(&text).unwrap()
+}
+
+/// The example of the documentation is a table, its law is written, and a scene with that law as
+/// written runs and shows the rigidities of the table.
+#[test]
+fn a_scene_takes_what_is_written() {
+    let page = include_str!("../../../../docs/fitting.md");
+    let (_, rest) = page.split_once("```csv\n").unwrap();
+    let (example, _) = rest.split_once("```").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let (file, out) = (folder.path().join("data.csv"), folder.path().join("out"));
+    std::fs::write(&file, example).unwrap();
+    fitted(&options(&file, &out, &[])).unwrap();
+    let law = std::fs::read_to_string(out.join("rod-law.ron")).unwrap();
+    let scene = scene_with(&law);
+    let rod = scene.filament.rod.clone();
+    let mut assembly = Assembly::build(&scene).unwrap();
+    actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())).unwrap();
+
+    let table = Table::from_csv(&file).unwrap();
+    let fits = OwnFits::new(&table).unwrap();
+    let expected = |name: &str, x: f64| {
+        let curves = fits.curves(&table);
+        let curve = curves.iter().find(|curve| curve.name == name).unwrap();
+        (curve.law)(x)
+    };
+    let near = |got: f64, is: f64| assert!((got / is - 1.0).abs() < 1e-5, "{got} {is}");
+    let specimen = Specimen::rod(75.0, None, rod);
+    for point in twist(&specimen, &[-120.0, 60.0]).unwrap().points {
+        near(
+            point.rigidity_pn_nm2,
+            expected("twist", point.curvature_rad_per_nm),
+        );
+    }
+    for point in bend_by_couples(&specimen, &[1e-3, 5e-3], 0.0)
+        .unwrap()
+        .points
+    {
+        near(
+            point.rigidity_pn_nm2,
+            expected("bend", point.curvature_rad_per_nm),
+        );
+    }
+    for point in stretch_by_force(&specimen, &[10.0, 100.0]).unwrap().points {
+        near(point.strain, expected("stretch", point.force_pn));
+    }
+}

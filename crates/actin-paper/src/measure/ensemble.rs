@@ -1,0 +1,103 @@
+//! Many bond samplings of one filament, and what their curves have in common.
+
+use super::sweep::Curve;
+use super::{MeasureError, Specimen};
+use rayon::prelude::*;
+
+/// Mean and scatter of one quantity over specimens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampled {
+    /// Arithmetic mean; not a number of no values.
+    pub mean: f64,
+    /// Standard deviation of a single value, `sqrt(sum (x - mean)^2 / (n - 1))`; not a number of
+    /// fewer than two.
+    pub deviation: f64,
+    /// Standard error of the mean, `deviation / sqrt(n)`, if the values are independent.
+    pub error: f64,
+    /// Number of values.
+    pub count: usize,
+}
+
+impl Sampled {
+    /// Mean and scatter of some values.
+    ///
+    /// ```
+    /// let sampled = actin_paper::measure::Sampled::of([1.0, 3.0]);
+    /// assert_eq!((sampled.mean, sampled.count), (2.0, 2));
+    /// assert!((sampled.deviation - 2.0_f64.sqrt()).abs() < 1e-15 && sampled.error == 1.0);
+    /// ```
+    pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
+        let values: Vec<f64> = values.into_iter().collect();
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
+        // Of one value the quotient is 0 / 0, of none it is 0 / -1, and the mean says so.
+        let deviation = (squares / (n - 1.0)).sqrt();
+        Self {
+            mean,
+            deviation,
+            error: deviation / n.sqrt(),
+            count: values.len(),
+        }
+    }
+}
+
+/// Measures specimens that differ in the seed of their bonds only, in parallel; the results are in
+/// the order of the seeds.
+///
+/// # Errors
+/// The first error of `measure`, in the order of the seeds; weighted bonds, of which any seed but 0
+/// is refused.
+pub fn over_samplings<T: Send>(
+    specimen: &Specimen,
+    seeds: &[u64],
+    measure: impl Fn(&Specimen) -> Result<T, MeasureError> + Sync,
+) -> Result<Vec<T>, MeasureError> {
+    let measured: Vec<_> = seeds
+        .par_iter()
+        .map(|&seed| {
+            let mut sampling = specimen.clone();
+            sampling.filament.monomers.seed = seed;
+            measure(&sampling)
+        })
+        .collect();
+    measured.into_iter().collect()
+}
+
+/// Measures every sampling at each azimuth (deg) of a transverse load, in parallel over samplings;
+/// curves of one sampling stand together.
+///
+/// # Errors
+/// The first error of `measure`, in the order of the seeds.
+pub fn over_samplings_and_azimuths<P: Send>(
+    specimen: &Specimen,
+    seeds: &[u64],
+    azimuths_deg: &[f64],
+    measure: impl Fn(&Specimen, f64) -> Result<Curve<P>, MeasureError> + Sync,
+) -> Result<Vec<Curve<P>>, MeasureError> {
+    let curves = over_samplings(specimen, seeds, |sampling| {
+        let at = azimuths_deg
+            .iter()
+            .map(|&azimuth| measure(sampling, azimuth));
+        at.collect::<Result<Vec<_>, _>>()
+    })?;
+    Ok(curves.into_iter().flatten().collect())
+}
+
+/// Mean and scatter of `measured` at each value of `prescribed` that occurs in the curves, in
+/// ascending order. Values of `prescribed` within 1e-9 of each other (relative) are the same.
+///
+/// Where a curve ended early, the count is smaller.
+pub fn sampled_by<P>(
+    curves: &[Curve<P>],
+    prescribed: impl Fn(&P) -> f64,
+    measured: impl Fn(&P) -> f64,
+) -> Vec<(f64, Sampled)> {
+    let points = curves.iter().flat_map(|curve| &curve.points);
+    let mut pairs: Vec<(f64, f64)> = points.map(|p| (prescribed(p), measured(p))).collect();
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    pairs
+        .chunk_by(|a, b| (b.0 - a.0).abs() <= 1e-9 * a.0.abs())
+        .map(|same| (same[0].0, Sampled::of(same.iter().map(|pair| pair.1))))
+        .collect()
+}

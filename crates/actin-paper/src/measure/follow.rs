@@ -1,0 +1,141 @@
+//! One path of equilibria through all values of a protocol, with the certificate of each.
+
+use super::MeasureError;
+use actin_equilibrium::{
+    Certificate, Jumps, Newton, Path, PathEnd, PathFailure, PathOptions, Saddles, Stability,
+};
+use actin_mechanics::State;
+use actin_sim::Assembly;
+use actin_sim::solver;
+use actin_sim::{Equilibrium as Settings, Scene, Task};
+use std::ops::ControlFlow;
+
+/// How far the equilibrium behind a measured point is to be trusted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evidence {
+    /// Largest force on a free body (pN).
+    pub residual_force_pn: f64,
+    /// Largest torque on a free body (pN nm).
+    pub residual_torque_pn_nm: f64,
+    /// Counts of negative and unresolved eigenvalues of the stiffness.
+    pub certificate: Certificate,
+    /// Saddles that were left along their lowest mode since the point before.
+    pub saddles_left: usize,
+    /// Sudden jumps since the point before.
+    pub jumps: usize,
+}
+
+impl Evidence {
+    /// Stable, neutral within the resolution, or a saddle.
+    pub fn stability(&self) -> Stability {
+        self.certificate.stability()
+    }
+
+    /// Whether no eigenvalue is negative or too small to be told from zero.
+    pub fn is_stable(&self) -> bool {
+        self.stability() == Stability::Stable
+    }
+}
+
+/// The equilibrium at the end of a stage.
+pub(super) struct Stop {
+    pub(super) state: State,
+    pub(super) evidence: Evidence,
+}
+
+/// The stops of a path, and why it ended early if it did.
+pub(super) struct Course {
+    pub(super) assembly: Assembly,
+    pub(super) stops: Vec<Stop>,
+    pub(super) ended: Option<Box<PathFailure>>,
+}
+
+/// Follows the path of `scene` from stage to stage.
+///
+/// # Errors
+/// A scene or settings that are refused.
+pub(super) fn follow(scene: &Scene) -> Result<Course, MeasureError> {
+    scene.validate()?;
+    let assembly = Assembly::build(scene)?;
+    let Task::Equilibrium(settings) = &scene.task else {
+        unreachable!("a specimen's scenes ask for equilibria");
+    };
+    let mut newton = solver(&assembly, settings)?;
+    let path = path(settings)?;
+    let mut state = assembly.system.state().clone();
+    let mut stops = Vec::new();
+    let mut ended = None;
+    for stage in 0..assembly.drive.stages() {
+        match advance(&assembly, &path, &mut newton, &mut state, stage) {
+            Ok(evidence) => stops.push(Stop {
+                state: state.clone(),
+                evidence,
+            }),
+            Err(failure) => {
+                ended = Some(failure);
+                break;
+            }
+        }
+    }
+    Ok(Course {
+        assembly,
+        stops,
+        ended,
+    })
+}
+
+/// A path that first tries a whole stage at once, and makes smaller steps where that fails.
+fn path(settings: &Settings) -> Result<Path, MeasureError> {
+    let options = PathOptions {
+        first_step: settings.largest_step,
+        largest_step: settings.largest_step,
+        smallest_step: settings.smallest_step,
+        saddles: match settings.leave_saddles {
+            0 => Saddles::Keep,
+            attempts => Saddles::Leave(attempts),
+        },
+        jumps: if settings.accept_jumps {
+            Jumps::Accept
+        } else {
+            Jumps::Stop
+        },
+        ..PathOptions::default()
+    };
+    Ok(Path::new(options)?)
+}
+
+/// Follows one stage; `state` ends in its last equilibrium.
+fn advance(
+    assembly: &Assembly,
+    path: &Path,
+    newton: &mut Newton,
+    state: &mut State,
+    stage: usize,
+) -> Result<Evidence, Box<PathFailure>> {
+    let (mut saddles_left, mut jumps) = (0, 0);
+    let end = path.follow(
+        newton,
+        state,
+        assembly.system.interactions(),
+        &mut |state, t| assembly.drive.place(state, stage as f64 + t),
+        &mut |point| {
+            saddles_left += point.equilibrium.saddles_left;
+            jumps += usize::from(point.jumped);
+            ControlFlow::Continue(())
+        },
+    );
+    Ok(evidence(&end?, saddles_left, jumps))
+}
+
+fn evidence(end: &PathEnd, saddles_left: usize, jumps: usize) -> Evidence {
+    let equilibrium = &end.equilibrium;
+    Evidence {
+        residual_force_pn: equilibrium.residual.force,
+        residual_torque_pn_nm: equilibrium.residual.torque,
+        certificate: equilibrium
+            .certificate
+            .expect("the solver of a scene certifies what it finds"),
+        saddles_left,
+        jumps,
+    }
+}

@@ -1,0 +1,68 @@
+//! Measuring protocols: how stiff a filament is in twist, stretch, bending and shear.
+//!
+//! A [`Specimen`] is a filament of any resolution with parameters of one's own. A protocol holds
+//! its ends (two monomers at each end of a monomer section, the far pair moved as one rigid body),
+//! leads it along a path of angles, strains or forces and returns a [`Curve`]: for each of them
+//! the raw numbers, the secant rigidity, and the certificate of the equilibrium.
+//! [`over_samplings`] measures many samplings of the bonds, [`sampled_by`] averages their curves.
+//! Nothing is fitted here.
+//!
+//! | protocol | held | moved | reads |
+//! |---|---|---|---|
+//! | [`twist`] | both ends, the far one slides along the axis | turn about the axis | `B3 = tau L / phi`, `dL / L` |
+//! | [`stretch_by_force`] | the same, turn blocked | axial force | `S3 = F L / dL` |
+//! | [`stretch_by_shift`] | both ends | axial displacement | `S3 = F L / dL` |
+//! | [`bend_by_tip_force`] | the near end | transverse force at the free tip | `B = F L^3 / 3 d`, elastica |
+//! | [`bend_by_couples`] | both ends in orientation, the far one slides freely | turn across the axis | `B = M / kappa` |
+//! | [`bend_twisted`] | both ends in orientation, the far one slides freely | turn about the axis, then across it | `B = M_perp / kappa_perp` |
+//! | [`bend_under_tension`] | the same, pulled along the axis | both ends, turned half each | couple, `B` |
+//! | [`twist_under_tension`] | as `twist`, pulled along the axis | turn about the axis | couple, `dL / L` |
+//! | [`free_turn_under_tension`] | the same | turn until no couple is left | turn, `dL / L` |
+//! | [`shear_by_force`] | both ends in orientation, the far one slides freely | transverse force | `F / gamma` |
+//!
+//! The length is that between the clamped points: of held monomers the inner ones.
+//!
+//! ```
+//! use actin_paper::measure::{Specimen, twist};
+//! use actin_sim::RodModel;
+//! // The rod of Table 4 has B3 = 1.3e4 pN nm^2 at every angle.
+//! let rod = Specimen::rod(75.0, None, RodModel::default());
+//! let curve = twist(&rod, &[-90.0, 180.0]).unwrap();
+//! assert!((curve.points[0].rigidity_pn_nm2 / 1.3e4 - 1.0).abs() < 1e-9);
+//! assert!((curve.points[1].torque_pn_nm - 1.3e4 * 3.14159265 / 75.0).abs() < 1e-4);
+//! ```
+
+mod bend;
+mod couples;
+mod elastica;
+mod ensemble;
+mod error;
+mod follow;
+mod shear;
+mod specimen;
+mod stretch;
+mod sweep;
+mod tension;
+mod twist;
+mod twisted;
+
+pub use actin_equilibrium::{Certificate, Stability};
+pub use bend::{TipForcePoint, bend_by_tip_force};
+pub use couples::{CouplePoint, bend_by_couples};
+pub use elastica::elastica_deflection;
+pub use ensemble::{Sampled, over_samplings, over_samplings_and_azimuths, sampled_by};
+pub use error::MeasureError;
+pub use follow::Evidence;
+pub use shear::{ShearPoint, shear_by_force};
+pub use specimen::Specimen;
+pub use stretch::{StretchPoint, stretch_by_force, stretch_by_shift};
+pub use sweep::{Curve, Unreached};
+pub use tension::{PulledTwistPoint, free_turn_under_tension, twist_under_tension};
+pub use twist::{TwistPoint, twist, twist_in_order};
+pub use twisted::{HelixPoint, PulledBendPoint, bend_twisted, bend_under_tension};
+
+#[cfg(test)]
+mod tests;
+
+#[cfg(test)]
+mod law_tests;

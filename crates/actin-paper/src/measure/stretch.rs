@@ -1,0 +1,108 @@
+//! Stretch with the turn blocked: by a force, or by a displacement.
+
+use super::follow::{Evidence, Stop};
+use super::sweep::{Curve, far_end_shift, reaction, sweep};
+use super::{MeasureError, Specimen};
+use actin_sim::Assembly;
+use actin_sim::{End, Load, Scene, Setting, Slides, Stage};
+
+/// A filament under axial force, its ends kept from turning.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StretchPoint {
+    /// Axial force on the far end (pN), positive in tension.
+    pub force_pn: f64,
+    /// Change of length over length at rest.
+    pub strain: f64,
+    /// Secant stretching rigidity `F L / dL` (pN).
+    pub rigidity_pn: f64,
+    /// Couple about the axis that keeps the far end from turning (pN nm).
+    pub torque_pn_nm: f64,
+    /// How far to trust it.
+    pub evidence: Evidence,
+}
+
+/// Pulls the far end along the axis with each force (pN); it slides along the axis only.
+///
+/// # Errors
+/// A filament that is refused, a force that is zero or not finite.
+///
+/// # Source
+/// arXiv 2203.01284, Appendix B: `S3 = F L / dL`.
+pub fn stretch_by_force(
+    specimen: &Specimen,
+    forces_pn: &[f64],
+) -> Result<Curve<StretchPoint>, MeasureError> {
+    let scene = |forces: &[f64]| {
+        let unit = Load::EndForce {
+            filament: 0,
+            end: End::End,
+            force_pn: [0.0, 0.0, 1.0],
+        };
+        let path = factors(forces);
+        specimen.scene(
+            "Stretch by force",
+            Some(Slides::AlongAxis),
+            vec![unit],
+            path,
+        )
+    };
+    sweep("force_pn", forces_pn, scene, |assembly, force, stop| {
+        read(assembly, force, stop)
+    })
+}
+
+/// Moves the far end along the axis to each strain.
+///
+/// # Errors
+/// A filament that is refused, a strain that is zero or not finite.
+///
+/// # Source
+/// arXiv 2203.01284, Appendix B.
+pub fn stretch_by_shift(
+    specimen: &Specimen,
+    strains: &[f64],
+) -> Result<Curve<StretchPoint>, MeasureError> {
+    // The length as resolved, not as asked for, makes strains of shifts.
+    let length = Assembly::build(&shifts(specimen, &[]))?.length_nm();
+    let scene = |strains: &[f64]| {
+        let shifts_nm: Vec<f64> = strains.iter().map(|strain| strain * length).collect();
+        shifts(specimen, &shifts_nm)
+    };
+    sweep("strain", strains, scene, |assembly, _, stop| {
+        let force = reaction(assembly, &stop.state, End::End).force_pn.z;
+        read(assembly, force, stop)
+    })
+}
+
+/// One stage for each factor of the first load.
+pub(super) fn factors(factors: &[f64]) -> Vec<Stage> {
+    let stage = |&factor: &f64| Stage {
+        set: vec![Setting::LoadFactor { load: 0, factor }],
+        duration_ns: None,
+    };
+    factors.iter().map(stage).collect()
+}
+
+fn shifts(specimen: &Specimen, shifts_nm: &[f64]) -> Scene {
+    let stage = |&shift: &f64| Stage {
+        set: vec![Setting::Shift {
+            filament: 0,
+            end: End::End,
+            shift_nm: [0.0, 0.0, shift],
+        }],
+        duration_ns: None,
+    };
+    let path = shifts_nm.iter().map(stage).collect();
+    specimen.scene("Stretch by shift", Some(Slides::Nowhere), Vec::new(), path)
+}
+
+fn read(assembly: &Assembly, force_pn: f64, stop: &Stop) -> StretchPoint {
+    let strain = far_end_shift(assembly, &stop.state).z / assembly.length_nm();
+    StretchPoint {
+        force_pn,
+        strain,
+        rigidity_pn: force_pn / strain,
+        torque_pn_nm: reaction(assembly, &stop.state, End::End).torque_pn_nm.z,
+        evidence: stop.evidence,
+    }
+}
