@@ -18,11 +18,10 @@ const LIBRARIES: [&str; 8] = [
 ];
 
 /// Programs among the examples that measure something for the documents.
-const MEASUREMENTS: [&str; 8] = [
+const MEASUREMENTS: [&str; 7] = [
     "bond_rate",
     "elimination_order",
     "load_rate",
-    "measure_rod_law",
     "persistence_length",
     "scaling",
     "statics_against_dynamics",
