@@ -36,4 +36,4 @@ pub use checkpoint::{CheckpointError, Checkpoints, Damage};
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;
 pub use lock::RunLock;
-pub use summary::{FilamentSummary, RunStatus, StabilitySummary, Summary, ThermalSummary};
+pub use summary::{FilamentSummary, StabilitySummary, Summary, ThermalSummary};

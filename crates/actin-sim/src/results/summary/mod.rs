@@ -7,7 +7,7 @@ mod thermal;
 pub use thermal::ThermalSummary;
 
 use super::{RunDirectoryError, finite::ensure_finite};
-use crate::{BeyondRange, BeyondUse, Counts, SaddlePush, UnstableTwist};
+use crate::{BeyondRange, BeyondUse, Counts, SaddlePush, Status, UnstableTwist};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ pub struct Summary {
     /// Title of the scene.
     pub scene: String,
     /// How the run ended.
-    pub status: RunStatus,
+    pub status: Status,
     /// Number of bodies and elements.
     #[serde(with = "CountKeys")]
     pub counts: Counts,
@@ -113,21 +113,6 @@ pub struct FilamentSummary {
     pub shape: ShapeSummary,
     /// Seed of its bond anchors.
     pub seed: u64,
-}
-
-/// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum RunStatus {
-    /// The stop rule was met.
-    Converged,
-    /// The time that was asked for has passed.
-    Completed,
-    /// The run broke off, and the record is the last good one; or it ended on a saddle or in an
-    /// equilibrium in which a load is lost.
-    Failed,
-    /// The run was left and can be resumed; the record is the last one made.
-    Interrupted,
 }
 
 /// What the eigenvalues of the stiffness say of an equilibrium.

@@ -7,7 +7,7 @@ use serde_json::Value;
 fn summary() -> Summary {
     let assembly = fixture::linked();
     let last = fixture::trajectory(&assembly).records.pop().unwrap();
-    Summary::new(&assembly, &last, &fixture::report())
+    Summary::new(&assembly, &last, &fixture::outcome())
 }
 
 const KEYS: &[&str] = &[
