@@ -10,7 +10,6 @@ use actin_mechanics::testing::momenta;
 use actin_mechanics::{State, System};
 use actin_sim::{Assembly, ForceLaw, Scene};
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
 const ERRORS: f64 = 4.5;
 
@@ -214,7 +213,7 @@ fn end_of_scene(seed: u64, record_every_ns: f64) -> State {
     );
     let scene = Scene::from_ron(&text).unwrap();
     let mut assembly = Assembly::build(&scene).unwrap();
-    actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())).unwrap();
+    actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
     assembly.system.state().clone()
 }
 

@@ -10,7 +10,6 @@ use crate::field::{Motion, build, set};
 use actin_mechanics::{State, Vector3};
 use actin_sim::{Assembly, End, shape};
 use std::f64::consts::TAU;
-use std::ops::ControlFlow;
 
 /// Mass per length (pN ns^2/nm^2) and polar moment per length (pN ns^2).
 const DENSITY: f64 = 0.0697 / (71.2 / 26.0);
@@ -160,7 +159,7 @@ fn reflected(pulse: Pulse, segment: f64, beyond: Beyond) -> f64 {
     let (mut assembly, half) = filament(pulse, segment, beyond);
     let middle = half - REACH * pulse.width;
     set(&mut assembly, &|s| pulse.motion(s - middle));
-    actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())).unwrap();
+    actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
     let (first, all) = energies(&assembly, half, segment);
     first / all
 }
@@ -274,7 +273,7 @@ fn monomers_that_cannot_turn_resist_stretching_as_the_rod() {
             )"
         ));
         let rest = assembly.tip_nm(&assembly.rest, End::End).z;
-        actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())).unwrap();
+        actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
         let now = assembly.tip_nm(assembly.system.state(), End::End).z;
         force / (now / rest - 1.0)
     };

@@ -35,9 +35,9 @@ pub use results::{
     RunLock, StabilitySummary, Summary, ThermalSummary,
 };
 pub use run::{
-    Arrival, EquilibriumReport, Estimate, FailedRun, Failure, MotionPosition, Outcome, PathPosition,
-    Plan, Progress, Record, RunError, RunPosition, SaddlePush, Saved, Sink, Slip, Status, Trajectory,
-    solver,
+    Arrival, EquilibriumReport, Estimate, FailedRun, Failure, MotionPosition, Outcome,
+    PathPosition, Plan, Progress, Record, RunError, RunPosition, SaddlePush, Saved, Sink, Slip,
+    Status, Trajectory, solver,
 };
 pub use scene::fitted::laws as fitted_laws;
 pub use scene::{

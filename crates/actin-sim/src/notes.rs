@@ -5,7 +5,7 @@
 //! tell, to the `notes` of its summary.
 
 use crate::scene::{Anchors, Material, Monomers, RodLaw, RodModel, Task};
-use crate::{Assembly, Record, Outcome, shape};
+use crate::{Assembly, Outcome, Record, shape};
 use actin_ellipsoid::{Certificate, Cubature, EllipsoidParameters, InterfaceKind};
 
 /// Persistence length (um) and twisting rigidity (pN nm^2) of free filaments of 110 nm at 298 K, from

@@ -43,7 +43,11 @@ impl Advice {
 
     /// The same of a scene that has been built and, if it is a motion, estimated, which for large
     /// scenes takes most of the time.
-    pub(crate) fn of_estimated(scene: &Scene, assembly: &Assembly, estimate: Option<&Estimate>) -> Self {
+    pub(crate) fn of_estimated(
+        scene: &Scene,
+        assembly: &Assembly,
+        estimate: Option<&Estimate>,
+    ) -> Self {
         let known = scenes::all();
         let like = known.iter().find(|(_, m)| like::is_like(scene, m));
         let like = like.map(|(name, measured)| (*name, like::length(measured)));
@@ -75,7 +79,6 @@ impl fmt::Display for Advice {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cost::Cost;
     use crate::{RodLaw, Task};
 
     fn cantilever() -> Scene {
@@ -104,8 +107,10 @@ mod tests {
                 continue;
             };
             change.scene.validate().unwrap();
-            let cost = |scene| Plan::new(&Assembly::build(&scene).unwrap()).unwrap().cost();
-            let seconds = |scene| cost(scene).seconds.total();
+            let seconds = |scene: &Scene| {
+                let assembly = Assembly::build(scene).unwrap();
+                Plan::new(&assembly).unwrap().cost().seconds.total()
+            };
             assert!(seconds(&change.scene) < seconds(&scene), "{name}");
             assert_eq!(change.scene.loads, scene.loads);
             assert_eq!(change.scene.linkers, scene.linkers);

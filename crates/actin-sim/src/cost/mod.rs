@@ -272,7 +272,7 @@ fn seconds_of_noise(assembly: &Assembly, dynamics: &Dynamics, estimate: &Estimat
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
+    use crate::{Plan, Scene};
 
     fn cost(sections: &str, task: &str) -> Cost {
         let text = format!(

@@ -269,7 +269,10 @@ mod tests {
         let json: serde_json::Value = serde_json::from_str(&read(SUMMARY)).unwrap();
         assert_eq!(json["scene"], summary.scene.as_str());
         assert_eq!(json["work"]["steps"], 12);
-        assert_eq!(&Scene::from_ron(&read(SCENE)).unwrap(), plan(&assembly).scene());
+        assert_eq!(
+            &Scene::from_ron(&read(SCENE)).unwrap(),
+            plan(&assembly).scene()
+        );
         assert_eq!(read(ENERGIES).lines().count(), 1 + trajectory.records.len());
         let profile = read(PROFILE);
         let header = "s_nm,x_nm,y_nm,z_nm,curvature_rad_per_nm,twist_rad_per_nm,\
@@ -302,9 +305,13 @@ mod tests {
         let assembly = fixture::clamped_start();
         let mut trajectory = fixture::trajectory(&assembly);
         let outcome = fixture::outcome();
-        directory.write(&plan(&assembly), &trajectory, &outcome).unwrap();
+        directory
+            .write(&plan(&assembly), &trajectory, &outcome)
+            .unwrap();
         trajectory.records.truncate(1);
-        directory.write(&plan(&assembly), &trajectory, &outcome).unwrap();
+        directory
+            .write(&plan(&assembly), &trajectory, &outcome)
+            .unwrap();
         assert_eq!(all_names(&folder.path().join(PICTURES)), ["0000.vtp"]);
     }
 
@@ -318,12 +325,16 @@ mod tests {
         let outcome = fixture::outcome();
         let longer = trajectory.clone();
         trajectory.records.truncate(2);
-        directory.write(&plan(&assembly), &trajectory, &outcome).unwrap();
+        directory
+            .write(&plan(&assembly), &trajectory, &outcome)
+            .unwrap();
         let before = contents(folder.path());
         for name in [STATES, "vtk/0002.vtp", SUMMARY] {
             let obstacle = folder.path().join(format!("{name}.part"));
             fs::create_dir(&obstacle).unwrap();
-            let error = directory.write(&plan(&assembly), &longer, &outcome).unwrap_err();
+            let error = directory
+                .write(&plan(&assembly), &longer, &outcome)
+                .unwrap_err();
             assert!(error.to_string().contains(name), "{error}");
             fs::remove_dir(&obstacle).unwrap();
             let mut after = contents(folder.path());
@@ -332,7 +343,9 @@ mod tests {
             let same = before.iter().filter(|(path, _)| !path.ends_with(MANIFEST));
             assert!(after.iter().eq(same), "{name}");
         }
-        directory.write(&plan(&assembly), &longer, &outcome).unwrap();
+        directory
+            .write(&plan(&assembly), &longer, &outcome)
+            .unwrap();
         assert_eq!(all_names(&folder.path().join(PICTURES)).len(), 3);
     }
 

@@ -266,9 +266,7 @@ fn prepare(
     // The bound is that of all energy. In a bath it is not: strain has heat of its own.
     Ok(match dynamics.thermal {
         Some(_) => run,
-        None => run
-            .with_energy_limit(limit)
-            .expect("the limit is a number"),
+        None => run.with_energy_limit(limit).expect("the limit is a number"),
     })
 }
 

@@ -241,8 +241,7 @@ impl<'a> Follower<'a> {
                 0 => "with 0 saddles are kept; with 1 or more they are left along the lowest mode",
                 _ => "more attempts may lead off it",
             };
-            is_saddle(&certificate)
-                .then(|| Failure::Saddle(saddle(&certificate, attempts, way)))
+            is_saddle(&certificate).then(|| Failure::Saddle(saddle(&certificate, attempts, way)))
         })
     }
 

@@ -100,14 +100,12 @@ impl Plan<'_> {
             (Task::Dynamics(dynamics), Some(estimate)) => {
                 dynamics::run(assembly, dynamics, estimate, saved, sink)?
             }
-            (Task::Equilibrium(settings), _) => {
-                equilibrium::run(assembly, settings, saved, sink)?
-            }
+            (Task::Equilibrium(settings), _) => equilibrium::run(assembly, settings, saved, sink)?,
             (Task::Dynamics(_), None) => unreachable!("the plan of a motion has an estimate"),
         };
         let is_of_use = outcome.beyond_use.is_empty() || outcome.status == Status::Interrupted;
-        let failure =
-            failure.or_else(|| (!is_of_use).then(|| Failure::BeyondUse(outcome.beyond_use.clone())));
+        let failure = failure
+            .or_else(|| (!is_of_use).then(|| Failure::BeyondUse(outcome.beyond_use.clone())));
         match failure {
             None => Ok(outcome),
             Some(failure) => {

@@ -1,10 +1,10 @@
 //! What a run will do, known before it starts.
 
 use super::dynamics::{Estimate, estimate};
+use crate::Assembly;
 use crate::advice::Advice;
 use crate::cost::Cost;
 use crate::scene::{Problem, Scene};
-use crate::Assembly;
 
 /// An assembly with everything that is decided before it runs: the time step, the number of steps and
 /// records, and the scene with all of these written out.
@@ -80,6 +80,8 @@ impl<'a> Plan<'a> {
     /// [`Assembly::notes`].
     pub fn notes(&self) -> Vec<String> {
         let estimate = self.estimate.iter();
-        estimate.flat_map(|e| e.notes(&self.assembly.scene.task)).collect()
+        estimate
+            .flat_map(|e| e.notes(&self.assembly.scene.task))
+            .collect()
     }
 }

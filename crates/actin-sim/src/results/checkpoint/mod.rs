@@ -20,4 +20,3 @@ mod position;
 
 pub use checkpoints::Checkpoints;
 pub use error::{CheckpointError, Damage};
-

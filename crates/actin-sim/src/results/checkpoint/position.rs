@@ -2,7 +2,7 @@
 
 use super::Damage;
 use super::bytes::{Reader, Writer};
-use crate::run::{Arrival, MotionPosition, PathPosition, Record, SaddlePush, RunPosition};
+use crate::run::{Arrival, MotionPosition, PathPosition, Record, RunPosition, SaddlePush};
 use actin_equilibrium::{Certificate, Waypoint, Work};
 use actin_integrate::{Checkpoint, Mark};
 use actin_mechanics::State;
