@@ -4,7 +4,7 @@
 use crate::common::{build, checkpoints};
 use actin_integrate::{DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Run, advance, stable_step};
 use actin_mechanics::System;
-use actin_sim::{MotionPosition, Plan, RunDirectory, RunPosition, Sink};
+use actin_sim::{MotionPosition, Plan, RunDirectory, RunPosition, Scene, Sink};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
