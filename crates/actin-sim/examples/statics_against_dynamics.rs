@@ -141,7 +141,7 @@ fn newton(scene: &Scene) -> Run {
     let seconds = clock.elapsed().as_secs_f64();
     let (trajectory, report) = result.expect("the cantilever has an equilibrium");
     let last = trajectory.records.last().expect("it was recorded");
-    let found = report.equilibrium.expect("it was certified");
+    let found = report.equilibrium.as_ref().expect("it was certified");
     Run {
         name: "Newton".to_owned(),
         seconds,
