@@ -12,7 +12,7 @@ const RATES: [f64; 6] = [0.0, 1.0, 10.0, 100.0, 1e3, 1e4];
 /// Builds and runs a scene.
 fn run(text: &str) -> (Assembly, Trajectory) {
     let scene = Scene::from_ron(text).unwrap();
-    let mut assembly = Assembly::build(&scene).unwrap();
+    let assembly = Assembly::build(&scene).unwrap();
     let (trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
     (assembly, trajectory)
 }

@@ -26,7 +26,7 @@ const SCENE: &str = "Scene(
 /// largest value, all as counted here element by element.
 #[test]
 fn fluctuations_beyond_the_data_are_summed_up() {
-    let mut assembly = Assembly::build(&Scene::from_ron(SCENE).unwrap()).unwrap();
+    let assembly = Assembly::build(&Scene::from_ron(SCENE).unwrap()).unwrap();
     let (trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
     let records = &trajectory.records;
     let states = || records.iter().map(|record| &record.state);
