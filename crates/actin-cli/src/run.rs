@@ -311,7 +311,7 @@ fn print(summary: &Summary, out: &Path) {
         _ => println!(
             "{} after {:.1} ns: {} steps, {} force evaluations, {:.1} s",
             in_words(summary.status),
-            summary.time_ns,
+            summary.time_ns.unwrap_or_default(),
             work.steps,
             work.force_evaluations,
             summary.wall_s

@@ -7,7 +7,7 @@ use super::{
 use crate::results::energies::{Totals, distinct, sum_where};
 use crate::scene;
 use crate::shape::{self, Ribbon};
-use crate::{Assembly, End, Outcome, Reaction, Record};
+use crate::{Assembly, End, Outcome, Reaction, Record, Task};
 use actin_coupling::Linker;
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, State, Vector3};
@@ -18,11 +18,13 @@ impl Summary {
         let equilibrium = outcome.equilibrium.as_ref();
         let filaments = FilamentSummary::all(assembly, last);
         let first = &filaments[0];
+        let is_motion = matches!(assembly.scene.task, Task::Dynamics(_));
         Self {
             scene: assembly.scene.title.clone(),
             status: outcome.status,
             counts: assembly.counts(),
-            time_ns: last.time_ns,
+            time_ns: is_motion.then_some(last.time_ns),
+            path: (!is_motion).then_some(last.time_ns),
             time_step_ns: outcome.time_step_ns,
             largest_frequency_rad_per_ns: outcome.largest_frequency_rad_per_ns,
             stability: outcome.certificate().map(StabilitySummary::new),

@@ -21,8 +21,12 @@ pub struct Summary {
     /// Number of bodies and elements.
     #[serde(with = "CountKeys")]
     pub counts: Counts,
-    /// Simulated time (ns); of an equilibrium the path parameter, which counts stages.
-    pub time_ns: f64,
+    /// Simulated time (ns); none of an equilibrium.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_ns: Option<f64>,
+    /// Where on the path of equilibria the last record stands, in stages; none of a motion in time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path: Option<f64>,
     /// Time step (ns); none of an equilibrium.
     pub time_step_ns: Option<f64>,
     /// Largest frequency found at the start (rad/ns); none of an equilibrium.
@@ -253,7 +257,6 @@ impl Summary {
     fn scalars(&self) -> Vec<(String, f64)> {
         let energy = &self.energy_pn_nm;
         let mut scalars: Vec<_> = [
-            ("time_ns", self.time_ns),
             ("wall_s", self.wall_s),
             ("residual.force_pn", self.residual.force_pn),
             ("residual.torque_pn_nm", self.residual.torque_pn_nm),
@@ -267,6 +270,8 @@ impl Summary {
         let terms = energy.terms.iter();
         scalars.extend(terms.map(|(name, value)| (format!("energy_pn_nm.{name}"), *value)));
         let steps = [
+            ("time_ns", self.time_ns),
+            ("path", self.path),
             ("time_step_ns", self.time_step_ns),
             (
                 "largest_frequency_rad_per_ns",
