@@ -16,6 +16,15 @@ pub struct PointLoad {
 }
 
 impl PointLoad {
+    /// The load of `force` (lab frame) on one point, with a control of its own that begins at 1.
+    ///
+    /// # Panics
+    /// As [`new`](Self::new).
+    pub fn at(state: &mut State, point: usize, force: Vector3) -> Self {
+        let control = state.add_control(1.0);
+        Self::new(state, vec![(point, 1.0)], force, control)
+    }
+
     /// The load of `force` (lab frame, at control value 1) shared among points, with its zero of
     /// potential at the present positions; `control` is the index of its factor in
     /// [`State::controls`].
@@ -52,6 +61,11 @@ impl PointLoad {
             force,
             control,
         }
+    }
+
+    /// Index of its factor in [`State::controls`].
+    pub fn control(&self) -> usize {
+        self.control
     }
 }
 
