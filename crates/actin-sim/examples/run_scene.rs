@@ -24,17 +24,18 @@ fn main() -> Result<(), SimError> {
     directory.write(&assembly, &trajectory, &report)?;
     let summary = directory.summary()?;
 
-    // A cantilever of B1 = 3.9e4 pN nm^2.
-    let theory = 0.1 * 160.0_f64.powi(3) / (3.0 * 3.9e4);
+    // A rod alone, of B1 = 3.9e4 pN nm^2; monomers that are bent this little are softer.
+    let rod = 0.1 * 160.0_f64.powi(3) / (3.0 * 3.9e4);
     let [moved, ..] = summary.tip_displacement_nm;
     println!(
-        "{:?}: tip moved {moved:.3} nm; F L^3 / 3 B = {theory:.3} nm",
+        "{:?}: tip moved {moved:.3} nm; F L^3 / 3 B = {rod:.3} nm",
         summary.status
     );
     println!(
         "{} monomers, {} segments",
         summary.counts.monomers, summary.counts.segments
     );
-    assert!((moved / theory - 1.0).abs() < 0.1);
+    assert!(moved > rod && moved < 1.2 * rod);
+    std::fs::remove_dir_all(folder).expect("the run has written it");
     Ok(())
 }
