@@ -77,7 +77,7 @@ impl RodJoint {
 /// let rod = StraightRod::uniform(50, 1.0).push(&mut state)?;
 /// let material = RodMaterial::new(Rigidities::table4())?;
 /// rod.bend(&mut state, |_| Vector3::x() / 100.0);
-/// let law = RodElements::at_rest(&state, &rod, material)?;
+/// let law = RodElements::at_rest(&state, &rod, material);
 /// assert!(law.energy(&state) < 1e-12);
 /// rod.bend(&mut state, |_| Vector3::zeros());
 /// // The outer half segments have no joint, so that 49 of the 50 nm bend.
@@ -123,16 +123,9 @@ impl RodElements {
     /// The rod `layout` with the bends and twists of `state` as its rest shape, whatever it is
     /// curved like; rest lengths are those of the layout.
     ///
-    /// # Errors
-    /// None for a layout that was built.
-    ///
     /// # Panics
     /// If `state` does not have the rod's bodies.
-    pub fn at_rest(
-        state: &State,
-        layout: &RodLayout,
-        material: RodMaterial,
-    ) -> Result<Self, RodError> {
+    pub fn at_rest(state: &State, layout: &RodLayout, material: RodMaterial) -> Self {
         let bodies = layout.points().zip(layout.frames());
         let segments = bodies.zip(layout.segment_lengths());
         let segments = segments.map(|((i, frame), &rest_length)| RodSegment {
@@ -147,7 +140,11 @@ impl RodElements {
             let curvature = element.curvature(q.get(a), q.get(a + 1));
             RodJoint::curved([a, a + 1], rest_distance, curvature)
         });
-        Self::new(material, segments.collect(), joints.collect())
+        Self {
+            material,
+            segments: segments.collect(),
+            joints: joints.collect(),
+        }
     }
 
     /// The segments.
@@ -246,6 +243,76 @@ impl SecondOrder for RodElements {
             let blocks = joint.element().stiffness(&self.material, qa, qb);
             let blocks = blocks.in_bodies(joint.offsets);
             blocks.push(joint.frames, stiffness);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{EnergyGradient, Rigidities, RodClamp, RodEnd, StraightRod};
+    use actin_mechanics::testing::{
+        Noise, assert_is_balanced, assert_is_gradient, assert_is_stiffness, loads_of, perturb,
+    };
+
+    /// A clamped rod with a rest shape that bends and twists, in another shape.
+    fn curved() -> (State, RodElements) {
+        let mut state = State::default();
+        let rod = StraightRod::uniform(4, 2.0);
+        let layout = rod.push_clamped(RodClamp::Wall, RodEnd::End, &mut state);
+        let layout = layout.unwrap();
+        let material = RodMaterial::new(Rigidities::table4()).unwrap();
+        layout.bend(&mut state, |s| Vector3::new(0.02 * s, -0.1, 0.05));
+        let law = RodElements::at_rest(&state, &layout, material);
+        (state, law)
+    }
+
+    /// No load at rest; elsewhere loads and blocks are the derivatives of the energy, which an
+    /// offset on the wrong side, or of the wrong sign, would spoil.
+    #[test]
+    fn curved_rods_are_the_gradient_of_their_energy() {
+        let (mut state, law) = curved();
+        let residual = loads_of(&law, &state).residual(&state);
+        // Round-off of strains of 1e-15 against rigidities of 1e4.
+        assert!(residual.0 < 1e-9 && residual.1 < 1e-9, "{residual:?}");
+        perturb(&mut state, &mut Noise::new(4), 0.05, 0.1);
+        assert_is_gradient(&law, &state, 1e-3, 1e-8);
+        assert_is_stiffness(&law, &state, 1e-3, 1e-7);
+        assert_is_balanced(&law, &state, 1e-13);
+    }
+
+    /// A rod that is straight at rest is that of the energy gradient.
+    #[test]
+    fn straight_elements_are_a_straight_rod() {
+        let mut state = State::default();
+        let rod = StraightRod::uniform(4, 2.0);
+        let layout = rod.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state);
+        let layout = layout.unwrap();
+        let material = RodMaterial::new(Rigidities::table4()).unwrap();
+        let elements = RodElements::at_rest(&state, &layout, material);
+        let gradient = EnergyGradient::new(layout, material);
+        perturb(&mut state, &mut Noise::new(5), 0.05, 0.1);
+        let (energy, expected) = (elements.energy(&state), gradient.energy(&state));
+        assert!((energy / expected - 1.0).abs() < 1e-13);
+        let [loads, expected] = [&elements as &dyn Interaction, &gradient]
+            .map(|law| loads_of(law, &state).torque.iter().collect::<Vec<_>>());
+        let largest = expected.iter().map(|t| t.norm()).fold(0.0, f64::max);
+        for (torque, expected) in loads.iter().zip(&expected) {
+            assert!((torque - expected).norm() < 1e-12 * largest);
+        }
+    }
+
+    #[test]
+    fn elements_without_length_are_refused() {
+        let (_, law) = curved();
+        for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let (mut segments, mut joints) = (law.segments().to_vec(), law.joints().to_vec());
+            joints[2].rest_distance = value;
+            let error = RodElements::new(law.material, segments.clone(), joints).unwrap_err();
+            assert!(matches!(error, RodError::JointDistance { joint: 2, .. }));
+            segments[1].rest_length = value;
+            let error = RodElements::new(law.material, segments, vec![]).unwrap_err();
+            assert!(matches!(error, RodError::SegmentLength { segment: 1, .. }));
         }
     }
 }

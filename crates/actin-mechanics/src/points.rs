@@ -66,7 +66,8 @@ impl Points {
         self.velocity.set(i, Vector3::zeros());
     }
 
-    /// Undoes [`hold`](Self::hold): forces move point `i` again, from rest.
+    /// Undoes [`hold`](Self::hold): forces move point `i` again, from rest. One that is free stays
+    /// as it is.
     ///
     /// ```
     /// use actin_mechanics::{Point, State, Vector3};
@@ -77,17 +78,17 @@ impl Points {
     /// state.points.release(i);
     /// assert_eq!((state.points.is_free(i), state.points.mass(i)), (true, 4.0));
     /// ```
-    ///
-    /// # Panics
-    /// If there is no point `i`.
     pub fn release(&mut self, i: usize) {
         if let Some(inverse) = self.held.remove(&i) {
             self.inverse_mass[i] = inverse;
+            self.velocity.set(i, Vector3::zeros());
         }
-        self.velocity.set(i, Vector3::zeros());
     }
 
     /// Mass of point `i`, to rounding; that of a held point is what it has when it is free.
+    ///
+    /// # Panics
+    /// If there is no point `i`.
     pub fn mass(&self, i: usize) -> f64 {
         let free = self.inverse_mass[i];
         let inverse = if free > 0.0 { free } else { self.held[&i] };
