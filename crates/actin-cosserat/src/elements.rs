@@ -296,7 +296,7 @@ mod tests {
         assert!((energy / expected - 1.0).abs() < 1e-13);
         let [loads, expected] = [&elements as &dyn Interaction, &gradient]
             .map(|law| loads_of(law, &state).torque.iter().collect::<Vec<_>>());
-        let largest = expected.iter().map(|t| t.norm()).fold(0.0, f64::max);
+        let largest = expected.iter().map(Vector3::norm).fold(0.0, f64::max);
         for (torque, expected) in loads.iter().zip(&expected) {
             assert!((torque - expected).norm() < 1e-12 * largest);
         }
