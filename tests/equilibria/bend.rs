@@ -1,7 +1,7 @@
 //! The 45-degree bend of Bathe and Bolourchi: a curved cantilever pulled out of its plane.
 
-use crate::chain::{Chain, frame, point};
-use crate::common::{second_order_limit, to};
+use crate::common::{frame, material, point, second_order_limit, to};
+use actin_cosserat::{RodElements, RodJoint, RodSegment};
 use actin_equilibrium::{Layout, Newton};
 use actin_mechanics::{Interaction, Matrix3, PointLoad, State, UnitQuaternion, Vector3, rotation};
 use std::f64::consts::FRAC_PI_4;
@@ -32,7 +32,7 @@ fn tip(force: f64, n: usize) -> [f64; 3] {
         Vector3::new(1.0 - angle.cos(), 0.0, angle.sin()) * RADIUS
     };
     let mut state = State::default();
-    let mut chain = Chain::with_shear([SHEAR, SHEAR, STRETCH], [BEND; 3]);
+    let (mut segments, mut joints) = (Vec::new(), Vec::new());
     point(&mut state, node(0));
     frame(&mut state, UnitQuaternion::identity());
     state.points.hold(0);
@@ -40,14 +40,20 @@ fn tip(force: f64, n: usize) -> [f64; 3] {
     for k in 0..n {
         point(&mut state, node(k + 1));
         let own = frame(&mut state, turned(step * (k as f64 + 0.5)));
-        chain.segment([k, k + 1], own, chord);
+        segments.push(RodSegment {
+            points: [k, k + 1],
+            frame: own,
+            rest_length: chord,
+        });
         let share = if k == 0 { 0.5 } else { 1.0 };
-        let half = 0.5 * share * step;
-        chain.bend([own - 1, own], arc * share, [turned(half), turned(-half)]);
+        let curvature = Vector3::y() / RADIUS;
+        joints.push(RodJoint::curved([own - 1, own], arc * share, curvature));
     }
     state.controls.push(1.0);
     let load = PointLoad::new(&state, vec![(n, 1.0)], Vector3::y() * force, 0);
-    let terms: Vec<Box<dyn Interaction>> = vec![Box::new(chain), Box::new(load)];
+    let material = material([SHEAR, SHEAR, STRETCH], [BEND; 3]);
+    let rod = RodElements::new(material, segments, joints).unwrap();
+    let terms: Vec<Box<dyn Interaction>> = vec![Box::new(rod), Box::new(load)];
     let mut newton = Newton::new(Layout::free(&state), to(1e-6)).unwrap();
     let found = newton.solve(&mut state, &terms).unwrap();
     // From straight, under the whole load, the search wanders before it converges: 22 to 51 steps,
@@ -108,7 +114,7 @@ impl Section {
 }
 
 /// The tip by shooting: the couple at the clamp for which there is none at the tip. It has neither
-/// segments nor an energy in common with the chain.
+/// segments nor an energy in common with the rod of segments.
 fn shot(force: f64, steps: usize) -> [f64; 3] {
     let mut couple = Vector3::zeros();
     // In parts of the load, from each to the next by Newton's method with differences.

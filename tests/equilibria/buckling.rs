@@ -1,9 +1,10 @@
 //! Columns: critical loads from the stiffness turning singular, and what comes after.
 
-use crate::chain::{Chain, frame, point};
 use crate::common::{
-    BEND, LENGTH, SHEAR, build, cantilever, critical, newton, second_order_limit, solved, to,
+    BEND, LENGTH, SHEAR, build, cantilever, critical, frame, material, newton, point,
+    second_order_limit, solved, to,
 };
+use actin_cosserat::{RodElements, RodJoint, RodSegment};
 use actin_equilibrium::{BodyOrder, Group, Layout, Newton};
 use actin_mechanics::{Interaction, PointLoad, State, UnitQuaternion, Vector3};
 use actin_sim::End;
@@ -38,13 +39,25 @@ fn clamped_free_column() {
     assert!(limit.abs() < 1e-5, "{limit:e}");
 }
 
+/// The parts of a rod.
+#[derive(Default)]
+struct Parts {
+    segments: Vec<RodSegment>,
+    joints: Vec<RodJoint>,
+}
+
+impl Parts {
+    fn rod(self) -> RodElements {
+        RodElements::new(material([1e4; 3], [1.0; 3]), self.segments, self.joints).unwrap()
+    }
+}
+
 /// A straight column of unit length and bending rigidity on `n` segments along z. Without a wall
 /// its first frame is free.
-fn column(n: usize, wall: bool) -> (State, Chain, BodyOrder) {
+fn column(n: usize, wall: bool) -> (State, Parts, BodyOrder) {
     let h = 1.0 / n as f64;
-    let none = [UnitQuaternion::identity(); 2];
     let mut state = State::default();
-    let mut chain = Chain::new(1e4, [1.0, 1.0, 1.0]);
+    let mut parts = Parts::default();
     let mut order = BodyOrder::default();
     for k in 0..=n {
         point(&mut state, Vector3::z() * (h * k as f64));
@@ -53,9 +66,13 @@ fn column(n: usize, wall: bool) -> (State, Chain, BodyOrder) {
     for k in 0..n {
         let own = frame(&mut state, UnitQuaternion::identity());
         order.frames.push(k as f64 + 0.5);
-        chain.segment([k, k + 1], own, h);
+        parts.segments.push(RodSegment {
+            points: [k, k + 1],
+            frame: own,
+            rest_length: h,
+        });
         if k > 0 {
-            chain.bend([k - 1, k], h, none);
+            parts.joints.push(RodJoint::straight([k - 1, k], h));
         }
     }
     state.points.hold(0);
@@ -63,10 +80,10 @@ fn column(n: usize, wall: bool) -> (State, Chain, BodyOrder) {
         let held = frame(&mut state, UnitQuaternion::identity());
         order.frames.push(0.0);
         state.frames.hold(held);
-        chain.bend([held, 0], 0.5 * h, none);
+        parts.joints.push(RodJoint::straight([held, 0], 0.5 * h));
     }
     state.controls.push(0.0);
-    (state, chain, order)
+    (state, parts, order)
 }
 
 /// Both ends pinned: the far node slides along the axis, no frame is held. The turn about the axis
@@ -74,12 +91,12 @@ fn column(n: usize, wall: bool) -> (State, Chain, BodyOrder) {
 #[test]
 fn pinned_column() {
     let values = MESHES.map(|n| {
-        let (state, chain, order) = column(n, false);
+        let (state, parts, order) = column(n, false);
         let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), 0);
         let slider = Group::sliding(vec![n], vec![], Vector3::z());
         let layout = Layout::new(&state, Some(&order), vec![slider]).unwrap();
         let mut newton = Newton::new(layout, to(1e-9)).unwrap();
-        let terms: Vec<Box<dyn Interaction>> = vec![Box::new(chain), Box::new(load)];
+        let terms: Vec<Box<dyn Interaction>> = vec![Box::new(parts.rod()), Box::new(load)];
         critical(&mut newton, &state, &terms, [9.0, 11.0])
     });
     let limit = second_order_limit("Euler, pinned", values, PI * PI, 0.03);
@@ -90,20 +107,18 @@ fn pinned_column() {
 #[test]
 fn clamped_column() {
     let values = MESHES.map(|n| {
-        let (mut state, mut chain, mut order) = column(n, true);
+        let (mut state, mut parts, mut order) = column(n, true);
         let held = frame(&mut state, UnitQuaternion::identity());
         order.frames.push(n as f64);
         state.frames.hold(held);
-        chain.bend(
-            [n - 1, held],
-            0.5 / n as f64,
-            [UnitQuaternion::identity(); 2],
-        );
+        let distance = 0.5 / n as f64;
+        let joint = RodJoint::straight([n - 1, held], distance);
+        parts.joints.push(joint);
         let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), 0);
         let slider = Group::sliding(vec![n], vec![held], Vector3::z());
         let layout = Layout::new(&state, Some(&order), vec![slider]).unwrap();
         let mut newton = Newton::new(layout, to(1e-9)).unwrap();
-        let terms: Vec<Box<dyn Interaction>> = vec![Box::new(chain), Box::new(load)];
+        let terms: Vec<Box<dyn Interaction>> = vec![Box::new(parts.rod()), Box::new(load)];
         critical(&mut newton, &state, &terms, [36.0, 42.0])
     });
     let limit = second_order_limit("Euler, clamped", values, 4.0 * PI * PI, 0.03);
@@ -115,13 +130,13 @@ fn clamped_column() {
 #[test]
 fn greenhills_column() {
     let values = MESHES.map(|n| {
-        let (state, chain, order) = column(n, true);
+        let (state, parts, order) = column(n, true);
         let weight = |k: usize| if k == n { 0.5 } else { 1.0 } / n as f64;
         let shares = (1..=n).map(|k| (k, weight(k))).collect();
         let load = PointLoad::new(&state, shares, -Vector3::z(), 0);
         let layout = Layout::new(&state, Some(&order), vec![]).unwrap();
         let mut newton = Newton::new(layout, to(1e-9)).unwrap();
-        let terms: Vec<Box<dyn Interaction>> = vec![Box::new(chain), Box::new(load)];
+        let terms: Vec<Box<dyn Interaction>> = vec![Box::new(parts.rod()), Box::new(load)];
         critical(&mut newton, &state, &terms, [7.0, 9.0])
     });
     let limit = second_order_limit("Greenhill", values, 7.837_347_438_9, 0.03);

@@ -1,7 +1,8 @@
 //! Scenes as text, solvers for them, orders of convergence and a search for critical loads.
 
+use actin_cosserat::{Rigidities, RodMaterial};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions, Residual};
-use actin_mechanics::{Interaction, State};
+use actin_mechanics::{Frame, Inertia, Interaction, Point, State, UnitQuaternion, Vector3};
 use actin_sim::{Assembly, Failure, Outcome, Plan, RunError, Scene, Trajectory};
 
 /// The assembly of a scene.
@@ -144,4 +145,25 @@ pub(crate) fn second_order_limit(what: &str, values: [f64; 3], exact: f64, slack
         assert!((order - 2.0).abs() < slack, "{what}: orders {orders:?}");
     }
     limit
+}
+
+/// A material of these rigidities (pN, pN nm^2).
+pub(crate) fn material(shear: [f64; 3], bend: [f64; 3]) -> RodMaterial {
+    let (shear, bend) = (shear.into(), bend.into());
+    RodMaterial::new(Rigidities { shear, bend }).unwrap()
+}
+
+/// A point of unit mass.
+pub(crate) fn point(state: &mut State, position: Vector3) -> usize {
+    let mass = 1.0;
+    state.points.push(Point { position, mass })
+}
+
+/// A frame of moments 1, 1, 2.
+pub(crate) fn frame(state: &mut State, orientation: UnitQuaternion) -> usize {
+    let inertia = Inertia::from_moments([1.0, 1.0, 2.0]).unwrap();
+    state.frames.push(Frame {
+        orientation,
+        inertia,
+    })
 }

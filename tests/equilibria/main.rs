@@ -7,7 +7,6 @@ mod agreement;
 mod anchors;
 mod bend;
 mod buckling;
-mod chain;
 mod circle;
 mod common;
 mod compression;

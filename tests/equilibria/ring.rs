@@ -1,7 +1,7 @@
 //! Michell's ring: a closed rod that is twisted snaps out of its plane.
 
-use crate::chain::{Chain, frame, point};
-use crate::common::{bisect, second_order_limit, to};
+use crate::common::{bisect, frame, material, point, second_order_limit, to};
+use actin_cosserat::{RodElements, RodJoint, RodSegment};
 use actin_equilibrium::{Layout, Newton};
 use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3, rotation};
 use std::f64::consts::TAU;
@@ -16,7 +16,7 @@ fn ring(n: usize, twist: f64) -> (State, Vec<Box<dyn Interaction>>) {
     let radius = 0.5 * h / (0.5 * h).sin();
     let none = UnitQuaternion::identity();
     let mut state = State::default();
-    let mut chain = Chain::new(1e6, [1.0, 1.0, 1.0 / RATIO]);
+    let (mut segments, mut joints) = (Vec::new(), Vec::new());
     for k in 0..n {
         let angle = h * k as f64;
         point(
@@ -28,16 +28,27 @@ fn ring(n: usize, twist: f64) -> (State, Vec<Box<dyn Interaction>>) {
         frame(&mut state, around * spin);
     }
     for k in 0..n {
-        chain.segment([k, (k + 1) % n], k, h);
+        let neighbours = [k, (k + 1) % n];
+        segments.push(RodSegment {
+            points: neighbours,
+            frame: k,
+            rest_length: h,
+        });
         // Where the ring is closed, the first frame is seen turned by the twist.
         let closing = rotation::exp(Vector3::z() * twist);
         let seen = if k + 1 == n { closing } else { none };
-        chain.bend([k, (k + 1) % n], h, [none, seen]);
+        joints.push(RodJoint {
+            frames: neighbours,
+            rest_distance: h,
+            offsets: [none, seen],
+        });
     }
     // Without this the ring floats. It still rolls about its own centre line.
     state.points.hold(0);
     state.frames.hold(0);
-    (state, vec![Box::new(chain)])
+    let material = material([1e6; 3], [1.0, 1.0, 1.0 / RATIO]);
+    let ring = RodElements::new(material, segments, joints).unwrap();
+    (state, vec![Box::new(ring)])
 }
 
 /// The ring is unstable beyond a twist of `2 pi sqrt(3) B / B3`. Source: Michell (1889).

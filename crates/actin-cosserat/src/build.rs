@@ -1,7 +1,8 @@
 //! Puts a straight rod on a state.
 
 use crate::layout::check_lengths;
-use crate::{CrossSection, RodError, RodLayout};
+use crate::shape::from_z;
+use crate::{CrossSection, RodClamp, RodEnd, RodError, RodLayout};
 use actin_mechanics::{Frame, Point, State, UnitQuaternion, Vector3};
 
 /// At which ends a rod has a held wall frame.
@@ -39,6 +40,40 @@ impl StraightRod {
             cross_section: CrossSection::actin(),
             walls: Walls::default(),
         }
+    }
+
+    /// The same rod along another direction (lab frame): every frame is lab's, turned by the least
+    /// rotation of +z into that direction.
+    ///
+    /// # Errors
+    /// A vector without a direction.
+    pub fn along(self, direction: Vector3) -> Result<Self, RodError> {
+        let orientation = from_z(direction).ok_or(RodError::NoAxis)?;
+        Ok(Self {
+            orientation,
+            ..self
+        })
+    }
+
+    /// Appends the rod to a state as [`push`](Self::push) does, with one end clamped; a wall frame
+    /// that the clamp needs is added.
+    ///
+    /// # Errors
+    /// As [`push`](Self::push).
+    pub fn push_clamped(
+        &self,
+        clamp: RodClamp,
+        end: RodEnd,
+        state: &mut State,
+    ) -> Result<RodLayout, RodError> {
+        let mut rod = self.clone();
+        match end {
+            RodEnd::Start => rod.walls.start |= clamp.needs_wall(),
+            RodEnd::End => rod.walls.end |= clamp.needs_wall(),
+        }
+        let layout = rod.push(state)?;
+        clamp.hold(&layout, end, state)?;
+        Ok(layout)
     }
 
     /// Appends the rod's points and frames to a state: first the wall frame at the start, then
@@ -144,6 +179,22 @@ mod tests {
             let expected = rod.cross_section.linear_density() * length;
             // Two reciprocals' round-off.
             assert!((mass - expected).abs() < 1e-14 * expected);
+        }
+    }
+
+    /// Along any direction, the opposite of lab z included, and none where there is none.
+    #[test]
+    fn a_rod_lies_along_its_direction() {
+        for direction in [Vector3::x(), -Vector3::z(), Vector3::new(1.0, 2.0, -2.0)] {
+            let rod = StraightRod::uniform(1, 3.0).along(direction).unwrap();
+            let mut state = State::default();
+            rod.push(&mut state).unwrap();
+            let tip = state.points.position.get(1);
+            assert!((tip - direction * (3.0 / direction.norm())).norm() < 1e-14);
+        }
+        for nowhere in [Vector3::zeros(), Vector3::repeat(f64::NAN)] {
+            let error = StraightRod::uniform(1, 3.0).along(nowhere).unwrap_err();
+            assert_eq!(error, RodError::NoAxis);
         }
     }
 

@@ -29,6 +29,26 @@ pub struct Held {
     pub frames: Range<usize>,
 }
 
+impl Held {
+    /// Releases what is held: loads move it again, from rest. A wall frame then follows the segment
+    /// beside it.
+    ///
+    /// ```
+    /// use actin_cosserat::{RodClamp, RodEnd, State, StraightRod};
+    /// let mut state = State::default();
+    /// let rod = StraightRod::uniform(2, 10.0);
+    /// let layout = rod.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state)?;
+    /// assert!(!state.points.is_free(0));
+    /// RodClamp::Wall.held(&layout, RodEnd::Start)?.release(&mut state);
+    /// assert!(state.points.is_free(0) && state.frames.is_free(0));
+    /// # Ok::<(), actin_cosserat::RodError>(())
+    /// ```
+    pub fn release(&self, state: &mut State) {
+        self.points.clone().for_each(|i| state.points.release(i));
+        self.frames.clone().for_each(|i| state.frames.release(i));
+    }
+}
+
 impl RodClamp {
     /// Whether the rod has to be built with a wall frame at the clamped end.
     pub fn needs_wall(self) -> bool {

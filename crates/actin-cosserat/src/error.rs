@@ -32,6 +32,31 @@ pub enum RodError {
         /// Its rest length (nm).
         value: f64,
     },
+    /// A joint without a distance between its frames.
+    #[error("rest distance of joint {joint} = {value} nm: must be positive and finite")]
+    JointDistance {
+        /// Which joint, counted from 0.
+        joint: usize,
+        /// Its rest distance (nm).
+        value: f64,
+    },
+    /// A rod along a vector that is zero or not finite.
+    #[error("the direction of a rod must be finite and not zero")]
+    NoAxis,
+    /// Not one place for each node.
+    #[error("{given} places for a rod of {needed} nodes: must be as many")]
+    Nodes {
+        /// Number of places.
+        given: usize,
+        /// Number of nodes.
+        needed: usize,
+    },
+    /// Two neighbouring nodes at the same place, or one at a place that is not finite.
+    #[error("the nodes of segment {segment} must be at two different finite places")]
+    NoDirection {
+        /// Which segment, counted from 0.
+        segment: usize,
+    },
     /// A wall clamp at an end that was built without a wall frame.
     #[error("the {0} of the rod has no wall frame to be clamped to: build it with one")]
     NoWall(RodEnd),

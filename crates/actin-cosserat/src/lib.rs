@@ -1,10 +1,11 @@
 //! Discrete Cosserat rods: they stretch, shear, bend and twist.
 //!
 //! A rod of `n` segments is `n + 1` points (its nodes) and `n` frames (one per segment) of a
-//! [`State`](actin_mechanics::State). [`StraightRod`] builds one and returns its [`RodLayout`];
-//! [`EnergyGradient`] and [`PaperBalance`] are the two force laws that act on it; [`RodClamp`]
-//! names the ways to hold an end. [`ShearElement`] and [`BendingElement`] are what a rod consists
-//! of, for whoever joins something else to it.
+//! [`State`]. [`StraightRod`] builds one and returns its [`RodLayout`], which can be given another
+//! shape ([`RodLayout::bend`], [`RodLayout::place`]). [`EnergyGradient`] and [`PaperBalance`] are the
+//! two force laws of rods that are straight at rest; [`RodElements`] is that of rods with any rest
+//! shape and in any topology. [`RodClamp`] names the ways to hold an end. [`ShearElement`] and
+//! [`BendingElement`] are what a rod consists of, for models that join something else to it.
 //!
 //! Units are nm, pN, ns and rad; masses are pN ns^2/nm = 1e-21 kg. Body axis d3 of a segment's
 //! frame lies along the rod. Nothing here knows of monomers, junctions or scenes.
@@ -22,6 +23,7 @@ mod build;
 mod clamp;
 pub mod constants;
 mod cross_section;
+mod elements;
 mod energy_gradient;
 mod error;
 mod extended;
@@ -31,12 +33,14 @@ mod layout;
 mod material;
 mod paper_balance;
 mod rigidities;
+mod shape;
 mod shear;
 
 pub use bending::{BendingElement, BendingLoads, BendingStiffness};
 pub use build::{StraightRod, Walls};
 pub use clamp::{Held, RodClamp};
 pub use cross_section::CrossSection;
+pub use elements::{RodElements, RodJoint, RodSegment};
 pub use energy_gradient::EnergyGradient;
 pub use error::{ParameterError, RodError};
 pub use extended::{JoinedElement, SegmentCurvature, SegmentLaw, TwistStability};
@@ -49,3 +53,10 @@ pub use material::RodMaterial;
 pub use paper_balance::PaperBalance;
 pub use rigidities::Rigidities;
 pub use shear::{ShearElement, ShearLoads, ShearStiffness};
+
+/// The crate of points, frames, loads and interactions that rods are made of.
+pub use actin_mechanics as mechanics;
+pub use actin_mechanics::{
+    Interaction, Loads, PointLoad, SecondOrder, Springs, State, System, UnitQuaternion, Vector3,
+    Weight,
+};

@@ -1,6 +1,6 @@
 //! Why a junction or a linker was refused.
 
-use actin_cosserat::ParameterError;
+use actin_cosserat::{ParameterError, RodError};
 use thiserror::Error;
 
 /// Why a junction was refused.
@@ -9,6 +9,9 @@ pub enum JunctionError {
     /// A parameter is out of range.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
+    /// The rod of the junction was refused.
+    #[error(transparent)]
+    Rod(#[from] RodError),
     /// Too few or too many attached monomers.
     #[error("attached monomers = {0}: must be 1 or 2")]
     AttachedMonomers(usize),
@@ -50,6 +53,9 @@ pub enum LinkerError {
     /// A parameter is out of range.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
+    /// The rod of the site was refused.
+    #[error(transparent)]
+    Rod(#[from] RodError),
     /// A segment that the rod does not have.
     #[error("segment {segment} of a rod that has {segments}, counted from 0")]
     Segment {

@@ -39,6 +39,24 @@ pub struct AttachedMonomer {
     pub frame: usize,
 }
 
+/// What a junction is made of.
+#[derive(Clone, Debug)]
+pub struct JunctionParts<'a> {
+    /// Which section comes first.
+    pub side: JunctionSide,
+    /// How strongly each bond acts.
+    pub weight: JunctionWeight,
+    /// One or two monomers, in filament order: attached to the start of the rod, or, if the rod
+    /// comes first, to its end.
+    pub monomers: &'a [AttachedMonomer],
+    /// Their junction frames, from [`push_junction_frames`](crate::push_junction_frames).
+    pub frames: Range<usize>,
+    /// The rod.
+    pub rod: &'a RodLayout,
+    /// Its material.
+    pub material: RodMaterial,
+}
+
 /// The junction of one or two monomers with a rod's end: term `junction`, one element per bond.
 ///
 /// With `r` the rod's end, `R` the monomer's centre, `Q_m`, `Q_J`, `Q_r` the frames of monomer,
@@ -69,23 +87,20 @@ pub struct Junction {
 }
 
 impl Junction {
-    /// The junction that is at rest in `state`.
-    ///
-    /// `monomers` and their junction frames `frames` (from
-    /// [`push_junction_frames`](crate::push_junction_frames)) stand in filament order; they are
-    /// attached to the start of the rod `layout`, or, if the rod comes first, to its end.
+    /// The junction of these parts that is at rest in `state`.
     ///
     /// # Errors
     /// Other than one or two monomers, not as many frames, a monomer that is not on its side of
     /// the rod's end, or a junction frame that is not parallel to the rod's end segment.
-    pub fn new(
-        state: &State,
-        (side, weight): (JunctionSide, JunctionWeight),
-        monomers: &[AttachedMonomer],
-        frames: Range<usize>,
-        layout: &RodLayout,
-        material: RodMaterial,
-    ) -> Result<Self, JunctionError> {
+    pub fn new(state: &State, parts: JunctionParts<'_>) -> Result<Self, JunctionError> {
+        let JunctionParts {
+            side,
+            weight,
+            monomers,
+            frames,
+            rod,
+            material,
+        } = parts;
         check_count(monomers.len())?;
         if frames.len() != monomers.len() {
             return Err(JunctionError::JunctionFrames {
@@ -97,7 +112,7 @@ impl Junction {
             .iter()
             .zip(frames)
             .enumerate()
-            .map(|(k, (monomer, frame))| bond_at_rest(state, side, (k, monomer), frame, layout))
+            .map(|(k, (monomer, frame))| bond_at_rest(state, side, (k, monomer), frame, rod))
             .collect::<Result<Vec<_>, _>>()?;
         Ok(Self {
             weight: weight.of(bonds.len()),

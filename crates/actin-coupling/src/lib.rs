@@ -27,6 +27,17 @@ mod site;
 
 pub use build::push_junction_frames;
 pub use error::{JunctionError, LinkerError};
-pub use junction::{AttachedMonomer, Junction, JunctionSide, JunctionWeight};
+pub use junction::{AttachedMonomer, Junction, JunctionParts, JunctionSide, JunctionWeight};
 pub use linker::{Anchor, Linker, LinkerEnd};
-pub use site::Site;
+pub use site::{RodPlace, Site};
+
+/// The crate of rods, whose ends are joined here.
+pub use actin_cosserat as cosserat;
+pub use actin_cosserat::{
+    CrossSection, EnergyGradient, Rigidities, RodLayout, RodMaterial, StraightRod,
+};
+/// The crate of points, frames, loads and interactions that filaments are made of.
+pub use actin_mechanics as mechanics;
+pub use actin_mechanics::{
+    Frame, Inertia, InertiaError, Interaction, Loads, Point, State, UnitQuaternion, Vector3,
+};

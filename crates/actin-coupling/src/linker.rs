@@ -3,11 +3,8 @@
 use crate::LinkerError;
 use crate::site::{Site, ensure};
 use actin_mechanics::{
-    Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
+    Coordinates, Hooke, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
 };
-
-/// Length (nm) below which a linker counts as shut: squares of such components underflow.
-const SHUT: f64 = 1e-150;
 
 /// A point outside of the filament that holds one end of a linker.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +22,16 @@ impl Anchor {
         Self {
             position,
             control: None,
+        }
+    }
+
+    /// An anchor at `position` (nm, lab frame) that three controls of its own displace, which begin
+    /// at zero.
+    pub fn movable(state: &mut State, position: Vector3) -> Self {
+        let [first, ..] = [0.0; 3].map(|component| state.add_control(component));
+        Self {
+            position,
+            control: Some(first),
         }
     }
 
@@ -53,10 +60,8 @@ pub enum LinkerEnd {
 /// end the opposite; on a segment or monomer either acts as the site's own derivative has it, so
 /// that forces and couples are the gradient of `E`.
 ///
-/// With `L = 0` this is `k d`, smooth everywhere. With `L > 0` the energy has a cone's tip at
-/// `d = 0`, where no direction is preferred: the force there is zero, its mean over all directions,
-/// and the stiffness is `-k` in every direction, finite and negative, since the energy falls
-/// whichever way the ends part. So a state in which a linker is shut is never taken for a minimum.
+/// At `d = 0` with a rest length [`Hooke`] has a negative stiffness in every direction, so a state
+/// in which a linker is shut is never taken for a minimum.
 ///
 /// # Source
 /// arXiv 2203.01284, Section 3, whose linker forces come in halves with a couple about the middle
@@ -65,8 +70,7 @@ pub enum LinkerEnd {
 pub struct Linker {
     site: Site,
     end: LinkerEnd,
-    stiffness: f64,
-    rest_length: f64,
+    spring: Hooke,
 }
 
 impl Linker {
@@ -76,13 +80,12 @@ impl Linker {
     /// A stiffness that is not positive, a negative rest length, or an anchor that is not finite.
     ///
     /// ```
-    /// use actin_coupling::{Anchor, Linker, LinkerEnd, Site};
-    /// use actin_cosserat::StraightRod;
-    /// use actin_mechanics::{State, Vector3};
+    /// use actin_coupling::{Anchor, Linker, LinkerEnd, RodPlace, Site, State, StraightRod, Vector3};
     /// let mut state = State::default();
     /// let rod = StraightRod::uniform(2, 10.0).push(&mut state)?;
     /// // A quarter of the way from node 1 to node 2, on the axis, pulled along x by 3 nm.
-    /// let site = Site::on_rod(&rod, (1, 0.25), 0.0, 0.0)?;
+    /// let place = RodPlace { segment: 1, fraction: 0.25, ..RodPlace::default() };
+    /// let site = Site::on_rod(&rod, place)?;
     /// let anchor = LinkerEnd::Anchor(Anchor::fixed(Vector3::new(3.0, 0.0, 12.5)));
     /// let linker = Linker::new(site, anchor, 2.0, 1.0)?;
     /// assert_eq!(linker.extension(&state), 2.0);
@@ -104,12 +107,11 @@ impl Linker {
                 ensure(value.is_finite(), "anchor", value, "finite")?;
             }
         }
-        Ok(Self {
-            site,
-            end,
+        let spring = Hooke {
             stiffness,
             rest_length,
-        })
+        };
+        Ok(Self { site, end, spring })
     }
 
     /// The site.
@@ -132,47 +134,19 @@ impl Linker {
 
     /// Length beyond the rest length (nm); negative where the linker is shorter.
     pub fn extension(&self, state: &State) -> f64 {
-        self.reach(state).norm() - self.rest_length
+        self.reach(state).norm() - self.spring.rest_length
     }
 
     /// Force on the filament at the site (pN, lab frame). What holds the other end feels the
     /// opposite.
     pub fn force(&self, state: &State) -> Vector3 {
-        self.pull(self.reach(state))
+        self.spring.force(self.reach(state))
     }
 
     /// From the site to the other end (lab frame).
     #[inline]
     fn reach(&self, state: &State) -> Vector3 {
         self.end_position(state) - self.site.position(state)
-    }
-
-    /// Force on the site when the other end is at `d` from it: `dE/dd`.
-    #[inline]
-    fn pull(&self, d: Vector3) -> Vector3 {
-        // Spelled out, so that no rest length leaves no division.
-        if self.rest_length == 0.0 {
-            return d * self.stiffness;
-        }
-        match d.try_normalize(SHUT) {
-            Some(n) => (d - n * self.rest_length) * self.stiffness,
-            None => Vector3::zeros(),
-        }
-    }
-
-    /// `d^2 E / dd^2 = k [ n n^T + (1 - L / |d|) (1 - n n^T) ]`, `n = d / |d|`.
-    fn spring(&self, d: Vector3) -> Matrix3 {
-        let whole = Matrix3::from_diagonal_element(self.stiffness);
-        if self.rest_length == 0.0 {
-            return whole;
-        }
-        match d.try_normalize(SHUT) {
-            Some(n) => {
-                let across = Matrix3::identity() - n * n.transpose();
-                whole - across * (self.stiffness * self.rest_length / d.norm())
-            }
-            None => -whole,
-        }
     }
 
     /// Every coordinate that the linker follows, and the derivative of its vector by it.
@@ -204,7 +178,7 @@ impl Interaction for Linker {
 
     fn write_energies(&self, state: &State, energies: &mut [f64]) {
         assert_eq!(energies.len(), 1, "a linker is one element");
-        energies[0] = 0.5 * self.stiffness * self.extension(state).powi(2);
+        energies[0] = self.spring.energy(self.reach(state));
     }
 
     fn second_order(&self) -> Option<&dyn SecondOrder> {
@@ -217,7 +191,7 @@ impl SecondOrder for Linker {
     /// frame the part in which its force turns the arm.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         let d = self.reach(state);
-        let (force, spring) = (self.pull(d), self.spring(d));
+        let (force, spring) = (self.spring.force(d), self.spring.tangent(d));
         let slopes = self.slopes(state);
         for (k, &(a, slope_a)) in slopes.iter().enumerate() {
             stiffness.push(a, a, symmetric(slope_a.transpose() * spring * slope_a));

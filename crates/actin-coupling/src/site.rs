@@ -16,6 +16,19 @@ pub struct Site {
     arm: Vector3,
 }
 
+/// A place on a rod, as [`Site::on_rod`] takes it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RodPlace {
+    /// Which segment, counted from 0.
+    pub segment: usize,
+    /// Share `A` of the segment's length, from 0 at its first node to 1 at its second.
+    pub fraction: f64,
+    /// Distance `R` from the axis (nm).
+    pub radius: f64,
+    /// Angle `phi` from the segment's d1 towards its d2 (rad).
+    pub azimuth: f64,
+}
+
 impl Site {
     /// A site on a monomer: `r = x + Q b`, with `b = arm` fixed in its body frame (nm).
     ///
@@ -46,11 +59,8 @@ impl Site {
         })
     }
 
-    /// A site on segment `segment` of a rod:
+    /// A site on segment `i` of a rod:
     /// `r = (1 - A) x_i + A x_{i+1} + R Q_i (cos phi, sin phi, 0)`.
-    ///
-    /// `fraction` is `A`, from 0 at node `i` to 1 at the next; `radius` is `R`, the distance from
-    /// the axis (nm); `azimuth` is `phi`, the angle from the segment's d1 towards its d2 (rad).
     ///
     /// # Errors
     /// A segment that the rod does not have, a fraction outside 0 to 1, a negative radius, or an
@@ -58,12 +68,13 @@ impl Site {
     ///
     /// # Source
     /// arXiv 2203.01284, Section 3 (`A_0`, `R`, `phi_0`).
-    pub fn on_rod(
-        layout: &RodLayout,
-        (segment, fraction): (usize, f64),
-        radius: f64,
-        azimuth: f64,
-    ) -> Result<Self, LinkerError> {
+    pub fn on_rod(layout: &RodLayout, place: RodPlace) -> Result<Self, LinkerError> {
+        let RodPlace {
+            segment,
+            fraction,
+            radius,
+            azimuth,
+        } = place;
         let segments = layout.segments();
         if segment >= segments {
             return Err(LinkerError::Segment { segment, segments });

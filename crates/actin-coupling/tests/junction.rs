@@ -4,7 +4,8 @@ use actin_cosserat::{
     CrossSection, EnergyGradient, Rigidities, RodLayout, RodMaterial, StraightRod,
 };
 use actin_coupling::{
-    AttachedMonomer, Junction, JunctionError, JunctionSide, JunctionWeight, push_junction_frames,
+    AttachedMonomer, Junction, JunctionError, JunctionParts, JunctionSide, JunctionWeight,
+    push_junction_frames,
 };
 use actin_mechanics::testing::{
     Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness,
@@ -89,17 +90,18 @@ fn filament(side: JunctionSide, attached: usize) -> Filament {
 
 impl Filament {
     fn junction(&self, side: JunctionSide, weight: JunctionWeight) -> Junction {
-        let frames = self.frames.clone();
-        let how = (side, weight);
-        Junction::new(
-            &self.state,
-            how,
-            &self.monomers,
-            frames,
-            &self.rod,
-            material(),
-        )
-        .unwrap()
+        Junction::new(&self.state, self.parts(side, weight)).unwrap()
+    }
+
+    fn parts(&self, side: JunctionSide, weight: JunctionWeight) -> JunctionParts<'_> {
+        JunctionParts {
+            side,
+            weight,
+            monomers: &self.monomers,
+            frames: self.frames.clone(),
+            rod: &self.rod,
+            material: material(),
+        }
     }
 
     /// The filament turned and shifted as a whole.
@@ -352,8 +354,11 @@ fn both_sides_are_mirror_images() {
     let x = half_turn * before.state.points.position.get(from.point);
     after.state.points.position.set(to.point, x);
     let make = |f: &Filament, side| {
-        let (how, frames) = ((side, JunctionWeight::Full), f.frames.clone());
-        Junction::new(&f.state, how, &f.monomers, frames, &f.rod, material).unwrap()
+        let parts = JunctionParts {
+            material,
+            ..f.parts(side, JunctionWeight::Full)
+        };
+        Junction::new(&f.state, parts).unwrap()
     };
     let junctions = [
         make(&before, JunctionSide::MonomersFirst),
@@ -440,9 +445,12 @@ fn rod_and_junction_balance_together() {
 #[test]
 fn junctions_that_make_no_sense_are_refused() {
     let side = JunctionSide::MonomersFirst;
-    let how = (side, JunctionWeight::Shared);
     let made = |f: &Filament, frames: Range<usize>| {
-        Junction::new(&f.state, how, &f.monomers, frames, &f.rod, material()).map(|_| ())
+        let parts = JunctionParts {
+            frames,
+            ..f.parts(side, JunctionWeight::Shared)
+        };
+        Junction::new(&f.state, parts).map(|_| ())
     };
 
     let mut good = filament(side, 2);

@@ -1,13 +1,14 @@
 //! Linkers: that their loads are a gradient that balances, on either model and between two sites.
 
 use actin_cosserat::{ParameterError, RodLayout, StraightRod};
-use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, Site};
+use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, RodPlace, Site};
 use actin_mechanics::testing::{
     Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness,
     loads_of, perturb, resultant, stiffness_matrix,
 };
 use actin_mechanics::{Frame, Inertia, Interaction, Point, State, Vector3, rotation};
 use proptest::prelude::*;
+use std::f64::consts::FRAC_PI_2;
 
 /// A rod of three segments of 10 nm along z and two monomers beside it, all displaced and turned.
 struct Scene {
@@ -39,9 +40,19 @@ fn scene(noise: &mut Noise) -> Scene {
     }
 }
 
+fn place(segment: usize, fraction: f64, radius: f64, azimuth: f64) -> RodPlace {
+    RodPlace {
+        segment,
+        fraction,
+        radius,
+        azimuth,
+    }
+}
+
 impl Scene {
     fn on_rod(&self, segment: usize, fraction: f64) -> Site {
-        Site::on_rod(&self.rod, (segment, fraction), 1.8, 0.7 + fraction).unwrap()
+        let place = place(segment, fraction, 1.8, 0.7 + fraction);
+        Site::on_rod(&self.rod, place).unwrap()
     }
 
     fn on_monomer(&self, k: usize) -> Site {
@@ -161,7 +172,7 @@ fn rod_and_monomer_feel_the_same_at_the_same_point() {
         .position
         .set(second, start + q * Vector3::z() * 10.0);
     for fraction in [0.0, 0.3, 1.0] {
-        let on_rod = Site::on_rod(&scene.rod, (0, fraction), 1.8, -2.0).unwrap();
+        let on_rod = Site::on_rod(&scene.rod, place(0, fraction, 1.8, -2.0)).unwrap();
         let arm = on_rod.arm() + Vector3::z() * (10.0 * fraction);
         let on_monomer = Site::on_monomer(first, frame, arm).unwrap();
         let [rod, monomer] =
@@ -183,7 +194,7 @@ fn rod_and_monomer_feel_the_same_at_the_same_point() {
 fn a_linker_pulls_by_its_extension() {
     let mut state = State::default();
     let rod = StraightRod::uniform(2, 10.0).push(&mut state).unwrap();
-    let site = Site::on_rod(&rod, (1, 0.25), 4.0, std::f64::consts::FRAC_PI_2).unwrap();
+    let site = Site::on_rod(&rod, place(1, 0.25, 4.0, FRAC_PI_2)).unwrap();
     let end = LinkerEnd::Anchor(Anchor::fixed(Vector3::new(5.0, 4.0, 12.5)));
     let linker = Linker::new(site, end, 2.0, 2.0).unwrap();
     // cos(pi/2) is 6e-17, not 0.
@@ -237,11 +248,9 @@ fn controls_move_an_anchor() {
     let mut scene = scene(&mut Noise::new(16));
     let site = scene.on_rod(1, 0.5);
     let position = site.position(&scene.state);
-    scene.state.controls = vec![9.0, 0.0, 0.0, 0.0];
-    let anchor = Anchor {
-        position,
-        control: Some(1),
-    };
+    scene.state.controls = vec![9.0];
+    let anchor = Anchor::movable(&mut scene.state, position);
+    assert_eq!(anchor.control, Some(1));
     let linker = Linker::new(site, LinkerEnd::Anchor(anchor), 7.0, 0.0).unwrap();
     assert_eq!(linker.force(&scene.state), Vector3::zeros());
     scene.state.controls = vec![9.0, 1.0, -2.0, 3.0];
@@ -254,7 +263,7 @@ fn controls_move_an_anchor() {
 fn linkers_that_make_no_sense_are_refused() {
     let scene = scene(&mut Noise::new(17));
     let on_rod = |segment, fraction, radius, azimuth| {
-        Site::on_rod(&scene.rod, (segment, fraction), radius, azimuth).map(drop)
+        Site::on_rod(&scene.rod, place(segment, fraction, radius, azimuth)).map(drop)
     };
     let refused =
         |key, value, rule| Err(LinkerError::Parameter(ParameterError { key, value, rule }));

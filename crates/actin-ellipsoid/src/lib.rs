@@ -40,3 +40,9 @@ pub use monomers::{Monomers, Placement};
 pub use parameters::{
     Anchors, EllipsoidParameters, FEWEST_POINTS, InterfaceParameters, MOST_POINTS, ParameterError,
 };
+
+/// The crate of points, frames, loads and interactions that monomers are made of.
+pub use actin_mechanics as mechanics;
+pub use actin_mechanics::{
+    Interaction, Loads, PointLoad, State, System, UnitQuaternion, Vector3, Weight,
+};

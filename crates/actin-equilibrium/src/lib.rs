@@ -1,6 +1,7 @@
 //! Equilibria of points and frames: Newton on a sparse stiffness, certified.
 //!
-//! A [`Layout`] says what may move and in what order unknowns stand. [`Newton`] minimises the
+//! [`relax`] moves a state to an equilibrium in one call. What it is made of can be used alone: a
+//! [`Layout`] says what may move and in what order unknowns stand. [`Newton`] minimises the
 //! potential energy of interactions over it, and certifies what it finds. [`Path`] does so
 //! along a path of controls.
 //!
@@ -31,6 +32,7 @@ mod outcome;
 mod path;
 mod path_options;
 mod pattern;
+mod relax;
 mod residual;
 mod saddle;
 mod ties;
@@ -48,5 +50,13 @@ pub use options::{NewtonOptions, OptionsError};
 pub use outcome::{Ending, Equilibrium, NewtonFailure, Trouble};
 pub use path::{Path, PathEnd, PathFailure, PathPoint, PathTrouble};
 pub use path_options::{Jumps, PathOptions, Saddles};
+pub use relax::{EquilibriumError, relax};
 pub use residual::Residual;
 pub use saddle::Push;
+
+/// The crate of points, frames, loads and interactions whose equilibria are found.
+pub use actin_mechanics as mechanics;
+pub use actin_mechanics::{
+    Coordinates, Interaction, Loads, Matrix3, Point, PointLoad, SecondOrder, Spring, Springs,
+    State, Stiffness, Vector3, Weight,
+};

@@ -2,12 +2,13 @@
 //!
 //! A method is a [`Composition`]: a cited table of coefficients of alternating drifts and kicks.
 //! One loop, [`advance`], serves all of them, and sees of a system only what
-//! [`actin_mechanics::Split`] shows: drift, kick and damp; in a [`Bath`], [`advance_in`] also
+//! [`Split`] shows: drift, kick and damp; in a [`Bath`], [`advance_in`] also
 //! agitates. [`largest_frequency`] and
-//! [`stable_step`] give the time step. A [`Run`] advances a [`actin_mechanics::System`], shows
+//! [`stable_step`] give the time step. A [`Run`] advances a [`System`], shows
 //! synchronised states to [`Observer`]s, and ends by a [`StopRule`], at its last step, when an
 //! observer asks for it, or with a [`RunFailure`] that names what broke. At a [`Pause`] it can be left
-//! with a [`Checkpoint`], from which [`Run::resume`] goes on to the same bits.
+//! with a [`Checkpoint`], from which [`Run::resume`] goes on to the same bits. A system of one's own that is a
+//! [`Split`] runs with [`Run::execute_split`].
 //!
 //! This crate knows nothing of what the bodies stand for, and never solves for an equilibrium.
 //! Times are in ns, lengths in nm, forces in pN, rates in 1/ns.
@@ -21,6 +22,7 @@ mod checkpoint;
 mod composition;
 mod diagnosis;
 mod drag;
+mod error;
 mod execution;
 mod failure;
 mod frequency;
@@ -28,6 +30,7 @@ mod lanczos;
 mod noise;
 mod observer;
 mod outcome;
+mod own_split;
 mod run;
 mod schemes;
 mod step;
@@ -39,10 +42,12 @@ pub use bath::{Bath, BathError};
 pub use checkpoint::{Checkpoint, Mark, Pause};
 pub use composition::{Composition, CompositionError, Stage, UnknownScheme};
 pub use drag::{Drag, DragError};
+pub use error::IntegrationError;
 pub use failure::{Body, Problem, RunFailure};
 pub use frequency::{FrequencyError, KRYLOV_VECTORS, largest_frequency, largest_frequency_with};
 pub use observer::{Moment, Observer};
 pub use outcome::{Outcome, Reason, Residual};
+pub use own_split::{SplitMoment, SplitOutcome};
 pub use run::{DEFAULT_CHECK_EVERY, DEFAULT_OBSERVE_EVERY, Run, RunError};
 pub use schemes::{
     FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, SUZUKI_WEIGHT, VEFRL, VELOCITY_VERLET,
@@ -50,3 +55,10 @@ pub use schemes::{
 pub use step::{SAFETY, StepError, stable_step};
 pub use stepper::{advance, advance_in};
 pub use stop::{StopRule, StopRuleError};
+
+/// The crate of points, frames, loads and interactions that are set in motion.
+pub use actin_mechanics as mechanics;
+pub use actin_mechanics::{
+    Agitate, Frame, Inertia, Interaction, Loads, Point, PointLoad, Split, Spring, Springs, State,
+    System, UnitQuaternion, Vector3, Vectors, Weight,
+};

@@ -23,8 +23,8 @@ pub struct Run {
     pub(crate) h: f64,
     pub(crate) steps: u64,
     pub(crate) first_step: u64,
-    drag: Drag,
-    bath: Option<Bath>,
+    pub(crate) drag: Drag,
+    pub(crate) bath: Option<Bath>,
     pub(crate) observe_every: u64,
     pub(crate) check_every: u64,
     pub(crate) kinetic_limit: f64,
@@ -51,6 +51,9 @@ pub enum RunError {
     /// The limit of the energy is no number.
     #[error("the limit of the energy must be a number, got {0} pN nm")]
     EnergyLimit(f64),
+    /// A system of one's own, of which no state is known, is to be run with what looks at one.
+    #[error("{0} needs the state of a System: it does not work with any other Split")]
+    NeedsSystem(&'static str),
 }
 
 impl Run {

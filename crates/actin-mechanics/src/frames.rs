@@ -79,6 +79,18 @@ impl Frames {
         self.angular_momentum.set(i, Vector3::zeros());
     }
 
+    /// Undoes [`hold`](Self::hold): torques turn frame `i` again, from rest. One that is free stays
+    /// as it is.
+    ///
+    /// # Panics
+    /// If there is no frame `i`.
+    pub fn release(&mut self, i: usize) {
+        if !self.is_free(i) {
+            self.mobility[i] = 1.0;
+            self.angular_momentum.set(i, Vector3::zeros());
+        }
+    }
+
     /// Whether torques turn frame `i`.
     pub fn is_free(&self, i: usize) -> bool {
         self.mobility[i] > 0.0

@@ -5,7 +5,8 @@
 //! momentum and an inverse inertia; every frame is a symmetric top. A [`State`] holds both as
 //! structures of arrays. An [`Interaction`] adds its [`Loads`]: forces in the lab frame, torques
 //! in the body frame. A [`System`] is a state with its interactions, and offers itself to
-//! integrators as a [`Split`] into drift and kick.
+//! integrators as a [`Split`] into drift and kick. [`Springs`], [`Weight`] and [`PointLoad`] are the
+//! interactions that need no model.
 //!
 //! This crate knows nothing of what the points and frames stand for.
 //!
@@ -24,12 +25,14 @@ mod points;
 mod quaternions;
 pub mod rotation;
 mod slider;
+mod spring;
 mod state;
 mod stiffness;
 mod survey;
 mod system;
 pub mod testing;
 mod vectors;
+mod weight;
 pub mod wide;
 
 pub use frames::{Frame, Frames};
@@ -40,11 +43,13 @@ pub use loads::Loads;
 pub use points::{Point, Points};
 pub use quaternions::Quaternions;
 pub use slider::Slider;
+pub use spring::{Hooke, Spring, SpringError, Springs};
 pub use state::State;
 pub use stiffness::{Coordinates, SecondOrder, Stiffness};
 pub use survey::Survey;
 pub use system::{Agitate, Drive, Split, System};
 pub use vectors::Vectors;
+pub use weight::Weight;
 
 /// A vector of three components.
 pub type Vector3 = nalgebra::Vector3<f64>;

@@ -16,6 +16,26 @@ pub struct PointLoad {
 }
 
 impl PointLoad {
+    /// The load of `force` (lab frame) on one point, with a control of its own that begins at 1.
+    ///
+    /// # Panics
+    /// As [`new`](Self::new).
+    pub fn at(state: &mut State, point: usize, force: Vector3) -> Self {
+        Self::shared(state, &[point], force)
+    }
+
+    /// The load of `force` (lab frame) shared equally among points, with a control of its own that
+    /// begins at 1.
+    ///
+    /// # Panics
+    /// As [`new`](Self::new).
+    pub fn shared(state: &mut State, points: &[usize], force: Vector3) -> Self {
+        let control = state.add_control(1.0);
+        let share = 1.0 / points.len() as f64;
+        let shares = points.iter().map(|&point| (point, share)).collect();
+        Self::new(state, shares, force, control)
+    }
+
     /// The load of `force` (lab frame, at control value 1) shared among points, with its zero of
     /// potential at the present positions; `control` is the index of its factor in
     /// [`State::controls`].
@@ -52,6 +72,11 @@ impl PointLoad {
             force,
             control,
         }
+    }
+
+    /// Index of its factor in [`State::controls`].
+    pub fn control(&self) -> usize {
+        self.control
     }
 }
 
@@ -95,6 +120,21 @@ impl SecondOrder for PointLoad {
 mod tests {
     use super::*;
     use crate::Point;
+
+    /// A load of its own control pulls at once, with all of its force, and beside other controls.
+    #[test]
+    fn a_shared_load_brings_its_control() {
+        let mut state = State::default();
+        for mass in [1.0, 2.0] {
+            let position = Vector3::zeros();
+            state.points.push(Point { position, mass });
+        }
+        state.controls.push(7.0);
+        let load = PointLoad::shared(&mut state, &[0, 1], Vector3::x() * 3.0);
+        assert_eq!((load.control(), state.controls[1]), (1, 1.0));
+        let loads = crate::testing::loads_of(&load, &state);
+        assert_eq!(loads.force.get(1), Vector3::x() * 1.5);
+    }
 
     #[test]
     fn loads_on_what_is_not_there_are_refused() {

@@ -2,6 +2,7 @@
 
 use crate::inertia::is_inertia;
 use crate::{Vector3, Vectors, vectors};
+use std::collections::BTreeMap;
 
 /// One point, as it enters a [`Points`].
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +21,8 @@ pub struct Points {
     /// Velocities in the lab frame.
     pub velocity: Vectors,
     inverse_mass: Vec<f64>,
+    /// What the inverse mass of each held point is when it is free.
+    held: BTreeMap<usize, f64>,
 }
 
 impl Points {
@@ -51,13 +54,45 @@ impl Points {
     }
 
     /// Takes point `i` out of the reach of forces: its inverse mass becomes zero, and it keeps
-    /// whatever velocity it is given from outside (zero unless driven).
+    /// whatever velocity it is given from outside (zero unless driven). Its mass is remembered.
     ///
     /// # Panics
     /// If there is no point `i`.
     pub fn hold(&mut self, i: usize) {
+        if self.is_free(i) {
+            self.held.insert(i, self.inverse_mass[i]);
+        }
         self.inverse_mass[i] = 0.0;
         self.velocity.set(i, Vector3::zeros());
+    }
+
+    /// Undoes [`hold`](Self::hold): forces move point `i` again, from rest. One that is free stays
+    /// as it is.
+    ///
+    /// ```
+    /// use actin_mechanics::{Point, State, Vector3};
+    /// let mut state = State::default();
+    /// let i = state.points.push(Point { position: Vector3::zeros(), mass: 4.0 });
+    /// state.points.hold(i);
+    /// assert_eq!((state.points.is_free(i), state.points.mass(i)), (false, 4.0));
+    /// state.points.release(i);
+    /// assert_eq!((state.points.is_free(i), state.points.mass(i)), (true, 4.0));
+    /// ```
+    pub fn release(&mut self, i: usize) {
+        if let Some(inverse) = self.held.remove(&i) {
+            self.inverse_mass[i] = inverse;
+            self.velocity.set(i, Vector3::zeros());
+        }
+    }
+
+    /// Mass of point `i`, to rounding; that of a held point is what it has when it is free.
+    ///
+    /// # Panics
+    /// If there is no point `i`.
+    pub fn mass(&self, i: usize) -> f64 {
+        let free = self.inverse_mass[i];
+        let inverse = if free > 0.0 { free } else { self.held[&i] };
+        1.0 / inverse
     }
 
     /// Whether forces move point `i`.

@@ -20,6 +20,12 @@ pub struct State {
 }
 
 impl State {
+    /// Adds a control, what is set from outside, and returns its index in `controls`.
+    pub fn add_control(&mut self, value: f64) -> usize {
+        self.controls.push(value);
+        self.controls.len() - 1
+    }
+
     /// Kinetic energy of the free bodies, sliding ones included.
     pub fn kinetic_energy(&self) -> f64 {
         let sliding: f64 = self.sliders.iter().map(|s| s.kinetic_energy(self)).sum();

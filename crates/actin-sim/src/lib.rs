@@ -16,6 +16,7 @@ struct Readme;
 pub mod advice;
 mod assembly;
 pub mod cost;
+mod error;
 mod memory;
 mod notes;
 mod results;
@@ -23,13 +24,21 @@ mod run;
 mod scene;
 pub mod shape;
 
+// The crates whose types are in the API of this one.
+pub use actin_cosserat as cosserat;
 pub use actin_cosserat::constants as rod_constants;
+pub use actin_coupling as coupling;
+pub use actin_ellipsoid as ellipsoid;
 pub use actin_ellipsoid::constants as ellipsoid_constants;
+pub use actin_equilibrium as equilibrium;
+pub use actin_integrate as integrate;
+pub use actin_mechanics as mechanics;
 pub use assembly::{
     Assembly, BeyondRange, BeyondUse, BodyKind, Clamped, Counts, Drive, FilamentSpan, Fluctuations,
     FrameInfo, JunctionBond, Part, PointInfo, Reaction, Resolution, SectionSpan, Term,
     UnstableTwist,
 };
+pub use error::SimError;
 pub use results::{
     CheckpointError, Checkpoints, Damage, FilamentSummary, RunDirectory, RunDirectoryError,
     RunLock, StabilitySummary, Summary, ThermalSummary,

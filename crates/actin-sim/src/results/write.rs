@@ -56,6 +56,17 @@ impl RunDirectory {
         Ok(results.summary)
     }
 
+    /// Reads back the summary that a run has written here.
+    ///
+    /// # Errors
+    /// A file that is not there, cannot be read or is not a summary.
+    pub fn summary(&self) -> Result<Summary, RunDirectoryError> {
+        let path = self.path.join(SUMMARY);
+        let read = fs::read_to_string(&path);
+        let summary = read.and_then(|text| Ok(serde_json::from_str(&text)?));
+        summary.map_err(RunDirectoryError::io(&path))
+    }
+
     /// Lists what is about to be written, where nothing that the run has not written is in the way.
     fn announce(&self, results: &Results<'_>) -> Result<(), RunDirectoryError> {
         let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);

@@ -5,7 +5,7 @@ use super::strand::{Body, Strand, junction_problem};
 use crate::assembly::{Part, Resolution, Rod, models};
 use crate::scene::Problem;
 use actin_cosserat::{JoinedElement, RodLayout};
-use actin_coupling::{AttachedMonomer, Junction, JunctionSide};
+use actin_coupling::{AttachedMonomer, Junction, JunctionParts, JunctionSide};
 use actin_ellipsoid::Monomers;
 use actin_mechanics::Interaction;
 
@@ -89,16 +89,14 @@ impl Strand<'_> {
             }
             _ => unreachable!("validation refuses neighbouring sections of one kind"),
         };
-        let weight = self.filament.junction.weight.into();
-        let frames = self.junction_frames[i].clone();
-        Junction::new(
-            &stock.state,
-            (side, weight),
-            &attached,
-            frames,
-            layout,
-            self.law.material,
-        )
-        .map_err(|error| junction_problem(&error))
+        let parts = JunctionParts {
+            side,
+            weight: self.filament.junction.weight.into(),
+            monomers: &attached,
+            frames: self.junction_frames[i].clone(),
+            rod: layout,
+            material: self.law.material,
+        };
+        Junction::new(&stock.state, parts).map_err(|error| junction_problem(&error))
     }
 }

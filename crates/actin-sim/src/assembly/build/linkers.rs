@@ -5,7 +5,7 @@ use crate::assembly::Part;
 use crate::assembly::lattice::Resolved;
 use crate::scene::{self, LinkerSite, Problem};
 use actin_cosserat::RodLayout;
-use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, Site};
+use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, RodPlace, Site};
 use actin_ellipsoid::Monomers;
 use actin_mechanics::Vector3;
 use std::collections::HashMap;
@@ -87,8 +87,14 @@ impl Builder<'_> {
             Body::Rod(layout) => {
                 let nodes = nodes.of(strand.first_section + section, layout);
                 let from_start = s_nm - strand.resolved[section].from_nm;
-                let place = on_segment(nodes, layout.segment_lengths(), from_start);
-                Site::on_rod(layout, place, at.radius_nm, azimuth)
+                let (segment, fraction) = on_segment(nodes, layout.segment_lengths(), from_start);
+                let place = RodPlace {
+                    segment,
+                    fraction,
+                    radius: at.radius_nm,
+                    azimuth,
+                };
+                Site::on_rod(layout, place)
             }
             Body::Monomers(monomers) => {
                 let (sin, cos) = azimuth.sin_cos();

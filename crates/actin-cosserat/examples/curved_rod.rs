@@ -1,0 +1,34 @@
+//! A rod that is an arc of a circle at rest is put straight, then relaxes to its rest shape.
+
+use actin_cosserat::{
+    Interaction, Rigidities, RodClamp, RodElements, RodEnd, RodMaterial, State, StraightRod,
+    Vector3,
+};
+use actin_equilibrium::relax;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut state = State::default();
+    let straight = StraightRod::uniform(160, 1.0);
+    let rod = straight.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state)?;
+    let rigidities = Rigidities::table4();
+
+    // At rest: curved about body axis d2 with a radius of 100 nm; a third component would twist it.
+    let radius = 100.0;
+    rod.bend(&mut state, |_s| Vector3::y() / radius);
+    let law = RodElements::at_rest(&state, &rod, RodMaterial::new(rigidities)?);
+
+    // At the start: straight.
+    rod.bend(&mut state, |_s| Vector3::zeros());
+    let energy = law.energy(&state);
+    let theory = rigidities.bend.y * rod.length() / (2.0 * radius * radius);
+    println!("energy: {energy:.1} pN nm; B L / 2 R^2 = {theory:.1} pN nm");
+
+    relax(&mut state, &[Box::new(law)])?;
+    let tip = state.points.position.get(rod.end_point(RodEnd::End));
+    let (sin, cos) = (rod.length() / radius).sin_cos();
+    let circle = Vector3::new(1.0 - cos, 0.0, sin) * radius;
+    println!("tip: ({:.3}, {:.3}) nm", tip.x, tip.z);
+    println!("circle: ({:.3}, {:.3}) nm", circle.x, circle.z);
+    assert!((energy / theory - 1.0).abs() < 0.01 && (tip - circle).norm() < 0.01);
+    Ok(())
+}

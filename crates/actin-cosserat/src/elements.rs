@@ -1,0 +1,318 @@
+//! Rods in any topology, straight or curved at rest, as one interaction.
+//!
+//! A rod that is straight at rest and runs from end to end is an [`EnergyGradient`], which is faster.
+//!
+//! [`EnergyGradient`]: crate::EnergyGradient
+
+use crate::{BendingElement, RodError, RodLayout, RodMaterial, ShearElement};
+use actin_mechanics::{
+    Interaction, Loads, SecondOrder, State, Stiffness, UnitQuaternion, Vector3, rotation,
+};
+
+/// What resists stretch and shear between two points, in axes of a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RodSegment {
+    /// The two points.
+    pub points: [usize; 2],
+    /// The frame; at rest its d3 leads from the first point to the second.
+    pub frame: usize,
+    /// Rest length (nm).
+    pub rest_length: f64,
+}
+
+/// What resists bending and twist between two frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RodJoint {
+    /// The two frames, in the order of the rod.
+    pub frames: [usize; 2],
+    /// Rest distance of the frames along the rod (nm).
+    pub rest_distance: f64,
+    /// Where each frame of the joint stands in its body: the joint is at rest where
+    /// `Qa oa = Qb ob`. Its strain is `log((Qa oa)^T Qb ob)` over the rest distance.
+    pub offsets: [UnitQuaternion; 2],
+}
+
+impl RodJoint {
+    /// A joint whose frames are parallel at rest.
+    pub fn straight(frames: [usize; 2], rest_distance: f64) -> Self {
+        Self::curved(frames, rest_distance, Vector3::zeros())
+    }
+
+    /// A joint that at rest has a curvature (rad/nm, the same in axes of either frame): its first
+    /// two components bend, the third twists.
+    ///
+    /// Its own frames lie half way between those of the bodies.
+    pub fn curved(frames: [usize; 2], rest_distance: f64, curvature: Vector3) -> Self {
+        let half = rotation::exp(curvature * (0.5 * rest_distance));
+        Self {
+            frames,
+            rest_distance,
+            offsets: [half, half.inverse()],
+        }
+    }
+
+    fn element(&self) -> BendingElement {
+        BendingElement {
+            rest_distance: self.rest_distance,
+        }
+    }
+
+    fn orientations(&self, state: &State) -> [UnitQuaternion; 2] {
+        [0, 1].map(|k| state.frames.orientation.get(self.frames[k]) * self.offsets[k])
+    }
+}
+
+/// Segments between points and joints between frames of one material, in any topology: term `rod`;
+/// elements are the segments, then the joints.
+///
+/// Its energy is that of [`EnergyGradient`](crate::EnergyGradient), with strains measured from the
+/// rest shape. Where every joint is straight and they follow one another it is the same.
+///
+/// ```
+/// use actin_cosserat::{
+///     Interaction, Rigidities, RodElements, RodMaterial, State, StraightRod, Vector3,
+/// };
+/// // Curved at rest to a radius of 100 nm over 50 nm, then held straight: B L / 2 R^2.
+/// let mut state = State::default();
+/// let rod = StraightRod::uniform(50, 1.0).push(&mut state)?;
+/// let material = RodMaterial::new(Rigidities::table4())?;
+/// rod.bend(&mut state, |_| Vector3::x() / 100.0);
+/// let law = RodElements::at_rest(&state, &rod, material);
+/// assert!(law.energy(&state) < 1e-12);
+/// rod.bend(&mut state, |_| Vector3::zeros());
+/// // The outer half segments have no joint, so that 49 of the 50 nm bend.
+/// assert!((law.energy(&state) - 3.9e4 * 49.0 / 2e4).abs() < 1e-9);
+/// # Ok::<(), actin_cosserat::RodError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct RodElements {
+    material: RodMaterial,
+    segments: Vec<RodSegment>,
+    joints: Vec<RodJoint>,
+}
+
+impl RodElements {
+    /// The rod that these segments and joints make up.
+    ///
+    /// # Errors
+    /// A rest length or distance that is not positive and finite.
+    pub fn new(
+        material: RodMaterial,
+        segments: Vec<RodSegment>,
+        joints: Vec<RodJoint>,
+    ) -> Result<Self, RodError> {
+        for (segment, each) in segments.iter().enumerate() {
+            let value = each.rest_length;
+            if !is_length(value) {
+                return Err(RodError::SegmentLength { segment, value });
+            }
+        }
+        for (joint, each) in joints.iter().enumerate() {
+            let value = each.rest_distance;
+            if !is_length(value) {
+                return Err(RodError::JointDistance { joint, value });
+            }
+        }
+        Ok(Self {
+            material,
+            segments,
+            joints,
+        })
+    }
+
+    /// The rod `layout` with the bends and twists of `state` as its rest shape, whatever it is
+    /// curved like; rest lengths are those of the layout.
+    ///
+    /// # Panics
+    /// If `state` does not have the rod's bodies.
+    pub fn at_rest(state: &State, layout: &RodLayout, material: RodMaterial) -> Self {
+        let bodies = layout.points().zip(layout.frames());
+        let segments = bodies.zip(layout.segment_lengths());
+        let segments = segments.map(|((i, frame), &rest_length)| RodSegment {
+            points: [i, i + 1],
+            frame,
+            rest_length,
+        });
+        let q = &state.frames.orientation;
+        let joints = layout.bending_chain().zip(layout.voronoi_lengths());
+        let joints = joints.map(|(a, &rest_distance)| {
+            let element = BendingElement { rest_distance };
+            let curvature = element.curvature(q.get(a), q.get(a + 1));
+            RodJoint::curved([a, a + 1], rest_distance, curvature)
+        });
+        Self {
+            material,
+            segments: segments.collect(),
+            joints: joints.collect(),
+        }
+    }
+
+    /// The segments.
+    pub fn segments(&self) -> &[RodSegment] {
+        &self.segments
+    }
+
+    /// The joints.
+    pub fn joints(&self) -> &[RodJoint] {
+        &self.joints
+    }
+
+    /// Curvature of each joint beyond that at rest (rad/nm, axes of the joint's own frames).
+    pub fn curvatures<'a>(
+        &'a self,
+        state: &'a State,
+    ) -> impl ExactSizeIterator<Item = Vector3> + 'a {
+        self.joints.iter().map(|joint| {
+            let [qa, qb] = joint.orientations(state);
+            joint.element().curvature(qa, qb)
+        })
+    }
+}
+
+fn is_length(value: f64) -> bool {
+    value.is_finite() && value > 0.0
+}
+
+impl RodSegment {
+    fn element(&self) -> ShearElement {
+        ShearElement::segment(self.rest_length)
+    }
+
+    /// Its frame, and the vector between its points.
+    fn placed(&self, state: &State) -> (UnitQuaternion, Vector3) {
+        let x = &state.points.position;
+        let l = x.get(self.points[1]) - x.get(self.points[0]);
+        (state.frames.orientation.get(self.frame), l)
+    }
+}
+
+impl Interaction for RodElements {
+    fn term(&self) -> &'static str {
+        "rod"
+    }
+
+    fn elements(&self) -> usize {
+        self.segments.len() + self.joints.len()
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        for segment in &self.segments {
+            let (q, l) = segment.placed(state);
+            let shear = segment.element().loads(&self.material, q, l);
+            loads.force.add(segment.points[0], shear.force);
+            loads.force.add(segment.points[1], -shear.force);
+            loads.torque.add(segment.frame, shear.torque);
+        }
+        for joint in &self.joints {
+            let [qa, qb] = joint.orientations(state);
+            let couple = joint.element().loads(&self.material, qa, qb);
+            let torques = [couple.first, couple.second];
+            for ((frame, offset), torque) in joint.frames.iter().zip(&joint.offsets).zip(torques) {
+                loads.torque.add(*frame, offset * torque);
+            }
+        }
+    }
+
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        assert_eq!(energies.len(), self.elements(), "one energy per element");
+        let (shear, bending) = energies.split_at_mut(self.segments.len());
+        for (energy, segment) in shear.iter_mut().zip(&self.segments) {
+            let (q, l) = segment.placed(state);
+            *energy = segment.element().energy(&self.material, q, l);
+        }
+        for (energy, joint) in bending.iter_mut().zip(&self.joints) {
+            let [qa, qb] = joint.orientations(state);
+            *energy = joint.element().energy(&self.material, qa, qb);
+        }
+    }
+
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        Some(self)
+    }
+}
+
+impl SecondOrder for RodElements {
+    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        for segment in &self.segments {
+            let (q, l) = segment.placed(state);
+            let shear = segment.element().stiffness(&self.material, q, l);
+            shear.push(segment.points, segment.frame, stiffness);
+        }
+        for joint in &self.joints {
+            let [qa, qb] = joint.orientations(state);
+            let blocks = joint.element().stiffness(&self.material, qa, qb);
+            let blocks = blocks.in_bodies(joint.offsets);
+            blocks.push(joint.frames, stiffness);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{EnergyGradient, Rigidities, RodClamp, RodEnd, StraightRod};
+    use actin_mechanics::testing::{
+        Noise, assert_is_balanced, assert_is_gradient, assert_is_stiffness, loads_of, perturb,
+    };
+
+    /// A clamped rod with a rest shape that bends and twists, in another shape.
+    fn curved() -> (State, RodElements) {
+        let mut state = State::default();
+        let rod = StraightRod::uniform(4, 2.0);
+        let layout = rod.push_clamped(RodClamp::Wall, RodEnd::End, &mut state);
+        let layout = layout.unwrap();
+        let material = RodMaterial::new(Rigidities::table4()).unwrap();
+        layout.bend(&mut state, |s| Vector3::new(0.02 * s, -0.1, 0.05));
+        let law = RodElements::at_rest(&state, &layout, material);
+        (state, law)
+    }
+
+    /// No load at rest; elsewhere loads and blocks are the derivatives of the energy, which an
+    /// offset on the wrong side, or of the wrong sign, would spoil.
+    #[test]
+    fn curved_rods_are_the_gradient_of_their_energy() {
+        let (mut state, law) = curved();
+        let residual = loads_of(&law, &state).residual(&state);
+        // Round-off of strains of 1e-15 against rigidities of 1e4.
+        assert!(residual.0 < 1e-9 && residual.1 < 1e-9, "{residual:?}");
+        perturb(&mut state, &mut Noise::new(4), 0.05, 0.1);
+        assert_is_gradient(&law, &state, 1e-3, 1e-8);
+        assert_is_stiffness(&law, &state, 1e-3, 1e-7);
+        assert_is_balanced(&law, &state, 1e-13);
+    }
+
+    /// A rod that is straight at rest is that of the energy gradient.
+    #[test]
+    fn straight_elements_are_a_straight_rod() {
+        let mut state = State::default();
+        let rod = StraightRod::uniform(4, 2.0);
+        let layout = rod.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state);
+        let layout = layout.unwrap();
+        let material = RodMaterial::new(Rigidities::table4()).unwrap();
+        let elements = RodElements::at_rest(&state, &layout, material);
+        let gradient = EnergyGradient::new(layout, material);
+        perturb(&mut state, &mut Noise::new(5), 0.05, 0.1);
+        let (energy, expected) = (elements.energy(&state), gradient.energy(&state));
+        assert!((energy / expected - 1.0).abs() < 1e-13);
+        let [loads, expected] = [&elements as &dyn Interaction, &gradient]
+            .map(|law| loads_of(law, &state).torque.iter().collect::<Vec<_>>());
+        let largest = expected.iter().map(Vector3::norm).fold(0.0, f64::max);
+        for (torque, expected) in loads.iter().zip(&expected) {
+            assert!((torque - expected).norm() < 1e-12 * largest);
+        }
+    }
+
+    #[test]
+    fn elements_without_length_are_refused() {
+        let (_, law) = curved();
+        for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let (mut segments, mut joints) = (law.segments().to_vec(), law.joints().to_vec());
+            joints[2].rest_distance = value;
+            let error = RodElements::new(law.material, segments.clone(), joints).unwrap_err();
+            assert!(matches!(error, RodError::JointDistance { joint: 2, .. }));
+            segments[1].rest_length = value;
+            let error = RodElements::new(law.material, segments, vec![]).unwrap_err();
+            assert!(matches!(error, RodError::SegmentLength { segment: 1, .. }));
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! What a user of a library crate meets first: examples that can be copied, shown in the READMEs.
+//!
+//! READMEs are compiled and run as documentation tests of their crates.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The crates that can be used alone.
+const LIBRARIES: [&str; 8] = [
+    "actin-mechanics",
+    "actin-ellipsoid",
+    "actin-cosserat",
+    "actin-coupling",
+    "actin-integrate",
+    "actin-equilibrium",
+    "actin-fit",
+    "actin-sim",
+];
+
+/// Programs among the examples that measure something for the documents.
+const MEASUREMENTS: [&str; 8] = [
+    "bond_rate",
+    "elimination_order",
+    "load_rate",
+    "measure_rod_law",
+    "persistence_length",
+    "scaling",
+    "statics_against_dynamics",
+    "weighted_bonds",
+];
+
+/// Most lines of an example: an interaction of one's own takes 40 before it is used.
+const MOST_LINES: usize = 60;
+
+fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name)
+}
+
+/// Names and programs of the examples of a crate that a user would copy, without their headers.
+fn examples(name: &str) -> Vec<(String, String)> {
+    let files = fs::read_dir(folder(name).join("examples")).expect("every library has examples");
+    let paths = files.map(|file| file.expect("it can be read").path());
+    let named = paths.map(|path| {
+        let stem = path.file_stem().expect("a file").to_string_lossy();
+        (stem.into_owned(), fs::read_to_string(&path).expect("text"))
+    });
+    named
+        .filter(|(stem, _)| !MEASUREMENTS.contains(&stem.as_str()))
+        .map(|(stem, text)| {
+            let header = |line: &&str| line.starts_with("//!") || line.is_empty();
+            let program: Vec<&str> = text.lines().skip_while(header).collect();
+            (stem, program.join("\n"))
+        })
+        .collect()
+}
+
+/// The README has the program that is built, word for word, and says how to run it.
+#[test]
+fn every_example_is_short_and_shown() {
+    for name in LIBRARIES {
+        let readme = fs::read_to_string(folder(name).join("README.md")).expect("text");
+        for (example, program) in examples(name) {
+            let lines = program.lines().count();
+            assert!(lines <= MOST_LINES, "{name}: {example} has {lines} lines");
+            let shown = readme.contains(&format!("```rust\n{program}\n```"));
+            assert!(shown, "{name}: its README does not show {example} as it is");
+            let command = format!("cargo run -p {name} --example {example}`");
+            assert!(readme.contains(&command), "{name}: how to run {example}?");
+        }
+    }
+}
+
+/// A crate whose types cannot be named without another crate would have no such example.
+#[test]
+fn every_library_can_be_used_alone() {
+    for name in LIBRARIES {
+        let own = format!("use {}::", name.replace('-', "_"));
+        let is_alone = |program: &str| {
+            let mut uses = program
+                .lines()
+                .filter(|line| line.starts_with("use actin_"));
+            uses.all(|line| line.starts_with(&own))
+        };
+        let alone = examples(name).iter().any(|(_, program)| is_alone(program));
+        assert!(
+            alone,
+            "{name} has no example that needs no other crate of ours"
+        );
+    }
+}
