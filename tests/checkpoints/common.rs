@@ -1,10 +1,9 @@
-//! Small scenes of every kind, and a keeper that leaves a run at a given moment.
+//! Small scenes of every kind, and a sink that interrupts a run at a given moment.
 
 use actin_sim::{
-    Assembly, CheckpointError, Checkpoints, Keeper, Kept, Record, RunDirectory, RunReport, Scene,
-    Standing, Trajectory, estimate, run_kept,
+    Assembly, CheckpointError, Checkpoints, Outcome, Plan, Record, RunDirectory, RunPosition,
+    Scene, Sink, Trajectory,
 };
-use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -126,12 +125,11 @@ pub(crate) fn build(scene: &Scene) -> Assembly {
     Assembly::build(scene).unwrap()
 }
 
-/// The files of checkpoints of an assembly in `directory`.
-pub(crate) fn checkpoints(directory: &RunDirectory, assembly: &mut Assembly) -> Checkpoints {
-    let estimate = estimate(assembly).unwrap();
+/// The files of checkpoints of a plan in `directory`.
+pub(crate) fn checkpoints(directory: &RunDirectory, plan: &Plan<'_>) -> Checkpoints {
     let never = Arc::new(AtomicBool::new(false));
     let hour = Duration::from_hours(1);
-    Checkpoints::new(directory, assembly, estimate.as_ref(), hour, never, report)
+    Checkpoints::new(directory, plan, hour, never, report)
 }
 
 fn report(error: &CheckpointError) {
@@ -144,19 +142,23 @@ pub(crate) struct Leaving<'a> {
     pub(crate) left: u64,
 }
 
-impl Keeper for Leaving<'_> {
+impl Sink for Leaving<'_> {
+    fn record(&mut self, record: &Record) {
+        self.checkpoints.record(record);
+    }
+
     fn is_interrupted(&mut self) -> bool {
         self.left = self.left.saturating_sub(1);
         self.left == 0
     }
 
-    fn is_due(&mut self) -> bool {
+    fn is_checkpoint_due(&mut self) -> bool {
         // Every other time, so that the log grows in steps.
         self.left.is_multiple_of(2)
     }
 
-    fn keep(&mut self, standing: &Standing, records: &[Record], wall_s: f64) {
-        self.checkpoints.keep(standing, records, wall_s);
+    fn checkpoint(&mut self, position: &RunPosition, records: usize, wall_s: f64) {
+        self.checkpoints.checkpoint(position, records, wall_s);
     }
 }
 
@@ -166,15 +168,20 @@ pub(crate) fn advance(
     directory: &RunDirectory,
     resumes: bool,
     left: u64,
-) -> (Assembly, Trajectory, RunReport) {
-    let mut assembly = build(scene);
-    let mut checkpoints = checkpoints(directory, &mut assembly);
-    let kept: Option<Kept> = resumes.then(|| checkpoints.resume().unwrap());
-    let mut keeper = Leaving {
+) -> (Assembly, Trajectory, Outcome) {
+    let assembly = build(scene);
+    let plan = Plan::new(&assembly).unwrap();
+    let mut checkpoints = checkpoints(directory, &plan);
+    let saved = resumes.then(|| checkpoints.resume().unwrap());
+    let mut sink = Leaving {
         checkpoints: &mut checkpoints,
         left,
     };
-    let watch = &mut |_| ControlFlow::Continue(());
-    let (trajectory, report) = run_kept(&mut assembly, kept, &mut keeper, watch).unwrap();
-    (assembly, trajectory, report)
+    let outcome = match saved {
+        None => plan.run_into(&mut sink),
+        Some(saved) => plan.resume_into(saved, &mut sink),
+    };
+    let outcome = outcome.unwrap();
+    let trajectory = checkpoints.trajectory().clone();
+    (assembly, trajectory, outcome)
 }

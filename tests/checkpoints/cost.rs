@@ -4,7 +4,7 @@
 use crate::common::{build, checkpoints};
 use actin_integrate::{DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Run, advance, stable_step};
 use actin_mechanics::System;
-use actin_sim::{Keeper, MotionStanding, RunDirectory, Scene, Standing};
+use actin_sim::{MotionPosition, Plan, RunDirectory, RunPosition, Scene, Sink};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -89,7 +89,7 @@ fn cost_of_checks() {
 }
 
 /// Keeps the first pause of a run.
-struct First(Option<Standing>);
+struct First(Option<RunPosition>);
 
 impl Observer for First {
     fn observe(&mut self, _: &mut Moment<'_>) -> ControlFlow<()> {
@@ -97,7 +97,7 @@ impl Observer for First {
     }
 
     fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
-        self.0 = Some(Standing::Motion(Box::new(MotionStanding {
+        self.0 = Some(RunPosition::Motion(Box::new(MotionPosition {
             checkpoint: pause.checkpoint(),
             pushes: Vec::new(),
         })));
@@ -114,14 +114,18 @@ fn cost_of_checkpoints() {
     for (name, section) in FILAMENTS {
         let folder = tempfile::tempdir().unwrap();
         let directory = RunDirectory::create(folder.path().join("run"), false).unwrap();
-        let mut assembly = build(&scene(section));
-        let mut files = checkpoints(&directory, &mut assembly);
+        let assembly = build(&scene(section));
+        let plan = Plan::new(&assembly).unwrap();
+        let mut files = checkpoints(&directory, &plan);
         let run = Run::new(&actin_integrate::POSITION_VERLET, 1e-3, 1000).unwrap();
         let mut first = First(None);
-        let outcome = run.execute(&mut assembly.system, &mut [&mut first]);
+        let outcome = run.execute(
+            &mut assembly.system.in_state(assembly.rest.clone()),
+            &mut [&mut first],
+        );
         assert!(outcome.is_ok());
-        let standing = first.0.unwrap();
-        let time = least(|| files.keep(&standing, &[], 0.0));
+        let position = first.0.unwrap();
+        let time = least(|| files.checkpoint(&position, 0, 0.0));
         let bytes = std::fs::metadata(directory.path().join("checkpoint.bin")).unwrap();
         println!("| {name} | {} | {:.2} |", bytes.len(), 1e3 * time);
     }

@@ -2,7 +2,7 @@
 //! with a panic.
 
 use crate::common::{Choice, advance, build, checkpoints};
-use actin_sim::{CheckpointError, Damage, RunDirectory, Scene};
+use actin_sim::{CheckpointError, Damage, Plan, RunDirectory, Scene, Status};
 use std::fs;
 use tempfile::TempDir;
 
@@ -29,7 +29,7 @@ impl Left {
         let folder = tempfile::tempdir().unwrap();
         let directory = RunDirectory::create(folder.path().join("run"), false).unwrap();
         let (.., report) = advance(&scene, &directory, false, 9);
-        assert!(report.interrupted);
+        assert_eq!(report.status, Status::Interrupted);
         Self {
             _folder: folder,
             directory,
@@ -47,10 +47,9 @@ impl Left {
 
     /// What is said of the checkpoint; it is read as another process would.
     fn resume(&self, scene: &Scene) -> Result<(), CheckpointError> {
-        let mut assembly = build(scene);
-        checkpoints(&self.directory, &mut assembly)
-            .resume()
-            .map(drop)
+        let assembly = build(scene);
+        let plan = Plan::new(&assembly).unwrap();
+        checkpoints(&self.directory, &plan).resume().map(drop)
     }
 
     fn refusal(&self) -> String {
@@ -70,7 +69,9 @@ fn every_flipped_byte_is_found() {
     let mut flipped = 0;
     for scene in [CHOICE.motion(), CHOICE.statics()] {
         let left = Left::of(scene);
-        let mut files = checkpoints(&left.directory, &mut build(&left.scene));
+        let assembly = build(&left.scene);
+        let plan = Plan::new(&assembly).unwrap();
+        let mut files = checkpoints(&left.directory, &plan);
         for name in ["checkpoint.bin", "records.bin"] {
             let whole = left.bytes(name);
             for place in places(whole.len()) {

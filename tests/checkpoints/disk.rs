@@ -1,7 +1,7 @@
 //! A disk that refuses: the last checkpoint stays, the run goes on, and the next attempt succeeds.
 
 use crate::common::{Choice, advance, build, checkpoints};
-use actin_sim::{Keeper, RunDirectory, Standing};
+use actin_sim::{Plan, RunDirectory, RunPosition, Sink};
 use std::fs;
 
 const CHOICE: Choice = Choice {
@@ -26,26 +26,25 @@ fn a_failed_checkpoint_leaves_the_last_one() {
     let path = directory.path().join("checkpoint.bin");
     let before = fs::read(&path).unwrap();
 
-    let mut assembly = build(&scene);
-    let mut files = checkpoints(&directory, &mut assembly);
-    let kept = files.resume().unwrap();
-    let Standing::Motion(standing) = &kept.standing else {
+    let assembly = build(&scene);
+    let plan = Plan::new(&assembly).unwrap();
+    let mut files = checkpoints(&directory, &plan);
+    let saved = files.resume().unwrap();
+    let RunPosition::Motion(position) = &saved.position else {
         panic!("a motion");
     };
-    let mut later = standing.clone();
+    let mut later = position.clone();
     later.checkpoint.here.step += 1;
-    let later = Standing::Motion(later);
+    let later = RunPosition::Motion(later);
     let obstacle = directory.path().join("checkpoint.bin.part");
     fs::create_dir(&obstacle).unwrap();
-    files.keep(&later, &kept.trajectory.records, 1.0);
+    files.checkpoint(&later, saved.records.len(), 1.0);
     assert!(files.last_failed());
     assert_eq!(fs::read(&path).unwrap(), before);
 
     fs::remove_dir(&obstacle).unwrap();
-    files.keep(&later, &kept.trajectory.records, 1.0);
+    files.checkpoint(&later, saved.records.len(), 1.0);
     assert!(!files.last_failed());
-    let again = checkpoints(&directory, &mut build(&scene))
-        .resume()
-        .unwrap();
-    assert_eq!(again.standing, later);
+    let again = checkpoints(&directory, &plan).resume().unwrap();
+    assert_eq!(again.position, later);
 }

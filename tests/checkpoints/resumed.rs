@@ -1,14 +1,14 @@
 //! A run that was left and taken up again gives what a run gives that was not.
 
 use crate::common::{Choice, advance};
-use actin_sim::{Record, RunDirectory, RunReport, Scene, Trajectory};
+use actin_sim::{Outcome, Plan, Record, RunDirectory, Scene, Status, Trajectory};
 use proptest::prelude::*;
 use std::fs;
 use std::path::Path;
 
 /// A report without the time that it took, which is the one thing that differs.
-fn timeless(report: &RunReport) -> String {
-    let report = RunReport {
+fn timeless(report: &Outcome) -> String {
+    let report = Outcome {
         wall_s: 0.0,
         ..report.clone()
     };
@@ -61,7 +61,8 @@ fn compare(scene: &Scene, leave: &[u64]) {
     let whole = RunDirectory::create(folder.path().join("whole"), false).unwrap();
     let pieces = RunDirectory::create(folder.path().join("pieces"), false).unwrap();
     let (assembly, expected, report) = advance(scene, &whole, false, u64::MAX);
-    whole.write(&assembly, &expected, &report).unwrap();
+    let plan = Plan::new(&assembly).unwrap();
+    whole.write(&plan, &expected, &report).unwrap();
     whole.remove_checkpoint().unwrap();
 
     let (mut resumes, mut pending) = (false, leave.iter().copied());
@@ -69,17 +70,18 @@ fn compare(scene: &Scene, leave: &[u64]) {
         let left = pending.next().unwrap_or(u64::MAX);
         let (assembly, trajectory, report) = advance(scene, &pieces, resumes, left);
         resumes = true;
-        if !report.interrupted {
+        if report.status != Status::Interrupted {
             break (assembly, trajectory, report);
         }
     };
     assert_same(&expected, &trajectory);
     assert_eq!(timeless(&report), timeless(&resumed));
-    // The end is kept, too: whoever could not write the results has them again.
+    // The end is kept, too: a program that could not write the results has them again.
     let (_, again, once_more) = advance(scene, &pieces, true, u64::MAX);
     assert_same(&expected, &again);
     assert_eq!(timeless(&report), timeless(&once_more));
-    pieces.write(&assembly, &trajectory, &resumed).unwrap();
+    let plan = Plan::new(&assembly).unwrap();
+    pieces.write(&plan, &trajectory, &resumed).unwrap();
     pieces.remove_checkpoint().unwrap();
     assert!(
         files(whole.path()) == files(pieces.path()),

@@ -5,7 +5,6 @@ use crate::modes::Modes;
 use actin_mechanics::{State, Vector3, rotation};
 use actin_sim::advice::SLOW_MOTION;
 use actin_sim::{Assembly, End, Scene, Trajectory};
-use std::ops::ControlFlow;
 
 /// Drag rates (1/ns); the default step of a rod is 0.003 ns.
 const RATES: [f64; 6] = [0.0, 1.0, 10.0, 100.0, 1e3, 1e4];
@@ -13,9 +12,8 @@ const RATES: [f64; 6] = [0.0, 1.0, 10.0, 100.0, 1e3, 1e4];
 /// Builds and runs a scene.
 fn run(text: &str) -> (Assembly, Trajectory) {
     let scene = Scene::from_ron(text).unwrap();
-    let mut assembly = Assembly::build(&scene).unwrap();
-    let (trajectory, _) =
-        actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())).unwrap();
+    let assembly = Assembly::build(&scene).unwrap();
+    let (trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
     (assembly, trajectory)
 }
 

@@ -2,7 +2,6 @@
 
 use actin_cosserat::BendingElement;
 use actin_sim::{Assembly, BeyondRange, Scene};
-use std::ops::ControlFlow;
 
 /// Length of the segments of the first filament (nm). At this length twist fluctuates by 0.02
 /// rad/nm and curvature by 0.01, where the data reach 0.0472 and 0.015.
@@ -27,9 +26,8 @@ const SCENE: &str = "Scene(
 /// largest value, all as counted here element by element.
 #[test]
 fn fluctuations_beyond_the_data_are_summed_up() {
-    let mut assembly = Assembly::build(&Scene::from_ron(SCENE).unwrap()).unwrap();
-    let (trajectory, _) =
-        actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())).unwrap();
+    let assembly = Assembly::build(&Scene::from_ron(SCENE).unwrap()).unwrap();
+    let (trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
     let records = &trajectory.records;
     let states = || records.iter().map(|record| &record.state);
     let found = assembly.beyond_range_over(states());

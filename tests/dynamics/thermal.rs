@@ -10,7 +10,6 @@ use actin_mechanics::testing::momenta;
 use actin_mechanics::{State, System};
 use actin_sim::{Assembly, ForceLaw, Scene};
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
 const ERRORS: f64 = 4.5;
 
@@ -213,9 +212,9 @@ fn end_of_scene(seed: u64, record_every_ns: f64) -> State {
         )"
     );
     let scene = Scene::from_ron(&text).unwrap();
-    let mut assembly = Assembly::build(&scene).unwrap();
-    actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())).unwrap();
-    assembly.system.state().clone()
+    let assembly = Assembly::build(&scene).unwrap();
+    let (mut trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
+    trajectory.records.pop().unwrap().state
 }
 
 /// From the scene to the last bit: when records are taken changes nothing, another seed does.

@@ -38,7 +38,11 @@ pub(crate) fn assert_dynamics_ends_with_newton(scene: impl Fn(&str) -> String) {
         )",
     ));
     let (_, report) = run(&mut moving).unwrap();
-    assert!(report.converged, "{} steps were not enough", report.steps);
+    assert!(
+        report.has_converged(),
+        "{} steps were not enough",
+        report.steps
+    );
     let positions =
         |assembly: &actin_sim::Assembly| assembly.system.state().points.position.clone();
     let (a, b) = (positions(&newton), positions(&moving));

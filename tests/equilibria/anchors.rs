@@ -85,7 +85,11 @@ fn anchors_move_smoothly_in_time() {
     let mut moving = build(&clamped([Vector3::zeros(); 2], Some(shifts), task));
     let rest = moving.rest.clone();
     let (trajectory, report) = run(&mut moving).unwrap();
-    assert!(report.converged, "{} steps were not enough", report.steps);
+    assert!(
+        report.has_converged(),
+        "{} steps were not enough",
+        report.steps
+    );
     let linker = &moving.linkers[1];
     for record in trajectory.records.iter().take_while(|r| r.time_ns < 45.0) {
         let x = (record.time_ns / 40.0).min(1.0);

@@ -2,12 +2,12 @@
 
 use crate::common::{BEND, LENGTH, bisect, build, run, second_order_limit};
 use actin_mechanics::Vector3;
-use actin_sim::{Assembly, End, RunError, RunReport};
+use actin_sim::{Assembly, End, Failure, Outcome, RunError};
 use std::f64::consts::PI;
 
 /// The rod with its end turned about y by `turn` (deg), saddle or not; `twist` is its twisting
 /// rigidity.
-fn rolled(segments: usize, twist: f64, turn: f64) -> (Assembly, RunReport) {
+fn rolled(segments: usize, twist: f64, turn: f64) -> (Assembly, Outcome) {
     let mut assembly = build(&format!(
         "Scene(
             filament: Filament(
@@ -23,7 +23,9 @@ fn rolled(segments: usize, twist: f64, turn: f64) -> (Assembly, RunReport) {
     ));
     let report = match run(&mut assembly) {
         Ok((_, report)) => report,
-        Err(RunError::Saddle { report, .. }) => *report,
+        Err(RunError::Failed(failed)) if matches!(failed.failure, Failure::Saddle(_)) => {
+            failed.outcome
+        }
         Err(error) => panic!("{error}"),
     };
     (assembly, report)

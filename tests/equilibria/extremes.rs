@@ -4,10 +4,10 @@
 //! `cargo test -p actin-sim --test equilibria extremes -- --nocapture` prints
 //! the table of `docs/statics.md`.
 
-use crate::common::{build, run};
+use crate::common::{build, run, run_anyway};
 use actin_equilibrium::{PathFailure, Stability};
 use actin_mechanics::Vector3;
-use actin_sim::{Assembly, End, Load, Record, RunError, RunReport, Trajectory};
+use actin_sim::{Assembly, End, Failure, Load, Outcome, Record, RunError, Trajectory};
 use std::time::Instant;
 
 /// Largest force and torque on a free body at an equilibrium (pN, pN nm).
@@ -81,7 +81,7 @@ impl Extreme {
     fn check(&self) -> bool {
         let mut assembly = self.assembly();
         let clock = Instant::now();
-        let result = run(&mut assembly);
+        let result = run_anyway(&mut assembly);
         let seconds = clock.elapsed().as_secs_f64();
         let (trajectory, report, failure) = self.take(result);
         let ended = match (&failure, &report.equilibrium) {
@@ -114,26 +114,23 @@ impl Extreme {
     /// The results, and why there are no more. What is beyond any use is an equilibrium all the same.
     fn take(
         &self,
-        result: Result<(Trajectory, RunReport), RunError>,
-    ) -> (Trajectory, RunReport, Option<Box<PathFailure>>) {
-        match result {
-            Ok((trajectory, report)) => (trajectory, report, None),
-            Err(RunError::Ended {
-                failure,
-                trajectory,
-                report,
-                ..
-            }) => (*trajectory, *report, Some(failure)),
-            Err(RunError::BeyondUse {
-                worst,
-                trajectory,
-                report,
-            }) => {
-                println!("{}: beyond any use: {}", self.name, worst[0]);
-                (*trajectory, *report, None)
-            }
+        result: (Trajectory, Result<Outcome, RunError>),
+    ) -> (Trajectory, Outcome, Option<Box<PathFailure>>) {
+        let (trajectory, outcome) = result;
+        let failed = match outcome {
+            Ok(outcome) => return (trajectory, outcome, None),
+            Err(RunError::Failed(failed)) => *failed,
             Err(other) => panic!("{}: {other}", self.name),
-        }
+        };
+        let failure = match failed.failure {
+            Failure::PathEnded { failure, .. } => Some(failure),
+            Failure::BeyondUse(worst) => {
+                println!("{}: beyond any use: {}", self.name, worst[0]);
+                None
+            }
+            other => panic!("{}: {other}", self.name),
+        };
+        (trajectory, failed.outcome, failure)
     }
 
     /// The last state is an equilibrium: small residual, and walls that bear the loads.

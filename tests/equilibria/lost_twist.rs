@@ -1,8 +1,8 @@
 //! Twist that is lost between held ends is said wherever twist plus writhe can tell it, and nothing is
 //! said to be lost that is not.
 
-use crate::common::{build, run};
-use actin_sim::{RunError, Summary};
+use crate::common::{build, failure, run, run_anyway};
+use actin_sim::{Failure, Summary};
 
 const MIXED: &str =
     "Rod(from_nm: 0.0, to_nm: 40.0, segments: 3), Ellipsoids(from_nm: 40.0, to_nm: 80.0)";
@@ -20,10 +20,13 @@ fn driven(filament: &str, end: &str, setting: &str) -> String {
 }
 
 fn lost_turns(text: &str) -> f64 {
-    match run(&mut build(text)) {
-        Err(RunError::Slipped { slip, .. }) => slip.lost_turns(),
-        Err(error) => panic!("{error}"),
-        Ok(_) => 0.0,
+    let (_, ended) = run_anyway(&mut build(text));
+    if ended.is_ok() {
+        return 0.0;
+    }
+    match failure(ended) {
+        (Failure::TwistLost { slip, .. }, _) => slip.lost_turns(),
+        (other, _) => panic!("{other}"),
     }
 }
 

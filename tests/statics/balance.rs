@@ -91,7 +91,11 @@ fn the_columns_of_the_energies_add_up() {
     let folder = tempfile::tempdir().unwrap();
     let directory = RunDirectory::create(folder.path().join("run"), false).unwrap();
     directory
-        .write(assembly, trajectory, &settled.report)
+        .write(
+            &actin_sim::Plan::new(assembly).unwrap(),
+            trajectory,
+            &settled.report,
+        )
         .unwrap();
     let text = std::fs::read_to_string(directory.path().join("energies.csv")).unwrap();
     let rows = rows(&text);

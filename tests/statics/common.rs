@@ -1,8 +1,7 @@
 //! Scenes as text, and their way to rest.
 
 use actin_mechanics::{State, Vector3};
-use actin_sim::{Assembly, End, Record, RunReport, Scene, Trajectory};
-use std::ops::ControlFlow;
+use actin_sim::{Assembly, End, Outcome, Plan, Record, Scene, Trajectory};
 
 /// A cantilever of one rod: damped dynamics to rest.
 #[derive(Clone, Debug)]
@@ -85,7 +84,7 @@ impl Rod {
 pub(crate) struct Settled {
     pub(crate) assembly: Assembly,
     pub(crate) trajectory: Trajectory,
-    pub(crate) report: RunReport,
+    pub(crate) report: Outcome,
 }
 
 impl Settled {
@@ -107,9 +106,12 @@ pub(crate) fn build(text: &str) -> Assembly {
     Assembly::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
 }
 
-/// Runs an assembly as its scene asks.
-pub(crate) fn run(assembly: &mut Assembly) -> (Trajectory, RunReport) {
-    actin_sim::run(assembly, &mut |_| ControlFlow::Continue(())).unwrap()
+/// Runs an assembly as its scene asks, which is then in its last state.
+pub(crate) fn run(assembly: &mut Assembly) -> (Trajectory, Outcome) {
+    let (trajectory, outcome) = Plan::new(assembly).unwrap().run().unwrap();
+    let last = trajectory.records.last().unwrap();
+    *assembly.system.state_mut() = last.state.clone();
+    (trajectory, outcome)
 }
 
 /// Runs a scene until its stop rule is met.
@@ -123,9 +125,11 @@ pub(crate) fn settle(text: &str) -> Settled {
     };
     let last = settled.last();
     assert!(
-        settled.report.converged,
+        settled.report.has_converged(),
         "still {} pN and {} pN nm from rest at {} ns",
-        last.residual_force_pn, last.residual_torque_pn_nm, last.time_ns
+        last.residual_force_pn,
+        last.residual_torque_pn_nm,
+        last.time_ns
     );
     settled
 }

@@ -30,7 +30,7 @@ fn check(text: &str) -> Result<(Assembly, Option<Estimate>), SceneError> {
     let scene = Scene::from_ron(text)?;
     let build = || -> Result<_, Problem> {
         let assembly = Assembly::build(&scene)?;
-        let estimate = actin_sim::estimate(&assembly)?;
+        let estimate = actin_sim::Plan::new(&assembly)?.estimate().copied();
         Ok((assembly, estimate))
     };
     build().map_err(|problem| SceneError::locate(&problem, text))

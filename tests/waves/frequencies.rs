@@ -9,7 +9,6 @@ use crate::field::{Motion, build, set};
 use actin_mechanics::Vector3;
 use actin_sim::Assembly;
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 /// Length of the rod (nm).
 const LENGTH: f64 = 160.0;
@@ -87,8 +86,7 @@ fn measured(wave: Wave, segments: usize, m: usize) -> f64 {
         0.005 * period,
     ));
     set(&mut assembly, &|s| wave.motion(k, s));
-    let (trajectory, _) =
-        actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())).unwrap();
+    let (trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
     let amplitudes: Vec<(f64, f64)> = trajectory
         .records
         .iter()

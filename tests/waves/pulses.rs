@@ -10,7 +10,6 @@ use crate::field::{Motion, build, set};
 use actin_mechanics::{State, Vector3};
 use actin_sim::{Assembly, End, shape};
 use std::f64::consts::TAU;
-use std::ops::ControlFlow;
 
 /// Mass per length (pN ns^2/nm^2) and polar moment per length (pN ns^2).
 const DENSITY: f64 = 0.0697 / (71.2 / 26.0);
@@ -160,7 +159,8 @@ fn reflected(pulse: Pulse, segment: f64, beyond: Beyond) -> f64 {
     let (mut assembly, half) = filament(pulse, segment, beyond);
     let middle = half - REACH * pulse.width;
     set(&mut assembly, &|s| pulse.motion(s - middle));
-    actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())).unwrap();
+    let (trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
+    *assembly.system.state_mut() = trajectory.records.last().unwrap().state.clone();
     let (first, all) = energies(&assembly, half, segment);
     first / all
 }
@@ -265,7 +265,7 @@ fn pulses_pass_the_junction_as_monomers_resist_them() {
 #[test]
 fn monomers_that_cannot_turn_resist_stretching_as_the_rod() {
     let resistance = |force: f64, end_clamp: &str| {
-        let mut assembly = build(&format!(
+        let assembly = build(&format!(
             "Scene(
                 filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 150.0)]),
                 clamps: [Clamp(end: Start){end_clamp}],
@@ -274,8 +274,9 @@ fn monomers_that_cannot_turn_resist_stretching_as_the_rod() {
             )"
         ));
         let rest = assembly.tip_nm(&assembly.rest, End::End).z;
-        actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())).unwrap();
-        let now = assembly.tip_nm(assembly.system.state(), End::End).z;
+        let (trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
+        let last = trajectory.records.last().unwrap();
+        let now = assembly.tip_nm(&last.state, End::End).z;
         force / (now / rest - 1.0)
     };
     for force in [0.34, 34.0] {

@@ -1,8 +1,6 @@
 //! `actin check`: what a scene resolves to and what it would cost.
 
 use crate::failure::{Failure, Opened};
-use actin_sim::advice::Advice;
-use actin_sim::cost::Cost;
 use actin_sim::{Assembly, Estimate, Resolution, SectionSpan, Task};
 use std::path::Path;
 
@@ -10,32 +8,25 @@ use std::path::Path;
 ///
 /// What is not part of the scene is printed as comments, so that the whole is a scene again.
 pub(crate) fn check(path: &Path) -> Result<(), Failure> {
-    let mut opened = Opened::open(path)?;
-    let estimate =
-        actin_sim::estimate(&opened.assembly).map_err(|problem| opened.refuse(&problem))?;
-    // Another resolution has another time step, unless the scene itself asks for one.
-    let written = opened.assembly.scene.clone();
-    if let Some(estimate) = &estimate {
-        opened.assembly.resolve(estimate);
-    }
-    println!("{}", opened.assembly.scene.to_ron());
-    print_sections(&opened.assembly);
-    print_counts(&opened.assembly);
-    print_linkers(&opened.assembly);
-    print_thermal(&opened.assembly, estimate.as_ref());
-    for note in opened.assembly.notes() {
+    let opened = Opened::open(path)?;
+    let plan = opened.plan()?;
+    let assembly = plan.assembly();
+    println!("{}", plan.scene().to_ron());
+    print_sections(assembly);
+    print_counts(assembly);
+    print_linkers(assembly);
+    print_thermal(assembly, plan.estimate());
+    for note in assembly.notes() {
         println!("// note: {note}");
     }
-    if let Some(estimate) = &estimate {
+    if let Some(estimate) = plan.estimate() {
         print_step(estimate);
     }
-    for note in estimate.iter().flat_map(|e| e.notes(&written.task)) {
+    for note in plan.notes() {
         println!("// note: {note}");
     }
-    let (assembly, estimate) = (&opened.assembly, estimate.as_ref());
-    println!("// cost: {}", Cost::of(assembly, estimate));
-    let advice = Advice::of_estimated(&written, assembly, estimate);
-    println!("// cheaper: {advice}");
+    println!("// cost: {}", plan.cost());
+    println!("// cheaper: {}", plan.advice());
     Ok(())
 }
 

@@ -1,6 +1,6 @@
 //! Why the program ends without a result.
 
-use actin_sim::{Assembly, CheckpointError, RunDirectoryError, Scene, SceneError};
+use actin_sim::{Assembly, CheckpointError, Plan, RunDirectoryError, Scene, SceneError};
 use std::fmt;
 use std::path::Path;
 use std::process::ExitCode;
@@ -79,6 +79,11 @@ impl Opened {
             text,
             path: name,
         })
+    }
+
+    /// What its run will do.
+    pub(crate) fn plan(&self) -> Result<Plan<'_>, Failure> {
+        Plan::new(&self.assembly).map_err(|problem| self.refuse(&problem))
     }
 
     /// A problem that showed only when the scene was to run.

@@ -5,52 +5,47 @@ use crate::failure::{Failure, Opened};
 use crate::progress::Progress;
 use crate::signals;
 use actin_sim::{
-    Checkpoints, Estimate, Kept, RunDirectory, RunDirectoryError, RunError, RunLock, RunReport,
-    RunStatus, StabilitySummary, Summary, Trajectory, UnstableTwist,
+    Checkpoints, FailedRun, Failure as Broken, Outcome, Plan, Record, RunDirectory,
+    RunDirectoryError, RunError, RunLock, RunPosition, Saved, Sink, StabilitySummary, Status,
+    Summary, UnstableTwist,
 };
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
 /// Runs a scene, or what is left of it, into its directory.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let path = &arguments.scene;
-    let mut opened = Opened::open(path)?;
-    let estimate =
-        actin_sim::estimate(&opened.assembly).map_err(|problem| opened.refuse(&problem))?;
-    for note in estimate
-        .iter()
-        .flat_map(|e| e.notes(&opened.assembly.scene.task))
-    {
+    let opened = Opened::open(path)?;
+    let plan = opened.plan()?;
+    for note in plan.notes() {
         println!("note: {note}");
     }
     let by_default = || Path::new("runs").join(path.file_stem().unwrap_or_default());
     let out = arguments.out.clone().unwrap_or_else(by_default);
     let directory = RunDirectory::existing(&out);
-    let mut checkpoints = checkpoints(arguments, &mut opened, estimate.as_ref(), &directory)?;
+    let mut checkpoints = checkpoints(arguments, &plan, &directory)?;
     // Before the lock: where nothing will be written, none is needed.
-    if arguments.resume && is_finished(&opened, &directory)? {
+    if arguments.resume && is_finished(&plan, &directory)? {
         return Ok(());
     }
     // Held to the end of the run.
     let _lock = claim(arguments, &out)?;
-    let kept = match begin(arguments, &opened, &directory, &mut checkpoints)? {
+    let saved = match begin(arguments, &plan, &directory, &mut checkpoints)? {
         Beginning::New => None,
-        Beginning::Kept(kept) => Some(*kept),
+        Beginning::Saved(saved) => Some(*saved),
         Beginning::Finished => return Ok(()),
     };
-    let asked = (&mut opened, estimate.as_ref());
-    let (trajectory, report) = advance(asked, kept, &mut checkpoints, &directory)?;
-    if report.interrupted {
-        return Err(left(
-            arguments,
-            &opened,
-            &directory,
-            &checkpoints,
-            (&trajectory, &report),
-        ));
+    let task = Task {
+        arguments,
+        opened: &opened,
+        plan: &plan,
+        directory: &directory,
+    };
+    let outcome = task.advance(saved, &mut checkpoints)?;
+    if outcome.status == Status::Interrupted {
+        return Err(task.interrupted(&checkpoints, &outcome));
     }
-    let written = directory.write(&opened.assembly, &trajectory, &report);
+    let written = directory.write(&plan, checkpoints.trajectory(), &outcome);
     let removed = written.and_then(|summary| directory.remove_checkpoint().map(|()| summary));
     let summary = removed.map_err(|error| unwritten(arguments, &directory, error))?;
     print(&summary, &out);
@@ -81,43 +76,41 @@ fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failur
 enum Beginning {
     /// A new run.
     New,
-    /// One that was kept.
-    Kept(Box<Kept>),
+    /// One that was interrupted.
+    Saved(Box<Saved>),
     /// One that is finished, which has been said.
     Finished,
 }
 
 fn begin(
     arguments: &RunArguments,
-    opened: &Opened,
+    plan: &Plan<'_>,
     directory: &RunDirectory,
     checkpoints: &mut Checkpoints,
 ) -> Result<Beginning, Failure> {
     if !arguments.resume {
-        directory.write_scene(&opened.assembly.scene)?;
+        directory.write_scene(plan.scene())?;
         return Ok(Beginning::New);
     }
     // Again, now that nobody else writes.
-    if is_finished(opened, directory)? {
+    if is_finished(plan, directory)? {
         return Ok(Beginning::Finished);
     }
-    let kept = checkpoints.resume()?;
+    let saved = checkpoints.resume()?;
     directory.reopen()?;
-    Ok(Beginning::Kept(Box::new(kept)))
+    Ok(Beginning::Saved(Box::new(saved)))
 }
 
 fn checkpoints(
     arguments: &RunArguments,
-    opened: &mut Opened,
-    estimate: Option<&Estimate>,
+    plan: &Plan<'_>,
     directory: &RunDirectory,
 ) -> Result<Checkpoints, Failure> {
     let interrupted = signals::interruption()
         .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
     Ok(Checkpoints::new(
         directory,
-        &mut opened.assembly,
-        estimate,
+        plan,
         arguments.checkpoint_every,
         interrupted,
         |error| eprintln!("warning: no checkpoint: {error}; the run goes on"),
@@ -125,15 +118,15 @@ fn checkpoints(
 }
 
 /// Whether the run has ended and its checkpoint is gone, which is said.
-fn is_finished(opened: &Opened, directory: &RunDirectory) -> Result<bool, Failure> {
+fn is_finished(plan: &Plan<'_>, directory: &RunDirectory) -> Result<bool, Failure> {
     if directory.has_checkpoint() {
         return Ok(false);
     }
-    let Some(status) = directory.ending(&opened.assembly)? else {
+    let Some(status) = directory.ending(plan)? else {
         return Ok(false);
     };
     let place = directory.path().display();
-    if status == RunStatus::Failed {
+    if status == Status::Failed {
         let message = format!("{place} holds a run that failed; it keeps nothing to resume");
         return Err(Failure::Numerical(message));
     }
@@ -187,81 +180,119 @@ fn go_on(arguments: &RunArguments, directory: &RunDirectory) -> String {
     format!("actin run {scene} --out {place} --resume")
 }
 
-/// The run itself.
-fn advance(
-    (opened, estimate): (&mut Opened, Option<&Estimate>),
-    kept: Option<Kept>,
-    checkpoints: &mut Checkpoints,
-    directory: &RunDirectory,
-) -> Result<(Trajectory, RunReport), Failure> {
-    let progress = Progress::new();
-    let started = Instant::now();
-    let mut first = None;
-    let assembly = &mut opened.assembly;
-    let outcome = actin_sim::run_estimated(assembly, estimate, kept, checkpoints, &mut |at| {
-        let made = at.steps - *first.get_or_insert(at.steps);
-        progress.show(&at, made as f64 / started.elapsed().as_secs_f64());
-        ControlFlow::Continue(())
-    });
-    progress.finish();
-    outcome.map_err(|error| broken(opened, directory, error))
+/// The sink of a run: its directory, and the progress bar.
+struct Watched<'a> {
+    checkpoints: &'a mut Checkpoints,
+    progress: Progress,
+    started: Instant,
+    /// Steps at the first look.
+    first: Option<u64>,
 }
 
-/// Writes what an interrupted run has recorded, and says how to go on.
-fn left(
-    arguments: &RunArguments,
-    opened: &Opened,
-    directory: &RunDirectory,
-    checkpoints: &Checkpoints,
-    (trajectory, report): (&Trajectory, &RunReport),
-) -> Failure {
-    let place = directory.path().display();
-    let mut message = if !checkpoints.last_failed() {
-        format!("a checkpoint is in {place}")
-    } else if directory.has_checkpoint() {
-        format!("{place} keeps the last checkpoint that could be written")
-    } else {
-        format!("no checkpoint could be written to {place}")
-    };
-    if !trajectory.records.is_empty() {
-        match directory.write(&opened.assembly, trajectory, report) {
-            Ok(_) => message += ", with everything recorded so far",
-            Err(error) => message = format!("{message}, but {error}"),
-        }
+impl Sink for Watched<'_> {
+    fn record(&mut self, record: &Record) {
+        self.checkpoints.record(record);
     }
-    if !directory.has_checkpoint() {
-        return Failure::Unwritten(message);
+
+    fn progress(&mut self, at: &actin_sim::Progress) {
+        let made = at.steps - *self.first.get_or_insert(at.steps);
+        let seconds = self.started.elapsed().as_secs_f64();
+        self.progress.show(at, made as f64 / seconds);
     }
-    let go_on = go_on(arguments, directory);
-    Failure::Interrupted(format!("{message}; to go on: {go_on}"))
+
+    fn is_interrupted(&mut self) -> bool {
+        self.checkpoints.is_interrupted()
+    }
+
+    fn is_checkpoint_due(&mut self) -> bool {
+        self.checkpoints.is_checkpoint_due()
+    }
+
+    fn checkpoint(&mut self, position: &RunPosition, records: usize, wall_s: f64) {
+        self.checkpoints.checkpoint(position, records, wall_s);
+    }
 }
 
-/// Keeps what a broken run has recorded, and says why it broke.
-fn broken(opened: &Opened, directory: &RunDirectory, error: RunError) -> Failure {
-    let (why, kept) = match &error {
-        RunError::Refused(problem) => return opened.refuse(problem),
-        RunError::Lost { problem, .. } => (
-            opened.locate(problem),
-            "the equilibria in which it is lost are",
-        ),
-        RunError::BeyondUse { .. } => (error.to_string(), "all of it is"),
-        RunError::Saddle { problem, .. } => (opened.locate(problem), "all results are"),
-        RunError::Ended { .. } | RunError::Slipped { .. } | RunError::Failed { .. } => {
-            (error.to_string(), GOOD)
-        }
-    };
-    let Some((trajectory, report)) = error.into_results() else {
-        return Failure::Numerical(why);
-    };
-    if trajectory.records.is_empty() {
-        return Failure::Numerical(why);
+/// What is to be run, and where.
+struct Task<'a> {
+    arguments: &'a RunArguments,
+    opened: &'a Opened,
+    plan: &'a Plan<'a>,
+    directory: &'a RunDirectory,
+}
+
+impl Task<'_> {
+    /// The run itself.
+    fn advance(
+        &self,
+        saved: Option<Saved>,
+        checkpoints: &mut Checkpoints,
+    ) -> Result<Outcome, Failure> {
+        let mut sink = Watched {
+            checkpoints,
+            progress: Progress::new(),
+            started: Instant::now(),
+            first: None,
+        };
+        let outcome = match saved {
+            None => self.plan.run_into(&mut sink),
+            Some(saved) => self.plan.resume_into(saved, &mut sink),
+        };
+        sink.progress.finish();
+        outcome.map_err(|error| match error {
+            RunError::Refused(problem) => self.opened.refuse(&problem),
+            RunError::Failed(failed) => self.broken(checkpoints, &failed),
+        })
     }
-    match directory.write(&opened.assembly, &trajectory, &report) {
-        Ok(summary) => {
-            print_remarks(&summary);
-            Failure::Numerical(format!("{why}; {kept} in {}", directory.path().display()))
+
+    /// Writes what an interrupted run has recorded, and says how to go on.
+    fn interrupted(&self, checkpoints: &Checkpoints, outcome: &Outcome) -> Failure {
+        let directory = self.directory;
+        let place = directory.path().display();
+        let mut message = if !checkpoints.last_failed() {
+            format!("a checkpoint is in {place}")
+        } else if directory.has_checkpoint() {
+            format!("{place} keeps the last checkpoint that could be written")
+        } else {
+            format!("no checkpoint could be written to {place}")
+        };
+        let trajectory = checkpoints.trajectory();
+        if !trajectory.records.is_empty() {
+            match directory.write(self.plan, trajectory, outcome) {
+                Ok(_) => message += ", with everything recorded so far",
+                Err(error) => message = format!("{message}, but {error}"),
+            }
         }
-        Err(unwritten) => Failure::Numerical(format!("{why}; and {unwritten}")),
+        if !directory.has_checkpoint() {
+            return Failure::Unwritten(message);
+        }
+        let go_on = go_on(self.arguments, directory);
+        Failure::Interrupted(format!("{message}; to go on: {go_on}"))
+    }
+
+    /// Keeps what a broken run has recorded, and says why it broke.
+    fn broken(&self, checkpoints: &Checkpoints, failed: &FailedRun) -> Failure {
+        let (why, kept) = match &failed.failure {
+            Broken::LoadLost(problem) => (
+                self.opened.locate(problem),
+                "the equilibria in which it is lost are",
+            ),
+            Broken::Saddle(problem) => (self.opened.locate(problem), "all results are"),
+            failure @ Broken::BeyondUse(_) => (failure.to_string(), "all of it is"),
+            failure => (failure.to_string(), GOOD),
+        };
+        let trajectory = checkpoints.trajectory();
+        if trajectory.records.is_empty() {
+            return Failure::Numerical(why);
+        }
+        match self.directory.write(self.plan, trajectory, &failed.outcome) {
+            Ok(summary) => {
+                print_remarks(&summary);
+                let place = self.directory.path().display();
+                Failure::Numerical(format!("{why}; {kept} in {place}"))
+            }
+            Err(unwritten) => Failure::Numerical(format!("{why}; and {unwritten}")),
+        }
     }
 }
 
@@ -280,7 +311,7 @@ fn print(summary: &Summary, out: &Path) {
         _ => println!(
             "{} after {:.1} ns: {} steps, {} force evaluations, {:.1} s",
             in_words(summary.status),
-            summary.time_ns,
+            summary.time_ns.unwrap_or_default(),
             work.steps,
             work.force_evaluations,
             summary.wall_s
@@ -414,12 +445,12 @@ fn print_other_states(summary: &Summary) {
     }
 }
 
-fn in_words(status: RunStatus) -> &'static str {
+fn in_words(status: Status) -> &'static str {
     match status {
-        RunStatus::Converged => "stop rule met",
-        RunStatus::Completed => "time is up",
-        RunStatus::Failed => "broken off",
-        RunStatus::Interrupted => "interrupted",
+        Status::Converged => "stop rule met",
+        Status::Completed => "time is up",
+        Status::Failed => "broken off",
+        Status::Interrupted => "interrupted",
     }
 }
 

@@ -1,6 +1,7 @@
 //! A state with its interactions, split into drift and kick.
 
 use crate::{Interaction, Loads, State, Vectors};
+use std::sync::Arc;
 
 /// What an integrator may do to a system: nothing else is visible to it.
 pub trait Split {
@@ -48,7 +49,7 @@ pub trait Drive: std::fmt::Debug + Send + Sync {
 #[derive(Debug)]
 pub struct System {
     state: State,
-    interactions: Vec<Box<dyn Interaction>>,
+    interactions: Arc<[Box<dyn Interaction>]>,
     loads: Loads,
     loads_are_current: bool,
     /// Whether the state may have been changed from outside since it was last looked at.
@@ -65,6 +66,20 @@ impl System {
     /// An interaction panics if it acts on a body or a control that is not there, when loads or
     /// energies are first evaluated.
     pub fn new(state: State, interactions: Vec<Box<dyn Interaction>>) -> Self {
+        Self::with_shared(state, interactions.into())
+    }
+
+    /// Another system under the same interactions, which both share, in a state of the same bodies; it
+    /// has no drive.
+    ///
+    /// # Panics
+    /// As [`new`](Self::new).
+    #[must_use]
+    pub fn in_state(&self, state: State) -> Self {
+        Self::with_shared(state, Arc::clone(&self.interactions))
+    }
+
+    fn with_shared(state: State, interactions: Arc<[Box<dyn Interaction>]>) -> Self {
         state.assert_shape();
         let loads = Loads::zeros(&state);
         Self {
@@ -134,7 +149,7 @@ impl System {
                 self.changed_outside = false;
             }
             self.loads.clear();
-            for interaction in &self.interactions {
+            for interaction in self.interactions.iter() {
                 interaction.add_loads(&self.state, &mut self.loads);
             }
             self.force_evaluations += 1;

@@ -20,6 +20,7 @@ pub mod committed;
 pub mod figures;
 pub mod fit;
 pub mod measure;
+mod run;
 pub mod tradeoff;
 
 use std::fmt;

@@ -13,7 +13,7 @@
 use actin_integrate::stable_step;
 use actin_integrate::{Bath, Composition, Drag, PEFRL, POSITION_VERLET, advance, advance_in};
 use actin_mechanics::{State, System, UnitQuaternion, rotation};
-use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Scene};
+use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Plan, Scene};
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -173,8 +173,9 @@ impl Case {
 
     fn measure(&self, seed: u64) -> Sums {
         let mut assembly = Assembly::build(&self.scene(seed)).expect("a filament");
-        let estimate = actin_sim::estimate(&assembly).expect("a motion that can run");
-        let frequency = estimate.expect("a motion").largest_frequency_rad_per_ns;
+        let plan = Plan::new(&assembly).expect("a motion that can run");
+        let estimate = plan.estimate().expect("a motion");
+        let frequency = estimate.largest_frequency_rad_per_ns;
         let system = &mut assembly.system;
         let h = stable_step(self.scheme, frequency, self.share).expect("a stable step");
         let kt = BOLTZMANN_PN_NM_PER_K * self.temperature;

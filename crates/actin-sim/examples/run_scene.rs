@@ -1,7 +1,6 @@
 //! A scene is run from Rust and written to a directory; its summary is read back.
 
-use actin_sim::{Assembly, RunDirectory, Scene, SimError, run};
-use std::ops::ControlFlow;
+use actin_sim::{Assembly, Plan, RunDirectory, Scene, SimError};
 
 fn main() -> Result<(), SimError> {
     // 40 nm of monomers on a wall, 120 nm of rod behind them, and 0.1 pN across the tip.
@@ -16,12 +15,13 @@ fn main() -> Result<(), SimError> {
             task: Equilibrium(),
         )",
     )?;
-    let mut assembly = Assembly::build(&scene)?;
-    let (trajectory, report) = run(&mut assembly, &mut |_progress| ControlFlow::Continue(()))?;
+    let assembly = Assembly::build(&scene)?;
+    let plan = Plan::new(&assembly)?;
+    let (trajectory, outcome) = plan.run()?;
 
     let folder = std::env::temp_dir().join(format!("actin-run-{}", std::process::id()));
     let directory = RunDirectory::create(&folder, false)?;
-    directory.write(&assembly, &trajectory, &report)?;
+    directory.write(&plan, &trajectory, &outcome)?;
     let summary = directory.summary()?;
 
     // A rod alone, of B1 = 3.9e4 pN nm^2; monomers that are bent this little are softer.

@@ -8,8 +8,7 @@
 //! stability limit, and each of five drag rates. Building the filament counts for neither.
 
 use actin_mechanics::{State, Vector3};
-use actin_sim::{Assembly, Scene, Task};
-use std::ops::ControlFlow;
+use actin_sim::{Assembly, Plan, Scene, Task};
 use std::time::Instant;
 
 /// Residual at which both stop (pN, pN nm).
@@ -136,20 +135,20 @@ fn best_newton(scene: &Scene, repeats: usize, residual: f64) -> Run {
 }
 
 fn newton(scene: &Scene) -> Run {
-    let mut assembly = Assembly::build(scene).expect("the scene can be built");
+    let assembly = Assembly::build(scene).expect("the scene can be built");
     let clock = Instant::now();
-    let result = actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(()));
+    let result = Plan::new(&assembly).expect("the scene can run").run();
     let seconds = clock.elapsed().as_secs_f64();
     let (trajectory, report) = result.expect("the cantilever has an equilibrium");
     let last = trajectory.records.last().expect("it was recorded");
-    let found = report.equilibrium.expect("it was certified");
+    let found = report.equilibrium.as_ref().expect("it was certified");
     Run {
         name: "Newton".to_owned(),
         seconds,
         evaluations: report.force_evaluations,
         iterations: found.newton_iterations,
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
-        converged: report.converged,
+        converged: report.has_converged(),
         state: last.state.clone(),
         note: format!(", {:?}", found.certificate.stability()),
     }
@@ -173,9 +172,9 @@ fn motion(scene: &Scene, drag: f64, residual: f64) -> Run {
     scene.task = Scene::from_ron(&text)
         .expect("the task is well formed")
         .task;
-    let mut assembly = Assembly::build(&scene).expect("the scene can be built");
+    let assembly = Assembly::build(&scene).expect("the scene can be built");
     let clock = Instant::now();
-    let result = actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(()));
+    let result = Plan::new(&assembly).expect("the scene can run").run();
     let seconds = clock.elapsed().as_secs_f64();
     let (trajectory, report) = result.expect("the motion is stable");
     let last = trajectory.records.last().expect("it was recorded");
@@ -185,7 +184,7 @@ fn motion(scene: &Scene, drag: f64, residual: f64) -> Run {
         evaluations: report.force_evaluations,
         iterations: 0,
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
-        converged: report.converged,
+        converged: report.has_converged(),
         state: last.state.clone(),
         note: format!(
             ", {:.0} ns in steps of {:.2} ps",

@@ -1,8 +1,8 @@
 //! Scenes of actin filaments at two resolutions: read, assembled, run and written.
 //!
 //! A [`Scene`] says what filaments are made of, what holds, loads and links them, and what is asked.
-//! [`Assembly::build`] turns it into bodies and interactions; [`run`] integrates it; a
-//! [`RunDirectory`] keeps what came out. This is the only crate that knows all the models; the
+//! [`Assembly::build`] turns it into bodies and interactions; a [`Plan`] decides the time step and runs
+//! it into a [`Sink`], memory or a [`RunDirectory`]; the [`Outcome`] says how it ended. This is the only crate that knows all the models; the
 //! models do not know each other.
 //!
 //! A filament starts at the lab origin and runs along +z when it is built, azimuth 0 at +x, unless
@@ -41,12 +41,12 @@ pub use assembly::{
 pub use error::SimError;
 pub use results::{
     CheckpointError, Checkpoints, Damage, FilamentSummary, RunDirectory, RunDirectoryError,
-    RunLock, RunStatus, StabilitySummary, Summary, ThermalSummary,
+    RunLock, StabilitySummary, Summary, ThermalSummary,
 };
 pub use run::{
-    Arrival, EquilibriumReport, Estimate, Keeper, Kept, MotionStanding, PathStanding, Progress,
-    Record, RunError, RunReport, SaddlePush, Slip, Standing, Trajectory, Unkept, estimate, run,
-    run_estimated, run_kept, solver,
+    Arrival, EquilibriumReport, Estimate, FailedRun, Failure, MotionPosition, Outcome,
+    PathPosition, Plan, Progress, Record, RunError, RunPosition, SaddlePush, Saved, Sink, Slip,
+    Status, Trajectory, solver,
 };
 pub use scene::fitted::laws as fitted_laws;
 pub use scene::{

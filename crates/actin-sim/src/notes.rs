@@ -5,7 +5,7 @@
 //! tell, to the `notes` of its summary.
 
 use crate::scene::{Anchors, Material, Monomers, RodLaw, RodModel, Task};
-use crate::{Assembly, Record, RunReport, shape};
+use crate::{Assembly, Outcome, Record, shape};
 use actin_ellipsoid::{Certificate, Cubature, EllipsoidParameters, InterfaceKind};
 
 /// Persistence length (um) and twisting rigidity (pN nm^2) of free filaments of 110 nm at 298 K, from
@@ -58,12 +58,12 @@ impl Assembly {
     }
 }
 
-impl RunReport {
+impl Outcome {
     /// What this run could not find out, a sentence each; `last` is its last record.
     pub(crate) fn notes(&self, assembly: &Assembly, last: &Record) -> Vec<String> {
         let mut notes = unknown_twist(assembly, last);
         let is_motion = matches!(assembly.scene.task, Task::Dynamics(_));
-        if is_motion && self.converged && self.at_rest.is_none() {
+        if is_motion && self.has_converged() && self.at_rest.is_none() {
             notes.push(
                 "the stop rule was met, but it is not known whether the state at rest is stable: no \
                  equilibrium of an energy was found next to it (force_law: PaperBalance has none)"

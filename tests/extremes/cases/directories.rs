@@ -2,11 +2,10 @@
 //! refuses: a message, and every file as it was.
 
 use super::row::{Outcome, Row};
-use actin_sim::{Assembly, RunDirectory, RunReport, Scene, Trajectory};
+use actin_sim::{Assembly, Plan, RunDirectory, Scene, Trajectory};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 const SCENE: &str = "Scene(
@@ -72,7 +71,7 @@ struct Made {
     folder: tempfile::TempDir,
     assembly: Assembly,
     trajectory: Trajectory,
-    report: RunReport,
+    report: actin_sim::Outcome,
 }
 
 impl Made {
@@ -80,9 +79,9 @@ impl Made {
     fn new() -> Result<Self, String> {
         let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
         let scene = Scene::from_ron(SCENE).map_err(|e| e.to_string())?;
-        let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
-        let run = actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(()));
-        let (trajectory, report) = run.map_err(|e| e.to_string())?;
+        let assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
+        let plan = Plan::new(&assembly).map_err(|e| e.to_string())?;
+        let (trajectory, report) = plan.run().map_err(|e| e.to_string())?;
         let made = Self {
             folder,
             assembly,
@@ -106,7 +105,8 @@ impl Made {
             report,
             ..
         } = self;
-        directory.write(assembly, trajectory, report).map(drop)
+        let plan = Plan::new(assembly).expect("it has run");
+        directory.write(&plan, trajectory, report).map(drop)
     }
 
     /// A message without the name of the folder, which is another one every time.

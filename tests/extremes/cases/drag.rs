@@ -8,8 +8,7 @@ use actin_integrate::{
 };
 use actin_mechanics::testing::momenta;
 use actin_mechanics::{State, System, Vector3};
-use actin_sim::{Assembly, End, Record, RunError};
-use std::ops::ControlFlow;
+use actin_sim::{Assembly, End, Plan, Record, RunError};
 
 /// Steps of each flight.
 const STEPS: u64 = 100;
@@ -125,9 +124,10 @@ fn centre(state: &State) -> (f64, Vector3) {
 
 /// Runs a scene and returns its records.
 fn records(text: &str) -> Result<(Assembly, Vec<Record>), Outcome> {
-    let mut assembly = build(text)?;
-    let run = actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(()));
-    let (trajectory, _) = run.map_err(|error: RunError| Outcome::Fails(error.to_string()))?;
+    let assembly = build(text)?;
+    let fails = |error: RunError| Outcome::Fails(error.to_string());
+    let plan = Plan::new(&assembly).map_err(|problem| fails(problem.into()))?;
+    let (trajectory, _) = plan.run().map_err(fails)?;
     Ok((assembly, trajectory.records))
 }
 

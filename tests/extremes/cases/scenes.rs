@@ -2,8 +2,9 @@
 
 use super::row::Outcome;
 use actin_mechanics::Vector3;
-use actin_sim::{Assembly, End, Load, Problem, RunError, RunReport, Scene, SceneError};
-use std::ops::ControlFlow;
+use actin_sim::{
+    Assembly, End, Failure, Load, Plan, Problem, RunError, Scene, SceneError, Status, Trajectory,
+};
 
 /// Parts of a scene; what is empty is left out.
 #[derive(Clone, Debug, Default)]
@@ -78,7 +79,7 @@ impl Parts {
 #[derive(Debug)]
 pub(crate) struct Ran {
     pub(crate) assembly: Assembly,
-    pub(crate) report: RunReport,
+    pub(crate) report: actin_sim::Outcome,
 }
 
 /// The assembly of a scene.
@@ -90,7 +91,7 @@ pub(crate) fn build(text: &str) -> Result<Assembly, Outcome> {
 /// A scene, run to its end.
 pub(crate) fn run(text: &str) -> Result<Ran, Outcome> {
     let ran = run_to_saddle(text)?;
-    if ran.report.failed {
+    if ran.report.status == Status::Failed {
         return Err(Outcome::Fails("the run ends on a saddle".to_owned()));
     }
     Ok(ran)
@@ -99,15 +100,19 @@ pub(crate) fn run(text: &str) -> Result<Ran, Outcome> {
 /// The same, where it may end on a saddle.
 fn run_to_saddle(text: &str) -> Result<Ran, Outcome> {
     let mut assembly = build(text)?;
-    match actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())) {
-        Ok((_, report)) => Ok(Ran { assembly, report }),
-        Err(RunError::Saddle { report, .. }) => Ok(Ran {
-            assembly,
-            report: *report,
-        }),
-        Err(RunError::Refused(problem)) => Err(refused(&problem, text)),
-        Err(error) => Err(Outcome::Fails(error.to_string())),
-    }
+    let mut trajectory = Trajectory::default();
+    let plan = Plan::new(&assembly).map_err(|problem| refused(&problem, text))?;
+    let report = match plan.run_into(&mut trajectory) {
+        Ok(report) => report,
+        Err(RunError::Failed(failed)) if matches!(failed.failure, Failure::Saddle(_)) => {
+            failed.outcome
+        }
+        Err(RunError::Refused(problem)) => return Err(refused(&problem, text)),
+        Err(error) => return Err(Outcome::Fails(error.to_string())),
+    };
+    let last = trajectory.records.last().expect("a run has records");
+    *assembly.system.state_mut() = last.state.clone();
+    Ok(Ran { assembly, report })
 }
 
 fn refused(problem: &Problem, text: &str) -> Outcome {

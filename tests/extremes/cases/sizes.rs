@@ -3,6 +3,7 @@
 use super::row::{Outcome, Row};
 use super::scenes::{Parts, build, either};
 use actin_integrate::{Drag, PEFRL, advance};
+use actin_sim::Plan;
 use std::time::Instant;
 
 /// The smallest that can be built, and a step of motion of each.
@@ -81,7 +82,7 @@ fn driven(count: u32) -> Result<Outcome, Outcome> {
         ..Parts::default()
     };
     let assembly = parts.build()?;
-    actin_sim::estimate(&assembly).map_err(|problem| Outcome::Refused(problem.to_string()))?;
+    Plan::new(&assembly).map_err(|problem| Outcome::Refused(problem.to_string()))?;
     let mut state = assembly.rest.clone();
     assembly.drive.place(&mut state, f64::from(count));
     let controls = state.controls.iter().zip(1_u32..);
@@ -123,9 +124,8 @@ fn peak_memory_mb() -> f64 {
 fn moved(text: &str, steps: u64) -> Result<Outcome, Outcome> {
     use actin_mechanics::testing::{Noise, momenta, set_in_motion};
     let mut assembly = build(text)?;
-    let estimate = actin_sim::estimate(&assembly)
-        .map_err(|problem| Outcome::Refused(problem.to_string()))?
-        .expect("a motion has an estimate");
+    let plan = Plan::new(&assembly).map_err(|problem| Outcome::Refused(problem.to_string()))?;
+    let estimate = *plan.estimate().expect("a motion has an estimate");
     let system = &mut assembly.system;
     set_in_motion(system.state_mut(), &mut Noise::new(2), 1.0, 0.1);
     let before = momenta(system.state()).0;

@@ -205,11 +205,9 @@ fn at_share(
         ..pulled.clone()
     };
     let assembly = task(1e-9).build()?;
-    let estimate = actin_sim::estimate(&assembly);
-    let limit = match estimate {
-        Ok(Some(estimate)) => estimate.stability_limit_ns,
-        other => return Err(Outcome::Wrong(format!("{other:?}"))),
-    };
+    let plan = actin_sim::Plan::new(&assembly).map_err(|e| Outcome::Wrong(e.to_string()))?;
+    let estimate = plan.estimate().expect("a motion has an estimate");
+    let limit = estimate.stability_limit_ns;
     let ran = task(share * limit).run()?;
     if share > 1.0 {
         return Err(Outcome::Wrong(

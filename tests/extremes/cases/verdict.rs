@@ -1,7 +1,6 @@
 //! What the library says to the text of a scene: reading, building, estimating and running.
 
-use actin_sim::{Assembly, Problem, RunError, Scene, SceneError, Trajectory};
-use std::ops::ControlFlow;
+use actin_sim::{Assembly, Plan, Problem, RunError, Scene, SceneError, Trajectory};
 
 /// Most steps of a motion that is run; a longer one is looked at by its estimate alone.
 const MOST_STEPS: u64 = 2_000;
@@ -28,16 +27,18 @@ pub(crate) fn verdict(text: &str) -> Verdict {
         Err(error) => return Verdict::Refused(error),
     };
     let refused = |problem: &Problem| Verdict::Refused(SceneError::locate(problem, text));
-    let mut assembly = match Assembly::build(&scene) {
+    let assembly = match Assembly::build(&scene) {
         Ok(assembly) => assembly,
         Err(problem) => return refused(&problem),
     };
-    match actin_sim::estimate(&assembly) {
+    let plan = match Plan::new(&assembly) {
+        Ok(plan) => plan,
         Err(problem) => return refused(&problem),
-        Ok(Some(estimate)) if estimate.steps > MOST_STEPS => return Verdict::Accepted,
-        Ok(_) => {}
+    };
+    if plan.estimate().is_some_and(|e| e.steps > MOST_STEPS) {
+        return Verdict::Accepted;
     }
-    match actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())) {
+    match plan.run() {
         Ok((trajectory, _)) => finite(&trajectory),
         Err(RunError::Refused(problem)) => refused(&problem),
         Err(error) => Verdict::Broke(error.to_string()),

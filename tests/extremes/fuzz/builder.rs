@@ -130,7 +130,8 @@ fn evaluate(text: &str) -> Result<(), Problem> {
     };
     let mut assembly = Assembly::build(&scene)?;
     assert!(assembly.rest.is_finite(), "places of the built filament");
-    let estimate = actin_sim::estimate(&assembly)?.expect("a motion");
+    let plan = actin_sim::Plan::new(&assembly)?;
+    let estimate = plan.estimate().expect("a motion");
     assert!(estimate.time_step_ns.is_finite() && estimate.time_step_ns > 0.0);
     perturb(assembly.system.state_mut(), &mut Noise::new(1), 1e-3, 1e-3);
     let state = assembly.system.state();

@@ -1,8 +1,7 @@
 //! Times of equilibria, every monomer resolved.
 
 use super::{Measured, median};
-use actin_sim::{Assembly, End, RunError, Scene, Task};
-use std::ops::ControlFlow;
+use actin_sim::{Assembly, End, Plan, RunError, Scene, Task};
 use std::time::Instant;
 
 /// Residual that is asked for (pN, and pN nm).
@@ -59,12 +58,15 @@ fn solve(length_nm: f64, tolerance: f64) -> Result<Solved, String> {
     solve_on(assembly).map_err(|error| error.to_string())
 }
 
-/// Solves from wherever the assembly is.
+/// Solves from the state of the assembly, which is then in its equilibrium.
 fn solve_on(mut assembly: Assembly) -> Result<Solved, RunError> {
     let started = Instant::now();
-    let (trajectory, report) = actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(()))?;
+    let (trajectory, report) = Plan::new(&assembly)?.run()?;
     let seconds = started.elapsed().as_secs_f64();
     let last = trajectory.records.last();
+    if let Some(last) = last {
+        *assembly.system.state_mut() = last.state.clone();
+    }
     Ok(Solved {
         assembly,
         seconds,

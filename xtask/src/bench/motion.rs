@@ -3,7 +3,7 @@
 use super::cases::{Filament, Motion};
 use super::{Measured, median};
 use actin_integrate::Run;
-use actin_sim::{Assembly, Integrator, Scene, Task, estimate};
+use actin_sim::{Assembly, Integrator, Plan, Scene, Task};
 use std::time::Instant;
 
 /// Element-steps of one batch: some three milliseconds, so short that some batches are over
@@ -71,8 +71,8 @@ pub(super) fn elements(all: &[Assembly]) -> usize {
 
 /// A batch, with the time step that the scene gets by default.
 fn plan(assembly: &Assembly, steps: u64) -> Result<Run, String> {
-    let estimate = estimate(assembly).map_err(|error| error.to_string())?;
-    let estimate = estimate.ok_or("a motion has time steps")?;
+    let plan = Plan::new(assembly).map_err(|error| error.to_string())?;
+    let estimate = plan.estimate().ok_or("a motion has time steps")?;
     let scheme = integrator(assembly)?.composition();
     let run = Run::new(scheme, estimate.time_step_ns, steps);
     // Observers would see the ends of a batch, and there are none.

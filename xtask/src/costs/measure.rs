@@ -1,9 +1,8 @@
 //! What a scene costs, measured beside its estimate.
 
 use actin_sim::cost::Cost;
-use actin_sim::{Assembly, Keeper, RunDirectory, Scene, Unkept};
+use actin_sim::{Assembly, Plan, RunDirectory, Scene};
 use std::fs;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
@@ -31,19 +30,15 @@ pub(super) fn measure(text: &str, out: &Path) -> Result<Measured, String> {
     let (before_mb, clock) = (reset_peak_mb(), Clock::start());
     let read = |e: &dyn std::fmt::Display| e.to_string();
     let scene = Scene::from_ron(text).map_err(|e| read(&e))?;
-    let mut assembly = Assembly::build(&scene).map_err(|e| read(&e))?;
-    let estimate = actin_sim::estimate(&assembly).map_err(|e| read(&e))?;
-    let cost = Cost::of(&assembly, estimate.as_ref());
+    let assembly = Assembly::build(&scene).map_err(|e| read(&e))?;
+    let plan = Plan::new(&assembly).map_err(|e| read(&e))?;
+    let cost = plan.cost();
     let check_s = clock.seconds();
-    let mut keeper = Unkept;
-    let keeper: &mut dyn Keeper = &mut keeper;
-    let watch = &mut |_| ControlFlow::Continue(());
-    let outcome = actin_sim::run_estimated(&mut assembly, estimate.as_ref(), None, keeper, watch);
-    let (trajectory, report) = outcome.map_err(|e| read(&e))?;
+    let (trajectory, report) = plan.run().map_err(|e| read(&e))?;
     let solved_s = clock.seconds();
     fs::create_dir_all(out).map_err(|e| format!("{}: {e}", out.display()))?;
     let directory = RunDirectory::create(out, true).map_err(|e| read(&e))?;
-    let written = directory.write(&assembly, &trajectory, &report);
+    let written = directory.write(&plan, &trajectory, &report);
     written.map_err(|e| read(&e))?;
     let run_s = clock.seconds();
     let peak_mb = status_mb("VmHWM:") - before_mb;

@@ -7,6 +7,7 @@ use super::page::Listing;
 use super::study::bar;
 use super::tables::spread;
 use super::variant::Variant;
+use crate::run::run_to_end;
 use crate::workspace_root;
 use actin_mechanics::State;
 use actin_sim::shape::profile;
@@ -14,7 +15,6 @@ use actin_sim::{
     Assembly, Equilibrium, Hold, Load, Record, Scene, Section, Setting, Summary, Task,
 };
 use rayon::prelude::*;
-use std::ops::ControlFlow;
 
 /// Samplings of drawn bonds at most: buckling takes seconds.
 const SAMPLINGS: u64 = 8;
@@ -129,8 +129,7 @@ fn scene(file: &str, variant: &Variant, seed: u64) -> Result<Scene, String> {
 
 /// What a run ends with.
 fn solved(assembly: &mut Assembly) -> Result<(Summary, Record), String> {
-    let watch = &mut |_| ControlFlow::Continue(());
-    let (mut trajectory, report) = actin_sim::run(assembly, watch).map_err(|e| e.to_string())?;
+    let (mut trajectory, report) = run_to_end(assembly).map_err(|e| e.to_string())?;
     let last = trajectory.records.pop().ok_or("no record")?;
     Ok((Summary::new(assembly, &last, &report), last))
 }

@@ -7,10 +7,10 @@ use super::search::{Basis, LawFit, rooted, sided, stiffened, stretched};
 use super::table::Table;
 use super::{Options, run};
 use crate::measure::{Specimen, bend_by_couples, stretch_by_force, twist};
+use crate::run::run_to_end;
 use actin_cosserat::StretchLaw;
 use actin_fit::{Fit, Model};
 use actin_sim::{Assembly, Scene};
-use std::ops::ControlFlow;
 use std::path::Path;
 
 /// Normal numbers of mean 0 and deviation 1: sums of twelve uniform ones.
@@ -299,7 +299,7 @@ fn a_scene_takes_what_is_written() {
     let scene = scene_with(&law);
     let rod = scene.filament.rod.clone();
     let mut assembly = Assembly::build(&scene).unwrap();
-    actin_sim::run(&mut assembly, &mut |_| ControlFlow::Continue(())).unwrap();
+    run_to_end(&mut assembly).unwrap();
 
     let table = Table::from_csv(&file).unwrap();
     let fits = OwnFits::new(&table).unwrap();

@@ -3,6 +3,7 @@
 use super::follow::follow;
 use super::sweep::{far_end_shift, reaction};
 use super::*;
+use crate::run::run_to_end;
 use actin_sim::{Assembly, Filament, ForceLaw, Hold, Monomers, RodModel, Scene, Section, Summary};
 use actin_sim::{End, Load, Setting, Slides, Stage};
 use std::f64::consts::PI;
@@ -223,8 +224,7 @@ fn scenes_give_what_the_protocols_give() {
         let text = std::fs::read_to_string(format!("{folder}{name}.ron")).unwrap();
         let scene = Scene::from_ron(&text).unwrap();
         let mut assembly = Assembly::build(&scene).unwrap();
-        let watch = &mut |_| std::ops::ControlFlow::Continue(());
-        let (trajectory, report) = actin_sim::run(&mut assembly, watch).unwrap();
+        let (trajectory, report) = run_to_end(&mut assembly).unwrap();
         let last = trajectory.records.last().unwrap();
         let summary = Summary::new(&assembly, last, &report);
         let shift = far_end_shift(&assembly, &last.state).z;

@@ -4,15 +4,15 @@
 use super::pareto;
 use super::row::Row;
 use super::solve;
+use crate::run::run_to_end;
 use actin_mechanics::Vector3;
 use actin_sim::advice::{Setting, scenes, table};
 use actin_sim::cost::Work;
 use actin_sim::{
-    Assembly, Drag, Dynamics, End, Equilibrium, Integrator, Monomers, RodLaw, RunReport, Scene,
+    Assembly, Drag, Dynamics, End, Equilibrium, Integrator, Monomers, Outcome, Plan, RodLaw, Scene,
     Task,
 };
 use rayon::prelude::*;
-use std::ops::ControlFlow;
 
 /// Names of both parts.
 pub(super) const VIBRATION: &str = "vibration";
@@ -50,7 +50,7 @@ struct Run {
     tips: Vec<(f64, Vector3)>,
     /// Largest change of the whole energy, over the largest kinetic energy.
     energy_change: f64,
-    report: RunReport,
+    report: Outcome,
     work: Work,
     dofs: usize,
 }
@@ -59,8 +59,7 @@ fn run(scene: &Scene, task: Task) -> Result<Run, String> {
     let mut scene = scene.clone();
     scene.task = task;
     let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
-    let watch = &mut |_| ControlFlow::Continue(());
-    let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| e.to_string())?;
+    let (trajectory, report) = run_to_end(&mut assembly).map_err(|e| e.to_string())?;
     let rest = assembly.tip_nm(&assembly.rest, End::End);
     let tip = |state| assembly.tip_nm(state, End::End) - rest;
     let records = trajectory.records.iter();
@@ -144,10 +143,9 @@ fn limit(scene: &Scene) -> Result<f64, String> {
     let mut scene = scene.clone();
     scene.task = Task::Dynamics(solve::motion(1.0, Integrator::Pefrl, None));
     let assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
-    let estimate = actin_sim::estimate(&assembly).map_err(|e| e.to_string())?;
-    estimate
-        .map(|e| e.stability_limit_ns)
-        .ok_or_else(|| "no estimate".into())
+    let plan = Plan::new(&assembly).map_err(|e| e.to_string())?;
+    let limit = plan.estimate().map(|e| e.stability_limit_ns);
+    limit.ok_or_else(|| "no estimate".into())
 }
 
 /// The vibration in the nearest step not above `step_ns` that meets the moments of comparison.

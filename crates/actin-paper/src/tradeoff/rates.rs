@@ -3,10 +3,10 @@
 
 use super::solve;
 use crate::Tell;
+use crate::run::run_to_end;
 use actin_sim::advice::{Setting, scenes};
 use actin_sim::cost::Work;
 use actin_sim::{Assembly, Equilibrium, Integrator, RodLaw, Scene, Task};
-use std::ops::ControlFlow;
 
 /// How often each is measured; the best counts.
 const REPEATS: usize = 7;
@@ -86,8 +86,7 @@ fn best(scene: &Scene, task: &Task) -> Result<f64, String> {
     for _ in 0..REPEATS {
         let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
         let work = Work::of(&assembly);
-        let watch = &mut |_| ControlFlow::Continue(());
-        let (_, report) = actin_sim::run(&mut assembly, watch).map_err(|e| e.to_string())?;
+        let (_, report) = run_to_end(&mut assembly).map_err(|e| e.to_string())?;
         let steps = report
             .equilibrium
             .map_or(report.force_evaluations, |e| e.newton_iterations);

@@ -2,11 +2,11 @@
 
 use super::observe::Observed;
 use super::study::Study;
+use crate::run::run_to_end;
 use actin_sim::advice::Setting;
-use actin_sim::cost::{Cost, Work};
-use actin_sim::{Anchors, Assembly, Counts, Dynamics, Integrator, Scene, Task};
+use actin_sim::cost::Work;
+use actin_sim::{Anchors, Assembly, Counts, Dynamics, Integrator, Plan, Scene, Task};
 use rayon::prelude::*;
-use std::ops::ControlFlow;
 
 /// A motion whose time is taken (ns), how long it is repeated (s) and how often: the least counts.
 const TIMED_NS: f64 = 0.1;
@@ -125,8 +125,7 @@ fn from(study: &Study, scene: &Scene, start_deg: f64) -> Result<Solved, String> 
     if start_deg != 0.0 {
         assembly.roll(start_deg.to_radians());
     }
-    let watch = &mut |_| ControlFlow::Continue(());
-    let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| e.to_string())?;
+    let (trajectory, report) = run_to_end(&mut assembly).map_err(|e| e.to_string())?;
     let last = trajectory.records.last().ok_or("no record")?;
     let found = report.equilibrium.ok_or("no certificate")?;
     Ok(Solved {
@@ -147,8 +146,7 @@ pub(super) fn motion_seconds_per_ns(study: &Study, setting: &Setting) -> Result<
     let (mut least, mut spent, mut repeats) = (f64::INFINITY, 0.0, 0);
     while repeats < TIMED && spent < TIMED_S {
         let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
-        let watch = &mut |_| ControlFlow::Continue(());
-        let (_, report) = actin_sim::run(&mut assembly, watch).map_err(|e| e.to_string())?;
+        let (_, report) = run_to_end(&mut assembly).map_err(|e| e.to_string())?;
         least = least.min(report.wall_s / TIMED_NS);
         spent += report.wall_s;
         repeats += 1;
@@ -162,10 +160,9 @@ pub(super) fn motion_cost(study: &Study, setting: &Setting) -> Result<MotionCost
     scene.path.clear();
     scene.task = Task::Dynamics(motion(1.0, Integrator::default(), None));
     let assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
-    let estimate = actin_sim::estimate(&assembly)
-        .map_err(|e| e.to_string())?
-        .ok_or("a motion has an estimate")?;
-    let cost = Cost::of(&assembly, Some(&estimate));
+    let plan = Plan::new(&assembly).map_err(|e| e.to_string())?;
+    let estimate = plan.estimate().ok_or("a motion has an estimate")?;
+    let cost = plan.cost();
     let duration = estimate.steps as f64 * estimate.time_step_ns;
     Ok(MotionCost {
         counts: assembly.counts(),

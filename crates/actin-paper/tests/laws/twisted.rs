@@ -3,9 +3,9 @@
 use actin_mechanics::{Loads, State, rotation};
 use actin_paper::measure::{Sampled, Specimen, twist};
 use actin_sim::{
-    Assembly, BodyKind, Resolution, RodLaw, RodModel, RunReport, Scene, Trajectory, rod_constants,
+    Assembly, BodyKind, Outcome, Plan, Resolution, RodLaw, RodModel, Scene, Trajectory,
+    rod_constants,
 };
-use std::ops::ControlFlow;
 
 /// `B3(kappa)` (pN nm^2) and `xi - 1` at a twist (rad/nm).
 type Formula = fn(f64) -> (f64, f64);
@@ -94,10 +94,12 @@ fn build(text: &str) -> Assembly {
     Assembly::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
 }
 
-/// Runs an assembly as its scene asks, to the end.
-fn run(assembly: &mut Assembly) -> (Trajectory, RunReport) {
-    let watch = &mut |_| ControlFlow::Continue(());
-    actin_sim::run(assembly, watch).unwrap_or_else(|error| panic!("{error}"))
+/// Runs an assembly as its scene asks, to the end, in whose state it is then.
+fn run(assembly: &mut Assembly) -> (Trajectory, Outcome) {
+    let ran = Plan::new(assembly).unwrap().run();
+    let (trajectory, outcome) = ran.unwrap_or_else(|error| panic!("{error}"));
+    *assembly.system.state_mut() = trajectory.records.last().unwrap().state.clone();
+    (trajectory, outcome)
 }
 
 /// 150 nm, the far end sliding, turned through `turns_deg`, a stage for each.

@@ -7,7 +7,7 @@ use crate::run::estimate_at;
 use crate::scene::{
     Drag, Dynamics, Equilibrium, Integrator, Problem, RodLaw, Scene, Section, Task,
 };
-use crate::{Assembly, Estimate};
+use crate::{Assembly, Estimate, Plan};
 use actin_integrate::SAFETY;
 use std::fmt;
 
@@ -85,7 +85,7 @@ fn is_small(error: Option<f64>) -> bool {
 
 fn seconds(scene: &Scene) -> Result<f64, Problem> {
     scene.validate()?;
-    Ok(Cost::estimated(&Assembly::build(scene)?)?.seconds.total())
+    Ok(Plan::new(&Assembly::build(scene)?)?.cost().seconds.total())
 }
 
 /// The scene resolved as `row` says, if that is one change and no finer anywhere; places of the row

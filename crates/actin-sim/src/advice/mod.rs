@@ -14,7 +14,7 @@ pub use setting::Setting;
 pub use table::Measured;
 
 use crate::scene::{Problem, Scene};
-use crate::{Assembly, Estimate};
+use crate::{Assembly, Estimate, Plan};
 use std::fmt;
 
 /// Largest expected error of the displacement that a change may bring.
@@ -38,13 +38,16 @@ impl Advice {
     pub fn of(scene: &Scene) -> Result<Self, Problem> {
         scene.validate()?;
         let assembly = Assembly::build(scene)?;
-        let estimate = crate::estimate(&assembly)?;
-        Ok(Self::of_estimated(scene, &assembly, estimate.as_ref()))
+        Ok(Plan::new(&assembly)?.advice())
     }
 
     /// The same of a scene that has been built and, if it is a motion, estimated, which for large
     /// scenes takes most of the time.
-    pub fn of_estimated(scene: &Scene, assembly: &Assembly, estimate: Option<&Estimate>) -> Self {
+    pub(crate) fn of_estimated(
+        scene: &Scene,
+        assembly: &Assembly,
+        estimate: Option<&Estimate>,
+    ) -> Self {
         let known = scenes::all();
         let like = known.iter().find(|(_, m)| like::is_like(scene, m));
         let like = like.map(|(name, measured)| (*name, like::length(measured)));
@@ -76,7 +79,6 @@ impl fmt::Display for Advice {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cost::Cost;
     use crate::{RodLaw, Task};
 
     fn cantilever() -> Scene {
@@ -105,8 +107,10 @@ mod tests {
                 continue;
             };
             change.scene.validate().unwrap();
-            let cost = |scene| Cost::estimated(&Assembly::build(scene).unwrap()).unwrap();
-            let seconds = |scene| cost(scene).seconds.total();
+            let seconds = |scene: &Scene| {
+                let assembly = Assembly::build(scene).unwrap();
+                Plan::new(&assembly).unwrap().cost().seconds.total()
+            };
             assert!(seconds(&change.scene) < seconds(&scene), "{name}");
             assert_eq!(change.scene.loads, scene.loads);
             assert_eq!(change.scene.linkers, scene.linkers);

@@ -213,7 +213,7 @@ impl Assembly {
 }
 
 /// Of each section and quantity what goes furthest.
-fn worst(found: impl IntoIterator<Item = BeyondUse>) -> Vec<BeyondUse> {
+pub(crate) fn worst(found: impl IntoIterator<Item = BeyondUse>) -> Vec<BeyondUse> {
     let mut worst: Vec<BeyondUse> = Vec::new();
     for beyond in found {
         let is_same = |b: &&mut BeyondUse| {

@@ -21,6 +21,7 @@ mod slip;
 mod unstable_twist;
 
 pub use beyond_use::BeyondUse;
+pub(crate) use beyond_use::worst as worst_of;
 pub use bonded::JunctionBond;
 pub use drive::Drive;
 pub(crate) use parts::Rod;

@@ -16,7 +16,7 @@ pub use rates::{
 };
 
 use crate::run::shears_softly;
-use crate::scene::{Anchors, Dynamics, Problem, RodLaw, Task};
+use crate::scene::{Anchors, Dynamics, RodLaw, Task};
 use crate::{Assembly, Estimate, memory, shape};
 use std::fmt;
 
@@ -115,15 +115,6 @@ impl Cost {
             },
             bytes: assembly.bytes + records * record,
         }
-    }
-
-    /// Of an assembled scene.
-    ///
-    /// # Errors
-    /// What [`estimate`](crate::estimate) refuses.
-    pub fn estimated(assembly: &Assembly) -> Result<Self, Problem> {
-        let estimate = crate::estimate(assembly)?;
-        Ok(Self::of(assembly, estimate.as_ref()))
     }
 
     /// Evaluations of bonds.
@@ -281,7 +272,7 @@ fn seconds_of_noise(assembly: &Assembly, dynamics: &Dynamics, estimate: &Estimat
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
+    use crate::{Plan, Scene};
 
     fn cost(sections: &str, task: &str) -> Cost {
         let text = format!(
@@ -293,7 +284,7 @@ mod tests {
             )"
         );
         let scene = Scene::from_ron(&text).unwrap();
-        Cost::estimated(&Assembly::build(&scene).unwrap()).unwrap()
+        Plan::new(&Assembly::build(&scene).unwrap()).unwrap().cost()
     }
 
     const MOTION: &str = "Dynamics(duration_ns: 1.0, time_step_ns: 0.001)";
@@ -358,7 +349,7 @@ mod tests {
             let filaments = filament.repeat(count);
             let text = format!("Scene(filaments: [{filaments}], task: {task})");
             let scene = Scene::from_ron(&text).unwrap();
-            Cost::estimated(&Assembly::build(&scene).unwrap()).unwrap()
+            Plan::new(&Assembly::build(&scene).unwrap()).unwrap().cost()
         };
         for task in [MOTION, "Equilibrium()"] {
             let all = [20, 40, 60].map(|count| of(count, task));

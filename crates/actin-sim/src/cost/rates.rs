@@ -50,6 +50,6 @@ pub const MOVED_BODIES_PER_S: f64 = 1.2e5;
 /// Stages of a path per second that are read and checked.
 pub const STAGES_PER_S: f64 = 3.0e5;
 /// Time of a run directory (s): files that are created, written and flushed to the disk.
-pub const DIRECTORY_S: f64 = 9.0e-3;
+pub const DIRECTORY_S: f64 = 6.0e-3;
 /// Time of a record and its picture beside its bodies (s).
 pub const RECORD_S: f64 = 1.2e-4;

@@ -1,5 +1,6 @@
 //! `energies.csv`: energies and residuals of every record, per term and per part.
 
+use super::clock;
 use super::{RunDirectoryError, finite::ensure_finite};
 use crate::{Assembly, Part, Record, Term};
 use std::collections::HashMap;
@@ -130,7 +131,7 @@ fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
         .chain(parts.iter().map(|part| assembly.name_of(*part)))
         .map(|name| format!("{name}_pn_nm"));
     let residuals = ["residual_force_pn", "residual_torque_pn_nm"].map(str::to_owned);
-    std::iter::once("time_ns".to_owned())
+    std::iter::once(clock(assembly).to_owned())
         .chain(energies)
         .chain(residuals)
         .collect()

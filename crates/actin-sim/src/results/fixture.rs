@@ -1,6 +1,6 @@
 //! A small mixed filament and a made-up run of it, for the tests of this module.
 
-use crate::{Assembly, Linker, LinkerSite, Record, RunReport, Scene, Trajectory};
+use crate::{Assembly, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory};
 use actin_mechanics::testing::{Noise, perturb, set_in_motion};
 use actin_mechanics::{Loads, State};
 
@@ -120,22 +120,13 @@ pub(super) fn loads(assembly: &Assembly, state: &State) -> Loads {
     loads
 }
 
-/// A report with numbers that all differ.
-pub(super) fn report() -> RunReport {
-    RunReport {
-        converged: false,
-        failed: false,
-        interrupted: false,
+/// An outcome with numbers that all differ.
+pub(super) fn outcome() -> Outcome {
+    Outcome {
         steps: 12,
         force_evaluations: 48,
         time_step_ns: Some(3.5e-3),
         largest_frequency_rad_per_ns: Some(569.25),
-        equilibrium: None,
-        at_rest: None,
-        saddles_left: 0,
-        pushes: Vec::new(),
-        jumps: 0,
-        beyond_use: Vec::new(),
-        wall_s: 0.1,
+        ..Outcome::new(Status::Completed, 0.1)
     }
 }

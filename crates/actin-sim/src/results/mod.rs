@@ -36,4 +36,14 @@ pub use checkpoint::{CheckpointError, Checkpoints, Damage};
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;
 pub use lock::RunLock;
-pub use summary::{FilamentSummary, RunStatus, StabilitySummary, Summary, ThermalSummary};
+pub use summary::{FilamentSummary, StabilitySummary, Summary, ThermalSummary};
+
+use crate::{Assembly, Task};
+
+/// What records are counted by: time (ns), or the path of equilibria, which counts stages.
+fn clock(assembly: &Assembly) -> &'static str {
+    match assembly.scene.task {
+        Task::Dynamics(_) => "time_ns",
+        Task::Equilibrium(_) => "path",
+    }
+}

@@ -2,7 +2,7 @@
 //!
 //! | array | shape | holds |
 //! |---|---|---|
-//! | `time_ns` | [T] | time |
+//! | `time_ns`, or `path` of equilibria | [T] | time, or stages of the path |
 //! | `position_nm`, `velocity_nm_per_ns` | [T, points, 3] | lab frame |
 //! | `quaternion` | [T, frames, 4] | orientation, body to lab, in order w, x, y, z |
 //! | `angular_momentum` | [T, frames, 3] | body frame, pN nm ns |
@@ -13,7 +13,7 @@
 //! Entries are deflated, which numpy undoes by itself. One array holds at most 4 GiB (the
 //! archive's 32-bit sizes); beyond that writing fails with an error that says so.
 
-use super::{RunDirectoryError, finite::ensure_finite};
+use super::{RunDirectoryError, clock, finite::ensure_finite};
 use crate::{Assembly, FilamentSpan, Record};
 use actin_mechanics::State;
 use npyz::WriterBuilder;
@@ -80,7 +80,10 @@ impl<'a> States<'a> {
     fn columns(&self) -> [(&'static str, Vec<f64>); 3] {
         let Assembly { points, frames, .. } = self.assembly;
         [
-            ("time_ns", self.records.iter().map(|r| r.time_ns).collect()),
+            (
+                clock(self.assembly),
+                self.records.iter().map(|r| r.time_ns).collect(),
+            ),
             ("s_nm", points.iter().map(|p| p.s_nm).collect()),
             ("frame_s_nm", frames.iter().map(|f| f.s_nm).collect()),
         ]

@@ -11,7 +11,7 @@ use super::states::States;
 use super::vtk::{Drawing, collection};
 use super::{RunDirectoryError, Summary, ThermalSummary, profile};
 use crate::shape::{self, ProfilePoint};
-use crate::{Assembly, Record, RunReport, Scene, Trajectory};
+use crate::{Assembly, Outcome, Plan, Record, Scene, Trajectory};
 use std::collections::HashSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -44,11 +44,11 @@ impl RunDirectory {
     /// it was, unless the file system refuses to give complete files their names.
     pub fn write(
         &self,
-        assembly: &Assembly,
+        plan: &Plan<'_>,
         trajectory: &Trajectory,
-        report: &RunReport,
+        outcome: &Outcome,
     ) -> Result<Summary, RunDirectoryError> {
-        let results = Results::new(assembly, &trajectory.records, report)?;
+        let results = Results::new(plan, &trajectory.records, outcome)?;
         self.announce(&results)?;
         let mut staged = Staged::new(&self.path);
         results.stage(&mut staged)?;
@@ -91,10 +91,11 @@ struct Results<'a> {
 
 impl<'a> Results<'a> {
     fn new(
-        assembly: &'a Assembly,
+        plan: &Plan<'a>,
         records: &'a [Record],
-        report: &RunReport,
+        outcome: &Outcome,
     ) -> Result<Self, RunDirectoryError> {
+        let assembly = plan.assembly();
         let last = records.last().ok_or(RunDirectoryError::NoRecord)?;
         ensure_same_bodies(assembly, records)?;
         let states = records.iter().map(|record| &record.state);
@@ -102,13 +103,13 @@ impl<'a> Results<'a> {
             beyond_range: assembly.beyond_range_over(states.clone()),
             unstable_twist: assembly.unstable_twist_over(states),
             thermal: ThermalSummary::new(assembly, records),
-            ..Summary::new(assembly, last, report)
+            ..Summary::new(assembly, last, outcome)
         };
         let filaments = 0..assembly.filaments.len();
         let results = Self {
             assembly,
             records,
-            scene: assembly.scene.to_ron(),
+            scene: plan.scene().to_ron(),
             table: EnergyTable::new(assembly, records),
             states: States::new(assembly, records),
             along: filaments
@@ -257,6 +258,10 @@ mod tests {
     /// Makes one number of a state useless.
     type Spoil = fn(&mut State);
 
+    fn plan(assembly: &Assembly) -> Plan<'_> {
+        Plan::new(assembly).unwrap()
+    }
+
     fn empty() -> (TempDir, RunDirectory) {
         let folder = tempfile::tempdir().unwrap();
         let directory = RunDirectory::create(folder.path(), false).unwrap();
@@ -269,13 +274,16 @@ mod tests {
         let assembly = fixture::clamped_start();
         let trajectory = fixture::trajectory(&assembly);
         let summary = directory
-            .write(&assembly, &trajectory, &fixture::report())
+            .write(&plan(&assembly), &trajectory, &fixture::outcome())
             .unwrap();
         let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
         let json: serde_json::Value = serde_json::from_str(&read(SUMMARY)).unwrap();
         assert_eq!(json["scene"], summary.scene.as_str());
         assert_eq!(json["work"]["steps"], 12);
-        assert_eq!(Scene::from_ron(&read(SCENE)).unwrap(), assembly.scene);
+        assert_eq!(
+            &Scene::from_ron(&read(SCENE)).unwrap(),
+            plan(&assembly).scene()
+        );
         assert_eq!(read(ENERGIES).lines().count(), 1 + trajectory.records.len());
         let profile = read(PROFILE);
         let header = "s_nm,x_nm,y_nm,z_nm,curvature_rad_per_nm,twist_rad_per_nm,\
@@ -307,10 +315,14 @@ mod tests {
         let (folder, directory) = empty();
         let assembly = fixture::clamped_start();
         let mut trajectory = fixture::trajectory(&assembly);
-        let report = fixture::report();
-        directory.write(&assembly, &trajectory, &report).unwrap();
+        let outcome = fixture::outcome();
+        directory
+            .write(&plan(&assembly), &trajectory, &outcome)
+            .unwrap();
         trajectory.records.truncate(1);
-        directory.write(&assembly, &trajectory, &report).unwrap();
+        directory
+            .write(&plan(&assembly), &trajectory, &outcome)
+            .unwrap();
         assert_eq!(all_names(&folder.path().join(PICTURES)), ["0000.vtp"]);
     }
 
@@ -321,15 +333,19 @@ mod tests {
         let (folder, directory) = empty();
         let assembly = fixture::clamped_start();
         let mut trajectory = fixture::trajectory(&assembly);
-        let report = fixture::report();
+        let outcome = fixture::outcome();
         let longer = trajectory.clone();
         trajectory.records.truncate(2);
-        directory.write(&assembly, &trajectory, &report).unwrap();
+        directory
+            .write(&plan(&assembly), &trajectory, &outcome)
+            .unwrap();
         let before = contents(folder.path());
         for name in [STATES, "vtk/0002.vtp", SUMMARY] {
             let obstacle = folder.path().join(format!("{name}.part"));
             fs::create_dir(&obstacle).unwrap();
-            let error = directory.write(&assembly, &longer, &report).unwrap_err();
+            let error = directory
+                .write(&plan(&assembly), &longer, &outcome)
+                .unwrap_err();
             assert!(error.to_string().contains(name), "{error}");
             fs::remove_dir(&obstacle).unwrap();
             let mut after = contents(folder.path());
@@ -338,7 +354,9 @@ mod tests {
             let same = before.iter().filter(|(path, _)| !path.ends_with(MANIFEST));
             assert!(after.iter().eq(same), "{name}");
         }
-        directory.write(&assembly, &longer, &report).unwrap();
+        directory
+            .write(&plan(&assembly), &longer, &outcome)
+            .unwrap();
         assert_eq!(all_names(&folder.path().join(PICTURES)).len(), 3);
     }
 
@@ -352,7 +370,7 @@ mod tests {
             fs::write(&path, "mine").unwrap();
             let assembly = fixture::clamped_start();
             let trajectory = fixture::trajectory(&assembly);
-            let written = directory.write(&assembly, &trajectory, &fixture::report());
+            let written = directory.write(&plan(&assembly), &trajectory, &fixture::outcome());
             let message = written.unwrap_err().to_string();
             assert!(message.contains(name), "{message}");
             assert_eq!(fs::read(&path).unwrap(), b"mine");
@@ -414,7 +432,7 @@ mod tests {
     fn assert_refused(assembly: &Assembly, trajectory: &Trajectory, message: &str) {
         let (folder, directory) = empty();
         let error = directory
-            .write(assembly, trajectory, &fixture::report())
+            .write(&plan(assembly), trajectory, &fixture::outcome())
             .unwrap_err();
         assert!(error.to_string().starts_with(message), "{error}");
         assert_eq!(all_names(folder.path()), [LOCK, MANIFEST]);

@@ -1,18 +1,17 @@
 //! Motion in time: the time step, the run loop and the records.
 
 use super::bound::kinetic_limit;
-use super::keep::{Clock, Keeper, Kept};
 use super::points::check_points;
 use super::recorder::{Ending, Recorder};
 use super::rest::{is_saddle, saddle};
+use super::sink::{Saved, Sink};
 use super::steps::Steps;
-use super::{Progress, RunError, RunReport, Trajectory};
+use super::{Failure, Outcome, Status};
 use crate::assembly::Ramp;
-use crate::scene::{Dynamics, Integrator, Problem, RodLaw, StopRule, Task};
+use crate::scene::{Dynamics, Integrator, Problem, RodLaw, Scene, StopRule, Task};
 use crate::{Assembly, memory};
 use actin_integrate::{Bath, Composition, Drag, Reason, Run};
-use actin_mechanics::{Split, State, System};
-use std::ops::ControlFlow;
+use actin_mechanics::{Split, System};
 
 /// What a scene will cost, known before it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,14 +46,11 @@ impl Integrator {
     }
 }
 
-/// What the scene of `assembly` will cost: its time step and the number of steps; `None` of an
-/// equilibrium, which takes no time steps.
+/// The time step of an assembly's motion and the number of steps; `None` of an equilibrium.
 ///
 /// # Errors
-/// A time step above the stability limit that the scene does not explicitly allow, a turn that its
-/// segments cannot follow, more steps than can be counted, and more records, of either task, than
-/// memory holds.
-pub fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, Problem> {
+/// What [`Plan::new`](super::Plan::new) refuses.
+pub(super) fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, Problem> {
     match &assembly.scene.task {
         Task::Dynamics(dynamics) => estimate_of(assembly, dynamics).map(Some),
         Task::Equilibrium(settings) => {
@@ -180,78 +176,68 @@ pub(crate) fn shears_softly(law: &RodLaw) -> bool {
 
 /// Runs the motion.
 pub(super) fn run(
-    assembly: &mut Assembly,
-    (dynamics, estimate): (&Dynamics, Option<&Estimate>),
-    kept: Option<Kept>,
-    keeper: &mut dyn Keeper,
-    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
-) -> Result<(Trajectory, RunReport), RunError> {
-    let (estimate, plan) = prepare(assembly, dynamics, estimate)?;
-    let clock = Clock::new(kept.as_ref());
-    // Observers see the rest of the assembly while its system moves.
-    let nothing = System::new(State::default(), Vec::new());
-    let mut system = std::mem::replace(&mut assembly.system, nothing);
-    let mut recorder = Recorder::new(assembly, dynamics, &system, (keeper, watch), clock);
-    let outcome = recorder.execute(&plan, &mut system, kept);
-    let ending = recorder.end(outcome, &mut system);
-    let Recorder {
-        trajectory, pushes, ..
-    } = recorder;
-    assembly.system = system;
-    let report = RunReport {
-        saddles_left: pushes.len(),
-        pushes,
-        ..estimate.report(clock)
+    assembly: &Assembly,
+    dynamics: &Dynamics,
+    estimate: &Estimate,
+    saved: Option<Saved>,
+    sink: &mut dyn Sink,
+) -> Result<(Outcome, Option<Failure>), Problem> {
+    let mut system = assembly.system.in_state(assembly.system.state().clone());
+    let run = prepare(assembly, &mut system, dynamics, estimate)?;
+    let mut recorder = Recorder::new(assembly, dynamics, &system, saved, sink);
+    let ending = recorder.execute(&run, &mut system);
+    let ending = recorder.end(ending, &mut system);
+    let wall_s = recorder.wall_s();
+    let outcome = Outcome {
+        force_evaluations: system.force_evaluations(),
+        time_step_ns: Some(estimate.time_step_ns),
+        largest_frequency_rad_per_ns: Some(estimate.largest_frequency_rad_per_ns),
+        saddles_left: recorder.pushes.len(),
+        pushes: recorder.pushes,
+        beyond_use: recorder.taken.into_beyond_use(),
+        ..Outcome::new(Status::Failed, wall_s)
     };
-    conclude(assembly, dynamics, ending, (trajectory, report))
+    Ok(conclude(assembly, dynamics, ending, outcome))
 }
 
-/// The results of a motion, by how it ended.
+/// How a motion ended, added to what is known of it.
 fn conclude(
     assembly: &Assembly,
     dynamics: &Dynamics,
     ending: Ending,
-    (trajectory, report): (Trajectory, RunReport),
-) -> Result<(Trajectory, RunReport), RunError> {
-    let evaluations = assembly.system.force_evaluations();
-    let failed = |report: RunReport, steps| RunReport {
-        failed: true,
-        ..report.counting(steps, evaluations)
-    };
-    match ending {
-        Ending::Left(end) => {
-            let mut report = report.counting(end.steps, end.force_evaluations);
-            report.interrupted = true;
-            Ok((trajectory, report))
+    mut outcome: Outcome,
+) -> (Outcome, Option<Failure>) {
+    let failure = match ending {
+        Ending::Interrupted(end) => {
+            outcome.status = Status::Interrupted;
+            outcome.steps = end.steps;
+            outcome.force_evaluations = end.force_evaluations;
+            None
         }
         Ending::Ended(end, at_rest) => {
-            let report = RunReport {
-                converged: end.reason == Reason::Converged,
-                failed: at_rest.as_ref().is_some_and(is_saddle),
-                at_rest,
-                ..report.counting(end.steps, end.force_evaluations)
+            outcome.status = match end.reason {
+                Reason::Converged => Status::Converged,
+                _ => Status::Completed,
             };
-            let Some(certificate) = at_rest.filter(is_saddle) else {
-                return Ok((trajectory, report));
-            };
-            let problem = saddle(&certificate, dynamics.leave_saddles, way_off(dynamics));
-            Err(RunError::saddle(problem, trajectory, report))
+            outcome.steps = end.steps;
+            outcome.force_evaluations = end.force_evaluations;
+            outcome.at_rest = at_rest;
+            let certificate = at_rest.filter(is_saddle);
+            let attempts = dynamics.leave_saddles;
+            certificate.map(|c| Failure::Saddle(saddle(&c, attempts, way_off(dynamics))))
         }
         Ending::Slipped(slip, step) => {
-            let at = format!("at {:.4} ns, ", slip.time_ns);
-            Err(RunError::slipped(
-                (at, slip),
-                trajectory,
-                failed(report, step),
-            ))
+            outcome.steps = step;
+            let place = format!("at {:.4} ns, ", slip.time_ns);
+            Some(Failure::TwistLost { place, slip })
         }
-        Ending::Failed(failure) => Err(RunError::Failed {
-            report: Box::new(failed(report, failure.last_good_step)),
-            body: assembly.describe(failure.body),
-            failure: Box::new(failure),
-            trajectory: Box::new(trajectory),
-        }),
-    }
+        Ending::Failed(failure) => {
+            outcome.steps = failure.last_good_step;
+            let body = assembly.describe(failure.body);
+            Some(Failure::Diverged { failure, body })
+        }
+    };
+    (outcome, failure)
 }
 
 /// What leads a motion off a saddle, or would have.
@@ -265,61 +251,32 @@ fn way_off(dynamics: &Dynamics) -> &'static str {
     }
 }
 
-/// The run that the scene asks for; the scene is resolved and its path set going.
+/// The run that the scene asks for; its path is set going.
 fn prepare(
-    assembly: &mut Assembly,
+    assembly: &Assembly,
+    system: &mut System,
     dynamics: &Dynamics,
-    estimate: Option<&Estimate>,
-) -> Result<(Estimate, Run), Problem> {
-    let estimate = match estimate {
-        Some(known) => *known,
-        None => estimate_of(assembly, dynamics)?,
-    };
+    estimate: &Estimate,
+) -> Result<Run, Problem> {
     let limit = kinetic_limit(assembly);
-    let plan = plan(dynamics, &estimate)?
-        .stopping_from(drive(assembly))
+    let run = plan(dynamics, estimate)?
+        .stopping_from(drive(assembly, system))
         .with_kinetic_limit(limit)
         .expect("the limit is positive");
     // The bound is that of all energy. In a bath it is not: strain has heat of its own.
-    let plan = match dynamics.thermal {
-        Some(_) => plan,
-        None => plan
-            .with_energy_limit(limit)
-            .expect("the limit is a number"),
-    };
-    assembly.resolve(&estimate);
-    Ok((estimate, plan))
-}
-
-impl Estimate {
-    /// The report of a run that has taken the time of `clock` and has counted nothing yet.
-    fn report(&self, clock: Clock) -> RunReport {
-        RunReport {
-            converged: false,
-            failed: false,
-            interrupted: false,
-            steps: 0,
-            force_evaluations: 0,
-            time_step_ns: Some(self.time_step_ns),
-            largest_frequency_rad_per_ns: Some(self.largest_frequency_rad_per_ns),
-            equilibrium: None,
-            at_rest: None,
-            saddles_left: 0,
-            pushes: Vec::new(),
-            jumps: 0,
-            beyond_use: Vec::new(),
-            wall_s: clock.wall_s(),
-        }
-    }
+    Ok(match dynamics.thermal {
+        Some(_) => run,
+        None => run.with_energy_limit(limit).expect("the limit is a number"),
+    })
 }
 
 /// Sets the path of the scene going, if there is one, and returns the time that it takes (ns).
-fn drive(assembly: &mut Assembly) -> f64 {
+fn drive(assembly: &Assembly, system: &mut System) -> f64 {
     let Some(ramp) = Ramp::of(assembly) else {
         return 0.0;
     };
     let duration = ramp.duration();
-    assembly.system.set_drive(Box::new(ramp));
+    system.set_drive(Box::new(ramp));
     duration
 }
 
@@ -357,13 +314,12 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, Problem> {
         .map_err(|error| refused("stop", &error))
 }
 
-impl Assembly {
-    /// Writes the time step and the interval of records that a motion will have into the scene.
-    pub fn resolve(&mut self, estimate: &Estimate) {
-        let Task::Dynamics(dynamics) = &mut self.scene.task else {
-            return;
-        };
-        dynamics.time_step_ns = Some(estimate.time_step_ns);
-        dynamics.record_every_ns = Some(estimate.record_every_ns);
+impl Estimate {
+    /// Writes the time step and the interval of records that a motion will have into its scene.
+    pub(super) fn resolve(&self, scene: &mut Scene) {
+        if let Task::Dynamics(dynamics) = &mut scene.task {
+            dynamics.time_step_ns = Some(self.time_step_ns);
+            dynamics.record_every_ns = Some(self.record_every_ns);
+        }
     }
 }

@@ -1,11 +1,10 @@
 //! Equilibria: Newton from the built state, or along the path of the scene.
 
-use super::keep::{Arrival, Clock, Keeper, Kept, PathStanding, Standing};
-use super::points::check_points;
 use super::rest::{is_saddle, saddle};
-use super::slip::{LinkWatch, Slip, links};
+use super::sink::{Arrival, Clock, PathPosition, Saved, Sink};
+use super::taken::Taken;
 use super::unknowns::newton;
-use super::{Progress, Record, RunError, RunReport, Trajectory};
+use super::{Failure, Outcome, Progress, Record, RunPosition, Status};
 use crate::Assembly;
 use crate::scene::{Equilibrium as Settings, Load, Problem};
 use actin_equilibrium::{
@@ -37,85 +36,42 @@ pub struct EquilibriumReport {
     pub history: Vec<(f64, f64)>,
 }
 
-/// Solves for the equilibrium, or follows the path; the system ends in the last equilibrium.
+/// Solves for the equilibrium, or follows the path.
 pub(super) fn run(
-    assembly: &mut Assembly,
+    assembly: &Assembly,
     settings: &Settings,
-    kept: Option<Kept>,
-    keeper: &mut dyn Keeper,
-    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
-) -> Result<(Trajectory, RunReport), RunError> {
-    assembly.check_slip()?;
-    let clock = Clock::new(kept.as_ref());
-    check_points(assembly, settings)?;
+    saved: Option<Saved>,
+    sink: &mut dyn Sink,
+) -> Result<(Outcome, Option<Failure>), Problem> {
     let mut newton = newton(assembly, settings)?;
     let mut state = assembly.system.state().clone();
-    let mut follower = Follower::new(assembly, settings, kept, (keeper, watch), clock);
-    let trouble = follower.trouble(&mut newton, &mut state)?;
-    // What was left at its very end is done.
-    let interrupted = matches!(trouble, Some(Trouble::Left));
-    let (trajectory, standing) = (follower.trajectory, follower.standing);
-    *assembly.system.state_mut() = state;
-    let wanted = settings.lowest_eigenvalue && standing.last.is_some() && !interrupted;
-    let lowest = wanted.then(|| lowest_eigenvalue(&mut newton, &assembly.system));
+    let mut follower = Follower::new(assembly, settings, saved, sink);
+    let failure = follower.follow_to_the_end(&mut newton, &mut state)?;
+    // What was interrupted at its very end is done.
+    let is_interrupted = follower.is_interrupted && failure.is_none();
+    let Follower {
+        position,
+        taken,
+        clock,
+        ..
+    } = follower;
+    let wanted = settings.lowest_eigenvalue && position.last.is_some() && !is_interrupted;
+    let lowest = wanted.then(|| lowest_eigenvalue(&mut newton, &assembly.system, &state));
     let work = newton.work();
-    let report = RunReport {
-        converged: trouble.is_none(),
-        failed: trouble.is_some() && !interrupted,
-        interrupted,
-        steps: 0,
-        force_evaluations: work.evaluations,
-        time_step_ns: None,
-        largest_frequency_rad_per_ns: None,
-        at_rest: None,
-        saddles_left: standing.saddles_left,
-        jumps: standing.jumps,
-        pushes: Vec::new(),
-        equilibrium: report(standing, lowest.flatten(), work),
-        beyond_use: Vec::new(),
-        wall_s: clock.wall_s(),
+    let status = match (&failure, is_interrupted) {
+        (Some(_), _) => Status::Failed,
+        (None, true) => Status::Interrupted,
+        (None, false) => Status::Converged,
     };
-    conclude(trouble, trajectory, report)
-}
-
-/// The results of a path or an equilibrium, by what went wrong.
-fn conclude(
-    trouble: Option<Trouble>,
-    trajectory: Trajectory,
-    report: RunReport,
-) -> Result<(Trajectory, RunReport), RunError> {
-    match trouble {
-        None | Some(Trouble::Left) => Ok((trajectory, report)),
-        Some(Trouble::Ended(place, failure)) => Err(RunError::Ended {
-            place,
-            failure,
-            trajectory: Box::new(trajectory),
-            report: Box::new(report),
-        }),
-        Some(Trouble::Lost(problem)) => Err(RunError::Lost {
-            problem,
-            trajectory: Box::new(trajectory),
-            report: Box::new(report),
-        }),
-        Some(Trouble::Saddle(problem)) => Err(RunError::saddle(*problem, trajectory, report)),
-        Some(Trouble::Slipped(place, slip)) => {
-            Err(RunError::slipped((place, *slip), trajectory, report))
-        }
-    }
-}
-
-/// Why there is no equilibrium at the end, or none to rely on.
-enum Trouble {
-    /// The keeper wanted the run to be left.
-    Left,
-    /// The path ended early: where, in words, and why.
-    Ended(String, Box<PathFailure>),
-    /// A load is lost in what is left over.
-    Lost(Box<Problem>),
-    /// The last equilibrium is a saddle.
-    Saddle(Box<Problem>),
-    /// Twist was lost: where, in words, and how much.
-    Slipped(String, Box<Slip>),
+    let outcome = Outcome {
+        force_evaluations: work.evaluations,
+        saddles_left: position.saddles_left,
+        jumps: position.jumps,
+        equilibrium: report(position, lowest.flatten(), work),
+        beyond_use: taken.into_beyond_use(),
+        ..Outcome::new(status, clock.wall_s())
+    };
+    Ok((outcome, failure))
 }
 
 /// The first load that is lost in an equilibrium: the forces that are left, be it by rounding of
@@ -173,32 +129,23 @@ fn path(settings: &Settings) -> Result<Path, Problem> {
 struct Follower<'a> {
     assembly: &'a Assembly,
     settings: &'a Settings,
-    watch: &'a mut dyn FnMut(Progress) -> ControlFlow<()>,
-    keeper: &'a mut dyn Keeper,
+    taken: Taken<'a>,
     clock: Clock,
-    trajectory: Trajectory,
-    /// Where the run could be taken up again.
-    standing: PathStanding,
-    links: LinkWatch,
-    slip: Option<Slip>,
-    /// Whether the keeper wanted the run to be left.
-    is_left: bool,
+    /// Where the run could be resumed.
+    position: PathPosition,
+    /// Whether the sink wants the run to stop; not where that came behind its end.
+    is_interrupted: bool,
 }
-
-type Guards<'a> = (
-    &'a mut dyn Keeper,
-    &'a mut dyn FnMut(Progress) -> ControlFlow<()>,
-);
 
 impl<'a> Follower<'a> {
     fn new(
         assembly: &'a Assembly,
         settings: &'a Settings,
-        kept: Option<Kept>,
-        (keeper, watch): Guards<'a>,
-        clock: Clock,
+        saved: Option<Saved>,
+        sink: &'a mut dyn Sink,
     ) -> Self {
-        let start = PathStanding {
+        let clock = Clock::new(saved.as_ref());
+        let start = PathPosition {
             stage: 0,
             waypoint: None,
             state: assembly.system.state().clone(),
@@ -208,66 +155,67 @@ impl<'a> Follower<'a> {
             last: None,
             work: Work::default(),
         };
-        let (standing, trajectory) = match kept {
-            None => (start, Trajectory::default()),
-            Some(Kept {
-                standing: Standing::Path(standing),
-                trajectory,
+        let (position, earlier) = match saved {
+            None => (start, Vec::new()),
+            Some(Saved {
+                position: RunPosition::Path(position),
+                records,
                 ..
-            }) => (*standing, trajectory),
+            }) => (*position, records),
             Some(_) => panic!("a motion in time is no path of equilibria"),
         };
-        let mut links = links(assembly);
-        links.follow(assembly, &trajectory.records);
+        let mut beginning = assembly.system.state().clone();
+        // Without a path, held ends are where the caller has put them.
+        if !assembly.drive.is_still() {
+            assembly.drive.place(&mut beginning, 0.0);
+        }
         Self {
             assembly,
             settings,
-            watch,
-            keeper,
+            taken: Taken::new(assembly, &beginning, earlier, sink),
             clock,
-            trajectory,
-            standing,
-            links,
-            slip: None,
-            is_left: false,
+            position,
+            is_interrupted: false,
         }
     }
 
-    /// Follows all that is left, and says what is wrong with where it ended. However it did, the run is
-    /// kept as it is.
-    fn trouble(
+    /// Follows all that is left, and says what is wrong with where it ended. However it did, a checkpoint
+    /// is kept.
+    fn follow_to_the_end(
         &mut self,
         newton: &mut Newton,
         state: &mut State,
-    ) -> Result<Option<Trouble>, Problem> {
+    ) -> Result<Option<Failure>, Problem> {
         let ended = self.follow(newton, state)?;
-        if let Some(slip) = self.slip.take() {
-            state.copy_motion_from(&self.standing.state);
-            self.keep();
-            let stage = place(self.assembly, self.standing.stage);
+        if let Some(slip) = self.taken.slip() {
+            self.is_interrupted = false;
+            state.copy_motion_from(&self.position.state);
+            self.checkpoint();
+            let stage = place(self.assembly, self.position.stage);
             let place = format!("{stage}at path parameter {:.4}, ", slip.time_ns);
-            return Ok(Some(Trouble::Slipped(place, Box::new(slip))));
+            return Ok(Some(Failure::TwistLost { place, slip }));
         }
-        let trouble = match ended {
-            Some(_) if self.is_left => Some(Trouble::Left),
+        let failure = match ended {
+            Some(_) if self.is_interrupted => None,
             Some(failure) => {
-                let place = place(self.assembly, self.standing.stage);
-                Some(Trouble::Ended(place, failure))
+                let place = place(self.assembly, self.position.stage);
+                Some(Failure::PathEnded { place, failure })
             }
             None => {
+                self.is_interrupted = false;
                 self.look_closer(newton, state);
                 self.flaw()
             }
         };
-        self.keep();
-        Ok(trouble)
+        self.checkpoint();
+        Ok(failure)
     }
 
     /// Certifies the last equilibrium again if it seems to be a saddle, with the residual as small as it
     /// gets: what the tolerance leaves of it may pass for the sign of a neutral mode.
     fn look_closer(&mut self, newton: &mut Newton, state: &State) {
         let certificate = self
-            .standing
+            .position
             .last
             .as_mut()
             .map(|last| &mut last.certificate);
@@ -283,19 +231,17 @@ impl<'a> Follower<'a> {
     }
 
     /// What is wrong with the last equilibrium.
-    fn flaw(&self) -> Option<Trouble> {
-        let last = self.trajectory.records.last();
+    fn flaw(&self) -> Option<Failure> {
+        let last = self.taken.last();
         let lost = last.and_then(|last| lost_load(self.assembly, last));
-        let lost = lost.map(|problem| Trouble::Lost(Box::new(problem)));
-        lost.or_else(|| {
-            let certificate = self.standing.last.as_ref()?.certificate?;
+        lost.map(Failure::LoadLost).or_else(|| {
+            let certificate = self.position.last.as_ref()?.certificate?;
             let attempts = self.settings.leave_saddles;
             let way = match attempts {
                 0 => "with 0 saddles are kept; with 1 or more they are left along the lowest mode",
                 _ => "more attempts may lead off it",
             };
-            let problem = || Box::new(saddle(&certificate, attempts, way));
-            is_saddle(&certificate).then(|| Trouble::Saddle(problem()))
+            is_saddle(&certificate).then(|| Failure::Saddle(saddle(&certificate, attempts, way)))
         })
     }
 
@@ -306,43 +252,41 @@ impl<'a> Follower<'a> {
         newton: &mut Newton,
         state: &mut State,
     ) -> Result<Option<Box<PathFailure>>, Problem> {
-        state.copy_motion_from(&self.standing.state);
-        newton.count_on(self.standing.work);
+        state.copy_motion_from(&self.position.state);
+        newton.count_on(self.position.work);
         let result = if self.assembly.drive.is_still() {
             self.solve(newton, state)
         } else {
             let path = path(self.settings)?;
-            let mut stages = self.standing.stage..self.assembly.drive.stages();
-            stages.try_for_each(|stage| match self.slip {
-                None => self.stage(&path, newton, state, stage),
-                Some(_) => Ok(()),
+            let mut stages = self.position.stage..self.assembly.drive.stages();
+            stages.try_for_each(|stage| match self.taken.has_slipped() {
+                false => self.stage(&path, newton, state, stage),
+                true => Ok(()),
             })
         };
         Ok(result.err())
     }
 
     fn solve(&mut self, newton: &mut Newton, state: &mut State) -> Result<(), Box<PathFailure>> {
-        if self.standing.points > 0 {
+        if self.position.points > 0 {
             return Ok(());
         }
-        // An earlier attempt that failed has left the best state that it reached.
-        self.trajectory.records.clear();
         let interactions = self.assembly.system.interactions();
         let attempts = self.settings.leave_saddles;
         let solved = newton.minimize_observed(state, interactions, attempts, &mut |_| self.go_on());
         match solved {
             Ok(equilibrium) => {
                 if self.record(0.0, state, &equilibrium).is_continue() {
-                    self.standing.state.copy_motion_from(state);
-                    self.standing.work = newton.work();
+                    self.position.state.copy_motion_from(state);
+                    self.position.work = newton.work();
                 }
                 Ok(())
             }
             Err(failure) => {
-                if !self.is_left {
+                if !self.is_interrupted {
                     // The best state that was reached is worth keeping.
                     let best = record(&self.assembly.system, 0.0, state);
-                    self.trajectory.records.push(best);
+                    self.taken.take_unchecked(best);
                 }
                 Err(Box::new(PathFailure {
                     parameter: 0.0,
@@ -366,7 +310,7 @@ impl<'a> Follower<'a> {
         let assembly = self.assembly;
         let mut set = |state: &mut State, t: f64| assembly.drive.place(state, stage as f64 + t);
         let interactions = assembly.system.interactions();
-        let waypoint = self.standing.waypoint.clone();
+        let waypoint = self.position.waypoint.clone();
         path.follow_from(
             waypoint.as_ref(),
             newton,
@@ -380,17 +324,12 @@ impl<'a> Follower<'a> {
 
     /// Records an equilibrium; breaks, with nothing recorded, where twist was lost on the way to it.
     fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) -> ControlFlow<()> {
-        let before = self.trajectory.records.last().map(|record| &record.state);
-        self.slip = self.links.slip(self.assembly, (state, u), before);
-        if self.slip.is_some() {
+        if !self.taken.take(record(&self.assembly.system, u, state)) {
             return ControlFlow::Break(());
         }
-        self.trajectory
-            .records
-            .push(record(&self.assembly.system, u, state));
-        self.standing.points += 1;
-        self.standing.saddles_left += equilibrium.saddles_left;
-        self.standing.last = Some(Arrival {
+        self.position.points += 1;
+        self.position.saddles_left += equilibrium.saddles_left;
+        self.position.last = Some(Arrival {
             certificate: equilibrium.certificate,
             floor: (equilibrium.ending == Ending::FloorReached)
                 .then_some((equilibrium.floor.force, equilibrium.floor.torque)),
@@ -403,26 +342,29 @@ impl<'a> Follower<'a> {
         ControlFlow::Continue(())
     }
 
-    /// Notes where the path can be taken up again: at `point`, or at the beginning of the next
-    /// stage.
+    /// Notes where the path can be resumed: at `point`, or at the beginning of the next stage.
     fn note(&mut self, point: &PathPoint<'_>) {
         let is_end = point.parameter >= 1.0;
-        let standing = &mut self.standing;
-        standing.stage += usize::from(is_end);
-        standing.waypoint = (!is_end).then(|| point.waypoint.clone());
-        standing.state.copy_motion_from(point.state);
-        standing.work = point.work;
+        let position = &mut self.position;
+        position.stage += usize::from(is_end);
+        position.waypoint = (!is_end).then(|| point.waypoint.clone());
+        position.state.copy_motion_from(point.state);
+        position.work = point.work;
     }
 
-    fn keep(&mut self) {
-        let standing = Standing::Path(Box::new(self.standing.clone()));
-        let records = &self.trajectory.records;
-        self.keeper.keep(&standing, records, self.clock.wall_s());
+    fn checkpoint(&mut self) {
+        // The best state of an attempt that failed: the next attempt begins without it.
+        let less = match self.position.points {
+            0 => self.taken.count(),
+            _ => 0,
+        };
+        let position = RunPosition::Path(Box::new(self.position.clone()));
+        self.taken.checkpoint(&position, less, self.clock.wall_s());
     }
 
     fn go_on(&mut self) -> ControlFlow<()> {
-        self.is_left = self.keeper.is_interrupted();
-        if self.is_left {
+        self.is_interrupted = self.taken.sink.is_interrupted();
+        if self.is_interrupted {
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
@@ -431,24 +373,24 @@ impl<'a> Follower<'a> {
 
 impl Companion for Follower<'_> {
     fn arrive(&mut self, point: &PathPoint<'_>) -> ControlFlow<()> {
-        let stage = self.standing.stage;
+        let stage = self.position.stage;
         let u = stage as f64 + point.parameter;
         // The start of a later stage is the end of the one before.
         if stage == 0 || point.parameter > 0.0 {
             self.record(u, point.state, point.equilibrium)?;
         }
-        self.standing.jumps += usize::from(point.jumped);
+        self.position.jumps += usize::from(point.jumped);
         self.note(point);
-        let flow = (self.watch)(Progress {
+        self.taken.progress(&Progress {
             time_ns: u,
             end_ns: self.assembly.drive.stages() as f64,
-            steps: self.standing.points as u64,
+            steps: self.position.points as u64,
             residual_force_pn: point.equilibrium.residual.force,
         });
-        if self.keeper.is_due() {
-            self.keep();
+        if self.taken.sink.is_checkpoint_due() {
+            self.checkpoint();
         }
-        if flow.is_break() { flow } else { self.go_on() }
+        self.go_on()
     }
 
     fn iterate(&mut self, _step: &Iteration) -> ControlFlow<()> {
@@ -476,22 +418,22 @@ fn record(system: &System, u: f64, state: &State) -> Record {
     }
 }
 
-fn lowest_eigenvalue(newton: &mut Newton, system: &System) -> Option<f64> {
-    let mode = newton.lowest_mode(system.state(), system.interactions());
+fn lowest_eigenvalue(newton: &mut Newton, system: &System, state: &State) -> Option<f64> {
+    let mode = newton.lowest_mode(state, system.interactions());
     mode.ok().flatten().map(|mode| mode.eigenvalue)
 }
 
 fn report(
-    standing: PathStanding,
+    position: PathPosition,
     lowest_eigenvalue: Option<f64>,
     work: Work,
 ) -> Option<EquilibriumReport> {
-    let last = standing.last?;
+    let last = position.last?;
     last.certificate.map(|certificate| EquilibriumReport {
         certificate,
         lowest_eigenvalue,
         newton_iterations: work.iterations,
-        points: standing.points,
+        points: position.points,
         floor: last.floor,
         history: last.history,
     })

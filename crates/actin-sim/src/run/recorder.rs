@@ -1,9 +1,10 @@
 //! Watching a motion: records, checkpoints, twist that slips, and pushes off saddles.
 
-use super::keep::{Clock, Keeper, Kept, MotionStanding, Standing};
 use super::rest::{RestJudge, SaddlePush, is_saddle};
-use super::slip::{LinkWatch, Slip};
-use super::{Progress, Record, Trajectory};
+use super::sink::{Clock, MotionPosition, Saved};
+use super::slip::Slip;
+use super::taken::Taken;
+use super::{Progress, Record, RunPosition, Sink};
 use crate::Assembly;
 use crate::assembly::Ramp;
 use crate::scene::Dynamics;
@@ -12,34 +13,29 @@ use actin_integrate::{Checkpoint, Moment, Observer, Outcome, Pause, Reason, Run,
 use actin_mechanics::System;
 use std::ops::ControlFlow;
 
-/// Records what is observed and lets the keeper keep it.
+/// Passes on what is observed, and pushes the motion off saddles.
 pub(super) struct Recorder<'a> {
-    pub(super) trajectory: Trajectory,
+    pub(super) taken: Taken<'a>,
     pub(super) pushes: Vec<SaddlePush>,
-    assembly: &'a Assembly,
     end_ns: f64,
     /// When the path is over (ns): before that nothing is at rest.
     rest_from_ns: f64,
     most_pushes: usize,
     clock: Clock,
     judge: Option<RestJudge<'a>>,
-    links: LinkWatch,
-    slip: Option<Slip>,
+    /// Where an interrupted run goes on.
+    position: Option<Checkpoint>,
     /// Where the run stood at the last record from which it went on.
     last_good: Option<Checkpoint>,
     /// Whether there has been a record since.
     is_behind: bool,
-    is_left: bool,
-    keeper: &'a mut dyn Keeper,
-    watch: Watch<'a>,
+    is_interrupted: bool,
 }
-
-type Watch<'a> = &'a mut dyn FnMut(Progress) -> ControlFlow<()>;
 
 /// How a motion ended.
 pub(super) enum Ending {
-    /// Left, to be taken up again.
-    Left(Outcome),
+    /// Interrupted, to be resumed.
+    Interrupted(Outcome),
     /// At its end, with what the stiffness says if it is at rest.
     Ended(Outcome, Option<Certificate>),
     /// Twist was lost; the step of the last good state.
@@ -49,56 +45,60 @@ pub(super) enum Ending {
 }
 
 impl<'a> Recorder<'a> {
-    /// A recorder of the motion of `system`, which has been taken out of `assembly`.
+    /// A recorder of the motion of `system`, from where it was interrupted if it was.
+    ///
+    /// # Panics
+    /// If what was saved is a path of equilibria.
     pub(super) fn new(
         assembly: &'a Assembly,
         dynamics: &Dynamics,
         system: &System,
-        (keeper, watch): (&'a mut dyn Keeper, Watch<'a>),
-        clock: Clock,
+        saved: Option<Saved>,
+        sink: &'a mut dyn Sink,
     ) -> Self {
+        let clock = Clock::new(saved.as_ref());
+        let (position, earlier) = match saved {
+            None => (None, Vec::new()),
+            Some(saved) => (Some(saved.position), saved.records),
+        };
+        let (position, pushes) = match position {
+            None => (None, Vec::new()),
+            Some(RunPosition::Motion(motion)) => (Some(motion.checkpoint), motion.pushes),
+            Some(RunPosition::Path(_)) => panic!("a path of equilibria is no motion in time"),
+        };
         Self {
-            trajectory: Trajectory::default(),
-            pushes: Vec::new(),
-            assembly,
+            taken: Taken::new(assembly, system.state(), earlier, sink),
+            pushes,
             end_ns: dynamics.duration_ns,
             rest_from_ns: Ramp::of(assembly).map_or(0.0, |ramp| ramp.duration()),
             most_pushes: dynamics.leave_saddles,
             clock,
             judge: RestJudge::new(assembly, dynamics),
-            links: LinkWatch::new(assembly, system.state()),
-            slip: None,
-            last_good: None,
-            is_behind: true,
-            is_left: false,
-            keeper,
-            watch,
+            is_behind: position.is_none(),
+            last_good: position.as_ref().map(|checkpoint| Checkpoint {
+                here: checkpoint.last_good.clone(),
+                ..checkpoint.clone()
+            }),
+            position,
+            is_interrupted: false,
         }
     }
 
-    /// Executes the plan, from where it was left if it was.
+    /// Executes the run, or what is left of it.
     pub(super) fn execute(
         &mut self,
-        plan: &Run,
+        run: &Run,
         system: &mut System,
-        kept: Option<Kept>,
     ) -> Result<Outcome, RunFailure> {
-        let Some(kept) = kept else {
-            return plan.execute(system, &mut [self]);
-        };
-        let Standing::Motion(standing) = kept.standing else {
-            panic!("a path of equilibria is no motion in time");
-        };
-        let MotionStanding { checkpoint, pushes } = *standing;
-        self.trajectory = kept.trajectory;
-        self.links.follow(self.assembly, &self.trajectory.records);
-        self.pushes = pushes;
-        self.is_behind = false;
-        self.last_good = Some(Checkpoint {
-            here: checkpoint.last_good.clone(),
-            ..checkpoint.clone()
-        });
-        plan.resume(&checkpoint, system, &mut [self])
+        match self.position.take() {
+            None => run.execute(system, &mut [self]),
+            Some(checkpoint) => run.resume(&checkpoint, system, &mut [self]),
+        }
+    }
+
+    /// Time that the run has taken (s).
+    pub(super) fn wall_s(&self) -> f64 {
+        self.clock.wall_s()
     }
 
     /// What became of the motion. Where it lost twist, `system` is put back to the last good state.
@@ -112,28 +112,28 @@ impl<'a> Recorder<'a> {
             Ok(outcome) => outcome,
             Err(failure) => return Ending::Failed(failure),
         };
-        if let Some(slip) = self.slip.take() {
+        if let Some(slip) = self.taken.slip() {
             let step = self.last_good.as_ref().map_or(0, |good| good.here.step);
             if let Some(good) = &self.last_good {
                 system.state_mut().copy_motion_from(&good.here.state);
             }
-            self.keep_last_good(self.trajectory.records.len());
+            self.keep_last_good(0);
             return Ending::Slipped(slip, step);
         }
-        if self.is_left {
-            return Ending::Left(outcome);
+        if self.is_interrupted {
+            return Ending::Interrupted(outcome);
         }
         let certificate = self.certificate(outcome.reason, system);
         if certificate.as_ref().is_some_and(is_saddle) {
             // The last record ended the run: it belongs to what comes after the last good state.
-            self.keep_last_good(self.trajectory.records.len() - 1);
+            self.keep_last_good(1);
         }
         Ending::Ended(outcome, certificate)
     }
 
     /// What the stiffness says of the state in which the motion has come to rest, if it has.
     fn certificate(&mut self, reason: Reason, system: &System) -> Option<Certificate> {
-        let record = self.trajectory.records.last()?;
+        let record = self.taken.last()?;
         let judge = self
             .judge
             .as_mut()
@@ -142,41 +142,37 @@ impl<'a> Recorder<'a> {
         Some(nearest.certificate)
     }
 
-    fn keep(&mut self, checkpoint: Checkpoint, records: usize) {
-        let standing = Standing::Motion(Box::new(MotionStanding {
+    /// Keeps a checkpoint behind all records but the last `less`.
+    fn keep(&mut self, checkpoint: Checkpoint, less: usize) {
+        let position = RunPosition::Motion(Box::new(MotionPosition {
             checkpoint,
             pushes: self.pushes.clone(),
         }));
-        let records = &self.trajectory.records[..records];
-        self.keeper.keep(&standing, records, self.clock.wall_s());
+        self.taken.checkpoint(&position, less, self.clock.wall_s());
     }
 
-    fn keep_last_good(&mut self, records: usize) {
+    fn keep_last_good(&mut self, less: usize) {
         if let Some(good) = self.last_good.clone() {
-            self.keep(good, records);
+            self.keep(good, less);
         }
     }
 }
 
 impl Observer for Recorder<'_> {
     fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()> {
-        let record = record(moment);
-        let before = self.trajectory.records.last().map(|record| &record.state);
-        let here = (&record.state, record.time_ns);
-        self.slip = self.links.slip(self.assembly, here, before);
-        if self.slip.is_some() {
+        if !self.taken.take(record(moment)) {
             return ControlFlow::Break(());
         }
-        self.trajectory.records.push(record);
         self.is_behind = true;
-        (self.watch)(progress(moment, self.end_ns))
+        self.taken.progress(&progress(moment, self.end_ns));
+        ControlFlow::Continue(())
     }
 
     fn intervene(&mut self, time: f64, at_rest: bool, system: &mut System) -> bool {
         if self.most_pushes == 0 || time < self.rest_from_ns {
             return false;
         }
-        let (Some(judge), Some(record)) = (&mut self.judge, self.trajectory.records.last()) else {
+        let (Some(judge), Some(record)) = (&mut self.judge, self.taken.last()) else {
             return false;
         };
         let nearest = judge.equilibrium(record, system, at_rest);
@@ -201,22 +197,22 @@ impl Observer for Recorder<'_> {
             self.last_good = Some(pause.checkpoint());
             self.is_behind = false;
         }
-        self.is_left = self.keeper.is_interrupted();
-        if self.is_left || self.keeper.is_due() {
-            self.keep(pause.checkpoint(), self.trajectory.records.len());
+        self.is_interrupted = self.taken.sink.is_interrupted();
+        if self.is_interrupted || self.taken.sink.is_checkpoint_due() {
+            self.keep(pause.checkpoint(), 0);
         }
-        if self.is_left {
+        if self.is_interrupted {
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
     }
 
     fn finish(&mut self, end: &Pause<'_>) {
-        self.keep(end.checkpoint(), self.trajectory.records.len());
+        self.keep(end.checkpoint(), 0);
     }
 
     fn fail(&mut self, last_good: &Checkpoint) {
-        self.keep(last_good.clone(), self.trajectory.records.len());
+        self.keep(last_good.clone(), 0);
     }
 }
 

@@ -158,13 +158,3 @@ impl Held {
 fn is_even(turns: f64) -> bool {
     turns % 2.0 == 0.0
 }
-
-/// What the twist of filaments is compared with: how they begin.
-pub(super) fn links(assembly: &Assembly) -> LinkWatch {
-    let mut start = assembly.system.state().clone();
-    // Without a path, held ends are where the caller has put them.
-    if !assembly.drive.is_still() {
-        assembly.drive.place(&mut start, 0.0);
-    }
-    LinkWatch::new(assembly, &start)
-}

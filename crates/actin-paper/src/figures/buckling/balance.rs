@@ -6,9 +6,9 @@ use super::dynamics::{STOP, dynamics};
 use super::group::{Group, Rods};
 use super::outcome::{Evidence, Outcome, measure};
 use crate::figures::viewer::Snapshot;
+use crate::run::run_to_end;
 use actin_draw::report::Row;
 use actin_sim::{Assembly, Drag, Task};
-use std::ops::ControlFlow;
 
 /// Longest time (ns).
 const LONGEST_NS: f64 = 1000.0;
@@ -26,15 +26,14 @@ const DRAG: Drag = Drag {
 /// A path of the energy law that ends early, or a motion that fails: in words, with the case.
 pub(super) fn rest(case: &Case) -> Result<Outcome, String> {
     let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", case.name());
-    let watch = &mut |_| ControlFlow::Continue(());
     let mut from = Assembly::build(&with_energy(case).scene()?).map_err(|e| fail(&e))?;
-    actin_sim::run(&mut from, watch).map_err(|e| fail(&e))?;
+    run_to_end(&mut from).map_err(|e| fail(&e))?;
     let mut scene = case.scene()?;
     scene.path.clear();
     scene.task = Task::Dynamics(dynamics(LONGEST_NS, DRAG));
     let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
     *assembly.system.state_mut() = from.system.state().clone();
-    let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
+    let (trajectory, report) = run_to_end(&mut assembly).map_err(|e| fail(&e))?;
     let last = trajectory
         .records
         .last()

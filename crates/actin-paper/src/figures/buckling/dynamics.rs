@@ -6,9 +6,9 @@ use super::outcome::{Measured, Outcome, measure, outcome};
 use super::results::{OBSERVABLES, Results};
 use super::rows::artefact;
 use super::starts::is_same;
+use crate::run::run_to_end;
 use actin_draw::report::{Origin, Row};
 use actin_sim::{Assembly, Drag, Dynamics, Equilibrium, Integrator, Record, StopRule, Task};
-use std::ops::ControlFlow;
 
 /// Where damped motion ended.
 #[derive(Clone, Debug)]
@@ -58,8 +58,7 @@ pub(super) fn run(case: &Case) -> Result<Motion, String> {
         },
     ));
     let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
-    let watch = &mut |_| ControlFlow::Continue(());
-    let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
+    let (trajectory, report) = run_to_end(&mut assembly).map_err(|e| fail(&e))?;
     let last = trajectory
         .records
         .last()

@@ -5,9 +5,9 @@ use super::balance;
 use super::case::Case;
 use super::group::Rods;
 use crate::figures::viewer::Snapshot;
+use crate::run::run_to_end;
 use actin_sim::shape::Ribbon;
 use actin_sim::{Assembly, End, Part};
-use std::ops::ControlFlow;
 
 /// A point in the lab frame (nm).
 pub(super) type Place = [f64; 3];
@@ -107,8 +107,7 @@ pub(super) fn solve(case: &Case) -> Result<Outcome, String> {
 /// Runs an assembled equilibrium of `case`.
 pub(super) fn outcome(case: &Case, assembly: &mut Assembly) -> Result<Outcome, String> {
     let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", case.name());
-    let watch = &mut |_| ControlFlow::Continue(());
-    let (trajectory, report) = actin_sim::run(assembly, watch).map_err(|e| fail(&e))?;
+    let (trajectory, report) = run_to_end(assembly).map_err(|e| fail(&e))?;
     let last = trajectory
         .records
         .last()

@@ -3,11 +3,11 @@
 use super::ringdown::{self, RingDown};
 use super::variant::Variant;
 use crate::figures::viewer::Snapshot;
+use crate::run::run_to_end;
 use crate::workspace_root;
 use actin_sim::{
-    Assembly, Drag, End, Equilibrium, ForceLaw, Record, RunReport, Scene, Section, Task,
+    Assembly, Drag, End, Equilibrium, ForceLaw, Outcome, Record, Scene, Section, Task,
 };
-use std::ops::ControlFlow;
 
 /// Which scene of `scenarios/figure-4` a case starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -197,7 +197,7 @@ impl Case {
             ring_down: self.ring_down(moving, tip_drop_nm)?,
             newton: self.newton()?,
             residual: (last.residual_force_pn, last.residual_torque_pn_nm),
-            converged: report.converged,
+            converged: report.has_converged(),
             time_ns: last.time_ns,
             force_evaluations: report.force_evaluations,
             snapshot: Snapshot::of(&assembly, &last.state),
@@ -210,7 +210,7 @@ struct Done {
     assembly: Assembly,
     /// At least one.
     records: Vec<Record>,
-    report: RunReport,
+    report: Outcome,
 }
 
 impl Case {
@@ -218,8 +218,7 @@ impl Case {
     fn done(&self, scene: &Scene) -> Result<Done, String> {
         let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", self.path());
         let mut assembly = Assembly::build(scene).map_err(|e| fail(&e))?;
-        let watch = &mut |_| ControlFlow::Continue(());
-        let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
+        let (trajectory, report) = run_to_end(&mut assembly).map_err(|e| fail(&e))?;
         if trajectory.records.is_empty() {
             return Err(fail(&"no record"));
         }

@@ -1,10 +1,10 @@
 //! One filament turned in its middle: its scene, and what its two halves store.
 
 use crate::figures::viewer::Snapshot;
+use crate::run::run_to_end;
 use crate::workspace_root;
 use actin_sim::shape::{ProfilePoint, Ribbon, profile};
 use actin_sim::{Assembly, Hold, Monomers, Part, RodLaw, Scene, Slides};
-use std::ops::ControlFlow;
 
 /// What resolves the filament.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -150,8 +150,7 @@ impl Case {
     pub(super) fn run(&self) -> Result<Halves, String> {
         let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", self.kind());
         let mut assembly = Assembly::build(&self.scene()?).map_err(|e| fail(&e))?;
-        let watch = &mut |_| ControlFlow::Continue(());
-        let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
+        let (trajectory, report) = run_to_end(&mut assembly).map_err(|e| fail(&e))?;
         let last = trajectory
             .records
             .last()

@@ -3,8 +3,8 @@
 use super::case::Case;
 use super::centre_line::CentreLine;
 use crate::figures::viewer::Snapshot;
-use actin_sim::{Assembly, Equilibrium, Record, RunError, RunReport, Scene, Task};
-use std::ops::ControlFlow;
+use crate::run::run_to_end;
+use actin_sim::{Assembly, Equilibrium, Failure, Plan, Record, RunError, Scene, Task, Trajectory};
 
 /// Turns of the built filament about its axis from which equilibria are sought (deg).
 const STARTS_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];
@@ -125,19 +125,21 @@ fn balance_with(
         Start::Turned(degrees) => assembly.roll(degrees.to_radians()),
         Start::State(record) => *assembly.system.state_mut() = record.state.clone(),
     }
-    let watch = &mut |_| ControlFlow::Continue(());
-    let run = match actin_sim::run(&mut assembly, watch) {
-        Err(saddle @ RunError::Saddle { .. }) if settings.leave_saddles == 0 => {
-            saddle.into_results().ok_or("no record")?
+    let mut trajectory = Trajectory::default();
+    let plan = Plan::new(&assembly).map_err(|e| e.to_string())?;
+    let ended = match plan.run_into(&mut trajectory) {
+        Err(RunError::Failed(failed))
+            if settings.leave_saddles == 0 && matches!(failed.failure, Failure::Saddle(_)) =>
+        {
+            failed.outcome
         }
-        run => run.map_err(|error| format!("Newton: {error}"))?,
+        ended => ended.map_err(|error| format!("Newton: {error}"))?,
     };
-    let (trajectory, report) = run;
     let last = trajectory.records.last().ok_or("no record")?;
-    Ok(describe(&assembly, last, &report))
+    Ok(describe(&assembly, last, &ended))
 }
 
-fn describe(assembly: &Assembly, last: &Record, report: &RunReport) -> Balance {
+fn describe(assembly: &Assembly, last: &Record, report: &actin_sim::Outcome) -> Balance {
     let energies = assembly.terms.iter().zip(&last.energies_pn_nm);
     let of_linkers = energies.filter(|(term, _)| term.name == "linker");
     let known = report.equilibrium.as_ref();
@@ -174,9 +176,8 @@ fn describe(assembly: &Assembly, last: &Record, report: &RunReport) -> Balance {
 /// The damped motion of the scene from the built state, and the equilibrium it tends to.
 fn motion(scene: &Scene) -> Result<Motion, String> {
     let mut assembly = Assembly::build(scene).map_err(|e| e.to_string())?;
-    let watch = &mut |_| ControlFlow::Continue(());
     let (trajectory, report) =
-        actin_sim::run(&mut assembly, watch).map_err(|error| format!("dynamics: {error}"))?;
+        run_to_end(&mut assembly).map_err(|error| format!("dynamics: {error}"))?;
     let last = trajectory.records.last().ok_or("no record")?;
     let limit = balance(scene, &Start::State(last))?;
     let end = CentreLine::of(&assembly, last);
@@ -186,7 +187,7 @@ fn motion(scene: &Scene) -> Result<Motion, String> {
     };
     Ok(Motion {
         energy: trajectory.records.iter().map(energies).collect(),
-        converged: report.converged,
+        converged: report.has_converged(),
         time_ns: last.time_ns,
         force_evaluations: report.force_evaluations,
         from_limit_nm: end.farthest_from(&limit.centre_line).0,

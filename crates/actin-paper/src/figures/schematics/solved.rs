@@ -1,9 +1,9 @@
 //! Scenes of the schematics, solved.
 
+use crate::run::run_to_end;
 use crate::workspace_root;
 use actin_draw::report::Row;
 use actin_sim::{Assembly, BodyKind, Scene};
-use std::ops::ControlFlow;
 
 /// A scene in its equilibrium.
 #[derive(Debug)]
@@ -27,8 +27,7 @@ impl Solved {
         let scene =
             Scene::from_ron(&text).map_err(|error| format!("{}:{error}", path.display()))?;
         let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
-        let watch = &mut |_| ControlFlow::Continue(());
-        let (trajectory, report) = actin_sim::run(&mut assembly, watch).map_err(|e| fail(&e))?;
+        let (trajectory, report) = run_to_end(&mut assembly).map_err(|e| fail(&e))?;
         let last = trajectory.records.last();
         let last = last.ok_or_else(|| fail(&"no record"))?;
         let report = report.equilibrium;

@@ -3,9 +3,9 @@
 use super::Damage;
 use super::bytes::{Reader, Writer};
 use super::log::{Tally, compare, open};
-use super::standing::{read_standing, write_standing};
-use crate::run::Standing;
-use crate::{Assembly, Task};
+use super::position::{read_position, write_position};
+use crate::run::RunPosition;
+use crate::{Plan, Task};
 use actin_mechanics::State;
 use std::io::Read;
 use std::path::Path;
@@ -34,16 +34,17 @@ pub(super) struct Identity {
 /// What a checkpoint says.
 #[derive(Debug)]
 pub(super) struct Contents {
-    pub(super) standing: Standing,
+    pub(super) position: RunPosition,
     pub(super) records: Tally,
     pub(super) wall_s: f64,
 }
 
 impl Identity {
-    /// That of an assembly whose scene has been resolved.
-    pub(super) fn of(assembly: &Assembly) -> Self {
+    /// That of a plan.
+    pub(super) fn of(plan: &Plan<'_>) -> Self {
+        let assembly = plan.assembly();
         Self {
-            scene: assembly.scene.to_ron(),
+            scene: plan.scene().to_ron(),
             like: assembly.system.state().clone(),
             terms: assembly.terms.len(),
             is_motion: matches!(assembly.scene.task, Task::Dynamics(_)),
@@ -51,7 +52,7 @@ impl Identity {
     }
 
     /// The bytes of a checkpoint.
-    pub(super) fn encode(&self, standing: &Standing, records: Tally, wall_s: f64) -> Vec<u8> {
+    pub(super) fn encode(&self, position: &RunPosition, records: Tally, wall_s: f64) -> Vec<u8> {
         let mut body = Writer::default();
         body.text(PROGRAM);
         body.text(&self.scene);
@@ -61,7 +62,7 @@ impl Identity {
         body.number(wall_s);
         body.size(records.count);
         body.checksum(records.checksum);
-        write_standing(&mut body, standing);
+        write_position(&mut body, position);
 
         let mut file = Writer::default();
         file.bytes.extend_from_slice(MAGIC);
@@ -108,13 +109,13 @@ impl Identity {
             count: reader.size()?,
             checksum: reader.checksum()?,
         };
-        let standing = read_standing(&mut reader, &self.like)?;
+        let position = read_position(&mut reader, &self.like)?;
         reader.end()?;
-        if matches!(standing, Standing::Motion(_)) != self.is_motion {
+        if matches!(position, RunPosition::Motion(_)) != self.is_motion {
             return Err(Damage::Contents("a run of another task".into()));
         }
         Ok(Contents {
-            standing,
+            position,
             records,
             wall_s,
         })

@@ -2,7 +2,7 @@
 
 use super::Damage;
 use super::bytes::{Reader, Writer};
-use super::standing::{read_record, record_length, write_record};
+use super::position::{read_record, record_length, write_record};
 use crate::run::Record;
 use actin_mechanics::State;
 use std::fs::{File, OpenOptions};

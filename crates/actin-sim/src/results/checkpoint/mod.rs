@@ -1,4 +1,4 @@
-//! `checkpoint.bin` and `records.bin`: a run that can be taken up again.
+//! `checkpoint.bin` and `records.bin`: a run that can be resumed.
 //!
 //! | file | holds |
 //! |---|---|
@@ -11,11 +11,12 @@
 //! `docs/numerics.md`.
 
 mod bytes;
+mod checkpoints;
 mod error;
 mod file;
-mod keeper;
-mod log;
-mod standing;
 
+mod log;
+mod position;
+
+pub use checkpoints::Checkpoints;
 pub use error::{CheckpointError, Damage};
-pub use keeper::Checkpoints;

@@ -2,42 +2,44 @@
 
 use super::{
     EndReaction, EndReactions, EnergySummary, FilamentSummary, LinkerSummary, ResidualSummary,
-    RunStatus, ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
+    ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
 };
 use crate::results::energies::{Totals, distinct, sum_where};
 use crate::scene;
 use crate::shape::{self, Ribbon};
-use crate::{Assembly, End, Reaction, Record, RunReport};
+use crate::{Assembly, End, Outcome, Reaction, Record, Task};
 use actin_coupling::Linker;
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, State, Vector3};
 
 impl Summary {
     /// The summary of a run of `assembly` that ended with the record `last`.
-    pub fn new(assembly: &Assembly, last: &Record, report: &RunReport) -> Self {
-        let equilibrium = report.equilibrium.as_ref();
+    pub fn new(assembly: &Assembly, last: &Record, outcome: &Outcome) -> Self {
+        let equilibrium = outcome.equilibrium.as_ref();
         let filaments = FilamentSummary::all(assembly, last);
         let first = &filaments[0];
+        let is_motion = matches!(assembly.scene.task, Task::Dynamics(_));
         Self {
             scene: assembly.scene.title.clone(),
-            status: RunStatus::of(report),
+            status: outcome.status,
             counts: assembly.counts(),
-            time_ns: last.time_ns,
-            time_step_ns: report.time_step_ns,
-            largest_frequency_rad_per_ns: report.largest_frequency_rad_per_ns,
-            stability: report.certificate().map(StabilitySummary::new),
-            saddles_left: report.saddles_left,
-            pushes: report.pushes.clone(),
-            jumps: report.jumps,
-            other_states_likely: report.saddles_left + report.jumps > 0,
+            time_ns: is_motion.then_some(last.time_ns),
+            path: (!is_motion).then_some(last.time_ns),
+            time_step_ns: outcome.time_step_ns,
+            largest_frequency_rad_per_ns: outcome.largest_frequency_rad_per_ns,
+            stability: outcome.certificate().map(StabilitySummary::new),
+            saddles_left: outcome.saddles_left,
+            pushes: outcome.pushes.clone(),
+            jumps: outcome.jumps,
+            other_states_likely: outcome.saddles_left + outcome.jumps > 0,
             energy_pn_nm: EnergySummary::new(assembly, last),
             tip_nm: first.tip_nm,
             tip_displacement_nm: first.tip_displacement_nm,
             end_reactions: first.end_reactions,
-            notes: [assembly.notes(), report.notes(assembly, last)].concat(),
+            notes: [assembly.notes(), outcome.notes(assembly, last)].concat(),
             beyond_range: assembly.beyond_range_over([&last.state]),
             unstable_twist: assembly.unstable_twist_over([&last.state]),
-            beyond_use: report.beyond_use.clone(),
+            beyond_use: outcome.beyond_use.clone(),
             linkers: LinkerSummary::all(assembly, &last.state),
             shape: first.shape,
             residual: (last.residual_force_pn, last.residual_torque_pn_nm).into(),
@@ -45,11 +47,11 @@ impl Summary {
             thermal: ThermalSummary::new(assembly, std::slice::from_ref(last)),
             lowest_stiffness_eigenvalue: equilibrium.and_then(|e| e.lowest_eigenvalue),
             work: WorkSummary {
-                steps: report.steps,
-                force_evaluations: report.force_evaluations,
+                steps: outcome.steps,
+                force_evaluations: outcome.force_evaluations,
                 newton_iterations: equilibrium.map_or(0, |e| e.newton_iterations),
             },
-            wall_s: report.wall_s,
+            wall_s: outcome.wall_s,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             seed: first.seed,
             filaments,
@@ -91,17 +93,6 @@ impl FilamentSummary {
             elastic_pn_nm: last.energies_pn_nm[terms].iter().sum(),
             shape: ShapeSummary::new(assembly, filament, (&last.state, parameter)),
             seed: assembly.monomers_of(filament).seed,
-        }
-    }
-}
-
-impl RunStatus {
-    fn of(report: &RunReport) -> Self {
-        match (report.interrupted, report.failed, report.converged) {
-            (true, ..) => Self::Interrupted,
-            (_, true, _) => Self::Failed,
-            (.., true) => Self::Converged,
-            _ => Self::Completed,
         }
     }
 }
@@ -219,7 +210,7 @@ mod tests {
 
     fn last_summary(assembly: &Assembly) -> (Record, Summary) {
         let last = fixture::trajectory(assembly).records.pop().unwrap();
-        let summary = Summary::new(assembly, &last, &fixture::report());
+        let summary = Summary::new(assembly, &last, &fixture::outcome());
         (last, summary)
     }
 

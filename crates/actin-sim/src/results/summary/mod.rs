@@ -7,7 +7,7 @@ mod thermal;
 pub use thermal::ThermalSummary;
 
 use super::{RunDirectoryError, finite::ensure_finite};
-use crate::{BeyondRange, BeyondUse, Counts, SaddlePush, UnstableTwist};
+use crate::{BeyondRange, BeyondUse, Counts, SaddlePush, Status, UnstableTwist};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -17,12 +17,16 @@ pub struct Summary {
     /// Title of the scene.
     pub scene: String,
     /// How the run ended.
-    pub status: RunStatus,
+    pub status: Status,
     /// Number of bodies and elements.
     #[serde(with = "CountKeys")]
     pub counts: Counts,
-    /// Simulated time (ns); of an equilibrium the path parameter, which counts stages.
-    pub time_ns: f64,
+    /// Simulated time (ns); none of an equilibrium.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_ns: Option<f64>,
+    /// Where on the path of equilibria the last record stands, in stages; none of a motion in time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path: Option<f64>,
     /// Time step (ns); none of an equilibrium.
     pub time_step_ns: Option<f64>,
     /// Largest frequency found at the start (rad/ns); none of an equilibrium.
@@ -113,21 +117,6 @@ pub struct FilamentSummary {
     pub shape: ShapeSummary,
     /// Seed of its bond anchors.
     pub seed: u64,
-}
-
-/// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum RunStatus {
-    /// The stop rule was met.
-    Converged,
-    /// The time that was asked for has passed.
-    Completed,
-    /// The run broke off, and the record is the last good one; or it ended on a saddle or in an
-    /// equilibrium in which a load is lost.
-    Failed,
-    /// The run was left and can be resumed; the record is the last one made.
-    Interrupted,
 }
 
 /// What the eigenvalues of the stiffness say of an equilibrium.
@@ -268,7 +257,6 @@ impl Summary {
     fn scalars(&self) -> Vec<(String, f64)> {
         let energy = &self.energy_pn_nm;
         let mut scalars: Vec<_> = [
-            ("time_ns", self.time_ns),
             ("wall_s", self.wall_s),
             ("residual.force_pn", self.residual.force_pn),
             ("residual.torque_pn_nm", self.residual.torque_pn_nm),
@@ -282,6 +270,8 @@ impl Summary {
         let terms = energy.terms.iter();
         scalars.extend(terms.map(|(name, value)| (format!("energy_pn_nm.{name}"), *value)));
         let steps = [
+            ("time_ns", self.time_ns),
+            ("path", self.path),
             ("time_step_ns", self.time_step_ns),
             (
                 "largest_frequency_rad_per_ns",

@@ -7,7 +7,7 @@ use serde_json::Value;
 fn summary() -> Summary {
     let assembly = fixture::linked();
     let last = fixture::trajectory(&assembly).records.pop().unwrap();
-    Summary::new(&assembly, &last, &fixture::report())
+    Summary::new(&assembly, &last, &fixture::outcome())
 }
 
 const KEYS: &[&str] = &[
@@ -87,7 +87,7 @@ fn keys_are_the_fixed_ones() {
 
 #[test]
 fn a_met_stop_rule_is_converged() {
-    let json = serde_json::to_value(RunStatus::Converged).unwrap();
+    let json = serde_json::to_value(crate::Status::Converged).unwrap();
     assert_eq!(json, "converged");
 }
 

@@ -1,8 +1,8 @@
-//! States, records and standings as bytes.
+//! States, records and positions of a run as bytes.
 
 use super::Damage;
 use super::bytes::{Reader, Writer};
-use crate::run::{Arrival, MotionStanding, PathStanding, Record, SaddlePush, Standing};
+use crate::run::{Arrival, MotionPosition, PathPosition, Record, RunPosition, SaddlePush};
 use actin_equilibrium::{Certificate, Waypoint, Work};
 use actin_integrate::{Checkpoint, Mark};
 use actin_mechanics::State;
@@ -104,10 +104,10 @@ pub(super) fn read_record(
     })
 }
 
-pub(super) fn write_standing(writer: &mut Writer, standing: &Standing) {
-    match standing {
-        Standing::Motion(standing) => {
-            let MotionStanding { checkpoint, pushes } = standing.as_ref();
+pub(super) fn write_position(writer: &mut Writer, position: &RunPosition) {
+    match position {
+        RunPosition::Motion(position) => {
+            let MotionPosition { checkpoint, pushes } = position.as_ref();
             writer.count(MOTION);
             write_mark(writer, &checkpoint.here);
             write_mark(writer, &checkpoint.last_good);
@@ -117,16 +117,16 @@ pub(super) fn write_standing(writer: &mut Writer, standing: &Standing) {
                 write_push(writer, push);
             }
         }
-        Standing::Path(standing) => {
+        RunPosition::Path(position) => {
             writer.count(PATH);
-            write_path(writer, standing);
+            write_path(writer, position);
         }
     }
 }
 
-pub(super) fn read_standing(reader: &mut Reader<'_>, like: &State) -> Result<Standing, Damage> {
+pub(super) fn read_position(reader: &mut Reader<'_>, like: &State) -> Result<RunPosition, Damage> {
     match reader.count()? {
-        MOTION => Ok(Standing::Motion(Box::new(MotionStanding {
+        MOTION => Ok(RunPosition::Motion(Box::new(MotionPosition {
             checkpoint: Checkpoint {
                 here: read_mark(reader, like)?,
                 last_good: read_mark(reader, like)?,
@@ -134,7 +134,7 @@ pub(super) fn read_standing(reader: &mut Reader<'_>, like: &State) -> Result<Sta
             },
             pushes: reader.list(PUSH, read_push)?,
         }))),
-        PATH => read_path(reader, like).map(|standing| Standing::Path(Box::new(standing))),
+        PATH => read_path(reader, like).map(|position| RunPosition::Path(Box::new(position))),
         other => Err(Damage::Contents(format!("a task of kind {other}"))),
     }
 }
@@ -174,15 +174,15 @@ fn read_mark(reader: &mut Reader<'_>, like: &State) -> Result<Mark, Damage> {
     })
 }
 
-fn write_path(writer: &mut Writer, standing: &PathStanding) {
-    writer.size(standing.stage);
-    writer.optional(standing.waypoint.as_ref(), write_waypoint);
-    write_state(writer, &standing.state);
-    writer.size(standing.points);
-    writer.size(standing.saddles_left);
-    writer.size(standing.jumps);
-    writer.optional(standing.last.as_ref(), write_arrival);
-    let work = &standing.work;
+fn write_path(writer: &mut Writer, position: &PathPosition) {
+    writer.size(position.stage);
+    writer.optional(position.waypoint.as_ref(), write_waypoint);
+    write_state(writer, &position.state);
+    writer.size(position.points);
+    writer.size(position.saddles_left);
+    writer.size(position.jumps);
+    writer.optional(position.last.as_ref(), write_arrival);
+    let work = &position.work;
     for count in [
         work.iterations,
         work.evaluations,
@@ -195,8 +195,8 @@ fn write_path(writer: &mut Writer, standing: &PathStanding) {
     }
 }
 
-fn read_path(reader: &mut Reader<'_>, like: &State) -> Result<PathStanding, Damage> {
-    Ok(PathStanding {
+fn read_path(reader: &mut Reader<'_>, like: &State) -> Result<PathPosition, Damage> {
+    Ok(PathPosition {
         stage: reader.size()?,
         waypoint: reader.optional(|reader| read_waypoint(reader, like))?,
         state: read_state(reader, like)?,

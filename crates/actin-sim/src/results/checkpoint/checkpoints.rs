@@ -7,9 +7,8 @@ use crate::results::atomic::replace_durably;
 use crate::results::directory::{
     CHECKPOINT, RECORDS, RunDirectory, SCENE, SUMMARY, remove_if_there,
 };
-use crate::results::{RunDirectoryError, RunStatus, Summary};
-use crate::run::{Keeper, Kept, Record, Standing, Trajectory};
-use crate::{Assembly, Estimate};
+use crate::results::{RunDirectoryError, Summary};
+use crate::run::{Plan, Record, RunPosition, Saved, Sink, Status, Trajectory};
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
@@ -17,7 +16,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Writes the checkpoints of one run, at an interval of time and when the run is left.
+/// The sink of a run directory: keeps records, and writes checkpoints at an interval of time and when the
+/// run is interrupted or ends.
 ///
 /// A checkpoint that cannot be written leaves the one before as it was and is tried again after the
 /// interval.
@@ -26,6 +26,7 @@ pub struct Checkpoints {
     path: PathBuf,
     identity: Identity,
     log: RecordLog,
+    trajectory: Trajectory,
     every: Duration,
     last: Instant,
     interrupted: Arc<AtomicBool>,
@@ -35,26 +36,22 @@ pub struct Checkpoints {
 }
 
 impl Checkpoints {
-    /// Checkpoints in `directory` of a run of `assembly`, whose time steps `estimate` knows, every
-    /// `every`. The run is left as soon as `interrupted` is set; `warn` is told of checkpoints that
-    /// cannot be written.
+    /// The sink in `directory` of a plan, with a checkpoint every `every`. The run is interrupted as soon
+    /// as `interrupted` is set; `warn` is told of checkpoints that cannot be written.
     pub fn new(
         directory: &RunDirectory,
-        assembly: &mut Assembly,
-        estimate: Option<&Estimate>,
+        plan: &Plan<'_>,
         every: Duration,
         interrupted: Arc<AtomicBool>,
         warn: fn(&CheckpointError),
     ) -> Self {
-        if let Some(estimate) = estimate {
-            assembly.resolve(estimate);
-        }
-        let identity = Identity::of(assembly);
+        let identity = Identity::of(plan);
         let records = directory.path.join(RECORDS);
         Self {
             path: directory.path.join(CHECKPOINT),
             log: RecordLog::new(records, Tally::default(), &identity.like, identity.terms),
             identity,
+            trajectory: Trajectory::default(),
             every,
             last: Instant::now(),
             interrupted,
@@ -64,11 +61,12 @@ impl Checkpoints {
         }
     }
 
-    /// Reads what the directory keeps of this run, and goes on from there.
+    /// Reads what the directory keeps of this run, from where
+    /// [`resume_into`](Plan::resume_into) goes on.
     ///
     /// # Errors
     /// If there is no checkpoint, or one that is damaged, of another scene or of another program.
-    pub fn resume(&mut self) -> Result<Kept, CheckpointError> {
+    pub fn resume(&mut self) -> Result<Saved, CheckpointError> {
         let contents = self
             .identity
             .read(&self.path)
@@ -82,11 +80,17 @@ impl Checkpoints {
             let read = self.log.read(like, *terms);
             read.map_err(|damage| damage.of(&path))?
         };
-        Ok(Kept {
-            standing: contents.standing,
-            trajectory: Trajectory { records },
+        self.trajectory.records.clone_from(&records);
+        Ok(Saved {
+            position: contents.position,
+            records,
             wall_s: contents.wall_s,
         })
+    }
+
+    /// All records taken so far.
+    pub fn trajectory(&self) -> &Trajectory {
+        &self.trajectory
     }
 
     /// Checkpoints written so far.
@@ -101,30 +105,34 @@ impl Checkpoints {
 
     fn write(
         &mut self,
-        standing: &Standing,
-        records: &[Record],
+        position: &RunPosition,
+        records: usize,
         wall_s: f64,
     ) -> Result<(), CheckpointError> {
         let log = self.path.with_file_name(RECORDS);
-        let appended = self.log.append(records);
+        let appended = self.log.append(&self.trajectory.records[..records]);
         appended.map_err(|error| Damage::from(error).of(&log))?;
-        let bytes = self.identity.encode(standing, self.log.tally, wall_s);
+        let bytes = self.identity.encode(position, self.log.tally, wall_s);
         let replaced = replace_durably(&self.path, |out| out.write_all(&bytes));
         replaced.map_err(|error| Damage::from(error).of(&self.path))
     }
 }
 
-impl Keeper for Checkpoints {
+impl Sink for Checkpoints {
+    fn record(&mut self, record: &Record) {
+        self.trajectory.record(record);
+    }
+
     fn is_interrupted(&mut self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
     }
 
-    fn is_due(&mut self) -> bool {
+    fn is_checkpoint_due(&mut self) -> bool {
         self.last.elapsed() >= self.every
     }
 
-    fn keep(&mut self, standing: &Standing, records: &[Record], wall_s: f64) {
-        let outcome = self.write(standing, records, wall_s);
+    fn checkpoint(&mut self, position: &RunPosition, records: usize, wall_s: f64) {
+        let outcome = self.write(position, records, wall_s);
         self.last_failed = outcome.is_err();
         match outcome {
             Ok(()) => self.written += 1,
@@ -145,11 +153,11 @@ impl RunDirectory {
         self.path.join(CHECKPOINT).exists()
     }
 
-    /// How the run of this assembly ended whose results are in the directory, if it has ended.
+    /// How the run of this plan ended whose results are in the directory, if it has ended.
     ///
     /// # Errors
     /// If they are those of another scene.
-    pub fn ending(&self, assembly: &Assembly) -> Result<Option<RunStatus>, CheckpointError> {
+    pub fn ending(&self, plan: &Plan<'_>) -> Result<Option<Status>, CheckpointError> {
         let read = |name| fs::read_to_string(self.path.join(name)).ok();
         let (Some(summary), Some(scene)) = (read(SUMMARY), read(SCENE)) else {
             return Ok(None);
@@ -157,11 +165,11 @@ impl RunDirectory {
         let Ok(summary) = serde_json::from_str::<Summary>(&summary) else {
             return Ok(None);
         };
-        if summary.status == RunStatus::Interrupted {
+        if summary.status == Status::Interrupted {
             return Ok(None);
         }
         let path = self.path.join(SCENE);
-        same_scene(&scene, &assembly.scene.to_ron()).map_err(|damage| damage.of(&path))?;
+        same_scene(&scene, &plan.scene().to_ron()).map_err(|damage| damage.of(&path))?;
         Ok(Some(summary.status))
     }
 

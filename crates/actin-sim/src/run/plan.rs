@@ -1,0 +1,87 @@
+//! What a run will do, known before it starts.
+
+use super::dynamics::{Estimate, estimate};
+use crate::Assembly;
+use crate::advice::Advice;
+use crate::cost::Cost;
+use crate::scene::{Problem, Scene};
+
+/// An assembly with everything that is decided before it runs: the time step, the number of steps and
+/// records, and the scene with all of these written out.
+///
+/// ```
+/// use actin_sim::{Assembly, Plan, Scene};
+/// # let text = "Scene(
+/// #     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)]),
+/// #     clamps: [Clamp(end: Start)],
+/// #     task: Equilibrium(),
+/// # )";
+/// let scene = Scene::from_ron(text)?;
+/// let assembly = Assembly::build(&scene)?;
+/// let plan = Plan::new(&assembly)?;
+/// let (trajectory, outcome) = plan.run()?;
+/// # assert_eq!(trajectory.records.len(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Plan<'a> {
+    assembly: &'a Assembly,
+    estimate: Option<Estimate>,
+    scene: Scene,
+}
+
+impl<'a> Plan<'a> {
+    /// The plan of an assembly.
+    ///
+    /// # Errors
+    /// A time step above the stability limit that the scene does not explicitly allow, a turn that its
+    /// segments cannot follow, more steps than can be counted, and more records, of either task, than
+    /// memory holds.
+    pub fn new(assembly: &'a Assembly) -> Result<Self, Problem> {
+        let estimate = estimate(assembly)?;
+        let mut scene = assembly.scene.clone();
+        if let Some(estimate) = &estimate {
+            estimate.resolve(&mut scene);
+        }
+        Ok(Self {
+            assembly,
+            estimate,
+            scene,
+        })
+    }
+
+    /// What is to run.
+    pub fn assembly(&self) -> &'a Assembly {
+        self.assembly
+    }
+
+    /// The scene with every default, the time step and the interval of records written out.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Time step and numbers of steps; none of an equilibrium.
+    pub fn estimate(&self) -> Option<&Estimate> {
+        self.estimate.as_ref()
+    }
+
+    /// What it costs.
+    pub fn cost(&self) -> Cost {
+        Cost::of(self.assembly, self.estimate())
+    }
+
+    /// How accurate it is, and a cheaper way to the same.
+    pub fn advice(&self) -> Advice {
+        Advice::of_estimated(&self.assembly.scene, self.assembly, self.estimate())
+    }
+
+    /// What there is to know of its time step, where that is not what the scene asks for or does more
+    /// than it shows; a sentence or two each. What there is to know of the scene is in
+    /// [`Assembly::notes`].
+    pub fn notes(&self) -> Vec<String> {
+        let estimate = self.estimate.iter();
+        estimate
+            .flat_map(|e| e.notes(&self.assembly.scene.task))
+            .collect()
+    }
+}

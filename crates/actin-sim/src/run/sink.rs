@@ -1,0 +1,139 @@
+//! What a run tells as it goes on, and to whom: records, progress and checkpoints.
+//!
+//! What goes through a sink is values; files are the business of `results`.
+
+use super::{Record, SaddlePush, Trajectory};
+use actin_equilibrium::{Certificate, Waypoint, Work};
+use actin_integrate::Checkpoint;
+use actin_mechanics::State;
+use std::time::Instant;
+
+/// Takes what a run gives: memory ([`Trajectory`]), a run directory ([`Checkpoints`](crate::Checkpoints)),
+/// or anything else.
+///
+/// The questions are asked at every check of a motion (at least every hundred steps), at every Newton
+/// step and at every equilibrium of a path, so their answers are to be cheap.
+pub trait Sink {
+    /// Takes a record; they come in order.
+    fn record(&mut self, record: &Record);
+
+    /// Takes note of how far the run has come, after each record.
+    fn progress(&mut self, _progress: &Progress) {}
+
+    /// Whether the run is to stop as soon as it can, to be resumed.
+    fn is_interrupted(&mut self) -> bool {
+        false
+    }
+
+    /// Whether a checkpoint is due.
+    fn is_checkpoint_due(&mut self) -> bool {
+        false
+    }
+
+    /// Keeps a checkpoint: where the run stands, how many of its records come before that, and the time
+    /// it has taken (s). Called when one is due, when the run is interrupted, when it fails and when it
+    /// has ended, before results are written.
+    ///
+    /// A sink that cannot keep it has to say so itself: the run goes on all the same.
+    fn checkpoint(&mut self, _position: &RunPosition, _records: usize, _wall_s: f64) {}
+}
+
+impl Sink for Trajectory {
+    fn record(&mut self, record: &Record) {
+        self.records.push(record.clone());
+    }
+}
+
+/// How far a run has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Time (ns), or the path parameter.
+    pub time_ns: f64,
+    /// Time at which it ends (ns), or the number of stages.
+    pub end_ns: f64,
+    /// Steps taken.
+    pub steps: u64,
+    /// Largest force on a free point (pN).
+    pub residual_force_pn: f64,
+}
+
+/// Where a run stands: all that its rest depends on besides its scene and its records.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RunPosition {
+    /// A motion in time, at a check of its state.
+    Motion(Box<MotionPosition>),
+    /// A path of equilibria, at one of them.
+    Path(Box<PathPosition>),
+}
+
+/// Where a motion in time stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionPosition {
+    /// What the integrator carries.
+    pub checkpoint: Checkpoint,
+    /// How it was pushed off saddles so far.
+    pub pushes: Vec<SaddlePush>,
+}
+
+/// Where a path of equilibria stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathPosition {
+    /// The stage, from 0.
+    pub stage: usize,
+    /// Where the path stands in that stage; `None` before its first equilibrium.
+    pub waypoint: Option<Waypoint>,
+    /// The state there.
+    pub state: State,
+    /// Equilibria so far.
+    pub points: usize,
+    /// Saddles left so far.
+    pub saddles_left: usize,
+    /// Sudden jumps so far, from where they led the path went on.
+    pub jumps: usize,
+    /// What is known of the last of them.
+    pub last: Option<Arrival>,
+    /// What the solver has done so far.
+    pub work: Work,
+}
+
+/// What a report says of an equilibrium.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arrival {
+    /// Counts of eigenvalues.
+    pub certificate: Option<Certificate>,
+    /// Force (pN) and torque (pN nm) that rounding leaves, if it ended there and not within its tolerance.
+    pub floor: Option<(f64, f64)>,
+    /// Residual force (pN) and torque (pN nm) before each Newton step.
+    pub history: Vec<(f64, f64)>,
+}
+
+/// An interrupted run.
+#[derive(Clone, Debug)]
+pub struct Saved {
+    /// Where it stands.
+    pub position: RunPosition,
+    /// What it had recorded up to there.
+    pub records: Vec<Record>,
+    /// Time that it had taken (s).
+    pub wall_s: f64,
+}
+
+/// Time that a run has taken, in all its parts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Clock {
+    started: Instant,
+    earlier_s: f64,
+}
+
+impl Clock {
+    pub(super) fn new(saved: Option<&Saved>) -> Self {
+        Self {
+            started: Instant::now(),
+            earlier_s: saved.map_or(0.0, |saved| saved.wall_s),
+        }
+    }
+
+    pub(super) fn wall_s(&self) -> f64 {
+        self.earlier_s + self.started.elapsed().as_secs_f64()
+    }
+}
