@@ -1,6 +1,6 @@
 //! Every scene of the repository: good ones build, bad ones say what is wrong, where.
 
-use actin_sim::{Assembly, Estimate, Problem, Scene, SceneError};
+use actin_sim::{Assembly, Estimate, Scene, SceneError, SceneProblem};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -28,7 +28,7 @@ fn scenes(folder: &Path) -> Vec<PathBuf> {
 /// Reads, builds and estimates, as `actin check` does.
 fn check(text: &str) -> Result<(Assembly, Option<Estimate>), SceneError> {
     let scene = Scene::from_ron(text)?;
-    let build = || -> Result<_, Problem> {
+    let build = || -> Result<_, SceneProblem> {
         let assembly = Assembly::build(&scene)?;
         let estimate = actin_sim::Plan::new(&assembly)?.estimate().copied();
         Ok((assembly, estimate))

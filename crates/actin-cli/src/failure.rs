@@ -87,12 +87,12 @@ impl Opened {
     }
 
     /// A problem that showed only when the scene was to run.
-    pub(crate) fn refuse(&self, problem: &actin_sim::Problem) -> Failure {
+    pub(crate) fn refuse(&self, problem: &actin_sim::SceneProblem) -> Failure {
         Failure::Input(self.locate(problem))
     }
 
     /// A problem with its place in the file.
-    pub(crate) fn locate(&self, problem: &actin_sim::Problem) -> String {
+    pub(crate) fn locate(&self, problem: &actin_sim::SceneProblem) -> String {
         format!("{}:{}", self.path, SceneError::locate(problem, &self.text))
     }
 }

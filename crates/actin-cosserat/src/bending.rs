@@ -154,7 +154,7 @@ impl BendingElement {
     /// let stiffness = element.stiffness(&material, parallel, parallel);
     /// assert!((stiffness.second[(2, 2)] - 1300.0).abs() < 1e-12);
     /// assert!((stiffness.mixed[(2, 2)] + 1300.0).abs() < 1e-12);
-    /// # Ok::<(), actin_cosserat::ParameterError>(())
+    /// # Ok::<(), actin_cosserat::RodParameterError>(())
     /// ```
     pub fn stiffness(
         &self,

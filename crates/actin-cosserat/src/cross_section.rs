@@ -1,6 +1,6 @@
 //! What a rod's inertia follows from.
 
-use crate::{ParameterError, constants};
+use crate::{RodParameterError, constants};
 use actin_mechanics::{Axis, Inertia};
 use std::f64::consts::PI;
 
@@ -16,9 +16,9 @@ impl CrossSection {
     ///
     /// # Errors
     /// A number that is not positive and finite.
-    pub fn new(linear_density: f64, area: f64) -> Result<Self, ParameterError> {
-        ParameterError::unless_positive("linear_density", linear_density)?;
-        ParameterError::unless_positive("area", area)?;
+    pub fn new(linear_density: f64, area: f64) -> Result<Self, RodParameterError> {
+        RodParameterError::unless_positive("linear_density", linear_density)?;
+        RodParameterError::unless_positive("area", area)?;
         Ok(Self {
             linear_density,
             area,

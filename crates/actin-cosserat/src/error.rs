@@ -6,7 +6,7 @@ use thiserror::Error;
 /// A number that breaks the rule of its key.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{key} = {value}: must be {rule}")]
-pub struct ParameterError {
+pub struct RodParameterError {
     /// Name of the parameter.
     pub key: &'static str,
     /// What it was.
@@ -20,7 +20,7 @@ pub struct ParameterError {
 pub enum RodError {
     /// A parameter is out of range.
     #[error(transparent)]
-    Parameter(#[from] ParameterError),
+    Parameter(#[from] RodParameterError),
     /// A rod without segments.
     #[error("segments = 0: a rod has at least one")]
     NoSegments,
@@ -62,7 +62,7 @@ pub enum RodError {
     NoWall(RodEnd),
 }
 
-impl ParameterError {
+impl RodParameterError {
     /// Refuses what is not a positive finite number.
     ///
     /// # Errors

@@ -42,7 +42,7 @@ pub use clamp::{Held, RodClamp};
 pub use cross_section::CrossSection;
 pub use elements::{RodElements, RodJoint, RodSegment};
 pub use energy_gradient::EnergyGradient;
-pub use error::{ParameterError, RodError};
+pub use error::{RodError, RodParameterError};
 pub use extended::{JoinedElement, SegmentCurvature, SegmentLaw, TwistStability};
 pub use law::{
     BendLaw, CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw,

@@ -4,7 +4,7 @@
 //! laws it is made of are in `law/`; what couples the strain of a segment to the curvature around
 //! it is in `extended/`.
 
-use crate::{BendLaw, CubicShear, ParameterError, Rigidities, StretchLaw, TwistLaw};
+use crate::{BendLaw, CubicShear, Rigidities, RodParameterError, StretchLaw, TwistLaw};
 use actin_mechanics::{Matrix3, Vector3};
 
 /// The material of a rod: how it resists shear, stretch, bending and twist, validated.
@@ -21,7 +21,7 @@ impl RodMaterial {
     ///
     /// # Errors
     /// A rigidity that is not positive and finite.
-    pub fn new(rigidities: Rigidities) -> Result<Self, ParameterError> {
+    pub fn new(rigidities: Rigidities) -> Result<Self, RodParameterError> {
         rigidities.validate()?;
         let Rigidities { shear, bend } = rigidities;
         Ok(Self {
@@ -45,12 +45,12 @@ impl RodMaterial {
     /// // A right-handed turn of 10 degrees over 75.5 nm meets a tenth of the constant 1.3e4.
     /// let couple = material.bending_couple(Vector3::z() * 0.0023).z;
     /// assert!(couple < 0.1 * 1.3e4 * 0.0023);
-    /// # Ok::<(), actin_cosserat::ParameterError>(())
+    /// # Ok::<(), actin_cosserat::RodParameterError>(())
     /// ```
     ///
     /// # Errors
     /// What [`TwistLaw::validate`] refuses.
-    pub fn with_twist(self, twist: TwistLaw) -> Result<Self, ParameterError> {
+    pub fn with_twist(self, twist: TwistLaw) -> Result<Self, RodParameterError> {
         twist.validate()?;
         Ok(Self { twist, ..self })
     }
@@ -59,7 +59,7 @@ impl RodMaterial {
     ///
     /// # Errors
     /// What [`BendLaw::validate`] refuses.
-    pub fn with_bend(self, bend: BendLaw) -> Result<Self, ParameterError> {
+    pub fn with_bend(self, bend: BendLaw) -> Result<Self, RodParameterError> {
         bend.validate()?;
         Ok(Self { bend, ..self })
     }
@@ -68,7 +68,7 @@ impl RodMaterial {
     ///
     /// # Errors
     /// What [`StretchLaw::validate`] refuses.
-    pub fn with_stretch(self, stretch: StretchLaw) -> Result<Self, ParameterError> {
+    pub fn with_stretch(self, stretch: StretchLaw) -> Result<Self, RodParameterError> {
         stretch.validate()?;
         Ok(Self { stretch, ..self })
     }
@@ -77,7 +77,7 @@ impl RodMaterial {
     ///
     /// # Errors
     /// What [`CubicShear::validate`] refuses.
-    pub fn with_shear(self, shear: CubicShear) -> Result<Self, ParameterError> {
+    pub fn with_shear(self, shear: CubicShear) -> Result<Self, RodParameterError> {
         shear.validate()?;
         Ok(Self { shear, ..self })
     }

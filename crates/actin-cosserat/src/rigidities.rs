@@ -1,6 +1,6 @@
 //! Rigidities of a rod: what resists its strains. What follows from them is in `material.rs`.
 
-use crate::{ParameterError, constants};
+use crate::{RodParameterError, constants};
 use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
@@ -69,12 +69,12 @@ impl Rigidities {
     ///
     /// # Errors
     /// The first rigidity that is not positive and finite.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    pub fn validate(&self) -> Result<(), RodParameterError> {
         for (key, value) in ["S1", "S2", "S3"].into_iter().zip(&self.shear) {
-            ParameterError::unless_positive(key, *value)?;
+            RodParameterError::unless_positive(key, *value)?;
         }
         for (key, value) in ["B1", "B2", "B3"].into_iter().zip(&self.bend) {
-            ParameterError::unless_positive(key, *value)?;
+            RodParameterError::unless_positive(key, *value)?;
         }
         Ok(())
     }

@@ -132,7 +132,7 @@ impl ShearElement {
     /// // At rest: S3 / 10 nm against stretch, S1 times 10 nm against turning the frame alone.
     /// assert!((stiffness.vector[(2, 2)] - 3.4e3).abs() < 1e-9);
     /// assert!((stiffness.frame[(0, 0)] - 1.6e5).abs() < 1e-9);
-    /// # Ok::<(), actin_cosserat::ParameterError>(())
+    /// # Ok::<(), actin_cosserat::RodParameterError>(())
     /// ```
     pub fn stiffness(
         &self,

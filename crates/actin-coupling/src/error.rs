@@ -1,6 +1,6 @@
 //! Why a junction or a linker was refused.
 
-use actin_cosserat::{ParameterError, RodError};
+use actin_cosserat::{RodError, RodParameterError};
 use thiserror::Error;
 
 /// Why a junction was refused.
@@ -8,7 +8,7 @@ use thiserror::Error;
 pub enum JunctionError {
     /// A parameter is out of range.
     #[error(transparent)]
-    Parameter(#[from] ParameterError),
+    Parameter(#[from] RodParameterError),
     /// The rod of the junction was refused.
     #[error(transparent)]
     Rod(#[from] RodError),
@@ -52,7 +52,7 @@ pub enum JunctionError {
 pub enum LinkerError {
     /// A parameter is out of range.
     #[error(transparent)]
-    Parameter(#[from] ParameterError),
+    Parameter(#[from] RodParameterError),
     /// The rod of the site was refused.
     #[error(transparent)]
     Rod(#[from] RodError),

@@ -1,7 +1,7 @@
 //! Where on a filament a linker holds. What holds it there is in `linker.rs`.
 
 use crate::LinkerError;
-use actin_cosserat::{ParameterError, RodLayout};
+use actin_cosserat::{RodLayout, RodParameterError};
 use actin_mechanics::{Coordinates, Loads, Matrix3, State, Vector3};
 
 /// A point of a filament that follows its bodies: `r = sum_k w_k x_k + Q b`.
@@ -159,6 +159,10 @@ pub(crate) fn ensure(
     if holds {
         Ok(())
     } else {
-        Err(LinkerError::Parameter(ParameterError { key, value, rule }))
+        Err(LinkerError::Parameter(RodParameterError {
+            key,
+            value,
+            rule,
+        }))
     }
 }

@@ -1,6 +1,6 @@
 //! Linkers: that their loads are a gradient that balances, on either model and between two sites.
 
-use actin_cosserat::{ParameterError, RodLayout, StraightRod};
+use actin_cosserat::{RodLayout, RodParameterError, StraightRod};
 use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, RodPlace, Site};
 use actin_mechanics::testing::{
     Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness,
@@ -265,8 +265,13 @@ fn linkers_that_make_no_sense_are_refused() {
     let on_rod = |segment, fraction, radius, azimuth| {
         Site::on_rod(&scene.rod, place(segment, fraction, radius, azimuth)).map(drop)
     };
-    let refused =
-        |key, value, rule| Err(LinkerError::Parameter(ParameterError { key, value, rule }));
+    let refused = |key, value, rule| {
+        Err(LinkerError::Parameter(RodParameterError {
+            key,
+            value,
+            rule,
+        }))
+    };
     let beyond = LinkerError::Segment {
         segment: 3,
         segments: 3,

@@ -29,7 +29,7 @@ fn print(kind: InterfaceKind, found: &Cubature) {
         let numbers: Vec<String> = numbers.iter().map(|x| grouped(*x)).collect();
         format!("[{}]", numbers.join(", "))
     };
-    println!("static {name}: Known = Known {{\n    certificate: Certificate {{");
+    println!("static {name}: Known = Known {{\n    certificate: MomentCheck {{");
     println!("        residual: {:.3e},", certificate.residual);
     println!("        weights: {},", list(&certificate.weights));
     println!("        lengths: {},", list(&certificate.lengths));

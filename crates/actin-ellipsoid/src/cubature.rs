@@ -54,7 +54,7 @@ pub struct CubaturePoint {
 
 /// What the points of an interface were held against.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Certificate {
+pub struct MomentCheck {
     /// Largest deviation of one of the 46 moments, in units of the root mean square of what it is
     /// the average of.
     pub residual: f64,
@@ -90,7 +90,7 @@ pub struct Cubature {
     /// The points.
     pub points: Vec<CubaturePoint>,
     /// What they were held against.
-    pub certificate: Certificate,
+    pub certificate: MomentCheck,
 }
 
 /// Why there are no weighted bonds.
@@ -196,7 +196,7 @@ impl Cubature {
     }
 }
 
-impl Certificate {
+impl MomentCheck {
     /// Whether all moments are met: to 1e-3, a tenth of the 1 % to which the points are to stand for many
     /// drawn bonds.
     pub fn meets_moments(&self) -> bool {
@@ -217,7 +217,7 @@ impl CubaturePoint {
     }
 }
 
-impl Certificate {
+impl MomentCheck {
     /// Whether weights are positive, lengths those of bonds that could be drawn, and places within
     /// the outline of theirs.
     pub fn is_within_bounds(&self) -> bool {
@@ -324,7 +324,7 @@ impl Finder {
     }
 
     /// What points are worth.
-    fn certificate(&self, points: &[CubaturePoint]) -> Certificate {
+    fn certificate(&self, points: &[CubaturePoint]) -> MomentCheck {
         let sites: Vec<(Site, f64)> = points
             .iter()
             .map(|p| (self.moments.site(p.place, p.length), p.weight))
@@ -334,7 +334,7 @@ impl Finder {
             let length = self.patch.length_at(p.place);
             length.is_none_or(|length| length > self.gap.maximum)
         };
-        Certificate {
+        MomentCheck {
             residual: residuals.iter().fold(0.0, |worst, r| r.abs().max(worst)),
             weights: range(points.iter().map(|p| p.weight)),
             lengths: range(points.iter().map(|p| p.length)),

@@ -1,6 +1,6 @@
 //! One ellipsoid in its principal frame: points on its surface, lines through it, its inertia.
 
-use crate::ParameterError;
+use crate::EllipsoidParameterError;
 use crate::stream::Stream;
 use actin_mechanics::{Inertia, Vector3};
 
@@ -34,10 +34,10 @@ impl Ellipsoid {
     /// assert!((inertia.axial - 2.916).abs() < 1e-12);
     /// assert!((inertia.transverse - 2.18).abs() < 1e-12);
     /// ```
-    pub fn inertia(&self, mass: f64) -> Result<Inertia, ParameterError> {
+    pub fn inertia(&self, mass: f64) -> Result<Inertia, EllipsoidParameterError> {
         let square = self.semi_axes.component_mul(&self.semi_axes);
         let moments = (Vector3::from_element(square.sum()) - square) * (mass / 5.0);
-        Inertia::from_moments(moments.into()).map_err(|reason| ParameterError::NotATop {
+        Inertia::from_moments(moments.into()).map_err(|reason| EllipsoidParameterError::NotATop {
             semi_axes: self.semi_axes(),
             reason,
         })

@@ -31,14 +31,15 @@ mod stream;
 mod table;
 
 pub use bonds::{Bonds, Pair};
-pub use cubature::{Certificate, Cubature, CubatureError, CubaturePoint};
+pub use cubature::{Cubature, CubatureError, CubaturePoint, MomentCheck};
 pub use ellipsoid::Ellipsoid;
 pub use helix::{Helix, Neighbour};
 pub use interface::{Bond, Interface, InterfaceError, InterfaceKind};
 pub use model::EllipsoidModel;
 pub use monomers::{Monomers, Placement};
 pub use parameters::{
-    Anchors, EllipsoidParameters, FEWEST_POINTS, InterfaceParameters, MOST_POINTS, ParameterError,
+    Anchors, EllipsoidParameterError, EllipsoidParameters, FEWEST_POINTS, InterfaceParameters,
+    MOST_POINTS,
 };
 
 /// The crate of points, frames, loads and interactions that monomers are made of.

@@ -1,8 +1,8 @@
 //! The validated model: the one place where filaments of ellipsoids are made.
 
 use crate::{
-    Bonds, Ellipsoid, EllipsoidParameters, Helix, Interface, InterfaceError, InterfaceKind,
-    Monomers, ParameterError, Placement,
+    Bonds, Ellipsoid, EllipsoidParameterError, EllipsoidParameters, Helix, Interface,
+    InterfaceError, InterfaceKind, Monomers, Placement,
 };
 use actin_mechanics::{Inertia, State};
 
@@ -29,7 +29,7 @@ impl EllipsoidModel {
     ///
     /// # Errors
     /// What [`EllipsoidParameters::validate`] refuses, and semi-axes that all differ.
-    pub fn new(parameters: EllipsoidParameters) -> Result<Self, ParameterError> {
+    pub fn new(parameters: EllipsoidParameters) -> Result<Self, EllipsoidParameterError> {
         parameters.validate()?;
         let inertia = Ellipsoid::new(parameters.semi_axes).inertia(parameters.mass)?;
         Ok(Self {

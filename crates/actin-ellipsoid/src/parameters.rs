@@ -83,7 +83,7 @@ impl Anchors {
 
 /// Why parameters were refused.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum ParameterError {
+pub enum EllipsoidParameterError {
     /// A number breaks the rule of its key.
     #[error("{key} = {value}: must be {rule}")]
     OutOfRange {
@@ -149,7 +149,7 @@ impl EllipsoidParameters {
     ///
     /// # Errors
     /// The first number that breaks the rule of its key, or semi-axes that all differ.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    pub fn validate(&self) -> Result<(), EllipsoidParameterError> {
         if !(self.radius.is_finite() && self.radius >= 0.0) {
             return Err(out_of_range(
                 "radius",
@@ -196,7 +196,7 @@ impl InterfaceParameters {
     fn validate(
         &self,
         [rigidity, bonds, shortest, longest]: [&'static str; 4],
-    ) -> Result<(), ParameterError> {
+    ) -> Result<(), EllipsoidParameterError> {
         positive(rigidity, self.rigidity)?;
         positive(longest, self.maximum_length)?;
         if !(self.minimum_length >= 0.0 && self.minimum_length < self.maximum_length) {
@@ -216,12 +216,12 @@ impl InterfaceParameters {
 }
 
 /// The error for a number that breaks its rule.
-fn out_of_range(key: &'static str, value: f64, rule: &'static str) -> ParameterError {
-    ParameterError::OutOfRange { key, value, rule }
+fn out_of_range(key: &'static str, value: f64, rule: &'static str) -> EllipsoidParameterError {
+    EllipsoidParameterError::OutOfRange { key, value, rule }
 }
 
 /// Refuses what is not a positive finite number.
-fn positive(key: &'static str, value: f64) -> Result<(), ParameterError> {
+fn positive(key: &'static str, value: f64) -> Result<(), EllipsoidParameterError> {
     if value.is_finite() && value > 0.0 {
         Ok(())
     } else {
@@ -230,7 +230,7 @@ fn positive(key: &'static str, value: f64) -> Result<(), ParameterError> {
 }
 
 /// Refuses what is not a finite number.
-fn finite(key: &'static str, value: f64) -> Result<(), ParameterError> {
+fn finite(key: &'static str, value: f64) -> Result<(), EllipsoidParameterError> {
     if value.is_finite() {
         Ok(())
     } else {
@@ -251,7 +251,7 @@ mod tests {
         let mut parameters = EllipsoidParameters::default();
         set(&mut parameters, value);
         match EllipsoidModel::new(parameters) {
-            Err(ParameterError::OutOfRange { key, value: v, .. }) => {
+            Err(EllipsoidParameterError::OutOfRange { key, value: v, .. }) => {
                 assert_eq!(v.to_bits(), value.to_bits());
                 Some(key)
             }
@@ -370,7 +370,7 @@ mod tests {
         };
         assert!(matches!(
             EllipsoidModel::new(parameters),
-            Err(ParameterError::NotATop { .. })
+            Err(EllipsoidParameterError::NotATop { .. })
         ));
     }
 }

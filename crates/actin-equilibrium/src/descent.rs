@@ -5,7 +5,7 @@ use crate::evaluation::Evaluation;
 use crate::history::Verdict;
 use crate::motion::Extent;
 use crate::options::NewtonOptions;
-use crate::outcome::Trouble;
+use crate::outcome::SolveError;
 use actin_mechanics::{Interaction, State};
 
 /// Part of the predicted decrease that is enough (Armijo).
@@ -137,7 +137,7 @@ impl Descent {
         &mut self,
         solver: &mut Solver,
         interactions: &[Box<dyn Interaction>],
-    ) -> Result<Option<(Direction, Taken)>, Trouble> {
+    ) -> Result<Option<(Direction, Taken)>, SolveError> {
         let direction = self.direction(solver, self.cubic)?;
         if let Some(taken) = self.attempt(solver, interactions, &direction) {
             return Ok(Some((direction, taken)));
@@ -162,7 +162,7 @@ impl Descent {
         Ok(taken.map(|taken| (direction, taken)))
     }
 
-    fn direction(&self, solver: &mut Solver, cubic: f64) -> Result<Direction, Trouble> {
+    fn direction(&self, solver: &mut Solver, cubic: f64) -> Result<Direction, SolveError> {
         solver.direction(&self.state, self.options.largest_strain, cubic)
     }
 

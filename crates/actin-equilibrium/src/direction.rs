@@ -3,10 +3,10 @@
 use crate::assemble::Assembly;
 use crate::evaluation::Evaluation;
 use crate::factor::{Factor, Inertia};
-use crate::history::Work;
+use crate::history::SolverWork;
 use crate::layout::Layout;
 use crate::motion::Extent;
-use crate::outcome::Trouble;
+use crate::outcome::SolveError;
 use crate::residual::Residual;
 use actin_mechanics::{Interaction, Loads, State};
 
@@ -43,7 +43,7 @@ pub(crate) struct Solver {
     reduced: Vec<f64>,
     /// What rounding leaves of these.
     rounding: Vec<f64>,
-    pub(crate) work: Work,
+    pub(crate) work: SolverWork,
 }
 
 /// A direction along which the energy falls.
@@ -73,18 +73,18 @@ impl Solver {
             turn_length,
             reduced: Vec::new(),
             rounding: Vec::new(),
-            work: Work::default(),
+            work: SolverWork::default(),
         }
     }
 
     /// Refuses interactions that Newton's method cannot use.
-    pub(crate) fn check(interactions: &[Box<dyn Interaction>]) -> Result<(), Trouble> {
+    pub(crate) fn check(interactions: &[Box<dyn Interaction>]) -> Result<(), SolveError> {
         for interaction in interactions {
             if !interaction.is_conservative() {
-                return Err(Trouble::NotConservative(interaction.term()));
+                return Err(SolveError::NotConservative(interaction.term()));
             }
             if interaction.second_order().is_none() {
-                return Err(Trouble::NoStiffness(interaction.term()));
+                return Err(SolveError::NoStiffness(interaction.term()));
             }
         }
         Ok(())
@@ -95,12 +95,12 @@ impl Solver {
         &mut self,
         state: &State,
         interactions: &[Box<dyn Interaction>],
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), SolveError> {
         Self::check(interactions)?;
         let evaluation = Evaluation::new(interactions, state);
         self.work.evaluations += 1;
         if !evaluation.is_finite() {
-            return Err(Trouble::NotFinite);
+            return Err(SolveError::NotFinite);
         }
         self.assemble(interactions, state, &evaluation.loads);
         Ok(())
@@ -179,7 +179,7 @@ impl Solver {
 
     /// Factorises the stiffness with the least multiple of the metric that makes it positive
     /// definite; `inertia` is that of the present factor.
-    pub(crate) fn make_positive(&mut self, inertia: Inertia) -> Result<f64, Trouble> {
+    pub(crate) fn make_positive(&mut self, inertia: Inertia) -> Result<f64, SolveError> {
         self.make_positive_from(inertia, false, 0.0)
     }
 
@@ -191,7 +191,7 @@ impl Solver {
         inertia: Inertia,
         with_ties: bool,
         guess: f64,
-    ) -> Result<f64, Trouble> {
+    ) -> Result<f64, SolveError> {
         let factor = self.factor.as_ref().expect("the stiffness is assembled");
         let is_regular = inertia.doubtful == 0;
         if is_regular && inertia.negative > 0 && factor.is_positive_for(&self.reduced) {
@@ -206,7 +206,7 @@ impl Solver {
         mut inertia: Inertia,
         with_ties: bool,
         guess: f64,
-    ) -> Result<f64, Trouble> {
+    ) -> Result<f64, SolveError> {
         let largest = self.largest_diagonal();
         let lightest = self.metric.iter().copied().fold(f64::INFINITY, f64::min);
         let least = LEAST_ROUNDINGS * f64::EPSILON * largest / lightest;
@@ -220,7 +220,7 @@ impl Solver {
             // and the search would not end. Written so that a shift that is not a number fails.
             let is_worth_trying = shift > 0.0 && shift <= LIMIT * largest / lightest;
             if !(is_worth_trying && shift.is_finite()) {
-                return Err(Trouble::NotFactorizable(shift));
+                return Err(SolveError::NotFactorizable(shift));
             }
             inertia = if with_ties {
                 self.factorize_with_ties(shift)
@@ -275,7 +275,7 @@ impl Solver {
         state: &State,
         strain: f64,
         cubic: f64,
-    ) -> Result<Direction, Trouble> {
+    ) -> Result<Direction, SolveError> {
         let plain = self.factorize(0.0);
         let lengths = self.assembly.tie_lengths();
         let limits: Vec<f64> = lengths.iter().map(|length| strain * length).collect();
@@ -307,7 +307,7 @@ impl Solver {
         plain: Inertia,
         cubic: f64,
         (mut motions, mut guess): (Vec<f64>, f64),
-    ) -> Result<Direction, Trouble> {
+    ) -> Result<Direction, SolveError> {
         let mut round = 1;
         loop {
             let weights: Vec<f64> = motions.iter().map(|motion| cubic * motion).collect();

@@ -40,7 +40,7 @@ pub struct Iteration {
 
 /// What a solve cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Work {
+pub struct SolverWork {
     /// Newton steps.
     pub iterations: u64,
     /// Evaluations of loads and energies.
@@ -55,7 +55,7 @@ pub struct Work {
     pub factor_entries: u64,
 }
 
-impl Work {
+impl SolverWork {
     /// What has been done since `earlier`; the entries of the factor are those of now.
     pub(crate) fn since(&self, earlier: &Self) -> Self {
         Self {

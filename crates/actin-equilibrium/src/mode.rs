@@ -8,7 +8,7 @@
 //! B. N. Parlett, The Symmetric Eigenvalue Problem (1980), chapter 13 (full reorthogonalisation).
 
 use crate::direction::{Solver, dot};
-use crate::outcome::Trouble;
+use crate::outcome::SolveError;
 use actin_mechanics::testing::Noise;
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -33,7 +33,7 @@ pub struct Mode {
 }
 
 /// The lowest mode of the stiffness of the last assembly; `None` if there are no unknowns.
-pub(crate) fn lowest(solver: &mut Solver) -> Result<Option<Mode>, Trouble> {
+pub(crate) fn lowest(solver: &mut Solver) -> Result<Option<Mode>, SolveError> {
     let n = solver.layout.unknowns();
     if n == 0 {
         return Ok(None);

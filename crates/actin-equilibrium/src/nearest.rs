@@ -4,7 +4,7 @@ use crate::certificate::Certificate;
 use crate::direction::Solver;
 use crate::evaluation::Evaluation;
 use crate::newton::{NEAR_FLOOR, Newton, STILL_FALLING};
-use crate::outcome::Trouble;
+use crate::outcome::SolveError;
 use actin_mechanics::{Interaction, State};
 
 /// Most steps: next to an equilibrium each step squares what is left of the distance.
@@ -56,7 +56,7 @@ impl Newton {
         &mut self,
         state: &State,
         interactions: &[Box<dyn Interaction>],
-    ) -> Result<Option<Nearest>, Trouble> {
+    ) -> Result<Option<Nearest>, SolveError> {
         Solver::check(interactions)?;
         let start = Evaluation::new(interactions, state);
         let Some(state) = self.reach(state, start.clone(), interactions) else {

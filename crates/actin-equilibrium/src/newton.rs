@@ -19,10 +19,10 @@
 use crate::certificate::{Certificate, certify};
 use crate::descent::Descent;
 use crate::direction::Solver;
-use crate::history::{Iteration, Work};
+use crate::history::{Iteration, SolverWork};
 use crate::layout::Layout;
 use crate::options::{NewtonOptions, OptionsError};
-use crate::outcome::{Ending, Equilibrium, NewtonFailure, Trouble};
+use crate::outcome::{Convergence, Equilibrium, NewtonFailure, SolveError};
 use crate::residual::Residual;
 use actin_mechanics::{Interaction, Loads, State};
 use std::ops::ControlFlow;
@@ -72,13 +72,13 @@ impl Newton {
     }
 
     /// What all solves so far have cost.
-    pub fn work(&self) -> Work {
+    pub fn work(&self) -> SolverWork {
         self.solver.work
     }
 
     /// Counts on from what an earlier solver has done that this one continues. The symbolic
     /// factorisation that it has to repeat counts once more.
-    pub fn count_on(&mut self, work: Work) {
+    pub fn count_on(&mut self, work: SolverWork) {
         self.solver.work = work;
     }
 
@@ -134,8 +134,8 @@ impl Newton {
                 history,
                 work,
             }),
-            Err(trouble) => Err(Box::new(NewtonFailure {
-                trouble,
+            Err(cause) => Err(Box::new(NewtonFailure {
+                cause,
                 residual,
                 floor,
                 history,
@@ -152,7 +152,7 @@ impl Newton {
         &mut self,
         state: &State,
         interactions: &[Box<dyn Interaction>],
-    ) -> Result<Certificate, Trouble> {
+    ) -> Result<Certificate, SolveError> {
         self.solver.prepare(state, interactions)?;
         Ok(certify(&mut self.solver, state, interactions))
     }
@@ -194,7 +194,7 @@ impl Newton {
         state: &State,
         interactions: &[Box<dyn Interaction>],
         v: &[f64],
-    ) -> Result<Vec<f64>, Trouble> {
+    ) -> Result<Vec<f64>, SolveError> {
         assert_eq!(v.len(), self.layout().unknowns(), "one number per unknown");
         self.solver.prepare(state, interactions)?;
         let mut product = vec![0.0; v.len()];
@@ -221,22 +221,22 @@ impl Run<'_> {
         &mut self,
         state: &mut State,
         observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-    ) -> Result<(Ending, f64), Trouble> {
+    ) -> Result<(Convergence, f64), SolveError> {
         Solver::check(self.interactions)?;
         let mut descent = Descent::new(self.interactions, state, self.options);
         self.solver.work.evaluations += 1;
         if !descent.here.is_finite() {
-            return Err(Trouble::NotFinite);
+            return Err(SolveError::NotFinite);
         }
         let result = loop {
             match self.step(&mut descent) {
                 Ok(None) => {}
                 Ok(Some(ending)) => break Ok((ending, descent.here.energy)),
-                Err(trouble) => break Err(trouble),
+                Err(cause) => break Err(cause),
             }
             let last = self.history.last().expect("a step has just been made");
             if observe(last).is_break() {
-                break Err(Trouble::Interrupted);
+                break Err(SolveError::Interrupted);
             }
         };
         if result.is_err() && descent.end_excursion() {
@@ -255,7 +255,7 @@ impl Run<'_> {
     }
 
     /// One step, or the reason why none is needed.
-    fn step(&mut self, descent: &mut Descent) -> Result<Option<Ending>, Trouble> {
+    fn step(&mut self, descent: &mut Descent) -> Result<Option<Convergence>, SolveError> {
         self.solver
             .assemble(self.interactions, &descent.state, &descent.here.loads);
         self.measure(descent);
@@ -263,7 +263,7 @@ impl Run<'_> {
             return Ok(Some(ending));
         }
         if self.history.len() >= self.options.iterations {
-            return self.give_up(descent, Trouble::IterationLimit(self.options.iterations));
+            return self.give_up(descent, SolveError::IterationLimit(self.options.iterations));
         }
         self.previous = self.residual.relative_to(&self.options.tolerance);
         let before = descent.here.energy;
@@ -271,7 +271,7 @@ impl Run<'_> {
             self.solver
                 .assemble(self.interactions, &descent.state, &descent.here.loads);
             self.measure(descent);
-            return self.give_up(descent, Trouble::Stagnated);
+            return self.give_up(descent, SolveError::Stagnated);
         };
         self.solver.work.iterations += 1;
         self.history.push(Iteration {
@@ -291,24 +291,28 @@ impl Run<'_> {
     ///
     /// An excursion that ends in an equilibrium above where it began has not paid: it is taken
     /// back, so that a solve never ends above its start.
-    fn ending(&self, descent: &mut Descent) -> Option<Ending> {
+    fn ending(&self, descent: &mut Descent) -> Option<Convergence> {
         let tolerance = &self.options.tolerance;
         if self.residual.is_within(tolerance) {
-            return (!descent.gives_up_excursion()).then_some(Ending::Converged);
+            return (!descent.gives_up_excursion()).then_some(Convergence::Converged);
         }
         let falling = self.residual.relative_to(tolerance) < STILL_FALLING * self.previous;
         let at_floor = !falling && self.solver.is_at_floor(tolerance, AT_FLOOR);
-        (at_floor && !descent.is_on_excursion()).then_some(Ending::FloorReached)
+        (at_floor && !descent.is_on_excursion()).then_some(Convergence::FloorReached)
     }
 
     /// No step helps or none is allowed any more: either the floor is reached, about which steps may
     /// wander, or something is wrong.
-    fn give_up(&self, descent: &Descent, trouble: Trouble) -> Result<Option<Ending>, Trouble> {
+    fn give_up(
+        &self,
+        descent: &Descent,
+        cause: SolveError,
+    ) -> Result<Option<Convergence>, SolveError> {
         let tolerance = &self.options.tolerance;
         if !descent.is_on_excursion() && self.solver.is_at_floor(tolerance, NEAR_FLOOR) {
-            Ok(Some(Ending::FloorReached))
+            Ok(Some(Convergence::FloorReached))
         } else {
-            Err(trouble)
+            Err(cause)
         }
     }
 }

@@ -1,13 +1,13 @@
 //! How a solve ends: an equilibrium, or a failure that says why.
 
 use crate::certificate::{Certificate, Stability};
-use crate::history::{Iteration, Work};
+use crate::history::{Iteration, SolverWork};
 use crate::residual::Residual;
 use thiserror::Error;
 
 /// Why a solve that ended well ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
+pub enum Convergence {
     /// The residual is within the tolerance.
     Converged,
     /// The residual is above the tolerance and does not fall any more, but the loads of each body
@@ -22,7 +22,7 @@ pub enum Ending {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
     /// Why the solve ended.
-    pub ending: Ending,
+    pub ending: Convergence,
     /// Potential energy (pN nm).
     pub energy: f64,
     /// Residual of the state.
@@ -36,7 +36,7 @@ pub struct Equilibrium {
     /// The steps.
     pub history: Vec<Iteration>,
     /// What it took.
-    pub work: Work,
+    pub work: SolverWork,
 }
 
 impl Equilibrium {
@@ -49,7 +49,7 @@ impl Equilibrium {
 
 /// Why a solve failed.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum Trouble {
+pub enum SolveError {
     /// An interaction has no energy to be minimised.
     #[error("the interaction {0:?} has no potential, so there is no energy to minimise")]
     NotConservative(&'static str),
@@ -79,13 +79,13 @@ pub enum Trouble {
 /// among those that were accepted.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error(
-    "no equilibrium after {} steps: {trouble}; the residual is {:.3e} pN and {:.3e} pN nm \
+    "no equilibrium after {} steps: {cause}; the residual is {:.3e} pN and {:.3e} pN nm \
      (round-off floor {:.1e} pN and {:.1e} pN nm); the best state was kept",
     history.len(), residual.force, residual.torque, floor.force, floor.torque
 )]
 pub struct NewtonFailure {
     /// What went wrong.
-    pub trouble: Trouble,
+    pub cause: SolveError,
     /// Residual of the state that was kept.
     pub residual: Residual,
     /// Estimate of the residual that rounding alone leaves.
@@ -93,5 +93,5 @@ pub struct NewtonFailure {
     /// The steps.
     pub history: Vec<Iteration>,
     /// What it took.
-    pub work: Work,
+    pub work: SolverWork,
 }

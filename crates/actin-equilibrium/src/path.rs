@@ -1,16 +1,16 @@
 //! Equilibria along a path of controls, with automatic steps.
 //!
-//! Steps shrink where Newton has trouble or the equilibrium moves too far, and grow where it has
+//! Steps shrink where Newton fails or the equilibrium moves too far, and grow where it has
 //! none. At a limit point, beyond which there is no equilibrium near by, the steps shrink to the
 //! smallest and the path ends with a report of the last equilibrium.
 
-use crate::companion::{Companion, Waypoint};
 use crate::evaluation::Evaluation;
-use crate::history::Work;
+use crate::history::SolverWork;
 use crate::motion::Extent;
 use crate::newton::Newton;
 use crate::options::OptionsError;
-use crate::outcome::{Equilibrium, NewtonFailure, Trouble};
+use crate::outcome::{Equilibrium, NewtonFailure, SolveError};
+use crate::path_observer::{PathObserver, Waypoint};
 use crate::path_options::{Jumps, PathOptions, Saddles};
 use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
@@ -41,7 +41,7 @@ pub struct PathPoint<'a> {
     /// Whether the point is further from the last one than the options allow.
     pub jumped: bool,
     /// What the solver has done so far.
-    pub work: Work,
+    pub work: SolverWork,
     /// What the rest of the path depends on besides the state.
     pub waypoint: &'a Waypoint,
 }
@@ -56,12 +56,12 @@ pub struct PathEnd {
     /// Steps that were tried and made again with a smaller one.
     pub refused: usize,
     /// What all of it took.
-    pub work: Work,
+    pub work: SolverWork,
 }
 
 /// Why a path ended before parameter 1.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum PathTrouble {
+pub enum PathError {
     /// No equilibrium was found at the next parameter.
     #[error("{0}")]
     NoEquilibrium(Box<NewtonFailure>),
@@ -87,7 +87,7 @@ pub enum PathTrouble {
 /// The state that was passed in is the last equilibrium reached.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error(
-    "the path ends at {parameter:.6} of 1; at {attempted:.6}: {trouble}; the last equilibrium was kept"
+    "the path ends at {parameter:.6} of 1; at {attempted:.6}: {cause}; the last equilibrium was kept"
 )]
 pub struct PathFailure {
     /// Parameter of the last equilibrium.
@@ -97,11 +97,11 @@ pub struct PathFailure {
     /// The last equilibrium; `None` if there is none even at parameter 0.
     pub equilibrium: Option<Equilibrium>,
     /// Why the path ended.
-    pub trouble: PathTrouble,
+    pub cause: PathError,
     /// Equilibria on the path.
     pub points: usize,
     /// What all of it took.
-    pub work: Work,
+    pub work: SolverWork,
 }
 
 impl Path {
@@ -138,7 +138,7 @@ impl Path {
     /// if there is one: `state` is then the equilibrium there, which is not shown again. What
     /// follows is the same to the bit as in the path that was left.
     ///
-    /// Work and the number of points count on from the waypoint; `newton` counts from where it
+    /// SolverWork and the number of points count on from the waypoint; `newton` counts from where it
     /// stands (see [`Newton::count_on`]).
     ///
     /// # Errors
@@ -150,7 +150,7 @@ impl Path {
         state: &mut State,
         interactions: &[Box<dyn Interaction>],
         set: &mut dyn FnMut(&mut State, f64),
-        companion: &mut dyn Companion,
+        companion: &mut dyn PathObserver,
     ) -> Result<PathEnd, Box<PathFailure>> {
         let before = newton.work();
         let mut walk = Walk::new(&self.0, waypoint, newton, interactions);
@@ -170,11 +170,11 @@ impl Path {
                 refused,
                 work,
             }),
-            (Err((attempted, trouble)), equilibrium) => Err(Box::new(PathFailure {
+            (Err((attempted, cause)), equilibrium) => Err(Box::new(PathFailure {
                 parameter,
                 attempted,
                 equilibrium,
-                trouble,
+                cause,
                 points,
                 work,
             })),
@@ -214,14 +214,14 @@ impl<'a> Walk<'a> {
         &mut self,
         state: &mut State,
         set: Set<'_>,
-        companion: &mut dyn Companion,
-    ) -> Result<(), (f64, PathTrouble)> {
+        companion: &mut dyn PathObserver,
+    ) -> Result<(), (f64, PathError)> {
         if self.at.points == 0 {
             let mut first = state.clone();
             set(&mut first, 0.0);
             let equilibrium = self
                 .solve(&mut first, companion)
-                .map_err(|trouble| (0.0, trouble))?;
+                .map_err(|cause| (0.0, cause))?;
             self.arrive(state, first, 0.0, equilibrium, false, companion)?;
         }
         while self.at.parameter < 1.0 {
@@ -235,13 +235,13 @@ impl<'a> Walk<'a> {
         &mut self,
         state: &mut State,
         set: Set<'_>,
-        companion: &mut dyn Companion,
-    ) -> Result<(), (f64, PathTrouble)> {
+        companion: &mut dyn PathObserver,
+    ) -> Result<(), (f64, PathError)> {
         loop {
             let next = self.next_parameter();
             let mut trial = self.predict(state, next, set);
             let is_smallest = self.at.step <= self.options.smallest_step;
-            let trouble = match self.solve(&mut trial, companion) {
+            let cause = match self.solve(&mut trial, companion) {
                 Ok(equilibrium) => {
                     let moved = self.moved(state, &trial);
                     let far = moved.rotation > self.options.largest_turn
@@ -252,12 +252,12 @@ impl<'a> Walk<'a> {
                         self.adapt(&equilibrium);
                         return self.arrive(state, trial, next, equilibrium, far, companion);
                     }
-                    PathTrouble::Jump(moved)
+                    PathError::Jump(moved)
                 }
-                Err(trouble) => trouble,
+                Err(cause) => cause,
             };
-            if is_smallest || trouble == PathTrouble::Interrupted {
-                return Err((next, trouble));
+            if is_smallest || cause == PathError::Interrupted {
+                return Err((next, cause));
             }
             let at = &mut self.at;
             at.refused += 1;
@@ -311,8 +311,8 @@ impl<'a> Walk<'a> {
     fn solve(
         &mut self,
         state: &mut State,
-        companion: &mut dyn Companion,
-    ) -> Result<Equilibrium, PathTrouble> {
+        companion: &mut dyn PathObserver,
+    ) -> Result<Equilibrium, PathError> {
         let attempts = match self.options.saddles {
             Saddles::Leave(attempts) => attempts,
             Saddles::Stop | Saddles::Keep => 0,
@@ -322,15 +322,15 @@ impl<'a> Walk<'a> {
             .minimize_observed(state, self.interactions, attempts, &mut |step| {
                 companion.iterate(step)
             })
-            .map_err(|failure| match failure.trouble {
-                Trouble::Interrupted => PathTrouble::Interrupted,
-                _ => PathTrouble::NoEquilibrium(failure),
+            .map_err(|failure| match failure.cause {
+                SolveError::Interrupted => PathError::Interrupted,
+                _ => PathError::NoEquilibrium(failure),
             })?;
         match equilibrium.certificate {
             Some(certificate)
                 if equilibrium.is_saddle() && self.options.saddles != Saddles::Keep =>
             {
-                Err(PathTrouble::Unstable {
+                Err(PathError::Unstable {
                     negative: certificate.negative,
                 })
             }
@@ -365,8 +365,8 @@ impl<'a> Walk<'a> {
         next: f64,
         equilibrium: Equilibrium,
         jumped: bool,
-        companion: &mut dyn Companion,
-    ) -> Result<(), (f64, PathTrouble)> {
+        companion: &mut dyn PathObserver,
+    ) -> Result<(), (f64, PathError)> {
         let moved = self.moved(state, &next_state);
         let left = std::mem::replace(state, next_state);
         let at = &mut self.at;
@@ -388,7 +388,7 @@ impl<'a> Walk<'a> {
         self.last = Some(equilibrium);
         // At the end there is nothing left to break off.
         if flow.is_break() && next < 1.0 {
-            return Err((next, PathTrouble::Interrupted));
+            return Err((next, PathError::Interrupted));
         }
         Ok(())
     }

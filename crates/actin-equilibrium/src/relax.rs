@@ -2,7 +2,7 @@
 
 use crate::{
     Equilibrium, Layout, LayoutError, Newton, NewtonFailure, NewtonOptions, OptionsError,
-    PathFailure, Trouble,
+    PathFailure, SolveError,
 };
 use actin_mechanics::{Interaction, State};
 use thiserror::Error;
@@ -22,7 +22,7 @@ pub enum EquilibriumError {
     Layout(#[from] LayoutError),
     /// Interactions without energy or second derivatives, or with ones that are not finite.
     #[error(transparent)]
-    Trouble(#[from] Trouble),
+    SolveError(#[from] SolveError),
     /// The solver did not converge.
     #[error(transparent)]
     Newton(#[from] Box<NewtonFailure>),

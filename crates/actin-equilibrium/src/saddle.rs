@@ -5,7 +5,7 @@ use crate::history::Iteration;
 use crate::mode::{self, Mode};
 use crate::motion::Extent;
 use crate::newton::Newton;
-use crate::outcome::{Equilibrium, NewtonFailure, Trouble};
+use crate::outcome::{Equilibrium, NewtonFailure, SolveError};
 use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
 
@@ -32,7 +32,7 @@ impl Newton {
         &mut self,
         state: &State,
         interactions: &[Box<dyn Interaction>],
-    ) -> Result<Option<Mode>, Trouble> {
+    ) -> Result<Option<Mode>, SolveError> {
         self.solver.prepare(state, interactions)?;
         mode::lowest(&mut self.solver)
     }
@@ -51,7 +51,7 @@ impl Newton {
         &mut self,
         state: &mut State,
         interactions: &[Box<dyn Interaction>],
-    ) -> Result<Option<Mode>, Trouble> {
+    ) -> Result<Option<Mode>, SolveError> {
         let Some(mode) = self.unstable_mode(state, interactions)? else {
             return Ok(None);
         };
@@ -86,7 +86,7 @@ impl Newton {
         state: &mut State,
         interactions: &[Box<dyn Interaction>],
         largest: &Extent,
-    ) -> Result<Option<Push>, Trouble> {
+    ) -> Result<Option<Push>, SolveError> {
         let Some(mode) = self.unstable_mode(state, interactions)? else {
             return Ok(None);
         };
@@ -104,7 +104,7 @@ impl Newton {
         &mut self,
         state: &State,
         interactions: &[Box<dyn Interaction>],
-    ) -> Result<Option<Mode>, Trouble> {
+    ) -> Result<Option<Mode>, SolveError> {
         let mode = self.lowest_mode(state, interactions)?;
         Ok(mode.filter(|mode| mode.eigenvalue < -mode.error))
     }

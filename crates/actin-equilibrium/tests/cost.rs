@@ -13,7 +13,7 @@ const GIVEN: Order = Rod::layout;
 const FOUND: Order = |_, state| Layout::free(state);
 const CHEAPER: Order = |rod, state| rod.layout(state).with_least_fill();
 
-fn work(segments: usize, order: Order) -> actin_equilibrium::Work {
+fn work(segments: usize, order: Order) -> actin_equilibrium::SolverWork {
     let rod = Rod {
         segments,
         length: 10.0 * segments as f64,

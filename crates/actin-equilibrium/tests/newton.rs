@@ -3,7 +3,7 @@
 mod common;
 
 use actin_equilibrium::{
-    Ending, Iteration, Layout, Newton, NewtonOptions, Residual, Stability, Trouble, Verdict,
+    Convergence, Iteration, Layout, Newton, NewtonOptions, Residual, SolveError, Stability, Verdict,
 };
 use actin_mechanics::testing::{Noise, perturb};
 use actin_mechanics::{Interaction, Loads, PointLoad, State, Vector3};
@@ -100,7 +100,7 @@ fn the_start_does_not_matter() {
             .set(0, state.frames.orientation.get(0));
         let before: f64 = terms.iter().map(|term| term.energy(&start)).sum();
         let equilibrium = newton.solve(&mut start, &terms).unwrap();
-        assert_eq!(equilibrium.ending, Ending::Converged);
+        assert_eq!(equilibrium.ending, Convergence::Converged);
         assert!(
             equilibrium.energy <= before,
             "a solve never ends above its start"
@@ -190,7 +190,7 @@ fn indefinite_starts_lead_to_the_buckled_column() {
     assert!((angle - 60.0).abs() < 0.3, "tip angle {angle}");
 }
 
-/// Work counts: a lost quadratic range or a needless refactorisation shows here.
+/// SolverWork counts: a lost quadratic range or a needless refactorisation shows here.
 #[test]
 fn a_cantilever_takes_few_steps_at_every_length() {
     for (segments, length) in [(16, 160.0), (160, 1600.0), (1600, 16000.0f64)] {
@@ -224,7 +224,7 @@ fn round_off_floor_is_reported() {
     };
     let mut newton = Newton::new(ACTIN.layout(&state), options).unwrap();
     let equilibrium = newton.solve(&mut state, &terms).unwrap();
-    assert_eq!(equilibrium.ending, Ending::FloorReached);
+    assert_eq!(equilibrium.ending, Convergence::FloorReached);
     assert!(equilibrium.residual.force <= 100.0 * equilibrium.floor.force);
     assert!(equilibrium.floor.force < 1e-8);
 }
@@ -274,7 +274,7 @@ fn too_few_steps_keep_the_best_state() {
     };
     let mut newton = Newton::new(ACTIN.layout(&state), options).unwrap();
     let failure = newton.solve(&mut state, &terms).unwrap_err();
-    assert_eq!(failure.trouble, Trouble::IterationLimit(1));
+    assert_eq!(failure.cause, SolveError::IterationLimit(1));
     assert_eq!(failure.history.len(), 1);
     assert_eq!(failure.history[0].verdict, Verdict::Excursion);
     let end: f64 = terms.iter().map(|term| term.energy(&state)).sum();
@@ -299,7 +299,7 @@ fn a_free_body_under_a_dead_load_fails() {
     let terms: Terms = vec![Box::new(Springs(vec![(0, 1, 1.0, 1.0)])), Box::new(load)];
     let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
     let failure = newton.solve(&mut state, &terms).unwrap_err();
-    assert_eq!(failure.trouble, Trouble::IterationLimit(2000), "{failure}");
+    assert_eq!(failure.cause, SolveError::IterationLimit(2000), "{failure}");
 }
 
 /// Interactions without a potential or without second derivatives are refused by name.
@@ -323,12 +323,12 @@ fn unsuitable_interactions_are_refused() {
     let mut state = State::default();
     point(&mut state, Vector3::zeros());
     let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
-    let mut trouble = |wind| {
+    let mut cause = |wind| {
         let failure = newton.solve(&mut state, &[Box::new(Wind(wind))]);
-        failure.unwrap_err().trouble
+        failure.unwrap_err().cause
     };
-    assert_eq!(trouble(false), Trouble::NotConservative("wind"));
-    assert_eq!(trouble(true), Trouble::NoStiffness("wind"));
+    assert_eq!(cause(false), SolveError::NotConservative("wind"));
+    assert_eq!(cause(true), SolveError::NoStiffness("wind"));
 }
 
 /// A start that is not a number is refused and left alone.
@@ -337,7 +337,7 @@ fn a_start_that_is_not_finite_is_refused() {
     let (mut state, terms) = cantilever(&ACTIN, Vector3::x());
     state.points.position.set(3, Vector3::repeat(f64::NAN));
     let failure = ACTIN.newton(&state).solve(&mut state, &terms).unwrap_err();
-    assert_eq!(failure.trouble, Trouble::NotFinite);
+    assert_eq!(failure.cause, SolveError::NotFinite);
 }
 
 /// Nothing to move is an equilibrium if it is asked for.
@@ -348,7 +348,7 @@ fn a_state_without_unknowns_is_converged() {
     state.points.hold(0);
     let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
     let equilibrium = newton.solve(&mut state, &[]).unwrap();
-    assert_eq!(equilibrium.ending, Ending::Converged);
+    assert_eq!(equilibrium.ending, Convergence::Converged);
     assert_eq!(newton.lowest_mode(&state, &[]).unwrap(), None);
 }
 
@@ -415,9 +415,12 @@ fn stiffness_without_scale_is_refused() {
         assert!(newton.work().iterations <= 300, "{stiffness:e}");
         assert!(newton.work().evaluations < 300 * 100, "{stiffness:e}");
         if let (1.5e308 | 0.0, result) = (stiffness, result) {
-            let trouble = result.unwrap_err().trouble;
-            let is_said = matches!(trouble, Trouble::NotFactorizable(_) | Trouble::NotFinite);
-            assert!(is_said, "{stiffness:e}: {trouble}");
+            let cause = result.unwrap_err().cause;
+            let is_said = matches!(
+                cause,
+                SolveError::NotFactorizable(_) | SolveError::NotFinite
+            );
+            assert!(is_said, "{stiffness:e}: {cause}");
         }
     }
 }

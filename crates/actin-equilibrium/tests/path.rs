@@ -3,7 +3,7 @@
 mod common;
 
 use actin_equilibrium::{
-    Group, Jumps, Layout, Newton, NewtonOptions, Path, PathOptions, PathTrouble, Saddles,
+    Group, Jumps, Layout, Newton, NewtonOptions, Path, PathError, PathOptions, Saddles,
 };
 use actin_mechanics::{Interaction, PointLoad, State, Vector3, rotation};
 use common::{ACTIN, Rod, Springs, point};
@@ -67,7 +67,7 @@ fn a_limit_point_ends_the_path() {
         failure.parameter <= 0.5 && failure.parameter > 0.5 - 2e-4,
         "{failure}"
     );
-    assert!(matches!(failure.trouble, PathTrouble::Jump(_)), "{failure}");
+    assert!(matches!(failure.cause, PathError::Jump(_)), "{failure}");
     let reached = state.points.position.get(2).y;
     assert!(reached > y && reached < y + 0.05, "{reached}");
     assert!((arch_force(reached) - failure.parameter * 2.0 * limit).abs() < 1e-7);
@@ -148,7 +148,7 @@ fn the_euler_load_ends_a_path_that_must_be_stable() {
             &mut |_| ControlFlow::Continue(()),
         )
         .unwrap_err();
-    assert_eq!(failure.trouble, PathTrouble::Unstable { negative: 1 });
+    assert_eq!(failure.cause, PathError::Unstable { negative: 1 });
     let euler = PI.powi(2) * 3.0e4 / (4.0 * 160.0 * 160.0);
     let found = 6.0 * failure.parameter;
     // Segments of 1/32: the discrete load is off by (pi/64)^2 / 12 = 2e-4; steps of 6e-4 pN.
@@ -240,7 +240,7 @@ fn a_path_can_be_interrupted() {
             },
         )
         .unwrap_err();
-    assert_eq!(failure.trouble, PathTrouble::Interrupted);
+    assert_eq!(failure.cause, PathError::Interrupted);
     assert_eq!(failure.points, 3);
     assert_eq!(state, seen[2]);
 }

@@ -4,7 +4,7 @@
 mod common;
 
 use actin_equilibrium::{
-    EquilibriumError, Interaction, Loads, Newton, NewtonOptions, PointLoad, State, Trouble,
+    EquilibriumError, Interaction, Loads, Newton, NewtonOptions, PointLoad, SolveError, State,
     Vector3, relax,
 };
 use common::ACTIN;
@@ -47,7 +47,7 @@ fn what_cannot_be_relaxed_is_named() {
     let terms: Vec<Box<dyn Interaction>> = vec![Box::new(Unknown)];
     match relax(&mut state, &terms) {
         Err(EquilibriumError::Newton(failure)) => {
-            assert_eq!(failure.trouble, Trouble::NoStiffness("unknown"));
+            assert_eq!(failure.cause, SolveError::NoStiffness("unknown"));
         }
         other => panic!("{other:?}"),
     }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use actin_equilibrium::Ending;
+use actin_equilibrium::Convergence;
 use actin_mechanics::{Interaction, PointLoad, State, UnitQuaternion, Vector3};
 use common::{ACTIN, Rod};
 
@@ -47,7 +47,7 @@ fn a_straight_rod_stretches_linearly_at_any_tension() {
                 "{force:e} pN: {steps} steps, strain {strain}, {:?}",
                 found.residual
             );
-            let is_at_floor = found.ending == Ending::FloorReached;
+            let is_at_floor = found.ending == Convergence::FloorReached;
             assert!(is_at_floor || found.residual.force <= 1e-8, "{force}");
             // About a state that turns freely about the axis rounding may wander to the last step.
             assert!(steps <= 150 || is_at_floor, "{force}: {steps}");

@@ -3,7 +3,7 @@
 use crate::acceleration::{Probe, accelerated};
 use crate::options::Options;
 use crate::problem::{Linearisation, Problem};
-use crate::report::{Ending, Progress, StartReport};
+use crate::report::{Progress, StartReport, Termination};
 use crate::step::{Damped, LARGEST_DAMPING, Room, SMALLEST_DAMPING, Step};
 use faer::Mat;
 
@@ -40,7 +40,7 @@ struct Descent<'a> {
 /// What came of trying steps from one linearisation.
 enum Trial {
     Taken,
-    Ended(Ending),
+    Ended(Termination),
 }
 
 /// Levenberg and Marquardt's search from one start, with the step lengths of a trust region.
@@ -59,7 +59,7 @@ pub(crate) fn descend(problem: &Problem<'_>, options: &Options, start: &[f64]) -
     let mut iterations = 0;
     let ending = loop {
         if iterations == options.iterations {
-            break Ending::Iterations;
+            break Termination::Iterations;
         }
         iterations += 1;
         if let Some(ending) = search.iterate() {
@@ -99,18 +99,18 @@ impl<'a> Descent<'a> {
     }
 
     /// One linearisation and the step that it leads to; the ending, if it is reached.
-    fn iterate(&mut self) -> Option<Ending> {
+    fn iterate(&mut self) -> Option<Termination> {
         if !self.chi_squared.is_finite() {
             let point = largest(&self.residuals);
-            return Some(Ending::NotFinite { point });
+            return Some(Termination::NotFinite { point });
         }
         if self.chi_squared <= self.problem.least() {
-            return Some(Ending::Exact);
+            return Some(Termination::Exact);
         }
         let derivatives = self.problem.derivatives(&self.p);
         let Some(linear) = Linearisation::new(derivatives.as_ref(), &self.residuals) else {
             let point = not_finite(&derivatives);
-            return Some(Ending::NotFinite { point });
+            return Some(Termination::NotFinite { point });
         };
         let free = free(self.problem, &self.p, &linear);
         self.last.parameter = steepest(&linear, &free);
@@ -119,7 +119,7 @@ impl<'a> Descent<'a> {
             .parameter
             .map_or(0.0, |j| linear.cosine(j, self.chi_squared).abs());
         if self.last.cosine <= self.options.cosine {
-            return Some(Ending::Stationary);
+            return Some(Termination::Stationary);
         }
         self.measure(&linear);
         let room = self.room(free);
@@ -202,7 +202,7 @@ impl<'a> Descent<'a> {
             damping = damped.damping_for(shorter, damping).max(2.0 * damping);
         }
         self.damping = Some(damping);
-        Trial::Ended(Ending::Stalled)
+        Trial::Ended(Termination::Stalled)
     }
 
     /// A step and half its acceleration; `None` where the model curves so much that the step must be
@@ -230,7 +230,7 @@ impl<'a> Descent<'a> {
         let rise = chi_squared - self.chi_squared;
         let harmless = rise <= self.problem.rounding(self.chi_squared);
         if self.trusted == TRUSTED_STEPS || !harmless {
-            return Trial::Ended(Ending::RoundingFloor);
+            return Trial::Ended(Termination::RoundingFloor);
         }
         self.trusted += 1;
         self.accept(moved, residuals, chi_squared);

@@ -40,7 +40,7 @@ pub use observations::{Noise, Observations};
 pub use options::Options;
 pub use polynomial::Polynomial;
 pub use precision::{Goodness, Precision};
-pub use report::{Ending, Fit, Progress, StartReport, Status};
+pub use report::{Fit, Progress, StartReport, Status, Termination};
 pub use starts::Starts;
 
 /// The matrices of this crate: `matrix[(row, column)]`.

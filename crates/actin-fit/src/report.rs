@@ -5,7 +5,7 @@ use std::fmt;
 
 /// Why a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
+pub enum Termination {
     /// The model meets the data to rounding.
     Exact,
     /// The residuals are orthogonal to what the free parameters can change, within the tolerance.
@@ -24,7 +24,7 @@ pub enum Ending {
     },
 }
 
-impl fmt::Display for Ending {
+impl fmt::Display for Termination {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Exact => write!(f, "meets the data to rounding"),
@@ -45,7 +45,7 @@ impl fmt::Display for Ending {
     }
 }
 
-impl Ending {
+impl Termination {
     /// Whether what was found is a minimum within the bounds, as far as the search can tell.
     pub fn is_converged(self) -> bool {
         matches!(self, Self::Exact | Self::Stationary | Self::RoundingFloor)
@@ -76,7 +76,7 @@ pub struct StartReport {
     /// Chi squared where it ended.
     pub chi_squared: f64,
     /// Why it ended.
-    pub ending: Ending,
+    pub ending: Termination,
     /// Number of linearisations.
     pub iterations: usize,
     /// Number of times that all points were evaluated, derivatives not counted.

@@ -3,8 +3,8 @@
 mod common;
 
 use actin_fit::{
-    Bounds, ClosureModel, Data, Ending, Fit, FitError, LevenbergMarquardt, Model, Observations,
-    Options, Polynomial, Starts, Status, check_gradient,
+    Bounds, ClosureModel, Data, Fit, FitError, LevenbergMarquardt, Model, Observations, Options,
+    Polynomial, Starts, Status, Termination, check_gradient,
 };
 use common::{Gauss, Sigmoid, clean, places, values};
 use proptest::prelude::*;
@@ -324,7 +324,7 @@ fn work_of_a_search() {
     );
     let fit = fit(&Sigmoid, &data, &Bounds::none(4), &[0.0, 5.0, 0.0, 1.0]).unwrap();
     let search = &fit.starts[0];
-    assert_eq!(search.ending, Ending::Stationary);
+    assert_eq!(search.ending, Termination::Stationary);
     assert!(search.iterations <= 12 && search.evaluations <= 12);
 }
 
@@ -337,7 +337,7 @@ fn a_wrong_gradient_stalls() {
     let FitError::NoConvergence { starts, .. } = error else {
         panic!("{error}");
     };
-    assert_eq!(starts[0].ending, Ending::Stalled);
+    assert_eq!(starts[0].ending, Termination::Stalled);
     assert_eq!(starts[0].parameters, [0.0]);
     let check = check_gradient(&wrong, &data, &[1.0]).unwrap();
     assert!((check.error - 2.0).abs() < 1e-9);
@@ -372,7 +372,7 @@ fn searches_that_do_not_end_are_reported() {
     assert!(
         starts
             .iter()
-            .all(|s| s.ending == Ending::Iterations && s.iterations == 3)
+            .all(|s| s.ending == Termination::Iterations && s.iterations == 3)
     );
 }
 
@@ -389,7 +389,7 @@ fn a_start_where_the_model_is_not_finite_is_reported() {
     let fit = LevenbergMarquardt::default()
         .fit(&root, &data, &Bounds::none(1), &starts)
         .unwrap();
-    assert_eq!(fit.starts[0].ending, Ending::NotFinite { point: 0 });
+    assert_eq!(fit.starts[0].ending, Termination::NotFinite { point: 0 });
     assert_eq!(fit.best, 1);
     assert!((fit.parameters[0] - 4.0).abs() < 1e-12);
 }

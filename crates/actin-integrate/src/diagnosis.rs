@@ -1,8 +1,8 @@
 //! Whether a state is sound, and what to blame if it is not.
 
-use crate::{Body, Problem};
+use crate::{Body, FailureKind};
 use actin_mechanics::{
-    Agitate, Interaction, Loads, Split, State, Survey, System, Vector3, Vectors,
+    Interaction, Loads, Split, State, StateStats, System, Thermostat, Vector3, Vectors,
 };
 use std::f64::consts::PI;
 
@@ -42,11 +42,11 @@ impl Watch {
     ///
     /// A sound state takes one pass without branches; only where that shows anything unusual are
     /// all bodies looked at one by one.
-    pub(crate) fn inspect(&self, state: &State) -> Result<f64, Problem> {
-        let Survey {
+    pub(crate) fn inspect(&self, state: &State) -> Result<f64, FailureKind> {
+        let StateStats {
             kinetic_energy,
             largest_spin_squared,
-        } = state.survey();
+        } = state.stats();
         let turn = self.h * largest_spin_squared.sqrt();
         if self.is_sound(kinetic_energy) && turn <= PI {
             return Ok(kinetic_energy);
@@ -63,19 +63,19 @@ impl Watch {
     }
 
     /// The same as [`inspect`](Self::inspect), body by body.
-    fn look_closer(&self, state: &State) -> Result<f64, Problem> {
+    fn look_closer(&self, state: &State) -> Result<f64, FailureKind> {
         if !state.is_finite() {
-            return Err(Problem::NotFinite);
+            return Err(FailureKind::NotFinite);
         }
         let turn = self.h * largest_angular_velocity(state);
         if turn > PI {
-            return Err(Problem::TurnsTooFar(turn));
+            return Err(FailureKind::TurnsTooFar(turn));
         }
         let kinetic = state.kinetic_energy();
         if self.is_sound(kinetic) {
             Ok(kinetic)
         } else {
-            Err(Problem::TooFast(kinetic))
+            Err(FailureKind::TooFast(kinetic))
         }
     }
 
@@ -155,13 +155,13 @@ impl Split for Probe<'_> {
     }
 }
 
-impl Agitate for Probe<'_> {
+impl Thermostat for Probe<'_> {
     fn bodies(&self) -> (usize, usize) {
         self.system.bodies()
     }
 
-    fn agitate(&mut self, points: &Vectors, frames: &Vectors) {
-        self.system.agitate(points, frames);
+    fn add_thermal_impulses(&mut self, points: &Vectors, frames: &Vectors) {
+        self.system.add_thermal_impulses(points, frames);
     }
 }
 

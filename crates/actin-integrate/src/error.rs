@@ -1,7 +1,7 @@
 //! The error of all of this crate's tasks.
 
 use crate::{
-    BathError, CompositionError, DragError, FrequencyError, RunError, RunFailure, StepError,
+    BathError, CompositionError, DragError, FrequencyError, RunFailure, RunSettingError, StepError,
     StopRuleError, UnknownScheme,
 };
 use thiserror::Error;
@@ -34,7 +34,7 @@ pub enum IntegrationError {
     Step(#[from] StepError),
     /// A setting of a run was refused.
     #[error(transparent)]
-    Run(#[from] RunError),
+    Run(#[from] RunSettingError),
     /// A run broke.
     #[error(transparent)]
     Failure(#[from] RunFailure),

@@ -2,8 +2,8 @@
 
 use crate::diagnosis::{Probe, Watch, blame, broken_energy};
 use crate::{
-    Body, Checkpoint, Mark, Moment, Observer, Outcome, Pause, Problem, Reason, Residual, Run,
-    RunFailure,
+    Body, Checkpoint, FailureKind, Mark, Moment, Observer, Pause, Reason, Residual, Run,
+    RunFailure, RunOutcome,
 };
 use actin_mechanics::{Split, State, System};
 use std::ops::ControlFlow;
@@ -67,7 +67,7 @@ impl<'a, 'o> Execution<'a, 'o> {
         }
     }
 
-    pub(crate) fn run(mut self) -> Result<Outcome, RunFailure> {
+    pub(crate) fn run(mut self) -> Result<RunOutcome, RunFailure> {
         // What the start moves at says nothing about what the loads will do to it.
         if let Err(problem) = self.inspect(true) {
             return Err(self.fail(problem));
@@ -85,7 +85,7 @@ impl<'a, 'o> Execution<'a, 'o> {
     }
 
     /// Goes on from a checkpoint, which may be that of the end.
-    pub(crate) fn run_on(mut self) -> Result<Outcome, RunFailure> {
+    pub(crate) fn run_on(mut self) -> Result<RunOutcome, RunFailure> {
         // The start of a continuation has not been shown, and no stop rule has seen it.
         let is_observed = self.step == self.last_good.step
             && (self.step > self.run.first_step || self.run.first_step == 0);
@@ -104,7 +104,7 @@ impl<'a, 'o> Execution<'a, 'o> {
         self.go_on(ended)
     }
 
-    fn go_on(mut self, mut ended: Option<Reason>) -> Result<Outcome, RunFailure> {
+    fn go_on(mut self, mut ended: Option<Reason>) -> Result<RunOutcome, RunFailure> {
         let end = self.end();
         while ended.is_none() {
             self.advance_to(self.next_check(end));
@@ -153,7 +153,7 @@ impl<'a, 'o> Execution<'a, 'o> {
 
     /// The kinetic energy (pN nm) of the state, or what is wrong with it or, if asked for, with its
     /// `whole` energy. Changes nothing.
-    fn inspect(&self, whole: bool) -> Result<f64, Problem> {
+    fn inspect(&self, whole: bool) -> Result<f64, FailureKind> {
         let kinetic = self.watch.inspect(self.system.state())?;
         if whole {
             self.inspect_energy()?;
@@ -162,7 +162,7 @@ impl<'a, 'o> Execution<'a, 'o> {
     }
 
     /// Whether there is more energy than there can be, or none that is a number.
-    fn inspect_energy(&self) -> Result<(), Problem> {
+    fn inspect_energy(&self) -> Result<(), FailureKind> {
         let limit = self.run.energy_limit;
         if limit == f64::INFINITY {
             return Ok(());
@@ -171,7 +171,7 @@ impl<'a, 'o> Execution<'a, 'o> {
         if energy.is_finite() && energy <= limit {
             Ok(())
         } else {
-            Err(Problem::TooMuchEnergy(energy))
+            Err(FailureKind::TooMuchEnergy(energy))
         }
     }
 
@@ -248,12 +248,12 @@ impl<'a, 'o> Execution<'a, 'o> {
         }
     }
 
-    fn outcome(mut self, reason: Reason) -> Outcome {
+    fn outcome(mut self, reason: Reason) -> RunOutcome {
         if reason != Reason::Interrupted {
             self.show_pause(|observer, end| observer.finish(end));
         }
         let (force, torque) = self.system.residual();
-        Outcome {
+        RunOutcome {
             reason,
             steps: self.step - self.run.first_step,
             time: self.run.time(self.step),
@@ -264,9 +264,9 @@ impl<'a, 'o> Execution<'a, 'o> {
     }
 
     /// Finds the step, the body and the term to blame, and puts the last good state back.
-    fn fail(&mut self, problem: Problem) -> RunFailure {
+    fn fail(&mut self, problem: FailureKind) -> RunFailure {
         let problem = match problem {
-            Problem::TooMuchEnergy(_) => self.retrace(problem),
+            FailureKind::TooMuchEnergy(_) => self.retrace(problem),
             _ => problem,
         };
         let (problem, before) = self.replay(problem);
@@ -274,7 +274,7 @@ impl<'a, 'o> Execution<'a, 'o> {
         let (body, term) = self
             .probe(&before)
             .or_else(|| match problem {
-                Problem::TooMuchEnergy(energy) if !energy.is_finite() => {
+                FailureKind::TooMuchEnergy(energy) if !energy.is_finite() => {
                     broken_energy(self.system.interactions(), &broken)
                 }
                 _ => None,
@@ -302,7 +302,7 @@ impl<'a, 'o> Execution<'a, 'o> {
 
     /// Repeats the way from the last observation, up to the first check with too much energy, which
     /// only observations look for. Returns what is wrong there; `sound` is the check before.
-    fn retrace(&mut self, found: Problem) -> Problem {
+    fn retrace(&mut self, found: FailureKind) -> FailureKind {
         let found_step = self.step;
         self.last_good.restore(self.system);
         self.step = self.last_good.step;
@@ -320,9 +320,9 @@ impl<'a, 'o> Execution<'a, 'o> {
     /// Repeats the way from the last check step by step, up to the first unsound state, so that
     /// the report names the step at which it broke. Returns what is wrong and the state one
     /// step before; leaves the system and `self.step` at the break.
-    fn replay(&mut self, found: Problem) -> (Problem, State) {
+    fn replay(&mut self, found: FailureKind) -> (FailureKind, State) {
         let (found_step, broken) = (self.step, self.system.state().clone());
-        let whole = matches!(found, Problem::TooMuchEnergy(_));
+        let whole = matches!(found, FailureKind::TooMuchEnergy(_));
         self.step = self.sound.0;
         self.system.state_mut().clone_from(&self.sound.1);
         let mut before = self.sound.1.clone();

@@ -23,7 +23,7 @@ impl fmt::Display for Body {
 
 /// What is wrong with a state.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum Problem {
+pub enum FailureKind {
     /// A position, velocity, orientation or angular momentum is not a finite number.
     #[error("the state is no longer finite")]
     NotFinite,
@@ -57,7 +57,7 @@ fn too_much(energy: f64) -> String {
 )]
 pub struct RunFailure {
     /// What went wrong.
-    pub problem: Problem,
+    pub problem: FailureKind,
     /// The step after which it was found.
     pub step: u64,
     /// The time of that step (ns).

@@ -43,12 +43,12 @@ pub use checkpoint::{Checkpoint, Mark, Pause};
 pub use composition::{Composition, CompositionError, Stage, UnknownScheme};
 pub use drag::{Drag, DragError};
 pub use error::IntegrationError;
-pub use failure::{Body, Problem, RunFailure};
+pub use failure::{Body, FailureKind, RunFailure};
 pub use frequency::{FrequencyError, KRYLOV_VECTORS, largest_frequency, largest_frequency_with};
 pub use observer::{Moment, Observer};
-pub use outcome::{Outcome, Reason, Residual};
+pub use outcome::{Reason, Residual, RunOutcome};
 pub use own_split::{SplitMoment, SplitOutcome};
-pub use run::{DEFAULT_CHECK_EVERY, DEFAULT_OBSERVE_EVERY, Run, RunError};
+pub use run::{DEFAULT_CHECK_EVERY, DEFAULT_OBSERVE_EVERY, Run, RunSettingError};
 pub use schemes::{
     FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, SUZUKI_WEIGHT, VEFRL, VELOCITY_VERLET,
 };
@@ -59,6 +59,6 @@ pub use stop::{StopRule, StopRuleError};
 /// The crate of points, frames, loads and interactions that are set in motion.
 pub use actin_mechanics as mechanics;
 pub use actin_mechanics::{
-    Agitate, Frame, Inertia, Interaction, Loads, Point, PointLoad, Split, Spring, Springs, State,
-    System, UnitQuaternion, Vector3, Vectors, Weight,
+    Frame, Inertia, Interaction, Loads, Point, PointLoad, Split, Spring, Springs, State, System,
+    Thermostat, UnitQuaternion, Vector3, Vectors, Weight,
 };

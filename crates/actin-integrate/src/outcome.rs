@@ -22,7 +22,7 @@ pub struct Residual {
 
 /// How a run ended, and what it took.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
+pub struct RunOutcome {
     /// Why the run ended.
     pub reason: Reason,
     /// Steps made by this run.

@@ -1,6 +1,6 @@
 //! Runs of systems of one's own, of which nothing is known but drift, kick and damp.
 
-use crate::{Reason, Run, RunError, advance};
+use crate::{Reason, Run, RunSettingError, advance};
 use actin_mechanics::Split;
 use std::ops::ControlFlow;
 
@@ -63,7 +63,7 @@ impl Run {
         &self,
         system: &mut S,
         mut observe: impl FnMut(SplitMoment<'_, S>) -> ControlFlow<()>,
-    ) -> Result<SplitOutcome, RunError> {
+    ) -> Result<SplitOutcome, RunSettingError> {
         self.ensure_it_needs_no_state()?;
         let before = system.force_evaluations();
         let end = self.first_step + self.steps;
@@ -95,7 +95,7 @@ impl Run {
         })
     }
 
-    fn ensure_it_needs_no_state(&self) -> Result<(), RunError> {
+    fn ensure_it_needs_no_state(&self) -> Result<(), RunSettingError> {
         let settings = [
             (self.bath.is_some(), "a heat bath"),
             (self.stop.is_some(), "a stop rule"),
@@ -106,7 +106,7 @@ impl Run {
             (self.energy_limit < f64::INFINITY, "a limit of the energy"),
         ];
         match settings.into_iter().find(|(is_set, _)| *is_set) {
-            Some((_, setting)) => Err(RunError::NeedsSystem(setting)),
+            Some((_, setting)) => Err(RunSettingError::NeedsSystem(setting)),
             None => Ok(()),
         }
     }
@@ -185,7 +185,7 @@ mod tests {
     fn what_needs_a_state_is_refused() {
         let refused = |run: Run| {
             let result = run.execute_split(&mut ball(), |_| ControlFlow::Continue(()));
-            matches!(result, Err(RunError::NeedsSystem(_)))
+            matches!(result, Err(RunSettingError::NeedsSystem(_)))
         };
         assert!(!refused(run(1)));
         assert!(refused(

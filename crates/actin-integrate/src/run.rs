@@ -2,10 +2,10 @@
 
 use crate::execution::Execution;
 use crate::{
-    Bath, Checkpoint, Composition, Drag, Observer, Outcome, RunFailure, StopRule, advance,
+    Bath, Checkpoint, Composition, Drag, Observer, RunFailure, RunOutcome, StopRule, advance,
     advance_in,
 };
-use actin_mechanics::{Agitate, System};
+use actin_mechanics::{System, Thermostat};
 use thiserror::Error;
 
 /// Steps between two moments shown to observers, unless the caller says otherwise.
@@ -35,7 +35,7 @@ pub struct Run {
 
 /// A setting of a run that was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum RunError {
+pub enum RunSettingError {
     /// The time step is not positive and finite.
     #[error("the time step must be positive and finite, got {0} ns")]
     Step(f64),
@@ -61,9 +61,9 @@ impl Run {
     ///
     /// # Errors
     /// A step that is not positive and finite.
-    pub fn new(scheme: &'static Composition, h: f64, steps: u64) -> Result<Self, RunError> {
+    pub fn new(scheme: &'static Composition, h: f64, steps: u64) -> Result<Self, RunSettingError> {
         if !(h.is_finite() && h > 0.0) {
-            return Err(RunError::Step(h));
+            return Err(RunSettingError::Step(h));
         }
         Ok(Self {
             scheme,
@@ -90,12 +90,12 @@ impl Run {
         scheme: &'static Composition,
         largest_step: f64,
         duration: f64,
-    ) -> Result<Self, RunError> {
+    ) -> Result<Self, RunSettingError> {
         Self::new(scheme, largest_step, 0)?;
         // A quotient that is whole up to round-off shall not cost a step more.
         let steps = (duration / largest_step * (1.0 - 1e-12)).ceil();
         if !(duration > 0.0 && steps <= 9_007_199_254_740_992.0) {
-            return Err(RunError::Duration(duration));
+            return Err(RunSettingError::Duration(duration));
         }
         #[allow(
             clippy::cast_possible_truncation,
@@ -152,7 +152,7 @@ impl Run {
     ///
     /// # Errors
     /// Zero steps.
-    pub fn observing_every(self, steps: u64) -> Result<Self, RunError> {
+    pub fn observing_every(self, steps: u64) -> Result<Self, RunSettingError> {
         let observe_every = at_least_one(steps)?;
         Ok(Self {
             observe_every,
@@ -165,7 +165,7 @@ impl Run {
     ///
     /// # Errors
     /// Zero steps.
-    pub fn checking_every(self, steps: u64) -> Result<Self, RunError> {
+    pub fn checking_every(self, steps: u64) -> Result<Self, RunSettingError> {
         let check_every = at_least_one(steps)?;
         Ok(Self {
             check_every,
@@ -180,9 +180,9 @@ impl Run {
     ///
     /// # Errors
     /// A limit that is not positive.
-    pub fn with_kinetic_limit(self, limit: f64) -> Result<Self, RunError> {
+    pub fn with_kinetic_limit(self, limit: f64) -> Result<Self, RunSettingError> {
         if limit.is_nan() || limit <= 0.0 {
-            return Err(RunError::KineticLimit(limit));
+            return Err(RunSettingError::KineticLimit(limit));
         }
         Ok(Self {
             kinetic_limit: limit,
@@ -201,9 +201,9 @@ impl Run {
     ///
     /// # Errors
     /// A limit that is no number.
-    pub fn with_energy_limit(self, limit: f64) -> Result<Self, RunError> {
+    pub fn with_energy_limit(self, limit: f64) -> Result<Self, RunSettingError> {
         if limit.is_nan() {
-            return Err(RunError::EnergyLimit(limit));
+            return Err(RunSettingError::EnergyLimit(limit));
         }
         Ok(Self {
             energy_limit: limit,
@@ -246,7 +246,7 @@ impl Run {
         &self,
         system: &mut System,
         observers: &mut [&mut dyn Observer],
-    ) -> Result<Outcome, RunFailure> {
+    ) -> Result<RunOutcome, RunFailure> {
         Execution::new(self, system, observers).run()
     }
 
@@ -265,12 +265,12 @@ impl Run {
         checkpoint: &Checkpoint,
         system: &mut System,
         observers: &mut [&mut dyn Observer],
-    ) -> Result<Outcome, RunFailure> {
+    ) -> Result<RunOutcome, RunFailure> {
         Execution::resume(self, checkpoint, system, observers).run_on()
     }
 
     /// Advances `system` by `steps` steps, the first of which has the number `first_step`.
-    pub(crate) fn advance(&self, system: &mut impl Agitate, first_step: u64, steps: u64) {
+    pub(crate) fn advance(&self, system: &mut impl Thermostat, first_step: u64, steps: u64) {
         let (scheme, h) = (self.scheme, self.h);
         match &self.bath {
             None => advance(system, scheme, h, steps, &self.drag),
@@ -284,9 +284,9 @@ impl Run {
     }
 }
 
-fn at_least_one(steps: u64) -> Result<u64, RunError> {
+fn at_least_one(steps: u64) -> Result<u64, RunSettingError> {
     if steps == 0 {
-        return Err(RunError::Interval);
+        return Err(RunSettingError::Interval);
     }
     Ok(steps)
 }

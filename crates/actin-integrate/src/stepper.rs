@@ -2,7 +2,7 @@
 
 use crate::surroundings::{Dragging, Heating, Nothing, Surroundings};
 use crate::{Bath, Composition, Drag, Stage};
-use actin_mechanics::{Agitate, Split};
+use actin_mechanics::{Split, Thermostat};
 
 /// Advances a system by `steps` steps of `h` (ns), and leaves it with positions and momenta at
 /// the same time.
@@ -49,7 +49,7 @@ pub fn advance<S: Split + ?Sized>(
 /// `kT/(m gamma)`. Where there are, the stationary law of positions differs from Boltzmann's by the
 /// error of `scheme` in the energy that it conserves: of order 2 in `b h` for the Verlet methods, of
 /// order 4 for the others.
-pub fn advance_in<S: Agitate + ?Sized>(
+pub fn advance_in<S: Thermostat + ?Sized>(
     system: &mut S,
     scheme: &Composition,
     h: f64,

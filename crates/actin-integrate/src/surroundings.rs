@@ -2,7 +2,7 @@
 
 use crate::noise::{Half, Noise};
 use crate::{Bath, Drag, Stage};
-use actin_mechanics::{Agitate, Split};
+use actin_mechanics::{Split, Thermostat};
 
 /// What happens before and after each conservative step.
 pub(crate) trait Surroundings<S: Split + ?Sized> {
@@ -151,7 +151,7 @@ impl Heating {
 
     /// The exact step of the Ornstein-Uhlenbeck process over half a step: decay by `factors`, and
     /// impulses of the standard deviations `spreads`.
-    fn act<S: Agitate + ?Sized>(
+    fn act<S: Thermostat + ?Sized>(
         &mut self,
         system: &mut S,
         half: Half,
@@ -160,11 +160,11 @@ impl Heating {
     ) {
         self.noise.draw(self.step, half, spreads);
         system.damp(factors.0, factors.1);
-        system.agitate(&self.noise.points, &self.noise.frames);
+        system.add_thermal_impulses(&self.noise.points, &self.noise.frames);
     }
 }
 
-impl<S: Agitate + ?Sized> Surroundings<S> for Heating {
+impl<S: Thermostat + ?Sized> Surroundings<S> for Heating {
     fn before(&mut self, system: &mut S) {
         let rescaled = times(self.spreads, self.halves.rescaling);
         self.act(system, Half::Before, self.halves.before, rescaled);

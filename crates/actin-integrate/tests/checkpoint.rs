@@ -3,7 +3,7 @@
 mod common;
 
 use actin_integrate::{
-    Bath, Checkpoint, Composition, Drag, Moment, Observer, Outcome, Pause, Run, StopRule,
+    Bath, Checkpoint, Composition, Drag, Moment, Observer, Pause, Run, RunOutcome, StopRule,
 };
 use actin_mechanics::{Drive, State, System, Vector3};
 use common::{chain, vibrating_tops};
@@ -88,7 +88,7 @@ impl Observer for Witness {
     }
 }
 
-fn execute(run: &Run, system: &mut System, witness: &mut Witness) -> Outcome {
+fn execute(run: &Run, system: &mut System, witness: &mut Witness) -> RunOutcome {
     run.execute(system, &mut [witness]).unwrap()
 }
 

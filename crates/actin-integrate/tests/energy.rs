@@ -3,8 +3,8 @@
 mod common;
 
 use actin_integrate::{
-    Body, Checkpoint, Moment, Observer, PEFRL, POSITION_VERLET, Pause, Problem, Run, RunError,
-    RunFailure, largest_frequency, stable_step,
+    Body, Checkpoint, FailureKind, Moment, Observer, PEFRL, POSITION_VERLET, Pause, Run,
+    RunFailure, RunSettingError, largest_frequency, stable_step,
 };
 use actin_mechanics::{Interaction, Loads, State, System, Vector3};
 use common::{Springs, chain};
@@ -88,7 +88,7 @@ fn the_first_step_with_too_much_is_named() {
                 let last_good = (step - 1) / observe * observe;
                 assert_eq!((failure.step, failure.last_good_step), (step, last_good));
                 assert_eq!((failure.body, failure.term), (Body::Point(3), "source"));
-                let Problem::TooMuchEnergy(found) = failure.problem else {
+                let FailureKind::TooMuchEnergy(found) = failure.problem else {
                     panic!("{failure}");
                 };
                 assert!(!(found.is_finite() && found <= LIMIT));
@@ -155,12 +155,12 @@ fn strain_at_the_start_counts() {
     let run = Run::new(&PEFRL, h, 10).unwrap().observing_every(5).unwrap();
     let below = run.with_energy_limit(0.5 * energy).unwrap();
     let failure = below.execute(&mut system, &mut []).unwrap_err();
-    assert_eq!(failure.problem, Problem::TooMuchEnergy(energy));
+    assert_eq!(failure.problem, FailureKind::TooMuchEnergy(energy));
     assert_eq!((failure.step, failure.last_good_step), (0, 0));
     let above = run.with_energy_limit(2.0 * energy).unwrap();
     assert!(above.execute(&mut system, &mut []).is_ok());
     let refused = run.with_energy_limit(f64::NAN);
-    assert!(matches!(refused, Err(RunError::EnergyLimit(_))));
+    assert!(matches!(refused, Err(RunSettingError::EnergyLimit(_))));
     let below_all = run.with_energy_limit(f64::NEG_INFINITY).unwrap();
     assert!(below_all.execute(&mut system, &mut []).is_err());
 }

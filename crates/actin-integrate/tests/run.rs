@@ -3,8 +3,8 @@
 mod common;
 
 use actin_integrate::{
-    Body, Drag, Moment, Observer, PEFRL, POSITION_VERLET, Problem, Reason, Run, RunError, StopRule,
-    VEFRL, largest_frequency, stable_step,
+    Body, Drag, FailureKind, Moment, Observer, PEFRL, POSITION_VERLET, Reason, Run,
+    RunSettingError, StopRule, VEFRL, largest_frequency, stable_step,
 };
 use actin_mechanics::{Interaction, Loads, State, System, Vector3};
 use common::{Springs, Torsion, chain, distance, spinning_tops, three_tops, vibrating_tops};
@@ -24,15 +24,18 @@ fn stretched_chain() -> System {
 #[test]
 fn settings_are_validated() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(Run::new(&PEFRL, bad, 1), Err(RunError::Step(_))));
+        assert!(matches!(
+            Run::new(&PEFRL, bad, 1),
+            Err(RunSettingError::Step(_))
+        ));
     }
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e30] {
         let run = Run::over(&PEFRL, 0.1, bad);
-        assert!(matches!(run, Err(RunError::Duration(_))), "{bad}");
+        assert!(matches!(run, Err(RunSettingError::Duration(_))), "{bad}");
     }
     let run = Run::new(&PEFRL, 0.1, 1).unwrap();
-    assert_eq!(run.observing_every(0), Err(RunError::Interval));
-    assert_eq!(run.checking_every(0), Err(RunError::Interval));
+    assert_eq!(run.observing_every(0), Err(RunSettingError::Interval));
+    assert_eq!(run.checking_every(0), Err(RunSettingError::Interval));
     assert!(run.with_kinetic_limit(f64::NAN).is_err());
     assert!(run.with_kinetic_limit(0.0).is_err());
 }
@@ -261,7 +264,7 @@ fn a_frame_that_spins_up_is_found() {
         .execute(&mut system, &mut [])
         .unwrap_err();
     println!("{failure}");
-    assert!(matches!(failure.problem, Problem::TurnsTooFar(_)));
+    assert!(matches!(failure.problem, FailureKind::TurnsTooFar(_)));
     assert!(matches!(failure.body, Body::Frame(0 | 2)));
     assert_eq!((failure.term, failure.last_good_step), ("torsion", 0));
 }
@@ -319,7 +322,7 @@ fn an_unsound_start_is_refused() {
         .unwrap()
         .execute(&mut system, &mut [])
         .unwrap_err();
-    assert_eq!((failure.step, failure.problem), (0, Problem::NotFinite));
+    assert_eq!((failure.step, failure.problem), (0, FailureKind::NotFinite));
     assert!(matches!(failure.body, Body::Point(1..=3)));
 }
 
@@ -331,7 +334,7 @@ fn kinetic_limit() {
     let run = Run::new(&PEFRL, 0.01, 10).unwrap();
     let below = run.with_kinetic_limit(0.5 * kinetic).unwrap();
     let failure = below.execute(&mut system, &mut []).unwrap_err();
-    assert_eq!(failure.problem, Problem::TooFast(kinetic));
+    assert_eq!(failure.problem, FailureKind::TooFast(kinetic));
     let above = run.with_kinetic_limit(100.0 * kinetic).unwrap();
     assert!(above.execute(&mut system, &mut []).is_ok());
 }

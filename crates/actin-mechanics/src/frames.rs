@@ -141,7 +141,7 @@ impl Frames {
 
     /// Adds to each component of each body angular momentum `deviates` times the root of the
     /// moment about that axis; nothing to those of held frames.
-    pub(crate) fn agitate(&mut self, deviates: &Vectors) {
+    pub(crate) fn add_thermal_impulses(&mut self, deviates: &Vectors) {
         let (l, excess) = (&mut self.angular_momentum, &self.excess);
         for (l, excess, d) in [
             (&mut l.x, &excess.x, &deviates.x),

@@ -127,7 +127,7 @@ impl Points {
     }
 
     /// Adds to each velocity `deviates / sqrt(mass)`; nothing to those of held points.
-    pub(crate) fn agitate(&mut self, deviates: &Vectors) {
+    pub(crate) fn add_thermal_impulses(&mut self, deviates: &Vectors) {
         let v = &mut self.velocity;
         for (v, d) in [
             (&mut v.x, &deviates.x),

@@ -87,7 +87,7 @@ impl Slider {
 
     /// Adds to the velocity along the `k`-th direction component `k` of the first point's
     /// `deviates` over the root of the whole mass.
-    pub(crate) fn agitate(&self, velocity: &mut Vectors, deviates: &Vectors) {
+    pub(crate) fn add_thermal_impulses(&self, velocity: &mut Vectors, deviates: &Vectors) {
         let deviate = deviates.get(self.points[0]);
         let along = self.directions.iter().zip(deviate.iter());
         let gain: Vector3 = along.map(|(d, xi)| d * (xi / self.mass.sqrt())).sum();

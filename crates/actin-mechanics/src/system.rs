@@ -20,7 +20,7 @@ pub trait Split {
 }
 
 /// What a heat bath may do to a system besides damping it.
-pub trait Agitate: Split {
+pub trait Thermostat: Split {
     /// Number of points and of frames, held ones included.
     fn bodies(&self) -> (usize, usize);
 
@@ -30,7 +30,7 @@ pub trait Agitate: Split {
     /// velocity gains `d / sqrt(m)` (lab frame) and each angular momentum `d_a sqrt(I_a)` about its
     /// body axis `a`. Held bodies gain nothing; a body that slides gains, along its `k`-th
     /// direction, component `k` of its first point's `d` over the root of its whole mass.
-    fn agitate(&mut self, points: &Vectors, frames: &Vectors);
+    fn add_thermal_impulses(&mut self, points: &Vectors, frames: &Vectors);
 }
 
 /// What moves held bodies and controls as time goes.
@@ -230,18 +230,18 @@ impl Split for System {
     }
 }
 
-impl Agitate for System {
+impl Thermostat for System {
     fn bodies(&self) -> (usize, usize) {
         (self.state.points.len(), self.state.frames.len())
     }
 
-    fn agitate(&mut self, points: &Vectors, frames: &Vectors) {
+    fn add_thermal_impulses(&mut self, points: &Vectors, frames: &Vectors) {
         let state = &mut self.state;
-        state.points.agitate(points);
+        state.points.add_thermal_impulses(points);
         for slider in &state.sliders {
-            slider.agitate(&mut state.points.velocity, points);
+            slider.add_thermal_impulses(&mut state.points.velocity, points);
         }
-        state.frames.agitate(frames);
+        state.frames.add_thermal_impulses(frames);
     }
 }
 
@@ -334,7 +334,7 @@ mod tests {
     fn impulses_meet_the_free_bodies_by_the_root_of_their_inertia() {
         let mut system = bodies();
         let ones: Vectors = (0..4).map(|_| Vector3::repeat(1.0)).collect();
-        system.agitate(&ones, &ones);
+        system.add_thermal_impulses(&ones, &ones);
         let state = system.state();
         let v = |i| state.points.velocity.get(i);
         assert_eq!((v(0), v(1)), (Vector3::repeat(0.5), Vector3::zeros()));

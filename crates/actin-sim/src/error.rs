@@ -1,6 +1,6 @@
 //! The error of all that a scene goes through.
 
-use crate::{CheckpointError, Problem, RunDirectoryError, RunError, SceneError};
+use crate::{CheckpointError, RunDirectoryError, RunError, SceneError, SceneProblem};
 use thiserror::Error;
 
 /// Why a scene could not be read, built, run or written: what any of these steps may return, for
@@ -13,7 +13,7 @@ pub enum SimError {
     Scene(#[from] SceneError),
     /// A scene cannot be built.
     #[error(transparent)]
-    Problem(#[from] Problem),
+    SceneProblem(#[from] SceneProblem),
     /// A run broke.
     #[error(transparent)]
     Run(#[from] RunError),

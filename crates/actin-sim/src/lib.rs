@@ -50,9 +50,9 @@ pub use run::{
 };
 pub use scene::fitted::laws as fitted_laws;
 pub use scene::{
-    Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, Drag, Dynamics, End, Equilibrium, Filament,
-    ForceLaw, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Linker, LinkerSite,
-    Load, Material, Monomers, Problem, RodLaw, RodLaws, RodModel, Scene, SceneError, Section,
-    Setting, ShearLaw, Slides, Stage, StopRule, StretchLaw, Task, Thermal, TwistLaw, TwistRise,
-    TwistStretchLaw,
+    Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, DragRates, Dynamics, End, Equilibrium,
+    Filament, ForceLaw, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Linker,
+    LinkerSite, Load, Material, Monomers, RodLaw, RodLaws, RodModel, Scene, SceneError,
+    SceneProblem, Section, Setting, ShearLaw, Slides, Stage, StopTolerances, StretchLaw, Task,
+    Thermal, TwistLaw, TwistRise, TwistStretchLaw,
 };

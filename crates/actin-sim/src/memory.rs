@@ -1,7 +1,7 @@
 //! How much memory a scene takes, estimated from its numbers before any of it is allocated, and how
 //! much the machine has. Nothing but a refusal follows from the latter.
 
-use crate::scene::{ForceLaw, Problem, RodLaw, RodModel, Task};
+use crate::scene::{ForceLaw, RodLaw, RodModel, SceneProblem, Task};
 use actin_mechanics::State;
 use std::fs;
 use std::sync::OnceLock;
@@ -91,7 +91,7 @@ pub(crate) fn check(
     bytes: f64,
     (key, value): (&str, String),
     what: impl FnOnce() -> String,
-) -> Result<(), Problem> {
+) -> Result<(), SceneProblem> {
     let machine = machine();
     if bytes <= machine.unwrap_or(ASSUMED) {
         return Ok(());
@@ -102,7 +102,7 @@ pub(crate) fn check(
     );
     let (what, need) = (what(), in_words(bytes));
     let rule = format!("{what} about {need} of memory, more than {there_is}");
-    Err(Problem::new(key, value, rule))
+    Err(SceneProblem::new(key, value, rule))
 }
 
 /// An amount of memory in words.

@@ -6,7 +6,7 @@
 
 use crate::scene::{Anchors, Material, Monomers, RodLaw, RodModel, Task};
 use crate::{Assembly, Outcome, Record, shape};
-use actin_ellipsoid::{Certificate, Cubature, EllipsoidParameters, InterfaceKind};
+use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
 
 /// Persistence length (um) and twisting rigidity (pN nm^2) of free filaments of 110 nm at 298 K, from
 /// turns of cross-sections 22 to 66 nm apart; standard errors are 0.1 um and 0.5e2 pN nm^2 (monomers:
@@ -97,7 +97,7 @@ fn few_bonds(monomers: &Monomers, kind: InterfaceKind) -> Option<String> {
     }
     let parameters = EllipsoidParameters::from(monomers);
     let found = Cubature::of(&parameters, kind).ok()?;
-    let Certificate { residual, .. } = found.certificate;
+    let MomentCheck { residual, .. } = found.certificate;
     (!found.certificate.meets_moments()).then(|| {
         format!(
             "{} weighted bonds for a {kind} interface are too few to stand for all: a moment is off by \

@@ -3,7 +3,8 @@
 use super::row::Outcome;
 use actin_mechanics::Vector3;
 use actin_sim::{
-    Assembly, End, Failure, Load, Plan, Problem, RunError, Scene, SceneError, Status, Trajectory,
+    Assembly, End, Failure, Load, Plan, RunError, Scene, SceneError, SceneProblem, Status,
+    Trajectory,
 };
 
 /// Parts of a scene; what is empty is left out.
@@ -115,7 +116,7 @@ fn run_to_saddle(text: &str) -> Result<Ran, Outcome> {
     Ok(Ran { assembly, report })
 }
 
-fn refused(problem: &Problem, text: &str) -> Outcome {
+fn refused(problem: &SceneProblem, text: &str) -> Outcome {
     Outcome::Refused(SceneError::locate(problem, text).to_string())
 }
 

@@ -1,6 +1,6 @@
 //! What the library says to the text of a scene: reading, building, estimating and running.
 
-use actin_sim::{Assembly, Plan, Problem, RunError, Scene, SceneError, Trajectory};
+use actin_sim::{Assembly, Plan, RunError, Scene, SceneError, SceneProblem, Trajectory};
 
 /// Most steps of a motion that is run; a longer one is looked at by its estimate alone.
 const MOST_STEPS: u64 = 2_000;
@@ -26,7 +26,7 @@ pub(crate) fn verdict(text: &str) -> Verdict {
         Ok(scene) => scene,
         Err(error) => return Verdict::Refused(error),
     };
-    let refused = |problem: &Problem| Verdict::Refused(SceneError::locate(problem, text));
+    let refused = |problem: &SceneProblem| Verdict::Refused(SceneError::locate(problem, text));
     let assembly = match Assembly::build(&scene) {
         Ok(assembly) => assembly,
         Err(problem) => return refused(&problem),

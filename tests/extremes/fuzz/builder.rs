@@ -3,7 +3,7 @@
 use super::config;
 use actin_mechanics::Loads;
 use actin_mechanics::testing::{Noise, perturb};
-use actin_sim::{Assembly, Problem, Scene};
+use actin_sim::{Assembly, Scene, SceneProblem};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 
@@ -124,7 +124,7 @@ fn scene() -> impl Strategy<Value = String> {
 }
 
 /// Builds the scene, estimates its step and evaluates its loads as built and shaken.
-fn evaluate(text: &str) -> Result<(), Problem> {
+fn evaluate(text: &str) -> Result<(), SceneProblem> {
     let Ok(scene) = Scene::from_ron(text) else {
         return Ok(());
     };

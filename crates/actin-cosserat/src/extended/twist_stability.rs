@@ -51,7 +51,7 @@ impl SegmentLaw {
     /// let rest = Vector3::zeros();
     /// let critical = law.critical_tension(&material, rest, rest).unwrap();
     /// assert!((critical + 13.80).abs() < 0.02);
-    /// # Ok::<(), actin_cosserat::ParameterError>(())
+    /// # Ok::<(), actin_cosserat::RodParameterError>(())
     /// ```
     pub fn critical_tension(
         &self,

@@ -1,7 +1,7 @@
 //! How a rod resists bending.
 
 use super::Stiffening;
-use crate::ParameterError;
+use crate::RodParameterError;
 use actin_mechanics::{Matrix3, Vector3};
 
 /// A law of bending: couples about d1 and d2, and what bending does to the twist.
@@ -18,11 +18,11 @@ impl BendLaw {
     ///
     /// # Errors
     /// What the law's own `validate` refuses, or a constant that is not positive.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    pub fn validate(&self) -> Result<(), RodParameterError> {
         match self {
             Self::Constant([b1, b2]) => {
-                ParameterError::unless_positive("B1", *b1)?;
-                ParameterError::unless_positive("B2", *b2)
+                RodParameterError::unless_positive("B1", *b1)?;
+                RodParameterError::unless_positive("B2", *b2)
             }
             Self::Stiffening(law) => law.validate(),
         }

@@ -1,6 +1,6 @@
 //! The published form of a natural length that depends on the twist.
 
-use crate::{ParameterError, constants};
+use crate::{RodParameterError, constants};
 
 /// Natural over rest length, a polynomial of the twist `k` (rad/nm): `xi(k) = 1 + sum p_i k^i`.
 ///
@@ -57,13 +57,13 @@ impl PolynomialStretch {
     ///
     /// # Errors
     /// A coefficient that is not finite or a range that is not positive.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    pub fn validate(&self) -> Result<(), RodParameterError> {
         if self.range.is_nan() || self.range <= 0.0 {
             let (key, value, rule) = ("range", self.range, "positive");
-            return Err(ParameterError { key, value, rule });
+            return Err(RodParameterError { key, value, rule });
         }
         let mut coefficients = self.coefficients.iter();
-        coefficients.try_for_each(|p| ParameterError::unless_finite("p", *p))
+        coefficients.try_for_each(|p| RodParameterError::unless_finite("p", *p))
     }
 
     /// `xi - 1`, its first and its second derivative at `k` (rad/nm).

@@ -1,6 +1,6 @@
 //! A natural length that bends from one slope in the twist to another.
 
-use crate::ParameterError;
+use crate::RodParameterError;
 
 /// Natural over rest length with a slope on either side of rest.
 ///
@@ -30,16 +30,16 @@ impl RootedStretch {
     ///
     /// # Errors
     /// A `half` or range that is not positive; any other number that is not finite.
-    pub fn validate(&self) -> Result<(), ParameterError> {
-        ParameterError::unless_positive("half", self.half)?;
-        ParameterError::unless_positive("range", self.range)?;
+    pub fn validate(&self) -> Result<(), RodParameterError> {
+        RodParameterError::unless_positive("half", self.half)?;
+        RodParameterError::unless_positive("range", self.range)?;
         [
             ("slope", self.slope),
             ("bend", self.bend),
             ("cubic", self.cubic),
         ]
         .into_iter()
-        .try_for_each(|(key, value)| ParameterError::unless_finite(key, value))
+        .try_for_each(|(key, value)| RodParameterError::unless_finite(key, value))
     }
 
     /// `xi - 1`, its first and its second derivative at `k` (rad/nm).

@@ -1,6 +1,6 @@
 //! How a rod resists shear.
 
-use crate::ParameterError;
+use crate::RodParameterError;
 use nalgebra::{Matrix2, Vector2};
 
 /// The two shear strains of a cross-section, or the two forces.
@@ -24,16 +24,16 @@ impl CubicShear {
     ///
     /// # Errors
     /// Negative or non-finite numbers; no resistance at all.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    pub fn validate(&self) -> Result<(), RodParameterError> {
         let [s1, s2] = self.linear;
         for (key, value) in [("S1", s1), ("S2", s2), ("cubic_shear", self.cubic)] {
             // A cubic part makes up for a linear one that is missing.
             if self.cubic == 0.0 && key != "cubic_shear" {
-                ParameterError::unless_positive(key, value)?;
+                RodParameterError::unless_positive(key, value)?;
             }
             if !(value >= 0.0 && value.is_finite()) {
                 let rule = "finite and not negative";
-                return Err(ParameterError { key, value, rule });
+                return Err(RodParameterError { key, value, rule });
             }
         }
         Ok(())

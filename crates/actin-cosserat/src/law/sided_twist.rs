@@ -1,6 +1,6 @@
 //! A twisting rigidity that rises from its value at rest, differently to either side.
 
-use crate::ParameterError;
+use crate::RodParameterError;
 
 /// A secant twisting rigidity that saturates on either side of rest.
 ///
@@ -36,14 +36,14 @@ pub struct TwistRise {
 }
 
 impl TwistRise {
-    fn validate(&self) -> Result<(), ParameterError> {
-        ParameterError::unless_positive("rise", self.rise)?;
-        ParameterError::unless_positive("half", self.half)?;
+    fn validate(&self) -> Result<(), RodParameterError> {
+        RodParameterError::unless_positive("rise", self.rise)?;
+        RodParameterError::unless_positive("half", self.half)?;
         if self.slow >= 0.0 && self.slow.is_finite() {
             return Ok(());
         }
         let (key, value, rule) = ("slow", self.slow, "finite and not negative");
-        Err(ParameterError { key, value, rule })
+        Err(RodParameterError { key, value, rule })
     }
 
     /// `k^2 + slow k + half^2` for `k >= 0`.
@@ -81,14 +81,14 @@ impl SidedTwist {
     ///
     /// # Errors
     /// A rise, half or range that is not positive; a negative `rest` or `slow`.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    pub fn validate(&self) -> Result<(), RodParameterError> {
         if !(self.rest >= 0.0 && self.rest.is_finite()) {
             let (key, value, rule) = ("rest", self.rest, "finite and not negative");
-            return Err(ParameterError { key, value, rule });
+            return Err(RodParameterError { key, value, rule });
         }
         self.under.validate()?;
         self.over.validate()?;
-        ParameterError::unless_positive("range", self.range)
+        RodParameterError::unless_positive("range", self.range)
     }
 
     #[inline]

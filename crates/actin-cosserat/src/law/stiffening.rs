@@ -1,6 +1,6 @@
 //! Bending that stiffens: with its own curvature, with twist and with shear.
 
-use crate::ParameterError;
+use crate::RodParameterError;
 
 /// A secant bending rigidity that rises from `rest` to `rest + rise`.
 ///
@@ -48,12 +48,12 @@ impl Stiffening {
     ///
     /// # Errors
     /// A rigidity, scale or range that is not positive; a `rise` that is negative.
-    pub fn validate(&self) -> Result<(), ParameterError> {
-        ParameterError::unless_positive("rest", self.rest)?;
-        ParameterError::unless_positive("curvature", self.curvature)?;
+    pub fn validate(&self) -> Result<(), RodParameterError> {
+        RodParameterError::unless_positive("rest", self.rest)?;
+        RodParameterError::unless_positive("curvature", self.curvature)?;
         if !(self.rise >= 0.0 && self.rise.is_finite()) {
             let (key, value, rule) = ("rise", self.rise, "finite and not negative");
-            return Err(ParameterError { key, value, rule });
+            return Err(RodParameterError { key, value, rule });
         }
         let scales = [
             ("twist", self.twist),
@@ -63,7 +63,7 @@ impl Stiffening {
         for (key, value) in scales {
             if value.is_nan() || value <= 0.0 {
                 let rule = "positive";
-                return Err(ParameterError { key, value, rule });
+                return Err(RodParameterError { key, value, rule });
             }
         }
         Ok(())

@@ -1,6 +1,6 @@
 //! How a rod resists stretch.
 
-use crate::ParameterError;
+use crate::RodParameterError;
 
 /// A law of stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,9 +26,9 @@ impl StretchLaw {
     ///
     /// # Errors
     /// A rigidity or a width that is not positive and finite.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    pub fn validate(&self) -> Result<(), RodParameterError> {
         match *self {
-            Self::Constant(s3) => ParameterError::unless_positive("S3", s3),
+            Self::Constant(s3) => RodParameterError::unless_positive("S3", s3),
             Self::Sided {
                 tension,
                 compression,
@@ -39,7 +39,7 @@ impl StretchLaw {
                 ("width", width),
             ]
             .into_iter()
-            .try_for_each(|(key, value)| ParameterError::unless_positive(key, value)),
+            .try_for_each(|(key, value)| RodParameterError::unless_positive(key, value)),
         }
     }
 

@@ -1,7 +1,7 @@
 //! The published form of a twisting rigidity that depends on the twist.
 
 use super::dilogarithm::tanh_energy;
-use crate::{ParameterError, constants};
+use crate::{RodParameterError, constants};
 
 /// A secant twisting rigidity made of three tanh steps.
 ///
@@ -47,20 +47,20 @@ impl TanhTwist {
     /// # Errors
     /// A width `l2`, `l5`, `l7` or a range that is not positive, any number that is not finite,
     /// and a couple that does not grow at the end of the range, where it has to go on.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    pub fn validate(&self) -> Result<(), RodParameterError> {
         let widths = [("lambda 2", 1), ("lambda 5", 4), ("lambda 7", 6)];
         for (key, i) in widths {
-            ParameterError::unless_positive(key, self.lambda[i])?;
+            RodParameterError::unless_positive(key, self.lambda[i])?;
         }
-        ParameterError::unless_positive("range", self.range)?;
+        RodParameterError::unless_positive("range", self.range)?;
         let others = [("b_plus", self.b_plus), ("b_minus", self.b_minus)];
         let lambdas = self.lambda.map(|value| ("lambda", value));
         for (key, value) in others.into_iter().chain(lambdas) {
-            ParameterError::unless_finite(key, value)?;
+            RodParameterError::unless_finite(key, value)?;
         }
         for end in [-self.range, self.range] {
             let key = "slope of the couple at the end of the range";
-            ParameterError::unless_positive(key, self.inner_tangent(end))?;
+            RodParameterError::unless_positive(key, self.inner_tangent(end))?;
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! How the natural length of a rod depends on its twist.
 
 use super::{PolynomialStretch, RootedStretch};
-use crate::ParameterError;
+use crate::RodParameterError;
 
 /// A law of natural over rest length, `xi`, against the twist.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,7 @@ impl TwistStretch {
     ///
     /// # Errors
     /// What the law's own `validate` refuses.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    pub fn validate(&self) -> Result<(), RodParameterError> {
         match self {
             Self::Polynomial(law) => law.validate(),
             Self::Rooted(law) => law.validate(),

@@ -3,7 +3,7 @@
 //! `cargo run -p actin-ellipsoid --example weighted_bonds` prints this table; a test finds it anew.
 
 use super::moments::Site;
-use super::{Certificate, Cubature, CubaturePoint, cache};
+use super::{Cubature, CubaturePoint, MomentCheck, cache};
 use crate::{EllipsoidParameters, InterfaceKind};
 
 /// Relative difference up to which two numbers of a geometry are the same: angles that went through
@@ -12,7 +12,7 @@ const SAME: f64 = 1e-12;
 
 /// Points of one kind of interface.
 struct Known {
-    certificate: Certificate,
+    certificate: MomentCheck,
     /// Place (nm), height (nm), length (nm), weight.
     points: &'static [[f64; 5]],
 }
@@ -73,7 +73,7 @@ pub(super) fn sites(kind: InterfaceKind) -> Vec<(Site, f64)> {
 }
 
 static LATERAL: Known = Known {
-    certificate: Certificate {
+    certificate: MomentCheck {
         residual: 4.205e-5,
         weights: [0.037_123_242_537, 0.140_436_821_151],
         lengths: [0.265_813_910_773, 1.455_406_139_990],
@@ -169,7 +169,7 @@ static LATERAL: Known = Known {
 };
 
 static LONGITUDINAL: Known = Known {
-    certificate: Certificate {
+    certificate: MomentCheck {
         residual: 1.030e-5,
         weights: [0.020_517_527_464, 0.152_829_792_989],
         lengths: [0.233_979_152_871, 2.096_072_452_395],

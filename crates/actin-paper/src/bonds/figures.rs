@@ -2,7 +2,7 @@
 //! filaments on linkers of Figures 5 and 6, the turned one of Figure 7 and the buckled one of Figure 8;
 //! with 140 nm of rod the buckled one of Figure 10. Figure 9 draws Tables 3 and 5 (`study.rs`).
 
-use super::Extent;
+use super::Effort;
 use super::page::Listing;
 use super::study::bar;
 use super::tables::spread;
@@ -59,7 +59,7 @@ const HEADER: [&str; 16] = [
 ];
 
 /// The observables of all variants, mean and standard deviation over samplings.
-pub(super) fn table(extent: Extent) -> Result<Listing, String> {
+pub(super) fn table(effort: Effort) -> Result<Listing, String> {
     let variants = variants();
     let samplings = |variant: &Variant| {
         let few = if variant.monomers.lateral_bonds > 64 {
@@ -67,7 +67,7 @@ pub(super) fn table(extent: Extent) -> Result<Listing, String> {
         } else {
             SAMPLINGS
         };
-        variant.seeds(few.min(extent.samplings))
+        variant.seeds(few.min(effort.samplings))
     };
     let bar = bar(variants.iter().map(|v| samplings(v).len()).sum());
     let mut rows = Vec::new();

@@ -5,7 +5,7 @@
 //! and `phi` goes about it. `next` takes neighbours; `far` takes the slopes between 1/5 and 3/5 of the
 //! length, which the wobble of single monomers does not enter.
 
-use super::Extent;
+use super::Effort;
 use super::page::Listing;
 use super::study::bar;
 use super::variant::Variant;
@@ -173,8 +173,8 @@ fn variants() -> Vec<(Variant, u64)> {
 }
 
 /// Rigidities at room temperature of all variants.
-pub(super) fn table(extent: Extent) -> Result<Listing, String> {
-    let samples = SAMPLES / extent.fraction as usize;
+pub(super) fn table(effort: Effort) -> Result<Listing, String> {
+    let samples = SAMPLES / effort.fraction as usize;
     let variants = variants();
     let replicas = variants.iter().map(|(_, replicas)| *replicas).sum::<u64>();
     let bar = bar(usize::try_from(replicas).unwrap_or(0));

@@ -70,7 +70,7 @@ impl Part {
 
 /// How much is computed.
 #[derive(Clone, Copy, Debug)]
-struct Extent {
+struct Effort {
     /// Samplings of drawn bonds.
     samplings: u64,
     /// Motion and samples are divided by this.
@@ -85,7 +85,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
     let out = &options.out;
     fs::create_dir_all(out).map_err(|e| format!("{}: {e}", out.display()))?;
     let usual = if options.quick { 4 } else { 16 };
-    let extent = Extent {
+    let effort = Effort {
         samplings: options.samplings.unwrap_or(usual),
         fraction: if options.quick { 10 } else { 1 },
     };
@@ -93,11 +93,11 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
     for part in Part::ALL.into_iter().filter(is_wanted) {
         let clock = Instant::now();
         let table = match part {
-            Part::Shortest => study::shortest(extent)?,
-            Part::Weighted => study::weighted(extent)?,
-            Part::Figures => figures::table(extent)?,
-            Part::Motion => motion::table(extent)?,
-            Part::Heat => heat::table(extent)?,
+            Part::Shortest => study::shortest(effort)?,
+            Part::Weighted => study::weighted(effort)?,
+            Part::Figures => figures::table(effort)?,
+            Part::Motion => motion::table(effort)?,
+            Part::Heat => heat::table(effort)?,
         };
         tell(format_args!("{}", table.markdown()));
         tell(format_args!(

@@ -1,7 +1,7 @@
 //! Time step and energy drift: a free filament at room temperature, warmed by a heat bath and then
 //! left alone.
 
-use super::Extent;
+use super::Effort;
 use super::heat::{Filament, steps};
 use super::page::Listing;
 use super::study::bar;
@@ -66,8 +66,8 @@ fn drift(variant: &Variant, share: f64, replica: u64, duration: f64) -> Result<D
 }
 
 /// Frequencies, time steps and drifts of all variants.
-pub(super) fn table(extent: Extent) -> Result<Listing, String> {
-    let duration = RECORDED_NS / f64::from(extent.fraction);
+pub(super) fn table(effort: Effort) -> Result<Listing, String> {
+    let duration = RECORDED_NS / f64::from(effort.fraction);
     let variants = variants();
     let bar = bar(variants.len() * SHARES.len() * usize::try_from(REPLICAS).unwrap_or(0));
     let mut rows = Vec::new();

@@ -1,6 +1,6 @@
 //! Tables 3 to 5 against the shortest bond, and against the number of weighted bonds.
 
-use super::Extent;
+use super::Effort;
 use super::page::Listing;
 use super::tables::{GATES, Measured};
 use super::variant::Variant;
@@ -39,15 +39,15 @@ fn variants() -> Vec<Variant> {
 }
 
 /// Tables 3 to 5 of drawn bonds.
-pub(super) fn shortest(extent: Extent) -> Result<Listing, String> {
+pub(super) fn shortest(effort: Effort) -> Result<Listing, String> {
     let mut rows = Vec::new();
     let variants = variants();
     let bar = bar(variants
         .iter()
-        .map(|v| v.seeds(extent.samplings).len())
+        .map(|v| v.seeds(effort.samplings).len())
         .sum());
     for variant in &variants {
-        let measured = Measured::of(variant, extent.samplings, &|| bar.inc(1))?;
+        let measured = Measured::of(variant, effort.samplings, &|| bar.inc(1))?;
         let m = &variant.monomers;
         let mut row = vec![
             format!("{:.2}", m.min_bond_nm),
@@ -68,15 +68,15 @@ pub(super) fn shortest(extent: Extent) -> Result<Listing, String> {
 }
 
 /// Tables 3 to 5 of weighted bonds, against many and fewer drawn ones.
-pub(super) fn weighted(extent: Extent) -> Result<Listing, String> {
+pub(super) fn weighted(effort: Effort) -> Result<Listing, String> {
     let points = POINTS.map(|points| (Variant::weighted(points, CHOSEN), 1));
     let drawn = [
         (
             Variant::drawn(MANY, CHOSEN),
-            MANY_SAMPLINGS.min(extent.samplings),
+            MANY_SAMPLINGS.min(effort.samplings),
         ),
-        (Variant::drawn(64, CHOSEN), extent.samplings),
-        (Variant::patterned(64, CHOSEN), extent.samplings),
+        (Variant::drawn(64, CHOSEN), effort.samplings),
+        (Variant::patterned(64, CHOSEN), effort.samplings),
     ];
     let all: Vec<(Variant, u64)> = points.into_iter().chain(drawn).collect();
     let bar = bar(all.iter().map(|(v, s)| v.seeds(*s).len()).sum());

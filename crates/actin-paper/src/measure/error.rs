@@ -1,7 +1,7 @@
 //! Why nothing was measured.
 
 use actin_equilibrium::OptionsError;
-use actin_sim::Problem;
+use actin_sim::SceneProblem;
 use thiserror::Error;
 
 /// Why a protocol could not begin. A curve that ends early is no error: it says what is missing.
@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum MeasureError {
     /// The filament, or what is asked of it, breaks a rule.
     #[error(transparent)]
-    Refused(#[from] Problem),
+    Refused(#[from] SceneProblem),
     /// A value at which nothing can be measured.
     #[error("{name} = {value}: must be {rule}")]
     Value {

@@ -6,11 +6,11 @@ use super::row::Row;
 use super::solve;
 use crate::run::run_to_end;
 use actin_mechanics::Vector3;
-use actin_sim::advice::{Setting, scenes, table};
-use actin_sim::cost::Work;
+use actin_sim::advice::{FilamentSetting, scenes, table};
+use actin_sim::cost::Evaluated;
 use actin_sim::{
-    Assembly, Drag, Dynamics, End, Equilibrium, Integrator, Monomers, Outcome, Plan, RodLaw, Scene,
-    Task,
+    Assembly, DragRates, Dynamics, End, Equilibrium, Integrator, Monomers, Outcome, Plan, RodLaw,
+    Scene, Task,
 };
 use rayon::prelude::*;
 
@@ -42,7 +42,7 @@ const LONGEST_NS: f64 = 300.0;
 fn cantilever(monomers: Vec<[f64; 2]>) -> Result<Scene, String> {
     let all = scenes::all();
     let (_, scene) = all.first().ok_or("no scene")?;
-    Ok(Setting::of(monomers, RodLaw::Constant).apply(scene))
+    Ok(FilamentSetting::of(monomers, RodLaw::Constant).apply(scene))
 }
 
 /// A motion that has been run.
@@ -51,7 +51,7 @@ struct Run {
     /// Largest change of the whole energy, over the largest kinetic energy.
     energy_change: f64,
     report: Outcome,
-    work: Work,
+    work: Evaluated,
     dofs: usize,
 }
 
@@ -73,7 +73,7 @@ fn run(scene: &Scene, task: Task) -> Result<Run, String> {
     Ok(Run {
         energy_change: most(&|e| (e.0 - first).abs()) / most(&|e| e.1),
         tips: records.map(|r| (r.time_ns, tip(&r.state))).collect(),
-        work: Work::of(&assembly),
+        work: Evaluated::of(&assembly),
         dofs: assembly.counts().dofs,
         report,
     })
@@ -213,7 +213,7 @@ fn approach(
 ) -> Result<Vec<Row>, String> {
     let integrator = Integrator::PositionVerlet;
     let dynamics = Dynamics {
-        drag: Drag {
+        drag: DragRates {
             translational_per_ns: drag,
             rotational_per_ns: drag,
         },

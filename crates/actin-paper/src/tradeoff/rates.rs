@@ -4,8 +4,8 @@
 use super::solve;
 use crate::Tell;
 use crate::run::run_to_end;
-use actin_sim::advice::{Setting, scenes};
-use actin_sim::cost::Work;
+use actin_sim::advice::{FilamentSetting, scenes};
+use actin_sim::cost::Evaluated;
 use actin_sim::{Assembly, Equilibrium, Integrator, RodLaw, Scene, Task};
 
 /// How often each is measured; the best counts.
@@ -22,11 +22,11 @@ pub(super) fn print(tell: Tell<'_>) -> Result<(), String> {
         .sections
         .last()
         .map_or(0.0, |s| s.span_nm().1);
-    let monomers = Setting::of(vec![[0.0, whole]], RodLaw::Constant).apply(cantilever);
+    let monomers = FilamentSetting::of(vec![[0.0, whole]], RodLaw::Constant).apply(cantilever);
     let rod = |law| {
-        Setting {
+        FilamentSetting {
             segment_nm: 2.5,
-            ..Setting::of(vec![], law)
+            ..FilamentSetting::of(vec![], law)
         }
         .apply(cantilever)
     };
@@ -55,7 +55,7 @@ pub(super) fn print(tell: Tell<'_>) -> Result<(), String> {
 /// in the bath than with drag alone.
 fn noise(scene: &Scene) -> Result<f64, String> {
     let damped = actin_sim::Dynamics {
-        drag: actin_sim::Drag {
+        drag: actin_sim::DragRates {
             translational_per_ns: 1.0,
             rotational_per_ns: 1.0,
         },
@@ -69,7 +69,7 @@ fn noise(scene: &Scene) -> Result<f64, String> {
         ..damped.clone()
     };
     let assembly = Assembly::build(scene).map_err(|e| e.to_string())?;
-    let (counts, work) = (assembly.counts(), Work::of(&assembly));
+    let (counts, work) = (assembly.counts(), Evaluated::of(&assembly));
     let of_step = |task| -> Result<f64, String> {
         let rate = best(scene, &Task::Dynamics(task))?;
         Ok((work.bonds + work.elements) as f64 / rate)
@@ -85,7 +85,7 @@ fn best(scene: &Scene, task: &Task) -> Result<f64, String> {
     let mut best: f64 = 0.0;
     for _ in 0..REPEATS {
         let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
-        let work = Work::of(&assembly);
+        let work = Evaluated::of(&assembly);
         let (_, report) = run_to_end(&mut assembly).map_err(|e| e.to_string())?;
         let steps = report
             .equilibrium

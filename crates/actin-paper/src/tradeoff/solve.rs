@@ -3,8 +3,8 @@
 use super::observe::Observed;
 use super::study::Study;
 use crate::run::run_to_end;
-use actin_sim::advice::Setting;
-use actin_sim::cost::Work;
+use actin_sim::advice::FilamentSetting;
+use actin_sim::cost::Evaluated;
 use actin_sim::{Anchors, Assembly, Counts, Dynamics, Integrator, Plan, Scene, Task};
 use rayon::prelude::*;
 
@@ -31,7 +31,7 @@ pub(super) struct Solved {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MotionCost {
     pub counts: Counts,
-    pub work: Work,
+    pub work: Evaluated,
     /// Evaluations for a ns at the default step of the default integrator.
     pub evaluations_per_ns: f64,
     /// Bonds and elements evaluated in a ns.
@@ -39,7 +39,7 @@ pub(super) struct MotionCost {
 }
 
 /// The scene of a study in one setting, at one of the azimuths of the lattice.
-pub(super) fn scene(study: &Study, setting: &Setting, azimuth: u64) -> Scene {
+pub(super) fn scene(study: &Study, setting: &FilamentSetting, azimuth: u64) -> Scene {
     let mut scene = setting.apply(&study.scene);
     if study.turned {
         scene.filament.monomers.azimuth_deg = azimuth as f64 * 360.0 / study.azimuths as f64;
@@ -54,7 +54,7 @@ pub(super) type Attempt = Result<Solved, String>;
 /// in azimuth where the study turns them.
 pub(super) fn drawn(study: &Study) -> Vec<Attempt> {
     let bonds = Anchors::Independent.usual_bonds();
-    let setting = Setting {
+    let setting = FilamentSetting {
         bonds,
         ..study.settings[0].2.clone()
     };
@@ -88,7 +88,7 @@ pub(super) fn all(study: &Study) -> Vec<Vec<Attempt>> {
 }
 
 /// The lowest equilibrium over the starts of the study.
-pub(super) fn equilibrium(study: &Study, setting: &Setting, azimuth: u64) -> Attempt {
+pub(super) fn equilibrium(study: &Study, setting: &FilamentSetting, azimuth: u64) -> Attempt {
     let scene = scene(study, setting, azimuth);
     lowest(study, &scene).map_err(|e| format!("{}, azimuth {azimuth}: {e}", study.name))
 }
@@ -139,7 +139,10 @@ fn from(study: &Study, scene: &Scene, start_deg: f64) -> Result<Solved, String> 
 }
 
 /// Least time of a short motion per ns (s), at the first azimuth.
-pub(super) fn motion_seconds_per_ns(study: &Study, setting: &Setting) -> Result<f64, String> {
+pub(super) fn motion_seconds_per_ns(
+    study: &Study,
+    setting: &FilamentSetting,
+) -> Result<f64, String> {
     let mut scene = scene(study, setting, 0);
     scene.path.clear();
     scene.task = Task::Dynamics(motion(TIMED_NS, Integrator::default(), None));
@@ -155,7 +158,7 @@ pub(super) fn motion_seconds_per_ns(study: &Study, setting: &Setting) -> Result<
 }
 
 /// What a motion of the scene costs in one setting.
-pub(super) fn motion_cost(study: &Study, setting: &Setting) -> Result<MotionCost, String> {
+pub(super) fn motion_cost(study: &Study, setting: &FilamentSetting) -> Result<MotionCost, String> {
     let mut scene = scene(study, setting, 0);
     scene.path.clear();
     scene.task = Task::Dynamics(motion(1.0, Integrator::default(), None));
@@ -184,7 +187,7 @@ pub(super) fn motion(
         time_step_ns,
         step_safety: 0.5,
         allow_unstable_step: false,
-        drag: actin_sim::Drag::default(),
+        drag: actin_sim::DragRates::default(),
         thermal: None,
         stop: None,
         leave_saddles: 0,

@@ -5,7 +5,7 @@ use super::pareto;
 use super::row::Row;
 use super::solve::{self, MotionCost, Solved};
 use super::study::{Factor, Study};
-use actin_sim::advice::{Setting, table};
+use actin_sim::advice::{FilamentSetting, table};
 use std::io::{self, Write as _};
 
 /// A time is taken again until this much has been spent on it (s), and so often at most.
@@ -57,7 +57,7 @@ pub(super) fn rows(study: &Study) -> Result<Vec<Row>, String> {
     Ok(rows)
 }
 
-fn described(study: &Study, factor: Factor, name: &str, setting: &Setting) -> Row {
+fn described(study: &Study, factor: Factor, name: &str, setting: &FilamentSetting) -> Row {
     Row {
         scene: study.name.to_owned(),
         factor: factor.name().to_owned(),
@@ -95,7 +95,7 @@ fn counted(row: Row, pairs: &[(&Solved, &Solved)], cost: &MotionCost) -> Row {
 
 /// Least time of Newton's method at the first azimuth (s), alone on the machine as far as this
 /// program can see to it.
-fn time(study: &Study, setting: &Setting) -> Option<f64> {
+fn time(study: &Study, setting: &FilamentSetting) -> Option<f64> {
     let (mut spent, mut least) = (0.0, f64::INFINITY);
     for _ in 0..TIMING.1 {
         let wall_s = solve::equilibrium(study, setting, 0).ok()?.wall_s;

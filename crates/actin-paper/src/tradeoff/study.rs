@@ -1,6 +1,6 @@
 //! What is asked of each scene, and which settings it is resolved with.
 
-use actin_sim::advice::{Setting, scenes, table};
+use actin_sim::advice::{FilamentSetting, scenes, table};
 use actin_sim::{JunctionWeight, RodLaw, Scene};
 
 /// What is varied; each has a colour of its own.
@@ -115,7 +115,7 @@ pub(super) struct Study {
 }
 
 /// A setting, its name, and what is varied in it.
-pub(super) type Varied = (Factor, String, Setting);
+pub(super) type Varied = (Factor, String, FilamentSetting);
 
 /// Stretches of monomers, with a name.
 type Stretch = (&'static str, Vec<[f64; 2]>);
@@ -352,7 +352,7 @@ impl Question {
 
     /// The reference, shares under both laws, then one change of the default at a time.
     fn settings(&self, length: f64, quick: bool) -> Vec<Varied> {
-        let whole = Setting::of(vec![[0.0, length]], RodLaw::Constant);
+        let whole = FilamentSetting::of(vec![[0.0, length]], RodLaw::Constant);
         let mut all = vec![(Factor::Reference, "all monomers".into(), whole.clone())];
         for (law, factor) in [
             (RodLaw::Fitted, Factor::ShareFitted),
@@ -362,7 +362,11 @@ impl Question {
             let kept = shares.filter(|(i, _)| !quick || i % 2 == 0 || *i == self.default);
             all.extend(kept.map(|(_, (name, monomers))| {
                 let name = format!("{name}/{law:?}");
-                (factor, name, Setting::of(monomers.clone(), law.clone()))
+                (
+                    factor,
+                    name,
+                    FilamentSetting::of(monomers.clone(), law.clone()),
+                )
             }));
         }
         if !quick {
@@ -375,7 +379,7 @@ impl Question {
     /// The default with one thing changed, and as much resolved elsewhere.
     fn single_changes(&self) -> Vec<Varied> {
         let (name, monomers) = &self.shares[self.default];
-        let default = || Setting::of(monomers.clone(), RodLaw::Fitted);
+        let default = || FilamentSetting::of(monomers.clone(), RodLaw::Fitted);
         let mut changes: Vec<Varied> = Vec::new();
         for segment_nm in SEGMENTS_NM {
             let (mut to, what) = (default(), format!("segments-{segment_nm}"));
@@ -396,16 +400,16 @@ impl Question {
         changes.push((Factor::Junction, "one-attached".into(), one));
         let mut all = named_after(name, changes);
         all.extend(self.places.iter().map(|(name, monomers)| {
-            let setting = Setting::of(monomers.clone(), RodLaw::Fitted);
+            let setting = FilamentSetting::of(monomers.clone(), RodLaw::Fitted);
             (Factor::Place, format!("{name}/Fitted"), setting)
         }));
         all
     }
 
     /// Several changes at once, pure rods, and fewer bonds where all is resolved.
-    fn combinations(&self, whole: &Setting) -> Vec<Varied> {
+    fn combinations(&self, whole: &FilamentSetting) -> Vec<Varied> {
         let (name, monomers) = &self.shares[self.default - 1];
-        let less = || Setting::of(monomers.clone(), RodLaw::Fitted);
+        let less = || FilamentSetting::of(monomers.clone(), RodLaw::Fitted);
         let (mut cheap, mut coarse) = (less(), less());
         (cheap.segment_nm, cheap.bonds) = (5.0, 8);
         (coarse.segment_nm, coarse.attached) = (20.0, 1);
@@ -414,9 +418,9 @@ impl Question {
             (combined, "segments-5+bonds-8".into(), cheap),
             (combined, "segments-20+one-attached".into(), coarse),
         ];
-        let mut fine = Setting::of(Vec::new(), RodLaw::Fitted);
+        let mut fine = FilamentSetting::of(Vec::new(), RodLaw::Fitted);
         fine.segment_nm = 5.0;
-        let constant_shear = Setting::of(Vec::new(), table::constant_shear());
+        let constant_shear = FilamentSetting::of(Vec::new(), table::constant_shear());
         let rods = vec![
             (Factor::Law, "FittedConstantShear".into(), constant_shear),
             (combined, "Fitted+segments-5".into(), fine),
@@ -429,8 +433,8 @@ impl Question {
 }
 
 /// A setting with other numbers of weighted bonds.
-fn fewer_bonds(setting: &Setting) -> Vec<Varied> {
-    let with = |bonds| Setting {
+fn fewer_bonds(setting: &FilamentSetting) -> Vec<Varied> {
+    let with = |bonds| FilamentSetting {
         bonds,
         ..setting.clone()
     };

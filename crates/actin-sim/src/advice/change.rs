@@ -1,11 +1,11 @@
 //! The change of a scene that saves most, out of those whose error was measured.
 
 use super::like::length;
-use super::{AT_MOST, Measured, Setting, scenes, table};
+use super::{AT_MOST, FilamentSetting, Measured, scenes, table};
 use crate::cost::Cost;
 use crate::run::estimate_at;
 use crate::scene::{
-    Drag, Dynamics, Equilibrium, Integrator, Problem, RodLaw, Scene, Section, Task,
+    DragRates, Dynamics, Equilibrium, Integrator, RodLaw, Scene, SceneProblem, Section, Task,
 };
 use crate::{Assembly, Estimate, Plan};
 use actin_integrate::SAFETY;
@@ -83,7 +83,7 @@ fn is_small(error: Option<f64>) -> bool {
     error.is_some_and(|error| error <= AT_MOST)
 }
 
-fn seconds(scene: &Scene) -> Result<f64, Problem> {
+fn seconds(scene: &Scene) -> Result<f64, SceneProblem> {
     scene.validate()?;
     Ok(Plan::new(&Assembly::build(scene)?)?.cost().seconds.total())
 }
@@ -125,7 +125,7 @@ fn in_words(law: &str) -> &str {
 
 /// The length of segments, where it is not that of a scene that leaves it out.
 fn segments(row: &Measured) -> String {
-    let default = Setting::of(Vec::new(), RodLaw::default()).segment_nm;
+    let default = FilamentSetting::of(Vec::new(), RodLaw::default()).segment_nm;
     if (row.segment_nm - default).abs() < 1e-9 {
         return String::new();
     }
@@ -141,13 +141,13 @@ fn stretches(gone: &[[f64; 2]]) -> String {
 }
 
 /// Whether rods, if there are any, stay what they are.
-fn same_rods(scene: &Scene, from: &Setting, to: &Setting) -> bool {
+fn same_rods(scene: &Scene, from: &FilamentSetting, to: &FilamentSetting) -> bool {
     let is_rod = |section: &Section| matches!(section, Section::Rod { .. });
     !scene.filament.sections.iter().any(is_rod) || from.law == to.law
 }
 
 /// How a scene is resolved; `None` if not as a setting can say.
-fn present(scene: &Scene) -> Option<Setting> {
+fn present(scene: &Scene) -> Option<FilamentSetting> {
     let filament = &scene.filament;
     let monomers = filament
         .sections
@@ -157,11 +157,11 @@ fn present(scene: &Scene) -> Option<Setting> {
             Section::Rod { .. } => None,
         });
     let bonds = filament.monomers.lateral_bonds;
-    (filament.monomers.longitudinal_bonds == bonds).then(|| Setting {
+    (filament.monomers.longitudinal_bonds == bonds).then(|| FilamentSetting {
         bonds,
         weight: filament.junction.weight,
         attached: filament.junction.attached_monomers,
-        ..Setting::of(monomers.collect(), filament.rod.law.clone())
+        ..FilamentSetting::of(monomers.collect(), filament.rod.law.clone())
     })
 }
 
@@ -193,7 +193,7 @@ fn at_rest(scene: &Scene) -> Option<Candidate> {
     let Task::Dynamics(dynamics) = &scene.task else {
         return None;
     };
-    if dynamics.stop.is_none() || dynamics.drag == Drag::default() {
+    if dynamics.stop.is_none() || dynamics.drag == DragRates::default() {
         return None;
     }
     let mut changed = scene.clone();

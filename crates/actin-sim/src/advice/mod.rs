@@ -10,10 +10,10 @@ mod setting;
 pub mod table;
 
 pub use change::{Change, Expected, SLOW_MOTION};
-pub use setting::Setting;
+pub use setting::FilamentSetting;
 pub use table::Measured;
 
-use crate::scene::{Problem, Scene};
+use crate::scene::{Scene, SceneProblem};
 use crate::{Assembly, Estimate, Plan};
 use std::fmt;
 
@@ -35,7 +35,7 @@ impl Advice {
     ///
     /// # Errors
     /// A scene that cannot be built, or whose time step is refused.
-    pub fn of(scene: &Scene) -> Result<Self, Problem> {
+    pub fn of(scene: &Scene) -> Result<Self, SceneProblem> {
         scene.validate()?;
         let assembly = Assembly::build(scene)?;
         Ok(Plan::new(&assembly)?.advice())
@@ -131,7 +131,7 @@ mod tests {
     /// advised: a pure rod has nothing to replace.
     #[test]
     fn advice_only_saves() {
-        let mut scene = Setting::of(vec![], RodLaw::Constant).apply(&cantilever());
+        let mut scene = FilamentSetting::of(vec![], RodLaw::Constant).apply(&cantilever());
         let (nothing, like) = (None, Some("cantilever-160"));
         let change = nothing.clone();
         assert_eq!(Advice::of(&scene).unwrap(), Advice { change, like });

@@ -4,7 +4,7 @@ use crate::scene::{JunctionWeight, RodLaw, Scene, Section};
 
 /// How a filament is resolved.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Setting {
+pub struct FilamentSetting {
     /// Stretches of arc length resolved as monomers (nm), in order, apart from each other; the rest
     /// is rod.
     pub monomers: Vec<[f64; 2]>,
@@ -20,7 +20,7 @@ pub struct Setting {
     pub attached: usize,
 }
 
-impl Setting {
+impl FilamentSetting {
     /// Every default of a scene, with these stretches of monomers.
     pub fn of(monomers: Vec<[f64; 2]>, law: RodLaw) -> Self {
         let filament = crate::Monomers::default();
@@ -92,7 +92,7 @@ mod tests {
         let scene = &super::super::scenes::all()[0].1;
         let length = scene.filament.sections[0].span_nm().1;
         let spans = |monomers: Vec<[f64; 2]>| {
-            let scene = Setting::of(monomers, RodLaw::Fitted).apply(scene);
+            let scene = FilamentSetting::of(monomers, RodLaw::Fitted).apply(scene);
             let sections = scene.filament.sections.iter();
             let spans = sections.map(|s| (matches!(s, Section::Rod { .. }), s.span_nm()));
             spans.collect::<Vec<_>>()

@@ -3,7 +3,7 @@
 //! `measured.csv` is `advice.csv` as `cargo xtask tradeoff` writes it; errors are relative, rms over
 //! azimuths of the lattice, against the same filament with every monomer resolved.
 
-use super::Setting;
+use super::FilamentSetting;
 use crate::scene::{JunctionWeight, RodLaw, RodLaws};
 use serde::{Deserialize, Serialize};
 
@@ -46,13 +46,13 @@ pub struct Measured {
 
 impl Measured {
     /// The setting of the row; `None` of a table that is not well formed.
-    pub fn setting(&self) -> Option<Setting> {
+    pub fn setting(&self) -> Option<FilamentSetting> {
         let stretch = |text: &str| {
             let (from, to) = text.split_once('-')?;
             Some([from.parse().ok()?, to.parse().ok()?])
         };
         let stretches = self.monomers_nm.split('+').filter(|text| !text.is_empty());
-        Some(Setting {
+        Some(FilamentSetting {
             monomers: stretches.map(stretch).collect::<Option<_>>()?,
             law: law(&self.law)?,
             segment_nm: self.segment_nm,

@@ -13,7 +13,7 @@ use super::{
     Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Part, PointInfo, Rod, SectionSpan, Term,
     imperfection,
 };
-use crate::scene::{End, HeldEnds, Load, Problem, Scene, Section, path};
+use crate::scene::{End, HeldEnds, Load, Scene, SceneProblem, Section, path};
 use actin_coupling::Linker;
 use actin_mechanics::{Interaction, PointLoad, State, System};
 use strand::{Body, Strand};
@@ -29,7 +29,7 @@ impl Assembly {
     /// # Errors
     /// What only shows when a filament is built: a section without room for its bodies, an
     /// interface that finds no bonds, more bodies than the memory of this machine holds.
-    pub fn build(scene: &Scene) -> Result<Self, Problem> {
+    pub fn build(scene: &Scene) -> Result<Self, SceneProblem> {
         let mut builder = Builder::new(scene)?;
         builder.push_filaments()?;
         builder.hold_ends()?;
@@ -73,7 +73,7 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(scene: &'a Scene) -> Result<Self, Problem> {
+    fn new(scene: &'a Scene) -> Result<Self, SceneProblem> {
         let held = HeldEnds::of(scene);
         let mut first_section = 0;
         let mut strands = Vec::new();
@@ -100,7 +100,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Pushes the bodies of all filaments, then their interactions.
-    fn push_filaments(&mut self) -> Result<(), Problem> {
+    fn push_filaments(&mut self) -> Result<(), SceneProblem> {
         let scene = self.scene;
         for (i, strand) in self.strands.iter_mut().enumerate() {
             let span = strand.push_bodies(&mut self.stock);

@@ -5,7 +5,7 @@
 //! and 1. Which of the two holds depends on the clamps alone, not on what is resolved, so that
 //! resolving more does not move a monomer.
 
-use crate::scene::{Filament, MOST_COUNTED, Problem, Section};
+use crate::scene::{Filament, MOST_COUNTED, SceneProblem, Section};
 
 /// Monomers and places of one section.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,7 +60,10 @@ impl Lattice {
 /// # Errors
 /// Places beyond those that are counted, a section that is left with fewer than two monomers, or a
 /// rod that is left with no length.
-pub(super) fn resolve(filament: &Filament, is_held: [bool; 2]) -> Result<Vec<Resolved>, Problem> {
+pub(super) fn resolve(
+    filament: &Filament,
+    is_held: [bool; 2],
+) -> Result<Vec<Resolved>, SceneProblem> {
     let lattice = Lattice::of(filament, is_held);
     let sections = &filament.sections;
     let last = sections.len() - 1;
@@ -79,13 +82,13 @@ pub(super) fn resolve(filament: &Filament, is_held: [bool; 2]) -> Result<Vec<Res
 }
 
 /// Refuses a boundary that more monomers reach than are told apart.
-fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), Problem> {
+fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), SceneProblem> {
     let sections = &filament.sections;
     let (_, to_nm) = sections[i].span_nm();
     let has_monomers = matches!(sections[i], Section::Ellipsoids { .. });
     let reach = to_nm / lattice.rise_nm;
     if reach > MOST_COUNTED && (has_monomers || sections.len() > 1) {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             format!("filament.sections[{i}].to_nm"),
             format!("{to_nm:?}"),
             format!(
@@ -143,13 +146,13 @@ fn rod(lattice: &Lattice, (i, last): (usize, usize), span: (f64, f64)) -> Resolv
     }
 }
 
-fn check(i: usize, section: &Section, resolved: Resolved) -> Result<Resolved, Problem> {
+fn check(i: usize, section: &Section, resolved: Resolved) -> Result<Resolved, SceneProblem> {
     let key = format!("filament.sections[{i}].to_nm");
     let (_, to_nm) = section.span_nm();
     if let Some((first, last)) = resolved.monomers
         && last - first < 1
     {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             key,
             format!("{to_nm:?}"),
             format!(
@@ -159,7 +162,7 @@ fn check(i: usize, section: &Section, resolved: Resolved) -> Result<Resolved, Pr
         ));
     }
     if resolved.to_nm <= resolved.from_nm {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             key,
             format!("{to_nm:?}"),
             "no length is left for this section once its ends lie at monomers",

@@ -1,11 +1,11 @@
 //! From a scene's rod law to the interaction of a rod.
 
 use super::TwistWatch;
-use crate::scene::{self, ForceLaw, Material, Problem, RodLaw, RodLaws, RodModel, fitted};
+use crate::scene::{self, ForceLaw, Material, RodLaw, RodLaws, RodModel, SceneProblem, fitted};
 use actin_cosserat::{
-    BendLaw, CubicShear, EnergyGradient, JoinedElement, PaperBalance, ParameterError,
-    PolynomialStretch, RodLayout, RodMaterial, RootedStretch, SegmentCurvature, SegmentLaw,
-    SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, constants,
+    BendLaw, CubicShear, EnergyGradient, JoinedElement, PaperBalance, PolynomialStretch, RodLayout,
+    RodMaterial, RodParameterError, RootedStretch, SegmentCurvature, SegmentLaw, SidedTwist,
+    Stiffening, StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, constants,
 };
 use actin_mechanics::Interaction;
 
@@ -18,17 +18,17 @@ pub(super) struct Law {
 
 impl Law {
     /// The law that a scene names.
-    pub(super) fn new(rod: &RodModel) -> Result<Self, Problem> {
+    pub(super) fn new(rod: &RodModel) -> Result<Self, SceneProblem> {
         let extends = !matches!(rod.law, RodLaw::Constant | RodLaw::PublishedExtension);
         if rod.force_law == ForceLaw::PaperBalance && extends {
-            return Err(Problem::new(
+            return Err(SceneProblem::new(
                 "filament.rod.force_law",
                 "PaperBalance",
                 "the printed balance goes with the laws Constant and PublishedExtension alone",
             ));
         }
         if rod.law == RodLaw::Fitted && rod.material != Material::default() {
-            return Err(Problem::new(
+            return Err(SceneProblem::new(
                 "filament.rod.material",
                 format!("{:?}", rod.material),
                 "the law Fitted has a law for every deformation: leave the material out",
@@ -106,11 +106,11 @@ impl Law {
     }
 }
 
-fn refused(part: &'static str) -> impl Fn(ParameterError) -> Problem {
+fn refused(part: &'static str) -> impl Fn(RodParameterError) -> SceneProblem {
     move |error| {
         let key = format!("filament.rod.{part}.{}", written(error.key));
         let value = format!("{:?}", error.value);
-        Problem::new(key, value, format!("must be {}", error.rule))
+        SceneProblem::new(key, value, format!("must be {}", error.rule))
     }
 }
 
@@ -145,13 +145,13 @@ fn written(parameter: &str) -> &str {
 /// A material with or without a law of length against twist.
 type Parts = (RodMaterial, Option<TwistStretch>);
 
-fn published(material: RodMaterial, law: TwistStretch) -> Result<Parts, Problem> {
+fn published(material: RodMaterial, law: TwistStretch) -> Result<Parts, SceneProblem> {
     let twist = TwistLaw::Tanh(TanhTwist::published());
     let material = material.with_twist(twist).map_err(refused("law"))?;
     Ok((material, Some(law)))
 }
 
-fn with_laws(mut material: RodMaterial, laws: &RodLaws) -> Result<Parts, Problem> {
+fn with_laws(mut material: RodMaterial, laws: &RodLaws) -> Result<Parts, SceneProblem> {
     if let Some(bend) = laws.bend {
         check_written(bend)?;
         material = (material.with_bend(bend.into())).map_err(refused("law.bend"))?;
@@ -174,7 +174,7 @@ fn with_laws(mut material: RodMaterial, laws: &RodLaws) -> Result<Parts, Problem
 
 /// An infinite curvature, twist or strain is how the material says that there is none; a scene leaves
 /// the key out.
-fn check_written(law: scene::BendLaw) -> Result<(), Problem> {
+fn check_written(law: scene::BendLaw) -> Result<(), SceneProblem> {
     let scene::BendLaw::Stiffening {
         twist_per_nm,
         shear,
@@ -182,7 +182,7 @@ fn check_written(law: scene::BendLaw) -> Result<(), Problem> {
     } = law;
     for (key, value) in [("twist_per_nm", twist_per_nm), ("shear", shear)] {
         if value.is_some_and(f64::is_infinite) {
-            return Err(Problem::new(
+            return Err(SceneProblem::new(
                 format!("filament.rod.law.bend.{key}"),
                 value.map_or_else(String::new, |v| format!("{v:?}")),
                 "must be finite; left out, it has no effect",

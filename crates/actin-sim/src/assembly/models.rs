@@ -1,10 +1,10 @@
 //! From the parameters of a scene to the models of the crates below.
 
-use crate::scene::{self, End, Hold, Monomers, Problem};
+use crate::scene::{self, End, Hold, Monomers, SceneProblem};
 use actin_cosserat::{RodClamp, RodEnd};
 use actin_ellipsoid::{
-    EllipsoidModel, EllipsoidParameters, InterfaceError, InterfaceKind, InterfaceParameters,
-    ParameterError,
+    EllipsoidModel, EllipsoidParameterError, EllipsoidParameters, InterfaceError, InterfaceKind,
+    InterfaceParameters,
 };
 
 impl From<scene::Anchors> for actin_ellipsoid::Anchors {
@@ -73,16 +73,19 @@ impl From<&EllipsoidParameters> for Monomers {
 
 /// The monomers' model of filament `index`, whose bonds are sampled independently of those of
 /// other filaments; what it refuses is named by the scene's keys.
-pub(super) fn ellipsoids(monomers: &Monomers, index: usize) -> Result<EllipsoidModel, Problem> {
+pub(super) fn ellipsoids(
+    monomers: &Monomers,
+    index: usize,
+) -> Result<EllipsoidModel, SceneProblem> {
     let parameters = EllipsoidParameters {
         sampling: index as u64,
         ..monomers.into()
     };
     EllipsoidModel::new(parameters).map_err(|error| match error {
-        ParameterError::OutOfRange { key, value, rule } => {
-            Problem::new(scene_key(key), value, format!("must be {rule}"))
+        EllipsoidParameterError::OutOfRange { key, value, rule } => {
+            SceneProblem::new(scene_key(key), value, format!("must be {rule}"))
         }
-        ParameterError::NotATop { semi_axes, reason } => Problem::new(
+        EllipsoidParameterError::NotATop { semi_axes, reason } => SceneProblem::new(
             scene_key("semi_axes"),
             format!("{semi_axes:?}"),
             reason.to_string(),
@@ -112,12 +115,12 @@ fn scene_key(parameter: &str) -> String {
 }
 
 /// The problem behind an interface that could not be bonded.
-pub(super) fn unbonded(error: &InterfaceError, monomers: &Monomers) -> Problem {
+pub(super) fn unbonded(error: &InterfaceError, monomers: &Monomers) -> SceneProblem {
     let kind = match error {
         InterfaceError::NoBonds { kind, .. } | InterfaceError::FewBonds { kind, .. } => kind,
         InterfaceError::NoCubature { .. } => {
             let value = format!("{:?}", monomers.anchors);
-            return Problem::new("filament.monomers.anchors", value, error.to_string());
+            return SceneProblem::new("filament.monomers.anchors", value, error.to_string());
         }
     };
     let (key, value) = match kind {
@@ -127,7 +130,7 @@ pub(super) fn unbonded(error: &InterfaceError, monomers: &Monomers) -> Problem {
             monomers.longitudinal_max_bond_nm,
         ),
     };
-    Problem::new(
+    SceneProblem::new(
         format!("filament.monomers.{key}"),
         format!("{value:?}"),
         error.to_string(),

@@ -1,7 +1,7 @@
 //! Turns that segments cannot follow: past half a turn, two neighbours forget which way they came.
 
 use super::Assembly;
-use crate::scene::{End, Problem, Setting};
+use crate::scene::{End, SceneProblem, Setting};
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
@@ -12,11 +12,11 @@ impl Assembly {
     /// The curvature of a joint is the logarithm of its rotation, which knows angles up to pi
     /// alone: past it a driven joint slips back by a whole turn, and its couple changes sign.
     /// Looked at is uniform twist at the end of each stage; shocks may slip before.
-    pub(crate) fn check_slip(&self) -> Result<(), Problem> {
+    pub(crate) fn check_slip(&self) -> Result<(), SceneProblem> {
         (0..self.filaments.len()).try_for_each(|filament| self.check_slip_of(filament))
     }
 
-    fn check_slip_of(&self, filament: usize) -> Result<(), Problem> {
+    fn check_slip_of(&self, filament: usize) -> Result<(), SceneProblem> {
         let span = &self.filaments[filament];
         let section = span.sections.start;
         let rod = self.rods.binary_search_by_key(&section, |r| r.section);
@@ -43,7 +43,7 @@ impl Assembly {
                      other, {each:.0} deg in a joint of two segments: from 180 deg on it slips; \
                      use more segments"
                 );
-                return Err(Problem::new(
+                return Err(SceneProblem::new(
                     self.key_of_turn(filament, stages - 1),
                     "",
                     rule,

@@ -22,7 +22,7 @@ use std::fmt;
 
 /// What one evaluation of the loads evaluates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Work {
+pub struct Evaluated {
     /// Bonds between monomers.
     pub bonds: usize,
     /// Segments of rods and bonds of junctions.
@@ -33,7 +33,7 @@ pub struct Work {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
     /// What one evaluation evaluates.
-    pub work: Work,
+    pub work: Evaluated,
     /// Evaluations of the loads in a motion, at most; Newton steps of all equilibria, about.
     pub evaluations: u64,
     /// Equilibria of a path, about; one without a path, none of a motion.
@@ -62,7 +62,7 @@ impl Seconds {
     }
 }
 
-impl Work {
+impl Evaluated {
     /// Of an assembled scene.
     pub fn of(assembly: &Assembly) -> Self {
         let each = (0..assembly.filaments.len()).map(|filament| Self::of_one(assembly, filament));
@@ -174,7 +174,7 @@ fn time(seconds: f64) -> String {
 
 /// What a scene is made of, as far as it takes time.
 struct Elements {
-    work: Work,
+    work: Evaluated,
     monomers: f64,
     /// Bonds that are drawn.
     drawn: f64,
@@ -188,7 +188,7 @@ struct Elements {
 impl Elements {
     fn of(assembly: &Assembly) -> Self {
         let mut all = Self {
-            work: Work::default(),
+            work: Evaluated::default(),
             monomers: assembly.counts().monomers as f64,
             drawn: 0.0,
             constant: 0.0,
@@ -197,7 +197,7 @@ impl Elements {
             bodies: (assembly.points.len() + assembly.frames.len()) as f64,
         };
         for (i, filament) in assembly.scene.filaments().enumerate() {
-            let one = Work::of_one(assembly, i);
+            let one = Evaluated::of_one(assembly, i);
             all.work.bonds += one.bonds;
             all.work.elements += one.elements;
             if filament.monomers.anchors != Anchors::Cubature {

@@ -8,7 +8,7 @@ use super::sink::{Saved, Sink};
 use super::steps::Steps;
 use super::{Failure, Outcome, Status};
 use crate::assembly::Ramp;
-use crate::scene::{Dynamics, Integrator, Problem, RodLaw, Scene, StopRule, Task};
+use crate::scene::{Dynamics, Integrator, RodLaw, Scene, SceneProblem, StopTolerances, Task};
 use crate::{Assembly, memory};
 use actin_integrate::{Bath, Composition, Drag, Reason, Run};
 use actin_mechanics::{Split, System};
@@ -50,7 +50,7 @@ impl Integrator {
 ///
 /// # Errors
 /// What [`Plan::new`](super::Plan::new) refuses.
-pub(super) fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, Problem> {
+pub(super) fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, SceneProblem> {
     match &assembly.scene.task {
         Task::Dynamics(dynamics) => estimate_of(assembly, dynamics).map(Some),
         Task::Equilibrium(settings) => {
@@ -60,7 +60,7 @@ pub(super) fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, Problem>
     }
 }
 
-fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Problem> {
+fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
     let mut frequency = frequency_of(assembly)?;
     if let Some(constant) = with_constant_rods(assembly)? {
@@ -70,13 +70,13 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Pro
 }
 
 /// The largest frequency of an assembly as it stands (rad/ns).
-fn frequency_of(assembly: &Assembly) -> Result<f64, Problem> {
+fn frequency_of(assembly: &Assembly) -> Result<f64, SceneProblem> {
     actin_integrate::largest_frequency(&assembly.system).map_err(|error| no_step(&error))
 }
 
 /// What leaves a filament without a time step.
-fn no_step(error: &dyn std::error::Error) -> Problem {
-    Problem::new("filament", error, "has no stable time step")
+fn no_step(error: &dyn std::error::Error) -> SceneProblem {
+    SceneProblem::new("filament", error, "has no stable time step")
 }
 
 /// The same at a largest frequency (rad/ns) that is known: it is that of the filaments, whatever is
@@ -85,7 +85,7 @@ pub(crate) fn estimate_at(
     assembly: &Assembly,
     dynamics: &Dynamics,
     frequency: f64,
-) -> Result<Estimate, Problem> {
+) -> Result<Estimate, SceneProblem> {
     let scheme = dynamics.integrator.composition();
     let limit =
         actin_integrate::stable_step(scheme, frequency, 1.0).map_err(|error| no_step(&error))?;
@@ -109,8 +109,8 @@ pub(crate) fn estimate_at(
 }
 
 /// A time step (ns) above the limit (ns) at a frequency (rad/ns).
-fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Problem {
-    Problem::new(
+fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> SceneProblem {
+    SceneProblem::new(
         "task.time_step_ns",
         format!("{wanted:?}"),
         format!(
@@ -122,7 +122,11 @@ fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Pr
 }
 
 /// Refuses records that would not fit into memory.
-fn check_records(assembly: &Assembly, dynamics: &Dynamics, steps: &Steps) -> Result<(), Problem> {
+fn check_records(
+    assembly: &Assembly,
+    dynamics: &Dynamics,
+    steps: &Steps,
+) -> Result<(), SceneProblem> {
     let records = number_of_records(steps.count, steps.between_records);
     let value = format!(
         "{:?}",
@@ -150,7 +154,7 @@ impl Estimate {
 
 /// The same filaments with rods of constant rigidities, where rods resist shear only once they
 /// are sheared: what they show at rest is not what a motion meets.
-fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, Problem> {
+fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, SceneProblem> {
     let mut scene = assembly.scene.clone();
     let mut changes = false;
     for (i, filament) in scene.filaments_mut().enumerate() {
@@ -181,7 +185,7 @@ pub(super) fn run(
     estimate: &Estimate,
     saved: Option<Saved>,
     sink: &mut dyn Sink,
-) -> Result<(Outcome, Option<Failure>), Problem> {
+) -> Result<(Outcome, Option<Failure>), SceneProblem> {
     let mut system = assembly.system.in_state(assembly.system.state().clone());
     let run = prepare(assembly, &mut system, dynamics, estimate)?;
     let mut recorder = Recorder::new(assembly, dynamics, &system, saved, sink);
@@ -257,7 +261,7 @@ fn prepare(
     system: &mut System,
     dynamics: &Dynamics,
     estimate: &Estimate,
-) -> Result<Run, Problem> {
+) -> Result<Run, SceneProblem> {
     let limit = kinetic_limit(assembly);
     let run = plan(dynamics, estimate)?
         .stopping_from(drive(assembly, system))
@@ -281,9 +285,9 @@ fn drive(assembly: &Assembly, system: &mut System) -> f64 {
 }
 
 /// The run that the scene asks for. Its numbers were validated with the scene.
-fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, Problem> {
+fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
     let refused = |key: &str, error: &dyn std::error::Error| {
-        Problem::new(format!("task.{key}"), "", error.to_string())
+        SceneProblem::new(format!("task.{key}"), "", error.to_string())
     };
     let drag = Drag::new(
         dynamics.drag.translational_per_ns,
@@ -301,7 +305,7 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, Problem> {
             .map(|bath| run.with_bath(bath))
             .map_err(|error| refused("thermal.temperature_k", &error))?,
     };
-    let Some(StopRule {
+    let Some(StopTolerances {
         force_pn,
         torque_pn_nm,
         kinetic_pn_nm,

@@ -6,10 +6,10 @@ use super::taken::Taken;
 use super::unknowns::newton;
 use super::{Failure, Outcome, Progress, Record, RunPosition, Status};
 use crate::Assembly;
-use crate::scene::{Equilibrium as Settings, Load, Problem};
+use crate::scene::{Equilibrium as Settings, Load, SceneProblem};
 use actin_equilibrium::{
-    Certificate, Companion, Ending, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure,
-    PathOptions, PathPoint, Saddles, Work,
+    Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure,
+    PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
 };
 use actin_mechanics::{Loads, State, System, Vector3};
 use std::ops::ControlFlow;
@@ -42,7 +42,7 @@ pub(super) fn run(
     settings: &Settings,
     saved: Option<Saved>,
     sink: &mut dyn Sink,
-) -> Result<(Outcome, Option<Failure>), Problem> {
+) -> Result<(Outcome, Option<Failure>), SceneProblem> {
     let mut newton = newton(assembly, settings)?;
     let mut state = assembly.system.state().clone();
     let mut follower = Follower::new(assembly, settings, saved, sink);
@@ -76,7 +76,7 @@ pub(super) fn run(
 
 /// The first load that is lost in an equilibrium: the forces that are left, be it by rounding of
 /// places or by a loose tolerance, are no longer small beside it.
-fn lost_load(assembly: &Assembly, last: &Record) -> Option<Problem> {
+fn lost_load(assembly: &Assembly, last: &Record) -> Option<SceneProblem> {
     let loads = assembly.scene.loads.iter().enumerate();
     loads.into_iter().find_map(|(i, load)| {
         let Load::EndForce { force_pn, .. } = load;
@@ -89,7 +89,7 @@ fn lost_load(assembly: &Assembly, last: &Record) -> Option<Problem> {
                  and forces no better; a larger load tells more",
                 last.residual_force_pn
             );
-            Problem::new(
+            SceneProblem::new(
                 format!("loads[{i}].force_pn"),
                 format!("{force_pn:?}"),
                 rule,
@@ -106,7 +106,7 @@ fn place(assembly: &Assembly, stages_done: usize) -> String {
     }
 }
 
-fn path(settings: &Settings) -> Result<Path, Problem> {
+fn path(settings: &Settings) -> Result<Path, SceneProblem> {
     let options = PathOptions {
         first_step: settings.largest_step.min(0.1).max(settings.smallest_step),
         smallest_step: settings.smallest_step,
@@ -122,7 +122,7 @@ fn path(settings: &Settings) -> Result<Path, Problem> {
         },
         ..PathOptions::default()
     };
-    Path::new(options).map_err(|error| Problem::new("task", "", error.to_string()))
+    Path::new(options).map_err(|error| SceneProblem::new("task", "", error.to_string()))
 }
 
 /// One run while it is under way.
@@ -153,7 +153,7 @@ impl<'a> Follower<'a> {
             saddles_left: 0,
             jumps: 0,
             last: None,
-            work: Work::default(),
+            work: SolverWork::default(),
         };
         let (position, earlier) = match saved {
             None => (start, Vec::new()),
@@ -185,7 +185,7 @@ impl<'a> Follower<'a> {
         &mut self,
         newton: &mut Newton,
         state: &mut State,
-    ) -> Result<Option<Failure>, Problem> {
+    ) -> Result<Option<Failure>, SceneProblem> {
         let ended = self.follow(newton, state)?;
         if let Some(slip) = self.taken.slip() {
             self.is_interrupted = false;
@@ -251,7 +251,7 @@ impl<'a> Follower<'a> {
         &mut self,
         newton: &mut Newton,
         state: &mut State,
-    ) -> Result<Option<Box<PathFailure>>, Problem> {
+    ) -> Result<Option<Box<PathFailure>>, SceneProblem> {
         state.copy_motion_from(&self.position.state);
         newton.count_on(self.position.work);
         let result = if self.assembly.drive.is_still() {
@@ -293,7 +293,7 @@ impl<'a> Follower<'a> {
                     attempted: 0.0,
                     equilibrium: None,
                     work: failure.work,
-                    trouble: actin_equilibrium::PathTrouble::NoEquilibrium(failure),
+                    cause: actin_equilibrium::PathError::NoEquilibrium(failure),
                     points: 0,
                 }))
             }
@@ -331,7 +331,7 @@ impl<'a> Follower<'a> {
         self.position.saddles_left += equilibrium.saddles_left;
         self.position.last = Some(Arrival {
             certificate: equilibrium.certificate,
-            floor: (equilibrium.ending == Ending::FloorReached)
+            floor: (equilibrium.ending == Convergence::FloorReached)
                 .then_some((equilibrium.floor.force, equilibrium.floor.torque)),
             history: equilibrium
                 .history
@@ -371,7 +371,7 @@ impl<'a> Follower<'a> {
     }
 }
 
-impl Companion for Follower<'_> {
+impl PathObserver for Follower<'_> {
     fn arrive(&mut self, point: &PathPoint<'_>) -> ControlFlow<()> {
         let stage = self.position.stage;
         let u = stage as f64 + point.parameter;
@@ -426,7 +426,7 @@ fn lowest_eigenvalue(newton: &mut Newton, system: &System, state: &State) -> Opt
 fn report(
     position: PathPosition,
     lowest_eigenvalue: Option<f64>,
-    work: Work,
+    work: SolverWork,
 ) -> Option<EquilibriumReport> {
     let last = position.last?;
     last.certificate.map(|certificate| EquilibriumReport {

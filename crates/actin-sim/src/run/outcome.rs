@@ -2,7 +2,7 @@
 
 use super::{EquilibriumReport, SaddlePush, Slip};
 use crate::BeyondUse;
-use crate::scene::Problem;
+use crate::scene::SceneProblem;
 use actin_equilibrium::{Certificate, PathFailure};
 use actin_integrate::RunFailure;
 use serde::{Deserialize, Serialize};
@@ -90,7 +90,7 @@ impl Outcome {
 pub enum RunError {
     /// The scene asks for something that shows as wrong only now.
     #[error(transparent)]
-    Refused(#[from] Problem),
+    Refused(#[from] SceneProblem),
     /// The run began and failed.
     #[error("{}", .0.failure)]
     Failed(Box<FailedRun>),
@@ -117,12 +117,12 @@ pub enum Failure {
     },
     /// Equilibria were reached, but the last does not tell what a load does: which, and in what it is
     /// lost.
-    LoadLost(Problem),
+    LoadLost(SceneProblem),
     /// The run reached its end, but through or in states that are beyond any use: what goes too far, at
     /// least one.
     BeyondUse(Vec<BeyondUse>),
     /// The run ended, but on a saddle: how many negative eigenvalues there are, and what leads off it.
-    Saddle(Problem),
+    Saddle(SceneProblem),
     /// A filament lost twist.
     TwistLost {
         /// When, or in which stage, in words.

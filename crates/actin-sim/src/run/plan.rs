@@ -4,7 +4,7 @@ use super::dynamics::{Estimate, estimate};
 use crate::Assembly;
 use crate::advice::Advice;
 use crate::cost::Cost;
-use crate::scene::{Problem, Scene};
+use crate::scene::{Scene, SceneProblem};
 
 /// An assembly with everything that is decided before it runs: the time step, the number of steps and
 /// records, and the scene with all of these written out.
@@ -37,7 +37,7 @@ impl<'a> Plan<'a> {
     /// A time step above the stability limit that the scene does not explicitly allow, a turn that its
     /// segments cannot follow, more steps than can be counted, and more records, of either task, than
     /// memory holds.
-    pub fn new(assembly: &'a Assembly) -> Result<Self, Problem> {
+    pub fn new(assembly: &'a Assembly) -> Result<Self, SceneProblem> {
         let estimate = estimate(assembly)?;
         let mut scene = assembly.scene.clone();
         if let Some(estimate) = &estimate {

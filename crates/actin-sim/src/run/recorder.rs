@@ -9,7 +9,7 @@ use crate::Assembly;
 use crate::assembly::Ramp;
 use crate::scene::Dynamics;
 use actin_equilibrium::Certificate;
-use actin_integrate::{Checkpoint, Moment, Observer, Outcome, Pause, Reason, Run, RunFailure};
+use actin_integrate::{Checkpoint, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome};
 use actin_mechanics::System;
 use std::ops::ControlFlow;
 
@@ -35,9 +35,9 @@ pub(super) struct Recorder<'a> {
 /// How a motion ended.
 pub(super) enum Ending {
     /// Interrupted, to be resumed.
-    Interrupted(Outcome),
+    Interrupted(RunOutcome),
     /// At its end, with what the stiffness says if it is at rest.
-    Ended(Outcome, Option<Certificate>),
+    Ended(RunOutcome, Option<Certificate>),
     /// Twist was lost; the step of the last good state.
     Slipped(Slip, u64),
     /// The state became unsound.
@@ -89,7 +89,7 @@ impl<'a> Recorder<'a> {
         &mut self,
         run: &Run,
         system: &mut System,
-    ) -> Result<Outcome, RunFailure> {
+    ) -> Result<RunOutcome, RunFailure> {
         match self.position.take() {
             None => run.execute(system, &mut [self]),
             Some(checkpoint) => run.resume(&checkpoint, system, &mut [self]),
@@ -105,7 +105,7 @@ impl<'a> Recorder<'a> {
     /// Where it lost twist or ended on a saddle, that state is kept.
     pub(super) fn end(
         &mut self,
-        outcome: Result<Outcome, RunFailure>,
+        outcome: Result<RunOutcome, RunFailure>,
         system: &mut System,
     ) -> Ending {
         let outcome = match outcome {

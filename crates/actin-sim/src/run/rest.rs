@@ -2,7 +2,7 @@
 
 use super::Record;
 use super::unknowns::newton;
-use crate::scene::{Dynamics, Equilibrium, Problem};
+use crate::scene::{Dynamics, Equilibrium, SceneProblem};
 use crate::{Assembly, Part};
 use actin_equilibrium::{Certificate, Extent, Nearest, Newton, Stability};
 use actin_mechanics::System;
@@ -135,11 +135,11 @@ pub(super) fn is_saddle(certificate: &Certificate) -> bool {
 }
 
 /// That a run ends on a saddle, at the key that leads off it; `way` says how.
-pub(super) fn saddle(certificate: &Certificate, leave_saddles: usize, way: &str) -> Problem {
+pub(super) fn saddle(certificate: &Certificate, leave_saddles: usize, way: &str) -> SceneProblem {
     let rule = format!(
         "the run ends on a saddle, where the slightest push leads away: the stiffness has {} negative \
          eigenvalue(s); {way}",
         certificate.negative
     );
-    Problem::new("task.leave_saddles", leave_saddles, rule)
+    SceneProblem::new("task.leave_saddles", leave_saddles, rule)
 }

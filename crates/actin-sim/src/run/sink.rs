@@ -3,7 +3,7 @@
 //! What goes through a sink is values; files are the business of `results`.
 
 use super::{Record, SaddlePush, Trajectory};
-use actin_equilibrium::{Certificate, Waypoint, Work};
+use actin_equilibrium::{Certificate, SolverWork, Waypoint};
 use actin_integrate::Checkpoint;
 use actin_mechanics::State;
 use std::time::Instant;
@@ -93,7 +93,7 @@ pub struct PathPosition {
     /// What is known of the last of them.
     pub last: Option<Arrival>,
     /// What the solver has done so far.
-    pub work: Work,
+    pub work: SolverWork,
 }
 
 /// What a report says of an equilibrium.

@@ -1,7 +1,7 @@
 //! How many time steps a motion takes and how many lie between its records.
 
 use super::Estimate;
-use crate::scene::{Dynamics, Problem, Task};
+use crate::scene::{Dynamics, SceneProblem, Task};
 use actin_integrate::Drag;
 
 /// Records of a run, unless the scene says otherwise.
@@ -45,7 +45,7 @@ impl Steps {
     ///
     /// # Errors
     /// More steps than can be counted.
-    pub(super) fn of(dynamics: &Dynamics, largest_ns: f64) -> Result<Self, Problem> {
+    pub(super) fn of(dynamics: &Dynamics, largest_ns: f64) -> Result<Self, SceneProblem> {
         let duration = dynamics.duration_ns;
         let (count, between, record_every_ns) = match dynamics.record_every_ns {
             Some(every) if every < duration => recorded_every(duration, every, largest_ns),
@@ -71,14 +71,14 @@ impl Steps {
 }
 
 /// More steps than can be counted, because they are so short or because records are so close.
-fn uncountable(dynamics: &Dynamics, largest_ns: f64) -> Problem {
+fn uncountable(dynamics: &Dynamics, largest_ns: f64) -> SceneProblem {
     match dynamics.record_every_ns {
-        Some(every) if every < largest_ns => Problem::new(
+        Some(every) if every < largest_ns => SceneProblem::new(
             "task.record_every_ns",
             format!("{every:?}"),
             "takes more steps than can be counted, 2^53: none is longer than this",
         ),
-        _ => Problem::new(
+        _ => SceneProblem::new(
             "task.duration_ns",
             format!("{:?}", dynamics.duration_ns),
             format!("takes more steps of {largest_ns:.4e} ns than can be counted, 2^53"),

@@ -1,6 +1,6 @@
 //! What may move in statics, in which order its unknowns stand, and how far it is solved.
 
-use crate::scene::{Equilibrium as Settings, Problem};
+use crate::scene::{Equilibrium as Settings, SceneProblem};
 use crate::{Assembly, Resolution};
 use actin_coupling::{LinkerEnd, Site};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions, Residual};
@@ -21,9 +21,9 @@ const REACH: f64 = 3.0;
 ///
 /// # Errors
 /// Tolerances or bodies that the solver refuses.
-pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, Problem> {
+pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneProblem> {
     let refused =
-        |key: &str, error: &dyn std::error::Error| Problem::new(key, "", error.to_string());
+        |key: &str, error: &dyn std::error::Error| SceneProblem::new(key, "", error.to_string());
     let layout = Layout::new(&assembly.rest, Some(&order(assembly)), Vec::new())
         .map_err(|error| refused("filament", &error))?;
     let loose = loose_pairs(assembly);

@@ -1,6 +1,6 @@
 //! A small imperfection of a filament in a scene, and its rules.
 
-use super::{Filament, Problem, validate};
+use super::{Filament, SceneProblem, validate};
 use serde::{Deserialize, Serialize};
 
 /// Largest amplitude, as a share of the filament's length: larger ones would stretch it noticeably.
@@ -21,7 +21,7 @@ pub struct Imperfection {
 }
 
 /// Checks the imperfection of a filament.
-pub(super) fn check(filament: &Filament) -> Result<(), Problem> {
+pub(super) fn check(filament: &Filament) -> Result<(), SceneProblem> {
     let Some(imperfection) = &filament.imperfection else {
         return Ok(());
     };
@@ -34,7 +34,7 @@ pub(super) fn check(filament: &Filament) -> Result<(), Problem> {
             "must be at most a hundredth of the filament's length, {limit} nm: it is meant to break \
              the symmetry, not to load the filament"
         );
-        return Err(Problem::new(key, format!("{amplitude:?}"), rule));
+        return Err(SceneProblem::new(key, format!("{amplitude:?}"), rule));
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Linkers, as a scene writes them, and the rules of their numbers.
 
 use super::validate::{finite, non_negative, positive};
-use super::{Problem, Scene};
+use super::{Scene, SceneProblem};
 use serde::{Deserialize, Serialize};
 
 /// A Hookean linker between a site of a filament and an anchor outside of it, or another site.
@@ -96,7 +96,7 @@ impl LinkerSite {
 }
 
 /// Checks linker `i` of a scene whose sections are known to be sound.
-pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let key = |name: &str| format!("linkers[{i}].{name}");
     check_site(scene, &format!("linkers[{i}]"), &linker.site())?;
     positive(&key("stiffness_pn_per_nm"), linker.stiffness_pn_per_nm)?;
@@ -106,20 +106,20 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Prob
         check_site(scene, &key("to"), other)?;
         if other.is_at(&linker.site()) {
             let rule = "is the site from which the linker goes: it joins two places";
-            return Err(Problem::new(key("to"), "", rule));
+            return Err(SceneProblem::new(key("to"), "", rule));
         }
     }
     match linker.anchor() {
         Some(place) if place.iter().any(|v| !v.is_finite()) => {
             let key = key(linker.end_key());
-            Err(Problem::new(key, show(place), "must be finite"))
+            Err(SceneProblem::new(key, show(place), "must be finite"))
         }
         _ => Ok(()),
     }
 }
 
 /// Exactly one of the three ends is given.
-fn check_one_end(i: usize, linker: &Linker) -> Result<(), Problem> {
+fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let first = linker.end_key();
     let rule = || match first {
         "to" => "the linker goes to a site already: write one of the two".to_owned(),
@@ -131,7 +131,7 @@ fn check_one_end(i: usize, linker: &Linker) -> Result<(), Problem> {
     ];
     for (name, value) in ends {
         if let Some(value) = value.filter(|_| name != first) {
-            return Err(Problem::new(
+            return Err(SceneProblem::new(
                 format!("linkers[{i}].{name}"),
                 show(value),
                 rule(),
@@ -140,18 +140,22 @@ fn check_one_end(i: usize, linker: &Linker) -> Result<(), Problem> {
     }
     if linker.to.is_none() && linker.anchor().is_none() {
         let rule = "has no other end: write anchor_nm, displaced_nm or to";
-        return Err(Problem::new(format!("linkers[{i}]"), "", rule));
+        return Err(SceneProblem::new(format!("linkers[{i}]"), "", rule));
     }
     Ok(())
 }
 
 /// Checks a site, whose keys stand under `key`.
-fn check_site(scene: &Scene, key: &str, site: &LinkerSite) -> Result<(), Problem> {
+fn check_site(scene: &Scene, key: &str, site: &LinkerSite) -> Result<(), SceneProblem> {
     let filament = scene.named_filament(&format!("{key}.filament"), site.filament)?;
     let length = filament.length_nm();
     if !(0.0..=length).contains(&site.at_nm) {
         let rule = format!("must lie on the filament, from 0 to {length:?}");
-        return Err(Problem::new(format!("{key}.at_nm"), show(site.at_nm), rule));
+        return Err(SceneProblem::new(
+            format!("{key}.at_nm"),
+            show(site.at_nm),
+            rule,
+        ));
     }
     non_negative(&format!("{key}.radius_nm"), site.radius_nm)?;
     finite(&format!("{key}.azimuth_deg"), site.azimuth_deg)

@@ -3,7 +3,7 @@
 //! Between them products of a few numbers neither overflow nor vanish, so that what is wrong is the
 //! number that a scene wrote and not what became of it. What is not finite has rules of its own.
 
-use super::{Problem, Scene};
+use super::{Scene, SceneProblem};
 use serde_json::Value;
 
 /// Largest magnitude of a number: of such a stiffness over the smallest mass, the square of the
@@ -14,13 +14,13 @@ const LARGEST: f64 = 1e60;
 const SMALLEST: f64 = 1e-60;
 
 /// Refuses the first number that is too large or too small to compute with.
-pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene) -> Result<(), SceneProblem> {
     let value = serde_json::to_value(scene).expect("a scene holds numbers, names and lists only");
     walk(&value, "")
 }
 
 /// Goes through a structure whose key is `path`.
-fn walk(value: &Value, path: &str) -> Result<(), Problem> {
+fn walk(value: &Value, path: &str) -> Result<(), SceneProblem> {
     match value {
         Value::Number(number) if number.is_f64() => number
             .as_f64()
@@ -46,10 +46,10 @@ fn below(path: &str, key: &str) -> String {
     }
 }
 
-fn within(path: &str, number: f64) -> Result<(), Problem> {
+fn within(path: &str, number: f64) -> Result<(), SceneProblem> {
     if number == 0.0 || (SMALLEST..=LARGEST).contains(&number.abs()) {
         return Ok(());
     }
     let rule = format!("numbers are 0 or have magnitudes from {SMALLEST:e} to {LARGEST:e}");
-    Err(Problem::new(path, format!("{number:?}"), rule))
+    Err(SceneProblem::new(path, format!("{number:?}"), rule))
 }

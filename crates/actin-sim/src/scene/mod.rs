@@ -29,11 +29,11 @@ pub use law::{
 pub use linker::{Linker, LinkerSite};
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
 pub(crate) use place::HeldEnds;
-pub use problem::{Problem, SceneError};
+pub use problem::{SceneError, SceneProblem};
 pub(crate) use support::is_across;
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
 pub use types::{
-    Clamp, Drag, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Load, Scene, Section,
-    Setting, Slides, Stage, StopRule, Task,
+    Clamp, DragRates, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Load, Scene, Section,
+    Setting, Slides, Stage, StopTolerances, Task,
 };
 pub(crate) use validate::{MOST_COUNTED, validate};

@@ -1,7 +1,9 @@
 //! Which filament a scene means by an index, and where each is built.
 
 use super::types::along_z;
-use super::{End, Filament, JunctionModel, Monomers, Problem, RodModel, Scene, Section, Slides};
+use super::{
+    End, Filament, JunctionModel, Monomers, RodModel, Scene, SceneProblem, Section, Slides,
+};
 use actin_mechanics::{UnitQuaternion, Vector3};
 use nalgebra::Quaternion;
 
@@ -104,13 +106,17 @@ impl Scene {
     ///
     /// # Errors
     /// An index beyond the last.
-    pub(super) fn named_filament(&self, key: &str, index: usize) -> Result<&Filament, Problem> {
+    pub(super) fn named_filament(
+        &self,
+        key: &str,
+        index: usize,
+    ) -> Result<&Filament, SceneProblem> {
         self.filament_at(index).ok_or_else(|| {
             let rule = match self.number_of_filaments() {
                 1 => "there is one filament, which is 0".to_owned(),
                 count => format!("there are {count} filaments, counted from 0"),
             };
-            Problem::new(key, index, rule)
+            SceneProblem::new(key, index, rule)
         })
     }
 }

@@ -6,7 +6,7 @@ use std::fmt;
 
 /// A value that a scene may not have: the key, the value and the rule it breaks.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Problem {
+pub struct SceneProblem {
     /// Path of the key, such as `filament.sections[1].to_nm`.
     pub key: String,
     /// The value as read; empty if the key stands for a structure.
@@ -15,7 +15,7 @@ pub struct Problem {
     pub rule: String,
 }
 
-impl Problem {
+impl SceneProblem {
     /// A problem with the value of `key`.
     pub fn new(key: impl Into<String>, value: impl fmt::Display, rule: impl Into<String>) -> Self {
         Self {
@@ -37,7 +37,7 @@ impl Problem {
     }
 }
 
-impl fmt::Display for Problem {
+impl fmt::Display for SceneProblem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.key)?;
         if !self.value.is_empty() {
@@ -47,7 +47,7 @@ impl fmt::Display for Problem {
     }
 }
 
-impl std::error::Error for Problem {}
+impl std::error::Error for SceneProblem {}
 
 /// A scene that was refused, with the place in its text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -85,7 +85,7 @@ impl SceneError {
 
     /// Places a problem in the text of its scene: at its key, or at the innermost key above it
     /// that is written there.
-    pub fn locate(problem: &Problem, text: &str) -> Self {
+    pub fn locate(problem: &SceneProblem, text: &str) -> Self {
         // Filament 0 of a scene may stand in a list of one.
         let is_listed =
             !locate::is_written(text, "filament") && locate::is_written(text, "filaments");

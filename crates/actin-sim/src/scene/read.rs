@@ -1,6 +1,6 @@
 //! Reading and writing scenes as RON.
 
-use super::{Problem, RodLaw, RodLaws, Scene, SceneError, locate};
+use super::{RodLaw, RodLaws, Scene, SceneError, SceneProblem, locate};
 use super::{validate::validate, written::Written};
 use ron::error::{Error as RonError, SpannedError};
 use ron::extensions::Extensions;
@@ -70,7 +70,7 @@ impl Scene {
             validate(&scene)?;
             Ok(scene)
         };
-        read().map_err(|problem: Problem| SceneError::locate(&problem, text))
+        read().map_err(|problem: SceneProblem| SceneError::locate(&problem, text))
     }
 
     /// The scene as RON with every default written out.
@@ -202,7 +202,7 @@ mod tests {
             let marked = Scene::from_ron(&format!("\u{feff}{spoilt}"));
             assert_eq!(marked.unwrap_err(), error);
         }
-        let problem = Problem::new("task", "", "is placed");
+        let problem = SceneProblem::new("task", "", "is placed");
         let of = |text: &str| SceneError::locate(&problem, text);
         let one_line = SCENE.replace('\n', " ");
         assert_eq!(of(&format!("\u{feff}{one_line}")), of(&one_line));

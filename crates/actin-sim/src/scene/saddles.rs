@@ -1,14 +1,14 @@
 //! What pushes off a saddle need in a scene.
 
-use super::{Dynamics, Problem, Scene, validate};
+use super::{Dynamics, Scene, SceneProblem, validate};
 
 /// Checks `leave_saddles` of a motion against the rest of the scene: saddles are those of an energy,
 /// and a motion comes to rest on them.
-pub(super) fn check(scene: &Scene, dynamics: &Dynamics) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProblem> {
     if dynamics.leave_saddles == 0 {
         return Ok(());
     }
-    let refused = |rule| Problem::new("task.leave_saddles", dynamics.leave_saddles, rule);
+    let refused = |rule| SceneProblem::new("task.leave_saddles", dynamics.leave_saddles, rule);
     if dynamics.thermal.is_some() {
         return Err(refused(
             "a filament in thermal motion is never at rest on a saddle: leave out leave_saddles or \

@@ -1,20 +1,20 @@
 //! The rules of a path: what its stages may set, and how long they take.
 
 use super::validate::{all_finite, finite, positive, show};
-use super::{End, HeldEnds, Problem, Scene, Setting, Stage};
+use super::{End, HeldEnds, Scene, SceneProblem, Setting, Stage};
 
 /// Checks that what stage `i` sets exists and may be set.
 pub(super) fn check(
     scene: &Scene,
     held: &HeldEnds,
     (i, stage): (usize, &Stage),
-) -> Result<(), Problem> {
+) -> Result<(), SceneProblem> {
     let check_held = |prefix: &str, filament, end| check_held((scene, held), prefix, filament, end);
     for (k, setting) in stage.set.iter().enumerate() {
         let key = |name: &str| format!("path[{i}].set[{k}].{name}");
         let exists = |name: &str, index: usize, count: usize| {
             let rule = format!("there are {count} {name}s, counted from 0");
-            let missing = || Problem::new(key(name), index, rule);
+            let missing = || SceneProblem::new(key(name), index, rule);
             (index < count).then_some(()).ok_or_else(missing)
         };
         match *setting {
@@ -26,7 +26,7 @@ pub(super) fn check(
                 exists("linker", linker, scene.linkers.len())?;
                 if scene.linkers[linker].to.is_some() {
                     let rule = "this linker joins two sites: it has no anchor to be moved";
-                    return Err(Problem::new(key("linker"), linker, rule));
+                    return Err(SceneProblem::new(key("linker"), linker, rule));
                 }
                 all_finite(&key("shift_nm"), shift_nm)?;
             }
@@ -57,28 +57,28 @@ fn check_held(
     prefix: &str,
     filament: usize,
     end: End,
-) -> Result<(), Problem> {
+) -> Result<(), SceneProblem> {
     scene.named_filament(&format!("{prefix}filament"), filament)?;
     if held.is_held(filament, end) {
         return Ok(());
     }
     let rule = "this end is free: only a clamped end is moved from outside";
-    Err(Problem::new(format!("{prefix}end"), show(end), rule))
+    Err(SceneProblem::new(format!("{prefix}end"), show(end), rule))
 }
 
 /// In time, every stage takes some.
-pub(super) fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Problem> {
+pub(super) fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), SceneProblem> {
     for (i, stage) in scene.path.iter().enumerate() {
         let key = format!("path[{i}].duration_ns");
         let Some(duration) = stage.duration_ns else {
             let rule = "in Dynamics every stage of the path takes a time: write duration_ns";
-            return Err(Problem::new(key, "none", rule));
+            return Err(SceneProblem::new(key, "none", rule));
         };
         positive(&key, duration)?;
     }
     let whole: f64 = scene.path.iter().filter_map(|s| s.duration_ns).sum();
     if whole > duration_ns {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             "task.duration_ns",
             show(duration_ns),
             format!("ends before the path does, whose stages take {whole:?} ns"),

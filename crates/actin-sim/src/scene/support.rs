@@ -1,7 +1,7 @@
 //! Whether a scene's loads are borne, and whether its turns go with how its ends slide.
 
 use super::path::{self, Values};
-use super::{Filament, HeldEnds, Load, Problem, Scene, Setting, Slides};
+use super::{Filament, HeldEnds, Load, Scene, SceneProblem, Setting, Slides};
 use actin_mechanics::Vector3;
 use std::collections::BTreeSet;
 
@@ -18,7 +18,7 @@ const DIGITS: f64 = 1e-3;
 
 /// In time, the inertia of an end that slides is that of its motion along straight lines: a turn must
 /// not swing it along them.
-pub(super) fn check_swings(scene: &Scene, held: &HeldEnds) -> Result<(), Problem> {
+pub(super) fn check_swings(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
     for (i, stage) in scene.path.iter().enumerate() {
         for (k, setting) in stage.set.iter().enumerate() {
             let Setting::Turn {
@@ -34,7 +34,7 @@ pub(super) fn check_swings(scene: &Scene, held: &HeldEnds) -> Result<(), Problem
             let axis = scene.filament_at(filament).map(Filament::axis);
             let tilts = axis.is_some_and(|axis| is_across(turn_deg.into(), axis));
             if slides == Some(Slides::Freely) || (slides == Some(Slides::AlongAxis) && tilts) {
-                return Err(Problem::new(
+                return Err(SceneProblem::new(
                     format!("path[{i}].set[{k}].turn_deg"),
                     format!("{turn_deg:?}"),
                     "in Dynamics an end that slides turns about its axis only, and one that slides \
@@ -59,7 +59,7 @@ pub(crate) fn is_across(vector: Vector3, axis: Vector3) -> bool {
 /// What holds a filament also holds those that linkers join to it. A linker to an anchor holds
 /// against every force: it follows its site around the anchor until it points along it. Load factors
 /// are linear within a stage, so that what balances at the ends of all stages balances between.
-pub(super) fn check_support(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check_support(scene: &Scene) -> Result<(), SceneProblem> {
     let joined = joined(scene);
     let groups = groups(scene, &joined);
     let factors = path::load_factors(&scene.path, scene.loads.len());
@@ -125,7 +125,7 @@ impl Group {
     }
 
     /// Whether its loads balance before the path and after each stage that changes one of them.
-    fn check(&self, factors: &Factors) -> Result<(), Problem> {
+    fn check(&self, factors: &Factors) -> Result<(), SceneProblem> {
         if self.free.is_empty() {
             return Ok(());
         }
@@ -136,7 +136,7 @@ impl Group {
     }
 
     /// Whether the forces balance along the free directions after so many stages.
-    fn check_balance(&self, factors: &Factors, stages: usize) -> Result<(), Problem> {
+    fn check_balance(&self, factors: &Factors, stages: usize) -> Result<(), SceneProblem> {
         let (loads, free) = (&self.loads, &self.free);
         let factor = |i: usize| factors[i].as_ref().map_or(path::UNSET, |v| v.after(stages));
         let along = |force: &Vector3| -> Vector3 { free.iter().map(|d| d * d.dot(force)).sum() };
@@ -164,7 +164,7 @@ impl Group {
         }
         rule.push(": it has no equilibrium".to_owned());
         let value = format!("{:?}", <[f64; 3]>::from(force));
-        Err(Problem::new(
+        Err(SceneProblem::new(
             format!("loads[{i}].force_pn"),
             value,
             rule.concat(),

@@ -1,6 +1,6 @@
 //! Thermal noise in a scene: its temperature, its seed, and what it needs.
 
-use super::{Dynamics, Problem, Scene, Task, validate};
+use super::{Dynamics, Scene, SceneProblem, Task, validate};
 use serde::{Deserialize, Serialize};
 
 /// Boltzmann's constant (pN nm / K), exact by definition of the kelvin.
@@ -46,7 +46,7 @@ impl Scene {
 }
 
 /// Checks a temperature against the rest of the task.
-pub(super) fn check(dynamics: &Dynamics) -> Result<(), Problem> {
+pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     let Some(thermal) = &dynamics.thermal else {
         return Ok(());
     };
@@ -57,7 +57,7 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), Problem> {
         ("rotational_per_ns", drag.rotational_per_ns),
     ] {
         if rate == 0.0 {
-            return Err(Problem::new(
+            return Err(SceneProblem::new(
                 format!("task.drag.{name}"),
                 format!("{rate:?}"),
                 "must be greater than 0 where there is thermal noise, which is the counterpart of \
@@ -66,7 +66,7 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), Problem> {
         }
     }
     if dynamics.stop.is_some() {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             "task.stop",
             "",
             "a filament in thermal motion never comes to rest: leave out stop or thermal",

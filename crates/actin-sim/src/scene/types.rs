@@ -293,13 +293,13 @@ pub struct Dynamics {
     pub allow_unstable_step: bool,
     /// Drag rates; none by default.
     #[serde(default)]
-    pub drag: Drag,
+    pub drag: DragRates,
     /// Thermal noise, which needs drag; none by default.
     #[serde(default)]
     pub thermal: Option<Thermal>,
     /// When to stop early; never by default.
     #[serde(default)]
-    pub stop: Option<StopRule>,
+    pub stop: Option<StopTolerances>,
     /// How often a motion that has come to rest on a saddle is pushed off it along its lowest mode,
     /// by 0.01 nm or 1e-3 rad, whichever a body reaches first. With 0, the default, a saddle ends the
     /// run as a failure, with all its results.
@@ -333,7 +333,8 @@ pub enum Integrator {
 /// Mass-proportional drag: velocities decay as `exp(-rate t)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Drag {
+#[serde(rename = "Drag")]
+pub struct DragRates {
     /// Rate for velocities (1/ns).
     pub translational_per_ns: f64,
     /// Rate for angular momenta (1/ns).
@@ -343,7 +344,8 @@ pub struct Drag {
 /// An equilibrium is reached when all three are below their tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct StopRule {
+#[serde(rename = "StopRule")]
+pub struct StopTolerances {
     /// Largest force on a free point (pN).
     pub force_pn: f64,
     /// Largest torque on a free frame (pN nm).

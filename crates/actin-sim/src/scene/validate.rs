@@ -3,8 +3,8 @@
 use super::support::{check_support, check_swings};
 use super::{
     Anchors, Clamp, Dynamics, Equilibrium, Filament, ForceLaw, HeldEnds, Hold, Load, Monomers,
-    Problem, Scene, Section, Slides, StopRule, Task, imperfection, linker, magnitude, saddles,
-    stage, thermal,
+    Scene, SceneProblem, Section, Slides, StopTolerances, Task, imperfection, linker, magnitude,
+    saddles, stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 use actin_mechanics::Vector3;
@@ -24,10 +24,10 @@ const MOST_BONDS_PER_INTERFACE: usize = 10_000;
 ///
 /// # Errors
 /// The first rule that is broken.
-pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
+pub(crate) fn validate(scene: &Scene) -> Result<(), SceneProblem> {
     magnitude::check(scene)?;
     for (i, one) in scene.filaments().enumerate() {
-        let named = |problem: Problem| problem.with_filament(&scene.filament_key(i));
+        let named = |problem: SceneProblem| problem.with_filament(&scene.filament_key(i));
         filament(one).map_err(named)?;
         check_place(one).map_err(named)?;
         imperfection::check(one).map_err(named)?;
@@ -65,10 +65,10 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), Problem> {
     }
 }
 
-fn filament(filament: &Filament) -> Result<(), Problem> {
+fn filament(filament: &Filament) -> Result<(), SceneProblem> {
     let sections = &filament.sections;
     if sections.is_empty() {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             "filament.sections",
             "[]",
             "a filament has at least one section",
@@ -82,12 +82,12 @@ fn filament(filament: &Filament) -> Result<(), Problem> {
     check_model(filament)
 }
 
-fn check_place(filament: &Filament) -> Result<(), Problem> {
+fn check_place(filament: &Filament) -> Result<(), SceneProblem> {
     all_finite("filament.at_nm", filament.at_nm)?;
     all_finite("filament.direction", filament.direction)?;
     if filament.direction.iter().all(|d| d.abs() <= 0.0) {
         let rule = "a filament lies along some direction: must not be zero";
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             "filament.direction",
             show(filament.direction),
             rule,
@@ -96,13 +96,13 @@ fn check_place(filament: &Filament) -> Result<(), Problem> {
     finite("filament.roll_deg", filament.roll_deg)
 }
 
-fn check_span(i: usize, section: &Section) -> Result<(), Problem> {
+fn check_span(i: usize, section: &Section) -> Result<(), SceneProblem> {
     let (from, to) = section.span_nm();
     let key = |name: &str| format!("filament.sections[{i}].{name}");
     non_negative(&key("from_nm"), from)?;
     finite(&key("to_nm"), to)?;
     if to <= from {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             key("to_nm"),
             show(to),
             format!("a section's length is positive: must be greater than from_nm = {from:?}"),
@@ -112,7 +112,7 @@ fn check_span(i: usize, section: &Section) -> Result<(), Problem> {
         segments: Some(0), ..
     } = section
     {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             key("segments"),
             0,
             "a rod has at least one segment",
@@ -121,7 +121,11 @@ fn check_span(i: usize, section: &Section) -> Result<(), Problem> {
     Ok(())
 }
 
-fn check_boundary(i: usize, section: &Section, previous: Option<&Section>) -> Result<(), Problem> {
+fn check_boundary(
+    i: usize,
+    section: &Section,
+    previous: Option<&Section>,
+) -> Result<(), SceneProblem> {
     let (from, _) = section.span_nm();
     let before = previous.map_or(0.0, |p| p.span_nm().1);
     let rule = match previous {
@@ -133,12 +137,16 @@ fn check_boundary(i: usize, section: &Section, previous: Option<&Section>) -> Re
     };
     let key = format!("filament.sections[{i}]");
     if (from - before).abs() > BOUNDARY_TOLERANCE_NM {
-        return Err(Problem::new(format!("{key}.from_nm"), show(from), rule));
+        return Err(SceneProblem::new(
+            format!("{key}.from_nm"),
+            show(from),
+            rule,
+        ));
     }
     let same =
         previous.is_some_and(|p| std::mem::discriminant(p) == std::mem::discriminant(section));
     if same {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             format!("{key}.from_nm"),
             show(from),
             "neighbouring sections of the same kind are one section: write them as one",
@@ -147,10 +155,10 @@ fn check_boundary(i: usize, section: &Section, previous: Option<&Section>) -> Re
     Ok(())
 }
 
-fn check_model(filament: &Filament) -> Result<(), Problem> {
+fn check_model(filament: &Filament) -> Result<(), SceneProblem> {
     let attached = filament.junction.attached_monomers;
     if !(1..=2).contains(&attached) {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             "filament.junction.attached_monomers",
             attached,
             "a junction attaches 1 or 2 monomers",
@@ -168,7 +176,7 @@ fn check_model(filament: &Filament) -> Result<(), Problem> {
     Ok(())
 }
 
-fn check_monomers(m: &Monomers) -> Result<(), Problem> {
+fn check_monomers(m: &Monomers) -> Result<(), SceneProblem> {
     for (key, value) in [
         ("rise_nm", m.rise_nm),
         ("radius_nm", m.radius_nm),
@@ -191,7 +199,7 @@ fn check_monomers(m: &Monomers) -> Result<(), Problem> {
     check_bonds("longitudinal_bonds", m.anchors, m.longitudinal_bonds)?;
     check_shortest(m)?;
     if m.anchors == Anchors::Cubature && m.seed != 0 {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             "filament.monomers.seed",
             m.seed,
             "weighted bonds are not drawn: leave the seed out, or write anchors: Independent",
@@ -200,7 +208,7 @@ fn check_monomers(m: &Monomers) -> Result<(), Problem> {
     Ok(())
 }
 
-fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(), Problem> {
+fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(), SceneProblem> {
     let drawn = 1..=MOST_BONDS_PER_INTERFACE;
     let (range, rule) = match anchors {
         Anchors::Independent | Anchors::Identical => {
@@ -216,7 +224,7 @@ fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(), Problem>
     if range.contains(&bonds) {
         return Ok(());
     }
-    Err(Problem::new(
+    Err(SceneProblem::new(
         format!("filament.monomers.{key}"),
         bonds,
         rule,
@@ -224,7 +232,7 @@ fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(), Problem>
 }
 
 /// Both kinds of interface have the same shortest bond. The default one is not to blame.
-fn check_shortest(monomers: &Monomers) -> Result<(), Problem> {
+fn check_shortest(monomers: &Monomers) -> Result<(), SceneProblem> {
     let key = "filament.monomers.min_bond_nm";
     let shortest = monomers.min_bond_nm;
     non_negative(key, shortest)?;
@@ -239,28 +247,32 @@ fn check_shortest(monomers: &Monomers) -> Result<(), Problem> {
         if shortest >= longest && is_default {
             let key = format!("filament.monomers.{longest_key}");
             let rule = format!("must be greater than min_bond_nm = {shortest:?}");
-            return Err(Problem::new(key, show(longest), rule));
+            return Err(SceneProblem::new(key, show(longest), rule));
         }
         if shortest >= longest {
             let rule = format!("must be less than {longest_key} = {longest:?}");
-            return Err(Problem::new(key, show(shortest), rule));
+            return Err(SceneProblem::new(key, show(shortest), rule));
         }
     }
     Ok(())
 }
 
-fn check_clamp(scene: &Scene, held: &HeldEnds, (i, clamp): (usize, &Clamp)) -> Result<(), Problem> {
+fn check_clamp(
+    scene: &Scene,
+    held: &HeldEnds,
+    (i, clamp): (usize, &Clamp),
+) -> Result<(), SceneProblem> {
     let key = format!("clamps[{i}]");
     let filament = scene.named_filament(&format!("{key}.filament"), clamp.filament)?;
     if held.clamp_at(clamp.filament, clamp.end) != Some(i) {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             format!("{key}.end"),
             show(clamp.end),
             "this end is clamped already",
         ));
     }
     if !filament.is_rod_at(clamp.end) && clamp.hold != Hold::Wall {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             format!("{key}.hold"),
             show(clamp.hold),
             "nodes and frames are held at a rod's end, but monomers end the filament here: \
@@ -270,7 +282,11 @@ fn check_clamp(scene: &Scene, held: &HeldEnds, (i, clamp): (usize, &Clamp)) -> R
     Ok(())
 }
 
-fn check_load(scene: &Scene, held: &HeldEnds, (i, load): (usize, &Load)) -> Result<(), Problem> {
+fn check_load(
+    scene: &Scene,
+    held: &HeldEnds,
+    (i, load): (usize, &Load),
+) -> Result<(), SceneProblem> {
     let Load::EndForce {
         filament,
         end,
@@ -279,7 +295,7 @@ fn check_load(scene: &Scene, held: &HeldEnds, (i, load): (usize, &Load)) -> Resu
     let key = format!("loads[{i}]");
     scene.named_filament(&format!("{key}.filament"), *filament)?;
     if force_pn.iter().any(|f| !f.is_finite()) {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             format!("{key}.force_pn"),
             show(force_pn),
             "must be finite",
@@ -287,7 +303,7 @@ fn check_load(scene: &Scene, held: &HeldEnds, (i, load): (usize, &Load)) -> Resu
     }
     let clamp = held.clamp_at(*filament, *end);
     if clamp.is_some_and(|c| scene.clamps[c].slides == Slides::Nowhere) {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             format!("{key}.end"),
             show(end),
             "this end is clamped: a force on it moves nothing",
@@ -297,13 +313,13 @@ fn check_load(scene: &Scene, held: &HeldEnds, (i, load): (usize, &Load)) -> Resu
 }
 
 /// An equilibrium is a minimum of the energy, which the printed balance does not have.
-pub(super) fn check_potential(filament: &Filament) -> Result<(), Problem> {
+pub(super) fn check_potential(filament: &Filament) -> Result<(), SceneProblem> {
     let has_rod = filament
         .sections
         .iter()
         .any(|s| matches!(s, Section::Rod { .. }));
     if has_rod && filament.rod.force_law == ForceLaw::PaperBalance {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             "filament.rod.force_law",
             "PaperBalance",
             "has no potential: Equilibrium needs EnergyGradient; damped Dynamics takes either",
@@ -312,27 +328,31 @@ pub(super) fn check_potential(filament: &Filament) -> Result<(), Problem> {
     Ok(())
 }
 
-fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), Problem> {
+fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), SceneProblem> {
     positive("task.force_pn", equilibrium.force_pn)?;
     positive("task.torque_pn_nm", equilibrium.torque_pn_nm)?;
     positive("task.largest_step", equilibrium.largest_step)?;
     positive("task.smallest_step", equilibrium.smallest_step)?;
     if equilibrium.largest_step > 1.0 || equilibrium.smallest_step > equilibrium.largest_step {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             "task.largest_step",
             show(equilibrium.largest_step),
             "must be at most 1 and at least smallest_step",
         ));
     }
     if equilibrium.iterations == 0 {
-        return Err(Problem::new("task.iterations", 0, "must be at least 1"));
+        return Err(SceneProblem::new(
+            "task.iterations",
+            0,
+            "must be at least 1",
+        ));
     }
     Ok(())
 }
 
 /// A tolerance that a load does not exceed is met before the filament has moved. Monomers bear
 /// half the force each.
-fn check_tolerance(scene: &Scene, key: &str, force_pn: f64) -> Result<(), Problem> {
+fn check_tolerance(scene: &Scene, key: &str, force_pn: f64) -> Result<(), SceneProblem> {
     for (i, load) in scene.loads.iter().enumerate() {
         let Load::EndForce { force_pn: load, .. } = load;
         let size = Vector3::from(*load).norm();
@@ -341,7 +361,7 @@ fn check_tolerance(scene: &Scene, key: &str, force_pn: f64) -> Result<(), Proble
                 "must be below half of loads[{i}], which is {size:e} pN: as it is, the filament \
                  counts as at rest before it has moved"
             );
-            return Err(Problem::new(
+            return Err(SceneProblem::new(
                 format!("{key}.force_pn"),
                 show(force_pn),
                 rule,
@@ -351,7 +371,7 @@ fn check_tolerance(scene: &Scene, key: &str, force_pn: f64) -> Result<(), Proble
     Ok(())
 }
 
-fn check_dynamics(dynamics: &Dynamics) -> Result<(), Problem> {
+fn check_dynamics(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     let key = |name: &str| format!("task.{name}");
     positive(&key("duration_ns"), dynamics.duration_ns)?;
     if let Some(step) = dynamics.time_step_ns {
@@ -363,7 +383,7 @@ fn check_dynamics(dynamics: &Dynamics) -> Result<(), Problem> {
     let safety = dynamics.step_safety;
     positive(&key("step_safety"), safety)?;
     if safety >= 1.0 {
-        return Err(Problem::new(
+        return Err(SceneProblem::new(
             key("step_safety"),
             show(safety),
             "must be below 1, the stability limit",
@@ -381,7 +401,7 @@ fn check_dynamics(dynamics: &Dynamics) -> Result<(), Problem> {
     dynamics.stop.as_ref().map_or(Ok(()), check_stop)
 }
 
-fn check_stop(stop: &StopRule) -> Result<(), Problem> {
+fn check_stop(stop: &StopTolerances) -> Result<(), SceneProblem> {
     positive("task.stop.force_pn", stop.force_pn)?;
     positive("task.stop.torque_pn_nm", stop.torque_pn_nm)?;
     positive("task.stop.kinetic_pn_nm", stop.kinetic_pn_nm)
@@ -391,47 +411,47 @@ pub(super) fn show(value: impl Debug) -> String {
     format!("{value:?}")
 }
 
-pub(super) fn finite(key: &str, value: f64) -> Result<(), Problem> {
+pub(super) fn finite(key: &str, value: f64) -> Result<(), SceneProblem> {
     if value.is_finite() {
         return Ok(());
     }
-    Err(Problem::new(key, show(value), "must be finite"))
+    Err(SceneProblem::new(key, show(value), "must be finite"))
 }
 
-pub(super) fn positive(key: &str, value: f64) -> Result<(), Problem> {
+pub(super) fn positive(key: &str, value: f64) -> Result<(), SceneProblem> {
     if value.is_finite() && value > 0.0 {
         return Ok(());
     }
-    Err(Problem::new(
+    Err(SceneProblem::new(
         key,
         show(value),
         "must be finite and greater than 0",
     ))
 }
 
-pub(super) fn non_negative(key: &str, value: f64) -> Result<(), Problem> {
+pub(super) fn non_negative(key: &str, value: f64) -> Result<(), SceneProblem> {
     if value.is_finite() && value >= 0.0 {
         return Ok(());
     }
-    Err(Problem::new(
+    Err(SceneProblem::new(
         key,
         show(value),
         "must be finite and not negative",
     ))
 }
 
-pub(super) fn all_finite(key: &str, values: [f64; 3]) -> Result<(), Problem> {
+pub(super) fn all_finite(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
     if values.iter().all(|v| v.is_finite()) {
         return Ok(());
     }
-    Err(Problem::new(key, show(values), "must be finite"))
+    Err(SceneProblem::new(key, show(values), "must be finite"))
 }
 
-fn each_positive(key: &str, values: [f64; 3]) -> Result<(), Problem> {
+fn each_positive(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
     if values.iter().all(|v| v.is_finite() && *v > 0.0) {
         return Ok(());
     }
-    Err(Problem::new(
+    Err(SceneProblem::new(
         key,
         show(values),
         "each must be finite and greater than 0",
@@ -444,7 +464,7 @@ impl Scene {
     ///
     /// # Errors
     /// The first rule that is broken.
-    pub fn validate(&self) -> Result<(), Problem> {
+    pub fn validate(&self) -> Result<(), SceneProblem> {
         validate(self)
     }
 }

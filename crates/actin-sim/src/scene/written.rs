@@ -1,6 +1,6 @@
 //! A scene as its text has it: one `filament` or a list of `filaments`.
 
-use super::{Clamp, Filament, Linker, Load, Problem, Scene, Stage, Task};
+use super::{Clamp, Filament, Linker, Load, Scene, SceneProblem, Stage, Task};
 use serde::{Deserialize, Serialize};
 
 /// The keys of a scene. [`Scene`] says what they mean.
@@ -25,20 +25,20 @@ pub(super) struct Written {
 }
 
 impl TryFrom<Written> for Scene {
-    type Error = Problem;
+    type Error = SceneProblem;
 
     /// Takes the filaments from the one key or the other.
-    fn try_from(written: Written) -> Result<Self, Problem> {
+    fn try_from(written: Written) -> Result<Self, SceneProblem> {
         let (filament, further) = match (written.filament, written.filaments) {
             (Some(filament), None) => (filament, Vec::new()),
             (None, Some(filaments)) => first_and_others(filaments)?,
             (None, None) => {
                 let rule = "is missing: a scene has a filament, or several as filaments";
-                return Err(Problem::new("filament", "", rule));
+                return Err(SceneProblem::new("filament", "", rule));
             }
             (Some(_), Some(_)) => {
                 let rule = "the filament is given by filament already: write one of the two";
-                return Err(Problem::new("filaments", "", rule));
+                return Err(SceneProblem::new("filaments", "", rule));
             }
         };
         let resolved = |mut filament: Filament| {
@@ -58,9 +58,9 @@ impl TryFrom<Written> for Scene {
     }
 }
 
-fn first_and_others(filaments: Vec<Filament>) -> Result<(Filament, Vec<Filament>), Problem> {
+fn first_and_others(filaments: Vec<Filament>) -> Result<(Filament, Vec<Filament>), SceneProblem> {
     let mut filaments = filaments.into_iter();
-    let none = || Problem::new("filaments", "[]", "a scene has at least one filament");
+    let none = || SceneProblem::new("filaments", "[]", "a scene has at least one filament");
     let first = filaments.next().ok_or_else(none)?;
     Ok((first, filaments.collect()))
 }

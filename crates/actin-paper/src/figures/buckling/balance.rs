@@ -8,14 +8,14 @@ use super::outcome::{Evidence, Outcome, measure};
 use crate::figures::viewer::Snapshot;
 use crate::run::run_to_end;
 use actin_draw::report::Row;
-use actin_sim::{Assembly, Drag, Task};
+use actin_sim::{Assembly, DragRates, Task};
 
 /// Longest time (ns).
 const LONGEST_NS: f64 = 1000.0;
 /// Drag that brings the motion to rest. Loads without an energy feed rotations: with 0.3 per ns in
 /// rotation as well, 10 of 32 filaments gain energy until they break and 4 never come to rest. Bending
 /// hardly feels the drag on rotations, whose moments of inertia are small.
-const DRAG: Drag = Drag {
+const DRAG: DragRates = DragRates {
     translational_per_ns: 1.0,
     rotational_per_ns: 30.0,
 };

@@ -8,7 +8,7 @@ use super::rows::artefact;
 use super::starts::is_same;
 use crate::run::run_to_end;
 use actin_draw::report::{Origin, Row};
-use actin_sim::{Assembly, Drag, Dynamics, Equilibrium, Integrator, Record, StopRule, Task};
+use actin_sim::{Assembly, DragRates, Dynamics, Equilibrium, Integrator, Record, StopTolerances, Task};
 
 /// Where damped motion ended.
 #[derive(Clone, Debug)]
@@ -52,7 +52,7 @@ pub(super) fn run(case: &Case) -> Result<Motion, String> {
     let mut scene = case.scene()?;
     scene.task = Task::Dynamics(dynamics(
         LONGEST_NS,
-        Drag {
+        DragRates {
             translational_per_ns: DRAG_PER_NS,
             rotational_per_ns: DRAG_PER_NS,
         },
@@ -75,7 +75,7 @@ pub(super) fn run(case: &Case) -> Result<Motion, String> {
 }
 
 /// Damped motion of at most so many ns.
-pub(super) fn dynamics(duration_ns: f64, drag: Drag) -> Dynamics {
+pub(super) fn dynamics(duration_ns: f64, drag: DragRates) -> Dynamics {
     Dynamics {
         duration_ns,
         integrator: Integrator::PositionVerlet,
@@ -84,7 +84,7 @@ pub(super) fn dynamics(duration_ns: f64, drag: Drag) -> Dynamics {
         allow_unstable_step: false,
         drag,
         thermal: None,
-        stop: Some(StopRule {
+        stop: Some(StopTolerances {
             force_pn: STOP,
             torque_pn_nm: STOP,
             kinetic_pn_nm: 1e-6,

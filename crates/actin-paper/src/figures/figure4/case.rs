@@ -6,7 +6,7 @@ use crate::figures::viewer::Snapshot;
 use crate::run::run_to_end;
 use crate::workspace_root;
 use actin_sim::{
-    Assembly, Drag, End, Equilibrium, ForceLaw, Outcome, Record, Scene, Section, Task,
+    Assembly, DragRates, End, Equilibrium, ForceLaw, Outcome, Record, Scene, Section, Task,
 };
 
 /// Which scene of `scenarios/figure-4` a case starts from.
@@ -261,7 +261,7 @@ impl Case {
         let Task::Dynamics(dynamics) = &mut scene.task else {
             return Err(format!("{}: the scene asks for no dynamics", self.path()));
         };
-        dynamics.drag = Drag {
+        dynamics.drag = DragRates {
             translational_per_ns: SWING_DRAG_PER_NS,
             rotational_per_ns: SWING_DRAG_PER_NS,
         };

@@ -2,13 +2,13 @@
 
 use super::{Body, Builder};
 use crate::assembly::{Clamped, models};
-use crate::scene::{Clamp, End, Problem};
+use crate::scene::{Clamp, End, SceneProblem};
 use actin_mechanics::Slider;
 use std::ops::Range;
 
 impl Builder<'_> {
     /// Holds the bodies of every clamp.
-    pub(super) fn hold_ends(&mut self) -> Result<(), Problem> {
+    pub(super) fn hold_ends(&mut self) -> Result<(), SceneProblem> {
         let masses: Vec<f64> = self.stock.state.points.inverse_mass().to_vec();
         for (i, clamp) in self.scene.clamps.iter().enumerate() {
             let (points, frames) = self.hold(i, clamp)?;
@@ -20,7 +20,7 @@ impl Builder<'_> {
                     || frames.clone().any(|f| other.frames.contains(&f))
             });
             if held_before {
-                return Err(Problem::new(
+                return Err(SceneProblem::new(
                     format!("clamps[{i}].hold"),
                     format!("{:?}", clamp.hold),
                     "holds bodies that the other clamp holds: the filament is too short for both",
@@ -65,7 +65,11 @@ impl Builder<'_> {
     }
 
     /// Holds the bodies of clamp `i`; returns points and frames.
-    fn hold(&mut self, i: usize, clamp: &Clamp) -> Result<(Range<usize>, Range<usize>), Problem> {
+    fn hold(
+        &mut self,
+        i: usize,
+        clamp: &Clamp,
+    ) -> Result<(Range<usize>, Range<usize>), SceneProblem> {
         let strand = &self.strands[clamp.filament];
         let state = &mut self.stock.state;
         match &strand.bodies[strand.filament.end_index(clamp.end)] {
@@ -84,7 +88,7 @@ impl Builder<'_> {
                     .hold(layout, models::rod_end(clamp.end), state)
                     .map_err(|error| {
                         let key = format!("clamps[{i}].hold");
-                        Problem::new(key, format!("{:?}", clamp.hold), error.to_string())
+                        SceneProblem::new(key, format!("{:?}", clamp.hold), error.to_string())
                     })?;
                 Ok((held.points, held.frames))
             }

@@ -3,7 +3,7 @@
 use super::Stock;
 use super::strand::{Body, Strand, junction_problem};
 use crate::assembly::{Part, Resolution, Rod, models};
-use crate::scene::Problem;
+use crate::scene::SceneProblem;
 use actin_cosserat::{JoinedElement, RodLayout};
 use actin_coupling::{AttachedMonomer, Junction, JunctionParts, JunctionSide};
 use actin_ellipsoid::Monomers;
@@ -11,7 +11,7 @@ use actin_mechanics::Interaction;
 
 impl Strand<'_> {
     /// Pushes the interactions of all sections and junctions, in filament order.
-    pub(super) fn push_interactions(&self, stock: &mut Stock) -> Result<(), Problem> {
+    pub(super) fn push_interactions(&self, stock: &mut Stock) -> Result<(), SceneProblem> {
         let junctions: Vec<Junction> = (1..self.bodies.len())
             .map(|i| self.junction(i - 1, stock))
             .collect::<Result<_, _>>()?;
@@ -36,7 +36,7 @@ impl Strand<'_> {
         i: usize,
         around: &[Vec<JoinedElement>; 2],
         stock: &mut Stock,
-    ) -> Result<Box<dyn Interaction>, Problem> {
+    ) -> Result<Box<dyn Interaction>, SceneProblem> {
         Ok(match &self.bodies[i] {
             Body::Monomers(monomers) => {
                 let bonds = self
@@ -70,7 +70,7 @@ impl Strand<'_> {
     }
 
     /// The junction between section `i` and the next.
-    fn junction(&self, i: usize, stock: &Stock) -> Result<Junction, Problem> {
+    fn junction(&self, i: usize, stock: &Stock) -> Result<Junction, SceneProblem> {
         let n = self.attached();
         let attach = |monomers: &Monomers, from: usize| -> Vec<AttachedMonomer> {
             (from..from + n)

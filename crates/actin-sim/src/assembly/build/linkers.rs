@@ -3,7 +3,7 @@
 use super::{Body, Builder, Strand};
 use crate::assembly::Part;
 use crate::assembly::lattice::Resolved;
-use crate::scene::{self, LinkerSite, Problem};
+use crate::scene::{self, LinkerSite, SceneProblem};
 use actin_cosserat::RodLayout;
 use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, RodPlace, Site};
 use actin_ellipsoid::Monomers;
@@ -19,7 +19,7 @@ const SHUT_NM: f64 = 1e-9;
 impl Builder<'_> {
     /// Pushes the linkers, three controls of each behind those of the loads: those of its anchor,
     /// without effect where it has none.
-    pub(super) fn push_linkers(&mut self) -> Result<(), Problem> {
+    pub(super) fn push_linkers(&mut self) -> Result<(), SceneProblem> {
         let mut nodes = Nodes::default();
         for (i, linker) in self.scene.linkers.iter().enumerate() {
             let control = self.stock.state.controls.len();
@@ -41,9 +41,9 @@ impl Builder<'_> {
         (i, linker): (usize, &scene::Linker),
         control: usize,
         nodes: &mut Nodes,
-    ) -> Result<Linker, Problem> {
+    ) -> Result<Linker, SceneProblem> {
         let refused =
-            |error: LinkerError| Problem::new(format!("linkers[{i}]"), "", error.to_string());
+            |error: LinkerError| SceneProblem::new(format!("linkers[{i}]"), "", error.to_string());
         let site = self.site(&linker.site(), nodes).map_err(refused)?;
         let end = match &linker.to {
             Some(other) => LinkerEnd::Site(self.site(other, nodes).map_err(refused)?),
@@ -57,7 +57,7 @@ impl Builder<'_> {
         let length = built.extension(&self.stock.state) + rest_length;
         if rest_length > 0.0 && length < SHUT_NM {
             let value = linker.anchor();
-            return Err(Problem::new(
+            return Err(SceneProblem::new(
                 format!("linkers[{i}].{}", linker.end_key()),
                 value.map_or_else(String::new, |v| format!("{v:?}")),
                 "stands at the site: a linker with a rest length needs a direction",

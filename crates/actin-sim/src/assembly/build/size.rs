@@ -2,26 +2,30 @@
 
 use super::strand::Strand;
 use crate::memory;
-use crate::scene::{Problem, Scene, Section};
+use crate::scene::{Scene, SceneProblem, Section};
 
 /// Refuses a scene whose sections together take more than memory holds, each of them alone being
 /// small enough; returns the estimate (bytes).
 ///
 /// # Errors
 /// The section with which it becomes too much.
-pub(super) fn check(scene: &Scene, strands: &[Strand<'_>]) -> Result<f64, Problem> {
+pub(super) fn check(scene: &Scene, strands: &[Strand<'_>]) -> Result<f64, SceneProblem> {
     let mut bytes = 0.0;
     for (index, strand) in strands.iter().enumerate() {
         bytes += memory::of_filament(&scene.task);
         for i in 0..strand.filament.sections.len() {
-            let named = |problem: Problem| problem.with_filament(&scene.filament_key(index));
+            let named = |problem: SceneProblem| problem.with_filament(&scene.filament_key(index));
             add(&mut bytes, scene, (strand, i)).map_err(named)?;
         }
     }
     Ok(bytes)
 }
 
-fn add(bytes: &mut f64, scene: &Scene, (strand, i): (&Strand<'_>, usize)) -> Result<(), Problem> {
+fn add(
+    bytes: &mut f64,
+    scene: &Scene,
+    (strand, i): (&Strand<'_>, usize),
+) -> Result<(), SceneProblem> {
     let filament = strand.filament;
     let (count, what) = if let Some((first, last)) = strand.resolved[i].monomers {
         let monomers = &filament.monomers;

@@ -4,7 +4,7 @@ use super::Stock;
 use crate::assembly::lattice::{Lattice, Resolved, resolve};
 use crate::assembly::{BodyKind, FilamentSpan, FrameInfo, PointInfo, Resolution, SectionSpan};
 use crate::assembly::{law, models};
-use crate::scene::{End, Filament, Hold, MOST_COUNTED, Problem, Section};
+use crate::scene::{End, Filament, Hold, MOST_COUNTED, SceneProblem, Section};
 use actin_cosserat::{CrossSection, RodLayout, StraightRod, Walls};
 use actin_coupling::push_junction_frames;
 use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
@@ -46,7 +46,7 @@ impl<'a> Strand<'a> {
         (index, filament): (usize, &'a Filament),
         holds: [Option<Hold>; 2],
         first_section: usize,
-    ) -> Result<Self, Problem> {
+    ) -> Result<Self, SceneProblem> {
         let monomers = &filament.monomers;
         let density = monomers.mass_ag / monomers.rise_nm;
         let area = actin_cosserat::constants::CROSS_SECTION_AREA;
@@ -65,7 +65,7 @@ impl<'a> Strand<'a> {
             law: law::Law::new(&filament.rod)?,
             cross_section: CrossSection::new(density, area).map_err(|error| {
                 let key = format!("filament.rod.{}", error.key);
-                Problem::new(key, error.value, format!("must be {}", error.rule))
+                SceneProblem::new(key, error.value, format!("must be {}", error.rule))
             })?,
             bodies: Vec::new(),
             junction_frames: Vec::new(),
@@ -83,7 +83,7 @@ impl<'a> Strand<'a> {
     }
 
     /// Pushes the bodies of all sections and of the junctions between them.
-    pub(super) fn push_bodies(&mut self, stock: &mut Stock) -> Result<FilamentSpan, Problem> {
+    pub(super) fn push_bodies(&mut self, stock: &mut Stock) -> Result<FilamentSpan, SceneProblem> {
         let first = (stock.points.len(), stock.frames.len());
         for i in 0..self.filament.sections.len() {
             self.push_section(i, stock)?;
@@ -99,7 +99,7 @@ impl<'a> Strand<'a> {
     }
 
     /// Pushes the junction to the section before, then the bodies of section `i`.
-    fn push_section(&mut self, i: usize, stock: &mut Stock) -> Result<(), Problem> {
+    fn push_section(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
         if i > 0 {
             self.push_junction_frames(i - 1, stock)?;
         }
@@ -146,7 +146,7 @@ impl<'a> Strand<'a> {
         self.bodies.push(Body::Monomers(monomers));
     }
 
-    fn push_rod(&mut self, i: usize, stock: &mut Stock) -> Result<(), Problem> {
+    fn push_rod(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
         let Resolved { from_nm, to_nm, .. } = self.resolved[i];
         let segments = self.segments(i)?;
         let length = (to_nm - from_nm) / segments as f64;
@@ -166,7 +166,7 @@ impl<'a> Strand<'a> {
         };
         let layout = rod.push(&mut stock.state).map_err(|error| {
             let key = format!("filament.sections[{i}].segments");
-            Problem::new(key, segments, error.to_string())
+            SceneProblem::new(key, segments, error.to_string())
         })?;
         self.describe_rod(i, &layout, length, stock);
         self.bodies.push(Body::Rod(layout));
@@ -179,7 +179,7 @@ impl<'a> Strand<'a> {
         clippy::cast_sign_loss,
         reason = "checked to lie between 1 and 2^53"
     )]
-    pub(super) fn segments(&self, i: usize) -> Result<usize, Problem> {
+    pub(super) fn segments(&self, i: usize) -> Result<usize, SceneProblem> {
         let Resolved { from_nm, to_nm, .. } = self.resolved[i];
         let written = match self.filament.sections[i] {
             Section::Rod { segments, .. } => segments,
@@ -194,7 +194,7 @@ impl<'a> Strand<'a> {
         if count <= MOST_COUNTED {
             return Ok(count as usize);
         }
-        Err(Problem::new(
+        Err(SceneProblem::new(
             format!("filament.sections[{i}].{key}"),
             value,
             format!("{count:.2e} segments in this section are more than can be counted"),
@@ -256,7 +256,7 @@ impl<'a> Strand<'a> {
     }
 
     /// Pushes the frames of the junction between section `i` and the next, in filament order.
-    fn push_junction_frames(&mut self, i: usize, stock: &mut Stock) -> Result<(), Problem> {
+    fn push_junction_frames(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
         let rise = self.lattice.rise_nm;
         let boundary = self.resolved[i].to_nm;
         let monomers_first = self.resolved[i].monomers.is_some();
@@ -287,6 +287,6 @@ impl<'a> Strand<'a> {
     }
 }
 
-pub(super) fn junction_problem(error: &actin_coupling::JunctionError) -> Problem {
-    Problem::new("filament.junction", "", error.to_string())
+pub(super) fn junction_problem(error: &actin_coupling::JunctionError) -> SceneProblem {
+    SceneProblem::new("filament.junction", "", error.to_string())
 }

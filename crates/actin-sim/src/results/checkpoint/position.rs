@@ -3,7 +3,7 @@
 use super::Damage;
 use super::bytes::{Reader, Writer};
 use crate::run::{Arrival, MotionPosition, PathPosition, Record, RunPosition, SaddlePush};
-use actin_equilibrium::{Certificate, Waypoint, Work};
+use actin_equilibrium::{Certificate, SolverWork, Waypoint};
 use actin_integrate::{Checkpoint, Mark};
 use actin_mechanics::State;
 
@@ -204,7 +204,7 @@ fn read_path(reader: &mut Reader<'_>, like: &State) -> Result<PathPosition, Dama
         saddles_left: reader.size()?,
         jumps: reader.size()?,
         last: reader.optional(read_arrival)?,
-        work: Work {
+        work: SolverWork {
             iterations: reader.count()?,
             evaluations: reader.count()?,
             assemblies: reader.count()?,

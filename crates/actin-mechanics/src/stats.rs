@@ -8,9 +8,9 @@
 use crate::wide::{self, Columns, Simd, WithSimd};
 use crate::{Frames, Points, State};
 
-/// What [`State::survey`] finds.
+/// What [`State::stats`] finds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Survey {
+pub struct StateStats {
     /// Kinetic energy of the free bodies, sliding ones included.
     ///
     /// Not finite if any position, velocity, orientation or angular momentum of the state, held
@@ -33,14 +33,14 @@ impl State {
     /// let (position, mass) = (Vector3::zeros(), 3.0);
     /// state.points.push(Point { position, mass });
     /// state.points.velocity.set(0, Vector3::new(0.0, 2.0, 0.0));
-    /// assert_eq!(state.survey().kinetic_energy, 6.0);
+    /// assert_eq!(state.stats().kinetic_energy, 6.0);
     /// state.points.position.x[0] = f64::INFINITY;
-    /// assert!(!state.survey().kinetic_energy.is_finite());
+    /// assert!(!state.stats().kinetic_energy.is_finite());
     /// ```
-    pub fn survey(&self) -> Survey {
+    pub fn stats(&self) -> StateStats {
         let sliding: f64 = self.sliders.iter().map(|s| s.kinetic_energy(self)).sum();
         let of_bodies = wide::dispatch(Pass(self));
-        Survey {
+        StateStats {
             kinetic_energy: of_bodies.kinetic_energy + sliding,
             ..of_bodies
         }
@@ -51,13 +51,13 @@ impl State {
 struct Pass<'a>(&'a State);
 
 impl WithSimd for Pass<'_> {
-    type Output = Survey;
+    type Output = StateStats;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Survey {
+    fn with_simd<S: Simd>(self, simd: S) -> StateStats {
         let points = points(simd, &self.0.points);
         let (frames, squared) = frames(simd, &self.0.frames);
-        Survey {
+        StateStats {
             kinetic_energy: 0.5 * simd.reduce_sum_f64s(simd.add_f64s(points, frames)),
             largest_spin_squared: simd.reduce_max_f64s(squared),
         }
@@ -182,7 +182,7 @@ mod tests {
                 assert!((energy - kinetic).abs() <= tolerance * kinetic, "{bodies}");
                 assert!((survey.largest_spin_squared - spin).abs() <= 1e-15 * spin);
             }
-            let whole = state.survey().kinetic_energy;
+            let whole = state.stats().kinetic_energy;
             assert!((whole - kinetic).abs() <= 1e-15 * (4.0 + bodies as f64) * kinetic);
         }
     }
@@ -223,8 +223,8 @@ mod tests {
     fn large_places_are_sound() {
         let mut state = moving(5);
         state.points.position.set(3, Vector3::repeat(1e300));
-        assert!(state.survey().kinetic_energy.is_finite());
+        assert!(state.stats().kinetic_energy.is_finite());
         state.points.velocity.set(3, Vector3::repeat(1e200));
-        assert!(!state.survey().kinetic_energy.is_finite());
+        assert!(!state.stats().kinetic_energy.is_finite());
     }
 }

@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 /// Someone who goes along a path and may ask for its end.
 ///
 /// Implemented by every closure that looks at the points.
-pub trait Companion {
+pub trait PathObserver {
     /// Sees an equilibrium; [`ControlFlow::Break`] ends the path there.
     fn arrive(&mut self, point: &PathPoint<'_>) -> ControlFlow<()>;
 
@@ -20,7 +20,7 @@ pub trait Companion {
     }
 }
 
-impl<F: FnMut(&PathPoint<'_>) -> ControlFlow<()>> Companion for F {
+impl<F: FnMut(&PathPoint<'_>) -> ControlFlow<()>> PathObserver for F {
     fn arrive(&mut self, point: &PathPoint<'_>) -> ControlFlow<()> {
         self(point)
     }
