@@ -66,7 +66,7 @@ fn tilted_ends_lose_nothing_unseen() {
 }
 
 /// An end that is pushed past the other has lost nothing; with the straight lines beyond both on one
-/// line nobody can tell, and the summary says so. Beside each other they tell it again.
+/// line the sum tells nothing, and the summary says so. Beside each other they tell it again.
 #[test]
 fn ends_that_pass_each_other_lose_nothing() {
     for (segments, aside, is_known) in [(20, 0.0, false), (40, 0.0, false), (20, 5.0, true)] {

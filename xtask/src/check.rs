@@ -81,7 +81,7 @@ pub(crate) fn run() -> Result<(), String> {
 }
 
 /// How a command ends. Its lines go through this program's standard output, so that it does not fail where
-/// nobody reads them any more.
+/// its reader has gone.
 fn status(command: &mut Command) -> io::Result<ExitStatus> {
     let mut child = command.stdout(Stdio::piped()).spawn()?;
     let output = child.stdout.take().expect("it is piped");

@@ -92,7 +92,7 @@ fn begin(
         directory.write_scene(plan.scene())?;
         return Ok(Beginning::New);
     }
-    // Again, now that nobody else writes.
+    // Again, now that no other process writes.
     if is_finished(plan, directory)? {
         return Ok(Beginning::Finished);
     }

@@ -36,7 +36,7 @@ pub(crate) fn print_line(line: fmt::Arguments<'_>) {
     }
 }
 
-/// Writes a line to standard error. If that cannot be written to, there is nobody left to tell.
+/// Writes a line to standard error. A failure to write there is ignored.
 pub(crate) fn print_error_line(line: fmt::Arguments<'_>) {
     if cfg!(test) {
         return std::eprintln!("{line}");

@@ -129,7 +129,7 @@ fn an_earlier_run_is_replaced() {
 }
 
 /// The scene that is to run lies in the directory that is to be overwritten, or a link leads to it: it
-/// would be gone. A scene in a run directory that was edited is somebody's work as well.
+/// would be gone. A scene in a run directory that was edited is kept as well.
 #[test]
 fn a_scene_is_not_overwritten() {
     let place = Workplace::with(EQUILIBRIUM);

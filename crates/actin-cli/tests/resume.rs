@@ -272,7 +272,7 @@ fn an_equilibrium_in_which_a_load_is_lost_is_kept() {
 }
 
 /// Whatever a second run would do in the directory of one that goes on (here: is stopped half way),
-/// it is refused and touches nothing. When the first has been killed, its lock keeps nobody out, and
+/// it is refused and touches nothing. When the first has been killed, its lock keeps no other run out, and
 /// afterwards the file of it is empty.
 #[test]
 fn a_directory_in_use_is_left_alone() {

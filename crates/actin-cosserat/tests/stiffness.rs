@@ -124,7 +124,7 @@ fn shifts_are_free_in_every_state() {
     assert!((&matrix * shift).amax() < 1e-14 * matrix.amax());
 }
 
-/// Held bodies have blocks too (whoever assembles leaves them out), neighbours have none.
+/// Held bodies have blocks too (the assembler leaves them out), neighbours have none.
 #[test]
 fn blocks_stand_on_the_rods_own_bodies() {
     let mut noise = Noise::new(15);

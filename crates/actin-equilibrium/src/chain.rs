@@ -7,7 +7,7 @@
 //! in the step however far the whole moves.
 //!
 //! This works along a tree of ties, which a filament held at one end is. Where ends meet again,
-//! at a second held end, the step closes badly; whoever takes it compares energies.
+//! at a second held end, the step closes badly; the caller compares energies.
 //!
 //! # Source
 //! The reason is that of D. Magisano, L. Leonetti and G. Garcea, Int. J. Numer. Methods Eng. 111

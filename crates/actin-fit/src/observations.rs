@@ -34,7 +34,7 @@ pub struct Observations {
 }
 
 impl Observations {
-    /// Values that are equally accurate, nobody knows how accurate.
+    /// Values of equal but unknown accuracy.
     ///
     /// # Errors
     /// If a value is not finite or larger than 1e100, or the largest is below 1e-100 and not zero:

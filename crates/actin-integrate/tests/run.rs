@@ -384,7 +384,7 @@ impl Observer for Restless {
     }
 }
 
-/// A run that is changed at rest goes on until it is at rest and left alone; nobody is asked once its
+/// A run that is changed at rest goes on until it is at rest and left alone; no observer is asked once its
 /// time is up.
 #[test]
 fn a_run_goes_on_after_an_intervention() {

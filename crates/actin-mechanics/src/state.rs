@@ -66,7 +66,7 @@ impl State {
     /// # Panics
     /// If `other` has other numbers of bodies or controls.
     pub fn copy_motion_from(&mut self, other: &Self) {
-        // Named one by one, so that whoever adds to a state decides here whether it moves.
+        // Named one by one, so that a new field of the state is decided on here.
         let Self {
             points,
             frames,

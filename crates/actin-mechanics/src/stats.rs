@@ -1,5 +1,5 @@
 //! What one straight pass over a state shows of its soundness. What is then wrong with it, and
-//! where, is for whoever finds it unsound to look up body by body.
+//! where, the caller looks up body by body.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"

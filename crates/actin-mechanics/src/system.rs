@@ -298,7 +298,7 @@ mod tests {
     }
 
     /// Bodies that are added later would have no loads, and those that lose their velocity would not
-    /// be moved: both without a word if nobody looked.
+    /// be moved: both silently without this check.
     #[test]
     fn states_that_lose_their_shape_are_refused() {
         let is_refused = |change: fn(&mut State)| {

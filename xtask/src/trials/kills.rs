@@ -11,7 +11,7 @@ use std::time::Duration;
 /// Kills of one run that are so many that it will never get to its end.
 const MOST_KILLS: u32 = 200;
 
-/// A run that nobody disturbs; it is interrupted after that time, which is a failure.
+/// An undisturbed run; it is interrupted after that time, which is a failure.
 const UNDISTURBED: Duration = Duration::from_mins(5);
 
 /// Kills a run at random moments until it is done; its files are those of one that was not killed.

@@ -310,7 +310,7 @@ fn the_smallest_turns_count() {
 }
 
 /// A node that is not a number spoils its own segments, and the elements around these where something
-/// couples, and no others, so that whoever looks for what broke finds it.
+/// couples, and no others, so that the failure can be located.
 #[test]
 fn a_broken_node_spoils_its_neighbours_only() {
     for law in &laws() {

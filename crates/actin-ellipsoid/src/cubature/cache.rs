@@ -12,7 +12,7 @@ type Key = (InterfaceKind, usize, [u64; 8]);
 /// What a search led to.
 type Found = Result<Arc<Cubature>, CubatureError>;
 
-/// A place for each geometry, filled by whoever asks first while others wait.
+/// A place for each geometry, filled by the first caller while others wait.
 static FOUND: Mutex<Option<HashMap<Key, Arc<OnceLock<Found>>>>> = Mutex::new(None);
 
 /// The points of an interface.

@@ -74,7 +74,7 @@ fn stiffness_of(interaction: &dyn Interaction, state: &State) -> Stiffness {
     stiffness
 }
 
-/// Whoever assembles looks up places once, and reads one triangle of the diagonal blocks.
+/// An assembler looks up places once, and reads one triangle of the diagonal blocks.
 fn assert_pairs_and_diagonal(interaction: &dyn Interaction, state: &State, relative: f64) {
     let here = stiffness_of(interaction, state);
     let mut moved = state.clone();

@@ -28,7 +28,7 @@ pub fn by_name(rows: Vec<Row>) -> Report {
         .collect()
 }
 
-/// Tells how the rows of a full run differ from the committed ones, and misses that nobody has explained;
+/// Tells how the rows of a full run differ from the committed ones, and misses without an explanation;
 /// neither is an error.
 ///
 /// # Errors

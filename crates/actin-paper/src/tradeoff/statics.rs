@@ -28,7 +28,7 @@ pub(super) fn rows(study: &Study) -> Result<Vec<Row>, String> {
             .filter_map(|(attempt, reference)| Some((attempt.as_ref().ok()?, reference)))
             .collect();
         for error in attempts.iter().filter_map(|attempt| attempt.as_ref().err()) {
-            // Where nobody reads them, lines are lost.
+            // Lines that are not read are lost.
             let _ = writeln!(io::stderr(), "{name}: {error}");
         }
         let of_pairs = |compare: fn(&Observed, &Observed) -> Errors| -> Vec<Errors> {

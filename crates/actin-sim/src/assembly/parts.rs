@@ -1,4 +1,4 @@
-//! What bodies, sections and terms are, for whoever writes or draws them.
+//! What bodies, sections and terms are, for writers and pictures.
 
 use super::TwistWatch;
 use crate::scene::End;

@@ -5,7 +5,7 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::path::Path;
 
-/// Name of the file that is locked: one that nobody gives to a file of their own.
+/// Name of the file that is locked, which no user file is likely to have.
 pub(super) const LOCK: &str = ".actin-run.lock";
 
 /// Most digits of a process number.
@@ -76,7 +76,7 @@ impl RunLock {
 
 impl Drop for RunLock {
     fn drop(&mut self) {
-        // A number that stays does no harm: nobody holds the lock.
+        // A number that stays does no harm: no process holds the lock.
         let _ = self.file.set_len(0);
     }
 }
@@ -86,7 +86,7 @@ impl Drop for RunLock {
 /// A run that takes the lock in the same instant may be refused for this look.
 pub(super) fn refuse_in_use(directory: &Path) -> Result<(), RunDirectoryError> {
     let path = directory.join(LOCK);
-    // Opening a pipe would wait for somebody to write.
+    // Opening a pipe would block until a writer opens it.
     if !fs::symlink_metadata(&path).is_ok_and(|data| data.is_file()) {
         return Ok(());
     }
@@ -130,8 +130,8 @@ fn in_use(directory: &Path, lock: &Path) -> RunDirectoryError {
 mod tests {
     use super::*;
 
-    /// The second is refused, whoever asks, with the process that holds it; afterwards an empty file is
-    /// left, which keeps nobody out.
+    /// The second is refused, from any process, with the process that holds it; afterwards an empty file is
+    /// left, which keeps no run out.
     #[test]
     fn a_directory_has_one_run_at_a_time() {
         let folder = tempfile::tempdir().unwrap();
@@ -159,7 +159,7 @@ mod tests {
         assert_eq!(signed, std::process::id().to_string());
     }
 
-    /// What somebody keeps under that name is neither emptied nor removed; numbers that are too long for
+    /// A user file of that name is neither emptied nor removed; numbers that are too long for
     /// a process are theirs, too.
     #[test]
     fn what_no_run_has_left_stays() {

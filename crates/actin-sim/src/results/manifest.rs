@@ -12,7 +12,7 @@ use std::fs::{self, FileType};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Name of the manifest: one that nobody gives to a file of their own.
+/// Name of the manifest, which no user file is likely to have.
 pub(super) const MANIFEST: &str = "actin-run.json";
 
 /// What the file says it is.

@@ -1,5 +1,5 @@
 //! Why comparisons fail, for a reader who has nothing but the page. What is said here was found by
-//! looking into each miss; a miss that nobody has looked into has no reason, and the page says so.
+//! looking into each miss; a miss that is not explained has no reason, and the page says so.
 
 use actin_draw::page::{Explained, Misses};
 use actin_draw::report::Row;

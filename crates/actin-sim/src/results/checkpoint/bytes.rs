@@ -137,7 +137,7 @@ impl<'a> Reader<'a> {
         (0..count).map(|_| read(self)).collect()
     }
 
-    /// Refuses bytes that nobody has read.
+    /// Refuses unread bytes.
     pub(super) fn end(&self) -> Result<(), Damage> {
         match self.rest.len() {
             0 => Ok(()),
