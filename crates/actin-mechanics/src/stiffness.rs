@@ -15,8 +15,8 @@ pub enum Coordinates {
 ///
 /// With `u` and `v` coordinates of two bodies, the block `(a, b)` is `d^2 E / du_a dv_b` at
 /// `u = v = 0`. Each pair of different bodies is given once; the transposed block is implied.
-/// An interaction pushes the same pairs in the same order at every state, so that whoever
-/// assembles a matrix can look up places once.
+/// An interaction pushes the same pairs in the same order at every state, so that an
+/// assembler can look up places once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stiffness {
     blocks: Vec<(Coordinates, Coordinates, Matrix3)>,

@@ -1,5 +1,5 @@
-//! Who is bonded to whom, for whoever draws or measures bonds: those between monomers and those of
-//! a junction. What the bonds do is in the crates of the models.
+//! Which bodies are bonded, for pictures and measurements: the bonds between monomers and those of a
+//! junction. What the bonds do is in the crates of the models.
 
 use super::{Assembly, BodyKind, Resolution, models};
 use actin_ellipsoid::{Bonds, Monomers};

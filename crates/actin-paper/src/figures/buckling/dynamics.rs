@@ -8,7 +8,9 @@ use super::rows::artefact;
 use super::starts::is_same;
 use crate::run::run_to_end;
 use actin_draw::report::{Origin, Row};
-use actin_sim::{Assembly, DragRates, Dynamics, Equilibrium, Integrator, Record, StopTolerances, Task};
+use actin_sim::{
+    Assembly, DragRates, Dynamics, Equilibrium, Integrator, Record, StopTolerances, Task,
+};
 
 /// Where damped motion ended.
 #[derive(Clone, Debug)]
