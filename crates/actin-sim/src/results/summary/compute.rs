@@ -18,13 +18,13 @@ impl Summary {
         let equilibrium = outcome.equilibrium.as_ref();
         let filaments = FilamentSummary::all(assembly, last);
         let first = &filaments[0];
-        let is_motion = matches!(assembly.scene.task, Task::Dynamics(_));
+        let [time_ns, path] = when(assembly, last);
         Self {
             scene: assembly.scene.title.clone(),
             status: outcome.status,
             counts: assembly.counts(),
-            time_ns: is_motion.then_some(last.time_ns),
-            path: (!is_motion).then_some(last.time_ns),
+            time_ns,
+            path,
             time_step_ns: outcome.time_step_ns,
             largest_frequency_rad_per_ns: outcome.largest_frequency_rad_per_ns,
             stability: outcome.certificate().map(StabilitySummary::new),
@@ -56,6 +56,14 @@ impl Summary {
             seed: first.seed,
             filaments,
         }
+    }
+}
+
+/// Time of a record (ns), or where it stands on a path of equilibria.
+fn when(assembly: &Assembly, record: &Record) -> [Option<f64>; 2] {
+    match assembly.scene.task {
+        Task::Dynamics(_) => [Some(record.time_ns), None],
+        Task::Equilibrium(_) => [None, Some(record.time_ns)],
     }
 }
 
