@@ -138,7 +138,7 @@ impl Path {
     /// if there is one: `state` is then the equilibrium there, which is not shown again. What
     /// follows is the same to the bit as in the path that was left.
     ///
-    /// SolverWork and the number of points count on from the waypoint; `newton` counts from where it
+    /// Work and the number of points count on from the waypoint; `newton` counts from where it
     /// stands (see [`Newton::count_on`]).
     ///
     /// # Errors

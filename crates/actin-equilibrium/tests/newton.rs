@@ -190,7 +190,7 @@ fn indefinite_starts_lead_to_the_buckled_column() {
     assert!((angle - 60.0).abs() < 0.3, "tip angle {angle}");
 }
 
-/// SolverWork counts: a lost quadratic range or a needless refactorisation shows here.
+/// Counts of work: a lost quadratic range or a needless refactorisation shows here.
 #[test]
 fn a_cantilever_takes_few_steps_at_every_length() {
     for (segments, length) in [(16, 160.0), (160, 1600.0), (1600, 16000.0f64)] {

@@ -259,9 +259,11 @@ impl<'a> Follower<'a> {
         } else {
             let path = path(self.settings)?;
             let mut stages = self.position.stage..self.assembly.drive.stages();
-            stages.try_for_each(|stage| match self.taken.has_slipped() {
-                false => self.stage(&path, newton, state, stage),
-                true => Ok(()),
+            stages.try_for_each(|stage| {
+                if self.taken.has_slipped() {
+                    return Ok(());
+                }
+                self.stage(&path, newton, state, stage)
             })
         };
         Ok(result.err())
