@@ -31,7 +31,7 @@ fn fitted_without_heat(law: &RodLaw) -> Option<(&'static str, InBath)> {
 }
 
 /// The command that measures these.
-const COMMAND: &str = "cargo run --release -p actin-sim --example persistence_length";
+const COMMAND: &str = "cargo run --release -p actin-paper --example persistence_length";
 
 impl Assembly {
     /// What there is to know of this scene before it runs, a sentence or two each.

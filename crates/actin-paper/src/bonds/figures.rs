@@ -6,7 +6,7 @@ use super::Effort;
 use super::page::Listing;
 use super::study::bar;
 use super::tables::spread;
-use super::variant::Variant;
+use super::variant::{Variant, compared};
 use crate::run::run_to_end;
 use crate::workspace_root;
 use actin_mechanics::State;
@@ -22,19 +22,6 @@ const SAMPLINGS: u64 = 8;
 const TIP_PN: [f64; 2] = [2.0, 0.1];
 /// Length of the buckled filament (nm), which clamps on monomers shorten by 10 nm.
 const BUCKLED_NM: f64 = 290.0;
-
-/// What is compared.
-fn variants() -> Vec<Variant> {
-    vec![
-        Variant::drawn(64, 0.0),
-        Variant::drawn(64, 0.2),
-        Variant::drawn(1024, 0.2),
-        Variant::weighted(8, 0.2),
-        Variant::weighted(12, 0.2),
-        Variant::weighted(16, 0.2),
-        Variant::weighted(24, 0.2),
-    ]
-}
 
 /// One filament of one sampling: an observable of each scene.
 type Observed = Vec<f64>;
@@ -60,7 +47,7 @@ const HEADER: [&str; 16] = [
 
 /// The observables of all variants, mean and standard deviation over samplings.
 pub(super) fn table(effort: Effort) -> Result<Listing, String> {
-    let variants = variants();
+    let variants = compared();
     let samplings = |variant: &Variant| {
         let few = if variant.monomers.lateral_bonds > 64 {
             2

@@ -1,17 +1,16 @@
 //! Stiffness at room temperature: free filaments in a heat bath, and how much cross-sections turn
 //! against each other.
 //!
-//! At distance `s`, `<cos theta> = exp(-s / lp)` and `<phi^2> = s kT / C`, where `theta` tilts the axis
-//! and `phi` goes about it. `next` takes neighbours; `far` takes the slopes between 1/5 and 3/5 of the
-//! length, which the wobble of single monomers does not enter.
+//! `next` takes neighbours; `far` takes the slopes between 1/5 and 3/5 of the length, which the wobble of
+//! single monomers does not enter.
 
 use super::Effort;
 use super::page::Listing;
 use super::study::bar;
-use super::variant::Variant;
+use super::variant::{Variant, compared};
+use crate::measure::{Turns, jackknife, steps_in};
 use actin_integrate::{Bath, Composition, Drag, POSITION_VERLET, advance_in};
 use actin_integrate::{largest_frequency, stable_step};
-use actin_mechanics::{State, UnitQuaternion, rotation};
 use actin_sim::{
     Assembly, BOLTZMANN_PN_NM_PER_K, Equilibrium, Filament as Description, Monomers, Scene,
     Section, Task,
@@ -90,27 +89,21 @@ impl Filament {
     pub(super) fn warm_up(&mut self, scheme: &Composition, share: f64) -> Result<f64, String> {
         let step = stable_step(scheme, self.frequency, share).map_err(|e| e.to_string())?;
         let system = &mut self.assembly.system;
-        advance_in(system, scheme, step, steps(WARM_UP_NS, step), &self.bath, 0);
+        advance_in(
+            system,
+            scheme,
+            step,
+            steps_in(WARM_UP_NS, step),
+            &self.bath,
+            0,
+        );
         Ok(step)
     }
 }
 
-/// Steps of `h` in a duration.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "some ns in steps of a thousandth"
-)]
-pub(super) fn steps(duration: f64, h: f64) -> u64 {
-    (duration / h).ceil() as u64
-}
-
-/// Means over one replica, by separation of frames.
+/// Means over one replica.
 struct Sums {
-    /// `<cos theta>`.
-    cosine: Vec<f64>,
-    /// `<phi^2>` (rad^2).
-    twist: Vec<f64>,
+    turns: Turns,
     /// Potential energy per degree of freedom (kT).
     energy: f64,
 }
@@ -120,56 +113,36 @@ impl Sums {
         let mut filament = Filament::new(variant, LENGTH_NM, replica)?;
         let step = filament.warm_up(&POSITION_VERLET, SHARE)?;
         let rest = filament.assembly.rest.clone();
-        let count = rest.frames.len();
         let mut sums = Self {
-            cosine: vec![0.0; count],
-            twist: vec![0.0; count],
+            turns: Turns::new(rest.frames.len()),
             energy: 0.0,
         };
-        let (warm_up, apart) = (steps(WARM_UP_NS, step), steps(APART_NS, step));
+        let (warm_up, apart) = (steps_in(WARM_UP_NS, step), steps_in(APART_NS, step));
         for sample in 0..samples as u64 {
             let system = &mut filament.assembly.system;
             let first = warm_up + sample * apart;
             advance_in(system, &POSITION_VERLET, step, apart, &filament.bath, first);
-            sums.add(&rest, system.state(), samples);
+            sums.turns.add(&rest, system.state(), samples);
             let kts = filament.kt * filament.dofs * samples as f64;
             sums.energy += system.potential_energy() / kts;
         }
         Ok(sums)
     }
-
-    /// Adds a sample: the mean over all pairs of frames at each separation.
-    fn add(&mut self, rest: &State, state: &State, samples: usize) {
-        let (q0, q) = (&rest.frames.orientation, &state.frames.orientation);
-        // Turns from rest, in the axes of the filament at rest: z is its axis.
-        let turns: Vec<UnitQuaternion> = (0..q.len())
-            .map(|i| q.get(i) * q0.get(i).inverse())
-            .collect();
-        for k in 0..turns.len() {
-            let pairs = turns.iter().zip(&turns[k..]);
-            let weight = 1.0 / (pairs.len() * samples) as f64;
-            for (a, b) in pairs {
-                let relative = a.inverse() * b;
-                let (x, y) = (relative.i, relative.j);
-                // Of a rotation, the element (3, 3) of its matrix.
-                self.cosine[k] += weight * (1.0 - 2.0 * (x * x + y * y));
-                self.twist[k] += weight * rotation::log(relative).z.powi(2);
-            }
-        }
-    }
 }
 
 /// What is compared, and replicas of each.
 fn variants() -> Vec<(Variant, u64)> {
-    vec![
-        (Variant::drawn(1024, 0.2), REPLICAS_OF_MANY),
-        (Variant::drawn(64, 0.2), REPLICAS),
-        (Variant::drawn(64, 0.0), REPLICAS),
-        (Variant::weighted(8, 0.2), REPLICAS),
-        (Variant::weighted(12, 0.2), REPLICAS),
-        (Variant::weighted(16, 0.2), REPLICAS),
-        (Variant::weighted(24, 0.2), REPLICAS),
-    ]
+    let replicas = |variant: &Variant| match variant.monomers.lateral_bonds {
+        0..=64 => REPLICAS,
+        _ => REPLICAS_OF_MANY,
+    };
+    compared()
+        .into_iter()
+        .map(|variant| {
+            let replicas = replicas(&variant);
+            (variant, replicas)
+        })
+        .collect()
 }
 
 /// Rigidities at room temperature of all variants.
@@ -215,8 +188,8 @@ fn row(name: String, sums: &[Sums], rise_nm: f64) -> Vec<String> {
     let shown = |(value, error): (f64, f64)| format!("{value:.0} +- {error:.0}");
     let mut row = vec![name];
     for separation in [next, far(sums)] {
-        let tilt = rigidity(sums, separation, |s, k| s.cosine[k], true, rise_nm);
-        let twist = rigidity(sums, separation, |s, k| s.twist[k], false, rise_nm);
+        let tilt = rigidity(sums, separation, |s, k| s.turns.cosine[k], true, rise_nm);
+        let twist = rigidity(sums, separation, |s, k| s.turns.twist[k], false, rise_nm);
         row.extend([tilt, twist].map(shown));
     }
     row.push(format!("{:.4} +- {:.4}", energy.0, energy.1));
@@ -225,7 +198,7 @@ fn row(name: String, sums: &[Sums], rise_nm: f64) -> Vec<String> {
 
 /// Separations (frames) between which slopes are taken.
 fn far(sums: &[Sums]) -> [usize; 2] {
-    let count = sums[0].cosine.len();
+    let count = sums[0].turns.cosine.len();
     [count / 5, 3 * count / 5]
 }
 
@@ -266,25 +239,8 @@ pub(crate) fn persistence_length_um(
         .map(|replica| Sums::of(&variant, replica, SAMPLES))
         .inspect(|_| done())
         .collect::<Result<_, _>>()?;
-    let tilt = |s: &Sums, k: usize| s.cosine[k];
+    let tilt = |s: &Sums, k: usize| s.turns.cosine[k];
     let (rigidity, error) = rigidity(&sums, far(&sums), tilt, true, monomers.rise_nm);
     let um = 1e-3 / (BOLTZMANN_PN_NM_PER_K * ROOM);
     Ok((um * rigidity, um * error))
-}
-
-/// An estimate from all replicas, with its standard error.
-fn jackknife(sums: &[Sums], estimate: impl Fn(&[&Sums]) -> f64) -> (f64, f64) {
-    let all: Vec<&Sums> = sums.iter().collect();
-    let whole = estimate(&all);
-    let n = all.len() as f64;
-    let squares = (0..all.len()).map(|leave| {
-        let rest: Vec<&Sums> = all[..leave]
-            .iter()
-            .chain(&all[leave + 1..])
-            .copied()
-            .collect();
-        (estimate(&rest) - whole).powi(2)
-    });
-    let square: f64 = squares.sum();
-    (whole, (square * (n - 1.0) / n).sqrt())
 }

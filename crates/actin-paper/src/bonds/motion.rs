@@ -2,11 +2,12 @@
 //! left alone.
 
 use super::Effort;
-use super::heat::{Filament, steps};
+use super::heat::Filament;
 use super::page::Listing;
 use super::study::bar;
 use super::tables::spread;
-use super::variant::Variant;
+use super::variant::{Variant, compared};
+use crate::measure::steps_in;
 use actin_integrate::{Drag, PEFRL, advance};
 use rayon::prelude::*;
 use std::time::Instant;
@@ -20,19 +21,11 @@ const REPLICAS: u64 = 16;
 /// Length (nm).
 const LENGTH_NM: f64 = 55.0;
 
-/// What is compared.
+/// What is compared: the shortest length matters in motion, so weighted bonds have others as well.
 fn variants() -> Vec<Variant> {
-    vec![
-        Variant::drawn(64, 0.0),
-        Variant::drawn(64, 0.2),
-        Variant::drawn(1024, 0.2),
-        Variant::weighted(8, 0.2),
-        Variant::weighted(12, 0.0),
-        Variant::weighted(12, 0.2),
-        Variant::weighted(12, 0.3),
-        Variant::weighted(16, 0.2),
-        Variant::weighted(24, 0.2),
-    ]
+    let mut variants = compared();
+    variants.extend([0.0, 0.3].map(|shortest| Variant::weighted(12, shortest)));
+    variants
 }
 
 /// One filament left alone.
@@ -53,7 +46,7 @@ fn drift(variant: &Variant, share: f64, replica: u64, duration: f64) -> Result<D
     let system = &mut filament.assembly.system;
     let before = system.total_energy();
     let clock = Instant::now();
-    advance(system, &PEFRL, step, steps(duration, step), &Drag::NONE);
+    advance(system, &PEFRL, step, steps_in(duration, step), &Drag::NONE);
     let seconds = clock.elapsed().as_secs_f64() / duration;
     let gained = (system.total_energy() - before) / (filament.kt * filament.dofs * duration);
     let frequency = filament.frequency;

@@ -10,6 +10,19 @@ pub(super) struct Variant {
     pub monomers: Monomers,
 }
 
+/// What figures, heat and motion compare: drawn bonds, the limit of many, and weighted ones.
+pub(super) fn compared() -> Vec<Variant> {
+    vec![
+        Variant::drawn(64, 0.0),
+        Variant::drawn(64, 0.2),
+        Variant::drawn(1024, 0.2),
+        Variant::weighted(8, 0.2),
+        Variant::weighted(12, 0.2),
+        Variant::weighted(16, 0.2),
+        Variant::weighted(24, 0.2),
+    ]
+}
+
 impl Variant {
     /// So many bonds drawn for each interface, none shorter than this (nm).
     pub(super) fn drawn(bonds: usize, shortest: f64) -> Self {

@@ -20,6 +20,8 @@
 //! | [`free_turn_under_tension`] | the same | turn until no couple is left | turn, `dL / L` |
 //! | [`shear_by_force`] | both ends in orientation, the far one slides freely | transverse force | `F / gamma` |
 //!
+//! [`Turns`] sums up how cross-sections of a filament in a heat bath turn against each other.
+//!
 //! The length is that between the clamped points: of held monomers the inner ones.
 //!
 //! ```
@@ -43,6 +45,7 @@ mod specimen;
 mod stretch;
 mod sweep;
 mod tension;
+mod turns;
 mod twist;
 mod twisted;
 
@@ -58,6 +61,7 @@ pub use specimen::Specimen;
 pub use stretch::{StretchPoint, stretch_by_force, stretch_by_shift};
 pub use sweep::{Curve, Unreached};
 pub use tension::{PulledTwistPoint, free_turn_under_tension, twist_under_tension};
+pub use turns::{Turns, jackknife, steps_in};
 pub use twist::{TwistPoint, twist, twist_in_order};
 pub use twisted::{HelixPoint, PulledBendPoint, bend_twisted, bend_under_tension};
 

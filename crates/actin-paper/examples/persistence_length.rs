@@ -1,7 +1,7 @@
 //! Persistence length from thermal motion: of the rod against B/kT and under its laws, and of the
 //! ellipsoid filament, with error bars, against the time step and against the temperature.
 //!
-//! `cargo run --release -p actin-sim --example persistence_length [SEEDS [CASE [FIRST]]]`
+//! `cargo run --release -p actin-paper --example persistence_length [SEEDS [CASE [FIRST]]]`
 //!
 //! Free filaments in a heat bath; of the turn of one cross-section against another at distance `s`,
 //! `<cos theta> = exp(-s/lp)` and `<phi^2> = s kT/C`, where `theta` tilts the axis and `phi` goes
@@ -12,7 +12,8 @@
 
 use actin_integrate::stable_step;
 use actin_integrate::{Bath, Composition, Drag, PEFRL, POSITION_VERLET, advance, advance_in};
-use actin_mechanics::{State, System, UnitQuaternion, rotation};
+use actin_mechanics::System;
+use actin_paper::measure::{Turns, jackknife, steps_in};
 use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Plan, Scene};
 use rayon::prelude::*;
 use std::time::Instant;
@@ -141,12 +142,9 @@ fn cost(name: &str, sections: &'static str) {
     }
 }
 
-/// Means over one seed, by separation of frames.
+/// Means over one seed.
 struct Sums {
-    /// `<cos theta>`.
-    cosine: Vec<f64>,
-    /// `<phi^2>` (rad^2).
-    twist: Vec<f64>,
+    turns: Turns,
     /// Potential energy per degree of freedom (kT).
     energy: f64,
     /// Distance of neighbouring frames along the axis (nm).
@@ -181,14 +179,13 @@ impl Case {
         let kt = BOLTZMANN_PN_NM_PER_K * self.temperature;
         let drag = Drag::new(DRAG, DRAG).expect("positive rates");
         let bath = Bath::new(drag, kt, seed).expect("a positive energy");
-        let (warm_up, apart) = (steps(WARM_UP_NS, h), steps(APART_NS, h));
+        let (warm_up, apart) = (steps_in(WARM_UP_NS, h), steps_in(APART_NS, h));
         advance_in(system, self.scheme, h, warm_up, &bath, 0);
         let rest = assembly.rest.clone();
         let count = rest.frames.len();
         let dofs = 3.0 * (rest.points.len() + count) as f64;
         let mut sums = Sums {
-            cosine: vec![0.0; count],
-            twist: vec![0.0; count],
+            turns: Turns::new(count),
             energy: 0.0,
             spacing: assembly.frames[1].s_nm - assembly.frames[0].s_nm,
             step: h,
@@ -197,7 +194,7 @@ impl Case {
             let system = &mut assembly.system;
             let first = warm_up + sample * apart;
             advance_in(system, self.scheme, h, apart, &bath, first);
-            sums.add(&rest, system.state());
+            sums.turns.add(&rest, system.state(), SAMPLES);
             sums.energy += system.potential_energy() / (kt * dofs * SAMPLES as f64);
         }
         sums
@@ -205,7 +202,7 @@ impl Case {
 
     fn report(&self, sums: &[Sums]) {
         let kt = BOLTZMANN_PN_NM_PER_K * self.temperature;
-        let count = sums[0].cosine.len();
+        let count = sums[0].turns.cosine.len();
         let (near, far) = ((0, 1), (count / 5, 3 * count / 5));
         let spacing = sums[0].spacing;
         let of = |&(a, b): &(usize, usize), get: fn(&Sums) -> &Vec<f64>, log: bool| {
@@ -217,9 +214,9 @@ impl Case {
                 (b - a) as f64 * spacing / (at(b) - at(a))
             })
         };
-        let (bend, bend_error) = of(&near, |s| &s.cosine, true);
-        let (long, long_error) = of(&far, |s| &s.cosine, true);
-        let (turn, turn_error) = of(&far, |s| &s.twist, false);
+        let (bend, bend_error) = of(&near, |s| &s.turns.cosine, true);
+        let (long, long_error) = of(&far, |s| &s.turns.cosine, true);
+        let (turn, turn_error) = of(&far, |s| &s.turns.twist, false);
         let (energy, energy_error) = jackknife(sums, |chosen| {
             chosen.iter().map(|s| s.energy).sum::<f64>() / chosen.len() as f64
         });
@@ -243,53 +240,4 @@ impl Case {
             energy_error
         );
     }
-}
-
-impl Sums {
-    /// Adds a sample: the mean over all pairs of frames at each separation.
-    fn add(&mut self, rest: &State, state: &State) {
-        let (q0, q) = (&rest.frames.orientation, &state.frames.orientation);
-        // Turns from rest, in the axes of the filament at rest: z is its axis.
-        let turns: Vec<UnitQuaternion> = (0..q.len())
-            .map(|i| q.get(i) * q0.get(i).inverse())
-            .collect();
-        for k in 0..turns.len() {
-            let pairs = turns.iter().zip(&turns[k..]);
-            let weight = 1.0 / (pairs.len() * SAMPLES) as f64;
-            for (a, b) in pairs {
-                let relative = a.inverse() * b;
-                let (x, y) = (relative.i, relative.j);
-                // Of a rotation, the element (3, 3) of its matrix.
-                self.cosine[k] += weight * (1.0 - 2.0 * (x * x + y * y));
-                self.twist[k] += weight * rotation::log(relative).z.powi(2);
-            }
-        }
-    }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a few ns in steps of a thousandth"
-)]
-fn steps(duration: f64, h: f64) -> u64 {
-    (duration / h).ceil() as u64
-}
-
-/// An estimate from all seeds, with its standard error.
-fn jackknife(sums: &[Sums], estimate: impl Fn(&[&Sums]) -> f64) -> (f64, f64) {
-    let all: Vec<&Sums> = sums.iter().collect();
-    let whole = estimate(&all);
-    let n = all.len() as f64;
-    let square: f64 = (0..all.len())
-        .map(|leave| {
-            let rest: Vec<&Sums> = all[..leave]
-                .iter()
-                .chain(&all[leave + 1..])
-                .copied()
-                .collect();
-            (estimate(&rest) - whole).powi(2)
-        })
-        .sum();
-    (whole, (square * (n - 1.0) / n).sqrt())
 }
