@@ -198,7 +198,7 @@ fn run(name: &str) -> usize {
 fn run_folder(name: &str) -> usize {
     let entries = fs::read_dir(root().join(name)).unwrap();
     let files = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    let pages = files.filter(|file| file.ends_with(".md"));
+    let pages = files.filter(|file| Path::new(file).extension().is_some_and(|e| e == "md"));
     pages.map(|file| run(&format!("{name}/{file}"))).sum()
 }
 
