@@ -14,7 +14,10 @@ const KINDS: [(&str, &str); 3] = [
 /// Commands with a task, a test program or an example that does not exist.
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let arguments = crate::Arguments::command();
-    let tasks: Vec<&str> = arguments.get_subcommands().map(|c| c.get_name()).collect();
+    let tasks: Vec<&str> = arguments
+        .get_subcommands()
+        .map(clap::Command::get_name)
+        .collect();
     let mut all = Vec::new();
     for (file, text) in files(root, "md")? {
         let name = file.strip_prefix(root).unwrap_or(&file).display();
