@@ -77,8 +77,9 @@ fn missing<'a>(expected: &'a str, output: &str) -> Option<&'a str> {
         .find(|pattern| !lines.any(|line| matches(pattern, line)))
 }
 
-/// A Python with numpy.
-fn python() -> Option<String> {
+/// A Python with numpy, for a block. Where there is none its test says so, or fails if
+/// `ACTIN_REQUIRE_PYTHON` is set, as `.ci/run` does.
+fn python(place: &str) -> Option<String> {
     let named = env::var("PYTHON").ok();
     let usual = ["python3", "/usr/bin/python3"].map(str::to_owned);
     let has_numpy = |python: &String| {
@@ -86,14 +87,19 @@ fn python() -> Option<String> {
         let output = command.args(["-c", "import numpy"]).output();
         output.is_ok_and(|output| output.status.success())
     };
-    named.into_iter().chain(usual).find(has_numpy)
+    let found = named.into_iter().chain(usual).find(has_numpy);
+    if found.is_none() {
+        let message = format!("{place}: no python3 with numpy: this block is NOT TESTED");
+        assert!(env::var_os("ACTIN_REQUIRE_PYTHON").is_none(), "{message}");
+        eprintln!("{message}");
+    }
+    found
 }
 
 /// A page on its way: its folder, and what its last block printed.
 struct Page {
     name: String,
     folder: TempDir,
-    python: Option<String>,
     /// Output of the last block that ran; `None` behind one that was skipped.
     output: Option<String>,
     /// Blocks that have run.
@@ -102,17 +108,9 @@ struct Page {
 
 impl Page {
     fn new(name: &str) -> Self {
-        let python = python();
-        if python.is_none() {
-            let message =
-                format!("{name}: no python3 with numpy: its Python blocks are NOT TESTED");
-            assert!(env::var_os("ACTIN_REQUIRE_PYTHON").is_none(), "{message}");
-            eprintln!("{message}");
-        }
         Self {
             name: name.to_owned(),
             folder: tempfile::tempdir().unwrap(),
-            python,
             output: None,
             run: 0,
         }
@@ -152,11 +150,11 @@ impl Page {
     /// What runs a block; `None` if Python is missing.
     fn command(&self, block: &Block, place: &str) -> Option<Command> {
         let (program, arguments) = match block.language.as_str() {
-            "sh" => ("sh", vec!["-e", "-c", &block.code]),
-            "python" => (self.python.as_deref()?, vec!["-c", &block.code]),
+            "sh" => ("sh".to_owned(), vec!["-e", "-c", &block.code]),
+            "python" => (python(place)?, vec!["-c", &block.code]),
             "ron" => {
                 fs::write(self.folder.path().join("block.ron"), &block.code).unwrap();
-                ("actin", vec!["check", "block.ron"])
+                ("actin".to_owned(), vec!["check", "block.ron"])
             }
             other => panic!("{place}: a block of {other:?} that nothing runs"),
         };
