@@ -1,5 +1,7 @@
 //! What neither compiler nor lints check: the invariants of `docs/architecture.md`.
 
+mod book;
+mod commands;
 mod dependencies;
 mod paths;
 mod sizes;
@@ -16,6 +18,8 @@ pub(crate) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let sources = files(root, "rs")?;
     let mut all = dependencies::findings(root)?;
     all.extend(paths::findings(root)?);
+    all.extend(book::findings(root)?);
+    all.extend(commands::findings(root)?);
     for (path, text) in &sources {
         let name = path
             .strip_prefix(root)

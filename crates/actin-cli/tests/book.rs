@@ -1,0 +1,258 @@
+//! The code blocks of the README and of the book, run in order as a reader would, each page in an empty
+//! folder of its own with the built program on the path.
+//!
+//! | block | what is done |
+//! |---|---|
+//! | `sh` | run with `sh -e`; exit code 0 |
+//! | `python` | run with a Python that has numpy; exit code 0 |
+//! | `ron` | `actin check` accepts it |
+//! | `text` behind one of these | its lines are in the output, in order; `...` stands for anything |
+//!
+//! A comment in the line above a block changes this: `<!-- file: NAME -->` writes the block to a file and
+//! runs nothing, `<!-- exit: 2 -->` expects another exit code, `<!-- not run: REASON -->` leaves it out.
+#![cfg(unix)]
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
+
+/// A fenced block of a page.
+#[derive(Debug, PartialEq)]
+struct Block {
+    /// Line of its opening, from 1.
+    line: usize,
+    language: String,
+    /// The comment in the line above.
+    directive: Option<String>,
+    code: String,
+}
+
+/// All blocks of a page, in order.
+fn blocks(text: &str) -> Vec<Block> {
+    let mut all = Vec::new();
+    let mut lines = (1..).zip(text.lines());
+    let mut above = "";
+    while let Some((line, opening)) = lines.next() {
+        if let Some(language) = opening.strip_prefix("```") {
+            let inside = lines.by_ref().map(|(_, line)| line);
+            let code: Vec<&str> = inside.take_while(|line| !line.starts_with("```")).collect();
+            let directive = above.strip_prefix("<!--");
+            let directive = directive.and_then(|rest| rest.strip_suffix("-->"));
+            all.push(Block {
+                line,
+                language: language.to_owned(),
+                directive: directive.map(|d| d.trim().to_owned()),
+                code: code.join("\n") + "\n",
+            });
+        }
+        above = opening;
+    }
+    all
+}
+
+/// Whether a line is what a pattern says, in which `...` stands for anything.
+fn matches(pattern: &str, line: &str) -> bool {
+    let mut parts = pattern.trim_end().split("...");
+    let Some(mut rest) = line.trim_end().strip_prefix(parts.next().unwrap_or("")) else {
+        return false;
+    };
+    let mut last = None;
+    for part in parts {
+        last = Some(part);
+        let Some(at) = rest.find(part) else {
+            return false;
+        };
+        rest = &rest[at + part.len()..];
+    }
+    rest.is_empty() || last == Some("") || last.is_some_and(|last| rest.ends_with(last))
+}
+
+/// The first line of `expected` that is not in the output, in order.
+fn missing<'a>(expected: &'a str, output: &str) -> Option<&'a str> {
+    let mut lines = output.lines();
+    expected
+        .lines()
+        .find(|pattern| !lines.any(|line| matches(pattern, line)))
+}
+
+/// A Python with numpy, for a block. Where there is none its test says so, or fails if
+/// `ACTIN_REQUIRE_PYTHON` is set, as `.ci/run` does.
+fn python(place: &str) -> Option<String> {
+    let named = env::var("PYTHON").ok();
+    let usual = ["python3", "/usr/bin/python3"].map(str::to_owned);
+    let has_numpy = |python: &String| {
+        let mut command = Command::new(python);
+        let output = command.args(["-c", "import numpy"]).output();
+        output.is_ok_and(|output| output.status.success())
+    };
+    let found = named.into_iter().chain(usual).find(has_numpy);
+    if found.is_none() {
+        let message = format!("{place}: no python3 with numpy: this block is NOT TESTED");
+        assert!(env::var_os("ACTIN_REQUIRE_PYTHON").is_none(), "{message}");
+        eprintln!("{message}");
+    }
+    found
+}
+
+/// A page on its way: its folder, and what its last block printed.
+struct Page {
+    name: String,
+    folder: TempDir,
+    /// Output of the last block that ran; `None` behind one that was skipped.
+    output: Option<String>,
+    /// Blocks that have run.
+    run: usize,
+}
+
+impl Page {
+    fn new(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            folder: tempfile::tempdir().unwrap(),
+            output: None,
+            run: 0,
+        }
+    }
+
+    fn block(&mut self, block: &Block) {
+        let place = format!("{}:{}", self.name, block.line);
+        let directive = block.directive.as_deref().unwrap_or("");
+        if let Some(file) = directive.strip_prefix("file:") {
+            fs::write(self.folder.path().join(file.trim()), &block.code).unwrap();
+            return;
+        }
+        if directive.starts_with("not run:") {
+            self.output = None;
+            return;
+        }
+        if block.language == "text" {
+            if let Some(output) = &self.output {
+                let missing = missing(&block.code, output);
+                assert_eq!(missing, None, "{place}: not in the output:\n{output}");
+            }
+            return;
+        }
+        let Some(mut command) = self.command(block, &place) else {
+            self.output = None;
+            return;
+        };
+        let code = directive.strip_prefix("exit:").unwrap_or("0").trim();
+        let output = command.output().unwrap();
+        let text = both(&output);
+        let ended = output.status.code().map(|code| code.to_string());
+        assert_eq!(ended.as_deref(), Some(code), "{place}: exit code; {text}");
+        self.output = Some(text);
+        self.run += 1;
+    }
+
+    /// What runs a block; `None` if Python is missing.
+    fn command(&self, block: &Block, place: &str) -> Option<Command> {
+        let (program, arguments) = match block.language.as_str() {
+            "sh" => ("sh".to_owned(), vec!["-e", "-c", &block.code]),
+            "python" => (python(place)?, vec!["-c", &block.code]),
+            "ron" => {
+                fs::write(self.folder.path().join("block.ron"), &block.code).unwrap();
+                ("actin".to_owned(), vec!["check", "block.ron"])
+            }
+            other => panic!("{place}: a block of {other:?} that nothing runs"),
+        };
+        let program_folder = Path::new(env!("CARGO_BIN_EXE_actin")).parent().unwrap();
+        let path = env::var_os("PATH").unwrap_or_default();
+        let folders = [program_folder.to_owned()].into_iter();
+        let path = env::join_paths(folders.chain(env::split_paths(&path))).unwrap();
+        let mut command = Command::new(program);
+        command
+            .args(arguments)
+            .env("PATH", path)
+            .current_dir(self.folder.path())
+            .stdin(Stdio::null());
+        Some(command)
+    }
+}
+
+/// Both streams, standard output first.
+fn both(output: &Output) -> String {
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    text(&output.stdout) + &text(&output.stderr)
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Runs a page; the number of blocks that have run.
+fn run(name: &str) -> usize {
+    let text = fs::read_to_string(root().join(name)).unwrap();
+    let mut page = Page::new(name);
+    for block in blocks(&text) {
+        page.block(&block);
+    }
+    page.run
+}
+
+/// Runs all pages of a folder.
+fn run_folder(name: &str) -> usize {
+    let entries = fs::read_dir(root().join(name)).unwrap();
+    let files = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let pages = files.filter(|file| Path::new(file).extension().is_some_and(|e| e == "md"));
+    pages.map(|file| run(&format!("{name}/{file}"))).sum()
+}
+
+/// From an empty folder to a figure, to the letter.
+#[test]
+fn the_tutorial() {
+    let ran = run("docs/tutorial.md");
+    assert!(ran >= 5, "only {ran} blocks have run");
+}
+
+#[test]
+fn the_readme() {
+    assert!(run("README.md") >= 1);
+}
+
+#[test]
+fn how_to_pages() {
+    let ran = run_folder("docs/how-to");
+    assert!(ran >= 4, "only {ran} blocks have run");
+}
+
+#[test]
+fn reference_pages() {
+    let ran = run_folder("docs/reference");
+    assert!(ran >= 2, "only {ran} blocks have run");
+}
+
+/// Blocks are found with their languages and directives.
+#[test]
+fn blocks_are_read_with_their_directives() {
+    let text = "a\n<!-- exit: 2 -->\n```sh\nfalse\n```\n\n```python\nx = 1\n\ny = 2\n```\n";
+    let found = blocks(text);
+    assert_eq!(found.len(), 2);
+    assert_eq!(found[0].directive.as_deref(), Some("exit: 2"));
+    assert_eq!((found[0].line, found[0].code.as_str()), (3, "false\n"));
+    assert_eq!(found[1].directive, None);
+    assert_eq!(found[1].code, "x = 1\n\ny = 2\n");
+}
+
+/// Dots stand for anything; other text must be there, whole and in order.
+#[test]
+fn output_that_differs_is_found() {
+    assert!(matches("after ... steps, ... s", "after 12 steps, 0.1 s"));
+    assert!(matches("energy ...", "energy 12"));
+    assert!(!matches("after ... steps", "after 12 steps or so"));
+    assert!(!matches("status: converged", "status: failed"));
+    assert_eq!(missing("a\nc\n", "a\nb\nc\n"), None);
+    assert_eq!(missing("c\na\n", "a\nb\nc\n"), Some("a"));
+}
+
+/// A block that fails, or prints something else than its page says, fails the test.
+#[test]
+#[should_panic(expected = "not in the output")]
+fn a_page_with_stale_output_fails() {
+    let mut page = Page::new("stale.md");
+    for block in blocks("```sh\necho 1\n```\n```text\n2\n```\n") {
+        page.block(&block);
+    }
+}
