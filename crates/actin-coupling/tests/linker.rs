@@ -265,13 +265,8 @@ fn linkers_that_make_no_sense_are_refused() {
     let on_rod = |segment, fraction, radius, azimuth| {
         Site::on_rod(&scene.rod, place(segment, fraction, radius, azimuth)).map(drop)
     };
-    let refused = |key, value, rule| {
-        Err(LinkerError::Parameter(RodParameterError {
-            key,
-            value,
-            rule,
-        }))
-    };
+    let error = |key, value, rule| RodParameterError { key, value, rule };
+    let refused = |key, value, rule| Err(LinkerError::Parameter(error(key, value, rule)));
     let beyond = LinkerError::Segment {
         segment: 3,
         segments: 3,

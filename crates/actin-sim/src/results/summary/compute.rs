@@ -46,15 +46,22 @@ impl Summary {
             residual_floor: equilibrium.and_then(|e| e.floor).map(Into::into),
             thermal: ThermalSummary::new(assembly, std::slice::from_ref(last)),
             lowest_stiffness_eigenvalue: equilibrium.and_then(|e| e.lowest_eigenvalue),
-            work: WorkSummary {
-                steps: outcome.steps,
-                force_evaluations: outcome.force_evaluations,
-                newton_iterations: equilibrium.map_or(0, |e| e.newton_iterations),
-            },
+            work: WorkSummary::new(outcome),
             wall_s: outcome.wall_s,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             seed: first.seed,
             filaments,
+        }
+    }
+}
+
+impl WorkSummary {
+    fn new(outcome: &Outcome) -> Self {
+        let equilibrium = outcome.equilibrium.as_ref();
+        Self {
+            steps: outcome.steps,
+            force_evaluations: outcome.force_evaluations,
+            newton_iterations: equilibrium.map_or(0, |e| e.newton_iterations),
         }
     }
 }
