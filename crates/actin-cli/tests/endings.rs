@@ -143,6 +143,17 @@ fn a_motion_at_rest_says_in_what() {
     }
 }
 
+/// Without an energy no certificate tells a saddle from a minimum, and the run says so.
+#[test]
+fn rest_that_is_not_certified_is_told() {
+    let stop = "stop: (force_pn: 1e-3, torque_pn_nm: 1e-3, kinetic_pn_nm: 1e-6),";
+    let place = straight("rod: RodModel(force_law: PaperBalance),", &damped(stop));
+    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let told = "note: the stop rule was met, but it is not known whether";
+    assert!(stdout(&output).contains(told), "{}", stdout(&output));
+}
+
 /// Twist that slips through a joint ends a run with exit code 3 and its last good state.
 #[test]
 fn lost_twist_is_a_failure() {

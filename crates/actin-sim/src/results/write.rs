@@ -309,6 +309,23 @@ mod tests {
         assert_eq!(all_names(&folder.path().join(PICTURES)).len(), 3);
     }
 
+    /// A run that is killed before it has results leaves its scene; changed, it is not overwritten.
+    #[test]
+    fn a_scene_that_was_changed_before_there_are_results_is_kept() {
+        let (folder, directory) = empty();
+        let assembly = fixture::clamped_start();
+        directory.write_scene(&assembly.scene).unwrap();
+        assert!(RunDirectory::create(folder.path(), true).is_ok());
+        directory.write_scene(&assembly.scene).unwrap();
+        fs::write(folder.path().join(SCENE), "mine").unwrap();
+        let error = RunDirectory::create(folder.path(), true).unwrap_err();
+        assert!(
+            matches!(error, RunDirectoryError::Changed { .. }),
+            "{error}"
+        );
+        assert_eq!(fs::read(folder.path().join(SCENE)).unwrap(), b"mine");
+    }
+
     /// Pictures of the longer run before are gone, or the shorter one would seem to go on.
     #[test]
     fn a_shorter_run_leaves_no_pictures_of_a_longer_one() {
