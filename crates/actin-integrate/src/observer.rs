@@ -1,4 +1,4 @@
-//! Those who look on: what they are shown and when.
+//! Observers: what they are shown and when.
 
 use crate::{Checkpoint, Pause, Residual};
 use actin_mechanics::{Interaction, State, System};

@@ -137,7 +137,7 @@ impl Run {
         }
     }
 
-    /// The same, with the stop rule asleep before `time` (ns): while something is still being driven,
+    /// The same, with the stop rule inactive before `time` (ns): while something is still being driven,
     /// a system at rest has not arrived.
     #[must_use]
     pub fn stopping_from(self, time: f64) -> Self {

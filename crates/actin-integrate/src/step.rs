@@ -12,7 +12,7 @@ use thiserror::Error;
 ///
 /// Measured over 1e5 steps of three bonded tops, by the rms strain of their bonds. At 2.6 %, from
 /// eight random starts each: at half the limit the energy has no trend beyond a tenth of its
-/// wavering, except with VEFRL, where it diffuses by up to 0.3 %; at 0.4 of the limit VEFRL has
+/// fluctuation, except with VEFRL, where it diffuses by up to 0.3 %; at 0.4 of the limit VEFRL has
 /// none either. Larger motion needs smaller steps (one start each): at 6 % PEFRL and VEFRL wander
 /// at half the limit, at 15 % VEFRL loses the energy altogether, at 31 % every method does. At a
 /// quarter of the limit that last state still changes its energy by 1 % (Forest and Ruth) to 70 %

@@ -132,7 +132,7 @@ fn energy_is_bounded_without_a_trend() {
         for seed in 1..=4 {
             let [early, late, drift] = energy_trend(scheme, share, seed);
             // The error goes with the energy of the fastest modes, which comes and goes: over
-            // eight starts, the ratio reached 1.47 and the drift 0.06 of the wavering.
+            // eight starts, the ratio reached 1.47 and the drift 0.06 of the fluctuation.
             assert!(late < 2.0 * early, "{scheme}: {early:e} became {late:e}");
             assert!(drift.abs() < 0.15 * early, "{scheme}: {drift:e}");
         }

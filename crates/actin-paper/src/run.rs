@@ -1,6 +1,15 @@
-//! Runs into memory.
+//! Scenes of the repository, and runs into memory.
 
-use actin_sim::{Assembly, Outcome, Plan, RunError, Trajectory};
+use crate::workspace_root;
+use actin_sim::{Assembly, Outcome, Plan, RunError, Scene, Trajectory};
+
+/// The scene in a file of the folder `scenarios`.
+pub(crate) fn scenario(file: &str) -> Result<Scene, String> {
+    let path = workspace_root().join("scenarios").join(file);
+    let text =
+        std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    Scene::from_ron(&text).map_err(|error| format!("{}:{error}", path.display()))
+}
 
 /// Runs an assembly as its scene asks; it is then in its last state.
 pub(crate) fn run_to_end(assembly: &mut Assembly) -> Result<(Trajectory, Outcome), RunError> {

@@ -7,8 +7,7 @@ use super::page::Listing;
 use super::study::bar;
 use super::tables::spread;
 use super::variant::{Variant, compared};
-use crate::run::run_to_end;
-use crate::workspace_root;
+use crate::run::{run_to_end, scenario};
 use actin_mechanics::State;
 use actin_sim::shape::profile;
 use actin_sim::{
@@ -107,9 +106,7 @@ fn observe(variant: &Variant, seed: u64) -> Result<Observed, String> {
 
 /// A scene of the paper with the monomers of a sampling.
 fn scene(file: &str, variant: &Variant, seed: u64) -> Result<Scene, String> {
-    let path = workspace_root().join("scenarios").join(file);
-    let text = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-    let mut scene = Scene::from_ron(&text).map_err(|e| format!("{}:{e}", path.display()))?;
+    let mut scene = scenario(file)?;
     scene.filament.monomers = variant.sampling(seed);
     Ok(scene)
 }

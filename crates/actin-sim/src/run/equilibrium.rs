@@ -85,8 +85,8 @@ fn lost_load(assembly: &Assembly, last: &Record) -> Option<SceneProblem> {
         let is_lost = size > 0.0 && last.residual_force_pn > RESOLVED * size;
         is_lost.then(|| {
             let rule = format!(
-                "is lost among forces of {:.1e} pN that are left: places are known to round-off, \
-                 and forces no better; a larger load tells more",
+                "is below 100 times the residual of {:.1e} pN, so the equilibrium does not show what it \
+                 does; use a larger load",
                 last.residual_force_pn
             );
             SceneProblem::new(

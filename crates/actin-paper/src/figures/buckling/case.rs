@@ -2,7 +2,7 @@
 //! scene that says so.
 
 use super::group::{Figure, Group};
-use crate::workspace_root;
+use crate::run::scenario;
 use actin_sim::{Hold, Scene, Section, Setting, Stage, Task};
 
 /// Length of the filament (nm).
@@ -152,12 +152,7 @@ impl Case {
             Figure::Eight => "figure-8",
             Figure::Ten => "figure-10",
         };
-        let path = workspace_root().join("scenarios").join(folder);
-        let path = path.join("rod-140.ron");
-        let text = std::fs::read_to_string(&path)
-            .map_err(|error| format!("{}: {error}", path.display()))?;
-        let mut scene =
-            Scene::from_ron(&text).map_err(|error| format!("{}:{error}", path.display()))?;
+        let mut scene = scenario(&format!("{folder}/rod-140.ron"))?;
         self.apply(&mut scene);
         Ok(scene)
     }

@@ -3,8 +3,7 @@
 use super::ringdown::{self, RingDown};
 use super::variant::Variant;
 use crate::figures::viewer::Snapshot;
-use crate::run::run_to_end;
-use crate::workspace_root;
+use crate::run::{run_to_end, scenario};
 use actin_sim::{
     Assembly, DragRates, End, Equilibrium, ForceLaw, Outcome, Record, Scene, Section, Task,
 };
@@ -141,11 +140,7 @@ impl Case {
             Resolved::Rod(_) => "rod.ron".into(),
             Resolved::Ellipsoids(_) => "ellipsoids.ron".into(),
         };
-        let path = workspace_root().join("scenarios/figure-4").join(file);
-        let text = std::fs::read_to_string(&path)
-            .map_err(|error| format!("{}: {error}", path.display()))?;
-        let mut scene =
-            Scene::from_ron(&text).map_err(|error| format!("{}:{error}", path.display()))?;
+        let mut scene = scenario(&format!("figure-4/{file}"))?;
         self.apply(&mut scene);
         Ok(scene)
     }

@@ -1,8 +1,7 @@
 //! One filament turned in its middle: its scene, and what its two halves store.
 
 use crate::figures::viewer::Snapshot;
-use crate::run::run_to_end;
-use crate::workspace_root;
+use crate::run::{run_to_end, scenario};
 use actin_sim::shape::{ProfilePoint, Ribbon, profile};
 use actin_sim::{Assembly, Hold, Monomers, Part, RodLaw, Scene, Slides};
 
@@ -107,11 +106,7 @@ impl Case {
         } else {
             "ellipsoids.ron"
         };
-        let path = workspace_root().join("scenarios/figure-7").join(file);
-        let text = std::fs::read_to_string(&path)
-            .map_err(|error| format!("{}: {error}", path.display()))?;
-        let mut scene =
-            Scene::from_ron(&text).map_err(|error| format!("{}:{error}", path.display()))?;
+        let mut scene = scenario(&format!("figure-7/{file}"))?;
         self.apply(&mut scene);
         Ok(scene)
     }

@@ -1,7 +1,7 @@
 //! One filament on linkers: how it is resolved, and the scene that follows. What comes out is in
 //! `solve.rs`.
 
-use crate::workspace_root;
+use crate::run::scenario;
 use actin_sim::{JunctionWeight, Monomers, RodLaw, RodLaws, Scene, Section, fitted_laws};
 
 /// A figure of a free filament on linkers.
@@ -207,11 +207,7 @@ impl Case {
 
     /// The scene of the figure, resolved as this case says.
     pub(super) fn scene(&self) -> Result<Scene, String> {
-        let path = workspace_root().join("scenarios").join(self.figure.file);
-        let text = std::fs::read_to_string(&path)
-            .map_err(|error| format!("{}: {error}", path.display()))?;
-        let mut scene =
-            Scene::from_ron(&text).map_err(|error| format!("{}:{error}", path.display()))?;
+        let mut scene = scenario(self.figure.file)?;
         scene.filament.sections = self.sections();
         scene.filament.monomers.seed = self.seed;
         if self.variant.mean {

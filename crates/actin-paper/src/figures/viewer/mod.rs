@@ -56,7 +56,7 @@ struct File {
 /// Writes the states of artefact `id` into the output folder.
 ///
 /// # Errors
-/// No states, a number that is not one, a file that cannot be written.
+/// No states, NaN or infinity, a file that cannot be written.
 pub(super) fn write(
     id: &str,
     attitude: Attitude,

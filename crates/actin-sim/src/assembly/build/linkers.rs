@@ -77,8 +77,8 @@ impl Builder<'_> {
     fn site(&self, at: &LinkerSite, nodes: &mut Nodes) -> Result<Site, LinkerError> {
         let strand = &self.strands[at.filament];
         let s_nm = at.at_nm;
-        // A boundary belongs to the section before it; what monomers leave over at the end, to the
-        // last section.
+        // A boundary belongs to the section before it; the rest behind the last monomer, to
+        // the last section.
         let is_past = |r: &Resolved| r.to_nm < s_nm;
         let last = strand.resolved.len() - 1;
         let section = strand.resolved.partition_point(is_past).min(last);
