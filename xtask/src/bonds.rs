@@ -1,6 +1,7 @@
 //! `cargo xtask bonds`: which bonds the monomers have.
 
 use actin_paper::bonds;
+use anyhow::{Error, Result};
 use std::path::PathBuf;
 
 /// What is computed, and where it goes.
@@ -51,7 +52,7 @@ impl From<Part> for bonds::Part {
 }
 
 /// Computes the parts, prints their tables and writes them.
-pub(crate) fn run(options: Options) -> Result<(), String> {
+pub(crate) fn run(options: Options) -> Result<()> {
     let options = bonds::Options {
         out: options.out,
         quick: options.quick,
@@ -59,5 +60,5 @@ pub(crate) fn run(options: Options) -> Result<(), String> {
         parts: options.parts.into_iter().map(Into::into).collect(),
         write: options.write,
     };
-    bonds::run(&options, &|line| println!("{line}"))
+    bonds::run(&options, &|line| println!("{line}")).map_err(Error::msg)
 }

@@ -2,6 +2,7 @@
 
 use actin_paper::committed;
 use actin_paper::figures;
+use anyhow::{Error, Result};
 use std::path::PathBuf;
 
 /// What is computed, and how.
@@ -40,7 +41,7 @@ enum Palette {
 }
 
 /// Computes the artefacts, reports, and tells how they differ from the committed ones.
-pub(crate) fn run(options: Options) -> Result<(), String> {
+pub(crate) fn run(options: Options) -> Result<()> {
     let (quick, write) = (options.quick, options.write);
     let options = figures::Options {
         ids: options.ids,
@@ -54,10 +55,11 @@ pub(crate) fn run(options: Options) -> Result<(), String> {
         },
     };
     let tell = &|line: std::fmt::Arguments<'_>| println!("{line}");
-    let rows = figures::reproduce(&options, tell)?;
-    match (quick, write) {
+    let rows = figures::reproduce(&options, tell).map_err(Error::msg)?;
+    let compared = match (quick, write) {
         (_, true) => committed::write_quick(&rows, tell),
         (true, false) => committed::compare_quick(&rows, tell),
         (false, false) => committed::compare_full(&rows, tell),
-    }
+    };
+    compared.map_err(Error::msg)
 }

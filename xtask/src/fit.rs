@@ -1,6 +1,7 @@
 //! `cargo xtask fit-parameters`: a rod's laws from tables or from filaments of monomers.
 
 use actin_paper::fit;
+use anyhow::{Error, Result};
 use std::path::PathBuf;
 
 /// What is fitted, and where the result goes.
@@ -26,7 +27,7 @@ pub(crate) struct Options {
 }
 
 /// Fits, prints and writes.
-pub(crate) fn run(options: Options) -> Result<(), String> {
+pub(crate) fn run(options: Options) -> Result<()> {
     let options = fit::Options {
         data: options.data,
         measure: options.measure,
@@ -34,5 +35,5 @@ pub(crate) fn run(options: Options) -> Result<(), String> {
         allow_bounds: options.allow_bounds,
         out: options.out,
     };
-    fit::run(&options, &|line| println!("{line}"))
+    fit::run(&options, &|line| println!("{line}")).map_err(Error::msg)
 }

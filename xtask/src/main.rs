@@ -7,6 +7,7 @@ mod streams;
 mod bench;
 mod bonds;
 mod check;
+mod command;
 mod costs;
 mod docs;
 mod extremes;
@@ -53,21 +54,21 @@ enum Task {
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
-        Task::Bench(options) => bench::run(&options),
+        Task::Bench(options) => bench::run(options),
         Task::Bonds(options) => bonds::run(options),
         Task::Check => check::run(),
-        Task::Costs(options) => costs::run(&options),
-        Task::Extremes(options) => extremes::run(&options),
+        Task::Costs(options) => costs::run(options),
+        Task::Extremes(options) => extremes::run(options),
         Task::FitParameters(options) => fit::run(options),
         Task::ReproduceFigures(options) => figures::run(options),
-        Task::CheckDocs(options) => docs::run(&options),
+        Task::CheckDocs(options) => docs::run(&options).map_err(anyhow::Error::msg),
         Task::Tradeoff(options) => tradeoff::run(options),
         Task::Trials(options) => trials::run(&options),
     };
-    match outcome.and_then(|()| streams::ending()) {
+    match outcome.and_then(|()| streams::ending().map_err(anyhow::Error::msg)) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            eprintln!("error: {message}");
+        Err(error) => {
+            eprintln!("error: {error:#}");
             ExitCode::FAILURE
         }
     }

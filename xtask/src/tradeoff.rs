@@ -1,6 +1,7 @@
 //! `cargo xtask tradeoff`: what a user gives up in accuracy for each saving in time.
 
 use actin_paper::tradeoff;
+use anyhow::{Error, Result};
 use std::path::PathBuf;
 
 /// What is measured, and where it goes.
@@ -18,11 +19,11 @@ pub(crate) struct Options {
 }
 
 /// Measures, writes, draws and prints.
-pub(crate) fn run(options: Options) -> Result<(), String> {
+pub(crate) fn run(options: Options) -> Result<()> {
     let options = tradeoff::Options {
         scenes: options.scenes,
         out: options.out,
         quick: options.quick,
     };
-    tradeoff::run(&options, &|line| println!("{line}"))
+    tradeoff::run(&options, &|line| println!("{line}")).map_err(Error::msg)
 }

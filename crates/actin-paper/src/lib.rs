@@ -7,6 +7,9 @@
 //! - [`fit`]: laws of the rod fitted to measured rows.
 //! - [`bonds`]: which bonds monomers have, and what depends on it.
 //! - [`tradeoff`]: what each saving of time costs in accuracy.
+//! - [`extremes`]: every number of a scene, taken to where it breaks.
+//! - [`costs`]: what scenes cost, beside what was estimated.
+//! - [`bench`]: rates of fixed cases.
 //!
 //! Scenes and committed numbers are those of the workspace that the crate was built in: `scenarios` and
 //! `docs`. How pictures and pages look is decided in `actin-draw`, how scenes run in `actin-sim`.
@@ -15,8 +18,11 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+pub mod bench;
 pub mod bonds;
 pub mod committed;
+pub mod costs;
+pub mod extremes;
 pub mod figures;
 pub mod fit;
 pub mod measure;

@@ -9,7 +9,7 @@ mod marks;
 mod number;
 mod unmarked;
 
-use crate::check::workspace_root;
+use crate::command::workspace_root;
 use actin_draw::report;
 use actin_paper::committed::{REFERENCE, Report, by_name};
 use marks::{Mark, Of, marks};

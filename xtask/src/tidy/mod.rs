@@ -63,7 +63,7 @@ mod tests {
     /// The workspace keeps its own rules.
     #[test]
     fn the_workspace_is_tidy() {
-        let root = crate::check::workspace_root();
+        let root = crate::command::workspace_root();
         let findings = super::findings(&root).expect("the workspace can be read");
         assert!(findings.is_empty(), "{}", findings.join("\n"));
     }

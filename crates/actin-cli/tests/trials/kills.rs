@@ -1,0 +1,139 @@
+//! Runs that are killed, and checkpoints that are damaged: in the end the bytes of a whole run.
+
+use super::common::files;
+use super::program::{self, Ending};
+use super::spoil::{below, between};
+use super::{Case, Tally, once, scenes};
+use rand::Rng;
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+
+/// Kills of one run that are so many that it will never get to its end.
+const MOST_KILLS: u32 = 200;
+
+/// An undisturbed run; it is interrupted after that time, which is a failure.
+const UNDISTURBED: Duration = Duration::from_mins(5);
+
+/// Kills a run at random moments until it is done; its files are those of one that was not killed.
+pub(super) fn kill(case: &mut Case<'_>) -> Result<Tally, String> {
+    let length = whole(case)?;
+    let (mut kills, mut survived) = (0, 0);
+    loop {
+        let has_checkpoint = case.folder.join("a/checkpoint.bin").exists();
+        let go_on = if has_checkpoint {
+            "--resume"
+        } else {
+            "--overwrite"
+        };
+        let mut started = program::start(case.folder, &arguments("a", go_on))?;
+        // Later kills come later: on a busy machine a run may not get any further at first.
+        let factor = f64::from(1 + kills / 8);
+        let patience = factor * between(&mut case.random, 0.01, 0.5) * length.as_secs_f64();
+        if started.wait(Duration::from_secs_f64(patience))? {
+            let ending = started.ending(false)?;
+            same(case.folder, "a", &ending)?;
+            return Ok(Tally::from([
+                ("kills", u64::from(kills)),
+                ("of them with a checkpoint", survived),
+            ]));
+        }
+        started.kill()?;
+        kills += 1;
+        survived += u64::from(case.folder.join("a/checkpoint.bin").exists());
+        if kills > MOST_KILLS {
+            return Err(format!("not done after {kills} kills"));
+        }
+    }
+}
+
+/// Interrupts a run, damages what it keeps, and goes on: refused by name, or the same bytes.
+pub(super) fn damage(case: &mut Case<'_>) -> Result<Tally, String> {
+    whole(case)?;
+    let mut started = program::start(case.folder, &arguments("a", "--overwrite"))?;
+    while !case.folder.join("a/checkpoint.bin").exists() {
+        if started.wait(Duration::from_millis(2))? {
+            return Ok(once("done before the interrupt"));
+        }
+    }
+    started.signal("INT")?;
+    started.wait(UNDISTURBED)?;
+    if started.ending(true)?.code != Some(130) {
+        return Ok(once("done before the interrupt"));
+    }
+    let files = ["checkpoint.bin", "records.bin"];
+    let name = files[below(&mut case.random, 2)];
+    spoil_file(case, &case.folder.join("a").join(name))?;
+    let ending = program::finish(case.folder, &arguments("a", "--resume"), UNDISTURBED)?;
+    match ending.code {
+        Some(2) if ending.stderr.contains(name) => Ok(once("refused by name")),
+        Some(0) => same(case.folder, "a", &ending).map(|()| once("harmless: the same bytes")),
+        _ => Err(format!("{name}: {ending:?}")),
+    }
+}
+
+/// Runs a scene of its own kind without disturbance into `whole`; how long that takes.
+fn whole(case: &mut Case<'_>) -> Result<Duration, String> {
+    let text = scenes::long(&mut case.random);
+    fs::write(case.folder.join("scene.ron"), text).map_err(|e| e.to_string())?;
+    let clock = std::time::Instant::now();
+    let ending = program::finish(case.folder, &arguments("whole", "--overwrite"), UNDISTURBED)?;
+    match ending.code {
+        Some(0) => Ok(clock.elapsed()),
+        _ => Err(format!("undisturbed: {ending:?}")),
+    }
+}
+
+fn arguments<'a>(out: &'a str, go_on: &'a str) -> [&'a str; 7] {
+    [
+        "run",
+        "scene.ron",
+        "--out",
+        out,
+        "--checkpoint-every",
+        "0.01",
+        go_on,
+    ]
+}
+
+/// Flips a bit, cuts, appends, fills with noise, or swaps two stretches.
+fn spoil_file(case: &mut Case<'_>, path: &Path) -> Result<(), String> {
+    let mut bytes = fs::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let random = &mut case.random;
+    let at = below(random, bytes.len());
+    match below(random, 5) {
+        0 => bytes[at] ^= 1 << below(random, 8),
+        1 => bytes.truncate(at),
+        2 => bytes.extend((0..=below(random, 999)).map(|i| i.to_le_bytes()[0])),
+        3 => {
+            let end = (at + 16).min(bytes.len());
+            bytes[at..end].fill_with(|| random.next_u64().to_le_bytes()[0]);
+        }
+        _ => bytes.rotate_left(at),
+    }
+    fs::write(path, bytes).map_err(|e| e.to_string())
+}
+
+/// Refuses an end without success, and files other than those of `whole`.
+fn same(folder: &Path, name: &str, ending: &Ending) -> Result<(), String> {
+    if ending.code != Some(0) {
+        return Err(format!("{ending:?}"));
+    }
+    same_files(&folder.join("whole"), &folder.join(name))
+}
+
+/// Refuses two run directories that differ in more than the time they took.
+pub(super) fn same_files(one: &Path, other: &Path) -> Result<(), String> {
+    let [one, other] = [one, other].map(|folder| {
+        let mut files = files(folder);
+        files.retain(|(name, _)| !name.starts_with('.'));
+        files
+    });
+    if let Some((a, _)) = one.iter().zip(&other).find(|(a, b)| a != b) {
+        return Err(format!("{} differs", a.0));
+    }
+    if one.len() == other.len() {
+        return Ok(());
+    }
+    Err(format!("{} files against {}", one.len(), other.len()))
+}

@@ -1,0 +1,148 @@
+//! The program under random input, kills, damaged files, and changes of a scene that must not change
+//! its answer.
+//!
+//! Every case is a process of `actin` that is judged from outside: by its exit code, its message and
+//! its files. A case depends on its number and the seed only, so one that fails fails again; its
+//! folder is kept. A few cases of each kind are tried with the other tests; `cargo xtask trials` tries
+//! thousands.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod kills;
+mod metamorphic;
+mod program;
+mod scenes;
+mod spoil;
+mod spoilt;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// How often each thing happened.
+type Tally = BTreeMap<&'static str, u64>;
+
+/// What became of a case, or why it failed.
+type Outcome = Result<Tally, String>;
+
+/// The tally of one thing that happened once.
+fn once(what: &'static str) -> Tally {
+    Tally::from([(what, 1)])
+}
+
+/// What a case is given.
+struct Case<'a> {
+    /// Texts of the scenes of the repository.
+    corpus: &'a [String],
+    /// An empty folder of its own.
+    folder: &'a Path,
+    /// Its random numbers.
+    random: ChaCha8Rng,
+}
+
+/// Scenes of the repository, spoilt in a few places, under `actin check`.
+#[test]
+fn spoilt_scenes_are_checked() {
+    try_all("check", (100, 4000), spoilt::check);
+}
+
+/// The same under `actin run`, interrupted when they take long.
+#[test]
+fn spoilt_scenes_are_run() {
+    try_all("run", (10, 400), spoilt::run);
+}
+
+/// Runs that are killed at random moments until they are done: the same bytes.
+#[test]
+fn killed_runs_are_resumed() {
+    try_all("kill", (1, 20), kills::kill);
+}
+
+/// Interrupted runs whose checkpoint or records are damaged: refused, or the same bytes.
+#[test]
+fn damaged_checkpoints_are_refused() {
+    try_all("damage", (2, 60), kills::damage);
+}
+
+/// Scenes changed in ways that must not change the answer.
+#[test]
+fn scenes_changed_without_effect_agree() {
+    try_all("metamorphic", (10, 200), metamorphic::compare);
+}
+
+/// A number from the environment.
+fn number(variable: &str) -> Option<u64> {
+    let text = std::env::var(variable).ok()?;
+    Some(
+        text.parse()
+            .unwrap_or_else(|_| panic!("{variable}={text} is no number")),
+    )
+}
+
+/// Tries `few` cases of a kind, `many` if `ACTIN_TRIALS` is `all`, or as many as it says.
+fn try_all(kind: &str, (few, many): (u64, u64), attempt: fn(&mut Case<'_>) -> Outcome) {
+    let cases = match std::env::var("ACTIN_TRIALS") {
+        Err(_) => few,
+        Ok(all) if all == "all" => many,
+        Ok(_) => number("ACTIN_TRIALS").expect("it is there"),
+    };
+    let seed = number("ACTIN_TRIALS_SEED").unwrap_or(1);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let corpus = scenes::repository(&root.join("scenarios"));
+    let clock = Instant::now();
+    let outcomes: Vec<Outcome> = (0..cases)
+        .into_par_iter()
+        .map(|number| try_one(kind, number, seed, &corpus, attempt))
+        .collect();
+    let mut tally = Tally::new();
+    let mut failures = Vec::new();
+    for outcome in outcomes {
+        match outcome {
+            Ok(one) => one
+                .into_iter()
+                .for_each(|(what, n)| *tally.entry(what).or_default() += n),
+            Err(why) => failures.push(why),
+        }
+    }
+    println!(
+        "{kind}: {cases} cases in {:.0} s: {tally:?}; {} failed",
+        clock.elapsed().as_secs_f64(),
+        failures.len()
+    );
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// One case in a folder of its own, which goes if all is well.
+fn try_one(
+    kind: &str,
+    number: u64,
+    seed: u64,
+    corpus: &[String],
+    attempt: fn(&mut Case<'_>) -> Outcome,
+) -> Outcome {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"))
+        .join(format!("trials/{kind}"))
+        .join(number.to_string());
+    if folder.exists() {
+        fs::remove_dir_all(&folder).unwrap();
+    }
+    fs::create_dir_all(&folder).unwrap();
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(number);
+    let outcome = attempt(&mut Case {
+        corpus,
+        folder: &folder,
+        random,
+    });
+    match outcome {
+        Ok(tally) => {
+            fs::remove_dir_all(&folder).unwrap();
+            Ok(tally)
+        }
+        Err(why) => Err(format!("{}: {why}", folder.display())),
+    }
+}

@@ -1,0 +1,139 @@
+//! The program under trial: how it is started, interrupted, killed, and how it ends.
+
+use std::fs::{self, File};
+use std::os::unix::process::ExitStatusExt;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// The `actin` program.
+const PATH: &str = env!("CARGO_BIN_EXE_actin");
+
+/// Between two looks at a process.
+const LOOK: Duration = Duration::from_millis(2);
+
+/// Time within which an interrupted program must have ended, on a busy machine.
+const GRACE: Duration = Duration::from_mins(1);
+
+/// How a process ended.
+#[derive(Debug)]
+pub(super) struct Ending {
+    /// Exit code; none after a signal.
+    pub(super) code: Option<i32>,
+    /// The signal that ended it, if one did.
+    pub(super) signal: Option<i32>,
+    /// What it wrote to standard error.
+    pub(super) stderr: String,
+    /// Whether it was sent an interrupt for taking long.
+    pub(super) interrupted: bool,
+}
+
+/// A process that was started.
+#[derive(Debug)]
+pub(super) struct Started {
+    child: Child,
+    stderr: PathBuf,
+}
+
+/// Starts it in `folder`; what it says goes to files there.
+pub(super) fn start(folder: &Path, arguments: &[&str]) -> Result<Started, String> {
+    let stderr = folder.join("stderr.txt");
+    let create = |path: &Path| File::create(path).map_err(|e| e.to_string());
+    let child = Command::new(PATH)
+        .args(arguments)
+        .current_dir(folder)
+        // Cases run side by side.
+        .env("RAYON_NUM_THREADS", "1")
+        .stdout(create(&folder.join("stdout.txt"))?)
+        .stderr(create(&stderr)?)
+        .spawn()
+        .map_err(|error| format!("{PATH}: {error}"))?;
+    Ok(Started { child, stderr })
+}
+
+/// Starts it and waits for its end; it is interrupted after `patience`.
+///
+/// # Errors
+/// An end that is none of those that the program documents.
+pub(super) fn finish(
+    folder: &Path,
+    arguments: &[&str],
+    patience: Duration,
+) -> Result<Ending, String> {
+    let mut started = start(folder, arguments)?;
+    let interrupted = !started.wait(patience)?;
+    if interrupted {
+        started.signal("INT")?;
+        if !started.wait(GRACE)? {
+            started.kill()?;
+            return Err(format!("{arguments:?} went on after an interrupt"));
+        }
+    }
+    let ending = started.ending(interrupted)?;
+    ending.check(arguments)?;
+    Ok(ending)
+}
+
+impl Started {
+    /// Whether it has ended within `patience`.
+    pub(super) fn wait(&mut self, patience: Duration) -> Result<bool, String> {
+        let clock = Instant::now();
+        loop {
+            if self.child.try_wait().map_err(|e| e.to_string())?.is_some() {
+                return Ok(true);
+            }
+            if clock.elapsed() > patience {
+                return Ok(false);
+            }
+            sleep(LOOK);
+        }
+    }
+
+    /// Sends it a signal by name.
+    pub(super) fn signal(&self, name: &str) -> Result<(), String> {
+        let status = Command::new("kill")
+            .args(["-s", name, &self.child.id().to_string()])
+            .status();
+        status.map(drop).map_err(|e| format!("kill: {e}"))
+    }
+
+    /// Kills it.
+    pub(super) fn kill(&mut self) -> Result<(), String> {
+        self.child.kill().map_err(|e| e.to_string())?;
+        self.child.wait().map(drop).map_err(|e| e.to_string())
+    }
+
+    /// How it ended.
+    pub(super) fn ending(mut self, interrupted: bool) -> Result<Ending, String> {
+        let status = self.child.wait().map_err(|e| e.to_string())?;
+        let stderr = fs::read(&self.stderr).map_err(|e| e.to_string())?;
+        Ok(Ending {
+            code: status.code(),
+            signal: status.signal(),
+            stderr: String::from_utf8_lossy(&stderr).into_owned(),
+            interrupted,
+        })
+    }
+}
+
+impl Ending {
+    /// Refuses signals, panics, undocumented exit codes, and failures without a message.
+    fn check(&self, arguments: &[&str]) -> Result<(), String> {
+        let shown = || {
+            let head: String = self.stderr.chars().take(500).collect();
+            format!(
+                "{arguments:?}: {:?}, signal {:?}: {head}",
+                self.code, self.signal
+            )
+        };
+        let documented = matches!(self.code, Some(0 | 2 | 3 | 130));
+        let silent = self.code.is_some_and(|code| code != 0) && self.stderr.trim().is_empty();
+        // An interrupt that comes before the handler is there ends it at once, and without a word.
+        let early = self.interrupted && self.signal == Some(2);
+        if (documented || early) && !silent && !self.stderr.contains("panicked") {
+            return Ok(());
+        }
+        Err(shown())
+    }
+}

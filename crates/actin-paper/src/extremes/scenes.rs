@@ -1,0 +1,156 @@
+//! Scenes as text, how they end, and the balance of the equilibria that they reach.
+
+use super::row::Outcome;
+use actin_mechanics::Vector3;
+use actin_sim::{
+    Assembly, End, Failure, Load, Plan, RunError, Scene, SceneError, SceneProblem, Status,
+    Trajectory,
+};
+
+/// Parts of a scene; what is empty is left out.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Parts {
+    /// Sections.
+    pub(super) sections: String,
+    /// Keys of the filament behind its sections and its monomers.
+    pub(super) models: String,
+    /// Clamps, loads and so on.
+    pub(super) rest: String,
+    /// The task.
+    pub(super) task: String,
+}
+
+/// Bonds per interface: enough for a filament that holds together.
+const BONDS: usize = 16;
+
+impl Parts {
+    /// A filament on a wall under a force on its tip (pN), in equilibrium to a share of 1e-6 of it.
+    pub(super) fn pulled(sections: &str, [x, y, z]: [f64; 3]) -> Self {
+        let force = Vector3::new(x, y, z).norm();
+        let (tolerance, torque) = (1e-6 * force, 1e-5 * force);
+        Self {
+            sections: sections.to_owned(),
+            models: String::new(),
+            rest: format!(
+                "clamps: [Clamp(end: Start)],
+                 loads: [EndForce(end: End, force_pn: ({x:?}, {y:?}, {z:?}))],"
+            ),
+            task: format!("Equilibrium(force_pn: {tolerance:?}, torque_pn_nm: {torque:?})"),
+        }
+    }
+
+    /// The text of the scene.
+    pub(super) fn text(&self) -> String {
+        let Self {
+            sections,
+            models,
+            rest,
+            task,
+        } = self;
+        format!(
+            "Scene(
+                filament: Filament(
+                    sections: [{sections}],
+                    monomers: Monomers(anchors: Independent, lateral_bonds: {BONDS}, longitudinal_bonds: {BONDS}),
+                    {models}
+                ),
+                {rest}
+                task: {task},
+            )"
+        )
+    }
+
+    /// The scene, read and built.
+    pub(super) fn build(&self) -> Result<Assembly, Outcome> {
+        build(&self.text())
+    }
+
+    /// The scene, run to its end.
+    pub(super) fn run(&self) -> Result<Ran, Outcome> {
+        run(&self.text())
+    }
+
+    /// The same, where it may end on a saddle.
+    pub(super) fn run_to_saddle(&self) -> Result<Ran, Outcome> {
+        run_to_saddle(&self.text())
+    }
+}
+
+/// A scene that ran to its end; the assembly is in its last state.
+#[derive(Debug)]
+pub(super) struct Ran {
+    pub(super) assembly: Assembly,
+    pub(super) report: actin_sim::Outcome,
+}
+
+/// The assembly of a scene.
+pub(super) fn build(text: &str) -> Result<Assembly, Outcome> {
+    let scene = Scene::from_ron(text).map_err(|error| Outcome::Refused(error.to_string()))?;
+    Assembly::build(&scene).map_err(|problem| refused(&problem, text))
+}
+
+/// A scene, run to its end.
+pub(super) fn run(text: &str) -> Result<Ran, Outcome> {
+    let ran = run_to_saddle(text)?;
+    if ran.report.status == Status::Failed {
+        return Err(Outcome::Fails("the run ends on a saddle".to_owned()));
+    }
+    Ok(ran)
+}
+
+/// The same, where it may end on a saddle.
+fn run_to_saddle(text: &str) -> Result<Ran, Outcome> {
+    let mut assembly = build(text)?;
+    let mut trajectory = Trajectory::default();
+    let plan = Plan::new(&assembly).map_err(|problem| refused(&problem, text))?;
+    let report = match plan.run_into(&mut trajectory) {
+        Ok(report) => report,
+        Err(RunError::Failed(failed)) if matches!(failed.failure, Failure::Saddle(_)) => {
+            failed.outcome
+        }
+        Err(RunError::Refused(problem)) => return Err(refused(&problem, text)),
+        Err(error) => return Err(Outcome::Fails(error.to_string())),
+    };
+    let last = trajectory.records.last().expect("a run has records");
+    *assembly.system.state_mut() = last.state.clone();
+    Ok(Ran { assembly, report })
+}
+
+fn refused(problem: &SceneProblem, text: &str) -> Outcome {
+    Outcome::Refused(SceneError::locate(problem, text).to_string())
+}
+
+/// The outcome of `result`, whichever way it went.
+pub(super) fn either(result: Result<Outcome, Outcome>) -> Outcome {
+    result.unwrap_or_else(|outcome| outcome)
+}
+
+impl Ran {
+    /// By how much the wall's reaction misses the forces on the tip and their moment, relative to
+    /// them. A state that is not the equilibrium of these loads misses them; so does one in which
+    /// a load was lost.
+    pub(super) fn imbalance(&mut self) -> f64 {
+        let loads = self.assembly.system.loads().clone();
+        let state = self.assembly.system.state();
+        let clamp = &self.assembly.clamps[0];
+        let reaction = clamp.reaction(state, &loads);
+        let arm = self.assembly.tip_nm(state, End::End) - clamp.point_nm(state);
+        let applied: Vector3 = self.assembly.scene.loads.iter().map(force_of).sum();
+        let moment = arm.cross(&applied);
+        let force = (reaction.force_pn + applied).norm() / applied.norm();
+        // Of a force along the filament the moment is zero, and its lever the measure.
+        let whole = arm.norm() * applied.norm();
+        force.max((reaction.torque_pn_nm + moment).norm() / whole)
+    }
+
+    /// Displacement of the tip from where it was built (nm).
+    pub(super) fn tip_displacement(&self) -> Vector3 {
+        let (assembly, state) = (&self.assembly, self.assembly.system.state());
+        assembly.tip_nm(state, End::End) - assembly.tip_nm(&assembly.rest, End::End)
+    }
+}
+
+fn force_of(load: &Load) -> Vector3 {
+    let Load::EndForce { force_pn, .. } = load;
+    (*force_pn).into()
+}
