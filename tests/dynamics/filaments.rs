@@ -1,7 +1,7 @@
 //! The free filaments of these tests, and how they are set in motion.
 
-use actin_mechanics::testing::{Noise, perturb, set_in_motion};
 use actin_mechanics::{State, System, Vector3, rotation};
+use actin_mechanics::{Xorshift, perturb, set_in_motion};
 use actin_sim::{Assembly, ForceLaw, Scene};
 
 /// kBT at 298 K (pN nm).
@@ -69,7 +69,7 @@ pub(crate) fn fly_off(
     extension: f64,
     shake: f64,
 ) -> System {
-    let mut noise = Noise::new(5);
+    let mut noise = Xorshift::new(5);
     set_in_motion(assembly.system.state_mut(), &mut noise, shake, shake);
     bend(&mut assembly, kappa);
     let state = assembly.system.state_mut();
@@ -145,7 +145,7 @@ pub(crate) fn degrees_of_freedom(state: &State) -> usize {
 /// Gives a filament at rest random velocities worth `level` kBT of kinetic energy per degree of
 /// freedom on average: half of it turns into potential energy, so 1 is the temperature of a room.
 pub(crate) fn heat(state: &mut State, level: f64, seed: u64) {
-    let mut noise = Noise::new(seed);
+    let mut noise = Xorshift::new(seed);
     let mut momentum = |mass: f64| (2.0 * level * KBT * mass).sqrt() * normal(&mut noise);
     for i in 0..state.points.len() {
         let mass = 1.0 / state.points.inverse_mass()[i];
@@ -159,7 +159,7 @@ pub(crate) fn heat(state: &mut State, level: f64, seed: u64) {
 }
 
 /// A nearly normal number of variance 1: the sum of 12 even ones between -1/2 and 1/2.
-pub(crate) fn normal(noise: &mut Noise) -> f64 {
+pub(crate) fn normal(noise: &mut Xorshift) -> f64 {
     (0..12).map(|_| 0.5 * noise.sample()).sum()
 }
 

@@ -3,7 +3,7 @@
 use crate::filaments::{FILAMENTS, distances, in_flight};
 use crate::record::scientific;
 use actin_integrate::{Composition, Drag, PEFRL, advance, largest_frequency, stable_step};
-use actin_mechanics::testing::momenta;
+
 use actin_mechanics::{State, System};
 
 /// The step at `share` of the stability limit.
@@ -61,10 +61,10 @@ pub(crate) fn scales(state: &State) -> (f64, f64) {
 fn momentum_and_angular_momentum_stay() {
     for filament in FILAMENTS {
         let mut system = in_flight(filament);
-        let (p, l) = momenta(system.state());
+        let (p, l) = (system.state().momentum(), system.state().angular_momentum());
         let h = step(&system, &PEFRL, 0.5);
         advance(&mut system, &PEFRL, h, 10_000, &Drag::NONE);
-        let (p_end, l_end) = momenta(system.state());
+        let (p_end, l_end) = (system.state().momentum(), system.state().angular_momentum());
         let (momentum, moment) = scales(system.state());
         let changes = [(p_end - p).norm() / momentum, (l_end - l).norm() / moment];
         println!("{}: relative changes {}", filament.0, scientific(&changes));

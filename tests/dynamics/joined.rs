@@ -4,8 +4,8 @@ use crate::filaments::fly;
 use crate::invariants::{scales, step};
 use crate::record::scientific;
 use actin_integrate::{Drag, PEFRL, advance};
-use actin_mechanics::testing::{Noise, momenta, perturb, set_in_motion};
 use actin_mechanics::{System, Vector3};
+use actin_mechanics::{Xorshift, perturb, set_in_motion};
 use actin_sim::{Assembly, Scene};
 
 /// Monomers beside a rod that lies across them, held together by two stretched linkers, one with a
@@ -38,7 +38,7 @@ fn tumbling() -> System {
         )",
     );
     let mut system = Assembly::build(&scene.unwrap()).unwrap().system;
-    let mut noise = Noise::new(5);
+    let mut noise = Xorshift::new(5);
     let state = system.state_mut();
     set_in_motion(state, &mut noise, 1.0, 1.0);
     perturb(state, &mut noise, 2e-3, 1e-3);
@@ -55,12 +55,12 @@ fn tumbling() -> System {
 #[test]
 fn linkers_between_filaments_keep_momentum_and_angular_momentum() {
     let mut system = tumbling();
-    let (p, l) = momenta(system.state());
+    let (p, l) = (system.state().momentum(), system.state().angular_momentum());
     let places = system.state().points.position.clone();
     let before = system.total_energy();
     let h = step(&system, &PEFRL, 0.25);
     advance(&mut system, &PEFRL, h, 10_000, &Drag::NONE);
-    let (p_end, l_end) = momenta(system.state());
+    let (p_end, l_end) = (system.state().momentum(), system.state().angular_momentum());
     let (momentum, moment) = scales(system.state());
     let changes = [(p_end - p).norm() / momentum, (l_end - l).norm() / moment];
     let drift = system.total_energy() / before - 1.0;

@@ -1,7 +1,7 @@
 //! Modes of a filament at rest, and motion in the slow ones only.
 
 use crate::filaments::{KBT, degrees_of_freedom, normal};
-use actin_mechanics::testing::Noise;
+use actin_mechanics::Xorshift;
 use actin_mechanics::{Loads, State, System, Vector3, rotation};
 use nalgebra::{DMatrix, DVector};
 
@@ -91,7 +91,7 @@ impl Modes {
     /// Sets the filament in motion along a random mixture of its slow modes, with `level` kBT for
     /// each of them on average, and without rigid motion.
     pub(crate) fn set_slow_motion(&self, state: &mut State, level: f64, seed: u64) {
-        let mut noise = Noise::new(seed);
+        let mut noise = Xorshift::new(seed);
         let mut motion = DVector::zeros(self.weights.len());
         for c in 0..self.slow() + 6 {
             motion += self.shapes.column(c) * normal(&mut noise);

@@ -6,7 +6,7 @@
 use crate::filaments::{FILAMENTS, KBT, assemble};
 use crate::modes::Modes;
 use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
-use actin_mechanics::testing::momenta;
+
 use actin_mechanics::{State, System};
 use actin_sim::{Assembly, ForceLaw, Scene};
 use std::collections::BTreeMap;
@@ -58,7 +58,7 @@ fn temperatures(assembly: &Assembly, state: &State) -> BTreeMap<String, f64> {
         add(format!("frame of {:?}", info.kind), energy);
     }
     let mass: f64 = state.points.inverse_mass().iter().map(|m| 1.0 / m).sum();
-    let (momentum, _) = momenta(state);
+    let momentum = state.momentum();
     add("whole".to_owned(), momentum.norm_squared() / mass);
     let share = |(key, (sum, whole))| (key, sum / whole);
     sums.into_iter().map(share).collect()

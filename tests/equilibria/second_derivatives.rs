@@ -5,14 +5,15 @@
 //! is missing, doubled or put in the wrong place shows as an error of order one.
 
 use crate::common::{build, newton};
-use actin_mechanics::testing::{Noise, derivative, perturb};
+use actin_mechanics::testing::derivative;
 use actin_mechanics::{Coordinates, Loads, Vector3};
+use actin_mechanics::{Xorshift, perturb};
 use actin_sim::Assembly;
 use nalgebra::DVector;
 
 /// Largest differences, relative to the largest entry of the same kind: force and torque.
 fn errors(assembly: &Assembly, seed: u64) -> (f64, f64) {
-    let mut noise = Noise::new(seed);
+    let mut noise = Xorshift::new(seed);
     let mut state = assembly.system.state().clone();
     perturb(&mut state, &mut noise, 0.05, 0.02);
     let interactions = assembly.system.interactions();

@@ -2,7 +2,7 @@
 //! along a path each by itself.
 
 use crate::common::{build, run, solved};
-use actin_mechanics::testing::Noise;
+use actin_mechanics::Xorshift;
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use actin_sim::{Assembly, End, Filament, Load, Scene, Setting, Slides, Stage};
 
@@ -149,7 +149,7 @@ fn solve(scene: &Scene) -> Assembly {
 /// Any site, clamp, slide or azimuth that was left in axes of the lab would show.
 #[test]
 fn where_a_scene_lies_does_not_matter() {
-    let mut noise = Noise::new(4);
+    let mut noise = Xorshift::new(4);
     let scene = linked();
     let here = solve(&scene);
     for _ in 0..3 {

@@ -2,7 +2,7 @@
 //! `docs/conventions.md`, as properties of random filaments.
 
 use crate::common::build;
-use actin_mechanics::testing::Noise;
+use actin_mechanics::Xorshift;
 use actin_mechanics::{State, Vector3};
 use actin_sim::{Assembly, End, Part, Resolution};
 use std::collections::BTreeMap;
@@ -42,7 +42,7 @@ const CLAMPS: [&str; 4] = [
 ];
 
 /// Increasing ends of sections, each 15 to 45 nm long.
-fn ends(noise: &mut Noise, count: usize) -> Vec<f64> {
+fn ends(noise: &mut Xorshift, count: usize) -> Vec<f64> {
     (0..count)
         .scan(0.0, |s, _| {
             *s += 30.0 + 15.0 * noise.sample();
@@ -56,7 +56,7 @@ fn ends(noise: &mut Noise, count: usize) -> Vec<f64> {
 /// wrong side of a clamp moves everything by half a rise.
 #[test]
 fn sections_meet_half_a_rise_beyond_a_monomer() {
-    let mut noise = Noise::new(11);
+    let mut noise = Xorshift::new(11);
     for case in 0..96 {
         let asked = ends(&mut noise, 1 + case % 4);
         let clamps = CLAMPS[case / 4 % 4];
@@ -180,7 +180,7 @@ fn bond_energy(assembly: &Assembly, i: usize, moved: &Range<i64>) -> f64 {
     let indices = lattice(assembly, i).unwrap();
     for (index, point) in indices.zip(section.points.clone()) {
         if moved.contains(&index) {
-            let mut noise = Noise::new(index.unsigned_abs());
+            let mut noise = Xorshift::new(index.unsigned_abs());
             state.points.position.add(point, noise.vector() * 0.3);
             let frame = assembly.points[point].frame.unwrap();
             let turn = actin_mechanics::rotation::exp(noise.vector() * 0.2);
@@ -201,7 +201,7 @@ fn bond_energy(assembly: &Assembly, i: usize, moved: &Range<i64>) -> f64 {
 /// resolution study a study of random numbers.
 #[test]
 fn resolving_more_does_not_move_a_monomer() {
-    let mut noise = Noise::new(23);
+    let mut noise = Xorshift::new(23);
     for case in 0..12 {
         let clamps = CLAMPS[case % 4];
         let [a, b, c]: [f64; 3] = ends(&mut noise, 3).try_into().unwrap();

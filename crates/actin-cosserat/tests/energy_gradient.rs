@@ -3,8 +3,9 @@
 mod common;
 
 use actin_cosserat::{EnergyGradient, Rigidities, RodEnd, RodLayout, RodMaterial, StraightRod};
+use actin_mechanics::Xorshift;
 use actin_mechanics::testing::{
-    Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, loads_of,
+    assert_is_balanced, assert_is_gradient, assert_is_invariant, loads_of,
 };
 use actin_mechanics::{Interaction, State, Vector3, rotation};
 use common::{ALL_WALLS, material, rod, strained_rod};
@@ -14,7 +15,7 @@ use std::f64::consts::TAU;
 /// A wrong Jacobian, or the small-angle truncation, is off by the square of the angle: percents.
 #[test]
 fn loads_are_minus_the_gradient_far_from_rest() {
-    let mut noise = Noise::new(1);
+    let mut noise = Xorshift::new(1);
     for walls in ALL_WALLS {
         for segments in [1, 2, 5] {
             let (state, layout) = strained_rod(segments, walls, &mut noise);
@@ -30,7 +31,7 @@ proptest! {
     /// may still leave a small resultant that drives a free rod.
     #[test]
     fn free_rods_keep_their_momenta(seed: u64, segments in 1_usize..9, walls in 0_usize..4) {
-        let mut noise = Noise::new(seed);
+        let mut noise = Xorshift::new(seed);
         let (state, layout) = strained_rod(segments, ALL_WALLS[walls], &mut noise);
         let rod = EnergyGradient::new(layout, material());
         // Sums of a few dozen products: some units in the last place.
@@ -43,7 +44,7 @@ proptest! {
 /// positions (1e-15 nm) times rigidity over length.
 #[test]
 fn a_straight_rod_is_at_rest() {
-    let mut noise = Noise::new(2);
+    let mut noise = Xorshift::new(2);
     for walls in ALL_WALLS {
         let (state, layout) = rod(7, walls, &mut noise);
         let rod = EnergyGradient::new(layout, material());
@@ -58,7 +59,7 @@ fn a_straight_rod_is_at_rest() {
 /// Loads go to the rod's own bodies; an index off by one would reach a neighbour's.
 #[test]
 fn neighbours_feel_nothing() {
-    let mut noise = Noise::new(3);
+    let mut noise = Xorshift::new(3);
     let (state, layout) = strained_rod(3, ALL_WALLS[3], &mut noise);
     let (points, frames) = (layout.points(), layout.bending_chain());
     let loads = loads_of(&EnergyGradient::new(layout, material()), &state);

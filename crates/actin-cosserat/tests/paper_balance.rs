@@ -3,8 +3,9 @@
 mod common;
 
 use actin_cosserat::{EnergyGradient, PaperBalance, Rigidities, RodMaterial, StraightRod};
-use actin_mechanics::testing::{Noise, loads_of, perturb, resultant};
+use actin_mechanics::testing::{loads_of, resultant};
 use actin_mechanics::{Interaction, Loads, State, Vector3, rotation};
+use actin_mechanics::{Xorshift, perturb};
 use common::{ALL_WALLS, material, rod, strained_rod};
 
 /// Norm of the difference of loads over that of the second ones, forces and torques alike.
@@ -24,7 +25,7 @@ fn the_difference_of_the_laws_is_of_the_order_of_the_strain() {
     for walls in ALL_WALLS {
         for segments in [1, 2, 6] {
             let difference = |strain: f64| {
-                let mut noise = Noise::new(11);
+                let mut noise = Xorshift::new(11);
                 let (mut state, layout) = rod(segments, walls, &mut noise);
                 perturb(&mut state, &mut noise, 10.0 * strain, strain);
                 let gradient = EnergyGradient::new(layout.clone(), material());
@@ -42,7 +43,7 @@ fn the_difference_of_the_laws_is_of_the_order_of_the_strain() {
 /// Forces act in pairs and the shear torque balances their moment exactly, also at large strain.
 #[test]
 fn forces_balance_and_shear_keeps_angular_momentum() {
-    let mut noise = Noise::new(12);
+    let mut noise = Xorshift::new(12);
     for walls in ALL_WALLS {
         let (state, layout) = strained_rod(5, walls, &mut noise);
         let loads = loads_of(&PaperBalance::new(layout, material()), &state);
@@ -150,7 +151,7 @@ fn a_closed_loop_of_strains_does_net_work() {
 
 #[test]
 fn it_says_that_it_is_not_conservative_and_gives_the_printed_energy() {
-    let mut noise = Noise::new(13);
+    let mut noise = Xorshift::new(13);
     let (state, layout) = strained_rod(4, ALL_WALLS[3], &mut noise);
     let gradient = EnergyGradient::new(layout.clone(), material());
     let printed = PaperBalance::new(layout, material());

@@ -3,7 +3,8 @@
 mod common;
 
 use actin_cosserat::{EnergyGradient, RodLayout, StraightRod};
-use actin_mechanics::testing::{Noise, assert_is_stiffness};
+use actin_mechanics::Xorshift;
+use actin_mechanics::testing::assert_is_stiffness;
 use actin_mechanics::{Coordinates, Interaction, State, Stiffness, Vector3, rotation};
 use common::{ALL_WALLS, material, rod, strained_rod};
 use nalgebra::{DMatrix, DVector};
@@ -12,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 /// the order of the strain or the angle: tenths.
 #[test]
 fn stiffness_is_the_derivative_of_the_loads_far_from_rest() {
-    let mut noise = Noise::new(11);
+    let mut noise = Xorshift::new(11);
     for walls in ALL_WALLS {
         for segments in [1, 2, 5] {
             let (state, layout) = strained_rod(segments, walls, &mut noise);
@@ -38,7 +39,7 @@ fn turned_pair(theta: Vector3) -> (State, RodLayout) {
 /// holds both, and 1.5 rad, where the slope of the coefficient changes its formula.
 #[test]
 fn stiffness_is_right_from_no_angle_to_3_rad() {
-    let mut noise = Noise::new(12);
+    let mut noise = Xorshift::new(12);
     for angle in [0.0, 1e-9, 1e-4, 0.1, 0.5, 1.49, 1.51, 2.5, 3.0] {
         for _ in 0..5 {
             let (state, layout) = turned_pair(noise.vector().normalize() * angle);
@@ -84,7 +85,7 @@ fn rigid_motion(state: &State, shift: Vector3, turn: Vector3) -> DVector<f64> {
 /// positive eigenvalues. A sign error between blocks breaks one or the other.
 #[test]
 fn only_rigid_motions_are_free_at_rest() {
-    let mut noise = Noise::new(13);
+    let mut noise = Xorshift::new(13);
     let mut state = State::default();
     let built = StraightRod {
         orientation: rotation::exp(noise.vector()),
@@ -117,7 +118,7 @@ fn only_rigid_motions_are_free_at_rest() {
 /// A shifted rod has the same energy at any strain, so that shifts meet no resistance there either.
 #[test]
 fn shifts_are_free_in_every_state() {
-    let mut noise = Noise::new(14);
+    let mut noise = Xorshift::new(14);
     let (state, layout) = strained_rod(4, ALL_WALLS[0], &mut noise);
     let matrix = matrix(&EnergyGradient::new(layout, material()), &state);
     let shift = rigid_motion(&state, noise.vector(), Vector3::zeros());
@@ -127,7 +128,7 @@ fn shifts_are_free_in_every_state() {
 /// Held bodies have blocks too (the assembler leaves them out), neighbours have none.
 #[test]
 fn blocks_stand_on_the_rods_own_bodies() {
-    let mut noise = Noise::new(15);
+    let mut noise = Xorshift::new(15);
     let (state, layout) = rod(3, ALL_WALLS[3], &mut noise);
     let (points, frames) = (layout.points(), layout.bending_chain());
     let matrix = matrix(&EnergyGradient::new(layout, material()), &state);

@@ -8,12 +8,13 @@ use actin_coupling::{
     push_junction_frames,
 };
 use actin_mechanics::testing::{
-    Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness,
-    loads_of, move_rigidly, perturb,
+    assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness, loads_of,
+    move_rigidly,
 };
 use actin_mechanics::{
     Frame, Inertia, Interaction, Point, State, UnitQuaternion, Vector3, rotation,
 };
+use actin_mechanics::{Xorshift, perturb};
 use proptest::prelude::*;
 use std::ops::Range;
 
@@ -105,7 +106,7 @@ impl Filament {
     }
 
     /// The filament turned and shifted as a whole.
-    fn moved(mut self, noise: &mut Noise) -> Self {
+    fn moved(mut self, noise: &mut Xorshift) -> Self {
         move_rigidly(&mut self.state, noise.vector(), noise.vector() * 10.0);
         self
     }
@@ -142,7 +143,7 @@ fn all() -> impl Iterator<Item = (JunctionSide, JunctionWeight, usize)> {
 /// Signs as printed, or a couple left in axes of the wrong frame, would be off by all of a load.
 #[test]
 fn loads_are_minus_the_gradient_far_from_rest() {
-    let mut noise = Noise::new(1);
+    let mut noise = Xorshift::new(1);
     for (side, weight, attached) in all() {
         let mut filament = filament(side, attached).moved(&mut noise);
         let junction = filament.junction(side, weight);
@@ -155,7 +156,7 @@ fn loads_are_minus_the_gradient_far_from_rest() {
 /// The monomer's blocks in axes of the junction instead of its own would be off by all of a block.
 #[test]
 fn stiffness_is_the_derivative_of_the_loads_far_from_rest() {
-    let mut noise = Noise::new(9);
+    let mut noise = Xorshift::new(9);
     for (side, weight, attached) in all() {
         let mut filament = filament(side, attached).moved(&mut noise);
         let junction = filament.junction(side, weight);
@@ -226,7 +227,7 @@ proptest! {
     #[test]
     fn linear_and_angular_momentum_balance(seed: u64, kind in 0_usize..8) {
         let (side, weight, attached) = all().nth(kind).unwrap();
-        let mut noise = Noise::new(seed);
+        let mut noise = Xorshift::new(seed);
         let mut filament = filament(side, attached).moved(&mut noise);
         let junction = filament.junction(side, weight);
         perturb(&mut filament.state, &mut noise, 0.7, 0.5);
@@ -240,7 +241,7 @@ proptest! {
 /// positions (1e-14 nm) times rigidity over length.
 #[test]
 fn the_built_filament_is_at_rest() {
-    let mut noise = Noise::new(2);
+    let mut noise = Xorshift::new(2);
     for (side, weight, attached) in all() {
         let filament = filament(side, attached).moved(&mut noise);
         let junction = filament.junction(side, weight);
@@ -346,7 +347,7 @@ fn bond_frames(f: &Filament, side: JunctionSide) -> [usize; 3] {
 fn both_sides_are_mirror_images() {
     let half_turn = rotation::exp(Vector3::x() * std::f64::consts::PI);
     let material = RodMaterial::new(Rigidities::table4()).unwrap();
-    let mut noise = Noise::new(5);
+    let mut noise = Xorshift::new(5);
     let mut before = filament(JunctionSide::MonomersFirst, 1);
     let mut after = filament(JunctionSide::RodFirst, 1);
     // The monomer that the half turn makes of the first one.
@@ -392,7 +393,7 @@ fn both_sides_are_mirror_images() {
 /// Shared halves what full gives, element by element; one monomer alone bears everything.
 #[test]
 fn weights_scale_the_whole_junction() {
-    let mut noise = Noise::new(6);
+    let mut noise = Xorshift::new(6);
     for (attached, ratio) in [(1, 1.0), (2, 0.5)] {
         let mut filament = filament(JunctionSide::MonomersFirst, attached);
         let [shared, full] =
@@ -406,7 +407,7 @@ fn weights_scale_the_whole_junction() {
 /// Only the end of the rod, the attached monomers and the junction frames are touched.
 #[test]
 fn the_rest_of_the_rod_feels_nothing() {
-    let mut noise = Noise::new(7);
+    let mut noise = Xorshift::new(7);
     for side in SIDES {
         let mut filament = filament(side, 2);
         let junction = filament.junction(side, JunctionWeight::Shared);
@@ -431,7 +432,7 @@ fn the_rest_of_the_rod_feels_nothing() {
 /// The rod's own terms know nothing of the junction: both together still balance.
 #[test]
 fn rod_and_junction_balance_together() {
-    let mut noise = Noise::new(8);
+    let mut noise = Xorshift::new(8);
     for side in SIDES {
         let mut filament = filament(side, 2);
         let junction = filament.junction(side, JunctionWeight::Shared);

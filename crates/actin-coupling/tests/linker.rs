@@ -3,10 +3,11 @@
 use actin_cosserat::{RodLayout, RodParameterError, StraightRod};
 use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, RodPlace, Site};
 use actin_mechanics::testing::{
-    Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness,
-    loads_of, perturb, resultant, stiffness_matrix,
+    assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness, loads_of,
+    resultant, stiffness_matrix,
 };
 use actin_mechanics::{Frame, Inertia, Interaction, Point, State, Vector3, rotation};
+use actin_mechanics::{Xorshift, perturb};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
@@ -18,7 +19,7 @@ struct Scene {
     monomers: [(usize, usize); 2],
 }
 
-fn scene(noise: &mut Noise) -> Scene {
+fn scene(noise: &mut Xorshift) -> Scene {
     let mut state = State::default();
     let rod = StraightRod::uniform(3, 10.0).push(&mut state).unwrap();
     let monomers = [35.0, 38.0].map(|height| {
@@ -88,7 +89,7 @@ fn all(scene: &Scene, rest_length: f64) -> Vec<Linker> {
 /// the site is not in the middle of its segment.
 #[test]
 fn loads_are_minus_the_gradient() {
-    let mut noise = Noise::new(11);
+    let mut noise = Xorshift::new(11);
     for rest_length in [0.0, 2.5, 40.0] {
         let scene = scene(&mut noise);
         for linker in all(&scene, rest_length) {
@@ -103,7 +104,7 @@ fn loads_are_minus_the_gradient() {
 /// that share bodies need block and transposed block on the diagonal.
 #[test]
 fn stiffness_is_the_derivative_of_the_loads() {
-    let mut noise = Noise::new(12);
+    let mut noise = Xorshift::new(12);
     for rest_length in [0.0, 2.5, 40.0] {
         let scene = scene(&mut noise);
         for linker in all(&scene, rest_length) {
@@ -116,7 +117,7 @@ fn stiffness_is_the_derivative_of_the_loads() {
 /// Both ends on one rigid body: nothing that the body does changes the linker.
 #[test]
 fn a_linker_within_a_rigid_body_does_nothing() {
-    let scene = scene(&mut Noise::new(13));
+    let scene = scene(&mut Xorshift::new(13));
     let (point, frame) = scene.monomers[1];
     let other = LinkerEnd::Site(Site::on_monomer(point, frame, Vector3::z()).unwrap());
     let linker = Linker::new(scene.on_monomer(1), other, 7.0, 0.5).unwrap();
@@ -133,7 +134,7 @@ proptest! {
     /// from the site, so that with its moment nothing is left over either.
     #[test]
     fn forces_and_torques_balance(seed: u64, slack in 0_usize..3) {
-        let scene = scene(&mut Noise::new(seed));
+        let scene = scene(&mut Xorshift::new(seed));
         for linker in all(&scene, [0.0, 2.5, 40.0][slack]) {
             if let LinkerEnd::Site(_) = linker.end() {
                 // Sums of some ten products with arms that are rounded sums themselves: over 20000
@@ -160,7 +161,7 @@ proptest! {
 /// same force and the same resultant on either, wherever along the segment it is.
 #[test]
 fn rod_and_monomer_feel_the_same_at_the_same_point() {
-    let mut noise = Noise::new(14);
+    let mut noise = Xorshift::new(14);
     let mut scene = scene(&mut noise);
     let (first, second) = (scene.rod.points().start, scene.rod.points().start + 1);
     let frame = scene.rod.frames().start;
@@ -212,7 +213,7 @@ fn a_linker_pulls_by_its_extension() {
 /// linker resists along itself only; shut, it has no force and no stiffness that would hold it.
 #[test]
 fn limits_are_defined() {
-    let scene = scene(&mut Noise::new(15));
+    let scene = scene(&mut Xorshift::new(15));
     let site = scene.on_monomer(0);
     let at = site.position(&scene.state);
     let make = |shift: Vector3, rest_length| {
@@ -245,7 +246,7 @@ fn limits_are_defined() {
 /// Controls move the anchor; a linker that ignores them would not notice.
 #[test]
 fn controls_move_an_anchor() {
-    let mut scene = scene(&mut Noise::new(16));
+    let mut scene = scene(&mut Xorshift::new(16));
     let site = scene.on_rod(1, 0.5);
     let position = site.position(&scene.state);
     scene.state.controls = vec![9.0];
@@ -261,7 +262,7 @@ fn controls_move_an_anchor() {
 
 #[test]
 fn linkers_that_make_no_sense_are_refused() {
-    let scene = scene(&mut Noise::new(17));
+    let scene = scene(&mut Xorshift::new(17));
     let on_rod = |segment, fraction, radius, azimuth| {
         Site::on_rod(&scene.rod, place(segment, fraction, radius, azimuth)).map(drop)
     };

@@ -3,8 +3,8 @@
 //! `cargo bench -p actin-ellipsoid --bench bond_loads`
 
 use actin_ellipsoid::{EllipsoidModel, EllipsoidParameters, Placement};
-use actin_mechanics::testing::{Noise, perturb};
 use actin_mechanics::{Interaction, Loads, State};
+use actin_mechanics::{Xorshift, perturb};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -16,7 +16,7 @@ fn bond_loads(criterion: &mut Criterion) {
         let mut state = State::default();
         let run = model.build(&mut state, &Placement::default(), 0, monomers);
         let bonds = model.bonds(&run).expect("interfaces find their bonds");
-        perturb(&mut state, &mut Noise::new(1), 0.05, 0.05);
+        perturb(&mut state, &mut Xorshift::new(1), 0.05, 0.05);
         let mut loads = Loads::zeros(&state);
         group.throughput(Throughput::Elements(bonds.number_of_bonds() as u64));
         let id = BenchmarkId::new(format!("{per_interface}_per_interface"), monomers);

@@ -3,8 +3,8 @@
 //! `cargo run --release -p actin-ellipsoid --example bond_rate`
 
 use actin_ellipsoid::{Bonds, EllipsoidModel, EllipsoidParameters, Placement};
-use actin_mechanics::testing::{Noise, perturb};
 use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness};
+use actin_mechanics::{Xorshift, perturb};
 use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
@@ -30,7 +30,7 @@ fn filament(
     let mut state = State::default();
     let monomers = model.build(&mut state, &Placement::default(), 0, count);
     let bonds = model.bonds(&monomers)?;
-    perturb(&mut state, &mut Noise::new(1), 0.05, 0.05);
+    perturb(&mut state, &mut Xorshift::new(1), 0.05, 0.05);
     Ok((state, bonds))
 }
 

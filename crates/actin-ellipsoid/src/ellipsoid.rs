@@ -104,7 +104,7 @@ impl Ellipsoid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use actin_mechanics::testing::Noise;
+    use actin_mechanics::Xorshift;
     use std::f64::consts::FRAC_PI_2;
 
     /// Bins of the surface, by the direction that is scaled to a point: slices of equal height,
@@ -214,7 +214,7 @@ mod tests {
     #[test]
     fn lines_meet_the_surface_twice() {
         let ellipsoid = Ellipsoid::new([1.9, 2.7, 2.7]);
-        let mut noise = Noise::new(2);
+        let mut noise = Xorshift::new(2);
         for distance in [0.0, 3.0, 100.0] {
             for _ in 0..100 {
                 let direction = noise.vector().normalize();

@@ -3,7 +3,7 @@
 use actin_ellipsoid::{
     Anchors, Bond, EllipsoidModel, EllipsoidParameters, Interface, InterfaceKind, Neighbour,
 };
-use actin_mechanics::testing::Noise;
+use actin_mechanics::Xorshift;
 use actin_mechanics::{Vector3, rotation};
 
 /// An interface without bonds below 0.2 nm.
@@ -46,7 +46,7 @@ fn twelve_weighted_bonds_have_the_energy_of_many() {
         let many = interface(kind, Anchors::Identical, 200_000);
         let weighted = interface(kind, Anchors::Cubature, 12);
         let drawn = interface(kind, Anchors::Identical, 64);
-        let mut noise = Noise::new(4);
+        let mut noise = Xorshift::new(4);
         let mut squares = [0.0; 2];
         for i in 0..30 {
             let reach = [0.03, 0.1, 0.3][i % 3];

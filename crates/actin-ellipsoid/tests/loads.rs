@@ -4,10 +4,10 @@ mod common;
 
 use actin_ellipsoid::EllipsoidModel;
 use actin_mechanics::testing::{
-    Noise, assert_is_balanced, assert_is_gradient, assert_is_invariant, derivative, loads_of,
-    perturb,
+    assert_is_balanced, assert_is_gradient, assert_is_invariant, derivative, loads_of,
 };
 use actin_mechanics::{Interaction, Vector3, rotation};
+use actin_mechanics::{Xorshift, perturb};
 use common::{filament, model, models, weighted};
 
 /// Far from rest: anchors are displaced by up to a nanometre, as much as bonds are long. The
@@ -18,7 +18,7 @@ fn loads_are_the_gradient_of_the_energy() {
     for seed in 0..4 {
         for model in models(seed) {
             let (mut state, _, bonds) = filament(&model, 5);
-            perturb(&mut state, &mut Noise::new(seed), 0.5, 0.3);
+            perturb(&mut state, &mut Xorshift::new(seed), 0.5, 0.3);
             assert_is_gradient(&bonds, &state, 1e-4, 1e-8);
         }
     }
@@ -31,7 +31,7 @@ fn loads_have_no_resultant() {
     for seed in 0..10 {
         for model in models(seed) {
             let (mut state, _, bonds) = filament(&model, 20);
-            perturb(&mut state, &mut Noise::new(seed), 0.5, 0.3);
+            perturb(&mut state, &mut Xorshift::new(seed), 0.5, 0.3);
             assert_is_balanced(&bonds, &state, 1e-14);
         }
     }
@@ -42,7 +42,7 @@ fn energy_does_not_change_under_rigid_motion() {
     for seed in 0..10 {
         for model in models(seed) {
             let (mut state, _, bonds) = filament(&model, 20);
-            perturb(&mut state, &mut Noise::new(seed), 0.5, 0.3);
+            perturb(&mut state, &mut Xorshift::new(seed), 0.5, 0.3);
             assert_is_invariant(&bonds, &state, 1e-13);
         }
     }

@@ -45,7 +45,7 @@ proptest! {
         let mut state = State::default();
         let monomers = model.build(&mut state, &placement, first, 20);
         let bonds = model.bonds(&monomers).unwrap();
-        let (force, torque) = loads_of(&bonds, &state).residual(&state);
+        let actin_mechanics::Residual { force, torque } = loads_of(&bonds, &state).residual(&state);
         prop_assert!(force < 1e-9, "force {force:e}");
         prop_assert!(torque < 1e-9, "torque {torque:e}");
         // Half of 3e3 pN/nm times the square of 5e-14 nm, for some forty interfaces.

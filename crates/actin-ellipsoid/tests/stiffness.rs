@@ -2,8 +2,9 @@
 
 mod common;
 
-use actin_mechanics::testing::{Noise, assert_is_stiffness, loads_of, perturb, stiffness_matrix};
+use actin_mechanics::testing::{assert_is_stiffness, loads_of, stiffness_matrix};
 use actin_mechanics::{State, Vector3};
+use actin_mechanics::{Xorshift, perturb};
 use common::{filament, model, models, weighted};
 use nalgebra::DVector;
 
@@ -17,7 +18,7 @@ fn stiffness_is_the_derivative_of_the_loads() {
         for seed in 0..4 {
             for model in models(seed) {
                 let (mut state, _, bonds) = filament(&model, count);
-                perturb(&mut state, &mut Noise::new(seed), 0.5, 0.3);
+                perturb(&mut state, &mut Xorshift::new(seed), 0.5, 0.3);
                 assert_is_stiffness(&bonds, &state, 1e-3, 1e-9);
             }
         }
@@ -53,7 +54,7 @@ fn rigid_motion_gives_the_turning_of_the_loads_only() {
     let drawn = (0..5).map(|seed| model(seed, 16));
     for (seed, model) in (0..).zip(drawn.chain([weighted(12)])) {
         let (mut state, _, bonds) = filament(&model, 20);
-        perturb(&mut state, &mut Noise::new(seed), 0.5, 0.3);
+        perturb(&mut state, &mut Xorshift::new(seed), 0.5, 0.3);
         let stiffness = stiffness_matrix(&bonds, &state);
         let loads = loads_of(&bonds, &state);
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {

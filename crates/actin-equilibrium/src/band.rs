@@ -188,7 +188,7 @@ mod tests {
     use crate::factor::Factor;
     use crate::layout::{BodyOrder, Layout};
     use crate::pattern::Pattern;
-    use actin_mechanics::testing::Noise;
+    use actin_mechanics::Xorshift;
     use actin_mechanics::{Coordinates, Frame, Inertia, Matrix3, Point, Stiffness};
     use actin_mechanics::{State, UnitQuaternion, Vector3};
 
@@ -228,7 +228,7 @@ mod tests {
 
     /// Random entries; a large diagonal makes the matrix positive definite.
     fn matrix(pattern: &Pattern, seed: u64, diagonal: f64) -> Vec<f64> {
-        let mut noise = Noise::new(seed);
+        let mut noise = Xorshift::new(seed);
         let upper = pattern.symbolic.as_ref();
         let mut values: Vec<f64> = upper.row_idx().iter().map(|_| noise.sample()).collect();
         for &end in &upper.col_ptr()[1..] {

@@ -15,7 +15,7 @@
 use crate::direction::Solver;
 use crate::evaluation::Evaluation;
 use crate::factor::Inertia;
-use actin_mechanics::testing::Noise;
+use actin_mechanics::Xorshift;
 use actin_mechanics::{Interaction, State};
 
 /// Counts of eigenvalues of the unregularised stiffness.
@@ -69,7 +69,7 @@ pub(crate) fn certify(
     state: &State,
     interactions: &[Box<dyn Interaction>],
 ) -> Certificate {
-    let changes = change(solver, state, interactions, &mut Noise::new(0), 1.0);
+    let changes = change(solver, state, interactions, &mut Xorshift::new(0), 1.0);
     let uncertainty = largest_row_sum(solver, changes);
     let mut certificate = count(solver, uncertainty);
     if certificate.unresolved > 0 {
@@ -125,7 +125,7 @@ fn resolve(
     let state = polished.as_ref().unwrap_or(state);
     let first = solver.factorize(0.0);
     let scales = solver.assembly.scales(&solver.layout);
-    let mut noise = Noise::new(1);
+    let mut noise = Xorshift::new(1);
     let bounds = certificate.negative..=certificate.negative + certificate.unresolved;
     let settles = |inertia: Inertia| {
         inertia.zero == 0
@@ -184,7 +184,7 @@ fn change(
     solver: &mut Solver,
     state: &State,
     interactions: &[Box<dyn Interaction>],
-    noise: &mut Noise,
+    noise: &mut Xorshift,
     amplitude: f64,
 ) -> Vec<f64> {
     let mut step = vec![0.0; solver.layout.unknowns()];

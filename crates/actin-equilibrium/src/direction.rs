@@ -7,7 +7,7 @@ use crate::history::SolverWork;
 use crate::layout::Layout;
 use crate::motion::Extent;
 use crate::outcome::SolveError;
-use crate::residual::Residual;
+use actin_mechanics::Residual;
 use actin_mechanics::{Interaction, Loads, State};
 
 /// Factor by which a regularisation that was too small grows.

@@ -1,7 +1,7 @@
 //! What a solve did.
 
 use crate::motion::Extent;
-use crate::residual::Residual;
+use actin_mechanics::Residual;
 
 /// How a step was judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

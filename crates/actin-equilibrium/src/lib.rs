@@ -33,7 +33,6 @@ mod path_observer;
 mod path_options;
 mod pattern;
 mod relax;
-mod residual;
 mod saddle;
 mod ties;
 
@@ -51,12 +50,11 @@ pub use path::{Path, PathEnd, PathError, PathFailure, PathPoint};
 pub use path_observer::{PathObserver, Waypoint};
 pub use path_options::{Jumps, PathOptions, Saddles};
 pub use relax::{EquilibriumError, relax};
-pub use residual::Residual;
 pub use saddle::Push;
 
 /// The crate of points, frames, loads and interactions whose equilibria are found.
 pub use actin_mechanics as mechanics;
 pub use actin_mechanics::{
-    Coordinates, Interaction, Loads, Matrix3, Point, PointLoad, SecondOrder, Spring, Springs,
-    State, Stiffness, Vector3, Weight,
+    Coordinates, Interaction, Loads, Matrix3, Point, PointLoad, Residual, SecondOrder, Spring,
+    Springs, State, Stiffness, Vector3, Weight,
 };

@@ -9,7 +9,7 @@
 
 use crate::direction::{Solver, dot};
 use crate::outcome::SolveError;
-use actin_mechanics::testing::Noise;
+use actin_mechanics::Xorshift;
 use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Relative residual at which the largest eigenvalue of the inverse counts as found.
@@ -86,7 +86,7 @@ struct Ritz {
 impl Lanczos {
     /// Begins with a random vector, the same every time.
     fn new(n: usize) -> Self {
-        let mut noise = Noise::new(1);
+        let mut noise = Xorshift::new(1);
         let start: Vec<f64> = (0..n).map(|_| noise.sample()).collect();
         let norm = dot(&start, &start).sqrt();
         Self {

@@ -2,7 +2,7 @@
 
 use crate::group::Group;
 use crate::layout::{Layout, Node};
-use crate::residual::Residual;
+use actin_mechanics::Residual;
 use actin_mechanics::{Loads, State, UnitQuaternion, Vector3, Vectors, rotation};
 
 /// How far a step goes.
@@ -86,7 +86,7 @@ impl Layout {
         self.nodes().all(|(node, range)| {
             let floor = self.norms(node, &rounding[range.clone()]).scaled(multiple);
             let of_node = self.norms(node, &loads[range]);
-            of_node.is_within(&limit.max(&floor.if_finite()))
+            of_node.is_within(&limit.max(&if_finite(&floor)))
         })
     }
 
@@ -282,4 +282,13 @@ fn largest_component(positions: &Vectors, points: &[usize]) -> f64 {
         .iter()
         .map(|&i| positions.get(i).amax())
         .fold(0.0, f64::max)
+}
+
+/// A residual with zero for a part that is not finite.
+fn if_finite(residual: &Residual) -> Residual {
+    let part = |value: f64| if value.is_finite() { value } else { 0.0 };
+    Residual {
+        force: part(residual.force),
+        torque: part(residual.torque),
+    }
 }

@@ -23,7 +23,7 @@ use crate::history::{Iteration, SolverWork};
 use crate::layout::Layout;
 use crate::options::{NewtonOptions, OptionsError};
 use crate::outcome::{Convergence, Equilibrium, NewtonFailure, SolveError};
-use crate::residual::Residual;
+use actin_mechanics::Residual;
 use actin_mechanics::{Interaction, Loads, State};
 use std::ops::ControlFlow;
 

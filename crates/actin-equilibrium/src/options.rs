@@ -1,6 +1,6 @@
 //! What a solve may do and when it is done.
 
-use crate::residual::Residual;
+use actin_mechanics::Residual;
 use thiserror::Error;
 
 /// Settings of [`Newton`](crate::Newton); the defaults suit filaments in nm, pN and rad.

@@ -2,7 +2,7 @@
 
 use crate::certificate::{Certificate, Stability};
 use crate::history::{Iteration, SolverWork};
-use crate::residual::Residual;
+use actin_mechanics::Residual;
 use thiserror::Error;
 
 /// Why a solve that ended well ended.

@@ -5,8 +5,8 @@ mod common;
 use actin_equilibrium::{
     Convergence, Iteration, Layout, Newton, NewtonOptions, Residual, SolveError, Stability, Verdict,
 };
-use actin_mechanics::testing::{Noise, perturb};
 use actin_mechanics::{Interaction, Loads, PointLoad, State, Vector3};
+use actin_mechanics::{Xorshift, perturb};
 use common::{ACTIN, Rod, Springs, actin, bonded_filament, in_order, point};
 
 type Terms = Vec<Box<dyn Interaction>>;
@@ -28,7 +28,7 @@ fn convergence_is_quadratic_near_the_solution() {
     let (mut state, terms) = cantilever(&ACTIN, Vector3::x() * 2.0);
     let mut newton = ACTIN.newton(&state);
     newton.solve(&mut state, &terms).unwrap();
-    perturb(&mut state, &mut Noise::new(5), 0.0, 3e-3);
+    perturb(&mut state, &mut Xorshift::new(5), 0.0, 3e-3);
     // Held bodies have been perturbed, too; they stay where they are from here on.
     let equilibrium = newton.solve(&mut state, &terms).unwrap();
     let size = |r: &Residual| r.force.max(r.torque);
@@ -91,7 +91,7 @@ fn the_start_does_not_matter() {
     newton.solve(&mut straight, &terms).unwrap();
     for seed in 0..8 {
         let mut start = state.clone();
-        let mut noise = Noise::new(seed);
+        let mut noise = Xorshift::new(seed);
         perturb(&mut start, &mut noise, 3.0, 0.5);
         start.points.position.set(0, state.points.position.get(0));
         start

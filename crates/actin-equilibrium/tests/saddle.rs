@@ -3,8 +3,8 @@
 mod common;
 
 use actin_equilibrium::{Extent, Layout, Newton, NewtonOptions, Stability};
-use actin_mechanics::testing::{Noise, perturb};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, State, Vector3};
+use actin_mechanics::{Xorshift, perturb};
 use common::{ACTIN, Rod, Springs, point};
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -59,7 +59,7 @@ fn dense_spectrum(newton: &mut Newton, state: &State, terms: &Terms) -> Vec<f64>
 fn certificate_and_lowest_mode_agree_with_a_dense_solver() {
     for (force, noise, turn_length) in [(1.0, 0.0, 1.0), (8.0, 0.0, 1.0), (40.0, 0.1, 3.0)] {
         let (mut state, terms) = compressed(force);
-        perturb(&mut state, &mut Noise::new(1), noise, noise);
+        perturb(&mut state, &mut Xorshift::new(1), noise, noise);
         let options = NewtonOptions {
             turn_length,
             ..NewtonOptions::default()
@@ -150,7 +150,7 @@ fn rigid_motions_are_neutral() {
     }
     let terms: Terms = vec![Box::new(Springs(springs))];
     let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
-    perturb(&mut state, &mut Noise::new(9), 0.1, 0.0);
+    perturb(&mut state, &mut Xorshift::new(9), 0.1, 0.0);
     let equilibrium = newton.solve(&mut state, &terms).unwrap();
     let stability = equilibrium.certificate.unwrap().stability();
     assert_eq!(stability, Stability::Neutral { modes: 6 });
@@ -159,7 +159,7 @@ fn rigid_motions_are_neutral() {
 /// The free bodies of a column moved at random by up to 1e-3 nm and 1e-4 rad per axis.
 fn disturbed(straight: &State) -> State {
     let mut state = straight.clone();
-    perturb(&mut state, &mut Noise::new(4), 1e-3, 1e-4);
+    perturb(&mut state, &mut Xorshift::new(4), 1e-3, 1e-4);
     state
         .points
         .position

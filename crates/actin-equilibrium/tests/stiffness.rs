@@ -3,8 +3,9 @@
 mod common;
 
 use actin_equilibrium::{Group, Layout, Pivot};
-use actin_mechanics::testing::{Noise, assert_is_gradient, perturb};
+use actin_mechanics::testing::assert_is_gradient;
 use actin_mechanics::{Interaction, PointLoad, Vector3};
+use actin_mechanics::{Xorshift, perturb};
 use common::{ACTIN, Rod, assert_is_second_derivative, bonded_filament, in_order};
 
 fn bent_rod() -> (actin_mechanics::State, Vec<Box<dyn Interaction>>) {
@@ -14,7 +15,7 @@ fn bent_rod() -> (actin_mechanics::State, Vec<Box<dyn Interaction>>) {
         ..ACTIN
     };
     let mut state = rod.state();
-    perturb(&mut state, &mut Noise::new(1), 0.5, 0.4);
+    perturb(&mut state, &mut Xorshift::new(1), 0.5, 0.4);
     (state, rod.interactions())
 }
 
@@ -26,7 +27,7 @@ fn loads_are_gradients() {
         assert_is_gradient(interaction.as_ref(), &state, 1e-2, 1e-9);
     }
     let (mut state, bonds) = bonded_filament(4, 3);
-    perturb(&mut state, &mut Noise::new(2), 0.2, 0.1);
+    perturb(&mut state, &mut Xorshift::new(2), 0.2, 0.1);
     assert_is_gradient(&bonds, &state, 1e-2, 1e-9);
 }
 
@@ -41,7 +42,7 @@ fn stiffness_is_the_derivative_of_the_loads_with_and_without_a_given_order() {
     assert_is_second_derivative(&interactions, &state, Layout::free(&state), 1e-8);
     assert_is_second_derivative(&interactions, &state, rod.layout(&state), 1e-8);
     let (mut state, bonds) = bonded_filament(5, 4);
-    perturb(&mut state, &mut Noise::new(2), 0.2, 0.1);
+    perturb(&mut state, &mut Xorshift::new(2), 0.2, 0.1);
     let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).unwrap();
     assert_is_second_derivative(&[Box::new(bonds)], &state, layout, 1e-8);
 }
@@ -51,7 +52,7 @@ fn stiffness_is_the_derivative_of_the_loads_with_and_without_a_given_order() {
 #[test]
 fn stiffness_of_groups_includes_the_second_order_of_their_turn() {
     let (mut state, bonds) = bonded_filament(6, 4);
-    perturb(&mut state, &mut Noise::new(4), 0.2, 0.1);
+    perturb(&mut state, &mut Xorshift::new(4), 0.2, 0.1);
     state.controls.push(1.0);
     let load = PointLoad::new(&state, vec![(5, 1.0)], Vector3::new(300.0, 20.0, -100.0), 0);
     let interactions: Vec<Box<dyn Interaction>> = vec![Box::new(bonds), Box::new(load)];

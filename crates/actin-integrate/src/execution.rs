@@ -2,8 +2,8 @@
 
 use crate::diagnosis::{Probe, Watch, blame, broken_energy};
 use crate::{
-    Body, Checkpoint, FailureKind, Mark, Moment, Observer, Pause, Reason, Residual, Run,
-    RunFailure, RunOutcome,
+    Body, Checkpoint, FailureKind, Mark, Moment, Observer, Pause, Reason, Run, RunFailure,
+    RunOutcome,
 };
 use actin_mechanics::{Split, State, System};
 use std::ops::ControlFlow;
@@ -252,13 +252,12 @@ impl<'a, 'o> Execution<'a, 'o> {
         if reason != Reason::Interrupted {
             self.show_pause(|observer, end| observer.finish(end));
         }
-        let (force, torque) = self.system.residual();
         RunOutcome {
             reason,
             steps: self.step - self.run.first_step,
             time: self.run.time(self.step),
             force_evaluations: self.system.force_evaluations() - self.evaluations_before,
-            residual: Residual { force, torque },
+            residual: self.system.residual(),
             kinetic: self.system.state().kinetic_energy(),
         }
     }

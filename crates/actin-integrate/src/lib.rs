@@ -46,7 +46,7 @@ pub use error::IntegrationError;
 pub use failure::{Body, FailureKind, RunFailure};
 pub use frequency::{FrequencyError, KRYLOV_VECTORS, largest_frequency, largest_frequency_with};
 pub use observer::{Moment, Observer};
-pub use outcome::{Reason, Residual, RunOutcome};
+pub use outcome::{Reason, RunOutcome};
 pub use own_split::{SplitMoment, SplitOutcome};
 pub use run::{DEFAULT_CHECK_EVERY, DEFAULT_OBSERVE_EVERY, Run, RunSettingError};
 pub use schemes::{
@@ -59,6 +59,6 @@ pub use stop::{StopRule, StopRuleError};
 /// The crate of points, frames, loads and interactions that are set in motion.
 pub use actin_mechanics as mechanics;
 pub use actin_mechanics::{
-    Frame, Inertia, Interaction, Loads, Point, PointLoad, Split, Spring, Springs, State, System,
-    Thermostat, UnitQuaternion, Vector3, Vectors, Weight,
+    Frame, Inertia, Interaction, Loads, Point, PointLoad, Residual, Split, Spring, Springs, State,
+    System, Thermostat, UnitQuaternion, Vector3, Vectors, Weight,
 };

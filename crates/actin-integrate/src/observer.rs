@@ -1,7 +1,7 @@
 //! Observers: what they are shown and when.
 
-use crate::{Checkpoint, Pause, Residual};
-use actin_mechanics::{Interaction, State, System};
+use crate::{Checkpoint, Pause};
+use actin_mechanics::{Interaction, Residual, State, System};
 use std::ops::ControlFlow;
 
 /// A synchronised state of a run: positions and momenta belong to the same time.
@@ -49,14 +49,13 @@ impl<'a> Moment<'a> {
 
     /// Largest loads on free bodies; evaluates the loads if they are not current.
     pub fn residual(&mut self) -> Residual {
-        let (force, torque) = self.system.residual();
-        Residual { force, torque }
+        self.system.residual()
     }
 }
 
-/// Someone who looks on and may ask for the end of the run.
+/// Observes a run, and may end it.
 ///
-/// Implemented by every closure of that shape.
+/// Implemented by every closure of the shape of [`observe`](Self::observe).
 pub trait Observer {
     /// Looks at a moment; [`ControlFlow::Break`] ends the run there.
     fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()>;

@@ -1,5 +1,7 @@
 //! How a run ended.
 
+use actin_mechanics::Residual;
+
 /// Why a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
@@ -9,15 +11,6 @@ pub enum Reason {
     Completed,
     /// An observer asked for the end.
     Interrupted,
-}
-
-/// The largest loads on free bodies.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Residual {
-    /// Largest norm of a force on a free point (pN).
-    pub force: f64,
-    /// Largest norm of a body torque on a free frame (pN nm).
-    pub torque: f64,
 }
 
 /// How a run ended, and what it took.

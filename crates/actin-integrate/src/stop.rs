@@ -1,6 +1,6 @@
 //! When a damped run counts as having come to rest.
 
-use crate::Residual;
+use actin_mechanics::Residual;
 use thiserror::Error;
 
 /// Ends a run when loads and motion are both small.

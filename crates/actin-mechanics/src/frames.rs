@@ -172,8 +172,8 @@ impl Frames {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Xorshift;
     use crate::rotation;
-    use crate::testing::Noise;
     use crate::wide::Arch;
 
     /// The flow over all frames is the reference flow of each, whichever axis it has, for numbers
@@ -205,7 +205,7 @@ mod tests {
 
     /// Frames of all the tops in turn, at random; also their orientations and momenta.
     fn spinning(tops: &[Inertia], count: usize) -> (Vec<(UnitQuaternion, Vector3)>, Frames) {
-        let mut noise = Noise::new(5);
+        let mut noise = Xorshift::new(5);
         let mut frames = Frames::default();
         let motion = (0..count).map(|i| {
             let orientation = rotation::exp(noise.vector() * 3.0);

@@ -1,6 +1,6 @@
 //! Forces on points and torques on frames.
 
-use crate::{State, Vectors};
+use crate::{Residual, State, Vectors};
 
 /// The loads on a [`State`].
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,7 +28,7 @@ impl Loads {
 
     /// Largest norm of a force on a free point and of a torque on a free frame; of sliding bodies
     /// the force along which they slide counts.
-    pub fn residual(&self, state: &State) -> (f64, f64) {
+    pub fn residual(&self, state: &State) -> Residual {
         let force = (0..self.force.len())
             .filter(|&i| state.points.is_free(i))
             .map(|i| self.force.get(i).norm())
@@ -38,7 +38,7 @@ impl Loads {
             .filter(|&i| state.frames.is_free(i))
             .map(|i| self.torque.get(i).norm())
             .fold(0.0, f64::max);
-        (force, torque)
+        Residual { force, torque }
     }
 
     /// Magnitude of the total force on each sliding body along which it slides.

@@ -100,6 +100,11 @@ impl Points {
         self.inverse_mass[i] > 0.0
     }
 
+    /// Momentum of free point `i`.
+    pub fn momentum(&self, i: usize) -> Vector3 {
+        self.velocity.get(i) / self.inverse_mass[i]
+    }
+
     /// Inverse masses; zero for held points.
     pub fn inverse_mass(&self) -> &[f64] {
         &self.inverse_mass

@@ -129,7 +129,7 @@ mod tests {
         let force = Vector3::new(3.0, 4.0, 2.0);
         let load = PointLoad::new(&state, vec![(1, 1.0)], force, 0);
         let mut system = System::new(state, vec![Box::new(load)]);
-        assert!((system.residual().0 - 2.0).abs() < 1e-15);
+        assert!((system.residual().force - 2.0).abs() < 1e-15);
         system.kick(0.5, 0.5);
         system.drift(2.0);
         for i in 0..2 {

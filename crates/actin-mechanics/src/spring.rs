@@ -220,9 +220,8 @@ impl SecondOrder for Springs {
 mod tests {
     use super::*;
     use crate::Point;
-    use crate::testing::{
-        Noise, assert_is_balanced, assert_is_gradient, assert_is_stiffness, perturb,
-    };
+    use crate::testing::{assert_is_balanced, assert_is_gradient, assert_is_stiffness};
+    use crate::{Xorshift, perturb};
 
     fn triangle() -> State {
         let mut state = State::default();
@@ -248,7 +247,7 @@ mod tests {
     #[test]
     fn springs_are_the_gradient_of_their_energy() {
         let mut state = triangle();
-        perturb(&mut state, &mut Noise::new(1), 0.1, 0.0);
+        perturb(&mut state, &mut Xorshift::new(1), 0.1, 0.0);
         let all = vec![
             spring([0, 1], 3.0, 0.5),
             spring([1, 2], 5.0, 4.0),

@@ -1,6 +1,6 @@
 //! The state of everything that moves.
 
-use crate::{Frames, Points, Slider};
+use crate::{Frames, Points, Slider, Vector3};
 
 /// Points, frames and controls.
 ///
@@ -30,6 +30,22 @@ impl State {
     pub fn kinetic_energy(&self) -> f64 {
         let sliding: f64 = self.sliders.iter().map(|s| s.kinetic_energy(self)).sum();
         self.points.kinetic_energy() + self.frames.kinetic_energy() + sliding
+    }
+
+    /// Total momentum of the free points.
+    pub fn momentum(&self) -> Vector3 {
+        let free = (0..self.points.len()).filter(|&i| self.points.is_free(i));
+        free.map(|i| self.points.momentum(i)).sum()
+    }
+
+    /// Total angular momentum of the free bodies about the origin, lab frame.
+    pub fn angular_momentum(&self) -> Vector3 {
+        let points = (0..self.points.len()).filter(|&i| self.points.is_free(i));
+        let orbital = points.map(|i| self.points.position.get(i).cross(&self.points.momentum(i)));
+        let frames = (0..self.frames.len()).filter(|&i| self.frames.is_free(i));
+        let spin =
+            frames.map(|i| self.frames.orientation.get(i) * self.frames.angular_momentum.get(i));
+        orbital.chain(spin).sum()
     }
 
     /// Whether every position, velocity, orientation and angular momentum is finite.
@@ -103,8 +119,9 @@ impl State {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::{Noise, perturb, set_in_motion};
-    use crate::{Frame, Inertia, Point, State, UnitQuaternion, Vector3};
+    use crate::{
+        Frame, Inertia, Point, State, UnitQuaternion, Vector3, Xorshift, perturb, set_in_motion,
+    };
 
     /// Whatever of a state moves is copied; a part that is left out would differ.
     #[test]
@@ -122,7 +139,7 @@ mod tests {
         }
         state.controls = vec![0.0; 2];
         let mut moved = state.clone();
-        let mut noise = Noise::new(3);
+        let mut noise = Xorshift::new(3);
         perturb(&mut moved, &mut noise, 1.0, 1.0);
         set_in_motion(&mut moved, &mut noise, 1.0, 1.0);
         moved.controls = vec![0.25, -1.0];

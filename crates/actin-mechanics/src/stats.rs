@@ -115,9 +115,9 @@ fn frames<S: Simd>(simd: S, frames: &Frames) -> (S::f64s, S::f64s) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{Noise, perturb, set_in_motion};
     use crate::wide::Arch;
     use crate::{Frame, Inertia, Point, Slider, UnitQuaternion, Vector3};
+    use crate::{Xorshift, perturb, set_in_motion};
 
     /// Points and frames in motion, the second of each held, and the third point sliding along z.
     fn moving(bodies: usize) -> State {
@@ -133,7 +133,7 @@ mod tests {
                 inertia: Inertia::from_moments(tops[i % 3]).unwrap(),
             });
         }
-        let mut noise = Noise::new(8);
+        let mut noise = Xorshift::new(8);
         perturb(&mut state, &mut noise, 1.0, 1.0);
         set_in_motion(&mut state, &mut noise, 1.0, 1.0);
         if bodies > 1 {

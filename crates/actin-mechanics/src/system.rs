@@ -1,6 +1,6 @@
 //! A state with its interactions, split into drift and kick.
 
-use crate::{Interaction, Loads, State, Vectors};
+use crate::{Interaction, Loads, Residual, State, Vectors};
 use std::sync::Arc;
 
 /// What an integrator may do to a system: nothing else is visible to it.
@@ -173,8 +173,8 @@ impl System {
         );
     }
 
-    /// Largest norm of a force on a free point and of a torque on a free frame.
-    pub fn residual(&mut self) -> (f64, f64) {
+    /// Largest loads on free bodies; evaluates the loads if they are not current.
+    pub fn residual(&mut self) -> Residual {
         self.loads();
         self.loads.residual(&self.state)
     }

@@ -1,7 +1,6 @@
 //! Arguments that every interaction's tests use: gradient, stiffness, balance, invariance.
 //!
-//! These are public so that the crates above, and users with interactions of their own, can make
-//! the same arguments.
+//! With the feature `testing`, for tests of interactions of one's own.
 
 mod second_order;
 
@@ -9,58 +8,6 @@ pub use second_order::{assert_is_stiffness, stiffness_matrix};
 
 use crate::{Interaction, Loads, State, Vector3, rotation};
 use std::ops::{Add, Mul, Sub};
-
-/// A cheap, portable source of numbers in [-1, 1) for tests.
-#[derive(Clone, Debug)]
-pub struct Noise(u64);
-
-impl Noise {
-    /// A source that always gives the same numbers for the same seed.
-    pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0xD1B5_4A32_D192_ED03)
-    }
-
-    /// The next number (xorshift64*).
-    pub fn sample(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        let bits = self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11;
-        bits as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    /// A vector of three such numbers.
-    pub fn vector(&mut self) -> Vector3 {
-        Vector3::new(self.sample(), self.sample(), self.sample())
-    }
-}
-
-/// Displaces every point by up to `length` and turns every frame by up to `angle` per axis.
-pub fn perturb(state: &mut State, noise: &mut Noise, length: f64, angle: f64) {
-    for i in 0..state.points.len() {
-        state.points.position.add(i, noise.vector() * length);
-    }
-    for i in 0..state.frames.len() {
-        let q = state.frames.orientation.get(i) * rotation::exp(noise.vector() * angle);
-        state.frames.orientation.set(i, q);
-    }
-}
-
-/// Gives every free body a random motion of up to `velocity` and `angular_velocity` per axis.
-pub fn set_in_motion(state: &mut State, noise: &mut Noise, velocity: f64, angular_velocity: f64) {
-    for i in 0..state.points.len() {
-        if state.points.is_free(i) {
-            state.points.velocity.set(i, noise.vector() * velocity);
-        }
-    }
-    for i in 0..state.frames.len() {
-        if state.frames.is_free(i) {
-            let omega = noise.vector() * angular_velocity;
-            let l = omega.component_div(&state.frames.inverse_moments(i));
-            state.frames.angular_momentum.set(i, l);
-        }
-    }
-}
 
 /// Moves the whole state rigidly: first turned about the origin by `turn`, then shifted.
 pub fn move_rigidly(state: &mut State, turn: Vector3, shift: Vector3) {
@@ -87,21 +34,6 @@ pub fn resultant(state: &State, loads: &Loads) -> (Vector3, Vector3) {
         .map(|i| state.frames.orientation.get(i) * loads.torque.get(i))
         .sum();
     (force, moments + couples)
-}
-
-/// Total momentum and total angular momentum about the origin (lab frame), free bodies only.
-pub fn momenta(state: &State) -> (Vector3, Vector3) {
-    let mut linear = Vector3::zeros();
-    let mut angular = Vector3::zeros();
-    for i in (0..state.points.len()).filter(|&i| state.points.is_free(i)) {
-        let p = state.points.velocity.get(i) / state.points.inverse_mass()[i];
-        linear += p;
-        angular += state.points.position.get(i).cross(&p);
-    }
-    for i in (0..state.frames.len()).filter(|&i| state.frames.is_free(i)) {
-        angular += state.frames.orientation.get(i) * state.frames.angular_momentum.get(i);
-    }
-    (linear, angular)
 }
 
 /// Loads of one interaction alone.

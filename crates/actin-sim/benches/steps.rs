@@ -4,7 +4,7 @@
 
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
 use actin_integrate::{Composition, Drag, PEFRL, POSITION_VERLET, advance};
-use actin_mechanics::testing::{Noise, perturb};
+use actin_mechanics::{Xorshift, perturb};
 use actin_sim::{Assembly, Scene};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -56,7 +56,12 @@ fn newton_iteration(criterion: &mut Criterion) {
         ("1600_nm", LONG),
     ] {
         let mut assembly = assembly(section);
-        perturb(assembly.system.state_mut(), &mut Noise::new(1), 1e-3, 1e-3);
+        perturb(
+            assembly.system.state_mut(),
+            &mut Xorshift::new(1),
+            1e-3,
+            1e-3,
+        );
         let order = BodyOrder {
             points: assembly.points.iter().map(|p| p.s_nm).collect(),
             frames: assembly.frames.iter().map(|f| f.s_nm).collect(),

@@ -6,7 +6,7 @@ use actin_cosserat::{
     TwistLaw, TwistRise, TwistStretch, Walls,
 };
 use actin_mechanics::State;
-use actin_mechanics::testing::{Noise, perturb};
+use actin_mechanics::{Xorshift, perturb};
 
 /// A rod whose neighbouring frames differ by up to `angle` (rad) about every axis.
 pub(crate) fn rod(segments: usize, angle: f64) -> (State, RodLayout) {
@@ -20,7 +20,7 @@ pub(crate) fn rod(segments: usize, angle: f64) -> (State, RodLayout) {
     };
     let mut state = State::default();
     let layout = rod.push(&mut state).expect("the rod has segments");
-    perturb(&mut state, &mut Noise::new(1), 1e-3, angle);
+    perturb(&mut state, &mut Xorshift::new(1), 1e-3, angle);
     (state, layout)
 }
 

@@ -109,7 +109,8 @@ mod tests {
         BendLaw, CubicShear, Rigidities, RootedStretch, SidedTwist, Stiffening, StretchLaw,
         TanhTwist, TwistLaw, TwistRise, TwistStretch,
     };
-    use actin_mechanics::testing::{Noise, derivative};
+    use actin_mechanics::Xorshift;
+    use actin_mechanics::testing::derivative;
 
     /// The published laws of twist and length.
     fn published() -> (RodMaterial, SegmentLaw) {
@@ -197,7 +198,7 @@ mod tests {
     /// bending add is off by up to half.
     #[test]
     fn tangent_is_the_slope_of_the_couple_at_constant_force() {
-        let mut noise = Noise::new(21);
+        let mut noise = Xorshift::new(21);
         for parts in [published(), sided(false), sided(true)] {
             for _ in 0..30 {
                 let twist = 0.04 * noise.sample();

@@ -8,8 +8,8 @@ use crate::{
     Rigidities, RootedStretch, SegmentCurvature, SegmentLaw, SidedTwist, Stiffening, StraightRod,
     StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, Walls,
 };
-use actin_mechanics::testing::{Noise, perturb};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
+use actin_mechanics::{Xorshift, perturb};
 
 /// Rigidities that all differ, so that no mix-up of axes goes unseen.
 fn material() -> RodMaterial {
@@ -97,7 +97,7 @@ fn laws() -> Vec<Named> {
 }
 
 /// A rod of unequal segments with other bodies before and after it.
-fn rod(segments: usize, walls: Walls, noise: &mut Noise) -> (State, RodLayout) {
+fn rod(segments: usize, walls: Walls, noise: &mut Xorshift) -> (State, RodLayout) {
     let mut state = State::default();
     let neighbour = StraightRod::uniform(1, 10.0);
     neighbour.push(&mut state).unwrap();
@@ -175,7 +175,7 @@ fn compare(a: &Loads, b: &Loads) -> (f64, f64) {
 }
 
 /// Buffers that are not empty.
-fn noisy_loads(state: &State, noise: &mut Noise) -> Loads {
+fn noisy_loads(state: &State, noise: &mut Xorshift) -> Loads {
     let mut loads = Loads::zeros(state);
     for i in 0..loads.force.len() {
         loads.force.set(i, noise.vector());
@@ -195,7 +195,7 @@ fn assert_paths_agree(
     scale: f64,
 ) {
     let extended = extended(layout, law, is_joined);
-    let mut expected = noisy_loads(state, &mut Noise::new(2));
+    let mut expected = noisy_loads(state, &mut Xorshift::new(2));
     let start = expected.clone();
     add_reference((layout, law), extended.as_ref(), state, &mut expected);
     let rod = fast(layout, law, extended.as_ref());
@@ -217,7 +217,7 @@ fn assert_paths_agree(
 /// quaternions of some frames.
 #[test]
 fn loads_are_those_of_the_scalar_path() {
-    let mut noise = Noise::new(1);
+    let mut noise = Xorshift::new(1);
     for law in &laws() {
         for segments in (1..=9).chain([12, 15, 16, 17, 64]) {
             for walls in all_walls() {
@@ -236,7 +236,7 @@ fn loads_are_those_of_the_scalar_path() {
 /// of large numbers.
 #[test]
 fn loads_of_smooth_rods_are_those_of_the_scalar_path() {
-    let mut noise = Noise::new(5);
+    let mut noise = Xorshift::new(5);
     for law in &laws() {
         for angle in [1e-3, 1e-5] {
             let walls = Walls {
@@ -314,7 +314,7 @@ fn the_smallest_turns_count() {
 #[test]
 fn a_broken_node_spoils_its_neighbours_only() {
     for law in &laws() {
-        let (mut state, layout) = rod(14, Walls::default(), &mut Noise::new(9));
+        let (mut state, layout) = rod(14, Walls::default(), &mut Xorshift::new(9));
         let broken = layout.points().start + 6;
         state.points.position.x[broken] = f64::NAN;
         let loads = fast_loads(&state, &layout, law);
@@ -333,7 +333,7 @@ fn a_broken_node_spoils_its_neighbours_only() {
 
 /// The loop that a law gets.
 fn kind_of(law: &Named) -> Option<&'static str> {
-    let (_, layout) = rod(3, Walls::default(), &mut Noise::new(9));
+    let (_, layout) = rod(3, Walls::default(), &mut Xorshift::new(9));
     let extended = extended(&layout, law, true);
     let rod = FastRod::new(&layout, &law.1, extended.as_ref())?;
     Some(match rod.0 {
@@ -386,7 +386,7 @@ fn other_laws_keep_the_scalar_path() {
 /// The angles of joined elements have eight places.
 #[test]
 fn rods_joined_to_many_others_keep_the_scalar_path() {
-    let (_, layout) = rod(3, Walls::default(), &mut Noise::new(9));
+    let (_, layout) = rod(3, Walls::default(), &mut Xorshift::new(9));
     let [_, end] = joined(&layout, true);
     let has_loop = |count: usize| {
         let end: Vec<_> = end.iter().cycle().take(count).copied().collect();

@@ -2,8 +2,8 @@
 #![allow(dead_code, reason = "each test file uses some of these")]
 
 use actin_cosserat::{Rigidities, RodLayout, RodMaterial, StraightRod, Walls};
-use actin_mechanics::testing::{Noise, perturb};
 use actin_mechanics::{State, Vector3};
+use actin_mechanics::{Xorshift, perturb};
 
 /// Every combination of walls.
 pub(crate) const ALL_WALLS: [Walls; 4] = [
@@ -35,7 +35,7 @@ pub(crate) fn material() -> RodMaterial {
 }
 
 /// A rod of unequal segments of 6 to 14 nm, turned and shifted, with other bodies around it.
-pub(crate) fn rod(segments: usize, walls: Walls, noise: &mut Noise) -> (State, RodLayout) {
+pub(crate) fn rod(segments: usize, walls: Walls, noise: &mut Xorshift) -> (State, RodLayout) {
     let mut state = State::default();
     let neighbour = StraightRod::uniform(1, 10.0);
     neighbour.push(&mut state).unwrap();
@@ -52,7 +52,11 @@ pub(crate) fn rod(segments: usize, walls: Walls, noise: &mut Noise) -> (State, R
 }
 
 /// The same, far from rest: strains up to about 0.5, angles up to about 1 rad per axis.
-pub(crate) fn strained_rod(segments: usize, walls: Walls, noise: &mut Noise) -> (State, RodLayout) {
+pub(crate) fn strained_rod(
+    segments: usize,
+    walls: Walls,
+    noise: &mut Xorshift,
+) -> (State, RodLayout) {
     let (mut state, layout) = rod(segments, walls, noise);
     perturb(&mut state, noise, 2.5, 0.5);
     (state, layout)

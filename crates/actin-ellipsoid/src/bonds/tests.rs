@@ -3,8 +3,9 @@
 
 use super::*;
 use crate::{Anchors, EllipsoidParameters, Placement};
-use actin_mechanics::testing::{Noise, loads_of, perturb};
+use actin_mechanics::testing::loads_of;
 use actin_mechanics::{Coordinates, Frame, Inertia, Point, Stiffness, UnitQuaternion};
+use actin_mechanics::{Xorshift, perturb};
 
 /// A run of monomers with other bodies before and after, displaced at random.
 fn run(count: usize, bonds: [usize; 2]) -> (State, Bonds) {
@@ -31,7 +32,7 @@ fn run_of(anchors: Anchors, count: usize, bonds: [usize; 2]) -> (State, Bonds) {
     let monomers = model.build(&mut state, &Placement::default(), -4, count);
     push_stranger(&mut state);
     let bonds = model.bonds(&monomers).unwrap();
-    perturb(&mut state, &mut Noise::new(8), 0.4, 0.3);
+    perturb(&mut state, &mut Xorshift::new(8), 0.4, 0.3);
     (state, bonds)
 }
 

@@ -2,7 +2,7 @@
 //! centres: floppy at rest, stiff once deformed.
 
 use super::{Bond, Bonds, frame, point};
-use actin_mechanics::testing::Noise;
+use actin_mechanics::Xorshift;
 use actin_mechanics::{State, Vector3, rotation};
 use std::f64::consts::TAU;
 
@@ -22,7 +22,7 @@ pub(crate) fn filament(n: usize, bonds: usize, seed: u64) -> (State, Bonds) {
         );
         frame(&mut state, rotation::exp(Vector3::z() * angle));
     }
-    let mut noise = Noise::new(seed);
+    let mut noise = Xorshift::new(seed);
     let mut all = Vec::new();
     for (step, stiffness, gap) in [(1, 2258.0, [0.0, 1.6]), (2, 3354.0, [0.14, 2.2])] {
         for i in 0..n.saturating_sub(step) {
@@ -44,7 +44,7 @@ pub(crate) fn filament(n: usize, bonds: usize, seed: u64) -> (State, Bonds) {
 
 /// A bond parallel to the line of centres at a place drawn from a disc of radius 1.8 nm; the gap
 /// grows from the centre to the rim.
-fn bond(state: &State, i: usize, j: usize, noise: &mut Noise, gap: [f64; 2]) -> Bond {
+fn bond(state: &State, i: usize, j: usize, noise: &mut Xorshift, gap: [f64; 2]) -> Bond {
     let (xi, xj) = (state.points.position.get(i), state.points.position.get(j));
     let axis = (xj - xi).normalize();
     let across = axis.cross(&Vector3::x()).normalize();

@@ -155,8 +155,8 @@ impl SecondOrder for Bonds {
 /// A single-stranded filament of `n` bodies along z, `bonds` parallel bonds per interface: at
 /// rest each interface resists stretch and two bends but neither shear nor twist.
 pub(crate) fn bonded_filament(n: usize, bonds: usize) -> (State, Bonds) {
-    use actin_mechanics::testing::Noise;
-    let mut noise = Noise::new(7);
+    use actin_mechanics::Xorshift;
+    let mut noise = Xorshift::new(7);
     let (rise, gap, stiffness) = (5.0, 1.6, 5000.0);
     let mut state = State::default();
     let mut all = Vec::new();

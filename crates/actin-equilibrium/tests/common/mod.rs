@@ -54,11 +54,12 @@ pub(crate) fn assert_is_second_derivative(
     layout: Layout,
     relative: f64,
 ) {
-    use actin_mechanics::testing::{Noise, derivative};
+    use actin_mechanics::Xorshift;
+    use actin_mechanics::testing::derivative;
     let n = layout.unknowns();
     let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
     newton.certify(state, interactions).unwrap();
-    let mut noise = Noise::new(3);
+    let mut noise = Xorshift::new(3);
     for _ in 0..20 {
         let step: Vec<f64> = (0..n).map(|_| noise.sample()).collect();
         let work = |t: f64| {

@@ -2,10 +2,10 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use actin_integrate::{Drag, POSITION_VERLET, advance};
-use actin_mechanics::testing::{Noise, perturb, set_in_motion};
 use actin_mechanics::{
     Frame, Inertia, Interaction, Loads, Point, State, System, UnitQuaternion, Vector3, rotation,
 };
+use actin_mechanics::{Xorshift, perturb, set_in_motion};
 
 /// Springs between points, energy `k/2 (|d| - rest)^2`.
 #[derive(Clone, Debug)]
@@ -180,7 +180,7 @@ pub(crate) fn three_tops() -> System {
 /// [`three_tops`] turned, displaced, moving and spinning.
 pub(crate) fn spinning_tops() -> System {
     let mut system = three_tops();
-    let mut noise = Noise::new(7);
+    let mut noise = Xorshift::new(7);
     perturb(system.state_mut(), &mut noise, 0.1, 0.3);
     set_in_motion(system.state_mut(), &mut noise, 0.5, 1.5);
     system
@@ -193,7 +193,7 @@ pub(crate) fn vibrating_tops(seed: u64) -> System {
     let drag = Drag::new(0.5, 0.5).unwrap();
     advance(&mut system, &POSITION_VERLET, 0.05, 4000, &drag);
     system.state_mut().stop();
-    let mut noise = Noise::new(seed);
+    let mut noise = Xorshift::new(seed);
     perturb(system.state_mut(), &mut noise, 0.01, 0.03);
     set_in_motion(system.state_mut(), &mut noise, 0.05, 0.15);
     system

@@ -1,7 +1,8 @@
 //! The argument for second derivatives: they are the differences of the loads.
 
-use super::{Noise, derivative, loads_of, perturb};
+use super::{derivative, loads_of};
 use crate::{Coordinates, Interaction, Matrix3, State, Stiffness, Vector3, Vectors, rotation};
+use crate::{Xorshift, perturb};
 use nalgebra::{DMatrix, DVector};
 
 /// Asserts that the second derivatives of the energy are minus the derivative of the loads.
@@ -78,7 +79,7 @@ fn stiffness_of(interaction: &dyn Interaction, state: &State) -> Stiffness {
 fn assert_pairs_and_diagonal(interaction: &dyn Interaction, state: &State, relative: f64) {
     let here = stiffness_of(interaction, state);
     let mut moved = state.clone();
-    perturb(&mut moved, &mut Noise::new(77), 0.1, 0.1);
+    perturb(&mut moved, &mut Xorshift::new(77), 0.1, 0.1);
     let elsewhere = stiffness_of(interaction, &moved);
     let pairs = |s: &Stiffness| s.blocks().iter().map(|b| (b.0, b.1)).collect::<Vec<_>>();
     assert_eq!(pairs(&here), pairs(&elsewhere), "pairs at another state");

@@ -1,7 +1,7 @@
 //! The wide functions against their scalar references, with one lane and with as many as there are.
 
 use super::*;
-use crate::testing::Noise;
+use crate::Xorshift;
 use crate::{UnitQuaternion, Vector3, rotation};
 use nalgebra::Unit;
 use std::f64::consts::PI;
@@ -184,7 +184,7 @@ fn architectures() -> [Arch; 2] {
 
 /// Random axes with all angles, both quaternions of each rotation.
 fn rotations() -> Vec<UnitQuaternion> {
-    let mut noise = Noise::new(3);
+    let mut noise = Xorshift::new(3);
     let mut all = Vec::new();
     for _ in 0..20 {
         for angle in ANGLES {

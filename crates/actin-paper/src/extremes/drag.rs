@@ -6,7 +6,7 @@ use super::stability::{MODELS, free};
 use actin_integrate::{
     Bath, Drag, PEFRL, Run, advance, advance_in, largest_frequency, stable_step,
 };
-use actin_mechanics::testing::momenta;
+
 use actin_mechanics::{State, System, Vector3};
 use actin_sim::{Assembly, End, Plan, Record, RunError};
 
@@ -101,11 +101,11 @@ fn flight(mut system: System, rate: f64) -> Outcome {
     for i in 0..points.len() {
         points.velocity.set(i, Vector3::new(3.0, -2.0, 1.0));
     }
-    let start = momenta(system.state()).0;
+    let start = system.state().momentum();
     let drag = Drag::new(rate, rate).expect("rates are positive");
     advance(&mut system, &PEFRL, h, STEPS, &drag);
     let expected = start * (-rate * h * STEPS as f64).exp();
-    let left = momenta(system.state()).0;
+    let left = system.state().momentum();
     if !system.state().is_finite() {
         return Outcome::Wrong("the state is not finite".into());
     }

@@ -3,8 +3,8 @@
 use super::row::{Outcome, Row};
 use super::stability::free;
 use actin_integrate::{Drag, PEFRL, advance, largest_frequency, stable_step};
-use actin_mechanics::testing::{Noise, momenta, set_in_motion};
 use actin_mechanics::{State, System, Vector3};
+use actin_mechanics::{Xorshift, set_in_motion};
 
 /// Small filaments.
 const FILAMENTS: [(&str, &str); 2] = [
@@ -68,14 +68,14 @@ fn centre(state: &State) -> (f64, Vector3) {
 
 /// Momentum; angular momentum about the origin; the same about the centre of mass.
 fn all_momenta(state: &State) -> [Vector3; 3] {
-    let (linear, angular) = momenta(state);
+    let (linear, angular) = (state.momentum(), state.angular_momentum());
     let about_centre = angular - centre(state).1.cross(&linear);
     [linear, angular, about_centre]
 }
 
 /// Takes the motion of the centre of mass away.
 fn stop_centre(state: &mut State) {
-    let velocity = momenta(state).0 / centre(state).0;
+    let velocity = state.momentum() / centre(state).0;
     for i in 0..state.points.len() {
         state.points.velocity.add(i, -velocity);
     }
@@ -84,7 +84,7 @@ fn stop_centre(state: &mut State) {
 /// A free filament in motion, on its whole or about its centre of mass only.
 fn moving(sections: &str, is_flying: bool) -> Result<System, Outcome> {
     let mut system = free(sections)?;
-    set_in_motion(system.state_mut(), &mut Noise::new(11), 2.0, 0.5);
+    set_in_motion(system.state_mut(), &mut Xorshift::new(11), 2.0, 0.5);
     if !is_flying {
         stop_centre(system.state_mut());
     }

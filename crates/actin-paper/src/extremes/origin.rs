@@ -2,8 +2,8 @@
 
 use super::row::{Outcome, Row, larger};
 use super::scenes::build;
-use actin_mechanics::testing::{Noise, perturb};
 use actin_mechanics::{Interaction, Loads, State, Vector3};
+use actin_mechanics::{Xorshift, perturb};
 
 /// By how much everything is moved (nm).
 const SHIFTS: [f64; 4] = [1e2, 1e4, 1e5, 1e6];
@@ -39,7 +39,12 @@ pub(super) fn rows() -> Vec<Row> {
 /// The largest change of a force or torque, over what rounding of shifted places does to a spring.
 fn shifted(shift: f64) -> Result<Outcome, Outcome> {
     let mut assembly = build(SCENE)?;
-    perturb(assembly.system.state_mut(), &mut Noise::new(7), 0.05, 0.02);
+    perturb(
+        assembly.system.state_mut(),
+        &mut Xorshift::new(7),
+        0.05,
+        0.02,
+    );
     let here = assembly.system.state().clone();
     let mut there = here.clone();
     let by = Vector3::new(shift, -shift, shift);

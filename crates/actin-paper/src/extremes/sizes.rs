@@ -122,16 +122,16 @@ fn peak_memory_mb() -> f64 {
 
 /// Some steps of shaken filaments, by their momentum: what they have at the start they keep.
 fn moved(text: &str, steps: u64) -> Result<Outcome, Outcome> {
-    use actin_mechanics::testing::{Noise, momenta, set_in_motion};
+    use actin_mechanics::{Xorshift, set_in_motion};
     let mut assembly = build(text)?;
     let plan = Plan::new(&assembly).map_err(|problem| Outcome::Refused(problem.to_string()))?;
     let estimate = *plan.estimate().expect("a motion has an estimate");
     let system = &mut assembly.system;
-    set_in_motion(system.state_mut(), &mut Noise::new(2), 1.0, 0.1);
-    let before = momenta(system.state()).0;
+    set_in_motion(system.state_mut(), &mut Xorshift::new(2), 1.0, 0.1);
+    let before = system.state().momentum();
     advance(system, &PEFRL, estimate.time_step_ns, steps, &Drag::NONE);
     let points = system.state().points.len() as f64;
-    let error = (momenta(system.state()).0 - before).norm() / before.norm();
+    let error = (system.state().momentum() - before).norm() / before.norm();
     // Sums of as many terms as there are points, each with round-off, relative to a sum of
     // random directions that is as much smaller than its terms together.
     let bound = 1e-13 * points.sqrt().max(10.0);

@@ -92,7 +92,7 @@ impl Assembly {
 mod tests {
     use super::*;
     use crate::Scene;
-    use actin_mechanics::testing::{Noise, perturb};
+    use actin_mechanics::{Xorshift, perturb};
 
     fn build() -> Assembly {
         let text = "Scene(
@@ -111,7 +111,12 @@ mod tests {
     #[test]
     fn the_listed_bonds_are_those_that_act() {
         let mut assembly = build();
-        perturb(assembly.system.state_mut(), &mut Noise::new(5), 0.2, 0.05);
+        perturb(
+            assembly.system.state_mut(),
+            &mut Xorshift::new(5),
+            0.2,
+            0.05,
+        );
         let energies = assembly.system.energies();
         let bonds = assembly.bonds_of(1).unwrap();
         let state = assembly.system.state();

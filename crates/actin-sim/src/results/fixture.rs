@@ -1,8 +1,8 @@
 //! A small mixed filament and a made-up run of it, for the tests of this module.
 
 use crate::{Assembly, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory};
-use actin_mechanics::testing::{Noise, perturb, set_in_motion};
 use actin_mechanics::{Loads, State};
+use actin_mechanics::{Xorshift, perturb, set_in_motion};
 
 /// Monomers at a clamped start, then a rod; the title has everything that XML escapes.
 const CLAMPED_START: &str = r#"Scene(
@@ -85,7 +85,7 @@ pub(super) fn clamped_end() -> Assembly {
 
 /// Three records of random states near rest; all numbers differ, held bodies excepted.
 pub(super) fn trajectory(assembly: &Assembly) -> Trajectory {
-    let mut noise = Noise::new(7);
+    let mut noise = Xorshift::new(7);
     let records = [0.0, 0.1, 1.0 / 3.0].map(|time_ns| {
         let mut state = assembly.rest.clone();
         perturb(&mut state, &mut noise, 0.1, 0.05);
@@ -99,14 +99,14 @@ pub(super) fn trajectory(assembly: &Assembly) -> Trajectory {
 
 /// The record of one state.
 pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record {
-    let (residual_force_pn, residual_torque_pn_nm) = loads(assembly, &state).residual(&state);
+    let residual = loads(assembly, &state).residual(&state);
     let interactions = assembly.system.interactions();
     Record {
         time_ns,
         energies_pn_nm: interactions.iter().map(|i| i.energy(&state)).collect(),
         kinetic_pn_nm: state.kinetic_energy(),
-        residual_force_pn,
-        residual_torque_pn_nm,
+        residual_force_pn: residual.force,
+        residual_torque_pn_nm: residual.torque,
         state,
     }
 }

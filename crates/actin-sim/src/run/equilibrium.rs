@@ -405,7 +405,7 @@ fn record(system: &System, u: f64, state: &State) -> Record {
     for interaction in system.interactions() {
         interaction.add_loads(state, &mut loads);
     }
-    let (force, torque) = loads.residual(state);
+    let residual = loads.residual(state);
     Record {
         time_ns: u,
         energies_pn_nm: system
@@ -414,8 +414,8 @@ fn record(system: &System, u: f64, state: &State) -> Record {
             .map(|i| i.energy(state))
             .collect(),
         kinetic_pn_nm: 0.0,
-        residual_force_pn: force,
-        residual_torque_pn_nm: torque,
+        residual_force_pn: residual.force,
+        residual_torque_pn_nm: residual.torque,
         state: state.clone(),
     }
 }

@@ -90,7 +90,7 @@ mod tests {
     use crate::{Assembly, Scene, shape::link};
     use actin_mechanics::State;
     use actin_mechanics::rotation;
-    use actin_mechanics::testing::{Noise, perturb};
+    use actin_mechanics::{Xorshift, perturb};
 
     const SECTIONS: [&str; 3] = [
         "Rod(from_nm: 0.0, to_nm: 60.0)",
@@ -110,7 +110,7 @@ mod tests {
     }
 
     /// Free bodies displaced at random, held ones as they are.
-    fn shaken(assembly: &Assembly, noise: &mut Noise, size: f64) -> State {
+    fn shaken(assembly: &Assembly, noise: &mut Xorshift, size: f64) -> State {
         let mut state = assembly.rest.clone();
         perturb(&mut state, noise, size, 0.2 * size);
         for clamp in &assembly.clamps {
@@ -130,7 +130,7 @@ mod tests {
     /// nothing slips, a whole number in any case.
     #[test]
     fn twist_and_writhe_add_up_to_a_whole_number() {
-        let mut noise = Noise::new(11);
+        let mut noise = Xorshift::new(11);
         for sections in SECTIONS {
             let assembly = build(sections);
             // Small enough for all edges to point forward, and too large.

@@ -158,7 +158,7 @@ fn spread(energy: f64, [from, to]: [f64; 2], cells: &[f64], energies: &mut [f64]
 mod tests {
     use super::*;
     use crate::Scene;
-    use actin_mechanics::testing::{Noise, perturb};
+    use actin_mechanics::{Xorshift, perturb};
 
     fn build(sections: &str, clamps: &str) -> Assembly {
         let text = format!(
@@ -191,7 +191,7 @@ mod tests {
     /// filament's.
     #[test]
     fn the_energy_of_the_filament_is_kept() {
-        let mut noise = Noise::new(6);
+        let mut noise = Xorshift::new(6);
         for (sections, clamps) in SECTIONS.iter().flat_map(|s| CLAMPS.map(|c| (s, c))) {
             let assembly = build(sections, clamps);
             for (interaction, spans) in assembly.system.interactions().iter().zip(&assembly.spans) {

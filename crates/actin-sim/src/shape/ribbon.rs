@@ -214,7 +214,8 @@ mod tests {
     use super::*;
     use crate::Scene;
     use actin_mechanics::rotation;
-    use actin_mechanics::testing::{Noise, move_rigidly, perturb};
+    use actin_mechanics::testing::move_rigidly;
+    use actin_mechanics::{Xorshift, perturb};
 
     fn build(sections: &str, clamps: &str) -> Assembly {
         let text = format!(
@@ -290,7 +291,7 @@ mod tests {
     #[test]
     fn a_rigid_motion_changes_neither() {
         let assembly = build(SECTIONS[2], CLAMPS[1]);
-        let mut noise = Noise::new(3);
+        let mut noise = Xorshift::new(3);
         let mut state = assembly.rest.clone();
         perturb(&mut state, &mut noise, 1.5, 0.2);
         let before = Ribbon::new(&assembly, &state);

@@ -54,8 +54,8 @@ fn transport(from: Vector3, to: Vector3, v: Vector3) -> Vector3 {
 mod tests {
     use super::*;
     use crate::shape::closed_writhe;
+    use actin_mechanics::Xorshift;
     use actin_mechanics::rotation;
-    use actin_mechanics::testing::Noise;
 
     /// Half a turn about z, then bent over by one about y, neither of which is twist of the other.
     #[test]
@@ -70,7 +70,7 @@ mod tests {
     /// Several turns count as such; a frame that is sheared against its edge twists no less.
     #[test]
     fn shear_is_no_twist() {
-        let mut noise = Noise::new(2);
+        let mut noise = Xorshift::new(2);
         let turn = |k: i32| rotation::exp(Vector3::z() * (0.9 * f64::from(k)));
         let sheared: Vec<UnitQuaternion> = (0..60)
             .map(|k| {
@@ -89,7 +89,7 @@ mod tests {
     /// for every framing up to whole numbers.
     #[test]
     fn twist_and_writhe_of_a_closed_ribbon_are_a_whole_number() {
-        let mut noise = Noise::new(4);
+        let mut noise = Xorshift::new(4);
         for _ in 0..20 {
             let points: Vec<Vector3> = (0..9).map(|_| noise.vector()).collect();
             let edge = |i: usize| (points[(i + 1) % 9] - points[i % 9]).normalize();

@@ -96,14 +96,14 @@ pub(super) fn triangle(a: Vector3, b: Vector3, c: Vector3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use actin_mechanics::Xorshift;
     use actin_mechanics::rotation;
-    use actin_mechanics::testing::Noise;
 
     fn curve(n: usize, at: impl Fn(f64) -> Vector3) -> Vec<Vector3> {
         (0..n).map(|k| at(2.0 * PI * k as f64 / n as f64)).collect()
     }
 
-    fn random(n: usize, noise: &mut Noise) -> Vec<Vector3> {
+    fn random(n: usize, noise: &mut Xorshift) -> Vec<Vector3> {
         (0..n).map(|_| noise.vector()).collect()
     }
 
@@ -126,9 +126,9 @@ mod tests {
     /// The integral itself, sign included, on edges a distance apart.
     #[test]
     fn solid_angles_are_gauss_integrals() {
-        let mut noise = Noise::new(1);
+        let mut noise = Xorshift::new(1);
         for _ in 0..5 {
-            let edge = |shift: f64, noise: &mut Noise| {
+            let edge = |shift: f64, noise: &mut Xorshift| {
                 [noise.vector(), noise.vector()].map(|v| v + Vector3::z() * shift)
             };
             let (one, other) = (edge(0.0, &mut noise), edge(2.5, &mut noise));
@@ -214,7 +214,7 @@ mod tests {
     /// writhes the other way.
     #[test]
     fn the_writhe_is_that_of_the_curve() {
-        let mut noise = Noise::new(3);
+        let mut noise = Xorshift::new(3);
         let points = random(12, &mut noise);
         let writhe = closed_writhe(&points);
         assert!(writhe.abs() > 0.1);
@@ -245,7 +245,7 @@ mod tests {
     /// the closing.
     #[test]
     fn the_closing_far_away_adds_nothing() {
-        let mut noise = Noise::new(5);
+        let mut noise = Xorshift::new(5);
         let mut points = random(10, &mut noise);
         for (k, point) in points.iter_mut().enumerate() {
             point.z += 0.4 * k as f64;

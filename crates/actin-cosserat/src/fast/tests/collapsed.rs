@@ -45,7 +45,7 @@ fn of_segments(arch: Arch, rod: &FastRod, states: &[[Vector3; 2]]) -> Vec<[Vecto
 /// Strains at which a segment has from a billionth to three times its length, in all directions and
 /// exactly across, at random curvatures.
 fn states() -> Vec<[Vector3; 2]> {
-    let mut noise = Noise::new(11);
+    let mut noise = Xorshift::new(11);
     let mut segments = vec![
         Vector3::new(1e-9, 0.0, 0.0),
         Vector3::new(0.0, -1e-4, 0.0),
@@ -63,7 +63,7 @@ fn states() -> Vec<[Vector3; 2]> {
 /// or is not a number, and one of 1e-4 is wrong by 1e-8.
 #[test]
 fn laws_of_collapsed_and_inverted_segments_are_the_scalar_ones() {
-    let (states, (_, layout)) = (states(), rod(3, Walls::default(), &mut Noise::new(9)));
+    let (states, (_, layout)) = (states(), rod(3, Walls::default(), &mut Xorshift::new(9)));
     for law in &laws() {
         let extended = extended(&layout, law, false);
         let rod = fast(&layout, law, extended.as_ref());
@@ -86,7 +86,7 @@ fn laws_of_collapsed_and_inverted_segments_are_the_scalar_ones() {
 }
 
 /// Makes each segment this part of its length, in any direction as seen from its frame.
-fn collapse((state, layout): (&mut State, &RodLayout), size: f64, noise: &mut Noise) {
+fn collapse((state, layout): (&mut State, &RodLayout), size: f64, noise: &mut Xorshift) {
     let first = layout.points().start;
     for (k, length) in layout.segment_lengths().iter().enumerate() {
         let q = state.frames.orientation.get(layout.frames().start + k);
@@ -100,7 +100,7 @@ fn collapse((state, layout): (&mut State, &RodLayout), size: f64, noise: &mut No
 /// to 2e-14.
 #[test]
 fn loads_of_collapsed_rods_are_those_of_the_scalar_path() {
-    let mut noise = Noise::new(12);
+    let mut noise = Xorshift::new(12);
     for law in &laws() {
         for segments in [1, 2, 5, 16] {
             for size in [0.01, 0.03, 0.3, 1.0] {

@@ -2,7 +2,7 @@
 
 use super::config;
 use actin_mechanics::Loads;
-use actin_mechanics::testing::{Noise, perturb};
+use actin_mechanics::{Xorshift, perturb};
 use actin_sim::{Assembly, Scene, SceneProblem};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
@@ -133,7 +133,12 @@ fn evaluate(text: &str) -> Result<(), SceneProblem> {
     let plan = actin_sim::Plan::new(&assembly)?;
     let estimate = plan.estimate().expect("a motion");
     assert!(estimate.time_step_ns.is_finite() && estimate.time_step_ns > 0.0);
-    perturb(assembly.system.state_mut(), &mut Noise::new(1), 1e-3, 1e-3);
+    perturb(
+        assembly.system.state_mut(),
+        &mut Xorshift::new(1),
+        1e-3,
+        1e-3,
+    );
     let state = assembly.system.state();
     let mut loads = Loads::zeros(state);
     for interaction in assembly.system.interactions() {

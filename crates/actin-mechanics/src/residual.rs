@@ -1,8 +1,8 @@
 //! How far a state is from equilibrium.
 
-/// The largest loads along freedoms: over free bodies the norm of the force and of the body
-/// torque, over groups the norm of the resultant force and of the couple about the pivot, each
-/// along the directions in which the group moves.
+/// The largest loads on what is free to move: over free bodies the norm of the force and of the body
+/// torque, over bodies that move together the norm of their resultant along the directions in which they
+/// move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Residual {
     /// Largest force (pN).
@@ -12,36 +12,29 @@ pub struct Residual {
 }
 
 impl Residual {
-    /// Whether both parts are at most those of `limit`.
+    /// Whether both parts are at most those of `limit`; never if one is NaN.
     pub fn is_within(&self, limit: &Self) -> bool {
         self.force <= limit.force && self.torque <= limit.torque
     }
 
-    /// The larger of both parts relative to those of `unit`.
-    pub(crate) fn relative_to(&self, unit: &Self) -> f64 {
+    /// The larger of both parts relative to those of `unit`; a part of zero counts as zero.
+    pub fn relative_to(&self, unit: &Self) -> f64 {
         let part = |value: f64, unit: f64| if value == 0.0 { 0.0 } else { value / unit };
         part(self.force, unit.force).max(part(self.torque, unit.torque))
     }
 
     /// Both parts multiplied by `factor`.
-    pub(crate) fn scaled(&self, factor: f64) -> Self {
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
         Self {
             force: self.force * factor,
             torque: self.torque * factor,
         }
     }
 
-    /// The same, with zero for a part that is not finite.
-    pub(crate) fn if_finite(&self) -> Self {
-        let part = |value: f64| if value.is_finite() { value } else { 0.0 };
-        Self {
-            force: part(self.force),
-            torque: part(self.torque),
-        }
-    }
-
     /// The larger of each part.
-    pub(crate) fn max(&self, other: &Self) -> Self {
+    #[must_use]
+    pub fn max(&self, other: &Self) -> Self {
         Self {
             force: self.force.max(other.force),
             torque: self.torque.max(other.torque),
