@@ -351,5 +351,21 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     })
 }
 
+/// The numbers on which the points of an interface depend.
+fn numbers(parameters: &EllipsoidParameters, kind: InterfaceKind) -> [f64; 8] {
+    let interface = kind.parameters(parameters);
+    let [x, y, z] = parameters.semi_axes;
+    [
+        parameters.radius,
+        parameters.rise,
+        parameters.turn,
+        x,
+        y,
+        z,
+        interface.minimum_length,
+        interface.maximum_length,
+    ]
+}
+
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,7 @@
 use crate::direction::{Direction, Solver};
 use crate::evaluation::Evaluation;
 use crate::history::Verdict;
-use crate::motion::Extent;
+use crate::motion::StepSize;
 use crate::options::NewtonOptions;
 use crate::outcome::SolveError;
 use actin_mechanics::{Interaction, State};
@@ -42,7 +42,7 @@ const REACH_GROWTH: f64 = 2.0;
 /// A step that was taken.
 pub(crate) struct Taken {
     pub(crate) fraction: f64,
-    pub(crate) extent: Extent,
+    pub(crate) extent: StepSize,
     pub(crate) verdict: Verdict,
 }
 
@@ -186,7 +186,7 @@ impl Descent {
     }
 
     /// The part of a step within the limits.
-    fn fraction(&self, extent: &Extent) -> f64 {
+    fn fraction(&self, extent: &StepSize) -> f64 {
         let part = self.part_of_limits(extent);
         if part > self.reach {
             self.reach / part
@@ -196,7 +196,7 @@ impl Descent {
     }
 
     /// The extent of a step relative to the limits.
-    fn part_of_limits(&self, extent: &Extent) -> f64 {
+    fn part_of_limits(&self, extent: &StepSize) -> f64 {
         (extent.rotation / self.options.largest_rotation)
             .max(extent.strain / self.options.largest_strain)
             .max(extent.displacement / self.farthest)

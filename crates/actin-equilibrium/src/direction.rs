@@ -5,7 +5,7 @@ use crate::evaluation::Evaluation;
 use crate::factor::{Factor, Inertia};
 use crate::history::SolverWork;
 use crate::layout::Layout;
-use crate::motion::Extent;
+use crate::motion::StepSize;
 use crate::outcome::SolveError;
 use actin_mechanics::Residual;
 use actin_mechanics::{Interaction, Loads, State};
@@ -50,7 +50,7 @@ pub(crate) struct Solver {
 #[derive(Clone, Debug)]
 pub(crate) struct Direction {
     pub(crate) step: Vec<f64>,
-    pub(crate) extent: Extent,
+    pub(crate) extent: StepSize,
     /// `f . p`: how fast the energy falls at first.
     pub(crate) slope: f64,
     /// `p . K p` with the unregularised stiffness.
@@ -357,7 +357,7 @@ impl Solver {
         Direction {
             slope,
             curvature: slope - shift * of_metric - of_ties,
-            extent: Extent {
+            extent: StepSize {
                 strain,
                 ..self.layout.step_extent(&step)
             },

@@ -45,19 +45,6 @@ impl Inertia {
     }
 }
 
-/// Multiplications that factorising a matrix with this upper triangle takes: half the sum of the
-/// squared numbers of entries in each column of the factor.
-pub(crate) fn factor_operations(upper: SymbolicSparseColMatRef<'_, usize>) -> usize {
-    let n = upper.ncols();
-    let (mut tree, mut counts) = (vec![0isize; n], vec![0usize; n]);
-    let scratch =
-        simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(n, upper.row_idx().len());
-    let mut memory = MemBuffer::new(scratch);
-    let stack = MemStack::new(&mut memory);
-    simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, upper, stack);
-    counts.iter().map(|count| count * count).sum::<usize>() / 2
-}
-
 /// The factors of one pattern, with the memory they need.
 pub(crate) struct Factor {
     symbolic: simplicial::SymbolicSimplicialCholesky<usize>,

@@ -1,6 +1,6 @@
 //! What a solve did.
 
-use crate::motion::Extent;
+use crate::motion::StepSize;
 use actin_mechanics::Residual;
 
 /// How a step was judged.
@@ -33,7 +33,7 @@ pub struct Iteration {
     /// Fraction of the (regularised) Newton step that was taken.
     pub fraction: f64,
     /// Largest displacement and turn.
-    pub extent: Extent,
+    pub extent: StepSize,
     /// How the step was judged.
     pub verdict: Verdict,
 }

@@ -7,7 +7,7 @@ use actin_mechanics::{Loads, State, UnitQuaternion, Vector3, Vectors, rotation};
 
 /// How far a step goes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Extent {
+pub struct StepSize {
     /// Largest displacement of a body or group (nm).
     pub displacement: f64,
     /// Largest turn of a body or group (rad).
@@ -17,7 +17,7 @@ pub struct Extent {
     pub strain: f64,
 }
 
-impl Extent {
+impl StepSize {
     /// The extent of `factor` times the step.
     pub(crate) fn scaled(&self, factor: f64) -> Self {
         Self {
@@ -112,9 +112,9 @@ impl Layout {
     }
 
     /// The largest displacement and turn of a step; its strain is not looked at.
-    pub(crate) fn step_extent(&self, step: &[f64]) -> Extent {
+    pub(crate) fn step_extent(&self, step: &[f64]) -> StepSize {
         let largest = self.largest(step);
-        Extent {
+        StepSize {
             displacement: largest.force,
             rotation: largest.torque,
             strain: 0.0,

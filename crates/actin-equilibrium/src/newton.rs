@@ -16,7 +16,8 @@
 //! J. Nocedal and S. J. Wright, Numerical Optimization, 2nd ed. (2006), sections 3.4 (modified
 //! Cholesky) and 15.6 (watchdog).
 
-use crate::certificate::{Certificate, certify};
+use crate::certificate::Certificate;
+use crate::certify::certify;
 use crate::descent::Descent;
 use crate::direction::Solver;
 use crate::history::{Iteration, SolverWork};

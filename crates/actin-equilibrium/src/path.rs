@@ -6,11 +6,11 @@
 
 use crate::evaluation::Evaluation;
 use crate::history::SolverWork;
-use crate::motion::Extent;
+use crate::motion::StepSize;
 use crate::newton::Newton;
 use crate::options::OptionsError;
 use crate::outcome::{Equilibrium, NewtonFailure, SolveError};
-use crate::path_observer::{PathObserver, Waypoint};
+use crate::path_observer::{PathObserver, PathPoint, Waypoint};
 use crate::path_options::{Jumps, PathOptions, Saddles};
 use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
@@ -26,25 +26,6 @@ const SMALL_MOTION: f64 = 0.1;
 /// A path of controls, from parameter 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Path(PathOptions);
-
-/// An equilibrium on a path.
-#[derive(Clone, Copy, Debug)]
-pub struct PathPoint<'a> {
-    /// The path parameter, from 0 to 1.
-    pub parameter: f64,
-    /// The state.
-    pub state: &'a State,
-    /// What is known of it.
-    pub equilibrium: &'a Equilibrium,
-    /// How far free bodies have gone since the last point.
-    pub moved: Extent,
-    /// Whether the point is further from the last one than the options allow.
-    pub jumped: bool,
-    /// What the solver has done so far.
-    pub work: SolverWork,
-    /// What the rest of the path depends on besides the state.
-    pub waypoint: &'a Waypoint,
-}
 
 /// The end of a path that was followed to parameter 1.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,7 +57,7 @@ pub enum PathError {
         "the next equilibrium is far away: a body turns by {:.2} rad, neighbours move by {:.2} \
          of their distance", .0.rotation, .0.strain
     )]
-    Jump(Extent),
+    Jump(StepSize),
     /// The observer asked for the end.
     #[error("the observer asked for the end")]
     Interrupted,
@@ -268,7 +249,7 @@ impl<'a> Walk<'a> {
     /// Whether an equilibrium is much further than the last step lets expect: a snap through.
     ///
     /// Off a saddle the way is always long at first, so that says nothing.
-    fn is_sudden(&self, equilibrium: &Equilibrium, moved: &Extent, next: f64) -> bool {
+    fn is_sudden(&self, equilibrium: &Equilibrium, moved: &StepSize, next: f64) -> bool {
         let motion = motion(moved);
         let expected = self.at.rate.map(|rate| rate * (next - self.at.parameter));
         equilibrium.saddles_left == 0
@@ -338,9 +319,9 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn moved(&self, from: &State, to: &State) -> Extent {
+    fn moved(&self, from: &State, to: &State) -> StepSize {
         let layout = self.newton.layout();
-        Extent {
+        StepSize {
             strain: self.newton.solver.assembly.ties().strain_between(from, to),
             ..layout.step_extent(&layout.difference(from, to))
         }
@@ -395,6 +376,6 @@ impl<'a> Walk<'a> {
 }
 
 /// The larger of the largest turn and the largest relative motion of neighbours.
-fn motion(moved: &Extent) -> f64 {
+fn motion(moved: &StepSize) -> f64 {
     moved.rotation.max(moved.strain)
 }

@@ -1,12 +1,32 @@
-//! Who goes along a path, and where it can be left and taken up again.
+//! What is seen of a path of equilibria, and where it can be left and taken up again.
 
-use crate::history::Iteration;
-use crate::path::PathPoint;
+use crate::history::{Iteration, SolverWork};
+use crate::motion::StepSize;
+use crate::outcome::Equilibrium;
 use crate::path_options::PathOptions;
 use actin_mechanics::State;
 use std::ops::ControlFlow;
 
-/// Someone who goes along a path and may ask for its end.
+/// An equilibrium on a path.
+#[derive(Clone, Copy, Debug)]
+pub struct PathPoint<'a> {
+    /// The path parameter, from 0 to 1.
+    pub parameter: f64,
+    /// The state.
+    pub state: &'a State,
+    /// What is known of it.
+    pub equilibrium: &'a Equilibrium,
+    /// How far free bodies have gone since the last point.
+    pub moved: StepSize,
+    /// Whether the point is further from the last one than the options allow.
+    pub jumped: bool,
+    /// What the solver has done so far.
+    pub work: SolverWork,
+    /// What the rest of the path depends on besides the state.
+    pub waypoint: &'a Waypoint,
+}
+
+/// Observes a path of equilibria, and may end it.
 ///
 /// Implemented by every closure that looks at the points.
 pub trait PathObserver {

@@ -3,11 +3,11 @@
 //! The matrix is kept as its upper triangle by columns, rows sorted, which is what the
 //! factorisation reads. All places are found once; values are the business of `assemble`.
 
-use crate::factor::factor_operations;
 use crate::layout::{Layout, Order};
 use actin_mechanics::{Coordinates, Matrix3, Stiffness};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
+use faer::sparse::linalg::cholesky::simplicial;
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
 /// Where one block goes.
@@ -211,4 +211,17 @@ fn running_sum(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
         sums.push(sums[sums.len() - 1] + length);
     }
     sums
+}
+
+/// Multiplications that factorising a matrix with this upper triangle takes: half the sum of the
+/// squared numbers of entries in each column of the factor.
+fn factor_operations(upper: SymbolicSparseColMatRef<'_, usize>) -> usize {
+    let n = upper.ncols();
+    let (mut tree, mut counts) = (vec![0isize; n], vec![0usize; n]);
+    let scratch =
+        simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(n, upper.row_idx().len());
+    let mut memory = MemBuffer::new(scratch);
+    let stack = MemStack::new(&mut memory);
+    simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, upper, stack);
+    counts.iter().map(|count| count * count).sum::<usize>() / 2
 }

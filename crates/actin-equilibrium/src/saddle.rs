@@ -3,13 +3,13 @@
 use crate::evaluation::Evaluation;
 use crate::history::Iteration;
 use crate::mode::{self, Mode};
-use crate::motion::Extent;
+use crate::motion::StepSize;
 use crate::newton::Newton;
 use crate::outcome::{Equilibrium, NewtonFailure, SolveError};
 use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
 
-/// Extent (nm and rad) of the first displacement off a saddle.
+/// Size (nm and rad) of the first displacement off a saddle.
 const FIRST: f64 = 1e-3;
 /// Largest extent (rad, or nm per turn length) to which the displacement is doubled.
 const LAST: f64 = 0.2;
@@ -20,7 +20,7 @@ pub struct Push {
     /// The mode along which it went.
     pub mode: Mode,
     /// How far bodies were moved and turned at most; strains are not looked at.
-    pub extent: Extent,
+    pub extent: StepSize,
 }
 
 impl Newton {
@@ -85,7 +85,7 @@ impl Newton {
         &mut self,
         state: &mut State,
         interactions: &[Box<dyn Interaction>],
-        largest: &Extent,
+        largest: &StepSize,
     ) -> Result<Option<Push>, SolveError> {
         let Some(mode) = self.unstable_mode(state, interactions)? else {
             return Ok(None);
@@ -202,6 +202,6 @@ impl<'a> Ridge<'a> {
 }
 
 /// The largest turn, or displacement over the turn length.
-fn largest(extent: &Extent, turn_length: f64) -> f64 {
+fn largest(extent: &StepSize, turn_length: f64) -> f64 {
     extent.rotation.max(extent.displacement / turn_length)
 }

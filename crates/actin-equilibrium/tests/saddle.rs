@@ -2,7 +2,7 @@
 
 mod common;
 
-use actin_equilibrium::{Extent, Layout, Newton, NewtonOptions, Stability};
+use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability, StepSize};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, State, Vector3};
 use actin_mechanics::{Xorshift, perturb};
 use common::{ACTIN, Rod, Springs, point};
@@ -217,7 +217,7 @@ fn a_push_is_as_small_as_it_was_asked_for() {
     newton.solve(&mut state, &terms).unwrap();
     let energy = |state: &State| terms.iter().map(|term| term.energy(state)).sum::<f64>();
     for (displacement, rotation) in [(0.01, 1.0), (10.0, 1e-4)] {
-        let largest = Extent {
+        let largest = StepSize {
             displacement,
             rotation,
             strain: 0.0,
@@ -240,6 +240,6 @@ fn a_push_is_as_small_as_it_was_asked_for() {
     let (mut state, terms) = compressed(1.0);
     newton.solve(&mut state, &terms).unwrap();
     let before = state.clone();
-    let none = newton.push_off_saddle(&mut state, &terms, &Extent::default());
+    let none = newton.push_off_saddle(&mut state, &terms, &StepSize::default());
     assert_eq!((none.unwrap(), state), (None, before));
 }

@@ -3,7 +3,7 @@
 use crate::acceleration::{Probe, accelerated};
 use crate::options::Options;
 use crate::problem::{Linearisation, Problem};
-use crate::report::{Progress, StartReport, Termination};
+use crate::search_report::{Progress, StartReport, Termination};
 use crate::step::{Damped, LARGEST_DAMPING, Room, SMALLEST_DAMPING, Step};
 use faer::Mat;
 

@@ -1,6 +1,6 @@
 //! What can be wrong with data, settings and fits.
 
-use crate::report::StartReport;
+use crate::search_report::StartReport;
 use thiserror::Error;
 
 /// Why there is no fit.

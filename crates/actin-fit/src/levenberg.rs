@@ -9,7 +9,8 @@ use crate::model::Model;
 use crate::options::Options;
 use crate::precision::{Goodness, Precision};
 use crate::problem::{Linearisation, Problem};
-use crate::report::{Fit, StartReport, Status};
+use crate::report::{Fit, Status};
+use crate::search_report::StartReport;
 use crate::starts::Starts;
 use faer::Mat;
 

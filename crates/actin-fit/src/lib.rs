@@ -26,6 +26,7 @@ mod polynomial;
 mod precision;
 mod problem;
 mod report;
+mod search_report;
 mod starts;
 mod step;
 
@@ -40,7 +41,8 @@ pub use observations::{Noise, Observations};
 pub use options::Options;
 pub use polynomial::Polynomial;
 pub use precision::{Goodness, Precision};
-pub use report::{Fit, Progress, StartReport, Status, Termination};
+pub use report::{Fit, Status};
+pub use search_report::{Progress, StartReport, Termination};
 pub use starts::Starts;
 
 /// The matrices of this crate: `matrix[(row, column)]`.

@@ -1,6 +1,5 @@
 //! What a composition method is. The tables themselves are in `schemes`.
 
-use crate::schemes;
 use std::fmt;
 use thiserror::Error;
 
@@ -154,22 +153,6 @@ impl Composition {
         self.source
     }
 
-    /// All methods.
-    pub fn all() -> &'static [Self] {
-        schemes::ALL
-    }
-
-    /// The method of that name.
-    ///
-    /// # Errors
-    /// A name that no method has.
-    pub fn by_name(name: &str) -> Result<&'static Self, UnknownScheme> {
-        Self::all()
-            .iter()
-            .find(|scheme| scheme.name == name)
-            .ok_or_else(|| UnknownScheme(name.to_owned()))
-    }
-
     /// The stages of one step in order, with their durations in units of the step.
     pub fn stages(&self) -> impl Iterator<Item = (Stage, f64)> + '_ {
         let pair = [self.first, self.first.other()];
@@ -243,17 +226,6 @@ pub enum CompositionError {
     /// The stability limit is not positive and finite.
     #[error("the stability limit must be positive and finite, got {0}")]
     Limit(f64),
-}
-
-/// A name that no method has.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("no integration method is called {0:?}; known are {known}", known = known_names())]
-pub struct UnknownScheme(pub String);
-
-/// The names of all methods, for messages.
-fn known_names() -> String {
-    let names: Vec<_> = Composition::all().iter().map(|s| s.name).collect();
-    names.join(", ")
 }
 
 #[cfg(test)]

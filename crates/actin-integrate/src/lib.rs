@@ -40,7 +40,7 @@ mod surroundings;
 
 pub use bath::{Bath, BathError};
 pub use checkpoint::{Checkpoint, Mark, Pause};
-pub use composition::{Composition, CompositionError, Stage, UnknownScheme};
+pub use composition::{Composition, CompositionError, Stage};
 pub use drag::{Drag, DragError};
 pub use error::IntegrationError;
 pub use failure::{Body, FailureKind, RunFailure};
@@ -50,7 +50,8 @@ pub use outcome::{Reason, RunOutcome};
 pub use own_split::{SplitMoment, SplitOutcome};
 pub use run::{DEFAULT_CHECK_EVERY, DEFAULT_OBSERVE_EVERY, Run, RunSettingError};
 pub use schemes::{
-    FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, SUZUKI_WEIGHT, VEFRL, VELOCITY_VERLET,
+    FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, SUZUKI_WEIGHT, UnknownScheme, VEFRL,
+    VELOCITY_VERLET,
 };
 pub use step::{SAFETY, StepError, stable_step};
 pub use stepper::{advance, advance_in};

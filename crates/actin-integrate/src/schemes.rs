@@ -4,6 +4,7 @@
 //! the tests compute them again.
 
 use crate::composition::{Composition, Stage};
+use thiserror::Error;
 
 /// Position Verlet: half a drift, a kick, half a drift.
 pub const POSITION_VERLET: Composition = Composition {
@@ -74,7 +75,7 @@ pub const SUZUKI: Composition = Composition {
 };
 
 /// All methods, in the order in which they are listed to users.
-pub(crate) const ALL: &[Composition] = &[
+const ALL: &[Composition] = &[
     POSITION_VERLET,
     VELOCITY_VERLET,
     PEFRL,
@@ -108,4 +109,33 @@ const fn suzuki(p: f64) -> [f64; 11] {
     let middle = 1.0 - 4.0 * p;
     let joint = 0.5 * (p + middle);
     [0.5 * p, p, p, p, joint, middle, joint, p, p, p, 0.5 * p]
+}
+
+impl Composition {
+    /// All methods.
+    pub fn all() -> &'static [Self] {
+        ALL
+    }
+
+    /// The method of that name.
+    ///
+    /// # Errors
+    /// A name that no method has.
+    pub fn by_name(name: &str) -> Result<&'static Self, UnknownScheme> {
+        Self::all()
+            .iter()
+            .find(|scheme| scheme.name == name)
+            .ok_or_else(|| UnknownScheme(name.to_owned()))
+    }
+}
+
+/// A name that no method has.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("no integration method is called {0:?}; known are {known}", known = known_names())]
+pub struct UnknownScheme(pub String);
+
+/// The names of all methods, for messages.
+fn known_names() -> String {
+    let names: Vec<_> = Composition::all().iter().map(|s| s.name).collect();
+    names.join(", ")
 }

@@ -6,8 +6,8 @@
 
 use super::elements::{Segments, bending_couples, quaternions, vectors, vectors_mut};
 use super::ends::Ends;
-use super::kernel::AddLoads;
 use super::laws::Law;
+use super::rod::AddLoads;
 use super::rod::Rod;
 use crate::{RodEnd, RodLayout};
 use actin_mechanics::wide::{self, Columns, ShiftedDown, ShiftedUp, Simd, Wide3};

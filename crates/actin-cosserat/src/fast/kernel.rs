@@ -7,19 +7,8 @@
 )]
 
 use super::laws::Law;
-use super::rod::Rod;
-use crate::RodLayout;
+use super::rod::AddLoads;
 use actin_mechanics::wide::{Simd, WithSimd};
-use actin_mechanics::{Loads, State};
-
-/// Adds the loads of a rod.
-#[derive(Debug)]
-pub(super) struct AddLoads<'a, L> {
-    pub(super) rod: &'a Rod<L>,
-    pub(super) layout: &'a RodLayout,
-    pub(super) state: &'a State,
-    pub(super) loads: &'a mut Loads,
-}
 
 impl<L: Law> WithSimd for AddLoads<'_, L> {
     type Output = ();

@@ -1,7 +1,6 @@
 //! What the loop needs of a rod, found when the interaction is built.
 
 use super::ends::{Joined, MOST_JOINED};
-use super::kernel::AddLoads;
 use super::laws::Law;
 use crate::extended::ExtendedSegments;
 use crate::{RodEnd, RodLayout};
@@ -133,4 +132,13 @@ impl<L: Law> Rod<L> {
             loads,
         });
     }
+}
+
+/// The loads of a rod, to be added by the loops of `kernel.rs`.
+#[derive(Debug)]
+pub(super) struct AddLoads<'a, L> {
+    pub(super) rod: &'a Rod<L>,
+    pub(super) layout: &'a RodLayout,
+    pub(super) state: &'a State,
+    pub(super) loads: &'a mut Loads,
 }

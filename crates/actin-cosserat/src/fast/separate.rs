@@ -5,8 +5,8 @@
 )]
 
 use super::elements::{Segments, bending_couples, quaternions, vectors, vectors_mut};
-use super::kernel::AddLoads;
 use super::laws::Law;
+use super::rod::AddLoads;
 use actin_mechanics::wide::{self, Columns, ShiftedUp, Simd};
 
 impl<L: Law> AddLoads<'_, L> {

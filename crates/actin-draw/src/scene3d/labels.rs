@@ -1,9 +1,8 @@
 //! Texts at points of the scene, placed inside the panel and clear of one another.
 
 use super::Vector3;
-use super::panel::Frame;
-use super::solid::Stroke;
-use super::svg::{Align, Canvas, text_width};
+use super::frame::Frame;
+use super::svg::{Align, Canvas, Stroke, text_width};
 use crate::Colour;
 
 /// A text at a point.

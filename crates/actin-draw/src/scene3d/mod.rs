@@ -5,6 +5,7 @@
 //! solid by solid, by the distance of its middle.
 
 mod camera;
+mod frame;
 mod labels;
 mod outline;
 mod panel;
@@ -16,7 +17,8 @@ pub use camera::View;
 pub use labels::Label;
 pub use panel::Panel;
 pub use sheet::{Key, Sheet};
-pub use solid::{Item, Solid, Stroke};
+pub use solid::{Item, Solid};
+pub use svg::Stroke;
 
 /// A vector of three components.
 pub type Vector3 = nalgebra::Vector3<f64>;

@@ -2,9 +2,10 @@
 
 use super::Vector3;
 use super::camera::{Camera, View};
+use super::frame::Frame;
 use super::labels::{self, LETTERS, Label};
-use super::solid::{Item, Stroke};
-use super::svg::{Align, Canvas};
+use super::solid::Item;
+use super::svg::{Align, Canvas, Stroke};
 use crate::Colour;
 
 /// One view of a scene.
@@ -24,32 +25,6 @@ pub struct Panel {
     pub bar_nm: f64,
     /// Room kept free around the scene for labels, in pixels: left, top, right, bottom.
     pub room: [f64; 4],
-}
-
-/// How a panel's scene becomes pixels.
-#[derive(Debug)]
-pub(super) struct Frame {
-    pub camera: Camera,
-    /// Pixels per unit of the picture.
-    pub scale: f64,
-    /// What of the picture stands at `middle`.
-    picture: [f64; 2],
-    /// Pixels of the middle of the room for the scene.
-    middle: [f64; 2],
-    /// Left, top, right, bottom of the area for labels.
-    pub area: [f64; 4],
-    /// Distance from the eye to the middle of the scene (nm).
-    distance: f64,
-}
-
-impl Frame {
-    /// Pixels of a place in the picture.
-    pub(super) fn pixel(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [
-            self.middle[0] + self.scale * (x - self.picture[0]),
-            self.middle[1] - self.scale * (y - self.picture[1]),
-        ]
-    }
 }
 
 /// Distance of the eye, in extents of the scene: near enough to see depth, far enough for lengths.

@@ -1,8 +1,7 @@
 //! A whole picture: panels and a legend below them.
 
 use super::panel::Panel;
-use super::solid::Stroke;
-use super::svg::{Align, Canvas, Paint, text_width};
+use super::svg::{Align, Canvas, Paint, Stroke, text_width};
 use crate::Colour;
 
 /// What stands for an entry in the legend.

@@ -1,33 +1,11 @@
 //! What is drawn: solids in space, and how each is painted.
 
 use super::camera::Camera;
+use super::frame::Frame;
 use super::outline::{self, hull, rim};
-use super::panel::Frame;
-use super::svg::{Canvas, Paint};
+use super::svg::{Canvas, Paint, Stroke};
 use super::{Matrix3, Vector3};
 use crate::Colour;
-
-/// How a line looks.
-#[derive(Clone, Copy, Debug)]
-pub struct Stroke {
-    /// Colour.
-    pub colour: Colour,
-    /// Width in pixels.
-    pub width: f64,
-    /// Whether it has gaps.
-    pub dashed: bool,
-}
-
-impl Stroke {
-    /// A line without gaps.
-    pub fn solid(colour: Colour, width: f64) -> Self {
-        Self {
-            colour,
-            width,
-            dashed: false,
-        }
-    }
-}
 
 /// A solid (nm, lab frame).
 #[derive(Clone, Debug)]

@@ -1,9 +1,30 @@
 //! Writes shapes of the plane as SVG. Lengths are pixels, y points down.
 
-use super::solid::Stroke;
 use crate::Colour;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
+
+/// How a line looks.
+#[derive(Clone, Copy, Debug)]
+pub struct Stroke {
+    /// Colour.
+    pub colour: Colour,
+    /// Width in pixels.
+    pub width: f64,
+    /// Whether it has gaps.
+    pub dashed: bool,
+}
+
+impl Stroke {
+    /// A line without gaps.
+    pub fn solid(colour: Colour, width: f64) -> Self {
+        Self {
+            colour,
+            width,
+            dashed: false,
+        }
+    }
+}
 
 /// Fill of a shape.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! Points that were found are kept: one search per geometry and process.
 
-use super::{Cubature, CubatureError, table};
+use super::{Cubature, CubatureError, numbers, table};
 use crate::{EllipsoidParameters, InterfaceKind};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -35,20 +35,4 @@ pub(super) fn get(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Foun
             .map(Arc::new)
     };
     place.get_or_init(find).clone()
-}
-
-/// The numbers on which the points of an interface depend.
-pub(super) fn numbers(parameters: &EllipsoidParameters, kind: InterfaceKind) -> [f64; 8] {
-    let interface = kind.parameters(parameters);
-    let [x, y, z] = parameters.semi_axes;
-    [
-        parameters.radius,
-        parameters.rise,
-        parameters.turn,
-        x,
-        y,
-        z,
-        interface.minimum_length,
-        interface.maximum_length,
-    ]
 }

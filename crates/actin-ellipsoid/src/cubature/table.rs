@@ -3,7 +3,7 @@
 //! `cargo run -p actin-ellipsoid --example weighted_bonds` prints this table; a test finds it anew.
 
 use super::moments::Site;
-use super::{Cubature, CubaturePoint, MomentCheck, cache};
+use super::{Cubature, CubaturePoint, MomentCheck, numbers};
 use crate::{EllipsoidParameters, InterfaceKind};
 
 /// Relative difference up to which two numbers of a geometry are the same: angles that went through
@@ -42,9 +42,9 @@ impl Known {
 pub(super) fn built_in(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Option<Cubature> {
     let known = Known::of(kind);
     let standard = EllipsoidParameters::default();
-    let pairs = cache::numbers(parameters, kind)
+    let pairs = numbers(parameters, kind)
         .into_iter()
-        .zip(cache::numbers(&standard, kind));
+        .zip(numbers(&standard, kind));
     let mut is_same = pairs.map(|(a, b)| (a - b).abs() <= SAME * b.abs());
     let count = kind.parameters(parameters).bonds;
     (known.points.len() == count && is_same.all(|same| same)).then(|| Cubature {

@@ -4,7 +4,7 @@ use super::Record;
 use super::unknowns::newton;
 use crate::scene::{Dynamics, Equilibrium, SceneProblem};
 use crate::{Assembly, Part};
-use actin_equilibrium::{Certificate, Extent, Nearest, Newton, Stability};
+use actin_equilibrium::{Certificate, Nearest, Newton, Stability, StepSize};
 use actin_mechanics::System;
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +18,7 @@ const LEAST: f64 = 1e-9;
 
 /// How far a push moves or turns a body at most: enough to be far above round-off, too little to
 /// strain anything.
-const PUSH: Extent = Extent {
+const PUSH: StepSize = StepSize {
     displacement: 0.01,
     rotation: 1e-3,
     strain: 0.0,
