@@ -26,6 +26,8 @@ pub mod extremes;
 pub mod figures;
 pub mod fit;
 pub mod measure;
+mod palette;
+mod published;
 mod run;
 pub mod tradeoff;
 

@@ -1,10 +1,10 @@
 //! Tables 3, 4 and 5 of one variant: the numbers that the figures' verdicts compare, and their gates.
 
 use super::variant::Variant;
-use crate::figures::paper::{Entry, Table, entries};
 use crate::measure::{
     Evidence, MeasureError, bend_by_couples, shear_by_force, stretch_by_force, twist,
 };
+use crate::published::{Entry, Table, entries};
 use rayon::prelude::*;
 use std::time::Instant;
 

@@ -14,16 +14,14 @@ mod figure9;
 mod html;
 mod kept;
 mod linked;
-pub(crate) mod palette;
 mod progress;
 mod schematics;
 mod settles;
 mod tables;
 mod viewer;
 
+pub use crate::palette::Palette;
 pub(crate) use html::unexplained;
-pub use palette::Palette;
-pub(crate) use tables::paper;
 
 use crate::Tell;
 use actin_draw::report::{self, Artefact, Row};
@@ -103,7 +101,7 @@ pub fn reproduce(options: &Options, tell: Tell<'_>) -> Result<Vec<Row>, String> 
             known.join(", ")
         ));
     }
-    palette::choose(options.palette);
+    crate::palette::choose(options.palette);
     let artefacts = on_threads(options.threads, || artefacts(&RECIPES, options, tell))?;
     let out = &options.out;
     report::write(&artefacts, out)?;

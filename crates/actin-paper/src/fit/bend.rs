@@ -1,9 +1,9 @@
 //! Fits of bending and shear: rigidity against curvature, and what shear and twist add to it.
 
 use super::column::Column;
-use super::found::{Fault, Form, Found};
+use super::found::{Fault, Found};
 use super::measured::{BendData, Point};
-use super::search::{LawFit, stiffened};
+use super::search::{LawFit, SHEARED, TWISTED, stiffened};
 use crate::measure::{Specimen, bend_by_tip_force, shear_by_force};
 use actin_cosserat::Stiffening;
 use actin_fit::{ClosureModel, Data, FitError, LevenbergMarquardt, Observations, Options, Starts};
@@ -16,15 +16,6 @@ const SEGMENT_NM: f64 = 5.0;
 const COSINE: f64 = 1e-5;
 /// Share of a parameter by which it moves for a derivative.
 const MOVE: f64 = 1e-3;
-
-pub(super) const TWISTED: Form = Form {
-    what: "B against twist",
-    parameters: &[("bend.twist", "rad/nm")],
-};
-pub(super) const SHEARED: Form = Form {
-    what: "shear",
-    parameters: &[("shear.cubic", "pN"), ("bend.shear", "of strain")],
-};
 
 /// The fits and what they make together.
 #[derive(Debug)]
@@ -91,7 +82,7 @@ impl BendFits {
 
 fn laws(law: Stiffening, cubic_pn: f64) -> RodLaws {
     RodLaws {
-        bend: Some(super::write::stiffening(law)),
+        bend: Some(super::scene_law::stiffening(law)),
         shear: Some(ShearLaw::Cubic {
             linear_pn: [0.0; 2],
             cubic_pn,

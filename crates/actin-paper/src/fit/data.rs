@@ -1,7 +1,7 @@
 //! What is fitted of a filament's twist: tables of B3 and of the change of length, with their source.
 
 use super::column::Column;
-use crate::figures::paper::{Table, entries};
+use crate::published::{Table, entries};
 
 /// A filament's twist in two columns.
 #[derive(Clone, Debug, PartialEq)]

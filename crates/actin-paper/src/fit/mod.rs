@@ -9,6 +9,7 @@ mod measured;
 mod own;
 mod pictures;
 mod print;
+mod scene_law;
 mod search;
 mod table;
 #[cfg(test)]
@@ -23,7 +24,6 @@ pub(crate) use twist::{TwistFits, rms};
 use crate::Tell;
 use bend::BendFits;
 use measured::BendData;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -85,7 +85,7 @@ fn tables(options: &Options, out: &Path, tell: Tell<'_>) -> Result<(), String> {
         bend = Some((data, fits));
     }
     found::accept(&faults, &options.allow_bounds)?;
-    create(out)?;
+    write::create(out)?;
     if let Some((data, fits)) = &bend {
         write::bend_csv(data, fits, out)?;
     }
@@ -93,8 +93,4 @@ fn tables(options: &Options, out: &Path, tell: Tell<'_>) -> Result<(), String> {
     write::curves(&data, &fits, out)?;
     draw(&data, &fits, &[], out)?;
     Ok(())
-}
-
-fn create(out: &Path) -> Result<(), String> {
-    fs::create_dir_all(out).map_err(|e| format!("{}: {e}", out.display()))
 }

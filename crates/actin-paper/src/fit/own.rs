@@ -2,10 +2,11 @@
 
 use super::column::Column;
 use super::found::{self, Fault, Found};
+use super::pictures::{self, LawCurve};
 use super::search::{LawFit, rooted, sided, stiffened, stretched};
 use super::table::Table;
 use super::twist::rms;
-use super::{create, pictures, print, write};
+use super::{print, scene_law, write};
 use crate::Tell;
 use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, StretchLaw};
 use actin_draw::report::write_csv;
@@ -22,17 +23,6 @@ pub(super) struct OwnFits {
     stretch: Option<LawFit<StretchLaw>>,
 }
 
-/// A law beside its data, as it is printed, written and drawn.
-pub(super) struct Curve<'a> {
-    /// Begin of file names.
-    pub name: &'static str,
-    pub title: &'static str,
-    pub x_label: &'static str,
-    pub y_label: &'static str,
-    pub data: &'a Column,
-    pub law: Box<dyn Fn(f64) -> f64 + 'a>,
-}
-
 /// Reads, fits, prints and writes.
 ///
 /// # Errors
@@ -47,7 +37,7 @@ pub(super) fn run(
     let fits = OwnFits::new(&table)?;
     fits.print(tell, &table);
     found::accept(&fits.faults(), allowed)?;
-    create(out)?;
+    write::create(out)?;
     write::law(&fits.laws(), "rod-law.ron", out)?;
     for curve in fits.curves(&table) {
         let rows = curve.data.pairs().map(|(x, value)| {
@@ -94,8 +84,8 @@ impl OwnFits {
         RodLaws {
             twist: self.twist.as_ref().map(|(law, _)| write::sided(*law)),
             twist_stretch: self.length.as_ref().map(|fit| write::rooted(fit.law)),
-            bend: self.bend.as_ref().map(|fit| write::stiffening(fit.law)),
-            stretch: self.stretch.as_ref().map(|fit| write::stretch(fit.law)),
+            bend: self.bend.as_ref().map(|fit| scene_law::stiffening(fit.law)),
+            stretch: self.stretch.as_ref().map(|fit| scene_law::stretch(fit.law)),
             ..RodLaws::default()
         }
     }
@@ -136,10 +126,10 @@ impl OwnFits {
         }
     }
 
-    pub(super) fn curves<'a>(&'a self, table: &'a Table) -> Vec<Curve<'a>> {
+    pub(super) fn curves<'a>(&'a self, table: &'a Table) -> Vec<LawCurve<'a>> {
         let mut curves = Vec::new();
         let mut add = |name, title, labels: [&'static str; 2], data, law| {
-            curves.push(Curve {
+            curves.push(LawCurve {
                 name,
                 title,
                 x_label: labels[0],

@@ -2,12 +2,22 @@
 
 use super::column::Column;
 use super::data::TwistData;
-use super::own::Curve as LawCurve;
 use super::twist::TwistFits;
-use crate::figures::palette;
+use crate::palette;
 use actin_cosserat::{PolynomialStretch, TanhTwist};
 use actin_draw::{Chart, Series};
 use std::path::Path;
+
+/// A law beside its data, as it is printed, written and drawn.
+pub(super) struct LawCurve<'a> {
+    /// Begin of file names.
+    pub name: &'static str,
+    pub title: &'static str,
+    pub x_label: &'static str,
+    pub y_label: &'static str,
+    pub data: &'a Column,
+    pub law: Box<dyn Fn(f64) -> f64 + 'a>,
+}
 
 /// Lines of the published parameters, of the same form refitted, and of a smaller form.
 const PUBLISHED: usize = 0;

@@ -1,13 +1,33 @@
 //! The rod's laws fitted to columns: bounds and starts follow the data, and a simpler form is taken
 //! where the data do not ask for more.
 
-use super::bend::{SHEARED, TWISTED};
 use super::column::{Column, Weight};
 use super::forms::{Rooted, Sided, Stiffened, Stretched};
 use super::found::{Fault, Form, Found};
-use super::twist::TANH;
 use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, StretchLaw};
 use actin_fit::{Data, FitError, Goodness, LinearFit, Mat, Noise, Starts, fit_linear};
+
+pub(super) const TWISTED: Form = Form {
+    what: "B against twist",
+    parameters: &[("bend.twist", "rad/nm")],
+};
+pub(super) const SHEARED: Form = Form {
+    what: "shear",
+    parameters: &[("shear.cubic", "pN"), ("bend.shear", "of strain")],
+};
+
+pub(super) const TANH: Form = Form {
+    what: "published form of B3",
+    parameters: &[
+        ("published.lambda_1", "rad/nm"),
+        ("published.lambda_2", "rad/nm"),
+        ("published.lambda_3", ""),
+        ("published.lambda_4", "rad/nm"),
+        ("published.lambda_5", "rad/nm"),
+        ("published.lambda_6", "rad/nm"),
+        ("published.lambda_7", "rad/nm"),
+    ],
+};
 
 /// Starts that are drawn for each search, and the seed of the draws.
 pub(super) const STARTS: (usize, u64) = (200, 20_220_304);

@@ -3,8 +3,8 @@
 use super::column::{Column, Weight};
 use super::data::TwistData;
 use super::forms::Tanh;
-use super::found::{Fault, Form, Found};
-use super::search::{LawFit, STARTS, rooted, sided};
+use super::found::{Fault, Found};
+use super::search::{LawFit, STARTS, TANH, rooted, sided};
 use actin_cosserat::{PolynomialStretch, RootedStretch, SidedTwist, TanhTwist};
 use actin_fit::{Data, Fit, LinearFit, Polynomial, Starts};
 
@@ -12,18 +12,7 @@ use actin_fit::{Data, Fit, LinearFit, Polynomial, Starts};
 const DEGREE: u8 = 6;
 /// Standard deviation of a number that is rounded to four decimals.
 const ROUNDING_DEVIATION: f64 = 2.887e-5;
-pub(super) const TANH: Form = Form {
-    what: "published form of B3",
-    parameters: &[
-        ("published.lambda_1", "rad/nm"),
-        ("published.lambda_2", "rad/nm"),
-        ("published.lambda_3", ""),
-        ("published.lambda_4", "rad/nm"),
-        ("published.lambda_5", "rad/nm"),
-        ("published.lambda_6", "rad/nm"),
-        ("published.lambda_7", "rad/nm"),
-    ],
-};
+
 /// Bounds of the published form's parameters: steps lie within the data and are no narrower than
 /// half the distance of two rows, below which every width fits as well.
 const LAMBDA_BOUNDS: [(f64, f64); 7] = [

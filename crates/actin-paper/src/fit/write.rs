@@ -4,11 +4,10 @@ use super::bend::BendFits;
 use super::data::TwistData;
 use super::measured::{BendData, Point};
 use super::twist::TwistFits;
-use actin_cosserat::{
-    PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistRise,
-};
+use actin_cosserat::{PolynomialStretch, RootedStretch, SidedTwist, TanhTwist, TwistRise};
 use actin_draw::report::{save, write_csv};
-use actin_sim::{BendLaw, RodLaws, TwistLaw, TwistStretchLaw};
+use actin_sim::{RodLaws, TwistLaw, TwistStretchLaw};
+use std::fs;
 use std::path::Path;
 
 /// Points of a curve.
@@ -35,32 +34,6 @@ pub(super) fn laws(fits: &TwistFits, bend: Option<&BendFits>, out: &Path) -> Res
 pub(super) fn law(laws: &RodLaws, name: &str, out: &Path) -> Result<(), String> {
     let head = "// A rod law for a scene: `rod: RodModel(law: ...)`. Written by fit-parameters.\n";
     save(out, name, &format!("{head}{}\n", laws.to_ron()))
-}
-
-pub(super) fn stiffening(law: Stiffening) -> BendLaw {
-    BendLaw::Stiffening {
-        rest_pn_nm2: law.rest,
-        rise_pn_nm2: law.rise,
-        curvature_per_nm: law.curvature,
-        twist_per_nm: law.twist.is_finite().then_some(law.twist),
-        shear: law.shear.is_finite().then_some(law.shear),
-        range_per_nm: law.range,
-    }
-}
-
-pub(super) fn stretch(law: StretchLaw) -> actin_sim::StretchLaw {
-    match law {
-        StretchLaw::Constant(rigidity_pn) => actin_sim::StretchLaw::Constant { rigidity_pn },
-        StretchLaw::Sided {
-            tension,
-            compression,
-            width,
-        } => actin_sim::StretchLaw::Sided {
-            tension_pn: tension,
-            compression_pn: compression,
-            width,
-        },
-    }
 }
 
 pub(super) fn sided(law: SidedTwist) -> TwistLaw {
@@ -157,4 +130,9 @@ pub(super) fn bend_csv(data: &BendData, fits: &BendFits, out: &Path) -> Result<(
     let beams = fits.checks.iter().map(|row| row.map(number).to_vec());
     let header = ["length_nm", "force_pn", "rod_over_filament_less_1"];
     write_csv(out, "beams.csv", &header, beams)
+}
+
+/// Creates the folder of the results.
+pub(super) fn create(out: &Path) -> Result<(), String> {
+    fs::create_dir_all(out).map_err(|e| format!("{}: {e}", out.display()))
 }

@@ -1,6 +1,6 @@
 //! A small imperfection of a filament in a scene, and its rules.
 
-use super::{Filament, SceneProblem, validate};
+use super::{Filament, SceneProblem, rules};
 use serde::{Deserialize, Serialize};
 
 /// Largest amplitude, as a share of the filament's length: larger ones would stretch it noticeably.
@@ -27,7 +27,7 @@ pub(super) fn check(filament: &Filament) -> Result<(), SceneProblem> {
     };
     let key = "filament.imperfection.amplitude_nm";
     let amplitude = imperfection.amplitude_nm;
-    validate::positive(key, amplitude)?;
+    rules::positive(key, amplitude)?;
     let limit = LARGEST * filament.length_nm();
     if amplitude > limit {
         let rule = format!(

@@ -1,6 +1,6 @@
 //! Linkers, as a scene writes them, and the rules of their numbers.
 
-use super::validate::{finite, non_negative, positive};
+use super::rules::{finite, non_negative, positive};
 use super::{Scene, SceneProblem};
 use serde::{Deserialize, Serialize};
 

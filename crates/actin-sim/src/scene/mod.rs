@@ -14,6 +14,7 @@ pub(crate) mod path;
 mod place;
 mod problem;
 mod read;
+mod rules;
 mod saddles;
 mod stage;
 mod support;
@@ -36,4 +37,4 @@ pub use types::{
     Clamp, DragRates, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Load, Scene, Section,
     Setting, Slides, Stage, StopTolerances, Task,
 };
-pub(crate) use validate::{MOST_COUNTED, validate};
+pub(crate) use validate::MOST_COUNTED;

@@ -1,6 +1,6 @@
 //! What pushes off a saddle need in a scene.
 
-use super::{Dynamics, Scene, SceneProblem, validate};
+use super::{Dynamics, Scene, SceneProblem, rules};
 
 /// Checks `leave_saddles` of a motion against the rest of the scene: saddles are those of an energy,
 /// and a motion comes to rest on them.
@@ -17,7 +17,7 @@ pub(super) fn check(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProbl
     }
     if scene
         .filaments()
-        .any(|one| validate::check_potential(one).is_err())
+        .any(|one| rules::check_potential(one).is_err())
     {
         return Err(refused(
             "saddles are those of an energy, which PaperBalance does not have: write EnergyGradient",

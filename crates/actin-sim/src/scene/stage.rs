@@ -1,6 +1,6 @@
 //! The rules of a path: what its stages may set, and how long they take.
 
-use super::validate::{all_finite, finite, positive, show};
+use super::rules::{all_finite, finite, positive, show};
 use super::{End, HeldEnds, Scene, SceneProblem, Setting, Stage};
 
 /// Checks that what stage `i` sets exists and may be set.

@@ -1,6 +1,6 @@
 //! Thermal noise in a scene: its temperature, its seed, and what it needs.
 
-use super::{Dynamics, Scene, SceneProblem, Task, validate};
+use super::{Dynamics, Scene, SceneProblem, Task, rules};
 use serde::{Deserialize, Serialize};
 
 /// Boltzmann's constant (pN nm / K), exact by definition of the kelvin.
@@ -50,7 +50,7 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     let Some(thermal) = &dynamics.thermal else {
         return Ok(());
     };
-    validate::positive("task.thermal.temperature_k", thermal.temperature_k)?;
+    rules::positive("task.thermal.temperature_k", thermal.temperature_k)?;
     let drag = &dynamics.drag;
     for (name, rate) in [
         ("translational_per_ns", drag.translational_per_ns),

@@ -1,14 +1,16 @@
 //! The rules that numbers of a scene have to satisfy.
 
+use super::rules::{
+    all_finite, check_potential, each_positive, finite, non_negative, positive, show,
+};
 use super::support::{check_support, check_swings};
 use super::{
-    Anchors, Clamp, Dynamics, Equilibrium, Filament, ForceLaw, HeldEnds, Hold, Load, Monomers,
-    Scene, SceneProblem, Section, Slides, StopTolerances, Task, imperfection, linker, magnitude,
-    saddles, stage, thermal,
+    Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Load, Monomers, Scene,
+    SceneProblem, Section, Slides, StopTolerances, Task, imperfection, linker, magnitude, saddles,
+    stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 use actin_mechanics::Vector3;
-use std::fmt::Debug;
 
 /// Sections are contiguous if their boundaries agree to this length (nm).
 const BOUNDARY_TOLERANCE_NM: f64 = 1e-9;
@@ -312,22 +314,6 @@ fn check_load(
     Ok(())
 }
 
-/// An equilibrium is a minimum of the energy, which the printed balance does not have.
-pub(super) fn check_potential(filament: &Filament) -> Result<(), SceneProblem> {
-    let has_rod = filament
-        .sections
-        .iter()
-        .any(|s| matches!(s, Section::Rod { .. }));
-    if has_rod && filament.rod.force_law == ForceLaw::PaperBalance {
-        return Err(SceneProblem::new(
-            "filament.rod.force_law",
-            "PaperBalance",
-            "has no potential: Equilibrium needs EnergyGradient; damped Dynamics takes either",
-        ));
-    }
-    Ok(())
-}
-
 fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), SceneProblem> {
     positive("task.force_pn", equilibrium.force_pn)?;
     positive("task.torque_pn_nm", equilibrium.torque_pn_nm)?;
@@ -405,57 +391,6 @@ fn check_stop(stop: &StopTolerances) -> Result<(), SceneProblem> {
     positive("task.stop.force_pn", stop.force_pn)?;
     positive("task.stop.torque_pn_nm", stop.torque_pn_nm)?;
     positive("task.stop.kinetic_pn_nm", stop.kinetic_pn_nm)
-}
-
-pub(super) fn show(value: impl Debug) -> String {
-    format!("{value:?}")
-}
-
-pub(super) fn finite(key: &str, value: f64) -> Result<(), SceneProblem> {
-    if value.is_finite() {
-        return Ok(());
-    }
-    Err(SceneProblem::new(key, show(value), "must be finite"))
-}
-
-pub(super) fn positive(key: &str, value: f64) -> Result<(), SceneProblem> {
-    if value.is_finite() && value > 0.0 {
-        return Ok(());
-    }
-    Err(SceneProblem::new(
-        key,
-        show(value),
-        "must be finite and greater than 0",
-    ))
-}
-
-pub(super) fn non_negative(key: &str, value: f64) -> Result<(), SceneProblem> {
-    if value.is_finite() && value >= 0.0 {
-        return Ok(());
-    }
-    Err(SceneProblem::new(
-        key,
-        show(value),
-        "must be finite and not negative",
-    ))
-}
-
-pub(super) fn all_finite(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
-    if values.iter().all(|v| v.is_finite()) {
-        return Ok(());
-    }
-    Err(SceneProblem::new(key, show(values), "must be finite"))
-}
-
-fn each_positive(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
-    if values.iter().all(|v| v.is_finite() && *v > 0.0) {
-        return Ok(());
-    }
-    Err(SceneProblem::new(
-        key,
-        show(values),
-        "each must be finite and greater than 0",
-    ))
 }
 
 impl Scene {

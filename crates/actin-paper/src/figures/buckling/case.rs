@@ -2,28 +2,16 @@
 //! scene that says so.
 
 use super::group::{Figure, Group};
+use super::resolved::{LENGTH_NM, Resolved};
 use crate::run::scenario;
 use actin_sim::{Hold, Scene, Section, Setting, Stage, Task};
 
-/// Length of the filament (nm).
-const LENGTH_NM: f64 = 300.0;
 /// Length of a filament of monomers alone between its inner held monomers, where rods of
 /// [`LENGTH_NM`] are held in node and frame (nm): the frame held lies half a segment inside.
 const MONOMERS_NM: f64 = 290.0;
 
 /// Lengths of the rod part (nm), split evenly between the ends, as in the paper.
 pub(super) const ROD_LENGTHS: [u32; 7] = [40, 73, 107, 140, 173, 207, 240];
-
-/// How much of the filament is rod.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Resolved {
-    /// All.
-    Rod,
-    /// So many nm, half at each end.
-    Mixed(u32),
-    /// Nothing.
-    Ellipsoids,
-}
 
 /// The order in which the ends are moved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,38 +66,6 @@ impl Start {
         };
         let steps = if self.small_steps { "/small-steps" } else { "" };
         format!("{order}/pull-{}{steps}", self.pull_deg)
-    }
-}
-
-impl Resolved {
-    /// Pure rod, mixed resolutions from much to little rod, pure monomers.
-    pub(super) fn all(lengths: &[u32]) -> Vec<Self> {
-        let mixed = lengths.iter().rev().map(|&rod| Self::Mixed(rod));
-        let rod = std::iter::once(Self::Rod);
-        rod.chain(mixed).chain([Self::Ellipsoids]).collect()
-    }
-
-    /// Name in tables, legends and quantities.
-    pub(super) fn name(self) -> String {
-        match self {
-            Self::Rod => "rod".into(),
-            Self::Mixed(rod) => format!("rod-{rod}"),
-            Self::Ellipsoids => "ellipsoids".into(),
-        }
-    }
-
-    /// Length that is rod (nm).
-    pub(super) fn rod_nm(self) -> f64 {
-        match self {
-            Self::Rod => LENGTH_NM,
-            Self::Mixed(rod) => f64::from(rod),
-            Self::Ellipsoids => 0.0,
-        }
-    }
-
-    /// Share of rod, for the colour.
-    pub(super) fn rod_share(self) -> f64 {
-        self.rod_nm() / LENGTH_NM
     }
 }
 

@@ -1,10 +1,10 @@
 //! Damped motion along the same path: whether it ends in the equilibrium that statics finds.
 
-use super::case::{Case, Resolved};
+use super::case::Case;
 use super::lists::Plan;
 use super::outcome::{Measured, Outcome, measure, outcome};
+use super::resolved::Resolved;
 use super::results::{OBSERVABLES, Results};
-use super::rows::artefact;
 use super::starts::is_same;
 use crate::run::run_to_end;
 use actin_draw::report::{Origin, Row};
@@ -140,7 +140,7 @@ fn differences(motion: &Motion) -> Vec<Row> {
         );
         let quantity = format!("dynamics_difference/{}/{name}", observable.name);
         Row::measured(
-            artefact(motion.case.group.figure),
+            motion.case.group.figure.id(),
             quantity,
             observable.unit,
             value,
@@ -172,5 +172,5 @@ fn which(plan: &Plan, results: &Results, motion: &Motion) -> Row {
         Case::turn_name(turn),
         motion.case.resolved.name()
     );
-    Row::measured(artefact(plan.figure), quantity, "", same as f64, note)
+    Row::measured(plan.figure.id(), quantity, "", same as f64, note)
 }

@@ -1,8 +1,8 @@
 //! Numbers to compare with, where the paper prints none: those of an earlier calculation that shares this code's
 //! modelling decisions (Newton statics, 32 drawn bonds per interface, of any length, weight `Shared`).
 
-use super::case::Resolved;
 use super::group::Figure;
+use super::resolved::Resolved;
 
 /// Rods with two nodes and a frame held, constant rigidities: (resolution, height in nm, couple
 /// in pN nm) over-twisted by 180 deg.

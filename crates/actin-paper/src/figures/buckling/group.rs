@@ -1,7 +1,7 @@
 //! What is compared across resolutions: one model of rods, junctions and bonds, one clamp.
 
-use super::case::Resolved;
-use crate::figures::palette;
+use super::resolved::Resolved;
+use crate::palette;
 use actin_draw::Colour;
 use actin_sim::{ForceLaw, Hold, JunctionWeight, Monomers, RodLaw, Scene};
 
@@ -12,6 +12,16 @@ pub(super) enum Figure {
     Eight,
     /// Rods with the published `B3(kappa)` and `xi(kappa)`.
     Ten,
+}
+
+impl Figure {
+    /// Identifier of the artefact.
+    pub(super) fn id(self) -> &'static str {
+        match self {
+            Self::Eight => "fig8",
+            Self::Ten => "fig10",
+        }
+    }
 }
 
 /// How rods answer to twist.

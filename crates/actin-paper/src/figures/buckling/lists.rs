@@ -1,7 +1,8 @@
 //! Which cases belong to which figure.
 
-use super::case::{Case, Order, ROD_LENGTHS, Resolved, Start};
+use super::case::{Case, Order, ROD_LENGTHS, Start};
 use super::group::{Figure, Group, Rods};
+use super::resolved::Resolved;
 use actin_sim::{Hold, JunctionWeight};
 
 /// Resolutions, samplings and starts of one run.

@@ -13,6 +13,7 @@ mod lists;
 mod outcome;
 mod pictures;
 mod plane;
+mod resolved;
 mod results;
 mod rows;
 mod starts;
@@ -21,6 +22,7 @@ mod tables;
 use super::Run;
 use super::progress::Progress;
 use actin_draw::report::Artefact;
+use actin_sim::Assembly;
 use case::Case;
 use dynamics::Motion;
 use group::Figure;
@@ -60,7 +62,7 @@ fn reproduce(plan: &Plan, Run { out, progress, .. }: Run<'_>) -> Result<Artefact
     rows.extend(dynamics::rows(plan, &results, &motions));
     tables::write(plan, &results, out)?;
     Ok(Artefact {
-        id: rows::artefact(plan.figure),
+        id: plan.figure.id(),
         title: match plan.figure {
             Figure::Eight => "Twisted and pushed together: constant rigidities",
             Figure::Ten => "Twisted and pushed together: rods whose twist changes them",
@@ -85,7 +87,7 @@ fn compute(plan: &Plan, progress: &Progress) -> (Results, Vec<Motion>) {
         .with_max_len(1)
         .map(|job| {
             let done = match job {
-                Job::Statics(case) => outcome::solve(case).map(|o| Done::Statics(Box::new(o))),
+                Job::Statics(case) => solve(case).map(|o| Done::Statics(Box::new(o))),
                 Job::Dynamics(case) => dynamics::run(case).map(|m| Done::Dynamics(Box::new(m))),
             };
             progress.done();
@@ -93,6 +95,19 @@ fn compute(plan: &Plan, progress: &Progress) -> (Results, Vec<Motion>) {
         })
         .collect();
     sort(done)
+}
+
+/// Finds the equilibrium of `case` along its path, or where loads without an energy come to rest.
+///
+/// # Errors
+/// A scene that cannot be read or built, a path that ends early: in words, with the case.
+fn solve(case: &Case) -> Result<Outcome, String> {
+    if case.group.rods == group::Rods::PaperBalance {
+        return balance::rest(case);
+    }
+    let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", case.name());
+    let mut assembly = Assembly::build(&case.scene()?).map_err(|e| fail(&e))?;
+    outcome::outcome(case, &mut assembly)
 }
 
 fn sort(done: Vec<Result<Done, String>>) -> (Results, Vec<Motion>) {

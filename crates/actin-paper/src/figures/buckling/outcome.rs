@@ -1,9 +1,7 @@
 //! What comes out of a case: the equilibrium, its certificate, and what does not depend on the
 //! plane in which the filament happens to buckle.
 
-use super::balance;
 use super::case::Case;
-use super::group::Rods;
 use crate::figures::viewer::Snapshot;
 use crate::run::run_to_end;
 use actin_sim::shape::Ribbon;
@@ -89,19 +87,6 @@ impl Outcome {
             }
         )
     }
-}
-
-/// Finds the equilibrium of `case` along its path, or where loads without an energy come to rest.
-///
-/// # Errors
-/// A scene that cannot be read or built, a path that ends early: in words, with the case.
-pub(super) fn solve(case: &Case) -> Result<Outcome, String> {
-    if case.group.rods == Rods::PaperBalance {
-        return balance::rest(case);
-    }
-    let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", case.name());
-    let mut assembly = Assembly::build(&case.scene()?).map_err(|e| fail(&e))?;
-    outcome(case, &mut assembly)
 }
 
 /// Runs an assembled equilibrium of `case`.

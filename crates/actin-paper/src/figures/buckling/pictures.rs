@@ -1,15 +1,15 @@
 //! Pictures of Figures 8 and 10: centre lines in the plane of buckling and from its side, and
 //! heights and couples against the length of rod.
 
-use super::case::{Case, Resolved};
+use super::case::Case;
 use super::group::{Figure, Group};
 use super::lists::Plan;
 use super::outcome::{Outcome, Place};
 use super::plane::in_own_plane;
+use super::resolved::Resolved;
 use super::results::{OBSERVABLES, Observable, Results};
-use super::rows::artefact;
-use crate::figures::palette;
 use crate::figures::viewer::{self, Attitude, Shown};
+use crate::palette;
 use actin_draw::report::{Picture, View};
 use actin_draw::{Chart, Series};
 use std::path::Path;
@@ -78,7 +78,7 @@ fn lines(plan: &Plan, results: &Results, turn: i32, out: &Path) -> Result<Vec<Pi
             series: view(plan, results, turn, projection.project),
             equal_axes: projection.equal_axes,
         };
-        let file = format!("{}_{name}_{}.svg", artefact(plan.figure), projection.panel);
+        let file = format!("{}_{name}_{}.svg", plan.figure.id(), projection.panel);
         chart.draw(&out.join(&file))?;
         Ok(Picture {
             file,
@@ -139,7 +139,7 @@ pub(super) fn view_in_space(plan: &Plan, results: &Results, out: &Path) -> Resul
     let caption = "The equilibria of seed 0 in space, each in the plane in which it buckled; the \
         stripe along rods is their first axis and shows the twist. The weak pull that breaks the \
         symmetry is left out.";
-    let id = artefact(plan.figure);
+    let id = plan.figure.id();
     viewer::write(id, Attitude::LYING, &shown, caption.into(), out)
 }
 
@@ -196,7 +196,7 @@ fn against_rod(
         equal_axes: false,
     };
     let turn = Case::turn_name(turn).replace('/', "_");
-    let file = format!("{}_{turn}_{name}.svg", artefact(plan.figure));
+    let file = format!("{}_{turn}_{name}.svg", plan.figure.id());
     chart.draw(&out.join(&file))?;
     let caption = format!(
         "{what} against the length of rod, {}. Drawn bonds, 64 per interface, are means over {} samplings; \

@@ -1,8 +1,9 @@
 //! The outcomes of a figure, and samples of them.
 
-use super::case::{Case, Resolved, Start};
+use super::case::{Case, Start};
 use super::group::Group;
 use super::outcome::{Measured, Outcome};
+use super::resolved::Resolved;
 
 /// What came out of all cases.
 #[derive(Clone, Debug)]

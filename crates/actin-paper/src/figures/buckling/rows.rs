@@ -1,25 +1,18 @@
 //! Numbers of Figures 8 and 10 as rows of the report: values, spreads and trends.
 
 use super::balance;
-use super::case::{Case, Resolved};
+use super::case::Case;
 use super::expected;
 use super::group::{Figure, Group};
 use super::lists::Plan;
 use super::outcome::{Evidence, Outcome};
+use super::resolved::Resolved;
 use super::results::{OBSERVABLES, Observable, Results, range};
 use crate::figures::bounds::{A_DIFFERENCE, CROSS_CHECK, ROUND_OFF, SHAPE_NM};
 use actin_draw::report::{Origin, Row, printed};
 
 /// The extended rod, and what the paper prints or offers for the same.
 const EXTENDED: [&str; 3] = ["", "coupling-energy/", "paper-balance/"];
-
-/// Name of the artefact.
-pub(super) fn artefact(figure: Figure) -> &'static str {
-    match figure {
-        Figure::Eight => "fig8",
-        Figure::Ten => "fig10",
-    }
-}
 
 /// All values, then the spreads, group by group.
 pub(super) fn rows(plan: &Plan, results: &Results) -> Vec<Row> {
@@ -37,7 +30,7 @@ pub(super) fn rows(plan: &Plan, results: &Results) -> Vec<Row> {
     all.extend(writhes(plan, results));
     all.extend(link_error(plan.figure, results));
     all.push(uncertified(plan.figure, results));
-    all.extend(balance::row(artefact(plan.figure), &results.outcomes));
+    all.extend(balance::row(plan.figure.id(), &results.outcomes));
     all
 }
 
@@ -55,7 +48,7 @@ fn writhes(plan: &Plan, results: &Results) -> Vec<Row> {
         );
         let quantity = format!("writhe/{}/{}", Case::turn_name(turn), resolved.name());
         Some(Row::measured(
-            artefact(plan.figure),
+            plan.figure.id(),
             quantity,
             "",
             m.writhe,
@@ -77,7 +70,7 @@ fn link_error(figure: Figure, results: &Results) -> Option<Row> {
         worst.case.name()
     );
     let value = worst.measured.link_error().abs();
-    let row = Row::measured(artefact(figure), "link_error", "turns", value, note);
+    let row = Row::measured(figure.id(), "link_error", "turns", value, note);
     Some(row.against(0.0, ROUND_OFF).of(Origin::Theory))
 }
 
@@ -106,7 +99,7 @@ fn value(
     );
     let row = |note| {
         Row::measured(
-            artefact(group.figure),
+            group.figure.id(),
             quantity,
             observable.unit,
             sample.mean,
@@ -183,7 +176,7 @@ fn spread(
     );
     let quantity = format!("{name}{}_spread/{}", observable.name, Case::turn_name(turn));
     let row = Row::measured(
-        artefact(group.figure),
+        group.figure.id(),
         quantity,
         unit,
         (high - low) * scale,
@@ -240,7 +233,7 @@ fn uncertified(figure: Figure, results: &Results) -> Row {
         results.failures.join("; ")
     );
     let count = (names.len() + results.failures.len()) as f64;
-    Row::measured(artefact(figure), "not_certified_stable", "", count, note)
+    Row::measured(figure.id(), "not_certified_stable", "", count, note)
 }
 
 #[cfg(test)]

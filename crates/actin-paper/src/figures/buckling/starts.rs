@@ -1,11 +1,11 @@
 //! How many equilibria there are: the same filament from several starts, and what the order of
 //! twist and compression changes.
 
-use super::case::{Case, Order, Resolved, Start};
+use super::case::{Case, Order, Start};
 use super::lists::Plan;
 use super::outcome::Outcome;
+use super::resolved::Resolved;
 use super::results::{OBSERVABLES, Observable, Results};
-use super::rows::artefact;
 use actin_draw::report::Row;
 
 /// Equilibria are the same if their energies (pN nm), heights (nm) and couples (pN nm) are within
@@ -64,7 +64,7 @@ fn order_difference(
         Case::turn_name(turn)
     );
     Some(Row::measured(
-        artefact(plan.figure),
+        plan.figure.id(),
         quantity,
         observable.unit,
         largest,
@@ -103,13 +103,7 @@ fn distinct_row(plan: &Plan, results: &Results, resolved: Resolved, turn: i32) -
         resolved.name()
     );
     let count = distinct.len() as f64;
-    Some(Row::measured(
-        artefact(plan.figure),
-        quantity,
-        "",
-        count,
-        note,
-    ))
+    Some(Row::measured(plan.figure.id(), quantity, "", count, note))
 }
 
 /// Groups equal equilibria, lowest energy first.

@@ -4,7 +4,6 @@
 use super::lists::Plan;
 use super::outcome::{Evidence, Outcome};
 use super::results::Results;
-use super::rows::artefact;
 use actin_draw::report::write_csv;
 use std::path::Path;
 
@@ -39,7 +38,7 @@ const COLUMNS: [&str; 26] = [
 
 /// Writes `figN.csv` and `figN_centre_lines.csv`.
 pub(super) fn write(plan: &Plan, results: &Results, out: &Path) -> Result<(), String> {
-    let id = artefact(plan.figure);
+    let id = plan.figure.id();
     let all = results.outcomes.iter().map(columns);
     write_csv(out, &format!("{id}.csv"), &COLUMNS, all)?;
     let drawn = results.outcomes.iter().filter(|o| o.case.seed == 0);

@@ -3,8 +3,8 @@
 
 use super::case::{ROD_SEGMENTS, Resolved, Result4};
 use super::variant::Variant;
-use crate::figures::palette;
 use crate::figures::viewer::{self, Attitude, Shown};
+use crate::palette;
 use actin_draw::report::{Picture, View};
 use actin_draw::{Chart, Colour, Series};
 use std::path::Path;

@@ -7,8 +7,8 @@ mod case;
 mod rows;
 
 use super::Run;
-use super::palette;
 use super::viewer::{self, Attitude, Shown};
+use crate::palette;
 use actin_draw::report::{Artefact, Picture, View};
 use actin_draw::{Chart, Colour, Series};
 use actin_sim::Hold;

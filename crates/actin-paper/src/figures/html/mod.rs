@@ -12,7 +12,7 @@ mod summary;
 
 pub(crate) use reasons::unexplained;
 
-use super::palette;
+use crate::palette;
 use crate::workspace_root;
 use actin_draw::page::{Page, on_dark};
 use actin_draw::report::{Artefact, save};

@@ -2,7 +2,7 @@
 //! page, and every number that does not agree, with its reason.
 
 use super::{TITLE, findings, reasons, score};
-use crate::figures::palette;
+use crate::palette;
 use actin_draw::page::{Page, Verdicts, escape, name, push, write_misses};
 use actin_draw::report::Artefact;
 

@@ -3,8 +3,8 @@
 use super::case::{FULL, Figure, MEAN, Variant};
 use super::solve::{Motion, Outcome};
 use super::{is_drawn, is_mean};
-use crate::figures::palette;
 use crate::figures::viewer::{self, Attitude, Shown};
+use crate::palette;
 use actin_draw::report::{Picture, View};
 use actin_draw::{Chart, Colour, Series};
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! Colours of the schematics and their legend: one style for all of them.
 
-use crate::figures::palette::{self, Things};
+use crate::palette::{self, Things};
 use actin_draw::Colour;
 use actin_draw::scene3d::{Item, Key, Solid, Stroke};
 use actin_mechanics::Vector3;

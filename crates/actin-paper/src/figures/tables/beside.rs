@@ -1,9 +1,9 @@
 //! What our own filaments of monomers show of twist, for Figure 9: the numbers of Tables 3 and 5.
 
 use super::ensemble::{Ensemble, Kind, core};
-use super::paper::{Entry, Table, entries};
 use crate::figures::Run;
 use crate::fit::TwistData;
+use crate::published::{Entry, Table, entries};
 
 /// Twisting rigidity and change of length at the curvatures that the paper calls reliable: the mean
 /// over samplings of drawn bonds, then the mean filament.

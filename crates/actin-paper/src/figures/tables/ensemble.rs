@@ -1,9 +1,9 @@
 //! Twisted filaments of many bond samplings: what Tables 3 and 5 are made from.
 
-use super::paper::{Entry, Table, entries};
 use super::statistics::{Sample, sample};
 use crate::figures::Run;
 use crate::measure::{Curve, MeasureError, Specimen, Stability, TwistPoint, twist, twist_in_order};
+use crate::published::{Entry, Table, entries};
 use actin_sim::{Anchors, Monomers, ellipsoid_constants as monomer};
 use rayon::prelude::*;
 use std::sync::OnceLock;

@@ -1,8 +1,8 @@
 //! Tables 3 and 5 as CSV: every kind with its scatter, and every filament with its evidence.
 
 use super::ensemble::{Ensemble, Kind, value};
-use super::paper::{Entry, Table};
 use crate::measure::TwistPoint;
+use crate::published::{Entry, Table};
 use actin_draw::report::write_csv;
 use std::path::Path;
 

@@ -5,7 +5,6 @@ mod ensemble;
 mod lengths;
 mod listings;
 mod loads;
-pub(crate) mod paper;
 mod parameters;
 mod pictures;
 mod rigidities;

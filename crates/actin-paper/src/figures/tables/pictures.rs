@@ -1,8 +1,8 @@
 //! Tables 3 and 5 as pictures: paper's entries, our mean with its scatter, other kinds.
 
 use super::ensemble::{Ensemble, Kind};
-use super::paper::{Entry, Table};
-use crate::figures::palette;
+use crate::palette;
+use crate::published::{Entry, Table};
 use actin_draw::report::Picture;
 use actin_draw::{Chart, Colour, Series};
 use actin_sim::Anchors;

@@ -2,11 +2,11 @@
 
 use super::ensemble::{Ensemble, Kind, RISES, core};
 use super::loads::{AZIMUTHS_DEG, CANTILEVER_PN, CURVATURES, Measured, PULL_PN};
-use super::paper::{Table, entries};
 use super::parameters::write_rows;
 use super::statistics::Sample;
 use super::thermal;
 use crate::figures::Run;
+use crate::published::{Table, entries};
 use actin_draw::page::significant;
 use actin_draw::report::{Artefact, Row};
 use actin_sim::{Monomers, ellipsoid_constants as monomer};

@@ -1,11 +1,11 @@
 //! Tables 3 and 5: the paper's entries beside ours, for the default filament and for ensembles.
 
 use super::ensemble::{Ensemble, Kind, ensemble, turn_deg, value};
-use super::paper::{CURVATURE_ROUNDING, Entry, Table, entries};
 use super::statistics::{rms, sample};
 use super::{lengths, listings, pictures};
 use crate::figures::Run;
 use crate::figures::bounds::A_DIFFERENCE;
+use crate::published::{CURVATURE_ROUNDING, Entry, Table, entries};
 use actin_draw::report::DEVIATIONS;
 use actin_draw::report::{Artefact, Origin, Row};
 use std::time::Instant;

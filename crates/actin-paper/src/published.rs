@@ -1,9 +1,9 @@
 //! Tables 3 and 5 as the paper prints them.
 
 /// Table 3, with its source in a comment.
-const TABLE_3: &str = include_str!("../../../data/table3_twisting_rigidity.csv");
+const TABLE_3: &str = include_str!("../data/table3_twisting_rigidity.csv");
 /// Table 5, with its source in a comment.
-const TABLE_5: &str = include_str!("../../../data/table5_twist_stretch.csv");
+const TABLE_5: &str = include_str!("../data/table5_twist_stretch.csv");
 
 /// Angle (deg) above which the paper calls its numbers unreliable.
 const RELIABLE_DEG: f64 = 200.0;

@@ -1,0 +1,77 @@
+//! Rules that several numbers of a scene share.
+
+use super::{Filament, ForceLaw, SceneProblem, Section};
+use std::fmt::Debug;
+
+/// The value as Rust writes it, with all its digits.
+pub(super) fn show(value: impl Debug) -> String {
+    format!("{value:?}")
+}
+
+/// A number that is finite.
+pub(super) fn finite(key: &str, value: f64) -> Result<(), SceneProblem> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(SceneProblem::new(key, show(value), "must be finite"))
+}
+
+/// A number that is finite and greater than zero.
+pub(super) fn positive(key: &str, value: f64) -> Result<(), SceneProblem> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(SceneProblem::new(
+        key,
+        show(value),
+        "must be finite and greater than 0",
+    ))
+}
+
+/// A number that is finite and not negative.
+pub(super) fn non_negative(key: &str, value: f64) -> Result<(), SceneProblem> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(());
+    }
+    Err(SceneProblem::new(
+        key,
+        show(value),
+        "must be finite and not negative",
+    ))
+}
+
+/// Three finite numbers.
+pub(super) fn all_finite(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
+    if values.iter().all(|v| v.is_finite()) {
+        return Ok(());
+    }
+    Err(SceneProblem::new(key, show(values), "must be finite"))
+}
+
+/// Three finite numbers greater than zero.
+pub(super) fn each_positive(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
+    if values.iter().all(|v| v.is_finite() && *v > 0.0) {
+        return Ok(());
+    }
+    Err(SceneProblem::new(
+        key,
+        show(values),
+        "each must be finite and greater than 0",
+    ))
+}
+
+/// An equilibrium is a minimum of the energy, which the printed balance does not have.
+pub(super) fn check_potential(filament: &Filament) -> Result<(), SceneProblem> {
+    let has_rod = filament
+        .sections
+        .iter()
+        .any(|s| matches!(s, Section::Rod { .. }));
+    if has_rod && filament.rod.force_law == ForceLaw::PaperBalance {
+        return Err(SceneProblem::new(
+            "filament.rod.force_law",
+            "PaperBalance",
+            "has no potential: Equilibrium needs EnergyGradient; damped Dynamics takes either",
+        ));
+    }
+    Ok(())
+}
