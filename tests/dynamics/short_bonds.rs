@@ -17,7 +17,9 @@ fn bonds_of(assembly: &Assembly) -> Bonds {
     };
     let model = EllipsoidModel::new(parameters).unwrap();
     let count = assembly.counts().monomers;
-    let monomers = model.build(&mut State::default(), &placement, 0, count);
+    let monomers = model
+        .build(&mut State::default(), &placement, 0, count)
+        .unwrap();
     model.bonds(&monomers).unwrap()
 }
 

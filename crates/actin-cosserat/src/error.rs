@@ -1,14 +1,14 @@
 //! Why parameters or a rod were refused.
 
-use crate::RodEnd;
+use crate::{RodEnd, RodKey};
 use thiserror::Error;
 
 /// A number that breaks the rule of its key.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{key} = {value}: must be {rule}")]
 pub struct RodParameterError {
-    /// Name of the parameter.
-    pub key: &'static str,
+    /// Which parameter.
+    pub key: RodKey,
     /// What it was.
     pub value: f64,
     /// What it must be.
@@ -67,7 +67,7 @@ impl RodParameterError {
     ///
     /// # Errors
     /// Zero, negative numbers, infinities and NaN.
-    pub fn unless_positive(key: &'static str, value: f64) -> Result<(), Self> {
+    pub fn unless_positive(key: RodKey, value: f64) -> Result<(), Self> {
         if value.is_finite() && value > 0.0 {
             Ok(())
         } else {
@@ -80,7 +80,7 @@ impl RodParameterError {
     ///
     /// # Errors
     /// Infinities and NaN.
-    pub fn unless_finite(key: &'static str, value: f64) -> Result<(), Self> {
+    pub fn unless_finite(key: RodKey, value: f64) -> Result<(), Self> {
         if value.is_finite() {
             Ok(())
         } else {

@@ -28,6 +28,7 @@ mod energy_gradient;
 mod error;
 mod extended;
 mod fast;
+mod key;
 mod law;
 mod layout;
 mod material;
@@ -44,6 +45,7 @@ pub use elements::{RodElements, RodJoint, RodSegment};
 pub use energy_gradient::EnergyGradient;
 pub use error::{RodError, RodParameterError};
 pub use extended::{JoinedElement, SegmentCurvature, SegmentLaw, TwistStability};
+pub use key::RodKey;
 pub use law::{
     BendLaw, CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw,
     TanhTwist, TwistLaw, TwistRise, TwistStretch,

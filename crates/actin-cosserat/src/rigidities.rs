@@ -1,6 +1,6 @@
 //! Rigidities of a rod: what resists its strains. What follows from them is in `material.rs`.
 
-use crate::{RodParameterError, constants};
+use crate::{RodKey, RodParameterError, constants};
 use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
@@ -70,10 +70,16 @@ impl Rigidities {
     /// # Errors
     /// The first rigidity that is not positive and finite.
     pub fn validate(&self) -> Result<(), RodParameterError> {
-        for (key, value) in ["S1", "S2", "S3"].into_iter().zip(&self.shear) {
+        for (key, value) in [RodKey::S1, RodKey::S2, RodKey::S3]
+            .into_iter()
+            .zip(&self.shear)
+        {
             RodParameterError::unless_positive(key, *value)?;
         }
-        for (key, value) in ["B1", "B2", "B3"].into_iter().zip(&self.bend) {
+        for (key, value) in [RodKey::B1, RodKey::B2, RodKey::B3]
+            .into_iter()
+            .zip(&self.bend)
+        {
             RodParameterError::unless_positive(key, *value)?;
         }
         Ok(())
@@ -103,7 +109,17 @@ mod tests {
 
     #[test]
     fn each_rigidity_is_checked_under_its_own_key() {
-        for (k, key) in ["S1", "S2", "S3", "B1", "B2", "B3"].into_iter().enumerate() {
+        for (k, key) in [
+            RodKey::S1,
+            RodKey::S2,
+            RodKey::S3,
+            RodKey::B1,
+            RodKey::B2,
+            RodKey::B3,
+        ]
+        .into_iter()
+        .enumerate()
+        {
             for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
                 let mut rigidities = Rigidities::table4();
                 match k {

@@ -1,6 +1,7 @@
 //! Why a junction or a linker was refused.
 
 use actin_cosserat::{RodError, RodParameterError};
+use std::fmt;
 use thiserror::Error;
 
 /// Why a junction was refused.
@@ -50,9 +51,16 @@ pub enum JunctionError {
 /// Why a linker or its site was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum LinkerError {
-    /// A parameter is out of range.
-    #[error(transparent)]
-    Parameter(#[from] RodParameterError),
+    /// A number that breaks the rule of its key.
+    #[error("{key} = {value}: must be {rule}")]
+    Parameter {
+        /// Which parameter.
+        key: LinkerKey,
+        /// What it was.
+        value: f64,
+        /// What it must be.
+        rule: &'static str,
+    },
     /// The rod of the site was refused.
     #[error(transparent)]
     Rod(#[from] RodError),
@@ -64,4 +72,37 @@ pub enum LinkerError {
         /// Number of segments of the rod.
         segments: usize,
     },
+}
+
+/// A number of a linker or of its site.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinkerKey {
+    /// Where on a segment, as a share of it.
+    Fraction,
+    /// Distance from the axis.
+    Radius,
+    /// Azimuth about the axis.
+    Azimuth,
+    /// Place in the frame of a monomer.
+    Arm,
+    /// Stiffness of the spring.
+    Stiffness,
+    /// Length of the spring at rest.
+    RestLength,
+    /// Place of an anchor.
+    Anchor,
+}
+
+impl fmt::Display for LinkerKey {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Fraction => "fraction",
+            Self::Radius => "radius",
+            Self::Azimuth => "azimuth",
+            Self::Arm => "arm",
+            Self::Stiffness => "stiffness",
+            Self::RestLength => "rest_length",
+            Self::Anchor => "anchor",
+        })
+    }
 }

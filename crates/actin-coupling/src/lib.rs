@@ -26,7 +26,7 @@ mod linker;
 mod site;
 
 pub use build::push_junction_frames;
-pub use error::{JunctionError, LinkerError};
+pub use error::{JunctionError, LinkerError, LinkerKey};
 pub use junction::{AttachedMonomer, Junction, JunctionParts, JunctionSide, JunctionWeight};
 pub use linker::{Anchor, Linker, LinkerEnd};
 pub use site::{RodPlace, Site};

@@ -1,7 +1,7 @@
 //! The linker as an interaction: a spring to a site. Where sites are is in `site.rs`.
 
-use crate::LinkerError;
 use crate::site::{Site, ensure};
+use crate::{LinkerError, LinkerKey};
 use actin_mechanics::{
     Coordinates, Hooke, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
 };
@@ -99,12 +99,22 @@ impl Linker {
         rest_length: f64,
     ) -> Result<Self, LinkerError> {
         let stiff = stiffness.is_finite() && stiffness > 0.0;
-        ensure(stiff, "stiffness", stiffness, "positive and finite")?;
+        ensure(
+            stiff,
+            LinkerKey::Stiffness,
+            stiffness,
+            "positive and finite",
+        )?;
         let long = rest_length.is_finite() && rest_length >= 0.0;
-        ensure(long, "rest_length", rest_length, "finite and not negative")?;
+        ensure(
+            long,
+            LinkerKey::RestLength,
+            rest_length,
+            "finite and not negative",
+        )?;
         if let LinkerEnd::Anchor(anchor) = &end {
             for value in anchor.position.iter().copied() {
-                ensure(value.is_finite(), "anchor", value, "finite")?;
+                ensure(value.is_finite(), LinkerKey::Anchor, value, "finite")?;
             }
         }
         let spring = Hooke {

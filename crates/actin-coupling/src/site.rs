@@ -1,7 +1,7 @@
 //! Where on a filament a linker holds. What holds it there is in `linker.rs`.
 
-use crate::LinkerError;
-use actin_cosserat::{RodLayout, RodParameterError};
+use crate::{LinkerError, LinkerKey};
+use actin_cosserat::RodLayout;
 use actin_mechanics::{Coordinates, Loads, Matrix3, State, Vector3};
 
 /// A point of a filament that follows its bodies: `r = sum_k w_k x_k + Q b`.
@@ -50,7 +50,7 @@ impl Site {
     /// ```
     pub fn on_monomer(point: usize, frame: usize, arm: Vector3) -> Result<Self, LinkerError> {
         for value in arm.iter().copied() {
-            ensure(value.is_finite(), "arm", value, "finite")?;
+            ensure(value.is_finite(), LinkerKey::Arm, value, "finite")?;
         }
         Ok(Self {
             shares: vec![(point, 1.0)],
@@ -80,10 +80,15 @@ impl Site {
             return Err(LinkerError::Segment { segment, segments });
         }
         let inside = (0.0..=1.0).contains(&fraction);
-        ensure(inside, "fraction", fraction, "from 0 to 1")?;
+        ensure(inside, LinkerKey::Fraction, fraction, "from 0 to 1")?;
         let outward = radius.is_finite() && radius >= 0.0;
-        ensure(outward, "radius", radius, "finite and not negative")?;
-        ensure(azimuth.is_finite(), "azimuth", azimuth, "finite")?;
+        ensure(
+            outward,
+            LinkerKey::Radius,
+            radius,
+            "finite and not negative",
+        )?;
+        ensure(azimuth.is_finite(), LinkerKey::Azimuth, azimuth, "finite")?;
         let node = layout.points().start + segment;
         let (sin, cos) = azimuth.sin_cos();
         Ok(Self {
@@ -152,17 +157,13 @@ impl Site {
 /// Refuses a number that breaks its rule.
 pub(crate) fn ensure(
     holds: bool,
-    key: &'static str,
+    key: LinkerKey,
     value: f64,
     rule: &'static str,
 ) -> Result<(), LinkerError> {
     if holds {
         Ok(())
     } else {
-        Err(LinkerError::Parameter(RodParameterError {
-            key,
-            value,
-            rule,
-        }))
+        Err(LinkerError::Parameter { key, value, rule })
     }
 }

@@ -1,7 +1,7 @@
 //! Linkers: that their loads are a gradient that balances, on either model and between two sites.
 
-use actin_cosserat::{RodLayout, RodParameterError, StraightRod};
-use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, RodPlace, Site};
+use actin_cosserat::{RodLayout, StraightRod};
+use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, LinkerKey, RodPlace, Site};
 use actin_mechanics::testing::{
     assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness, loads_of,
     resultant, stiffness_matrix,
@@ -266,23 +266,22 @@ fn linkers_that_make_no_sense_are_refused() {
     let on_rod = |segment, fraction, radius, azimuth| {
         Site::on_rod(&scene.rod, place(segment, fraction, radius, azimuth)).map(drop)
     };
-    let error = |key, value, rule| RodParameterError { key, value, rule };
-    let refused = |key, value, rule| Err(LinkerError::Parameter(error(key, value, rule)));
+    let refused = |key, value, rule| Err(LinkerError::Parameter { key, value, rule });
     let beyond = LinkerError::Segment {
         segment: 3,
         segments: 3,
     };
     assert_eq!(on_rod(3, 0.5, 1.8, 0.0), Err(beyond));
     for fraction in [-1e-9, 1.1] {
-        let expected = refused("fraction", fraction, "from 0 to 1");
+        let expected = refused(LinkerKey::Fraction, fraction, "from 0 to 1");
         assert_eq!(on_rod(0, fraction, 1.8, 0.0), expected);
     }
-    let expected = refused("radius", -1.8, "finite and not negative");
+    let expected = refused(LinkerKey::Radius, -1.8, "finite and not negative");
     assert_eq!(on_rod(0, 0.5, -1.8, 0.0), expected);
     let infinite = f64::INFINITY;
-    let expected = refused("azimuth", infinite, "finite");
+    let expected = refused(LinkerKey::Azimuth, infinite, "finite");
     assert_eq!(on_rod(0, 0.5, 1.8, infinite), expected);
-    let expected = refused("arm", infinite, "finite");
+    let expected = refused(LinkerKey::Arm, infinite, "finite");
     let arm = Vector3::new(0.0, infinite, 0.0);
     assert_eq!(Site::on_monomer(0, 0, arm).map(drop), expected);
 
@@ -291,12 +290,12 @@ fn linkers_that_make_no_sense_are_refused() {
         Linker::new(scene.on_monomer(0), end, stiffness, rest_length).map(drop)
     };
     for stiffness in [0.0, -1.0, infinite] {
-        let expected = refused("stiffness", stiffness, "positive and finite");
+        let expected = refused(LinkerKey::Stiffness, stiffness, "positive and finite");
         assert_eq!(linker(stiffness, 0.0, Vector3::zeros()), expected);
     }
-    let expected = refused("rest_length", -1.0, "finite and not negative");
+    let expected = refused(LinkerKey::RestLength, -1.0, "finite and not negative");
     assert_eq!(linker(1.0, -1.0, Vector3::zeros()), expected);
-    let expected = refused("anchor", infinite, "finite");
+    let expected = refused(LinkerKey::Anchor, infinite, "finite");
     assert_eq!(linker(1.0, 0.0, Vector3::new(infinite, 0.0, 0.0)), expected);
     assert!(on_rod(0, f64::NAN, 1.8, 0.0).is_err());
 }

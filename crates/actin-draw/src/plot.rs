@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use std::path::Path;
 
 /// One line of a chart.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// Name in the legend; series without a name are drawn only.
     pub label: Option<String>,
@@ -18,7 +18,7 @@ pub struct Series {
 }
 
 /// A chart of lines and dots on linear axes; the legend goes to the corner where it hides least.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Chart<'a> {
     /// Text above the chart.
     pub title: &'a str,

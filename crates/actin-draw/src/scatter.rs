@@ -7,7 +7,7 @@ use plotters::prelude::*;
 use std::path::Path;
 
 /// A picture of points on two logarithmic axes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Scatter<'a> {
     /// Text above the picture.
     pub title: &'a str,

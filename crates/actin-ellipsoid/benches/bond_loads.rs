@@ -14,7 +14,9 @@ fn bond_loads(criterion: &mut Criterion) {
         let parameters = EllipsoidParameters::drawn(per_interface, 0);
         let model = EllipsoidModel::new(parameters).expect("the parameters are valid");
         let mut state = State::default();
-        let run = model.build(&mut state, &Placement::default(), 0, monomers);
+        let run = model
+            .build(&mut state, &Placement::default(), 0, monomers)
+            .unwrap();
         let bonds = model.bonds(&run).expect("interfaces find their bonds");
         perturb(&mut state, &mut Xorshift::new(1), 0.05, 0.05);
         let mut loads = Loads::zeros(&state);

@@ -28,7 +28,9 @@ fn filament(
 ) -> Result<(State, Bonds), Box<dyn Error>> {
     let model = EllipsoidModel::new(parameters)?;
     let mut state = State::default();
-    let monomers = model.build(&mut state, &Placement::default(), 0, count);
+    let monomers = model
+        .build(&mut state, &Placement::default(), 0, count)
+        .unwrap();
     let bonds = model.bonds(&monomers)?;
     perturb(&mut state, &mut Xorshift::new(1), 0.05, 0.05);
     Ok((state, bonds))

@@ -5,7 +5,7 @@ use actin_ellipsoid::{EllipsoidModel, EllipsoidParameters, Interaction, Loads, P
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let model = EllipsoidModel::new(EllipsoidParameters::default())?;
     let mut state = State::default();
-    let monomers = model.build(&mut state, &Placement::default(), 0, 2);
+    let monomers = model.build(&mut state, &Placement::default(), 0, 2)?;
     let bonds = model.bonds(&monomers)?;
 
     // All bonds are parallel to the line of centres, so they act with their full rigidity.

@@ -6,7 +6,7 @@ use actin_equilibrium::relax;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let model = EllipsoidModel::new(EllipsoidParameters::default())?;
     let mut state = State::default();
-    let monomers = model.build(&mut state, &Placement::default(), 0, 30);
+    let monomers = model.build(&mut state, &Placement::default(), 0, 30)?;
     let bonds = model.bonds(&monomers)?;
     for k in 0..2 {
         state.points.hold(monomers.point(k));

@@ -24,6 +24,7 @@ mod gap;
 mod helix;
 mod interface;
 mod kernel;
+mod key;
 mod model;
 mod monomers;
 mod parameters;
@@ -35,8 +36,9 @@ pub use cubature::{Cubature, CubatureError, CubaturePoint, MomentCheck};
 pub use ellipsoid::Ellipsoid;
 pub use helix::{Helix, Neighbour};
 pub use interface::{Bond, Interface, InterfaceError, InterfaceKind};
+pub use key::{EllipsoidKey, InterfaceKey};
 pub use model::EllipsoidModel;
-pub use monomers::{Monomers, Placement};
+pub use monomers::{LatticeError, Monomers, Placement};
 pub use parameters::{
     Anchors, EllipsoidParameterError, EllipsoidParameters, FEWEST_POINTS, InterfaceParameters,
     MOST_POINTS,

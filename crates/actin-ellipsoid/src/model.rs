@@ -2,7 +2,7 @@
 
 use crate::{
     Bonds, Ellipsoid, EllipsoidParameterError, EllipsoidParameters, Helix, Interface,
-    InterfaceError, InterfaceKind, Monomers, Placement,
+    InterfaceError, InterfaceKind, LatticeError, Monomers, Placement,
 };
 use actin_mechanics::{Inertia, State};
 
@@ -13,7 +13,7 @@ use actin_mechanics::{Inertia, State};
 /// use actin_mechanics::{Interaction, State};
 /// let model = EllipsoidModel::new(EllipsoidParameters::default()).unwrap();
 /// let mut state = State::default();
-/// let monomers = model.build(&mut state, &Placement::default(), -1, 30);
+/// let monomers = model.build(&mut state, &Placement::default(), -1, 30).unwrap();
 /// let bonds = model.bonds(&monomers).unwrap();
 /// assert_eq!(bonds.elements(), 29 + 28); // one per lateral and longitudinal interface
 /// assert_eq!(bonds.number_of_bonds(), (29 + 28) * 12);
@@ -60,13 +60,16 @@ impl EllipsoidModel {
 
     /// Pushes the `count` monomers from lattice index `first_index` on, at rest, where
     /// `placement` puts them.
+    ///
+    /// # Errors
+    /// [`LatticeError`] if there are none, or if an index is beyond 2^53 either way.
     pub fn build(
         &self,
         state: &mut State,
         placement: &Placement,
         first_index: i64,
         count: usize,
-    ) -> Monomers {
+    ) -> Result<Monomers, LatticeError> {
         let body = (self.parameters.mass, self.inertia);
         Monomers::push(&self.helix(), body, placement, (first_index, count), state)
     }

@@ -1,8 +1,28 @@
 //! A run of consecutive monomers on a state.
 
-use actin_mechanics::{Frame, Inertia, Point, State, UnitQuaternion, Vector3};
-
 use crate::Helix;
+use actin_mechanics::{Frame, Inertia, Point, State, UnitQuaternion, Vector3};
+use thiserror::Error;
+
+/// Largest lattice index: up to there indices are exact as `f64`.
+const LARGEST_INDEX: i64 = 1 << 53;
+
+/// A run of monomers that cannot be built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum LatticeError {
+    /// No monomers.
+    #[error("a run must have at least one monomer")]
+    Empty,
+    /// Indices that are not exact as `f64`.
+    #[error("lattice indices from {first} on, {count} of them, must be between -2^53 and 2^53")]
+    Index {
+        /// Lattice index of the first monomer.
+        first: i64,
+        /// Number of monomers.
+        count: usize,
+    },
+}
 
 /// Where a filament is put: first turned about the origin, then shifted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +64,20 @@ impl Monomers {
         placement: &Placement,
         (first_index, count): (i64, usize),
         state: &mut State,
-    ) -> Self {
+    ) -> Result<Self, LatticeError> {
+        let last = i64::try_from(count)
+            .ok()
+            .and_then(|n| first_index.checked_add(n - 1));
+        let is_exact = |index: i64| (-LARGEST_INDEX..=LARGEST_INDEX).contains(&index);
+        if count == 0 {
+            return Err(LatticeError::Empty);
+        }
+        if !(is_exact(first_index) && last.is_some_and(is_exact)) {
+            return Err(LatticeError::Index {
+                first: first_index,
+                count,
+            });
+        }
         let monomers = Self {
             first_point: state.points.len(),
             first_frame: state.frames.len(),
@@ -61,7 +94,7 @@ impl Monomers {
                 inertia,
             });
         }
-        monomers
+        Ok(monomers)
     }
 
     /// Point of monomer `k` of the run.
@@ -86,5 +119,28 @@ impl Monomers {
     pub fn indices(&self) -> impl ExactSizeIterator<Item = i64> + use<> {
         let run = *self;
         (0..run.count).map(move |k| run.index(k))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{EllipsoidModel, EllipsoidParameters, LatticeError, Placement};
+    use actin_mechanics::State;
+
+    /// Beyond 2^53 neighbouring monomers would stand in one place.
+    #[test]
+    fn empty_runs_and_inexact_indices_are_refused_and_leave_the_state_alone() {
+        let model = EllipsoidModel::new(EllipsoidParameters::default()).unwrap();
+        let mut state = State::default();
+        let mut build = |first, count| model.build(&mut state, &Placement::default(), first, count);
+        assert_eq!(build(0, 0), Err(LatticeError::Empty));
+        for (first, count) in [(i64::MIN, 1), (1 << 53, 2), (i64::MAX, 3), (0, usize::MAX)] {
+            assert_eq!(
+                build(first, count),
+                Err(LatticeError::Index { first, count })
+            );
+        }
+        assert!(build(1 << 53, 1).is_ok() && build(-(1 << 53), 2).is_ok());
+        assert_eq!(state.points.len(), 3);
     }
 }

@@ -1,6 +1,6 @@
 //! What a filament of ellipsoids is made of, and the rules that its numbers obey.
 
-use crate::constants;
+use crate::{EllipsoidKey, InterfaceKey, InterfaceKind, constants};
 use actin_mechanics::InertiaError;
 use thiserror::Error;
 
@@ -87,8 +87,8 @@ pub enum EllipsoidParameterError {
     /// A number breaks the rule of its key.
     #[error("{key} = {value}: must be {rule}")]
     OutOfRange {
-        /// Path of the field.
-        key: &'static str,
+        /// Which parameter.
+        key: EllipsoidKey,
         /// What it was.
         value: f64,
         /// What it must be.
@@ -152,35 +152,26 @@ impl EllipsoidParameters {
     pub fn validate(&self) -> Result<(), EllipsoidParameterError> {
         if !(self.radius.is_finite() && self.radius >= 0.0) {
             return Err(out_of_range(
-                "radius",
+                EllipsoidKey::Radius,
                 self.radius,
                 "finite and not negative",
             ));
         }
-        finite("turn", self.turn)?;
-        finite("azimuth", self.azimuth)?;
-        positive("rise", self.rise)?;
-        positive("mass", self.mass)?;
+        finite(EllipsoidKey::Turn, self.turn)?;
+        finite(EllipsoidKey::Azimuth, self.azimuth)?;
+        positive(EllipsoidKey::Rise, self.rise)?;
+        positive(EllipsoidKey::Mass, self.mass)?;
         for semi_axis in self.semi_axes {
-            positive("semi_axes", semi_axis)?;
+            positive(EllipsoidKey::SemiAxes, semi_axis)?;
         }
-        self.lateral.validate([
-            "lateral.rigidity",
-            "lateral.bonds",
-            "lateral.minimum_length",
-            "lateral.maximum_length",
-        ])?;
-        self.longitudinal.validate([
-            "longitudinal.rigidity",
-            "longitudinal.bonds",
-            "longitudinal.minimum_length",
-            "longitudinal.maximum_length",
-        ])?;
+        self.lateral.validate(InterfaceKind::Lateral)?;
+        self.longitudinal.validate(InterfaceKind::Longitudinal)?;
         if self.anchors == Anchors::Cubature {
-            for (key, interface) in [
-                ("lateral.bonds", &self.lateral),
-                ("longitudinal.bonds", &self.longitudinal),
+            for (kind, interface) in [
+                (InterfaceKind::Lateral, &self.lateral),
+                (InterfaceKind::Longitudinal, &self.longitudinal),
             ] {
+                let key = EllipsoidKey::Interface(kind, InterfaceKey::Bonds);
                 if !(FEWEST_POINTS..=MOST_POINTS).contains(&interface.bonds) {
                     let rule = "4 to 64: the points of weighted bonds";
                     return Err(out_of_range(key, interface.bonds as f64, rule));
@@ -192,19 +183,21 @@ impl EllipsoidParameters {
 }
 
 impl InterfaceParameters {
-    /// Checks the numbers, which go by the given keys.
-    fn validate(
-        &self,
-        [rigidity, bonds, shortest, longest]: [&'static str; 4],
-    ) -> Result<(), EllipsoidParameterError> {
-        positive(rigidity, self.rigidity)?;
-        positive(longest, self.maximum_length)?;
+    /// Checks the numbers of an interface of this kind.
+    fn validate(&self, kind: InterfaceKind) -> Result<(), EllipsoidParameterError> {
+        let key = |key| EllipsoidKey::Interface(kind, key);
+        positive(key(InterfaceKey::Rigidity), self.rigidity)?;
+        positive(key(InterfaceKey::MaximumLength), self.maximum_length)?;
         if !(self.minimum_length >= 0.0 && self.minimum_length < self.maximum_length) {
             let rule = "at least 0 and less than the longest bond";
-            return Err(out_of_range(shortest, self.minimum_length, rule));
+            return Err(out_of_range(
+                key(InterfaceKey::MinimumLength),
+                self.minimum_length,
+                rule,
+            ));
         }
         if self.bonds == 0 {
-            return Err(out_of_range(bonds, 0.0, "at least 1"));
+            return Err(out_of_range(key(InterfaceKey::Bonds), 0.0, "at least 1"));
         }
         Ok(())
     }
@@ -216,12 +209,12 @@ impl InterfaceParameters {
 }
 
 /// The error for a number that breaks its rule.
-fn out_of_range(key: &'static str, value: f64, rule: &'static str) -> EllipsoidParameterError {
+fn out_of_range(key: EllipsoidKey, value: f64, rule: &'static str) -> EllipsoidParameterError {
     EllipsoidParameterError::OutOfRange { key, value, rule }
 }
 
 /// Refuses what is not a positive finite number.
-fn positive(key: &'static str, value: f64) -> Result<(), EllipsoidParameterError> {
+fn positive(key: EllipsoidKey, value: f64) -> Result<(), EllipsoidParameterError> {
     if value.is_finite() && value > 0.0 {
         Ok(())
     } else {
@@ -230,7 +223,7 @@ fn positive(key: &'static str, value: f64) -> Result<(), EllipsoidParameterError
 }
 
 /// Refuses what is not a finite number.
-fn finite(key: &'static str, value: f64) -> Result<(), EllipsoidParameterError> {
+fn finite(key: EllipsoidKey, value: f64) -> Result<(), EllipsoidParameterError> {
     if value.is_finite() {
         Ok(())
     } else {
@@ -247,13 +240,13 @@ mod tests {
     type Setter = fn(&mut EllipsoidParameters, f64);
 
     /// The key that the model of the changed parameters is refused for.
-    fn refused(set: Setter, value: f64) -> Option<&'static str> {
+    fn refused(set: Setter, value: f64) -> Option<String> {
         let mut parameters = EllipsoidParameters::default();
         set(&mut parameters, value);
         match EllipsoidModel::new(parameters) {
             Err(EllipsoidParameterError::OutOfRange { key, value: v, .. }) => {
                 assert_eq!(v.to_bits(), value.to_bits());
-                Some(key)
+                Some(key.to_string())
             }
             _ => None,
         }
@@ -279,7 +272,7 @@ mod tests {
         ];
         for (key, set) in positive {
             for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-                assert_eq!(refused(set, bad), Some(key), "{key} = {bad}");
+                assert_eq!(refused(set, bad), Some(key.to_owned()), "{key} = {bad}");
             }
         }
         let finite: [(&str, Setter); 2] = [
@@ -287,10 +280,13 @@ mod tests {
             ("azimuth", |p, v| p.azimuth = v),
         ];
         for (key, set) in finite {
-            assert_eq!(refused(set, f64::NAN), Some(key));
+            assert_eq!(refused(set, f64::NAN), Some(key.to_owned()));
             assert_eq!(refused(set, -1.0), None);
         }
-        assert_eq!(refused(|p, v| p.radius = v, -0.1), Some("radius"));
+        assert_eq!(
+            refused(|p, v| p.radius = v, -0.1),
+            Some("radius".to_owned())
+        );
         assert_eq!(refused(|p, v| p.radius = v, 0.0), None);
     }
 
@@ -300,7 +296,7 @@ mod tests {
             ("lateral.bonds", (|p, _| p.lateral.bonds = 0) as Setter),
             ("longitudinal.bonds", |p, _| p.longitudinal.bonds = 0),
         ] {
-            assert_eq!(refused(set, 0.0), Some(key));
+            assert_eq!(refused(set, 0.0), Some(key.to_owned()));
         }
     }
 
@@ -320,7 +316,7 @@ mod tests {
             ),
         ] {
             for bad in [-1e-9, most, f64::NAN, f64::INFINITY] {
-                assert_eq!(refused(set, bad), Some(key), "{key} = {bad}");
+                assert_eq!(refused(set, bad), Some(key.to_owned()), "{key} = {bad}");
             }
             for good in [0.0, 0.2, 0.999 * most] {
                 assert_eq!(refused(set, good), None, "{key} = {good}");

@@ -43,7 +43,7 @@ proptest! {
             translation: shift.into(),
         };
         let mut state = State::default();
-        let monomers = model.build(&mut state, &placement, first, 20);
+        let monomers = model.build(&mut state, &placement, first, 20).unwrap();
         let bonds = model.bonds(&monomers).unwrap();
         let actin_mechanics::Residual { force, torque } = loads_of(&bonds, &state).residual(&state);
         prop_assert!(force < 1e-9, "force {force:e}");
@@ -61,12 +61,18 @@ fn the_same_monomers_have_the_same_anchors_in_any_run() {
         let model = model_with(anchors, 12, 9);
         let whole = {
             let mut state = State::default();
-            let monomers = model.build(&mut state, &Placement::default(), -5, 40);
+            let monomers = model
+                .build(&mut state, &Placement::default(), -5, 40)
+                .unwrap();
             model.bonds(&monomers).unwrap()
         };
         let mut state = State::default();
-        let _other = model.build(&mut state, &Placement::default(), 100, 3);
-        let monomers = model.build(&mut state, &Placement::default(), 7, 11);
+        let _other = model
+            .build(&mut state, &Placement::default(), 100, 3)
+            .unwrap();
+        let monomers = model
+            .build(&mut state, &Placement::default(), 7, 11)
+            .unwrap();
         let part = model.bonds(&monomers).unwrap();
         let mut compared = 0;
         for pair in part.pairs() {
@@ -112,7 +118,7 @@ fn placement_moves_the_centre_line() {
         translation: Vector3::new(5.0, 6.0, 7.0),
     };
     let mut state = State::default();
-    let monomers = model.build(&mut state, &placement, -2, 6);
+    let monomers = model.build(&mut state, &placement, -2, 6).unwrap();
     for (k, index) in monomers.indices().enumerate() {
         let point = model.helix().centre_line_point(
             state.points.position.get(monomers.point(k)),

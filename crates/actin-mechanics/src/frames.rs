@@ -7,7 +7,7 @@ use crate::{Inertia, Quaternions, UnitQuaternion, Vector3, Vectors, vectors, wid
 use drift::Drift;
 
 /// One frame, as it enters a [`Frames`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// Orientation, body to lab.
     pub orientation: UnitQuaternion,

@@ -5,7 +5,7 @@ use crate::{Vector3, Vectors, vectors};
 use std::collections::BTreeMap;
 
 /// One point, as it enters a [`Points`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// Position in the lab frame.
     pub position: Vector3,

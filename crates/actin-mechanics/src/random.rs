@@ -8,7 +8,7 @@ use crate::{State, Vector3, rotation};
 ///
 /// # Source
 /// xorshift64*: Vigna, ACM Trans. Math. Softw. 42 (2016) 30.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Xorshift(u64);
 
 impl Xorshift {

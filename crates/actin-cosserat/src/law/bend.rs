@@ -1,7 +1,7 @@
 //! How a rod resists bending.
 
 use super::Stiffening;
-use crate::RodParameterError;
+use crate::{RodKey, RodParameterError};
 use actin_mechanics::{Matrix3, Vector3};
 
 /// A law of bending: couples about d1 and d2, and what bending does to the twist.
@@ -21,8 +21,8 @@ impl BendLaw {
     pub fn validate(&self) -> Result<(), RodParameterError> {
         match self {
             Self::Constant([b1, b2]) => {
-                RodParameterError::unless_positive("B1", *b1)?;
-                RodParameterError::unless_positive("B2", *b2)
+                RodParameterError::unless_positive(RodKey::B1, *b1)?;
+                RodParameterError::unless_positive(RodKey::B2, *b2)
             }
             Self::Stiffening(law) => law.validate(),
         }

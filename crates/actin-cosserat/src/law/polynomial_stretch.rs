@@ -1,6 +1,6 @@
 //! The published form of a natural length that depends on the twist.
 
-use crate::{RodParameterError, constants};
+use crate::{RodKey, RodParameterError, constants};
 
 /// Natural over rest length, a polynomial of the twist `k` (rad/nm): `xi(k) = 1 + sum p_i k^i`.
 ///
@@ -59,11 +59,11 @@ impl PolynomialStretch {
     /// A coefficient that is not finite or a range that is not positive.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         if self.range.is_nan() || self.range <= 0.0 {
-            let (key, value, rule) = ("range", self.range, "positive");
+            let (key, value, rule) = (RodKey::Range, self.range, "positive");
             return Err(RodParameterError { key, value, rule });
         }
         let mut coefficients = self.coefficients.iter();
-        coefficients.try_for_each(|p| RodParameterError::unless_finite("p", *p))
+        coefficients.try_for_each(|p| RodParameterError::unless_finite(RodKey::Coefficient, *p))
     }
 
     /// `xi - 1`, its first and its second derivative at `k` (rad/nm).
@@ -129,12 +129,12 @@ mod tests {
     fn bad_numbers_are_refused() {
         let mut law = PolynomialStretch::published();
         law.coefficients[3] = f64::NAN;
-        assert_eq!(law.validate().unwrap_err().key, "p");
+        assert_eq!(law.validate().unwrap_err().key, RodKey::Coefficient);
         let law = PolynomialStretch {
             range: 0.0,
             ..PolynomialStretch::published()
         };
-        assert_eq!(law.validate().unwrap_err().key, "range");
+        assert_eq!(law.validate().unwrap_err().key, RodKey::Range);
         assert_eq!(PolynomialStretch::linear(9.35e3, 3.4e4).validate(), Ok(()));
     }
 }

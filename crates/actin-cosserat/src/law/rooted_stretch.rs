@@ -1,6 +1,6 @@
 //! A natural length that bends from one slope in the twist to another.
 
-use crate::RodParameterError;
+use crate::{RodKey, RodParameterError};
 
 /// Natural over rest length with a slope on either side of rest.
 ///
@@ -31,12 +31,12 @@ impl RootedStretch {
     /// # Errors
     /// A `half` or range that is not positive; any other number that is not finite.
     pub fn validate(&self) -> Result<(), RodParameterError> {
-        RodParameterError::unless_positive("half", self.half)?;
-        RodParameterError::unless_positive("range", self.range)?;
+        RodParameterError::unless_positive(RodKey::Half, self.half)?;
+        RodParameterError::unless_positive(RodKey::Range, self.range)?;
         [
-            ("slope", self.slope),
-            ("bend", self.bend),
-            ("cubic", self.cubic),
+            (RodKey::Slope, self.slope),
+            (RodKey::Bend, self.bend),
+            (RodKey::Cubic, self.cubic),
         ]
         .into_iter()
         .try_for_each(|(key, value)| RodParameterError::unless_finite(key, value))
@@ -150,7 +150,7 @@ mod tests {
             ),
             ("range", RootedStretch { range: -1.0, ..LAW }),
         ] {
-            assert_eq!(law.validate().unwrap_err().key, key);
+            assert_eq!(law.validate().unwrap_err().key.to_string(), key);
         }
     }
 }

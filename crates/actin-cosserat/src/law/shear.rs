@@ -1,6 +1,6 @@
 //! How a rod resists shear.
 
-use crate::RodParameterError;
+use crate::{RodKey, RodParameterError};
 use nalgebra::{Matrix2, Vector2};
 
 /// The two shear strains of a cross-section, or the two forces.
@@ -26,9 +26,13 @@ impl CubicShear {
     /// Negative or non-finite numbers; no resistance at all.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         let [s1, s2] = self.linear;
-        for (key, value) in [("S1", s1), ("S2", s2), ("cubic_shear", self.cubic)] {
+        for (key, value) in [
+            (RodKey::S1, s1),
+            (RodKey::S2, s2),
+            (RodKey::CubicShear, self.cubic),
+        ] {
             // A cubic part makes up for a linear one that is missing.
-            if self.cubic == 0.0 && key != "cubic_shear" {
+            if self.cubic == 0.0 && key != RodKey::CubicShear {
                 RodParameterError::unless_positive(key, value)?;
             }
             if !(value >= 0.0 && value.is_finite()) {

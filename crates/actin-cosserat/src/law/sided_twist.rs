@@ -1,6 +1,6 @@
 //! A twisting rigidity that rises from its value at rest, differently to either side.
 
-use crate::RodParameterError;
+use crate::{RodKey, RodParameterError};
 
 /// A secant twisting rigidity that saturates on either side of rest.
 ///
@@ -37,12 +37,12 @@ pub struct TwistRise {
 
 impl TwistRise {
     fn validate(&self) -> Result<(), RodParameterError> {
-        RodParameterError::unless_positive("rise", self.rise)?;
-        RodParameterError::unless_positive("half", self.half)?;
+        RodParameterError::unless_positive(RodKey::Rise, self.rise)?;
+        RodParameterError::unless_positive(RodKey::Half, self.half)?;
         if self.slow >= 0.0 && self.slow.is_finite() {
             return Ok(());
         }
-        let (key, value, rule) = ("slow", self.slow, "finite and not negative");
+        let (key, value, rule) = (RodKey::Slow, self.slow, "finite and not negative");
         Err(RodParameterError { key, value, rule })
     }
 
@@ -83,12 +83,12 @@ impl SidedTwist {
     /// A rise, half or range that is not positive; a negative `rest` or `slow`.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         if !(self.rest >= 0.0 && self.rest.is_finite()) {
-            let (key, value, rule) = ("rest", self.rest, "finite and not negative");
+            let (key, value, rule) = (RodKey::Rest, self.rest, "finite and not negative");
             return Err(RodParameterError { key, value, rule });
         }
         self.under.validate()?;
         self.over.validate()?;
-        RodParameterError::unless_positive("range", self.range)
+        RodParameterError::unless_positive(RodKey::Range, self.range)
     }
 
     #[inline]
@@ -277,7 +277,7 @@ mod tests {
             ),
             ("range", SidedTwist { range: 0.0, ..law }),
         ] {
-            assert_eq!(law.validate().unwrap_err().key, key);
+            assert_eq!(law.validate().unwrap_err().key.to_string(), key);
         }
         assert_eq!(law.validate(), Ok(()));
     }

@@ -1,6 +1,6 @@
 //! Bending that stiffens: with its own curvature, with twist and with shear.
 
-use crate::RodParameterError;
+use crate::{RodKey, RodParameterError};
 
 /// A secant bending rigidity that rises from `rest` to `rest + rise`.
 ///
@@ -49,16 +49,16 @@ impl Stiffening {
     /// # Errors
     /// A rigidity, scale or range that is not positive; a `rise` that is negative.
     pub fn validate(&self) -> Result<(), RodParameterError> {
-        RodParameterError::unless_positive("rest", self.rest)?;
-        RodParameterError::unless_positive("curvature", self.curvature)?;
+        RodParameterError::unless_positive(RodKey::Rest, self.rest)?;
+        RodParameterError::unless_positive(RodKey::Curvature, self.curvature)?;
         if !(self.rise >= 0.0 && self.rise.is_finite()) {
-            let (key, value, rule) = ("rise", self.rise, "finite and not negative");
+            let (key, value, rule) = (RodKey::Rise, self.rise, "finite and not negative");
             return Err(RodParameterError { key, value, rule });
         }
         let scales = [
-            ("twist", self.twist),
-            ("shear", self.shear),
-            ("range", self.range),
+            (RodKey::Twist, self.twist),
+            (RodKey::Shear, self.shear),
+            (RodKey::Range, self.range),
         ];
         for (key, value) in scales {
             if value.is_nan() || value <= 0.0 {
@@ -222,7 +222,7 @@ mod tests {
             ),
             ("range", Stiffening { range: -1.0, ..LAW }),
         ] {
-            assert_eq!(law.validate().unwrap_err().key, key);
+            assert_eq!(law.validate().unwrap_err().key.to_string(), key);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! How a rod resists stretch.
 
-use crate::RodParameterError;
+use crate::{RodKey, RodParameterError};
 
 /// A law of stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,15 +28,15 @@ impl StretchLaw {
     /// A rigidity or a width that is not positive and finite.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         match *self {
-            Self::Constant(s3) => RodParameterError::unless_positive("S3", s3),
+            Self::Constant(s3) => RodParameterError::unless_positive(RodKey::S3, s3),
             Self::Sided {
                 tension,
                 compression,
                 width,
             } => [
-                ("tension", tension),
-                ("compression", compression),
-                ("width", width),
+                (RodKey::Tension, tension),
+                (RodKey::Compression, compression),
+                (RodKey::Width, width),
             ]
             .into_iter()
             .try_for_each(|(key, value)| RodParameterError::unless_positive(key, value)),

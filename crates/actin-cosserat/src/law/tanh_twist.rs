@@ -1,7 +1,7 @@
 //! The published form of a twisting rigidity that depends on the twist.
 
 use super::dilogarithm::tanh_energy;
-use crate::{RodParameterError, constants};
+use crate::{RodKey, RodParameterError, constants};
 
 /// A secant twisting rigidity made of three tanh steps.
 ///
@@ -48,18 +48,22 @@ impl TanhTwist {
     /// A width `l2`, `l5`, `l7` or a range that is not positive, any number that is not finite,
     /// and a couple that does not grow at the end of the range, where it has to go on.
     pub fn validate(&self) -> Result<(), RodParameterError> {
-        let widths = [("lambda 2", 1), ("lambda 5", 4), ("lambda 7", 6)];
+        let widths = [
+            (RodKey::Lambda2, 1),
+            (RodKey::Lambda5, 4),
+            (RodKey::Lambda7, 6),
+        ];
         for (key, i) in widths {
             RodParameterError::unless_positive(key, self.lambda[i])?;
         }
-        RodParameterError::unless_positive("range", self.range)?;
-        let others = [("b_plus", self.b_plus), ("b_minus", self.b_minus)];
-        let lambdas = self.lambda.map(|value| ("lambda", value));
+        RodParameterError::unless_positive(RodKey::Range, self.range)?;
+        let others = [(RodKey::BPlus, self.b_plus), (RodKey::BMinus, self.b_minus)];
+        let lambdas = self.lambda.map(|value| (RodKey::Lambda, value));
         for (key, value) in others.into_iter().chain(lambdas) {
             RodParameterError::unless_finite(key, value)?;
         }
         for end in [-self.range, self.range] {
-            let key = "slope of the couple at the end of the range";
+            let key = RodKey::EndSlope;
             RodParameterError::unless_positive(key, self.inner_tangent(end))?;
         }
         Ok(())
@@ -252,17 +256,30 @@ pub(super) mod tests {
             for value in [0.0, -1.0, f64::NAN] {
                 let mut law = TanhTwist::published();
                 law.lambda[i] = value;
-                assert!(law.validate().unwrap_err().key.starts_with("lambda"));
+                assert!(
+                    law.validate()
+                        .unwrap_err()
+                        .key
+                        .to_string()
+                        .starts_with("lambda")
+                );
             }
         }
         let mut law = TanhTwist::published();
         law.lambda[0] = f64::INFINITY;
-        assert_eq!(law.validate().unwrap_err().key, "lambda");
+        assert_eq!(law.validate().unwrap_err().key, RodKey::Lambda);
         let falling = TanhTwist {
             b_plus: -5e4,
             ..TanhTwist::published()
         };
-        assert!(falling.validate().unwrap_err().key.starts_with("slope"));
+        assert!(
+            falling
+                .validate()
+                .unwrap_err()
+                .key
+                .to_string()
+                .starts_with("slope")
+        );
         assert_eq!(TanhTwist::published().validate(), Ok(()));
     }
 }

@@ -1,7 +1,7 @@
 //! How a rod resists twist.
 
 use super::{SidedTwist, TanhTwist};
-use crate::RodParameterError;
+use crate::{RodKey, RodParameterError};
 
 /// A law of twist, each with a secant rigidity `B3(k)`, couple `B3(k) k` and its integral.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +21,7 @@ impl TwistLaw {
     /// What the law's own `validate` refuses, or a constant that is not positive.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         match self {
-            Self::Constant(b3) => RodParameterError::unless_positive("B3", *b3),
+            Self::Constant(b3) => RodParameterError::unless_positive(RodKey::B3, *b3),
             Self::Tanh(law) => law.validate(),
             Self::Sided(law) => law.validate(),
         }

@@ -3,7 +3,7 @@
 use super::Vector3;
 
 /// From where a panel is seen.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     /// From the middle of the scene towards the viewer; of any length.
     pub towards_viewer: Vector3,

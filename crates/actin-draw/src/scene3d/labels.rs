@@ -6,7 +6,7 @@ use super::svg::{Align, Canvas, Stroke, text_width};
 use crate::Colour;
 
 /// A text at a point.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Label {
     /// What it names (nm, lab frame).
     pub at: Vector3,

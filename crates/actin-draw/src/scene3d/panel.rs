@@ -9,7 +9,7 @@ use super::svg::{Align, Canvas, Stroke};
 use crate::Colour;
 
 /// One view of a scene.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
     /// Text above the view.
     pub title: String,

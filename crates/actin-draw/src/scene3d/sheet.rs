@@ -5,7 +5,7 @@ use super::svg::{Align, Canvas, Paint, Stroke, text_width};
 use crate::Colour;
 
 /// What stands for an entry in the legend.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Key {
     /// A shaded ellipsoid.
     Ball(Colour),
@@ -20,7 +20,7 @@ pub enum Key {
 }
 
 /// A whole picture.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Sheet {
     /// Begins the names within the file; unlike those of other pictures of a page.
     pub prefix: &'static str,

@@ -8,7 +8,7 @@ use super::{Matrix3, Vector3};
 use crate::Colour;
 
 /// A solid (nm, lab frame).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Solid {
     /// An ellipsoid, its semi-axes the columns of a matrix.
     Ellipsoid {
@@ -53,7 +53,7 @@ pub enum Solid {
 }
 
 /// A solid with its looks and its place in the order of painting.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Item {
     /// Its shape and place.
     pub solid: Solid,

@@ -29,7 +29,9 @@ fn run_of(anchors: Anchors, count: usize, bonds: [usize; 2]) -> (State, Bonds) {
         position: Vector3::zeros(),
         mass: 1.0,
     });
-    let monomers = model.build(&mut state, &Placement::default(), -4, count);
+    let monomers = model
+        .build(&mut state, &Placement::default(), -4, count)
+        .unwrap();
     push_stranger(&mut state);
     let bonds = model.bonds(&monomers).unwrap();
     perturb(&mut state, &mut Xorshift::new(8), 0.4, 0.3);

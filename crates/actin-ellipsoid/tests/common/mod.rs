@@ -35,7 +35,9 @@ pub(crate) fn models(seed: u64) -> [EllipsoidModel; 3] {
 /// A filament of `count` monomers at rest, from lattice index 0 on.
 pub(crate) fn filament(model: &EllipsoidModel, count: usize) -> (State, Monomers, Bonds) {
     let mut state = State::default();
-    let monomers = model.build(&mut state, &Placement::default(), 0, count);
+    let monomers = model
+        .build(&mut state, &Placement::default(), 0, count)
+        .unwrap();
     let bonds = model
         .bonds(&monomers)
         .expect("the defaults leave room for bonds");

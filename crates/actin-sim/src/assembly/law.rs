@@ -3,9 +3,9 @@
 use super::TwistWatch;
 use crate::scene::{self, ForceLaw, Material, RodLaw, RodLaws, RodModel, SceneProblem, fitted};
 use actin_cosserat::{
-    BendLaw, CubicShear, EnergyGradient, JoinedElement, PaperBalance, PolynomialStretch, RodLayout,
-    RodMaterial, RodParameterError, RootedStretch, SegmentCurvature, SegmentLaw, SidedTwist,
-    Stiffening, StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, constants,
+    BendLaw, CubicShear, EnergyGradient, JoinedElement, PaperBalance, PolynomialStretch, RodKey,
+    RodLayout, RodMaterial, RodParameterError, RootedStretch, SegmentCurvature, SegmentLaw,
+    SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, constants,
 };
 use actin_mechanics::Interaction;
 
@@ -114,31 +114,38 @@ fn refused(part: &'static str) -> impl Fn(RodParameterError) -> SceneProblem {
     }
 }
 
-/// A law's parameter as a scene writes it, with its unit.
-fn written(parameter: &str) -> &str {
+/// A law's parameter as a scene writes it, with its unit. The rigidities of a material and the numbers of
+/// a cross-section are checked under keys of their own.
+fn written(parameter: RodKey) -> &'static str {
     match parameter {
-        "rest" => "rest_pn_nm2",
-        "rise" => "rise_pn_nm2",
-        "b_plus" => "b_plus_pn_nm2",
-        "b_minus" => "b_minus_pn_nm2",
-        "curvature" => "curvature_per_nm",
-        "twist" => "twist_per_nm",
-        "half" => "half_per_nm",
-        "slow" => "slow_per_nm",
-        "range" => "range_per_nm",
-        "lambda 2" => "lambda[1]",
-        "lambda 5" => "lambda[4]",
-        "lambda 7" => "lambda[6]",
-        "p" => "coefficients",
-        "S1" | "S2" => "linear_pn",
-        "cubic_shear" => "cubic_pn",
-        "S3" => "rigidity_pn",
-        "tension" => "tension_pn",
-        "compression" => "compression_pn",
-        "slope" => "slope_nm",
-        "bend" => "bend_nm",
-        "cubic" => "cubic_nm3",
-        other => other,
+        RodKey::Rest => "rest_pn_nm2",
+        RodKey::Rise => "rise_pn_nm2",
+        RodKey::BPlus => "b_plus_pn_nm2",
+        RodKey::BMinus => "b_minus_pn_nm2",
+        RodKey::Curvature => "curvature_per_nm",
+        RodKey::Twist => "twist_per_nm",
+        RodKey::Shear => "shear",
+        RodKey::Half => "half_per_nm",
+        RodKey::Slow => "slow_per_nm",
+        RodKey::Range => "range_per_nm",
+        RodKey::Lambda => "lambda",
+        RodKey::Lambda2 => "lambda[1]",
+        RodKey::Lambda5 => "lambda[4]",
+        RodKey::Lambda7 => "lambda[6]",
+        RodKey::EndSlope => "slope of the couple at the end of the range",
+        RodKey::Coefficient => "coefficients",
+        RodKey::S1 | RodKey::S2 => "linear_pn",
+        RodKey::CubicShear => "cubic_pn",
+        RodKey::S3 => "rigidity_pn",
+        RodKey::B1 | RodKey::B2 | RodKey::B3 => "bend_pn_nm2",
+        RodKey::Tension => "tension_pn",
+        RodKey::Compression => "compression_pn",
+        RodKey::Width => "width",
+        RodKey::Slope => "slope_nm",
+        RodKey::Bend => "bend_nm",
+        RodKey::Cubic => "cubic_nm3",
+        RodKey::LinearDensity => "linear_density",
+        RodKey::Area => "area",
     }
 }
 

@@ -3,8 +3,8 @@
 use crate::scene::{self, End, Hold, Monomers, SceneProblem};
 use actin_cosserat::{RodClamp, RodEnd};
 use actin_ellipsoid::{
-    EllipsoidModel, EllipsoidParameterError, EllipsoidParameters, InterfaceError, InterfaceKind,
-    InterfaceParameters,
+    EllipsoidKey, EllipsoidModel, EllipsoidParameterError, EllipsoidParameters, InterfaceError,
+    InterfaceKey, InterfaceKind, InterfaceParameters,
 };
 
 impl From<scene::Anchors> for actin_ellipsoid::Anchors {
@@ -86,7 +86,7 @@ pub(super) fn ellipsoids(
             SceneProblem::new(scene_key(key), value, format!("must be {rule}"))
         }
         EllipsoidParameterError::NotATop { semi_axes, reason } => SceneProblem::new(
-            scene_key("semi_axes"),
+            scene_key(EllipsoidKey::SemiAxes),
             format!("{semi_axes:?}"),
             reason.to_string(),
         ),
@@ -94,22 +94,26 @@ pub(super) fn ellipsoids(
 }
 
 /// The scene's key for a parameter of the monomers.
-fn scene_key(parameter: &str) -> String {
+fn scene_key(parameter: EllipsoidKey) -> String {
     let key = match parameter {
-        "radius" => "radius_nm",
-        "rise" => "rise_nm",
-        "turn" => "turn_deg",
-        "azimuth" => "azimuth_deg",
-        "semi_axes" => "semi_axes_nm",
-        "mass" => "mass_ag",
-        "lateral.rigidity" => "lateral_rigidity_pn_per_nm",
-        "lateral.bonds" => "lateral_bonds",
-        "lateral.minimum_length" | "longitudinal.minimum_length" => "min_bond_nm",
-        "lateral.maximum_length" => "lateral_max_bond_nm",
-        "longitudinal.rigidity" => "longitudinal_rigidity_pn_per_nm",
-        "longitudinal.bonds" => "longitudinal_bonds",
-        "longitudinal.maximum_length" => "longitudinal_max_bond_nm",
-        other => other,
+        EllipsoidKey::Radius => "radius_nm",
+        EllipsoidKey::Rise => "rise_nm",
+        EllipsoidKey::Turn => "turn_deg",
+        EllipsoidKey::Azimuth => "azimuth_deg",
+        EllipsoidKey::SemiAxes => "semi_axes_nm",
+        EllipsoidKey::Mass => "mass_ag",
+        EllipsoidKey::Interface(InterfaceKind::Lateral, key) => match key {
+            InterfaceKey::Rigidity => "lateral_rigidity_pn_per_nm",
+            InterfaceKey::Bonds => "lateral_bonds",
+            InterfaceKey::MinimumLength => "min_bond_nm",
+            InterfaceKey::MaximumLength => "lateral_max_bond_nm",
+        },
+        EllipsoidKey::Interface(InterfaceKind::Longitudinal, key) => match key {
+            InterfaceKey::Rigidity => "longitudinal_rigidity_pn_per_nm",
+            InterfaceKey::Bonds => "longitudinal_bonds",
+            InterfaceKey::MinimumLength => "min_bond_nm",
+            InterfaceKey::MaximumLength => "longitudinal_max_bond_nm",
+        },
     };
     format!("filament.monomers.{key}")
 }

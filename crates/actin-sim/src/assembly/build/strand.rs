@@ -64,8 +64,8 @@ impl<'a> Strand<'a> {
             model: models::ellipsoids(monomers, index)?,
             law: law::Law::new(&filament.rod)?,
             cross_section: CrossSection::new(density, area).map_err(|error| {
-                let key = format!("filament.rod.{}", error.key);
-                SceneProblem::new(key, error.value, format!("must be {}", error.rule))
+                let rule = format!("the mass per length that follows must be {}", error.rule);
+                SceneProblem::new("filament.monomers.mass_ag", error.value, rule)
             })?,
             bodies: Vec::new(),
             junction_frames: Vec::new(),
@@ -104,21 +104,25 @@ impl<'a> Strand<'a> {
             self.push_junction_frames(i - 1, stock)?;
         }
         match self.resolved[i].monomers {
-            Some((first, last)) => {
-                self.push_monomers(i, (first, last), stock);
-                Ok(())
-            }
+            Some((first, last)) => self.push_monomers(i, (first, last), stock),
             None => self.push_rod(i, stock),
         }
     }
 
-    fn push_monomers(&mut self, i: usize, (first, last): (i64, i64), stock: &mut Stock) {
+    fn push_monomers(
+        &mut self,
+        i: usize,
+        (first, last): (i64, i64),
+        stock: &mut Stock,
+    ) -> Result<(), SceneProblem> {
         let placement = Placement {
             translation: self.axis_at(self.lattice.origin_nm),
             ..self.placement
         };
         let count = usize::try_from(last - first + 1).expect("resolve leaves at least two");
-        let monomers = self.model.build(&mut stock.state, &placement, first, count);
+        let built = self.model.build(&mut stock.state, &placement, first, count);
+        let monomers = built
+            .map_err(|error| SceneProblem::new("filament.sections", last, error.to_string()))?;
         for k in 0..count {
             let s_nm = self.lattice.s_nm(monomers.index(k));
             let kind = BodyKind::Monomer;
@@ -144,6 +148,7 @@ impl<'a> Strand<'a> {
         let bodies = (from..to, frames);
         self.push_span(i, resolution, bodies, (first_tip, last_tip), stock);
         self.bodies.push(Body::Monomers(monomers));
+        Ok(())
     }
 
     fn push_rod(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
