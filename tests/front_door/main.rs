@@ -87,3 +87,29 @@ fn every_library_can_be_used_alone() {
         );
     }
 }
+
+/// Parameters and laws go through a file and come back to the last digit.
+#[test]
+fn parameters_and_laws_are_written_and_read_with_the_feature_serde() {
+    use actin_cosserat::{Rigidities, Stiffening, TanhTwist, TwistLaw};
+    use actin_ellipsoid::EllipsoidParameters;
+    fn comes_back<T>(value: &T)
+    where
+        T: serde::Serialize + serde::de::DeserializeOwned + PartialEq + std::fmt::Debug,
+    {
+        let text = ron::to_string(value).unwrap();
+        assert_eq!(&ron::from_str::<T>(&text).unwrap(), value, "{text}");
+    }
+    comes_back(&EllipsoidParameters::default());
+    comes_back(&EllipsoidParameters::drawn(64, 3));
+    comes_back(&Rigidities::table4());
+    comes_back(&TwistLaw::Tanh(TanhTwist::published()));
+    comes_back(&Stiffening {
+        rest: 3.7e4,
+        rise: 1.0 / 3.0,
+        curvature: 0.01,
+        twist: f64::INFINITY,
+        shear: f64::INFINITY,
+        range: 0.02,
+    });
+}

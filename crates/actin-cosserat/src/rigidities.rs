@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 
 /// Rigidities against shear strains and curvatures, in body axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rigidities {
     /// Shearing, shearing, stretching: S1, S2, S3 (pN).
     pub shear: Vector3,

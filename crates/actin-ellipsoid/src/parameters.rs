@@ -20,6 +20,7 @@ pub const MOST_POINTS: usize = 64;
 /// assert!((parameters.longitudinal.rigidity - 3354.0).abs() < 1.0);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EllipsoidParameters {
     /// Distance of the monomers' centres from the axis (nm).
     pub radius: f64,
@@ -47,6 +48,7 @@ pub struct EllipsoidParameters {
 
 /// Parameters of one kind of interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InterfaceParameters {
     /// Rigidity that the bonds share (pN/nm): drawn ones equally, others by their weights.
     pub rigidity: f64,
@@ -60,6 +62,7 @@ pub struct InterfaceParameters {
 
 /// How bonds are chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Anchors {
     /// Each interface has anchors of its own.
     Independent,

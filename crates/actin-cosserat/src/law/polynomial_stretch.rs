@@ -10,6 +10,7 @@ use crate::{RodKey, RodParameterError, constants};
 /// # Source
 /// arXiv 2203.01284, Section 3.3 and Appendix B, where the printed polynomial is that of `xi - 1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PolynomialStretch {
     /// `p_0` to `p_6` (nm^i/rad^i).
     pub coefficients: [f64; 7],

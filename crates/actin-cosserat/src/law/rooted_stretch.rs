@@ -12,6 +12,7 @@ use crate::{RodKey, RodParameterError};
 /// both kinds of interface keep their lengths the slope is that of a helix, and which of them gives
 /// way depends on the side.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RootedStretch {
     /// Slope at rest (nm/rad).
     pub slope: f64,

@@ -12,6 +12,7 @@ type Pair = Vector2<f64>;
 /// energy per length `g^T S g / 2 + c |g|^4 / 4`. The linear part may be zero: a filament of
 /// monomers has none at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CubicShear {
     /// S1 and S2 (pN).
     pub linear: [f64; 2],

@@ -13,6 +13,7 @@ use crate::{RodKey, RodParameterError};
 /// The form follows twisted filaments of monomers: next to nothing resists small twist, and what
 /// does at large twist is reached sooner in under-twist (`docs/validation.md`, Figure 9).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SidedTwist {
     /// Rigidity at rest (pN nm^2).
     pub rest: f64,
@@ -26,6 +27,7 @@ pub struct SidedTwist {
 
 /// One side of a [`SidedTwist`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TwistRise {
     /// What the rigidity gains far from rest (pN nm^2).
     pub rise: f64,

@@ -17,6 +17,7 @@ use crate::{RodKey, RodParameterError};
 /// The form follows what bent filaments of monomers show: their interfaces resist only some of
 /// their relative motions until they are deformed, by whatever deformation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Stiffening {
     /// Rigidity at rest (pN nm^2).
     pub rest: f64,

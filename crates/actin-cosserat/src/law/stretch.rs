@@ -4,6 +4,7 @@ use crate::{RodKey, RodParameterError};
 
 /// A law of stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum StretchLaw {
     /// One rigidity at every strain (pN).
     Constant(f64),

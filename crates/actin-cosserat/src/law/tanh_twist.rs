@@ -14,6 +14,7 @@ use crate::{RodKey, RodParameterError, constants};
 /// arXiv 2203.01284, Section 3.3 and Appendix B; the printed energy, `B3 k^2 / 2`, does not belong
 /// to the printed couple.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TanhTwist {
     /// Limit of far over-twist (pN nm^2).
     pub b_plus: f64,
