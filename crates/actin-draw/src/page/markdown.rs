@@ -1,6 +1,7 @@
 //! Markdown as a section of the page.
 
-use pulldown_cmark::{CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd, html};
+use maud::html;
+use pulldown_cmark::{CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd};
 
 /// Markdown as HTML one level of headings lower; cells of tables name their column, so that a
 /// narrow screen can show a row as a card.
@@ -8,7 +9,7 @@ pub(super) fn rendered(markdown: &str) -> String {
     let mut columns = Columns::default();
     let events = Parser::new_ext(markdown, Options::ENABLE_TABLES);
     let mut text = String::new();
-    html::push_html(
+    pulldown_cmark::html::push_html(
         &mut text,
         events.map(|event| columns.follow(lowered(event))),
     );
@@ -59,8 +60,9 @@ impl Columns {
 
     fn cell<'a>(&self) -> CowStr<'a> {
         let head = self.heads.get(self.at).map_or("", String::as_str);
-        let head = super::escape(head);
-        format!("<td class=\"wide\" data-label=\"{head}\">").into()
+        let cell = html! { td class="wide" data-label=(head) {} };
+        let open = cell.0.strip_suffix("</td>").expect("a cell has an end");
+        open.to_owned().into()
     }
 }
 

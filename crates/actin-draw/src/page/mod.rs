@@ -10,13 +10,14 @@ mod shades;
 mod tables;
 mod verdicts;
 
+pub use maud::Markup;
 pub use shades::{DARK_CARD, on_dark};
-pub use tables::{Explained, Misses, significant};
+pub use tables::{Explained, Misses, breakable, significant};
 pub use verdicts::Verdicts;
 
 use crate::report::{Artefact, Picture, View};
+use maud::{DOCTYPE, PreEscaped, html};
 use shades::Shades;
-use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use tables::Among;
@@ -39,7 +40,7 @@ const RASTER: &str = include_str!("raster.js");
 ///     wall_s: 0.1,
 /// };
 /// let mut page = Page::new("A report", "0.1.0");
-/// page.header("<h1 id=\"summary\">A report</h1>\n");
+/// page.header(&maud::html! { h1 id="summary" { "A report" } });
 /// page.artefact(&artefact, &Misses::default(), ".".as_ref())?;
 /// let html = page.finish();
 /// assert!(html.contains("<h2>Table 1: One number</h2>") && html.contains("agrees"));
@@ -59,15 +60,17 @@ pub struct Page<'a> {
 impl<'a> Page<'a> {
     /// An empty page; `version` says beside every artefact what computed it.
     pub fn new(title: &'a str, version: &'a str) -> Self {
-        Self {
+        let mut page = Self {
             title,
             version,
             header: String::new(),
             contents: String::new(),
             main: String::new(),
-            scripts: format!("<script>\n{RASTER}</script>\n"),
+            scripts: String::new(),
             shades: Shades::default(),
-        }
+        };
+        page.script(RASTER);
+        page
     }
 
     /// The CSS value of a colour that changes with the page, light or dark.
@@ -76,8 +79,8 @@ impl<'a> Page<'a> {
     }
 
     /// Adds HTML to the head of the page, above its contents; its title has the id `summary`.
-    pub fn header(&mut self, html: &str) {
-        self.header.push_str(html);
+    pub fn header(&mut self, html: &Markup) {
+        self.header.push_str(&html.0);
     }
 
     /// Adds a section with states to be turned, pictures, settings and rows, whose files are in
@@ -91,94 +94,100 @@ impl<'a> Page<'a> {
         misses: &Misses<'_>,
         folder: &Path,
     ) -> Result<(), String> {
-        let (id, title) = (artefact.id, escape(artefact.title));
-        push(
-            &mut self.contents,
-            format_args!(
-                "<li><a href=\"#{id}\">{}: {title}</a> <small>{}</small></li>\n",
-                name(id),
-                Verdicts::of(&artefact.rows).in_words(),
-            ),
-        );
-        push(
-            &mut self.main,
-            format_args!("<section id=\"{id}\"><h2>{}: {title}</h2>\n", name(id)),
-        );
-        for view in &artefact.views {
-            viewer(&mut self.main, view, folder)?;
-        }
-        for shown in &artefact.pictures {
-            picture(&mut self.main, &mut self.shades, shown, folder)?;
-        }
-        push(
-            &mut self.main,
-            format_args!(
-                "<h3>How it was made</h3><dl><dt>Settings</dt><dd>{}</dd><dt>Version</dt><dd>{}</dd>\
-                 <dt>Computed in</dt><dd>{:.1} s</dd></dl>\n",
-                escape(&artefact.settings),
-                escape(self.version),
-                artefact.wall_s,
-            ),
-        );
-        tables::write(&mut self.main, &artefact.rows, misses);
-        self.main.push_str("</section>\n");
+        let (id, title) = (artefact.id, artefact.title);
+        let line = html! {
+            li {
+                a href={ "#" (id) } { (name(id)) ": " (title) }
+                " " small { (Verdicts::of(&artefact.rows).in_words()) }
+            }
+        };
+        let views = artefact.views.iter().map(|view| viewer(view, folder));
+        let views: Vec<Markup> = views.collect::<Result<_, _>>()?;
+        let shades = &mut self.shades;
+        let pictures = artefact
+            .pictures
+            .iter()
+            .map(|one| picture(shades, one, folder));
+        let pictures: Vec<Markup> = pictures.collect::<Result<_, _>>()?;
+        let section = html! {
+            section id=(id) {
+                h2 { (name(id)) ": " (title) }
+                @for view in views { (view) }
+                @for picture in pictures { (picture) }
+                h3 { "How it was made" }
+                dl {
+                    dt { "Settings" } dd { (artefact.settings) }
+                    dt { "Version" } dd { (self.version) }
+                    dt { "Computed in" } dd { (format!("{:.1} s", artefact.wall_s)) }
+                }
+                (tables::numbers(&artefact.rows, misses))
+            }
+        };
+        self.contents.push_str(&line.0);
+        self.main.push_str(&section.0);
         Ok(())
     }
 
     /// Adds a section of Markdown, its headings one level lower; `title` is its line in the contents.
     pub fn markdown(&mut self, id: &str, title: &str, markdown: &str) {
-        push(
-            &mut self.contents,
-            format_args!("<li><a href=\"#{id}\">{title}</a></li>"),
-        );
-        push(&mut self.main, format_args!("<section id=\"{id}\">\n"));
-        self.main.push_str(&markdown::rendered(markdown));
-        self.main.push_str("</section>\n");
+        let line = html! { li { a href={ "#" (id) } { (title) } } };
+        let section = html! {
+            section id=(id) { (PreEscaped(markdown::rendered(markdown))) }
+        };
+        self.contents.push_str(&line.0);
+        self.main.push_str(&section.0);
     }
 
     /// Adds JSON that scripts find by its id, ahead of all scripts.
     pub fn data(&mut self, id: &str, json: &str) {
-        let data = format!(
-            "<script type=\"application/json\" id=\"{id}\">{}</script>\n",
-            in_script(json)
-        );
-        self.scripts.insert_str(0, &data);
+        let data = html! {
+            script type="application/json" id=(id) { (in_script(json)) }
+        };
+        self.scripts.insert_str(0, &data.0);
     }
 
     /// Adds a script; `raster.js` stands ahead of it.
     pub fn script(&mut self, text: &str) {
-        push(
-            &mut self.scripts,
-            format_args!("<script>\n{text}</script>\n"),
-        );
+        let script = html! { script { (PreEscaped(text)) } };
+        self.scripts.push_str(&script.0);
     }
 
     /// The whole page.
     pub fn finish(self) -> String {
-        let Self {
-            title,
-            header,
-            contents,
-            main,
-            scripts,
-            ..
-        } = &self;
-        format!(
-            "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
-             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\
-             <title>{title}</title><style>\n{STYLE}{}</style></head><body>\n<header>\n{header}</header>\n\
-             <nav id=\"contents\"><h2>Contents</h2><ol><li><a href=\"#summary\">Summary</a></li>\n\
-             {contents}</ol></nav>\n<main>\n{main}</main>\n\
-             <noscript><p>The views that can be turned need JavaScript; all else does not.</p>\
-             </noscript>{scripts}</body></html>\n",
-            self.shades.style()
-        )
+        let style = [STYLE, &self.shades.style()].concat();
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    title { (self.title) }
+                    style { (PreEscaped(style)) }
+                }
+                body {
+                    header { (PreEscaped(self.header)) }
+                    nav id="contents" {
+                        h2 { "Contents" }
+                        ol {
+                            li { a href="#summary" { "Summary" } }
+                            (PreEscaped(self.contents))
+                        }
+                    }
+                    main { (PreEscaped(self.main)) }
+                    noscript {
+                        p { "The views that can be turned need JavaScript; all else does not." }
+                    }
+                    (PreEscaped(self.scripts))
+                }
+            }
+        };
+        page.into_string()
     }
 }
 
-/// Writes what was missed in all artefacts, each row with the name of its artefact.
-pub fn write_misses(html: &mut String, misses: &Misses<'_>) {
-    tables::missed(html, misses, Among::All);
+/// What was missed in all artefacts, each row with the name of its artefact.
+pub fn missed(misses: &Misses<'_>) -> Markup {
+    tables::missed(misses, Among::All)
 }
 
 /// `Figure 4` for `fig4`, `Table 1` for `table1`.
@@ -194,26 +203,23 @@ pub fn name(id: &str) -> String {
 /// Narrower screens scroll it in a box of its own.
 const SMALLEST: f64 = 0.74;
 
-fn picture(
-    page: &mut String,
-    shades: &mut Shades,
-    picture: &Picture,
-    folder: &Path,
-) -> Result<(), String> {
+fn picture(shades: &mut Shades, picture: &Picture, folder: &Path) -> Result<Markup, String> {
     let path = folder.join(&picture.file);
     let svg = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-    let caption = escape(&picture.caption);
-    let named = format!("<svg role=\"img\" aria-label=\"{caption}\" ");
-    push(
-        page,
-        format_args!(
-            "<figure><div class=\"scroll\" tabindex=\"0\"><div class=\"picture\" \
-             style=\"min-width:{:.0}px\">{}</div></div><figcaption>{caption}</figcaption></figure>\n",
-            SMALLEST * width(&svg).unwrap_or(900.0),
-            shades.embed(&svg).replacen("<svg ", &named, 1),
-        ),
-    );
-    Ok(())
+    let caption = &picture.caption;
+    let tag = html! { svg role="img" aria-label=(caption) {} };
+    // The tag is given attributes and ends where its own go on.
+    let named = tag.0.replacen("></svg>", " ", 1);
+    let least = SMALLEST * width(&svg).unwrap_or(900.0);
+    let svg = shades.embed(&svg).replacen("<svg ", &named, 1);
+    Ok(html! {
+        figure {
+            div class="scroll" tabindex="0" {
+                div class="picture" style=(format!("min-width:{least:.0}px")) { (PreEscaped(svg)) }
+            }
+            figcaption { (caption) }
+        }
+    })
 }
 
 /// Width of a picture in pixels, as it says of itself.
@@ -224,59 +230,42 @@ fn width(svg: &str) -> Option<f64> {
     value[..value.find('"')?].parse().ok()
 }
 
-fn viewer(page: &mut String, view: &View, folder: &Path) -> Result<(), String> {
+fn viewer(view: &View, folder: &Path) -> Result<Markup, String> {
     let path = folder.join(&view.file);
     let json = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-    push(
-        page,
-        format_args!(
-            "<figure class=\"viewer\"><script type=\"application/json\">{}</script>\
-             <div class=\"controls\"></div><canvas tabindex=\"0\" role=\"img\" \
-             aria-label=\"Three-dimensional view, turned with the arrow keys\"></canvas>\
-             <ul class=\"legend\"></ul><figcaption>{} <em>Drag to turn, Shift and drag to move, two \
-             fingers or + and − to zoom (the wheel too, after a click), arrow keys, 0 to reset. \
-             Lengths are true across the line of sight.</em></figcaption></figure>\n",
-            in_script(&json),
-            escape(&view.caption),
-        ),
-    );
-    Ok(())
+    let label = "Three-dimensional view, turned with the arrow keys";
+    Ok(html! {
+        figure class="viewer" {
+            script type="application/json" { (in_script(&json)) }
+            div class="controls" {}
+            canvas tabindex="0" role="img" aria-label=(label) {}
+            ul class="legend" {}
+            figcaption {
+                (view.caption) " "
+                em {
+                    "Drag to turn, Shift and drag to move, two fingers or + and − to zoom (the wheel \
+                     too, after a click), arrow keys, 0 to reset. Lengths are true across the line of \
+                     sight."
+                }
+            }
+        }
+    })
 }
 
 /// JSON that cannot end the element that it stands in.
-fn in_script(json: &str) -> String {
-    json.replace('<', "\\u003c")
-}
-
-/// Adds formatted text to HTML.
-pub fn push(html: &mut String, text: std::fmt::Arguments<'_>) {
-    // Writing to a string cannot fail.
-    let _ = html.write_fmt(text);
-}
-
-/// Text as it is shown, in elements and in attributes.
-pub fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
+fn in_script(json: &str) -> PreEscaped<String> {
+    PreEscaped(json.replace('<', "\\u003c"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn markup_in_notes_is_shown_as_written() {
-        assert_eq!(escape("a < b & c"), "a &lt; b &amp; c");
-        assert_eq!(escape("\"d\" > e"), "&quot;d&quot; &gt; e");
-    }
-
     /// Symptom of the plausible bug: a name with markup ends the script and the page with it.
     #[test]
     fn json_cannot_end_its_script() {
         let json = serde_json::to_string("</script><b>").unwrap();
-        let safe = in_script(&json);
+        let PreEscaped(safe) = in_script(&json);
         assert!(!safe.contains('<'));
         let back: String = serde_json::from_str(&safe).unwrap();
         assert_eq!(back, "</script><b>");

@@ -1,8 +1,8 @@
 //! Numbers as tables: what is expected and by whom, ours, difference, verdict; what was missed first,
 //! under its reason.
 
-use super::{escape, push};
-use crate::report::{Origin, Row};
+use crate::report::Row;
+use maud::{Markup, html};
 
 /// Longer tables are folded away, unless they show what was missed.
 const LONG: usize = 12;
@@ -38,8 +38,8 @@ pub struct Explained<'a> {
     pub rows: Vec<&'a Row>,
 }
 
-/// Writes the rows of an artefact in up to four tables, those that are missed under their reasons.
-pub(super) fn write(page: &mut String, rows: &[Row], misses: &Misses<'_>) {
+/// The rows of an artefact in up to four tables, those that are missed under their reasons.
+pub(super) fn numbers(rows: &[Row], misses: &Misses<'_>) -> Markup {
     // The second says of rows without a verdict whether a number stands beside them.
     let groups = [
         (Some(false), None, "Missed"),
@@ -47,167 +47,148 @@ pub(super) fn write(page: &mut String, rows: &[Row], misses: &Misses<'_>) {
         (None, Some(true), "Shown beside another number, not judged"),
         (None, Some(false), "Measured"),
     ];
-    page.push_str("<h3>Numbers</h3>\n");
-    for (verdict, beside, title) in groups {
-        let is_in = |row: &&Row| {
-            row.pass == verdict && beside.is_none_or(|beside| row.paper.is_some() == beside)
-        };
-        let chosen: Vec<&Row> = rows.iter().filter(is_in).collect();
-        if chosen.is_empty() {
-            continue;
+    html! {
+        h3 { "Numbers" }
+        @for (verdict, beside, title) in groups {
+            (group(rows, verdict, beside, title, misses))
         }
-        let open = if chosen.len() <= LONG || verdict == Some(false) {
-            " open"
-        } else {
-            ""
-        };
-        push(
-            page,
-            format_args!(
-                "<details{open}><summary class=\"{}\">{title}: {}</summary>\n",
-                class(verdict),
-                chosen.len()
-            ),
-        );
-        if verdict == Some(false) {
-            missed(page, misses, Among::Own);
-        } else {
-            table(page, &chosen, Among::Own);
-        }
-        page.push_str("</details>\n");
     }
 }
 
-/// Writes what was missed: each reason, with the rows that it explains.
-pub(super) fn missed(page: &mut String, misses: &Misses<'_>, among: Among) {
-    for one in &misses.explained {
-        explained(page, one, among);
+/// The rows with this verdict, if there are any.
+fn group(
+    rows: &[Row],
+    verdict: Option<bool>,
+    beside: Option<bool>,
+    title: &str,
+    misses: &Misses<'_>,
+) -> Markup {
+    let is_in = |row: &&Row| {
+        row.pass == verdict && beside.is_none_or(|beside| row.paper.is_some() == beside)
+    };
+    let chosen: Vec<&Row> = rows.iter().filter(is_in).collect();
+    if chosen.is_empty() {
+        return Markup::default();
     }
-    if !misses.open.is_empty() {
-        push(
-            page,
-            format_args!(
-                "<p class=\"why\"><strong>Not looked into.</strong> {}</p>\n",
-                escape(misses.open_note)
-            ),
-        );
-        table(page, &misses.open, among);
+    let is_missed = verdict == Some(false);
+    html! {
+        details open[is_missed || chosen.len() <= LONG] {
+            summary class=(class(verdict)) { (title) ": " (chosen.len()) }
+            @if is_missed {
+                (missed(misses, Among::Own))
+            } @else {
+                (table(&chosen, Among::Own))
+            }
+        }
+    }
+}
+
+/// What was missed: each reason, with the rows that it explains.
+pub(super) fn missed(misses: &Misses<'_>, among: Among) -> Markup {
+    html! {
+        @for one in &misses.explained {
+            (explained(one, among))
+        }
+        @if !misses.open.is_empty() {
+            p class="why" { strong { "Not looked into." } " " (misses.open_note) }
+            (table(&misses.open, among))
+        }
     }
 }
 
 /// Rows beyond this number are folded away below their reason.
 const MANY: usize = 6;
 
-fn explained(page: &mut String, reason: &Explained<'_>, among: Among) {
+fn explained(reason: &Explained<'_>, among: Among) -> Markup {
     let rows = &reason.rows;
     if rows.is_empty() {
-        return;
+        return Markup::default();
     }
-    push(
-        page,
-        format_args!(
-            "<p class=\"why\"><strong>{}.</strong> {}</p>\n",
-            escape(reason.title),
-            escape(reason.text)
-        ),
-    );
-    if rows.len() <= MANY {
-        table(page, rows, among);
-        return;
+    html! {
+        p class="why" { strong { (reason.title) "." } " " (reason.text) }
+        @if rows.len() <= MANY {
+            (table(rows, among))
+        } @else {
+            details {
+                summary class="miss" { (rows.len()) " rows of " (super::name(reason.artefact)) }
+                (table(rows, among))
+            }
+        }
     }
-    push(
-        page,
-        format_args!(
-            "<details><summary class=\"miss\">{} rows of {}</summary>\n",
-            rows.len(),
-            super::name(reason.artefact)
-        ),
-    );
-    table(page, rows, among);
-    page.push_str("</details>\n");
 }
 
 /// One table of rows.
-fn table(page: &mut String, rows: &[&Row], among: Among) {
-    page.push_str("<table><thead><tr>");
-    if among == Among::All {
-        page.push_str("<th>where</th>");
+fn table(rows: &[&Row], among: Among) -> Markup {
+    html! {
+        table {
+            thead {
+                tr {
+                    @if among == Among::All { th { "where" } }
+                    th { "quantity" }
+                    th class="n" { "expected" }
+                    th { "by" }
+                    th class="n" { "ours" }
+                    th class="n" { "difference" }
+                    th class="n" { "tolerance" }
+                    th { "unit" }
+                    th { "verdict" }
+                    th { "note" }
+                }
+            }
+            tbody {
+                @for row in rows {
+                    (line(row, among))
+                }
+            }
+        }
     }
-    page.push_str(
-        "<th>quantity</th><th class=\"n\">expected</th><th>by</th><th class=\"n\">ours</th>\
-         <th class=\"n\">difference</th><th class=\"n\">tolerance</th><th>unit</th>\
-         <th>verdict</th><th>note</th></tr></thead><tbody>\n",
-    );
-    for row in rows {
-        write_row(page, row, among);
-    }
-    page.push_str("</tbody></table>\n");
 }
 
-fn write_row(page: &mut String, row: &Row, among: Among) {
-    page.push_str("<tr>");
-    if among == Among::All {
-        let id = escape(row.artefact);
-        let name = super::name(row.artefact);
-        push(
-            page,
-            format_args!(
-                "<td data-label=\"where\" class=\"where\"><a href=\"#{id}\">{name}</a></td>"
-            ),
-        );
+fn line(row: &Row, among: Among) -> Markup {
+    let (by_class, by) = row
+        .origin
+        .map_or(("none", "–"), |origin| ("by", origin.name()));
+    let unit_class = if row.unit.is_empty() { "none" } else { "unit" };
+    html! {
+        tr {
+            @if among == Among::All {
+                td data-label="where" class="where" {
+                    a href={ "#" (row.artefact) } { (super::name(row.artefact)) }
+                }
+            }
+            td class="path" { code { (breakable(&row.quantity)) } }
+            (number("expected", row.paper))
+            td data-label="by" class=(by_class) { (by) }
+            (number("ours", Some(row.ours)))
+            (number("difference", row.paper.map(|paper| row.ours - paper)))
+            (number("tolerance", row.tolerance))
+            td data-label="unit" class=(unit_class) { (row.unit) }
+            td data-label="verdict" class=(class(row.pass)) { (word(row.pass)) }
+            td class="note" { (row.note) }
+        }
     }
-    push(
-        page,
-        format_args!(
-            "<td class=\"path\"><code>{}</code></td>",
-            breakable(&row.quantity)
-        ),
-    );
-    number(page, "expected", row.paper);
-    origin(page, row.origin);
-    let numbers = [
-        ("ours", Some(row.ours)),
-        ("difference", row.paper.map(|paper| row.ours - paper)),
-        ("tolerance", row.tolerance),
-    ];
-    for (label, value) in numbers {
-        number(page, label, value);
-    }
-    push(
-        page,
-        format_args!(
-            "<td data-label=\"unit\" class=\"{}\">{}</td>\
-             <td data-label=\"verdict\" class=\"{}\">{}</td><td class=\"note\">{}</td></tr>\n",
-            if row.unit.is_empty() { "none" } else { "unit" },
-            escape(row.unit),
-            class(row.pass),
-            word(row.pass),
-            escape(&row.note),
-        ),
-    );
 }
 
 /// A name that may be broken between its parts.
-fn breakable(path: &str) -> String {
-    let text = escape(path);
-    text.replace('/', "/<wbr>").replace('_', "_<wbr>")
+///
+/// ```
+/// let name = actin_draw::page::breakable("b3/over").into_string();
+/// assert_eq!(name, "b3/<wbr>over");
+/// ```
+pub fn breakable(path: &str) -> Markup {
+    html! {
+        @for part in path.split_inclusive(['/', '_']) {
+            (part)
+            @if part.ends_with(['/', '_']) { wbr; }
+        }
+    }
 }
 
-fn number(page: &mut String, label: &str, value: Option<f64>) {
+fn number(label: &str, value: Option<f64>) -> Markup {
     let (class, text) = value.map_or(("n none", "–".to_owned()), |v| ("n", significant(v)));
-    push(
-        page,
-        format_args!("<td data-label=\"{label}\" class=\"{class}\">{text}</td>"),
-    );
-}
-
-/// Who expects the number, or sets the bound.
-fn origin(page: &mut String, origin: Option<Origin>) {
-    let (class, text) = origin.map_or(("none", "–"), |origin| ("by", origin.name()));
-    push(
-        page,
-        format_args!("<td data-label=\"by\" class=\"{class}\">{text}</td>"),
-    );
+    html! {
+        td data-label=(label) class=(class) { (text) }
+    }
 }
 
 fn class(verdict: Option<bool>) -> &'static str {
@@ -282,8 +263,7 @@ mod tests {
             open: rows[40..].iter().collect(),
             ..Misses::default()
         };
-        let mut page = String::new();
-        write(&mut page, &rows, &misses);
+        let page = numbers(&rows, &misses).into_string();
         let place = |text: &str| page.find(text).unwrap();
         assert!(place("Missed: 20") < place("Agree: 40"));
         assert!(page.contains("<details open><summary class=\"miss\">Missed"));

@@ -1,48 +1,48 @@
-//! What stands and what does not, in three sentences put together from the verdicts of the run.
+//! What the run confirms of the paper and what it does not, in three sentences put together from the verdicts.
 
 use super::reasons::{self, Cause};
-use actin_draw::page::{escape, push};
 use actin_draw::report::{Artefact, Row};
+use maud::{Markup, html};
 
-/// A statement of the paper that rests on some rows of one artefact.
+/// A statement of the paper that some rows of one artefact decide.
 struct Finding {
     artefact: &'static str,
-    /// It stands if all of these agree, and does not if one of them is missed.
+    /// It is confirmed if all of these agree, and not if one of them is missed.
     quantities: &'static [&'static str],
     /// A statement that can be read alone.
-    stands: &'static str,
+    confirmed: &'static str,
     /// The same statement after `that`.
-    fails: &'static str,
+    refuted: &'static str,
 }
 
 const FINDINGS: [Finding; 16] = [
     Finding {
         artefact: "table4",
         quantities: &["b1", "b3_min", "b3_max"],
-        stands: "with the choices named below monomers have the rigidities of Table 4 in bending (at 0.01 \
+        confirmed: "with the choices named below monomers have the rigidities of Table 4 in bending (at 0.01 \
                  rad/nm) and in twist (the largest of each direction)",
-        fails: "that monomers have the rigidities of Table 4 in bending (at 0.01 rad/nm) and in twist (the \
+        refuted: "that monomers have the rigidities of Table 4 in bending (at 0.01 rad/nm) and in twist (the \
                 largest of each direction)",
     },
     Finding {
         artefact: "table4",
         quantities: &["s3"],
-        stands: "monomers have the stretching rigidity of Table 4 (at 100 pN)",
-        fails: "that monomers have the stretching rigidity of Table 4 (at 100 pN) to the digits printed",
+        confirmed: "monomers have the stretching rigidity of Table 4 (at 100 pN)",
+        refuted: "that monomers have the stretching rigidity of Table 4 (at 100 pN) to the digits printed",
     },
     Finding {
         artefact: "table3",
         quantities: &["b3_rms", "claim/under_twist_easier"],
-        stands: "monomers resist over-twist more than under-twist, and from 40 to 200 deg by what Table 3 \
+        confirmed: "monomers resist over-twist more than under-twist, and from 40 to 200 deg by what Table 3 \
                  says",
-        fails: "that monomers resist over-twist more than under-twist, and from 40 to 200 deg by what \
+        refuted: "that monomers resist over-twist more than under-twist, and from 40 to 200 deg by what \
                 Table 3 says",
     },
     Finding {
         artefact: "fig4",
         quantities: &["claim/tips_overlap"],
-        stands: "tips of mixed cantilevers of every resolution lie within 1.8 nm (Figure 4)",
-        fails: "that tips of mixed cantilevers of every resolution lie within 1.8 nm (Figure 4)",
+        confirmed: "tips of mixed cantilevers of every resolution lie within 1.8 nm (Figure 4)",
+        refuted: "that tips of mixed cantilevers of every resolution lie within 1.8 nm (Figure 4)",
     },
     Finding {
         artefact: "fig4",
@@ -51,32 +51,32 @@ const FINDINGS: [Finding; 16] = [
             "claim/decay_spread",
             "claim/theory",
         ],
-        stands: "cantilevers of every resolution swing alike, and bend as theory has it (Figure 4)",
-        fails: "that cantilevers of every resolution swing alike, and bend as theory has it (Figure 4)",
+        confirmed: "cantilevers of every resolution swing alike, and bend as theory has it (Figure 4)",
+        refuted: "that cantilevers of every resolution swing alike, and bend as theory has it (Figure 4)",
     },
     Finding {
         artefact: "fig5",
         quantities: &["claim/node_spread", "claim/energies_close"],
-        stands: "on linkers in a plane filaments of all resolutions take one shape (Figure 5)",
-        fails: "that on linkers in a plane filaments of all resolutions take one shape (Figure 5)",
+        confirmed: "on linkers in a plane filaments of all resolutions take one shape (Figure 5)",
+        refuted: "that on linkers in a plane filaments of all resolutions take one shape (Figure 5)",
     },
     Finding {
         artefact: "fig6",
         quantities: &["claim/node_spread", "claim/node_spread_over_fig5"],
-        stands: "on linkers all round shapes differ more than in a plane, but little (Figure 6)",
-        fails: "that on linkers all round shapes differ more than in a plane, but little (Figure 6)",
+        confirmed: "on linkers all round shapes differ more than in a plane, but little (Figure 6)",
+        refuted: "that on linkers all round shapes differ more than in a plane, but little (Figure 6)",
     },
     Finding {
         artefact: "fig7",
         quantities: &["half_energy_ratio/ellipsoid"],
-        stands: "monomers store some 10 % more energy in over-twist than in under-twist (Figure 7)",
-        fails: "that monomers store some 10 % more energy in over-twist than in under-twist (Figure 7)",
+        confirmed: "monomers store some 10 % more energy in over-twist than in under-twist (Figure 7)",
+        refuted: "that monomers store some 10 % more energy in over-twist than in under-twist (Figure 7)",
     },
     Finding {
         artefact: "fig8",
         quantities: &["claim/height_grows_with_rod/over/180"],
-        stands: "over-twisted filaments buckle higher the longer their rod is (Figure 8)",
-        fails: "that over-twisted filaments buckle higher the longer their rod is (Figure 8)",
+        confirmed: "over-twisted filaments buckle higher the longer their rod is (Figure 8)",
+        refuted: "that over-twisted filaments buckle higher the longer their rod is (Figure 8)",
     },
     Finding {
         artefact: "fig10",
@@ -87,55 +87,55 @@ const FINDINGS: [Finding; 16] = [
             "claim/couple_improves/under/270",
             "claim/height_improves/over/180",
         ],
-        stands: "a rod whose rigidity and length follow its twist brings the couples of all resolutions \
+        confirmed: "a rod whose rigidity and length follow its twist brings the couples of all resolutions \
                  together at 180 and 270 deg, and the heights at 180 deg of over-twist (Figure 10)",
-        fails: "that a rod whose rigidity and length follow its twist brings the couples of all \
+        refuted: "that a rod whose rigidity and length follow its twist brings the couples of all \
                 resolutions together at 180 and 270 deg, and the heights at 180 deg of over-twist (Figure \
                 10)",
     },
     Finding {
         artefact: "fig4",
         quantities: &["claim/printed_deflection"],
-        stands: "the deflection that is printed with Figure 4 follows from the numbers beside it",
-        fails: "that a cantilever bends by the 10 nm that are printed with Figure 4, which contradict \
+        confirmed: "the deflection that is printed with Figure 4 follows from the numbers beside it",
+        refuted: "that a cantilever bends by the 10 nm that are printed with Figure 4, which contradict \
                 Table 4",
     },
     Finding {
         artefact: "table4",
         quantities: &["s1"],
-        stands: "monomers have the shearing rigidity of Table 4",
-        fails: "that monomers have the shearing rigidity of Table 4: at rest there is none",
+        confirmed: "monomers have the shearing rigidity of Table 4",
+        refuted: "that monomers have the shearing rigidity of Table 4: at rest there is none",
     },
     Finding {
         artefact: "fig8",
         quantities: &["claim/height_grows_with_rod/under/180"],
-        stands: "under-twisted filaments buckle higher the longer their rod is (Figure 8)",
-        fails: "that under-twisted filaments buckle higher the longer their rod is (Figure 8)",
+        confirmed: "under-twisted filaments buckle higher the longer their rod is (Figure 8)",
+        refuted: "that under-twisted filaments buckle higher the longer their rod is (Figure 8)",
     },
     Finding {
         artefact: "table5",
         quantities: &["dl_over_l_rms"],
-        stands: "from 40 to 200 deg twist changes the length of monomers by what Table 5 says",
-        fails: "that from 40 to 200 deg twist changes the length of monomers by as much as Table 5 says",
+        confirmed: "from 40 to 200 deg twist changes the length of monomers by what Table 5 says",
+        refuted: "that from 40 to 200 deg twist changes the length of monomers by as much as Table 5 says",
     },
     Finding {
         artefact: "fig10",
         quantities: &["claim/height_improves/under/270"],
-        stands: "a rod whose rigidity and length follow its twist brings the heights of all resolutions \
+        confirmed: "a rod whose rigidity and length follow its twist brings the heights of all resolutions \
                  together at 270 deg of under-twist (Figure 10)",
-        fails: "that a rod whose rigidity and length follow its twist brings the heights of all \
+        refuted: "that a rod whose rigidity and length follow its twist brings the heights of all \
                 resolutions together at 270 deg of under-twist (Figure 10)",
     },
     Finding {
         artefact: "table2",
         quantities: &["area/least", "area/most"],
-        stands: "the cross-sections of Table 2 follow from its diameters",
-        fails: "that the cross-sections of Table 2 follow from its diameters",
+        confirmed: "the cross-sections of Table 2 follow from its diameters",
+        refuted: "that the cross-sections of Table 2 follow from its diameters",
     },
 ];
 
 impl Finding {
-    /// Whether it stands; nothing if the run has not all of its rows.
+    /// Whether it is confirmed; nothing if the run has not all of its rows.
     fn verdict(&self, artefacts: &[Artefact]) -> Option<bool> {
         let artefact = artefacts.iter().find(|a| a.id == self.artefact)?;
         let verdict = |name: &&str| {
@@ -147,32 +147,31 @@ impl Finding {
     }
 }
 
-/// Writes the sentences.
-pub(super) fn write(page: &mut String, artefacts: &[Artefact]) {
+/// The sentences; nothing of what was not computed.
+pub(super) fn html(artefacts: &[Artefact]) -> Markup {
+    let sentences = sentences(artefacts);
+    html! {
+        @for (title, class, text) in sentences.iter().filter(|(.., text)| !text.is_empty()) {
+            p class="lead" { span class=(class) { (title) ":" } " " (text) "." }
+        }
+    }
+}
+
+/// Title, class and text of each sentence.
+fn sentences(artefacts: &[Artefact]) -> [(&'static str, &'static str, String); 3] {
     let verdicts = FINDINGS.iter().map(|f| (f, f.verdict(artefacts)));
     let of = |wanted: bool| {
         let chosen = verdicts.clone().filter(move |(_, v)| *v == Some(wanted));
-        let words = chosen.map(|(f, _)| if wanted { f.stands } else { f.fails });
+        let words = chosen.map(|(f, _)| if wanted { f.confirmed } else { f.refuted });
         words.collect::<Vec<_>>().join("; ")
     };
     let rows = artefacts.iter().flat_map(|a| &a.rows);
     let missed: Vec<&Row> = rows.filter(|row| row.pass == Some(false)).collect();
-    let sentences = [
-        ("What stands", "pass", of(true)),
-        ("What does not stand", "miss", of(false)),
+    [
+        ("Confirmed", "pass", of(true)),
+        ("Not confirmed", "miss", of(false)),
         ("Why", "open", causes(&missed)),
-    ];
-    for (title, class, text) in sentences {
-        if !text.is_empty() {
-            push(
-                page,
-                format_args!(
-                    "<p class=\"lead\"><span class=\"{class}\">{title}:</span> {}.</p>\n",
-                    escape(&text)
-                ),
-            );
-        }
-    }
+    ]
 }
 
 /// How many misses have which cause, in words; nothing if there are none.
@@ -229,16 +228,14 @@ mod tests {
     fn statements_follow_the_verdicts() {
         let mut artefacts = committed();
         for finding in &FINDINGS {
-            assert!(finding.verdict(&artefacts).is_some(), "{}", finding.stands);
+            assert!(
+                finding.verdict(&artefacts).is_some(),
+                "{}",
+                finding.confirmed
+            );
         }
-        let sentences = |artefacts: &[Artefact]| {
-            let mut page = String::new();
-            write(&mut page, artefacts);
-            let lines: Vec<String> = page.lines().map(str::to_owned).collect();
-            lines
-        };
+        let sentences = |artefacts: &[Artefact]| sentences(artefacts).map(|(.., text)| text);
         let before = sentences(&artefacts);
-        assert_eq!(before.len(), 3);
         assert!(before[0].contains("take one shape") && !before[1].contains("take one shape"));
         let fig5 = artefacts.iter_mut().find(|a| a.id == "fig5").unwrap();
         let row = fig5.rows.iter_mut();
@@ -263,16 +260,13 @@ mod tests {
             own.rows
                 .retain(|row| finding.quantities.contains(&row.quantity.as_str()));
             for (pass, title, text) in [
-                (true, "What stands:</span> ", finding.stands),
-                (false, "What does not stand:</span> that ", finding.fails),
+                (true, "Confirmed:</span> ", finding.confirmed),
+                (false, "Not confirmed:</span> that ", finding.refuted),
             ] {
                 own.rows.iter_mut().for_each(|row| row.pass = Some(pass));
-                let mut page = String::new();
-                write(&mut page, std::slice::from_ref(&own));
-                assert!(
-                    page.contains(title) && page.contains(&escape(text)),
-                    "{page}"
-                );
+                let page = html(std::slice::from_ref(&own)).into_string();
+                let shown = html! { (text) }.into_string();
+                assert!(page.contains(title) && page.contains(&shown), "{page}");
                 let words: Vec<&str> = text.split([' ', ',', ';']).collect();
                 for leaning in ["they", "them", "too", "so", "also", "ones", "other"] {
                     assert!(!words.contains(&leaning), "{leaning}: {text}");
@@ -308,8 +302,6 @@ mod tests {
 
     #[test]
     fn what_a_run_has_not_computed_is_not_spoken_of() {
-        let mut page = String::new();
-        write(&mut page, &[]);
-        assert_eq!(page, "");
+        assert_eq!(html(&[]).into_string(), "");
     }
 }

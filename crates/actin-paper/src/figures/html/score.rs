@@ -2,8 +2,9 @@
 //! from: first what the paper prints, table by table, then what it says, then the rest.
 
 use crate::figures::bounds::RULE;
-use actin_draw::page::{Verdicts, escape, name, push};
+use actin_draw::page::{Verdicts, breakable, name};
 use actin_draw::report::{Artefact, Origin, Row};
+use maud::{Markup, html};
 
 /// Where expected numbers come from, and what the page says of it.
 const GROUPS: [(Origin, &str); 6] = [
@@ -27,39 +28,45 @@ const GROUPS: [(Origin, &str); 6] = [
     ),
 ];
 
-/// Writes the rule and the counts.
-pub(super) fn write(page: &mut String, artefacts: &[Artefact]) {
-    let mut lines = String::new();
-    for (origin, title) in GROUPS {
-        group(&mut lines, artefacts, origin, title);
+/// The rule and the counts; nothing if nothing is judged.
+pub(super) fn html(artefacts: &[Artefact]) -> Markup {
+    let groups = GROUPS.map(|(origin, title)| group(artefacts, origin, title));
+    if groups.iter().all(|group| group.0.is_empty()) {
+        return Markup::default();
     }
-    if lines.is_empty() {
-        return;
+    html! {
+        h2 { "What agrees" }
+        p {
+            "One rule decides in all figures and tables. A printed number is met within half a unit of \
+             its last digit and, where bonds are drawn, twice the standard deviation of a single \
+             filament; shapes called alike within 1.8 nm, the radius of the helix; numbers called alike \
+             within 10 %, which the paper calls a difference itself; an order by its sign."
+        }
+        details {
+            summary { "The rule in full, and what is not judged" }
+            dl {
+                @for (of, bound) in RULE {
+                    dt { (of) } dd { (bound) "." }
+                }
+            }
+            p class="soft" {
+                "Not judged, and not counted: numbers copied from the paper, variants of its models, \
+                 what cannot come out otherwise, and twist of 360 deg."
+            }
+        }
+        table class="verdicts" {
+            thead {
+                tr {
+                    th { "expected" } th class="n" { "met" } th class="n" { "of" } th { "not met" }
+                }
+            }
+            tbody { @for group in groups { (group) } }
+        }
     }
-    page.push_str(
-        "<h2>What agrees</h2>\n<p>One rule decides in all figures and tables. A printed number is met \
-         within half a unit of its last digit and, where bonds are drawn, twice the standard deviation of a \
-         single filament; shapes called alike within 1.8 nm, the radius of the helix; numbers called alike \
-         within 10 %, which the paper calls a difference itself; an order by its sign.</p>\n\
-         <details><summary>The rule in full, and what is not judged</summary><dl>",
-    );
-    for (of, bound) in RULE {
-        let (of, bound) = (escape(of), escape(bound));
-        push(page, format_args!("<dt>{of}</dt><dd>{bound}.</dd>"));
-    }
-    push(
-        page,
-        format_args!(
-            "</dl><p class=\"soft\">Not judged, and not counted: numbers copied from the paper, variants of its \
-             models, what cannot come out otherwise, and twist of 360 deg.</p></details>\n\
-             <table class=\"verdicts\"><thead><tr><th>expected</th><th class=\"n\">met</th>\
-             <th class=\"n\">of</th><th>not met</th></tr></thead><tbody>\n{lines}</tbody></table>\n"
-        ),
-    );
 }
 
 /// One line for all artefacts and, of what the paper says, one for each.
-fn group(page: &mut String, artefacts: &[Artefact], origin: Origin, title: &str) {
+fn group(artefacts: &[Artefact], origin: Origin, title: &str) -> Markup {
     let judged = |a: &Artefact| -> Vec<Row> {
         let rows = a.rows.iter().filter(|row| row.origin == Some(origin));
         rows.filter(|row| row.pass.is_some()).cloned().collect()
@@ -71,46 +78,37 @@ fn group(page: &mut String, artefacts: &[Artefact], origin: Origin, title: &str)
         .collect();
     let all: Vec<Row> = each.iter().flat_map(|(_, rows)| rows.clone()).collect();
     if all.is_empty() {
-        return;
+        return Markup::default();
     }
-    let title = format!("<strong>{}</strong>", escape(title));
     let is_told = matches!(origin, Origin::Paper | Origin::Derived | Origin::Words);
-    line(page, &title, &all, !is_told);
-    for (id, rows) in each.iter().filter(|_| is_told) {
-        line(
-            page,
-            &format!("<a href=\"#{id}\">{}</a>", name(id)),
-            rows,
-            true,
-        );
+    html! {
+        (line(&html! { strong { (title) } }, &all, !is_told))
+        @if is_told {
+            @for (id, rows) in &each {
+                (line(&html! { a href={ "#" (id) } { (name(id)) } }, rows, true))
+            }
+        }
     }
 }
 
-fn line(page: &mut String, title: &str, rows: &[Row], with_misses: bool) {
+fn line(title: &Markup, rows: &[Row], with_misses: bool) -> Markup {
     let verdicts = Verdicts::of(rows);
-    let missed = rows.iter().filter(|row| row.pass == Some(false));
-    let missed: Vec<String> = missed
-        .map(|row| {
-            format!(
-                "<code>{}</code>",
-                escape(&row.quantity).replace('/', "/<wbr>")
-            )
-        })
-        .collect();
-    push(
-        page,
-        format_args!(
-            "<tr><td class=\"wide\">{title}</td><td class=\"n pass\" data-label=\"met\">{}</td>\
-             <td class=\"n\" data-label=\"of\">{}</td><td class=\"wide\">{}</td></tr>\n",
-            verdicts.agree,
-            verdicts.compared(),
-            if with_misses {
-                missed.join(", ")
-            } else {
-                String::new()
+    let missed = rows
+        .iter()
+        .filter(|row| with_misses && row.pass == Some(false));
+    html! {
+        tr {
+            td class="wide" { (title) }
+            td class="n pass" data-label="met" { (verdicts.agree) }
+            td class="n" data-label="of" { (verdicts.compared()) }
+            td class="wide" {
+                @for (i, row) in missed.enumerate() {
+                    @if i > 0 { ", " }
+                    code { (breakable(&row.quantity)) }
+                }
             }
-        ),
-    );
+        }
+    }
 }
 
 #[cfg(test)]
@@ -135,15 +133,12 @@ mod tests {
             views: Vec::new(),
             wall_s: 0.0,
         };
-        let mut page = String::new();
-        write(&mut page, &[artefact]);
+        let page = html(&[artefact]).into_string();
         let place = |text: &str| page.find(text).unwrap();
         assert!(place("the paper prints, beside simulated") < place("Table 3</a>"));
         assert!(place("Table 3</a>") < place("Theory"));
         assert!(page.contains("data-label=\"met\">1</td><td class=\"n\" data-label=\"of\">2</td>"));
         assert!(page.contains("b3/<wbr>over/<wbr>20") && !page.contains("220"));
-        let mut none = String::new();
-        write(&mut none, &[]);
-        assert_eq!(none, "");
+        assert_eq!(html(&[]).into_string(), "");
     }
 }

@@ -3,156 +3,176 @@
 
 use super::{TITLE, findings, reasons, score};
 use crate::palette;
-use actin_draw::page::{Page, Verdicts, escape, name, push, write_misses};
+use actin_draw::page::{Page, Verdicts, missed, name};
 use actin_draw::report::Artefact;
+use maud::{Markup, html};
 
-/// Title, counts, misses, and how to read the page, as HTML.
+/// Title, counts, misses, and how to read the page.
 pub(super) fn html(
     page: &mut Page<'_>,
     artefacts: &[Artefact],
     quick: bool,
     version: &str,
-) -> String {
+) -> Markup {
     let stops = palette::chosen().ramp().stops().iter();
     let stops: Vec<String> = stops.map(|&stop| page.colour(stop)).collect();
-    let mut html = String::new();
-    write(&mut html, &stops, artefacts, quick, version);
-    html
+    html! {
+        h1 id="summary" { (TITLE) }
+        p class="soft" {
+            "Gunaratne, Floyd, Ni, Papoian and Erban, arXiv 2203.01284. Version " (version) "."
+        }
+        @if quick {
+            p class="quick" {
+                "This was a quick run: fewer resolutions and samplings, equilibria more often than \
+                 motions. The full run leaves " code { "--quick" } " out; the reasons given for what \
+                 was missed, and the numbers in them, are those of the full run."
+            }
+        }
+        (score::html(artefacts))
+        (findings::html(artefacts))
+        (judged(artefacts))
+        (choices())
+        (counts(artefacts))
+        (reading(&stops))
+        (misses(artefacts))
+    }
 }
 
-fn write(page: &mut String, stops: &[String], artefacts: &[Artefact], quick: bool, version: &str) {
+fn judged(artefacts: &[Artefact]) -> Markup {
     let all: Verdicts = artefacts.iter().map(|a| Verdicts::of(&a.rows)).sum();
-    push(
-        page,
-        format_args!(
-            "<h1 id=\"summary\">{TITLE}</h1>\n<p class=\"soft\">Gunaratne, Floyd, Ni, Papoian and \
-             Erban, arXiv 2203.01284. Version {}.</p>\n",
-            escape(version)
-        ),
-    );
-    if quick {
-        page.push_str(
-            "<p class=\"quick\">This was a quick run: fewer resolutions and samplings, equilibria \
-             more often than motions. The full run leaves <code>--quick</code> out; the reasons given for \
-             what was missed, and the numbers in them, speak of it.</p>\n",
-        );
+    html! {
+        p {
+            (all.compared()) " numbers are judged: "
+            span class="pass" { (all.agree) " agree" } " within their tolerance; "
+            span class="miss" { (all.missed) " do not" } ". " (all.measured)
+            " more were measured and are not judged. All numbers and pictures come from simulations of \
+             the run that wrote this page. Nothing was fitted in it, but for the laws of Figure 9 and \
+             the rows named fitted; the choices that follow were made beforehand to meet Tables 3, 4 \
+             and 5."
+        }
     }
-    score::write(page, artefacts);
-    findings::write(page, artefacts);
-    push(
-        page,
-        format_args!(
-            "<p>{} numbers are judged: <span class=\"pass\">{} agree</span> within their \
-             tolerance; <span class=\"miss\">{} do not</span>. {} more were measured and are not judged. All numbers and pictures come \
-             from simulations of the run that wrote this page. Nothing was fitted in it, but for the \
-             laws of Figure 9 and the rows named fitted; the choices that follow were made \
-             beforehand to meet Tables 3, 4 and 5.</p>\n",
-            all.compared(),
-            all.agree,
-            all.missed,
-            all.measured
-        ),
-    );
-    page.push_str(CHOICES);
-    counts(page, artefacts);
-    reading(page, stops);
-    misses(page, artefacts);
 }
 
 /// What the paper leaves open and Tables 3 and 4 decided. A reader has to know, since agreement with
 /// these tables is then no proof of those choices.
-const CHOICES: &str = "<p><strong>Choices.</strong> The paper does not say clearly how far from the axis \
-    the centres of monomers lie, how monomers are turned, nor how many bonds join two of them. These \
-    values were chosen because an earlier calculation with them reproduced Tables 3 and 4 best, and are \
-    used for everything here: 1.8 nm, which Table 1 calls an effective interaction radius; the shortest of \
-    the three axes points away from the filament; 64 bonds, drawn anew for every two monomers, none shorter \
-    than 0.20 nm, which was chosen on Tables 3 to 5 themselves. The published rigidities of bonds \
-    are multiplied by 1.4, with which the paper itself meets a persistence length (Appendix B). So these \
-    tables test the choices and the rest of the model together. A further choice departs from the paper's text: the two \
-    bonds between monomers and rod count one half each, since with one each the joint is a stiff spot; \
-    Figure 4 shows both.</p>\n";
-
-fn counts(page: &mut String, artefacts: &[Artefact]) {
-    page.push_str(
-        "<h2>Verdicts</h2>\n<table class=\"verdicts\"><thead><tr><th>figure or table</th><th class=\"n\">agree</th>\
-         <th class=\"n\">missed</th><th class=\"n\">measured only</th>\
-         <th class=\"n\">time (s)</th><th></th></tr></thead><tbody>\n",
-    );
-    for artefact in artefacts {
-        let verdicts = Verdicts::of(&artefact.rows);
-        push(
-            page,
-            format_args!(
-                "<tr><td class=\"wide\"><a href=\"#{id}\">{}</a>: {}</td>\
-                 <td class=\"n {}\" data-label=\"agree\">{}</td>\
-                 <td class=\"n {}\" data-label=\"missed\">{}</td>\
-                 <td class=\"n\" data-label=\"measured only\">{}</td>\
-                 <td class=\"n\" data-label=\"time (s)\">{:.1}</td><td class=\"wide\">{}</td></tr>\n",
-                name(artefact.id),
-                escape(artefact.title),
-                if verdicts.agree > 0 { "pass" } else { "open" },
-                verdicts.agree,
-                if verdicts.missed > 0 { "miss" } else { "open" },
-                verdicts.missed,
-                verdicts.measured,
-                artefact.wall_s,
-                bar(verdicts),
-                id = artefact.id,
-            ),
-        );
+fn choices() -> Markup {
+    html! {
+        p {
+            strong { "Choices." }
+            " The paper does not say clearly how far from the axis the centres of monomers lie, how \
+             monomers are turned, nor how many bonds join two of them. These values were chosen because \
+             an earlier calculation with them reproduced Tables 3 and 4 best, and are used for \
+             everything here: 1.8 nm, which Table 1 calls an effective interaction radius; the shortest \
+             of the three axes points away from the filament; 64 bonds, drawn anew for every two \
+             monomers, none shorter than 0.20 nm, which was chosen on Tables 3 to 5 themselves. The \
+             published rigidities of bonds are multiplied by 1.4, with which the paper itself meets a \
+             persistence length (Appendix B). So these tables test the choices and the rest of the model \
+             together. A further choice departs from the paper's text: the two bonds between monomers \
+             and rod count one half each, since with one each the joint is too stiff; Figure 4 shows \
+             both."
+        }
     }
-    page.push_str("</tbody></table>\n");
+}
+
+fn counts(artefacts: &[Artefact]) -> Markup {
+    html! {
+        h2 { "Verdicts" }
+        table class="verdicts" {
+            thead {
+                tr {
+                    th { "figure or table" } th class="n" { "agree" } th class="n" { "missed" }
+                    th class="n" { "measured only" } th class="n" { "time (s)" } th {}
+                }
+            }
+            tbody { @for artefact in artefacts { (count(artefact)) } }
+        }
+    }
+}
+
+fn count(artefact: &Artefact) -> Markup {
+    let verdicts = Verdicts::of(&artefact.rows);
+    let class = |count: usize, class| if count > 0 { class } else { "open" };
+    html! {
+        tr {
+            td class="wide" {
+                a href={ "#" (artefact.id) } { (name(artefact.id)) } ": " (artefact.title)
+            }
+            td class={ "n " (class(verdicts.agree, "pass")) } data-label="agree" {
+                (verdicts.agree)
+            }
+            td class={ "n " (class(verdicts.missed, "miss")) } data-label="missed" {
+                (verdicts.missed)
+            }
+            td class="n" data-label="measured only" { (verdicts.measured) }
+            td class="n" data-label="time (s)" { (format!("{:.1}", artefact.wall_s)) }
+            td class="wide" { (bar(verdicts)) }
+        }
+    }
 }
 
 /// Shares of what agrees and what does not; nothing where nothing is compared.
-fn bar(verdicts: Verdicts) -> String {
+fn bar(verdicts: Verdicts) -> Markup {
     if verdicts.compared() == 0 {
-        return String::new();
+        return Markup::default();
     }
-    let share = |count: usize| 100.0 * count as f64 / verdicts.compared() as f64;
-    format!(
-        "<div class=\"bar\" role=\"img\" aria-label=\"{} of {} agree\"><div class=\"good\" \
-         style=\"width:{:.1}%\"></div><div class=\"bad\" style=\"width:{:.1}%\"></div></div>",
-        verdicts.agree,
-        verdicts.compared(),
-        share(verdicts.agree),
-        share(verdicts.missed),
-    )
+    let width = |count: usize| {
+        let share = 100.0 * count as f64 / verdicts.compared() as f64;
+        format!("width:{share:.1}%")
+    };
+    let label = format!("{} of {} agree", verdicts.agree, verdicts.compared());
+    html! {
+        div class="bar" role="img" aria-label=(label) {
+            div class="good" style=(width(verdicts.agree)) {}
+            div class="bad" style=(width(verdicts.missed)) {}
+        }
+    }
 }
 
-fn misses(page: &mut String, artefacts: &[Artefact]) {
-    let misses = reasons::misses(artefacts.iter().flat_map(|a| &a.rows));
-    page.push_str("<h2>What was missed, and why</h2>\n");
-    if artefacts.iter().all(|a| Verdicts::of(&a.rows).missed == 0) {
-        page.push_str("<p>Nothing that was compared.</p>\n");
-        return;
+fn misses(artefacts: &[Artefact]) -> Markup {
+    let none = artefacts.iter().all(|a| Verdicts::of(&a.rows).missed == 0);
+    html! {
+        h2 { "What was missed, and why" }
+        @if none {
+            p { "Nothing that was compared." }
+        } @else {
+            p {
+                "Every comparison that failed, under its reason. The reasons, and the numbers in them, \
+                 are those of the full run of this version. The note of a row says how its number came \
+                 about; the " a href="#errata" { "errata" }
+                " say where the paper is open or contradicts itself."
+            }
+            (missed(&reasons::misses(artefacts.iter().flat_map(|a| &a.rows))))
+        }
     }
-    page.push_str(
-        "<p>Every comparison that failed, under its reason. The reasons, and the numbers in them, speak \
-         of the full run of this version. The note of a row says how its number came about; the <a href=\"#errata\">errata</a> say where the paper is open or contradicts \
-         itself.</p>\n",
-    );
-    write_misses(page, &misses);
 }
 
-fn reading(page: &mut String, stops: &[String]) {
-    push(
-        page,
-        format_args!(
-            "<h2>How to read this page</h2>\n<p>A row agrees if ours differs from the expected number \
-             by no more than the tolerance; where no number is expected, the tolerance is the bound \
-             itself, and the note says on which side of it to be. Who expects the number or sets the \
-             bound stands under <em>by</em>. Units are nm, pN, ns and rad; a row without one is a ratio or a count. \
-             On a narrow screen wide pictures are scrolled sideways. Colour is resolution, the share \
-             of the filament that is rod:</p>\n<div class=\"ramp\" \
-             style=\"background:linear-gradient(to right,{})\"></div><div class=\"ends\"><span>all \
-             monomers</span><span>all rod</span></div>\n<details><summary>What the names of quantities \
-             mean</summary><dl>{}</dl></details>\n<p class=\"soft\">Another set of colours: \
-             <code>--palette paper</code> or <code>--palette colour-blind</code>.</p>\n",
-            stops.join(","),
-            words(&NAMES)
-        ),
-    );
+fn reading(stops: &[String]) -> Markup {
+    let ramp = format!("background:linear-gradient(to right,{})", stops.join(","));
+    html! {
+        h2 { "How to read this page" }
+        p {
+            "A row agrees if ours differs from the expected number by no more than the tolerance; where \
+             no number is expected, the tolerance is the bound itself, and the note says on which side \
+             of it to be. Who expects the number or sets the bound stands under " em { "by" }
+            ". Units are nm, pN, ns and rad; a row without one is a ratio or a count. On a narrow screen \
+             wide pictures are scrolled sideways. Colour is resolution, the share of the filament that \
+             is rod:"
+        }
+        div class="ramp" style=(ramp) {}
+        div class="ends" { span { "all monomers" } span { "all rod" } }
+        details {
+            summary { "What the names of quantities mean" }
+            dl {
+                @for (name, meaning) in NAMES {
+                    dt { code { (name) } } dd { (meaning) }
+                }
+            }
+        }
+        p class="soft" {
+            "Another set of colours: " code { "--palette paper" } " or "
+            code { "--palette colour-blind" } "."
+        }
+    }
 }
 
 /// Parts of the names of quantities, and what they stand for.
@@ -228,15 +248,3 @@ const NAMES: [(&str, &str); 21] = [
         "a statement of the paper in words, as a measured quantity",
     ),
 ];
-
-fn words(entries: &[(&str, &str)]) -> String {
-    let mut text = String::new();
-    for (name, meaning) in entries {
-        let (name, meaning) = (escape(name), escape(meaning));
-        push(
-            &mut text,
-            format_args!("<dt><code>{name}</code></dt><dd>{meaning}</dd>"),
-        );
-    }
-    text
-}
