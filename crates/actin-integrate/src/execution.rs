@@ -252,12 +252,13 @@ impl<'a, 'o> Execution<'a, 'o> {
         if reason != Reason::Interrupted {
             self.show_pause(|observer, end| observer.finish(end));
         }
+        let residual = self.system.residual();
         RunOutcome {
             reason,
             steps: self.step - self.run.first_step,
             time: self.run.time(self.step),
             force_evaluations: self.system.force_evaluations() - self.evaluations_before,
-            residual: self.system.residual(),
+            residual,
             kinetic: self.system.state().kinetic_energy(),
         }
     }
