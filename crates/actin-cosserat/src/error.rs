@@ -17,6 +17,7 @@ pub struct RodParameterError {
 
 /// Why a rod was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum RodError {
     /// A parameter is out of range.
     #[error(transparent)]

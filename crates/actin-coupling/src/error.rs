@@ -6,6 +6,7 @@ use thiserror::Error;
 
 /// Why a junction was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum JunctionError {
     /// A parameter is out of range.
     #[error(transparent)]
@@ -50,6 +51,7 @@ pub enum JunctionError {
 
 /// Why a linker or its site was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum LinkerError {
     /// A number that breaks the rule of its key.
     #[error("{key} = {value}: must be {rule}")]

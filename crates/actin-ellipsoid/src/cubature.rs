@@ -95,6 +95,7 @@ pub struct Cubature {
 
 /// Why there are no weighted bonds.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum CubatureError {
     /// No bond could be drawn.
     #[error("no bond is between {minimum_nm:?} and {maximum_nm:?} nm long")]

@@ -22,6 +22,7 @@ pub struct BodyOrder {
 
 /// What is wrong with a layout.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum LayoutError {
     /// A group names a body that the state does not have.
     #[error("group {group} has {body:?}, which the state does not have")]

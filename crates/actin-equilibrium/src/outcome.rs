@@ -49,6 +49,7 @@ impl Equilibrium {
 
 /// Why a solve failed.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SolveError {
     /// An interaction has no energy to be minimised.
     #[error("the interaction {0:?} has no potential, so there is no energy to minimise")]

@@ -42,6 +42,7 @@ pub struct PathEnd {
 
 /// Why a path ended before parameter 1.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum PathError {
     /// No equilibrium was found at the next parameter.
     #[error("{0}")]

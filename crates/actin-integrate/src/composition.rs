@@ -207,6 +207,7 @@ impl fmt::Display for Composition {
 
 /// Why a table was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum CompositionError {
     /// The number of entries is even, or less than three.
     #[error("a table has an odd number of at least 3 entries, got {0}")]

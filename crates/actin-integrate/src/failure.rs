@@ -23,6 +23,7 @@ impl fmt::Display for Body {
 
 /// What is wrong with a state.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum FailureKind {
     /// A position, velocity, orientation or angular momentum is not a finite number.
     #[error("the state is no longer finite")]

@@ -35,6 +35,7 @@ pub struct Run {
 
 /// A setting of a run that was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum RunSettingError {
     /// The time step is not positive and finite.
     #[error("the time step must be positive and finite, got {0} ns")]

@@ -45,6 +45,7 @@ pub fn stable_step(scheme: &Composition, frequency: f64, safety: f64) -> Result<
 
 /// Why no step could be given.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum StepError {
     /// The frequency is not positive and finite.
     #[error("the largest frequency must be positive and finite, got {0} rad/ns")]

@@ -27,6 +27,7 @@ impl Axis {
 
 /// Why moments of inertia were refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum InertiaError {
     /// A moment is not a positive finite number.
     #[error("moments of inertia must be positive and finite, got {0:?}")]

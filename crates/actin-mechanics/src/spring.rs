@@ -74,6 +74,7 @@ pub struct Spring {
 
 /// Why a spring was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SpringError {
     /// A number out of range.
     #[error("spring {spring}: {key} = {value}: must be {rule}")]

@@ -7,6 +7,7 @@ use actin_mechanics::{Matrix3, Vector3};
 /// A law of bending: couples about d1 and d2, and what bending does to the twist.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum BendLaw {
     /// Two rigidities, the same at every curvature (pN nm^2).
     Constant([f64; 2]),

@@ -6,6 +6,7 @@ use crate::{RodKey, RodParameterError};
 /// A law of twist, each with a secant rigidity `B3(k)`, couple `B3(k) k` and its integral.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum TwistLaw {
     /// One rigidity at every twist (pN nm^2).
     Constant(f64),

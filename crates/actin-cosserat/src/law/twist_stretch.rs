@@ -6,6 +6,7 @@ use crate::RodParameterError;
 /// A law of natural over rest length, `xi`, against the twist.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum TwistStretch {
     /// A polynomial, as published.
     Polynomial(PolynomialStretch),

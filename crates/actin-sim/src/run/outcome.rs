@@ -107,6 +107,7 @@ pub struct FailedRun {
 
 /// What went wrong in a run.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum Failure {
     /// The path of equilibria ended before its end.
     PathEnded {

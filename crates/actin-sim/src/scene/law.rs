@@ -38,6 +38,7 @@ pub struct RodLaws {
 /// A law of bending.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub enum BendLaw {
     /// Rigidity that rises with bending, twist and shear.
     Stiffening {
@@ -61,6 +62,7 @@ pub enum BendLaw {
 /// A law of twist.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub enum TwistLaw {
     /// Three tanh steps, as published.
     Tanh {
@@ -101,6 +103,7 @@ pub struct TwistRise {
 /// A law of stretch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub enum StretchLaw {
     /// One rigidity at every strain, in place of the material's.
     Constant {
