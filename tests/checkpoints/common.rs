@@ -172,7 +172,7 @@ pub(crate) fn advance(
     let assembly = build(scene);
     let plan = Plan::new(&assembly).unwrap();
     let mut checkpoints = checkpoints(directory, &plan);
-    let saved = resumes.then(|| checkpoints.resume().unwrap());
+    let saved = resumes.then(|| checkpoints.resume(&plan).unwrap());
     let mut sink = Leaving {
         checkpoints: &mut checkpoints,
         left,
@@ -182,6 +182,6 @@ pub(crate) fn advance(
         Some(saved) => plan.resume_into(saved, &mut sink),
     };
     let outcome = outcome.unwrap();
-    let trajectory = checkpoints.trajectory().clone();
+    let trajectory = Trajectory::read(&checkpoints).unwrap();
     (assembly, trajectory, outcome)
 }

@@ -49,7 +49,7 @@ impl Left {
     fn resume(&self, scene: &Scene) -> Result<(), CheckpointError> {
         let assembly = build(scene);
         let plan = Plan::new(&assembly).unwrap();
-        checkpoints(&self.directory, &plan).resume().map(drop)
+        checkpoints(&self.directory, &plan).resume(&plan).map(drop)
     }
 
     fn refusal(&self) -> String {
@@ -79,13 +79,13 @@ fn every_flipped_byte_is_found() {
                     let mut bytes = whole.clone();
                     bytes[place] ^= mask;
                     left.replace(name, &bytes);
-                    let message = files.resume().unwrap_err().to_string();
+                    let message = files.resume(&plan).unwrap_err().to_string();
                     assert!(message.contains(name), "{place}: {message}");
                     flipped += 1;
                 }
             }
             left.replace(name, &whole);
-            files.resume().unwrap();
+            files.resume(&plan).unwrap();
         }
     }
     println!("{flipped} flipped bytes were found");

@@ -5,7 +5,7 @@ use crate::failure::{Failure, Opened};
 use crate::progress::Progress;
 use crate::signals;
 use actin_sim::{
-    Checkpoints, FailedRun, Failure as Broken, Outcome, Plan, Record, RunDirectory,
+    Checkpoints, FailedRun, Failure as Broken, Outcome, Plan, Record, Records, RunDirectory,
     RunDirectoryError, RunError, RunLock, RunPosition, Saved, Sink, StabilitySummary, Status,
     Summary, UnstableTwist,
 };
@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     if outcome.status == Status::Interrupted {
         return Err(task.interrupted(&checkpoints, &outcome));
     }
-    let written = directory.write(&plan, checkpoints.trajectory(), &outcome);
+    let written = directory.write(&plan, &checkpoints, &outcome);
     let removed = written.and_then(|summary| directory.remove_checkpoint().map(|()| summary));
     let summary = removed.map_err(|error| unwritten(arguments, &directory, error))?;
     print(&summary, &out);
@@ -96,7 +96,7 @@ fn begin(
     if is_finished(plan, directory)? {
         return Ok(Beginning::Finished);
     }
-    let saved = checkpoints.resume()?;
+    let saved = checkpoints.resume(plan)?;
     directory.reopen()?;
     Ok(Beginning::Saved(Box::new(saved)))
 }
@@ -256,9 +256,8 @@ impl Task<'_> {
         } else {
             format!("no checkpoint could be written to {place}")
         };
-        let trajectory = checkpoints.trajectory();
-        if !trajectory.records.is_empty() {
-            match directory.write(self.plan, trajectory, outcome) {
+        if checkpoints.count() > 0 {
+            match directory.write(self.plan, checkpoints, outcome) {
                 Ok(_) => message += ", with everything recorded so far",
                 Err(error) => message = format!("{message}, but {error}"),
             }
@@ -281,11 +280,13 @@ impl Task<'_> {
             failure @ Broken::BeyondUse(_) => (failure.to_string(), "all of it is"),
             failure => (failure.to_string(), GOOD),
         };
-        let trajectory = checkpoints.trajectory();
-        if trajectory.records.is_empty() {
+        if checkpoints.count() == 0 {
             return Failure::Numerical(why);
         }
-        match self.directory.write(self.plan, trajectory, &failed.outcome) {
+        match self
+            .directory
+            .write(self.plan, checkpoints, &failed.outcome)
+        {
             Ok(summary) => {
                 print_remarks(&summary);
                 let place = self.directory.path().display();

@@ -45,8 +45,8 @@ pub use results::{
 };
 pub use run::{
     Arrival, EquilibriumReport, Estimate, FailedRun, Failure, MotionPosition, Outcome,
-    PathPosition, Plan, Progress, Record, RunError, RunPosition, SaddlePush, Saved, Sink, Slip,
-    Status, Trajectory, solver,
+    PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records, RunError, RunPosition,
+    SaddlePush, Saved, Sink, Slip, Status, Trajectory, solver,
 };
 pub use scene::fitted::laws as fitted_laws;
 pub use scene::{

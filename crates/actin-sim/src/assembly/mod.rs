@@ -29,10 +29,11 @@ pub use parts::{
     BodyKind, Counts, FilamentSpan, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term,
 };
 pub(crate) use ramp::{Ramp, StageTimes};
+pub(crate) use range::RangeWatch;
 pub use range::{BeyondRange, Fluctuations};
 pub use reaction::{Clamped, Reaction};
-pub(crate) use unstable_twist::TwistWatch;
 pub use unstable_twist::UnstableTwist;
+pub(crate) use unstable_twist::{TwistRecords, TwistWatch};
 
 use crate::scene::{End, HeldEnds, Monomers, Scene};
 use actin_coupling::Linker;

@@ -81,52 +81,9 @@ impl Assembly {
         &self,
         states: impl IntoIterator<Item = &'a State>,
     ) -> Vec<BeyondRange> {
-        let states = states.into_iter();
-        if self.scene.thermal().is_some() {
-            return self.beyond_range_in_bath(states);
-        }
-        let mut worst: Vec<BeyondRange> = Vec::new();
-        let mut known: HashMap<(usize, usize, String), usize> = HashMap::new();
-        for beyond in states.flat_map(|state| self.beyond_range(state)) {
-            let place = (beyond.filament, beyond.section, beyond.quantity.clone());
-            let k = *known.entry(place).or_insert(worst.len());
-            match worst.get_mut(k) {
-                Some(known) if known.excess() >= beyond.excess() => {}
-                Some(known) => *known = beyond,
-                None => worst.push(beyond),
-            }
-        }
-        worst
-    }
-
-    /// One entry for each quantity that goes beyond its range in any of `states`.
-    fn beyond_range_in_bath<'a>(
-        &self,
-        states: impl Iterator<Item = &'a State>,
-    ) -> Vec<BeyondRange> {
-        let mut tallies = QUANTITIES.map(|quantity| (quantity, Tally::default(), 0));
-        let mut records = 0;
-        for state in states {
-            records += 1;
-            for (quantity, all, records_beyond) in &mut tallies {
-                let before = all.beyond;
-                for rod in &self.rods {
-                    all.add(self.tally(rod, *quantity, state));
-                }
-                *records_beyond += u32::from(all.beyond > before);
-            }
-        }
-        let found = tallies.into_iter().filter_map(|(_, all, records_beyond)| {
-            let fluctuations = Some(Fluctuations {
-                share_of_records: f64::from(records_beyond) / f64::from(records),
-                share_of_elements: all.beyond as f64 / all.elements as f64,
-            });
-            all.worst.map(|worst| BeyondRange {
-                fluctuations,
-                ..worst
-            })
-        });
-        found.collect()
+        let mut watch = RangeWatch::new(self);
+        states.into_iter().for_each(|state| watch.add(state));
+        watch.end()
     }
 
     /// How a quantity stands in a rod; nothing is counted where it has no range.
@@ -190,6 +147,85 @@ pub(super) fn curvatures<'a>(
         let [first, second] = frames.map(|frame| state.frames.orientation.get(frame));
         (s, element.curvature(first, second))
     })
+}
+
+/// Looks at one state after another for where rods leave the data of their laws.
+pub(crate) struct RangeWatch<'a> {
+    assembly: &'a Assembly,
+    found: Found,
+}
+
+/// What was found so far.
+enum Found {
+    /// The worst for each section and quantity, with their places in the list.
+    Worst(
+        Vec<BeyondRange>,
+        HashMap<(usize, usize, &'static str), usize>,
+    ),
+    /// In a heat bath: the number of states, and of each quantity what was counted and in how many states
+    /// it went beyond its range.
+    Bath(u32, [(Quantity, Tally, u32); 2]),
+}
+
+impl<'a> RangeWatch<'a> {
+    pub(crate) fn new(assembly: &'a Assembly) -> Self {
+        let found = match assembly.scene.thermal() {
+            None => Found::Worst(Vec::new(), HashMap::new()),
+            Some(_) => Found::Bath(0, QUANTITIES.map(|q| (q, Tally::default(), 0))),
+        };
+        Self { assembly, found }
+    }
+
+    pub(crate) fn add(&mut self, state: &State) {
+        let assembly = self.assembly;
+        match &mut self.found {
+            Found::Worst(worst, known) => {
+                for rod in &assembly.rods {
+                    for quantity in QUANTITIES {
+                        let Some(beyond) = assembly.tally(rod, quantity, state).worst else {
+                            continue;
+                        };
+                        let place = (beyond.filament, beyond.section, quantity.name);
+                        let k = *known.entry(place).or_insert(worst.len());
+                        match worst.get_mut(k) {
+                            Some(known) if known.excess() >= beyond.excess() => {}
+                            Some(known) => *known = beyond,
+                            None => worst.push(beyond),
+                        }
+                    }
+                }
+            }
+            Found::Bath(states, tallies) => {
+                *states += 1;
+                for (quantity, all, states_beyond) in tallies {
+                    let before = all.beyond;
+                    for rod in &assembly.rods {
+                        all.add(assembly.tally(rod, *quantity, state));
+                    }
+                    *states_beyond += u32::from(all.beyond > before);
+                }
+            }
+        }
+    }
+
+    /// What was found in all states.
+    pub(crate) fn end(self) -> Vec<BeyondRange> {
+        let (states, tallies) = match self.found {
+            Found::Worst(worst, _) => return worst,
+            Found::Bath(states, tallies) => (states, tallies),
+        };
+        let found = tallies.into_iter().filter_map(|(_, all, states_beyond)| {
+            let fluctuations = Some(Fluctuations {
+                share_of_records: f64::from(states_beyond) / f64::from(states),
+                share_of_elements: all.beyond as f64 / all.elements as f64,
+            });
+            all.worst.map(|worst| BeyondRange {
+                fluctuations,
+                ..worst
+            })
+        });
+        found.collect()
+    }
 }
 
 /// How often and how far a quantity goes beyond its range.

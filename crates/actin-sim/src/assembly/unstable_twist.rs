@@ -61,32 +61,9 @@ impl Assembly {
         &self,
         states: impl IntoIterator<Item = &'a State>,
     ) -> Vec<UnstableTwist> {
-        if self.scene.thermal().is_some() {
-            return Vec::new();
-        }
-        let mut worst: Vec<(u32, Option<Weakest>)> = Vec::new();
-        worst.resize_with(self.rods.len(), || (0, None));
-        let mut records = 0_u32;
-        for state in states {
-            records += 1;
-            for (rod, (count, known)) in self.rods.iter().zip(&mut worst) {
-                let Some(weakest) = self.weakest_of(rod, state) else {
-                    continue;
-                };
-                *count += 1;
-                if (known.as_ref()).is_none_or(|known| weakest.tangent < known.tangent) {
-                    *known = Some(weakest);
-                }
-            }
-        }
-        let found = worst.into_iter().filter_map(|(count, weakest)| {
-            let share_of_records = f64::from(count) / f64::from(records);
-            weakest.map(|weakest| UnstableTwist {
-                share_of_records,
-                ..weakest.found
-            })
-        });
-        found.collect()
+        let mut all = TwistRecords::new(self);
+        states.into_iter().for_each(|state| all.add(state));
+        all.end()
     }
 
     /// The segment of a rod whose tangent of twist is lowest, if it is unstable there.
@@ -113,6 +90,53 @@ impl Assembly {
                 share_of_records: 1.0,
             },
         })
+    }
+}
+
+/// Looks at one state after another for where twist is unstable.
+pub(crate) struct TwistRecords<'a> {
+    assembly: &'a Assembly,
+    states: u32,
+    /// For each rod in how many states its twist is unstable, and where most; nothing in a heat bath.
+    worst: Vec<(u32, Option<Weakest>)>,
+}
+
+impl<'a> TwistRecords<'a> {
+    pub(crate) fn new(assembly: &'a Assembly) -> Self {
+        let rods = match assembly.scene.thermal() {
+            None => assembly.rods.len(),
+            Some(_) => 0,
+        };
+        Self {
+            assembly,
+            states: 0,
+            worst: (0..rods).map(|_| (0, None)).collect(),
+        }
+    }
+
+    pub(crate) fn add(&mut self, state: &State) {
+        self.states += 1;
+        for (rod, (count, known)) in self.assembly.rods.iter().zip(&mut self.worst) {
+            let Some(weakest) = self.assembly.weakest_of(rod, state) else {
+                continue;
+            };
+            *count += 1;
+            if (known.as_ref()).is_none_or(|known| weakest.tangent < known.tangent) {
+                *known = Some(weakest);
+            }
+        }
+    }
+
+    /// What was found in all states.
+    pub(crate) fn end(self) -> Vec<UnstableTwist> {
+        let states = f64::from(self.states);
+        let found = self.worst.into_iter().filter_map(|(count, weakest)| {
+            weakest.map(|weakest| UnstableTwist {
+                share_of_records: f64::from(count) / states,
+                ..weakest.found
+            })
+        });
+        found.collect()
     }
 }
 

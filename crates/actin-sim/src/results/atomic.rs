@@ -91,17 +91,24 @@ pub(super) fn sync(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Waits until all of `paths` are on the disk; otherwise says which is not.
-pub(super) fn sync_all(paths: &[PathBuf]) -> Result<(), (&Path, io::Error)> {
+/// Waits until `count` files, each at a `path`, are on the disk; otherwise says which is not.
+pub(super) fn sync_all(
+    count: usize,
+    path: impl Fn(usize) -> PathBuf + Sync,
+) -> Result<(), (PathBuf, io::Error)> {
     let next = AtomicUsize::new(0);
     let work = || {
-        while let Some(path) = paths.get(next.fetch_add(1, Ordering::Relaxed)) {
-            sync(path).map_err(|error| (path.as_path(), error))?;
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            if i >= count {
+                return Ok(());
+            }
+            let path = path(i);
+            sync(&path).map_err(|error| (path, error))?;
         }
-        Ok(())
     };
     std::thread::scope(|scope| {
-        let threads: Vec<_> = (0..SYNCED_AT_ONCE.min(paths.len()))
+        let threads: Vec<_> = (0..SYNCED_AT_ONCE.min(count))
             .map(|_| scope.spawn(work))
             .collect();
         let mut done = threads.into_iter().map(std::thread::ScopedJoinHandle::join);
@@ -172,9 +179,10 @@ mod tests {
         for path in &paths {
             fs::write(path, "x").unwrap();
         }
-        assert!(sync_all(&paths).is_ok() && sync_all(&[]).is_ok());
+        let sync_first = |count| sync_all(count, |i| paths[i].clone());
+        assert!(sync_first(paths.len()).is_ok() && sync_first(0).is_ok());
         fs::remove_file(&paths[13]).unwrap();
-        let (path, error) = sync_all(&paths).unwrap_err();
-        assert_eq!((path, error.kind()), (&*paths[13], io::ErrorKind::NotFound));
+        let (path, error) = sync_first(paths.len()).unwrap_err();
+        assert_eq!((&path, error.kind()), (&paths[13], io::ErrorKind::NotFound));
     }
 }

@@ -137,6 +137,13 @@ pub(super) fn picture_name(record: usize) -> String {
     format!("{PICTURES}/{record:04}.vtp")
 }
 
+/// The record whose picture has this name in the directory.
+pub(super) fn picture_index(name: &str) -> Option<usize> {
+    let rest = name.strip_prefix(PICTURES)?.strip_prefix('/')?;
+    let index = rest.strip_suffix(".vtp")?.parse().ok()?;
+    (picture_name(index) == name).then_some(index)
+}
+
 /// Whether there is nothing in a directory but what keeps runs apart.
 fn is_empty(directory: &Path) -> Result<bool, RunDirectoryError> {
     let io = || RunDirectoryError::io(directory);

@@ -1,8 +1,9 @@
 //! `energies.csv`: energies and residuals of every record, per term and per part.
 
 use super::clock;
-use super::{RunDirectoryError, finite::ensure_finite};
-use crate::{Assembly, Part, Record, Term};
+use super::directory::ENERGIES;
+use super::{RunDirectoryError, finite::ensure_finite_in};
+use crate::{Assembly, Part, Record, Records, Term};
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::io::{self, Write};
@@ -61,62 +62,63 @@ fn places<T: Eq + Hash + Copy>(terms: &[Term], of: impl Fn(&Term) -> T) -> (Vec<
     (values, places)
 }
 
-/// The sums of the energies of a record's terms (pN nm) over each of `count` places.
-fn sums(record: &Record, places: &[usize], count: usize) -> Vec<f64> {
-    // What the sum of no numbers is: a term of -0 stays as it is.
-    let mut sums = vec![-0.0; count];
-    for (energy, &place) in record.energies_pn_nm.iter().zip(places) {
-        sums[place] += energy;
-    }
-    sums
-}
-
 /// The table: a header and one row for each record.
 #[derive(Debug)]
-pub(super) struct EnergyTable {
+pub(super) struct EnergyTable<'a> {
+    terms: &'a [Term],
     header: Vec<String>,
-    rows: Vec<Vec<f64>>,
+    /// For each term the place of its name, and that of its part, behind those of all names.
+    places: [Vec<usize>; 2],
+    sums: usize,
 }
 
-impl EnergyTable {
-    /// The table of `records`, whose energies belong to the terms of `assembly`.
-    pub(super) fn new(assembly: &Assembly, records: &[Record]) -> Self {
+impl<'a> EnergyTable<'a> {
+    /// The table of records whose energies belong to the terms of `assembly`.
+    pub(super) fn new(assembly: &'a Assembly) -> Self {
         let terms = &assembly.terms;
-        let names = places(terms, |term| term.name);
-        let parts = places(terms, |term| term.part);
+        let (names, by_name) = places(terms, |term| term.name);
+        let (parts, by_part) = places(terms, |term| term.part);
+        let behind = by_part.into_iter().map(|place| names.len() + place);
         Self {
-            header: header(assembly, &names.0, &parts.0),
-            rows: records
-                .iter()
-                .map(|record| {
-                    let by_name = sums(record, &names.1, names.0.len());
-                    let by_part = sums(record, &parts.1, parts.0.len());
-                    row(terms, record, by_name.into_iter().chain(by_part))
-                })
-                .collect(),
+            terms,
+            header: header(assembly, &names, &parts),
+            sums: names.len() + parts.len(),
+            places: [by_name, behind.collect()],
         }
     }
 
-    /// Refuses numbers that are not finite.
+    /// The row of a record.
+    fn row(&self, record: &Record) -> Vec<f64> {
+        // What the sum of no numbers is: a term of -0 stays as it is.
+        let mut sums = vec![-0.0; self.sums];
+        for places in &self.places {
+            for (energy, &place) in record.energies_pn_nm.iter().zip(places) {
+                sums[place] += energy;
+            }
+        }
+        row(self.terms, record, sums)
+    }
+
+    /// Refuses numbers of record `i` that are not finite.
     ///
     /// # Errors
     /// The first such number, with its column and the index of its row.
-    pub(super) fn ensure_finite(&self, file: &str) -> Result<(), RunDirectoryError> {
-        for (column, name) in self.header.iter().enumerate() {
-            let values = self.rows.iter().map(|row| row[column]);
-            ensure_finite(file, name, &[self.rows.len()], values)?;
-        }
-        Ok(())
+    pub(super) fn ensure_finite(&self, i: usize, record: &Record) -> Result<(), RunDirectoryError> {
+        let columns = self.header.iter().zip(self.row(record));
+        columns
+            .map(|(name, value)| ensure_finite_in((ENERGIES, name), i, &[], [value]))
+            .collect()
     }
 
-    /// Writes the table. Numbers have as many digits as bring them back exactly.
+    /// Writes the table of `records`. Numbers have as many digits as bring them back exactly.
     ///
     /// # Errors
-    /// Those of `out`.
-    pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
+    /// Those of `out` and of the records.
+    pub(super) fn write(&self, records: &dyn Records, out: &mut impl Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(&self.header)?;
-        for row in &self.rows {
+        for record in records.iter() {
+            let row = self.row(&*record?);
             writer.write_record(row.iter().map(|value| format!("{value:?}")))?;
         }
         writer.flush()
@@ -138,7 +140,7 @@ fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
 }
 
 /// One row, with sums of energies by name and by part.
-fn row(terms: &[Term], record: &Record, sums: impl Iterator<Item = f64>) -> Vec<f64> {
+fn row(terms: &[Term], record: &Record, sums: Vec<f64>) -> Vec<f64> {
     let totals = Totals::new(terms, record);
     [
         record.time_ns,
@@ -158,10 +160,10 @@ mod tests {
     use super::*;
     use crate::results::fixture;
 
-    fn table_of(assembly: &Assembly, records: &[Record]) -> (Vec<String>, Vec<Vec<f64>>) {
+    fn table_of(assembly: &Assembly, records: &dyn Records) -> (Vec<String>, Vec<Vec<f64>>) {
         let mut bytes = Vec::new();
-        EnergyTable::new(assembly, records)
-            .write(&mut bytes)
+        EnergyTable::new(assembly)
+            .write(records, &mut bytes)
             .unwrap();
         let mut reader = csv::Reader::from_reader(bytes.as_slice());
         let header = reader
@@ -185,7 +187,7 @@ mod tests {
     #[test]
     fn columns_are_named_with_their_units() {
         let assembly = fixture::linked();
-        let (header, _) = table_of(&assembly, &fixture::trajectory(&assembly).records);
+        let (header, _) = table_of(&assembly, &fixture::trajectory(&assembly));
         assert_eq!(
             header[..5],
             [
@@ -220,7 +222,7 @@ mod tests {
     #[test]
     fn parts_of_further_filaments_are_told_apart() {
         let assembly = fixture::pair();
-        let (header, rows) = table_of(&assembly, &fixture::trajectory(&assembly).records);
+        let (header, rows) = table_of(&assembly, &fixture::trajectory(&assembly));
         let parts = [
             "section_0",
             "junction_0_1",
@@ -243,7 +245,7 @@ mod tests {
     fn numbers_come_back_exactly() {
         let assembly = fixture::clamped_start();
         let trajectory = fixture::trajectory(&assembly);
-        let (header, rows) = table_of(&assembly, &trajectory.records);
+        let (header, rows) = table_of(&assembly, &trajectory);
         assert_eq!(rows.len(), trajectory.records.len());
         for (row, record) in rows.iter().zip(&trajectory.records) {
             let load = assembly
@@ -273,7 +275,7 @@ mod tests {
     #[test]
     fn names_and_parts_each_add_up_to_the_potential() {
         let assembly = fixture::clamped_start();
-        let (header, rows) = table_of(&assembly, &fixture::trajectory(&assembly).records);
+        let (header, rows) = table_of(&assembly, &fixture::trajectory(&assembly));
         let names = distinct(&assembly.terms, |term| term.name);
         let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
         let parts = distinct(&assembly.terms, |term| term.part);

@@ -101,6 +101,9 @@ pub enum RunDirectoryError {
         /// What the file system says.
         source: io::Error,
     },
+    /// A record of the run could not be read back.
+    #[error("a record cannot be read back: {0}")]
+    Unreadable(io::Error),
     /// A number that is not finite.
     #[error("{file}: {quantity}{} is {value}: only finite numbers are written", place(.index))]
     NotFinite {

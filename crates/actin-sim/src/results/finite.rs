@@ -24,6 +24,25 @@ pub(super) fn ensure_finite(
     }
 }
 
+/// The same of what record `i` has in a `quantity` of a file, which has the records as its first index.
+///
+/// # Errors
+/// The first value that is not, with its index.
+pub(super) fn ensure_finite_in(
+    (file, quantity): (&str, &str),
+    i: usize,
+    shape: &[usize],
+    values: impl IntoIterator<Item = f64>,
+) -> Result<(), RunDirectoryError> {
+    let checked = ensure_finite(file, quantity, shape, values);
+    checked.map_err(|mut error| {
+        if let RunDirectoryError::NotFinite { index, .. } = &mut error {
+            index.insert(0, i);
+        }
+        error
+    })
+}
+
 /// Index in an array of `shape` of the value at place `flat`.
 fn unravel(flat: usize, shape: &[usize]) -> Vec<usize> {
     let mut rest = flat;

@@ -5,7 +5,7 @@
 
 use super::RunDirectoryError;
 use super::atomic::{self, UNFINISHED};
-use super::directory::{FILES, PICTURES, SCENE, SUMMARY, picture_name, remove_if_there};
+use super::directory::{FILES, PICTURES, SCENE, SUMMARY, picture_index, remove_if_there};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fs::{self, FileType};
@@ -222,11 +222,7 @@ fn found_in(folder: &Path, prefix: &str) -> Result<Vec<Found>, RunDirectoryError
 
 /// Whether runs write files of this name.
 fn is_of_runs(name: &str) -> bool {
-    let digits = name
-        .strip_prefix(PICTURES)
-        .and_then(|rest| rest.strip_prefix('/')?.strip_suffix(".vtp"));
-    let index = digits.and_then(|digits| digits.parse().ok());
-    FILES.contains(&name) || index.is_some_and(|index| picture_name(index) == name)
+    FILES.contains(&name) || picture_index(name).is_some()
 }
 
 #[cfg(test)]

@@ -8,13 +8,14 @@
 //! | `states.npz` | every record's state | numpy |
 //! | `vtk/NNNN.vtp`, `run.pvd` | every record as a picture | `ParaView`, pyvista |
 //! | `summary.json` | the last record in numbers | anything |
-//! | `checkpoint.bin`, `records.bin` | a run that has not ended | `actin run --resume` |
+//! | `records.bin` | the records of a run that has not ended, from which the rest is written | `actin run --resume` |
+//! | `checkpoint.bin` | where such a run stands | `actin run --resume` |
 //! | `actin-run.json` | the names of all these files: only what it lists is ever replaced or removed | anything |
 //! | `.actin-run.lock` | nothing; while a run goes on, the number of its process | anything |
 //!
-//! Only this module knows file formats; nothing here computes physics beyond sums: shapes come from
-//! [`crate::shape`]. Nothing that
-//! is not finite is ever written.
+//! Records are read back from `records.bin` one by one, once for each array and file, so that memory does
+//! not grow with their number. Only this module knows file formats; nothing here computes physics beyond
+//! sums: shapes come from [`crate::shape`]. Nothing that is not finite is ever written.
 
 mod atomic;
 mod checkpoint;

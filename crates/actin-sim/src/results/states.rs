@@ -10,13 +10,13 @@
 //! | `filament` | [points] | index of the filament |
 //! | `frame_s_nm`, `frame_kind`, `frame_filament` | [frames] | the same for frames |
 //!
-//! Entries are deflated, which numpy undoes by itself. One array holds at most 4 GiB (the
-//! archive's 32-bit sizes); beyond that writing fails with an error that says so.
+//! Entries are stored, not deflated, and may exceed 4 GiB.
 
-use super::{RunDirectoryError, clock, finite::ensure_finite};
-use crate::{Assembly, FilamentSpan, Record};
+use super::directory::STATES;
+use super::{RunDirectoryError, clock, finite::ensure_finite_in};
+use crate::{Assembly, FilamentSpan, Record, Records};
 use actin_mechanics::State;
-use npyz::WriterBuilder;
+use npyz::{NpyWriter, WriterBuilder};
 use std::io::{self, Seek, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
@@ -32,32 +32,22 @@ struct Field {
 }
 
 impl Field {
-    fn shape(&self, records: &[Record]) -> [usize; 3] {
-        [records.len(), self.bodies, self.components.len()]
-    }
-
-    /// Values in the order of the file: record, body, component.
-    fn values<'a>(&'a self, records: &'a [Record]) -> impl Iterator<Item = f64> + 'a {
-        records.iter().flat_map(move |record| {
-            (0..self.bodies).flat_map(move |i| {
-                self.components
-                    .iter()
-                    .map(move |component| component(&record.state)[i])
-            })
-        })
+    /// Its values in a state: body by body, component by component.
+    fn values<'a>(&'a self, state: &'a State) -> impl Iterator<Item = f64> + 'a {
+        let bodies = 0..self.bodies;
+        bodies.flat_map(move |i| self.components.iter().map(move |c| c(state)[i]))
     }
 }
 
 /// The arrays of a run.
 pub(super) struct States<'a> {
     assembly: &'a Assembly,
-    records: &'a [Record],
 }
 
 impl<'a> States<'a> {
-    /// The states of `records`, which belong to `assembly`.
-    pub(super) fn new(assembly: &'a Assembly, records: &'a [Record]) -> Self {
-        Self { assembly, records }
+    /// The arrays of records that belong to `assembly`.
+    pub(super) fn new(assembly: &'a Assembly) -> Self {
+        Self { assembly }
     }
 
     fn fields(&self) -> [Field; 4] {
@@ -76,14 +66,10 @@ impl<'a> States<'a> {
         ]
     }
 
-    /// One number for each record or body.
-    fn columns(&self) -> [(&'static str, Vec<f64>); 3] {
+    /// One number for each body.
+    fn columns(&self) -> [(&'static str, Vec<f64>); 2] {
         let Assembly { points, frames, .. } = self.assembly;
         [
-            (
-                clock(self.assembly),
-                self.records.iter().map(|r| r.time_ns).collect(),
-            ),
             ("s_nm", points.iter().map(|p| p.s_nm).collect()),
             ("frame_s_nm", frames.iter().map(|f| f.s_nm).collect()),
         ]
@@ -113,28 +99,31 @@ impl<'a> States<'a> {
         ]
     }
 
-    /// Refuses numbers that are not finite.
+    /// Refuses numbers of record `i` that are not finite.
     ///
     /// # Errors
     /// The first such number, with its index in the array.
-    pub(super) fn ensure_finite(&self, file: &str) -> Result<(), RunDirectoryError> {
-        for (name, values) in self.columns() {
-            ensure_finite(file, name, &[values.len()], values)?;
-        }
+    pub(super) fn ensure_finite(&self, i: usize, record: &Record) -> Result<(), RunDirectoryError> {
+        let of = |name| (STATES, name);
+        ensure_finite_in(of(clock(self.assembly)), i, &[], [record.time_ns])?;
         for field in self.fields() {
-            let shape = field.shape(self.records);
-            ensure_finite(file, field.name, &shape, field.values(self.records))?;
+            let shape = [field.bodies, field.components.len()];
+            ensure_finite_in(of(field.name), i, &shape, field.values(&record.state))?;
         }
         Ok(())
     }
 
-    /// Writes the archive.
+    /// Writes the archive of `records`, which are gone through once for each array.
     ///
     /// # Errors
-    /// Those of `out`.
-    pub(super) fn write(&self, out: &mut (impl Write + Seek)) -> io::Result<()> {
+    /// Those of `out` and of the records.
+    pub(super) fn write(
+        &self,
+        records: &dyn Records,
+        out: &mut (impl Write + Seek),
+    ) -> io::Result<()> {
         let mut archive = ZipWriter::new(out);
-        match self.write_arrays(&mut archive) {
+        match self.write_arrays(records, &mut archive) {
             Ok(()) => archive.finish().map(drop).map_err(io::Error::from),
             Err(error) => {
                 // Dropped, it would try to write its directory, fail again, and say so on standard error.
@@ -144,32 +133,65 @@ impl<'a> States<'a> {
         }
     }
 
-    fn write_arrays<W: Write + Seek>(&self, archive: &mut ZipWriter<W>) -> io::Result<()> {
+    fn write_arrays<W: Write + Seek>(
+        &self,
+        records: &dyn Records,
+        archive: &mut ZipWriter<W>,
+    ) -> io::Result<()> {
+        let time = |record: &Record| [record.time_ns];
+        let count = records.count();
+        write_records(archive, clock(self.assembly), &[count], records, time)?;
         for (name, values) in self.columns() {
-            write_array(archive, name, &[values.len()], values)?;
+            write_array(archive, name, values)?;
         }
         for (name, values) in self.kinds() {
-            write_array(archive, name, &[values.len()], values)?;
+            write_array(archive, name, values)?;
         }
         for (name, values) in self.filaments() {
-            write_array(archive, name, &[values.len()], values)?;
+            write_array(archive, name, values)?;
         }
         for field in self.fields() {
-            let shape = field.shape(self.records);
-            write_array(archive, field.name, &shape, field.values(self.records))?;
+            let shape = [count, field.bodies, field.components.len()];
+            let values = |record: &Record| field.values(&record.state).collect::<Vec<_>>();
+            write_records(archive, field.name, &shape, records, values)?;
         }
         Ok(())
     }
 }
 
-/// Adds an array as numpy does: a stored entry that may exceed 4 GiB. Numbers of a trajectory
-/// hardly compress (4 % where it was tried), and a fixed time keeps equal runs equal to the byte.
+/// Adds an array of values that are at hand.
 fn write_array<W: Write + Seek, T: npyz::AutoSerialize>(
     archive: &mut ZipWriter<W>,
     name: &str,
-    shape: &[usize],
-    values: impl IntoIterator<Item = T>,
+    values: Vec<T>,
 ) -> io::Result<()> {
+    let mut writer = begin_array(archive, name, &[values.len()])?;
+    writer.extend(values)?;
+    writer.finish()
+}
+
+/// Adds an array with what `of` gives of each record.
+fn write_records<W: Write + Seek, V: IntoIterator<Item = f64>>(
+    archive: &mut ZipWriter<W>,
+    name: &str,
+    shape: &[usize],
+    records: &dyn Records,
+    of: impl Fn(&Record) -> V,
+) -> io::Result<()> {
+    let mut writer = begin_array(archive, name, shape)?;
+    for record in records.iter() {
+        writer.extend(of(&*record?))?;
+    }
+    writer.finish()
+}
+
+/// Begins an array as numpy does: a stored entry that may exceed 4 GiB. Numbers of a trajectory
+/// hardly compress (4 % where it was tried), and a fixed time keeps equal runs equal to the byte.
+fn begin_array<'a, W: Write + Seek, T: npyz::AutoSerialize>(
+    archive: &'a mut ZipWriter<W>,
+    name: &str,
+    shape: &[usize],
+) -> io::Result<NpyWriter<T, &'a mut ZipWriter<W>>> {
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
         .last_modified_time(DateTime::default())
@@ -177,9 +199,7 @@ fn write_array<W: Write + Seek, T: npyz::AutoSerialize>(
     archive.start_file(format!("{name}.npy"), options)?;
     let shape: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
     let builder = npyz::WriteOptions::new().default_dtype().shape(&shape);
-    let mut writer = builder.writer(archive).begin_nd()?;
-    writer.extend(values)?;
-    writer.finish()
+    builder.writer(archive).begin_nd()
 }
 
 const POSITION: [Component; 3] = [
@@ -221,9 +241,7 @@ mod tests {
 
     fn archive(assembly: &Assembly, trajectory: &Trajectory) -> ZipArchive<Cursor<Vec<u8>>> {
         let mut file = Cursor::new(Vec::new());
-        States::new(assembly, &trajectory.records)
-            .write(&mut file)
-            .unwrap();
+        States::new(assembly).write(trajectory, &mut file).unwrap();
         ZipArchive::new(file).unwrap()
     }
 

@@ -2,17 +2,19 @@
 
 use super::atomic::{self, sync, sync_all};
 use super::directory::{
-    COLLECTION, ENERGIES, PICTURES, PROFILE, RunDirectory, SCENE, STATES, SUMMARY, picture_name,
-    remove_if_there,
+    COLLECTION, ENERGIES, PICTURES, PROFILE, RunDirectory, SCENE, STATES, SUMMARY, picture_index,
+    picture_name, remove_if_there,
 };
 use super::energies::EnergyTable;
 use super::manifest::Manifest;
 use super::states::States;
-use super::vtk::{Drawing, collection};
+use super::summary::LateKinetic;
+use super::vtk::{Drawing, write_collection};
 use super::{RunDirectoryError, Summary, ThermalSummary, profile};
+use crate::assembly::{RangeWatch, TwistRecords};
 use crate::shape::{self, ProfilePoint};
-use crate::{Assembly, Outcome, Plan, Record, Scene, Trajectory};
-use std::collections::HashSet;
+use crate::{Assembly, Outcome, Plan, Record, Records, Scene};
+use std::borrow::Cow;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -35,6 +37,9 @@ impl RunDirectory {
 
     /// Writes every file of a run and returns what its summary says.
     ///
+    /// The records, of a [`Trajectory`](crate::Trajectory) or of the sink of this directory, are gone
+    /// through several times, one by one.
+    ///
     /// Everything but the pictures is checked before the first file is written. The files of an earlier
     /// part of the run are replaced when all new ones are complete and on the disk, and not before.
     ///
@@ -45,10 +50,10 @@ impl RunDirectory {
     pub fn write(
         &self,
         plan: &Plan<'_>,
-        trajectory: &Trajectory,
+        records: &dyn Records,
         outcome: &Outcome,
     ) -> Result<Summary, RunDirectoryError> {
-        let results = Results::new(plan, &trajectory.records, outcome)?;
+        let results = Results::new(plan, records, outcome)?;
         self.announce(&results)?;
         let mut staged = Staged::new(&self.path);
         results.stage(&mut staged)?;
@@ -73,7 +78,7 @@ impl RunDirectory {
         manifest.ensure_own(&self.path)?;
         manifest.note_scene(&results.scene);
         manifest.add([SCENE, ENERGIES, STATES, PROFILE, COLLECTION, SUMMARY]);
-        manifest.add((0..results.records.len()).map(picture_name));
+        manifest.add((0..results.records.count()).map(picture_name));
         manifest.write(&self.path)
     }
 }
@@ -81,9 +86,9 @@ impl RunDirectory {
 /// Everything that is written of a run, checked.
 struct Results<'a> {
     assembly: &'a Assembly,
-    records: &'a [Record],
+    records: &'a dyn Records,
     scene: String,
-    table: EnergyTable,
+    table: EnergyTable<'a>,
     states: States<'a>,
     along: Vec<Vec<ProfilePoint>>,
     summary: Summary,
@@ -92,44 +97,44 @@ struct Results<'a> {
 impl<'a> Results<'a> {
     fn new(
         plan: &Plan<'a>,
-        records: &'a [Record],
+        records: &'a dyn Records,
         outcome: &Outcome,
     ) -> Result<Self, RunDirectoryError> {
         let assembly = plan.assembly();
-        let last = records.last().ok_or(RunDirectoryError::NoRecord)?;
-        ensure_same_bodies(assembly, records)?;
-        let states = records.iter().map(|record| &record.state);
+        let (table, states) = (EnergyTable::new(assembly), States::new(assembly));
+        let review = Review::of(assembly, records, (&table, &states))?;
+        let last = review.last.ok_or(RunDirectoryError::NoRecord)?;
         let summary = Summary {
-            beyond_range: assembly.beyond_range_over(states.clone()),
-            unstable_twist: assembly.unstable_twist_over(states),
-            thermal: ThermalSummary::new(assembly, records),
-            ..Summary::new(assembly, last, outcome)
+            beyond_range: review.ranges.end(),
+            unstable_twist: review.twist.end(),
+            thermal: ThermalSummary::new(assembly, &review.kinetic),
+            ..Summary::new(assembly, &last, outcome)
         };
+        summary.ensure_finite(SUMMARY)?;
+        review.are_finite?;
         let filaments = 0..assembly.filaments.len();
-        let results = Self {
+        let along: Vec<_> = filaments
+            .map(|filament| shape::profile_of(assembly, filament, &last.state))
+            .collect();
+        profile::ensure_all_finite(&along, PROFILE)?;
+        Ok(Self {
             assembly,
             records,
             scene: plan.scene().to_ron(),
-            table: EnergyTable::new(assembly, records),
-            states: States::new(assembly, records),
-            along: filaments
-                .map(|filament| shape::profile_of(assembly, filament, &last.state))
-                .collect(),
+            table,
+            states,
+            along,
             summary,
-        };
-        results.summary.ensure_finite(SUMMARY)?;
-        results.table.ensure_finite(ENERGIES)?;
-        results.states.ensure_finite(STATES)?;
-        profile::ensure_all_finite(&results.along, PROFILE)?;
-        Ok(results)
+        })
     }
 
     fn stage(&self, staged: &mut Staged<'_>) -> Result<(), RunDirectoryError> {
         staged.file(SCENE, |out| out.write_all(self.scene.as_bytes()))?;
-        staged.file(ENERGIES, |out| self.table.write(out))?;
-        staged.file(STATES, |out| self.states.write(out))?;
+        staged.file(ENERGIES, |out| self.table.write(self.records, out))?;
+        staged.file(STATES, |out| self.states.write(self.records, out))?;
         staged.file(PROFILE, |out| profile::write(&self.along, out))?;
         self.stage_pictures(staged)?;
+        staged.file(COLLECTION, |out| self.write_collection(out))?;
         staged.file(SUMMARY, |out| {
             serde_json::to_writer_pretty(&mut *out, &self.summary)?;
             writeln!(out)
@@ -139,26 +144,76 @@ impl<'a> Results<'a> {
     fn stage_pictures(&self, staged: &mut Staged<'_>) -> Result<(), RunDirectoryError> {
         let folder = staged.folder.join(PICTURES);
         fs::create_dir_all(&folder).map_err(RunDirectoryError::io(&folder))?;
-        let names: Vec<String> = (0..self.records.len()).map(picture_name).collect();
         let drawing = Drawing::new(self.assembly);
-        for (record, name) in self.records.iter().zip(&names) {
+        for (i, record) in self.records.iter().enumerate() {
+            let record = record.map_err(RunDirectoryError::Unreadable)?;
             let picture = drawing.picture(record.time_ns, &record.state);
-            picture.ensure_finite(name)?;
-            staged.file(name, |out| picture.write(out))?;
+            picture.ensure_finite(&picture_name(i))?;
+            staged.picture(|out| picture.write(out))?;
         }
-        let times = self.records.iter().map(|record| record.time_ns);
-        let pictures = times.zip(names.iter().map(String::as_str));
-        let text = collection(&self.assembly.scene.title, pictures);
-        staged.file(COLLECTION, |out| out.write_all(text.as_bytes()))
+        Ok(())
+    }
+
+    fn write_collection(&self, out: &mut impl Write) -> io::Result<()> {
+        let times = self.records.iter().map(|r| r.map(|record| record.time_ns));
+        let pictures = times.enumerate().map(|(i, t)| Ok((t?, picture_name(i))));
+        write_collection(&self.assembly.scene.title, pictures, out)
+    }
+}
+
+/// What is known of records that were looked at one by one.
+struct Review<'a> {
+    ranges: RangeWatch<'a>,
+    twist: TwistRecords<'a>,
+    kinetic: LateKinetic,
+    last: Option<Record>,
+    /// The first number that is not, those of `energies.csv` before those of `states.npz`.
+    are_finite: Result<(), RunDirectoryError>,
+}
+
+impl<'a> Review<'a> {
+    /// Looks at all records.
+    ///
+    /// # Errors
+    /// Records of other bodies or terms than those of the assembly, or that cannot be read.
+    fn of(
+        assembly: &'a Assembly,
+        records: &dyn Records,
+        (table, states): (&EnergyTable<'_>, &States<'_>),
+    ) -> Result<Self, RunDirectoryError> {
+        let mut ranges = RangeWatch::new(assembly);
+        let mut twist = TwistRecords::new(assembly);
+        let mut kinetic = LateKinetic::of(records.count());
+        let mut last = None;
+        let (mut energies, mut places) = (Ok(()), Ok(()));
+        for (i, record) in records.iter().enumerate() {
+            let record = record.map_err(RunDirectoryError::Unreadable)?;
+            ensure_same_bodies(assembly, i, &record)?;
+            ranges.add(&record.state);
+            twist.add(&record.state);
+            kinetic.add(&record);
+            energies = energies.and_then(|()| table.ensure_finite(i, &record));
+            places = places.and_then(|()| states.ensure_finite(i, &record));
+            last = Some(record);
+        }
+        Ok(Self {
+            ranges,
+            twist,
+            kinetic,
+            last: last.map(Cow::into_owned),
+            are_finite: energies.and(places),
+        })
     }
 }
 
 /// Files that are written and have not got their names yet; those that never get them are removed.
+///
+/// They get their names picture by picture and then in the order in which they were written.
 struct Staged<'a> {
     folder: &'a Path,
-    /// In the order in which they get their names.
-    paths: Vec<PathBuf>,
-    /// How many have them.
+    pictures: usize,
+    files: Vec<PathBuf>,
+    /// How many have their names.
     published: usize,
 }
 
@@ -166,7 +221,8 @@ impl<'a> Staged<'a> {
     fn new(folder: &'a Path) -> Self {
         Self {
             folder,
-            paths: Vec::new(),
+            pictures: 0,
+            files: Vec::new(),
             published: 0,
         }
     }
@@ -178,19 +234,44 @@ impl<'a> Staged<'a> {
     ) -> Result<(), RunDirectoryError> {
         let path = self.folder.join(name);
         atomic::stage(&path, fill).map_err(RunDirectoryError::io(&path))?;
-        self.paths.push(path);
+        self.files.push(path);
         Ok(())
+    }
+
+    /// The next picture.
+    fn picture(
+        &mut self,
+        fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    ) -> Result<(), RunDirectoryError> {
+        let path = self.folder.join(picture_name(self.pictures));
+        atomic::stage(&path, fill).map_err(RunDirectoryError::io(&path))?;
+        self.pictures += 1;
+        Ok(())
+    }
+
+    fn count(&self) -> usize {
+        self.pictures + self.files.len()
+    }
+
+    /// The final name of a file.
+    fn path(&self, i: usize) -> PathBuf {
+        match i.checked_sub(self.pictures) {
+            Some(file) => self.files[file].clone(),
+            None => self.folder.join(picture_name(i)),
+        }
     }
 
     /// Waits until all files are on the disk, and gives them their names; pictures of a longer run
     /// before go, or a shorter one would seem to go on.
     fn publish(mut self) -> Result<(), RunDirectoryError> {
-        let unfinished: Vec<_> = self.paths.iter().map(|p| atomic::unfinished(p)).collect();
-        sync_all(&unfinished).map_err(|(path, error)| RunDirectoryError::io(path)(error))?;
+        let unfinished = |i| atomic::unfinished(&self.path(i));
+        sync_all(self.count(), unfinished)
+            .map_err(|(p, error)| RunDirectoryError::io(&p)(error))?;
         remove_if_there(&self.folder.join(SUMMARY))?;
         self.remove_old_pictures()?;
-        for path in &self.paths {
-            atomic::publish(path).map_err(RunDirectoryError::io(path))?;
+        for i in 0..self.count() {
+            let path = self.path(i);
+            atomic::publish(&path).map_err(RunDirectoryError::io(&path))?;
             self.published += 1;
         }
         for folder in [self.folder.join(PICTURES), self.folder.to_owned()] {
@@ -202,45 +283,44 @@ impl<'a> Staged<'a> {
     fn remove_old_pictures(&self) -> Result<(), RunDirectoryError> {
         let manifest = Manifest::read(self.folder)?;
         let listed = manifest.iter().flat_map(Manifest::names);
-        let pictures = listed.filter(|name| name.starts_with(PICTURES));
-        let new: HashSet<&PathBuf> = self.paths.iter().collect();
-        pictures
-            .map(|name| self.folder.join(name))
-            .filter(|path| !new.contains(path))
-            .try_for_each(|path| remove_if_there(&path))
+        listed
+            .filter(|name| picture_index(name).is_some_and(|i| i >= self.pictures))
+            .try_for_each(|name| remove_if_there(&self.folder.join(name)))
     }
 }
 
 impl Drop for Staged<'_> {
     fn drop(&mut self) {
-        for path in &self.paths[self.published..] {
+        for i in self.published..self.count() {
             // What has led here is told by an error.
-            let _ = fs::remove_file(atomic::unfinished(path));
+            let _ = fs::remove_file(atomic::unfinished(&self.path(i)));
         }
     }
 }
 
-/// Refuses records with other bodies or terms than those of the assembly.
-fn ensure_same_bodies(assembly: &Assembly, records: &[Record]) -> Result<(), RunDirectoryError> {
-    for (i, record) in records.iter().enumerate() {
-        let Record {
-            state,
-            energies_pn_nm,
-            ..
-        } = record;
-        for (quantity, found, expected) in [
-            ("points", state.points.len(), assembly.points.len()),
-            ("frames", state.frames.len(), assembly.frames.len()),
-            ("energies", energies_pn_nm.len(), assembly.terms.len()),
-        ] {
-            if found != expected {
-                return Err(RunDirectoryError::Mismatch {
-                    record: i,
-                    quantity,
-                    found,
-                    expected,
-                });
-            }
+/// Refuses record `i` if it has other bodies or terms than those of the assembly.
+fn ensure_same_bodies(
+    assembly: &Assembly,
+    i: usize,
+    record: &Record,
+) -> Result<(), RunDirectoryError> {
+    let Record {
+        state,
+        energies_pn_nm,
+        ..
+    } = record;
+    for (quantity, found, expected) in [
+        ("points", state.points.len(), assembly.points.len()),
+        ("frames", state.frames.len(), assembly.frames.len()),
+        ("energies", energies_pn_nm.len(), assembly.terms.len()),
+    ] {
+        if found != expected {
+            return Err(RunDirectoryError::Mismatch {
+                record: i,
+                quantity,
+                found,
+                expected,
+            });
         }
     }
     Ok(())
@@ -249,6 +329,7 @@ fn ensure_same_bodies(assembly: &Assembly, records: &[Record]) -> Result<(), Run
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Trajectory;
     use crate::results::fixture;
     use crate::results::lock::LOCK;
     use crate::results::manifest::MANIFEST;

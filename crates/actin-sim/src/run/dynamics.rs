@@ -188,7 +188,7 @@ pub(super) fn run(
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {
     let mut system = assembly.system.in_state(assembly.system.state().clone());
     let run = prepare(assembly, &mut system, dynamics, estimate)?;
-    let mut recorder = Recorder::new(assembly, dynamics, &system, saved, sink);
+    let mut recorder = Recorder::new(assembly, dynamics, saved, sink);
     let ending = recorder.execute(&run, &mut system);
     let ending = recorder.end(ending, &mut system);
     let wall_s = recorder.wall_s();

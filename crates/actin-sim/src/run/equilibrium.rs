@@ -155,24 +155,19 @@ impl<'a> Follower<'a> {
             last: None,
             work: SolverWork::default(),
         };
-        let (position, earlier) = match saved {
-            None => (start, Vec::new()),
+        let (position, recorded) = match saved {
+            None => (start, None),
             Some(Saved {
                 position: RunPosition::Path(position),
-                records,
+                recorded,
                 ..
-            }) => (*position, records),
+            }) => (*position, Some(recorded)),
             Some(_) => panic!("a motion in time is no path of equilibria"),
         };
-        let mut beginning = assembly.system.state().clone();
-        // Without a path, held ends are where the caller has put them.
-        if !assembly.drive.is_still() {
-            assembly.drive.place(&mut beginning, 0.0);
-        }
         Self {
             assembly,
             settings,
-            taken: Taken::new(assembly, &beginning, earlier, sink),
+            taken: Taken::new(assembly, recorded, sink),
             clock,
             position,
             is_interrupted: false,

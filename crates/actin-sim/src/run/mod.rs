@@ -7,6 +7,7 @@ mod outcome;
 mod plan;
 mod points;
 mod recorder;
+mod records;
 mod rest;
 mod sink;
 mod slip;
@@ -19,44 +20,14 @@ pub(crate) use dynamics::{estimate_at, shears_softly};
 pub use equilibrium::EquilibriumReport;
 pub use outcome::{FailedRun, Failure, Outcome, RunError, Status};
 pub use plan::Plan;
+pub use records::{Record, RecordIter, Records, Trajectory};
 pub use rest::SaddlePush;
 pub use sink::{Arrival, MotionPosition, PathPosition, Progress, RunPosition, Saved, Sink};
 pub use slip::Slip;
+pub use taken::Recorded;
 pub use unknowns::newton as solver;
 
 use crate::scene::Task;
-use actin_mechanics::State;
-
-/// One recorded moment.
-#[derive(Clone, Debug)]
-pub struct Record {
-    /// Time (ns); of an equilibrium the path parameter, which counts stages.
-    pub time_ns: f64,
-    /// Everything that moves.
-    pub state: State,
-    /// Energy of each term of the assembly, in order (pN nm).
-    pub energies_pn_nm: Vec<f64>,
-    /// Kinetic energy of the free bodies (pN nm).
-    pub kinetic_pn_nm: f64,
-    /// Largest force on a free point (pN).
-    pub residual_force_pn: f64,
-    /// Largest torque on a free frame (pN nm).
-    pub residual_torque_pn_nm: f64,
-}
-
-impl Record {
-    /// Energy of all terms (pN nm).
-    pub fn potential_pn_nm(&self) -> f64 {
-        self.energies_pn_nm.iter().sum()
-    }
-}
-
-/// The recorded moments of a run, in time.
-#[derive(Clone, Debug, Default)]
-pub struct Trajectory {
-    /// Records in time; the last is where the run ended.
-    pub records: Vec<Record>,
-}
 
 impl Plan<'_> {
     /// Runs it into memory.

@@ -45,29 +45,25 @@ pub(super) enum Ending {
 }
 
 impl<'a> Recorder<'a> {
-    /// A recorder of the motion of `system`, from where it was interrupted if it was.
+    /// A recorder of the motion of `assembly`, from where it was interrupted if it was.
     ///
     /// # Panics
     /// If what was saved is a path of equilibria.
     pub(super) fn new(
         assembly: &'a Assembly,
         dynamics: &Dynamics,
-        system: &System,
         saved: Option<Saved>,
         sink: &'a mut dyn Sink,
     ) -> Self {
         let clock = Clock::new(saved.as_ref());
-        let (position, earlier) = match saved {
-            None => (None, Vec::new()),
-            Some(saved) => (Some(saved.position), saved.records),
-        };
+        let (position, recorded) = saved.map(|s| (s.position, s.recorded)).unzip();
         let (position, pushes) = match position {
             None => (None, Vec::new()),
             Some(RunPosition::Motion(motion)) => (Some(motion.checkpoint), motion.pushes),
             Some(RunPosition::Path(_)) => panic!("a path of equilibria is no motion in time"),
         };
         Self {
-            taken: Taken::new(assembly, system.state(), earlier, sink),
+            taken: Taken::new(assembly, recorded, sink),
             pushes,
             end_ns: dynamics.duration_ns,
             rest_from_ns: Ramp::of(assembly).map_or(0.0, |ramp| ramp.duration()),

@@ -2,7 +2,7 @@
 //!
 //! What goes through a sink is values; files are the business of `results`.
 
-use super::{Record, SaddlePush, Trajectory};
+use super::{Record, Recorded, SaddlePush, Trajectory};
 use actin_equilibrium::{Certificate, SolverWork, Waypoint};
 use actin_integrate::Checkpoint;
 use actin_mechanics::State;
@@ -112,8 +112,8 @@ pub struct Arrival {
 pub struct Saved {
     /// Where it stands.
     pub position: RunPosition,
-    /// What it had recorded up to there.
-    pub records: Vec<Record>,
+    /// What it remembers of the records up to there.
+    pub recorded: Recorded,
     /// Time that it had taken (s).
     pub wall_s: f64,
 }

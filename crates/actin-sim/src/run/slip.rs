@@ -97,12 +97,10 @@ impl LinkWatch {
         }
     }
 
-    /// Follows records that were found good when they were made.
-    pub(super) fn follow(&mut self, assembly: &Assembly, records: &[Record]) {
-        for record in records {
-            for held in &mut self.held {
-                held.compare(assembly, &record.state, record.time_ns);
-            }
+    /// Follows a record that was found good when it was made.
+    pub(super) fn follow(&mut self, assembly: &Assembly, record: &Record) {
+        for held in &mut self.held {
+            held.compare(assembly, &record.state, record.time_ns);
         }
     }
 

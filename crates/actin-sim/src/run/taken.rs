@@ -4,46 +4,80 @@ use super::slip::{LinkWatch, Slip};
 use super::{Progress, Record, RunPosition, Sink};
 use crate::assembly::worst_of;
 use crate::{Assembly, BeyondUse};
-use actin_mechanics::State;
 
-/// Passes records on to a sink, unless twist was lost on the way to them.
-pub(super) struct Taken<'a> {
-    pub(super) sink: &'a mut dyn Sink,
-    assembly: &'a Assembly,
+/// What a run remembers of the records that it has taken. It holds one of them, the last.
+#[derive(Clone, Debug)]
+pub struct Recorded {
     links: LinkWatch,
-    slip: Option<Slip>,
     count: usize,
     last: Option<Record>,
     beyond_use: Vec<BeyondUse>,
 }
 
+impl Recorded {
+    /// That of a run of `assembly` that has taken none.
+    pub(crate) fn new(assembly: &Assembly) -> Self {
+        let mut start = assembly.system.state().clone();
+        // Without a path, held ends are where the caller has put them.
+        if !assembly.drive.is_still() {
+            assembly.drive.place(&mut start, 0.0);
+        }
+        Self {
+            links: LinkWatch::new(assembly, &start),
+            count: 0,
+            last: None,
+            beyond_use: Vec::new(),
+        }
+    }
+
+    /// How many records there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Adds a record that was found good when it was taken.
+    pub(crate) fn follow(&mut self, assembly: &Assembly, record: Record) {
+        self.links.follow(assembly, &record);
+        self.push(assembly, record);
+    }
+
+    fn push(&mut self, assembly: &Assembly, record: Record) {
+        let beyond = assembly.beyond_use(&record.state);
+        self.beyond_use = worst_of(self.beyond_use.drain(..).chain(beyond).collect::<Vec<_>>());
+        self.count += 1;
+        self.last = Some(record);
+    }
+}
+
+/// Passes records on to a sink, unless twist was lost on the way to them.
+pub(super) struct Taken<'a> {
+    pub(super) sink: &'a mut dyn Sink,
+    assembly: &'a Assembly,
+    recorded: Recorded,
+    slip: Option<Slip>,
+}
+
 impl<'a> Taken<'a> {
-    /// Records of a run that begins in `start`, of which the `earlier` ones were taken before it was
-    /// interrupted; the sink has those.
+    /// Records of a run, of which the sink has those that are `recorded`.
     pub(super) fn new(
         assembly: &'a Assembly,
-        start: &State,
-        earlier: Vec<Record>,
+        recorded: Option<Recorded>,
         sink: &'a mut dyn Sink,
     ) -> Self {
-        let mut links = LinkWatch::new(assembly, start);
-        links.follow(assembly, &earlier);
         Self {
             sink,
             assembly,
-            links,
+            recorded: recorded.unwrap_or_else(|| Recorded::new(assembly)),
             slip: None,
-            count: earlier.len(),
-            beyond_use: assembly.worst_beyond_use(earlier.iter().map(|record| &record.state)),
-            last: earlier.into_iter().next_back(),
         }
     }
 
     /// Takes a record; false, with nothing taken, where twist was lost on the way to it.
     pub(super) fn take(&mut self, record: Record) -> bool {
-        let before = self.last.as_ref().map(|record| &record.state);
+        let Recorded { links, last, .. } = &mut self.recorded;
+        let before = last.as_ref().map(|record| &record.state);
         let here = (&record.state, record.time_ns);
-        self.slip = self.links.slip(self.assembly, here, before);
+        self.slip = links.slip(self.assembly, here, before);
         if self.slip.is_some() {
             return false;
         }
@@ -54,20 +88,17 @@ impl<'a> Taken<'a> {
     /// Takes a record whose twist is not looked at: that of an attempt which failed.
     pub(super) fn take_unchecked(&mut self, record: Record) {
         self.sink.record(&record);
-        let beyond = self.assembly.beyond_use(&record.state);
-        self.beyond_use = worst_of(self.beyond_use.drain(..).chain(beyond).collect::<Vec<_>>());
-        self.count += 1;
-        self.last = Some(record);
+        self.recorded.push(self.assembly, record);
     }
 
     /// The last record.
     pub(super) fn last(&self) -> Option<&Record> {
-        self.last.as_ref()
+        self.recorded.last.as_ref()
     }
 
     /// How many there are.
     pub(super) fn count(&self) -> usize {
-        self.count
+        self.recorded.count
     }
 
     /// Whether twist was lost.
@@ -82,12 +113,12 @@ impl<'a> Taken<'a> {
 
     /// What is beyond any use in them, the worst of all.
     pub(super) fn into_beyond_use(self) -> Vec<BeyondUse> {
-        self.beyond_use
+        self.recorded.beyond_use
     }
 
     /// Passes a checkpoint on that comes behind all records but the last `less`.
     pub(super) fn checkpoint(&mut self, position: &RunPosition, less: usize, wall_s: f64) {
-        self.sink.checkpoint(position, self.count - less, wall_s);
+        self.sink.checkpoint(position, self.count() - less, wall_s);
     }
 
     /// Passes on how far the run has come.

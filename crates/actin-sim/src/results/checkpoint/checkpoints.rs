@@ -8,7 +8,7 @@ use crate::results::directory::{
     CHECKPOINT, RECORDS, RunDirectory, SCENE, SUMMARY, remove_if_there,
 };
 use crate::results::{RunDirectoryError, Summary};
-use crate::run::{Plan, Record, RunPosition, Saved, Sink, Status, Trajectory};
+use crate::run::{Plan, Record, RecordIter, Recorded, Records, RunPosition, Saved, Sink, Status};
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
@@ -16,8 +16,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// The sink of a run directory: keeps records, and writes checkpoints at an interval of time and when the
-/// run is interrupted or ends.
+/// The sink of a run directory: writes records to the disk as they are taken, and checkpoints at an interval
+/// of time and when the run is interrupted or ends. It holds no more than a buffer of records in memory.
 ///
 /// A checkpoint that cannot be written leaves the one before as it was and is tried again after the
 /// interval.
@@ -26,7 +26,6 @@ pub struct Checkpoints {
     path: PathBuf,
     identity: Identity,
     log: RecordLog,
-    trajectory: Trajectory,
     every: Duration,
     last: Instant,
     interrupted: Arc<AtomicBool>,
@@ -51,7 +50,6 @@ impl Checkpoints {
             path: directory.path.join(CHECKPOINT),
             log: RecordLog::new(records, Tally::default(), &identity.like, identity.terms),
             identity,
-            trajectory: Trajectory::default(),
             every,
             last: Instant::now(),
             interrupted,
@@ -61,12 +59,12 @@ impl Checkpoints {
         }
     }
 
-    /// Reads what the directory keeps of this run, from where
+    /// Reads what the directory keeps of the run of this plan, from where
     /// [`resume_into`](Plan::resume_into) goes on.
     ///
     /// # Errors
     /// If there is no checkpoint, or one that is damaged, of another scene or of another program.
-    pub fn resume(&mut self) -> Result<Saved, CheckpointError> {
+    pub fn resume(&mut self, plan: &Plan<'_>) -> Result<Saved, CheckpointError> {
         let contents = self
             .identity
             .read(&self.path)
@@ -74,23 +72,16 @@ impl Checkpoints {
         let Identity { like, terms, .. } = &self.identity;
         let path = self.path.with_file_name(RECORDS);
         self.log = RecordLog::new(path.clone(), contents.records, like, *terms);
-        let records = if contents.records.count == 0 {
-            Vec::new()
-        } else {
-            let read = self.log.read(like, *terms);
-            read.map_err(|damage| damage.of(&path))?
-        };
-        self.trajectory.records.clone_from(&records);
+        let mut recorded = Recorded::new(plan.assembly());
+        for record in self.log.read().map_err(|damage| damage.of(&path))? {
+            let record = record.map_err(|damage| damage.of(&path))?;
+            recorded.follow(plan.assembly(), record);
+        }
         Ok(Saved {
             position: contents.position,
-            records,
+            recorded,
             wall_s: contents.wall_s,
         })
-    }
-
-    /// All records taken so far.
-    pub fn trajectory(&self) -> &Trajectory {
-        &self.trajectory
     }
 
     /// Checkpoints written so far.
@@ -110,9 +101,9 @@ impl Checkpoints {
         wall_s: f64,
     ) -> Result<(), CheckpointError> {
         let log = self.path.with_file_name(RECORDS);
-        let appended = self.log.append(&self.trajectory.records[..records]);
-        appended.map_err(|error| Damage::from(error).of(&log))?;
-        let bytes = self.identity.encode(position, self.log.tally, wall_s);
+        let synced = self.log.sync(records);
+        let tally = synced.map_err(|error| Damage::from(error).of(&log))?;
+        let bytes = self.identity.encode(position, tally, wall_s);
         let replaced = replace_durably(&self.path, |out| out.write_all(&bytes));
         replaced.map_err(|error| Damage::from(error).of(&self.path))
     }
@@ -120,7 +111,7 @@ impl Checkpoints {
 
 impl Sink for Checkpoints {
     fn record(&mut self, record: &Record) {
-        self.trajectory.record(record);
+        self.log.push(record);
     }
 
     fn is_interrupted(&mut self) -> bool {
@@ -139,6 +130,17 @@ impl Sink for Checkpoints {
             Err(error) => (self.warn)(&error),
         }
         self.last = Instant::now();
+    }
+}
+
+/// All records taken so far, those before the run was resumed included.
+impl Records for Checkpoints {
+    fn count(&self) -> usize {
+        self.log.count()
+    }
+
+    fn iter(&self) -> RecordIter<'_> {
+        self.log.iter()
     }
 }
 

@@ -3,10 +3,11 @@
 use super::Damage;
 use super::bytes::{Reader, Writer};
 use super::position::{read_record, record_length, write_record};
-use crate::run::Record;
+use crate::run::{Record, RecordIter, Records};
 use actin_mechanics::State;
+use std::borrow::Cow;
 use std::fs::{File, OpenOptions};
-use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 const MAGIC: &[u8; 8] = b"ACTINREC";
@@ -14,6 +15,8 @@ const MAGIC: &[u8; 8] = b"ACTINREC";
 const HEADER: u64 = 8;
 /// Bytes of a checksum.
 const CHECKSUM: usize = 4;
+/// So many bytes of records wait until they are written together.
+const BUFFER: usize = 1 << 16;
 
 /// How many records there are, and the checksum of all of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,14 +25,31 @@ pub(super) struct Tally {
     pub(super) checksum: u32,
 }
 
-/// The file.
+/// The log of the records of a run: a file that is only ever appended to, and a buffer.
+///
+/// What a disk refuses stays in the buffer, and is tried again when that has doubled and at the next
+/// checkpoint.
 #[derive(Debug)]
 pub(super) struct RecordLog {
     path: PathBuf,
-    /// What is known to be on the disk.
-    pub(super) tally: Tally,
+    /// A state of the run, for what time does not change.
+    like: State,
+    /// Energies of a record.
+    terms: usize,
     /// Bytes of a record with its checksum.
     length: usize,
+    /// Open from the first time that it is written to.
+    file: Option<File>,
+    /// What is in the file.
+    written: Tally,
+    /// Whether some of that may not have reached the disk.
+    is_unsynced: bool,
+    /// All records.
+    taken: Tally,
+    /// Those that are not in the file, as bytes.
+    buffer: Vec<u8>,
+    /// How many bytes the buffer is to hold before it is written.
+    patience: usize,
 }
 
 impl RecordLog {
@@ -38,46 +58,116 @@ impl RecordLog {
     pub(super) fn new(path: PathBuf, tally: Tally, like: &State, terms: usize) -> Self {
         Self {
             path,
-            tally,
+            like: like.clone(),
+            terms,
             length: record_length(like, terms) + CHECKSUM,
+            file: None,
+            written: tally,
+            is_unsynced: false,
+            taken: tally,
+            buffer: Vec::new(),
+            patience: BUFFER,
         }
     }
 
-    /// Appends what is missing of `records`, of which the first are on the disk already, and waits
-    /// until it is there. What a failure leaves behind the known records is cut off again.
-    pub(super) fn append(&mut self, records: &[Record]) -> io::Result<()> {
-        let Tally { count, checksum } = self.tally;
-        let new = records.get(count..).unwrap_or_default();
-        if new.is_empty() && count > 0 {
-            return Ok(());
-        }
-        let mut options = OpenOptions::new();
-        let file = options
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .open(&self.path)?;
-        let offset = if count == 0 { 0 } else { self.end() };
-        let checksum = write_from(&file, offset, new, checksum).inspect_err(|_| {
-            // Room for other files on a disk that is full; without it the rest is overwritten next time.
-            let _ = file.set_len(offset);
-        })?;
-        self.tally = Tally {
-            count: records.len(),
+    /// Adds a record. Where the disk refuses, [`sync`](Self::sync) will tell.
+    pub(super) fn push(&mut self, record: &Record) {
+        let mut writer = Writer::default();
+        write_record(&mut writer, record);
+        let checksum = follow(self.taken.checksum, &writer.bytes);
+        writer.checksum(checksum);
+        self.buffer.append(&mut writer.bytes);
+        self.taken = Tally {
+            count: self.taken.count + 1,
             checksum,
         };
+        if self.buffer.len() >= self.patience && self.flush().is_err() {
+            self.patience = 2 * self.buffer.len();
+        }
+    }
+
+    /// Waits until all records are on the disk, and returns the tally of the first `count` of them.
+    pub(super) fn sync(&mut self, count: usize) -> io::Result<Tally> {
+        if !self.buffer.is_empty() || self.taken.count == 0 {
+            self.flush()?;
+        }
+        if let (Some(file), true) = (&self.file, self.is_unsynced) {
+            file.sync_data()?;
+            self.is_unsynced = false;
+        }
+        self.tally_of(count)
+    }
+
+    /// Writes what is in the buffer. What a failure leaves behind the known records is cut off again.
+    fn flush(&mut self) -> io::Result<()> {
+        let start = match self.written.count {
+            0 => 0,
+            _ => self.end(),
+        };
+        let mut file = match self.file.take() {
+            Some(file) => file,
+            None => create(&self.path, start)?,
+        };
+        let written = append(&mut file, start, &self.buffer);
+        if let Err(error) = written {
+            // Room for other files on a disk that is full; without it the rest is overwritten next time.
+            let _ = file.set_len(start);
+            return Err(error);
+        }
+        self.file = Some(file);
+        self.written = self.taken;
+        self.is_unsynced = true;
+        self.buffer.clear();
+        self.patience = BUFFER;
         Ok(())
     }
 
-    /// Where the known records end.
-    fn end(&self) -> u64 {
-        HEADER + self.tally.count as u64 * self.length as u64
+    /// The tally of the first `count` records, which are in the file.
+    fn tally_of(&self, count: usize) -> io::Result<Tally> {
+        let checksum = match count {
+            0 => 0,
+            _ if count == self.taken.count => self.taken.checksum,
+            _ => {
+                let mut file = File::open(&self.path)?;
+                let end = HEADER + count as u64 * self.length as u64;
+                file.seek(SeekFrom::Start(end - CHECKSUM as u64))?;
+                let mut bytes = [0; CHECKSUM];
+                file.read_exact(&mut bytes)?;
+                u32::from_le_bytes(bytes)
+            }
+        };
+        Ok(Tally { count, checksum })
     }
 
-    /// Reads the known records.
-    pub(super) fn read(&self, like: &State, terms: usize) -> Result<Vec<Record>, Damage> {
+    /// Where the records that are in the file end.
+    fn end(&self) -> u64 {
+        HEADER + self.written.count as u64 * self.length as u64
+    }
+
+    fn checked_end(&self) -> Option<u64> {
+        let records = (self.written.count as u64).checked_mul(self.length as u64)?;
+        records.checked_add(HEADER)
+    }
+
+    /// Reads the records from the first on.
+    pub(super) fn read(&self) -> Result<Reading<'_>, Damage> {
+        let file: Box<dyn Read> = match self.written.count {
+            0 => Box::new(io::empty()),
+            _ => Box::new(self.read_file()?),
+        };
+        Ok(Reading {
+            log: self,
+            source: Box::new(file.chain(&self.buffer[..])),
+            tally: Tally::default(),
+            bytes: vec![0; self.length],
+            has_ended: false,
+        })
+    }
+
+    /// The records that are in the file.
+    fn read_file(&self) -> Result<impl Read + use<>, Damage> {
         let Some(expected) = self.checked_end() else {
-            let count = self.tally.count;
+            let count = self.written.count;
             return Err(Damage::Contents(format!("{count} records")));
         };
         let file = open(&self.path)?;
@@ -85,7 +175,7 @@ impl RecordLog {
         if found < expected {
             return Err(Damage::Length { found, expected });
         }
-        let mut file = BufReader::new(file);
+        let mut file = BufReader::with_capacity(BUFFER, file);
         let mut magic = [0; 8];
         file.read_exact(&mut magic)?;
         if &magic != MAGIC {
@@ -93,51 +183,84 @@ impl RecordLog {
                 expected: "ACTINREC",
             });
         }
-        let mut chain = 0;
-        let mut bytes = vec![0; self.length];
-        let mut records = Vec::with_capacity(self.tally.count);
-        for i in 0..self.tally.count {
-            file.read_exact(&mut bytes)?;
-            let (body, written) = bytes.split_at(self.length - CHECKSUM);
-            chain = follow(chain, body);
-            let written = Reader::new(written).checksum()?;
-            compare(format!("record {i}"), chain, written)?;
-            records.push(read_record(&mut Reader::new(body), like, terms)?);
+        Ok(file.take(expected - HEADER))
+    }
+}
+
+impl Records for RecordLog {
+    fn count(&self) -> usize {
+        self.taken.count
+    }
+
+    fn iter(&self) -> RecordIter<'_> {
+        let refused = |damage: Damage| io::Error::other(damage.of(&self.path));
+        match self.read() {
+            Ok(reading) => Box::new(reading.map(move |r| r.map(Cow::Owned).map_err(refused))),
+            Err(damage) => Box::new(std::iter::once(Err(refused(damage)))),
         }
-        let part = "all records, which belong to another checkpoint,".into();
-        compare(part, chain, self.tally.checksum)?;
-        Ok(records)
-    }
-
-    fn checked_end(&self) -> Option<u64> {
-        let records = (self.tally.count as u64).checked_mul(self.length as u64)?;
-        records.checked_add(HEADER)
     }
 }
 
-/// Writes records at `offset` and waits until they are on the disk; returns the checksum of all.
-fn write_from(file: &File, offset: u64, records: &[Record], chain: u32) -> io::Result<u32> {
-    let mut out = BufWriter::new(file);
-    out.seek(SeekFrom::Start(offset))?;
-    if offset == 0 {
-        out.write_all(MAGIC)?;
-    }
-    let chain = append_all(&mut out, records, chain)?;
-    out.flush()?;
-    file.sync_data()?;
-    Ok(chain)
+/// Reads the records of a log one by one.
+pub(super) struct Reading<'a> {
+    log: &'a RecordLog,
+    source: Box<dyn Read + 'a>,
+    /// What was read.
+    tally: Tally,
+    /// Of one record.
+    bytes: Vec<u8>,
+    has_ended: bool,
 }
 
-/// Writes records behind others of checksum `chain`; returns the checksum of all.
-fn append_all(out: &mut impl Write, records: &[Record], mut chain: u32) -> io::Result<u32> {
-    for record in records {
-        let mut writer = Writer::default();
-        write_record(&mut writer, record);
-        chain = follow(chain, &writer.bytes);
-        writer.checksum(chain);
-        out.write_all(&writer.bytes)?;
+impl Reading<'_> {
+    fn next_record(&mut self) -> Result<Option<Record>, Damage> {
+        let Self { log, tally, .. } = self;
+        if tally.count == log.taken.count {
+            let part = "all records, which belong to another checkpoint,".into();
+            return compare(part, tally.checksum, log.taken.checksum).map(|()| None);
+        }
+        self.source.read_exact(&mut self.bytes)?;
+        let (body, written) = self.bytes.split_at(log.length - CHECKSUM);
+        tally.checksum = follow(tally.checksum, body);
+        let written = Reader::new(written).checksum()?;
+        compare(format!("record {}", tally.count), tally.checksum, written)?;
+        tally.count += 1;
+        read_record(&mut Reader::new(body), &log.like, log.terms).map(Some)
     }
-    Ok(chain)
+}
+
+impl Iterator for Reading<'_> {
+    type Item = Result<Record, Damage>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.has_ended {
+            return None;
+        }
+        let next = self.next_record().transpose();
+        self.has_ended = !matches!(next, Some(Ok(_)));
+        next
+    }
+}
+
+/// Opens a log to write it, and makes it if need be. What is behind `end` goes: no checkpoint counts it.
+fn create(path: &Path, end: u64) -> io::Result<File> {
+    let mut options = OpenOptions::new();
+    let file = options
+        .write(true)
+        .create(true)
+        .truncate(false)
+        .open(path)?;
+    file.set_len(end)?;
+    Ok(file)
+}
+
+/// Writes records behind `start` bytes; a log begins with what it is.
+fn append(file: &mut File, start: u64, records: &[u8]) -> io::Result<()> {
+    file.seek(SeekFrom::Start(start))?;
+    if start == 0 {
+        file.write_all(MAGIC)?;
+    }
+    file.write_all(records)
 }
 
 /// The checksum of `bytes` behind others of checksum `chain`.
@@ -165,4 +288,81 @@ pub(super) fn open(path: &Path) -> Result<File, Damage> {
         io::ErrorKind::NotFound => Damage::Missing,
         _ => error.into(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Trajectory;
+    use crate::results::fixture;
+    use std::fs;
+
+    /// A log of a made-up run, its folder, and the records that go into it.
+    fn log() -> (tempfile::TempDir, RecordLog, Vec<Record>) {
+        let assembly = fixture::clamped_start();
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("records.bin");
+        let log = RecordLog::new(path, Tally::default(), &assembly.rest, assembly.terms.len());
+        let records = fixture::trajectory(&assembly).records;
+        (folder, log, records)
+    }
+
+    /// However many records there are, less than a buffer and a record of them wait in memory; the rest is
+    /// in the file. All come back, first from the file and then from the buffer.
+    #[test]
+    fn records_go_to_the_disk_as_they_are_taken() {
+        let (_folder, mut log, records) = log();
+        let count = 3 * BUFFER.div_ceil(log.length) + 2;
+        for i in 0..count {
+            log.push(&records[i % 3]);
+            assert!(log.buffer.len() < BUFFER + log.length);
+            let written = fs::metadata(&log.path).map_or(HEADER, |data| data.len());
+            let all = written + log.buffer.len() as u64;
+            assert_eq!(all, HEADER + ((i + 1) * log.length) as u64);
+        }
+        assert!(log.written.count > 0 && !log.buffer.is_empty());
+        let read = Trajectory::read(&log).unwrap().records;
+        assert_eq!((read.len(), log.count()), (count, count));
+        for (i, record) in read.iter().enumerate() {
+            assert_eq!(record.state, records[i % 3].state);
+        }
+    }
+
+    /// The tally of a checkpoint is that of the records which it counts: a log that has no more of them
+    /// has the same.
+    #[test]
+    fn a_checkpoint_may_count_fewer_records() {
+        let (_folder, mut log, records) = log();
+        let tallies = [0, 1, 2].map(|count| {
+            let tally = log.sync(count).unwrap();
+            log.push(&records[count]);
+            tally
+        });
+        for (count, tally) in tallies.into_iter().enumerate() {
+            assert_eq!(log.sync(count).unwrap(), tally);
+        }
+        let (path, terms) = (log.path.clone(), log.terms);
+        let mut again = RecordLog::new(path, tallies[2], &log.like, terms);
+        assert_eq!(Trajectory::read(&again).unwrap().records.len(), 2);
+        // Resumed, the file ends behind them, until there are more.
+        again.push(&records[2]);
+        again.sync(3).unwrap();
+        assert_eq!(Trajectory::read(&again).unwrap().records.len(), 3);
+        let length = fs::metadata(&again.path).unwrap().len();
+        assert_eq!(length, HEADER + 3 * again.length as u64);
+    }
+
+    /// What cannot be written waits, and is read back all the same.
+    #[test]
+    fn a_disk_that_refuses_loses_nothing() {
+        let (_folder, mut log, records) = log();
+        fs::create_dir(&log.path).unwrap();
+        records.iter().for_each(|record| log.push(record));
+        assert!(log.sync(3).is_err());
+        assert_eq!(Trajectory::read(&log).unwrap().records.len(), 3);
+        fs::remove_dir(&log.path).unwrap();
+        log.sync(3).unwrap();
+        assert!(log.buffer.is_empty());
+        assert_eq!(Trajectory::read(&log).unwrap().records.len(), 3);
+    }
 }

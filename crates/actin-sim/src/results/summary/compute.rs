@@ -1,8 +1,8 @@
 //! The numbers of a summary, from the last record of a run.
 
 use super::{
-    EndReaction, EndReactions, EnergySummary, FilamentSummary, LinkerSummary, ResidualSummary,
-    ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
+    EndReaction, EndReactions, EnergySummary, FilamentSummary, LateKinetic, LinkerSummary,
+    ResidualSummary, ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
 };
 use crate::results::energies::{Totals, distinct, sum_where};
 use crate::scene;
@@ -19,6 +19,8 @@ impl Summary {
         let filaments = FilamentSummary::all(assembly, last);
         let first = &filaments[0];
         let [time_ns, path] = when(assembly, last);
+        let mut kinetic = LateKinetic::of(1);
+        kinetic.add(last);
         Self {
             scene: assembly.scene.title.clone(),
             status: outcome.status,
@@ -44,7 +46,7 @@ impl Summary {
             shape: first.shape,
             residual: (last.residual_force_pn, last.residual_torque_pn_nm).into(),
             residual_floor: equilibrium.and_then(|e| e.floor).map(Into::into),
-            thermal: ThermalSummary::new(assembly, std::slice::from_ref(last)),
+            thermal: ThermalSummary::new(assembly, &kinetic),
             lowest_stiffness_eigenvalue: equilibrium.and_then(|e| e.lowest_eigenvalue),
             work: WorkSummary::new(outcome),
             wall_s: outcome.wall_s,

@@ -4,6 +4,7 @@ mod compute;
 mod pushes;
 mod thermal;
 
+pub(super) use thermal::LateKinetic;
 pub use thermal::ThermalSummary;
 
 use super::{RunDirectoryError, finite::ensure_finite};

@@ -18,20 +18,50 @@ pub struct ThermalSummary {
 }
 
 impl ThermalSummary {
-    /// That of the last of `records`, if the scene of `assembly` has a temperature.
-    pub(in crate::results) fn new(assembly: &Assembly, records: &[Record]) -> Option<Self> {
+    /// That of records whose late half has this kinetic energy, if the scene of `assembly` has a
+    /// temperature.
+    pub(in crate::results) fn new(assembly: &Assembly, late: &LateKinetic) -> Option<Self> {
         let Thermal {
             temperature_k,
             seed,
         } = *assembly.scene.thermal()?;
-        let late = &records[records.len() / 2..];
-        let kinetic: f64 = late.iter().map(|record| record.kinetic_pn_nm).sum();
-        let degrees = (assembly.counts().dofs * late.len()).max(1) as f64;
+        let degrees = (assembly.counts().dofs * late.records).max(1) as f64;
         Some(Self {
             temperature_k,
             seed,
-            kinetic_temperature_k: 2.0 * kinetic / (degrees * BOLTZMANN_PN_NM_PER_K),
+            kinetic_temperature_k: 2.0 * late.sum_pn_nm / (degrees * BOLTZMANN_PN_NM_PER_K),
         })
+    }
+}
+
+/// The kinetic energy of the second half of some records, which are shown one by one.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::results) struct LateKinetic {
+    /// Records that do not count yet.
+    early: usize,
+    /// Records that did.
+    records: usize,
+    sum_pn_nm: f64,
+}
+
+impl LateKinetic {
+    /// That of so many records.
+    pub(in crate::results) fn of(count: usize) -> Self {
+        Self {
+            early: count / 2,
+            records: 0,
+            sum_pn_nm: 0.0,
+        }
+    }
+
+    pub(in crate::results) fn add(&mut self, record: &Record) {
+        match self.early {
+            0 => {
+                self.records += 1;
+                self.sum_pn_nm += record.kinetic_pn_nm;
+            }
+            _ => self.early -= 1,
+        }
     }
 }
 
@@ -48,7 +78,7 @@ mod tests {
     fn the_temperature_is_that_of_the_second_half() {
         let cold = fixture::clamped_start();
         let records = fixture::trajectory(&cold).records;
-        assert_eq!(ThermalSummary::new(&cold, &records), None);
+        assert_eq!(ThermalSummary::new(&cold, &LateKinetic::of(3)), None);
         let text = cold.scene.to_ron();
         let mut scene = Scene::from_ron(&text).unwrap();
         let Task::Dynamics(dynamics) = &mut scene.task else {
@@ -64,7 +94,9 @@ mod tests {
         for (record, kinetic) in records.iter_mut().zip([5.0, 1.0, 3.0]) {
             record.kinetic_pn_nm = kinetic;
         }
-        let summary = ThermalSummary::new(&warm, &records).unwrap();
+        let mut late = LateKinetic::of(3);
+        records.iter().for_each(|record| late.add(record));
+        let summary = ThermalSummary::new(&warm, &late).unwrap();
         assert_eq!((summary.temperature_k, summary.seed), (300.0, u64::MAX));
         let expected = 2.0 * 2.0 / (warm.counts().dofs as f64 * BOLTZMANN_PN_NM_PER_K);
         assert!((summary.kinetic_temperature_k / expected - 1.0).abs() < 1e-14);

@@ -12,7 +12,6 @@ use super::{RunDirectoryError, finite::ensure_finite};
 use crate::{Assembly, BodyKind};
 use actin_mechanics::{State, UnitQuaternion, Vector3};
 use poly_data::{Array, PolyData, Values};
-use std::fmt::Write as _;
 use std::io::{self, Write};
 
 /// What does not change between the pictures of one run.
@@ -200,27 +199,30 @@ fn flat(vectors: impl Iterator<Item = Vector3>) -> Vec<f64> {
     vectors.flat_map(|v| [v.x, v.y, v.z]).collect()
 }
 
-/// The collection file that gives each picture its time; `pictures` are times (ns) and paths
+/// Writes the collection file that gives each picture its time; `pictures` are times (ns) and paths
 /// relative to the collection.
-pub(super) fn collection<'a>(
+///
+/// # Errors
+/// Those of `out` and of the pictures.
+pub(super) fn write_collection(
     title: &str,
-    pictures: impl Iterator<Item = (f64, &'a str)>,
-) -> String {
+    pictures: impl Iterator<Item = io::Result<(f64, String)>>,
+    out: &mut impl Write,
+) -> io::Result<()> {
     let title = xml::escape(title);
-    let mut text = String::from(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+    out.write_all(
+        b"<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
          <VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",
-    );
-    for (time_ns, file) in pictures {
-        let file = xml::escape(file);
+    )?;
+    for picture in pictures {
+        let (time_ns, file) = picture?;
+        let file = xml::escape(&file);
         writeln!(
-            text,
+            out,
             r#"<DataSet timestep="{time_ns:?}" group="" part="0" name="{title}" file="{file}"/>"#
-        )
-        .expect("a String takes any text");
+        )?;
     }
-    text.push_str("</Collection>\n</VTKFile>\n");
-    text
+    out.write_all(b"</Collection>\n</VTKFile>\n")
 }
 
 #[cfg(test)]

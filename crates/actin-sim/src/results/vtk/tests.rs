@@ -185,7 +185,10 @@ fn a_picture_that_is_not_finite_is_refused() {
 #[test]
 fn the_collection_lists_pictures_and_times() {
     let pictures = [(0.0, "vtk/0000.vtp"), (1.0 / 3.0, "vtk/0001.vtp")];
-    let text = collection("a \"b\" <c>", pictures.into_iter());
+    let pictures = pictures.map(|(time, name)| Ok((time, name.to_owned())));
+    let mut text = Vec::new();
+    write_collection("a \"b\" <c>", pictures.into_iter(), &mut text).unwrap();
+    let text = String::from_utf8(text).unwrap();
     let sets: Vec<&str> = text.lines().filter(|l| l.starts_with("<DataSet")).collect();
     assert_eq!(
         sets,

@@ -1,0 +1,73 @@
+//! Records and where they are: in memory, or read back one by one from wherever a sink has put them.
+
+use actin_mechanics::State;
+use std::borrow::Cow;
+use std::io;
+
+/// One recorded moment.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// Time (ns); of an equilibrium the path parameter, which counts stages.
+    pub time_ns: f64,
+    /// Everything that moves.
+    pub state: State,
+    /// Energy of each term of the assembly, in order (pN nm).
+    pub energies_pn_nm: Vec<f64>,
+    /// Kinetic energy of the free bodies (pN nm).
+    pub kinetic_pn_nm: f64,
+    /// Largest force on a free point (pN).
+    pub residual_force_pn: f64,
+    /// Largest torque on a free frame (pN nm).
+    pub residual_torque_pn_nm: f64,
+}
+
+impl Record {
+    /// Energy of all terms (pN nm).
+    pub fn potential_pn_nm(&self) -> f64 {
+        self.energies_pn_nm.iter().sum()
+    }
+}
+
+/// The records of a run, which can be gone through in order any number of times.
+///
+/// Those of a [`Trajectory`] are in memory; those of a run directory
+/// ([`Checkpoints`](crate::Checkpoints)) are read from its log, one at a time.
+pub trait Records {
+    /// How many there are.
+    fn count(&self) -> usize;
+
+    /// The records in order. What cannot be read is an error, and the end.
+    fn iter(&self) -> RecordIter<'_>;
+}
+
+/// Goes through records.
+pub type RecordIter<'a> = Box<dyn Iterator<Item = io::Result<Cow<'a, Record>>> + 'a>;
+
+/// Records in memory.
+#[derive(Clone, Debug, Default)]
+pub struct Trajectory {
+    /// Records in time; the last is where the run ended.
+    pub records: Vec<Record>,
+}
+
+impl Trajectory {
+    /// Reads all of `records` into memory.
+    ///
+    /// # Errors
+    /// A record that cannot be read.
+    pub fn read(records: &dyn Records) -> io::Result<Self> {
+        let all = records.iter().map(|record| record.map(Cow::into_owned));
+        let records = all.collect::<io::Result<_>>()?;
+        Ok(Self { records })
+    }
+}
+
+impl Records for Trajectory {
+    fn count(&self) -> usize {
+        self.records.len()
+    }
+
+    fn iter(&self) -> RecordIter<'_> {
+        Box::new(self.records.iter().map(|record| Ok(Cow::Borrowed(record))))
+    }
+}
