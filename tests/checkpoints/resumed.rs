@@ -18,7 +18,7 @@ fn timeless(report: &Outcome) -> String {
 /// The bits of every number of a record.
 fn bits(record: &Record) -> Vec<u64> {
     let numbers = [
-        record.time_ns,
+        record.at.value(),
         record.kinetic_pn_nm,
         record.residual_force_pn,
         record.residual_torque_pn_nm,
@@ -176,7 +176,7 @@ fn a_motion_is_pushed_off_a_saddle_once_however_often_it_is_left() {
     let checks = trajectory
         .records
         .iter()
-        .filter(|r| r.time_ns <= push.time_ns);
+        .filter(|r| r.at.value() <= push.time_ns);
     let before = checks.count() as u64;
     compare(&scene, &[before / 2, 1, before]);
     compare(&scene, &[before, 1, 1]);

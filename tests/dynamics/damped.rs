@@ -66,7 +66,7 @@ fn a_cantilever_creeps_as_its_modes_do() {
             let rest = modes.response(tip, (tip, force), |omega| 1.0 / (omega * omega));
             let mut largest: f64 = 0.0;
             for record in &trajectory.records[1..] {
-                let answer = |omega| displaced(rate, omega, record.time_ns);
+                let answer = |omega| displaced(rate, omega, record.at.value());
                 let expected = modes.response(tip, (tip, force), answer);
                 let error = (x(&record.state) - expected) / expected.abs().max(1e-3 * rest);
                 largest = largest.max(error.abs());
@@ -148,7 +148,7 @@ fn a_free_filament_turns_as_the_couple_says() {
             let ends = [End::End, End::Start].map(|end| assembly.tip_nm(&before.state, end));
             let expected = (ends[0] - ends[1]).cross(&(Vector3::y() * force));
             let rates = (translational, rotational);
-            let time = after.time_ns - before.time_ns;
+            let time = after.at.value() - before.at.value();
             let found = torque_of_drag(&before.state, &after.state, time, rates);
             let share = found.dot(&expected) / expected.norm_squared();
             println!(

@@ -75,7 +75,7 @@ fn a_straight_rod_that_stays_straight_is_a_saddle() {
         let straight = 0.5 * 3.4e4 * 0.3_f64.powi(2) * 200.0;
         assert!((energy(&trajectory) / straight - 1.0).abs() < 1e-9);
         assert!(report.status == Status::Failed && report.at_rest.unwrap().negative > 0);
-        assert!(trajectory.records[0].time_ns.abs() < 1e-12);
+        assert!(trajectory.records[0].at.value().abs() < 1e-12);
         assert_eq!(problem.key, "task.leave_saddles");
         assert!(problem.rule.contains("imperfection"), "{problem}");
         assert!(buckled() < 1e-2 * straight);
@@ -188,9 +188,9 @@ fn twist_that_slips_is_an_error() {
     assert!((slip.lost_turns().abs() - 1.0).abs() < 1e-12 && slip.joint_deg.abs() > 90.0);
     assert_eq!(report.status, Status::Failed);
     let last = trajectory.records.last().unwrap();
-    assert!(last.time_ns < slip.time_ns);
+    assert!(last.at.value() < slip.at.value());
     // Slowly enough, the same turn arrives.
     let slowly = text.replace("duration_ns: 0.02", "duration_ns: 1.5");
     let (trajectory, _) = moved(&slowly).unwrap();
-    assert!((trajectory.records.last().unwrap().time_ns - 2.0).abs() < 1e-12);
+    assert!((trajectory.records.last().unwrap().at.value() - 2.0).abs() < 1e-12);
 }

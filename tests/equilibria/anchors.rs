@@ -91,15 +91,19 @@ fn anchors_move_smoothly_in_time() {
         report.steps
     );
     let linker = &moving.linkers[1];
-    for record in trajectory.records.iter().take_while(|r| r.time_ns < 45.0) {
-        let x = (record.time_ns / 40.0).min(1.0);
+    for record in trajectory
+        .records
+        .iter()
+        .take_while(|r| r.at.value() < 45.0)
+    {
+        let x = (record.at.value() / 40.0).min(1.0);
         let share = x.powi(3) * (10.0 + x * (6.0 * x - 15.0));
         let moved = linker.end_position(&record.state) - linker.end_position(&rest);
         // The time of a record is a sum of steps.
         assert!(
             (moved - shifts[1] * share).norm() < 1e-9,
             "{}",
-            record.time_ns
+            record.at.value()
         );
     }
     let (still, _) = solved(&clamped([Vector3::zeros(); 2], Some(shifts), TIGHT));

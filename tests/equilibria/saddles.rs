@@ -74,7 +74,7 @@ fn twist_is_not_lost_without_a_word() {
     println!("{place}{slip}");
     assert!(slip.lost_turns().abs() >= 1.0 && report.status == Status::Failed);
     let last = trajectory.records.last().unwrap();
-    assert!(last.time_ns < slip.time_ns && slip.time_ns <= 1.0);
+    assert!(last.at.value() < slip.at.value() && slip.at.value() <= 1.0);
     assert_eq!(report.equilibrium.unwrap().points, trajectory.records.len());
 }
 

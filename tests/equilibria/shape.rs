@@ -1,6 +1,7 @@
 //! Twist, writhe and link of simulated filaments.
 
 use crate::common::{build, run};
+use actin_sim::At;
 use actin_sim::shape::{Ribbon, link};
 use actin_sim::{Assembly, Trajectory};
 
@@ -43,7 +44,7 @@ fn measured(what: &str, text: &str) -> [f64; 3] {
     let mut worst: f64 = 0.0;
     for record in &trajectory.records {
         let ribbon = Ribbon::new(&assembly, &record.state);
-        let link = link(&assembly, record.time_ns).unwrap();
+        let link = link(&assembly, record.at).unwrap();
         worst = worst.max((ribbon.twist() + ribbon.writhe().unwrap() - link).abs());
     }
     let ribbon = Ribbon::new(&assembly, assembly.system.state());
@@ -105,13 +106,13 @@ fn the_link_follows_the_path_in_time() {
     );
     for record in &trajectory.records {
         let ribbon = Ribbon::new(&assembly, &record.state);
-        let expected = link(&assembly, record.time_ns).unwrap();
+        let expected = link(&assembly, record.at).unwrap();
         let sum = ribbon.twist() + ribbon.writhe().unwrap();
         assert!((sum - expected).abs() < 1e-12, "{sum} {expected}");
     }
     let last = trajectory.records.last().unwrap();
-    assert!((link(&assembly, last.time_ns).unwrap() - 0.25).abs() < 1e-15);
-    assert!((link(&assembly, 1.0).unwrap() - 0.125).abs() < 1e-15);
+    assert!((link(&assembly, last.at).unwrap() - 0.25).abs() < 1e-15);
+    assert!((link(&assembly, At::Time(1.0)).unwrap() - 0.125).abs() < 1e-15);
 }
 
 /// Where an end is free, or tilted, nothing says what twist and writhe would add up to.
@@ -130,10 +131,16 @@ fn a_free_or_tilted_end_has_no_link() {
     };
     let both = "Clamp(end: Start), Clamp(end: End)";
     assert_eq!(
-        link(&build(&scene("Clamp(end: Start)", "(0.0, 0.0, 90.0)")), 1.0),
+        link(
+            &build(&scene("Clamp(end: Start)", "(0.0, 0.0, 90.0)")),
+            At::Path(1.0)
+        ),
         None
     );
-    assert_eq!(link(&build(&scene(both, "(10.0, 0.0, 90.0)")), 1.0), None);
-    let turned = link(&build(&scene(both, "(0.0, 0.0, 90.0)")), 1.0).unwrap();
+    assert_eq!(
+        link(&build(&scene(both, "(10.0, 0.0, 90.0)")), At::Path(1.0)),
+        None
+    );
+    let turned = link(&build(&scene(both, "(0.0, 0.0, 90.0)")), At::Path(1.0)).unwrap();
     assert!((turned + 0.25).abs() < 1e-15);
 }

@@ -129,7 +129,7 @@ pub(crate) fn settle(text: &str) -> Settled {
         "still {} pN and {} pN nm from rest at {} ns",
         last.residual_force_pn,
         last.residual_torque_pn_nm,
-        last.time_ns
+        last.at.value()
     );
     settled
 }

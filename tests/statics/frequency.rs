@@ -92,7 +92,7 @@ fn crossings(assembly: &mut Assembly) -> Vec<f64> {
                 .iter()
                 .zip(record.state.points.position.iter());
             let amplitude = nodes.map(|(node, x)| mode(node.s_nm).0 * x.x).sum();
-            (record.time_ns, amplitude)
+            (record.at.value(), amplitude)
         })
         .collect();
     amplitudes

@@ -93,7 +93,7 @@ fn measured(wave: Wave, segments: usize, m: usize) -> f64 {
         .map(|record| {
             let fields = wave.fields(&assembly, &record.state);
             let amplitude = fields.iter().map(|(s, u)| (k * s).sin() * u).sum();
-            (record.time_ns, amplitude)
+            (record.at.value(), amplitude)
         })
         .collect();
     let zeros: Vec<f64> = amplitudes

@@ -77,7 +77,7 @@ fn a_slowly_tumbling_rod_is_a_symmetric_top() {
     for record in &trajectory.records {
         let points = &record.state.points.position;
         let axis = (points.get(SEGMENTS) - points.get(0)).normalize();
-        let turned = rotation::exp(pole * (rate * record.time_ns)) * Vector3::z();
+        let turned = rotation::exp(pole * (rate * record.at.value())) * Vector3::z();
         worst = worst.max((axis - turned).norm());
         let now = angular_momentum(&record.state);
         // Round-off of some 1e5 steps.

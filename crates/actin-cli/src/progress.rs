@@ -1,5 +1,6 @@
 //! A progress bar on a terminal, nothing elsewhere.
 
+use actin_sim::At;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Steps by which the bar counts simulated time: thousandths of the duration.
@@ -27,11 +28,17 @@ impl Progress {
         reason = "a share between 0 and 1 of a thousand ticks"
     )]
     pub(crate) fn show(&self, at: &actin_sim::Progress, steps_per_s: f64) {
-        let share = (at.time_ns / at.end_ns).clamp(0.0, 1.0);
+        let share = (at.at.value() / at.end).clamp(0.0, 1.0);
+        let unit = match at.at {
+            At::Time(_) => "ns",
+            At::Path(_) => "stages",
+        };
         self.bar.set_position((share * TICKS as f64) as u64);
         self.bar.set_message(format!(
-            "{:.2} of {:.0} ns or stages, {steps_per_s:.0} steps/s, residual {:.1e} pN",
-            at.time_ns, at.end_ns, at.residual_force_pn
+            "{:.2} of {:.0} {unit}, {steps_per_s:.0} steps/s, residual {:.1e} pN",
+            at.at.value(),
+            at.end,
+            at.residual_force_pn
         ));
     }
 

@@ -188,7 +188,7 @@ fn motion(scene: &Scene, drag: f64, residual: f64) -> Run {
         state: last.state.clone(),
         note: format!(
             ", {:.0} ns in steps of {:.2} ps",
-            last.time_ns,
+            last.at.value(),
             report.time_step_ns.unwrap_or(f64::NAN) * 1e3
         ),
     }

@@ -44,7 +44,7 @@ pub use results::{
     RunLock, StabilitySummary, Summary, ThermalSummary,
 };
 pub use run::{
-    Arrival, EquilibriumReport, Estimate, FailedRun, Failure, MotionPosition, Outcome,
+    Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, MotionPosition, Outcome,
     PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records, RunError, RunPosition,
     SaddlePush, Saved, Sink, Slip, Status, Trajectory, solver,
 };

@@ -77,7 +77,7 @@ impl Outcome {
 /// Filaments of which it is not known whether they have lost twist.
 fn unknown_twist(assembly: &Assembly, last: &Record) -> Vec<String> {
     let filaments = 0..assembly.filaments.len();
-    let here = (&last.state, last.time_ns);
+    let here = (&last.state, last.at);
     let unknown = filaments.filter(|&filament| shape::link_is_unknown(assembly, filament, here));
     unknown
         .map(|filament| {

@@ -72,7 +72,7 @@ fn run(scene: &Scene, task: Task) -> Result<Run, String> {
     let most = |pick: &dyn Fn((f64, f64)) -> f64| energies().map(pick).fold(0.0, f64::max);
     Ok(Run {
         energy_change: most(&|e| (e.0 - first).abs()) / most(&|e| e.1),
-        tips: records.map(|r| (r.time_ns, tip(&r.state))).collect(),
+        tips: records.map(|r| (r.at.value(), tip(&r.state))).collect(),
         work: Evaluated::of(&assembly),
         dofs: assembly.counts().dofs,
         report,

@@ -172,7 +172,7 @@ impl Resolved {
         let ends = trajectory
             .records
             .iter()
-            .filter(|r| r.time_ns > 0.5 && r.time_ns.fract() == 0.0);
+            .filter(|r| r.at.value() > 0.5 && r.at.value().fract() == 0.0);
         Self(
             ends.map(|r| {
                 let couple = couples(&assembly, &r.state)[1];

@@ -143,7 +143,7 @@ fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
 fn row(terms: &[Term], record: &Record, sums: Vec<f64>) -> Vec<f64> {
     let totals = Totals::new(terms, record);
     [
-        record.time_ns,
+        record.at.value(),
         totals.total,
         totals.potential,
         totals.elastic,
@@ -254,7 +254,7 @@ mod tests {
                 .position(|t| t.name == "load")
                 .unwrap();
             for (name, expected) in [
-                ("time_ns", record.time_ns),
+                ("time_ns", record.at.value()),
                 ("kinetic_pn_nm", record.kinetic_pn_nm),
                 ("load_pn_nm", record.energies_pn_nm[load]),
                 ("load_0_pn_nm", record.energies_pn_nm[load]),

@@ -1,6 +1,6 @@
 //! A small mixed filament and a made-up run of it, for the tests of this module.
 
-use crate::{Assembly, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory};
+use crate::{Assembly, At, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory};
 use actin_mechanics::{Loads, State};
 use actin_mechanics::{Xorshift, perturb, set_in_motion};
 
@@ -102,7 +102,7 @@ pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record 
     let residual = loads(assembly, &state).residual(&state);
     let interactions = assembly.system.interactions();
     Record {
-        time_ns,
+        at: At::Time(time_ns),
         energies_pn_nm: interactions.iter().map(|i| i.energy(&state)).collect(),
         kinetic_pn_nm: state.kinetic_energy(),
         residual_force_pn: residual.force,

@@ -105,7 +105,7 @@ impl<'a> States<'a> {
     /// The first such number, with its index in the array.
     pub(super) fn ensure_finite(&self, i: usize, record: &Record) -> Result<(), RunDirectoryError> {
         let of = |name| (STATES, name);
-        ensure_finite_in(of(clock(self.assembly)), i, &[], [record.time_ns])?;
+        ensure_finite_in(of(clock(self.assembly)), i, &[], [record.at.value()])?;
         for field in self.fields() {
             let shape = [field.bodies, field.components.len()];
             ensure_finite_in(of(field.name), i, &shape, field.values(&record.state))?;
@@ -138,7 +138,7 @@ impl<'a> States<'a> {
         records: &dyn Records,
         archive: &mut ZipWriter<W>,
     ) -> io::Result<()> {
-        let time = |record: &Record| [record.time_ns];
+        let time = |record: &Record| [record.at.value()];
         let count = records.count();
         write_records(archive, clock(self.assembly), &[count], records, time)?;
         for (name, values) in self.columns() {

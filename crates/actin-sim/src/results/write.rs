@@ -147,7 +147,7 @@ impl<'a> Results<'a> {
         let drawing = Drawing::new(self.assembly);
         for (i, record) in self.records.iter().enumerate() {
             let record = record.map_err(RunDirectoryError::Unreadable)?;
-            let picture = drawing.picture(record.time_ns, &record.state);
+            let picture = drawing.picture(record.at.value(), &record.state);
             picture.ensure_finite(&picture_name(i))?;
             staged.picture(|out| picture.write(out))?;
         }
@@ -155,7 +155,10 @@ impl<'a> Results<'a> {
     }
 
     fn write_collection(&self, out: &mut impl Write) -> io::Result<()> {
-        let times = self.records.iter().map(|r| r.map(|record| record.time_ns));
+        let times = self
+            .records
+            .iter()
+            .map(|r| r.map(|record| record.at.value()));
         let pictures = times.enumerate().map(|(i, t)| Ok((t?, picture_name(i))));
         write_collection(&self.assembly.scene.title, pictures, out)
     }
@@ -329,10 +332,10 @@ fn ensure_same_bodies(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Trajectory;
     use crate::results::fixture;
     use crate::results::lock::LOCK;
     use crate::results::manifest::MANIFEST;
+    use crate::{At, Trajectory};
     use actin_mechanics::State;
     use tempfile::TempDir;
 
@@ -505,7 +508,7 @@ mod tests {
             &trajectory,
             "energies.csv: residual_force_pn[1] is NaN",
         );
-        trajectory.records[2].time_ns = f64::INFINITY;
+        trajectory.records[2].at = At::Time(f64::INFINITY);
         assert_refused(&assembly, &trajectory, "summary.json: time_ns is inf");
     }
 

@@ -232,7 +232,7 @@ fn conclude(
         }
         Ending::Slipped(slip, step) => {
             outcome.steps = step;
-            let place = format!("at {:.4} ns, ", slip.time_ns);
+            let place = format!("at {:.4} ns, ", slip.at.value());
             Some(Failure::TwistLost { place, slip })
         }
         Ending::Failed(failure) => {

@@ -4,7 +4,7 @@ use super::rest::{is_saddle, saddle};
 use super::sink::{Arrival, Clock, PathPosition, Saved, Sink};
 use super::taken::Taken;
 use super::unknowns::newton;
-use super::{Failure, Outcome, Progress, Record, RunPosition, Status};
+use super::{At, Failure, Outcome, Progress, Record, RunPosition, Status};
 use crate::Assembly;
 use crate::scene::{Equilibrium as Settings, Load, SceneProblem};
 use actin_equilibrium::{
@@ -187,7 +187,7 @@ impl<'a> Follower<'a> {
             state.copy_motion_from(&self.position.state);
             self.checkpoint();
             let stage = place(self.assembly, self.position.stage);
-            let place = format!("{stage}at path parameter {:.4}, ", slip.time_ns);
+            let place = format!("{stage}at path parameter {:.4}, ", slip.at.value());
             return Ok(Some(Failure::TwistLost { place, slip }));
         }
         let failure = match ended {
@@ -379,8 +379,8 @@ impl PathObserver for Follower<'_> {
         self.position.jumps += usize::from(point.jumped);
         self.note(point);
         self.taken.progress(&Progress {
-            time_ns: u,
-            end_ns: self.assembly.drive.stages() as f64,
+            at: At::Path(u),
+            end: self.assembly.drive.stages() as f64,
             steps: self.position.points as u64,
             residual_force_pn: point.equilibrium.residual.force,
         });
@@ -402,7 +402,7 @@ fn record(system: &System, u: f64, state: &State) -> Record {
     }
     let residual = loads.residual(state);
     Record {
-        time_ns: u,
+        at: At::Path(u),
         energies_pn_nm: system
             .interactions()
             .iter()

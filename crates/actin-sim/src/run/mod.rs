@@ -20,7 +20,7 @@ pub(crate) use dynamics::{estimate_at, shears_softly};
 pub use equilibrium::EquilibriumReport;
 pub use outcome::{FailedRun, Failure, Outcome, RunError, Status};
 pub use plan::Plan;
-pub use records::{Record, RecordIter, Records, Trajectory};
+pub use records::{At, Record, RecordIter, Records, Trajectory};
 pub use rest::SaddlePush;
 pub use sink::{Arrival, MotionPosition, PathPosition, Progress, RunPosition, Saved, Sink};
 pub use slip::Slip;

@@ -4,7 +4,7 @@ use super::rest::{RestJudge, SaddlePush, is_saddle};
 use super::sink::{Clock, MotionPosition, Saved};
 use super::slip::Slip;
 use super::taken::Taken;
-use super::{Progress, Record, RunPosition, Sink};
+use super::{At, Progress, Record, RunPosition, Sink};
 use crate::Assembly;
 use crate::assembly::Ramp;
 use crate::scene::Dynamics;
@@ -214,8 +214,8 @@ impl Observer for Recorder<'_> {
 
 fn progress(moment: &mut Moment<'_>, end_ns: f64) -> Progress {
     Progress {
-        time_ns: moment.time,
-        end_ns,
+        at: At::Time(moment.time),
+        end: end_ns,
         steps: moment.step,
         residual_force_pn: moment.residual().force,
     }
@@ -224,7 +224,7 @@ fn progress(moment: &mut Moment<'_>, end_ns: f64) -> Progress {
 fn record(moment: &mut Moment<'_>) -> Record {
     let residual = moment.residual();
     Record {
-        time_ns: moment.time,
+        at: At::Time(moment.time),
         state: moment.state().clone(),
         energies_pn_nm: moment.energies(),
         kinetic_pn_nm: moment.kinetic_energy(),

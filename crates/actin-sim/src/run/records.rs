@@ -4,11 +4,45 @@ use actin_mechanics::State;
 use std::borrow::Cow;
 use std::io;
 
+/// When a motion, or where a path of equilibria, was recorded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum At {
+    /// Time (ns).
+    Time(f64),
+    /// Path parameter, which counts stages.
+    Path(f64),
+}
+
+impl At {
+    /// The number, of either kind.
+    pub fn value(self) -> f64 {
+        match self {
+            Self::Time(value) | Self::Path(value) => value,
+        }
+    }
+
+    /// Time (ns); none of an equilibrium.
+    pub fn time_ns(self) -> Option<f64> {
+        match self {
+            Self::Time(time_ns) => Some(time_ns),
+            Self::Path(_) => None,
+        }
+    }
+
+    /// Path parameter; none of a motion in time.
+    pub fn path(self) -> Option<f64> {
+        match self {
+            Self::Time(_) => None,
+            Self::Path(parameter) => Some(parameter),
+        }
+    }
+}
+
 /// One recorded moment.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// Time (ns); of an equilibrium the path parameter, which counts stages.
-    pub time_ns: f64,
+    /// When, or where on the path.
+    pub at: At,
     /// Everything that moves.
     pub state: State,
     /// Energy of each term of the assembly, in order (pN nm).

@@ -106,7 +106,7 @@ impl<'a> RestJudge<'a> {
         let push = pushed.ok().flatten()?;
         system.state_mut().copy_motion_from(&state);
         Some(SaddlePush {
-            time_ns: record.time_ns,
+            time_ns: record.at.value(),
             energy_pn_nm: energy_of(record, nearest),
             negative_eigenvalues: nearest.certificate.negative,
             lowest_eigenvalue: push.mode.eigenvalue,

@@ -2,7 +2,7 @@
 //!
 //! What goes through a sink is values; files are the business of `results`.
 
-use super::{Record, Recorded, SaddlePush, Trajectory};
+use super::{At, Record, Recorded, SaddlePush, Trajectory};
 use actin_equilibrium::{Certificate, SolverWork, Waypoint};
 use actin_integrate::Checkpoint;
 use actin_mechanics::State;
@@ -47,10 +47,10 @@ impl Sink for Trajectory {
 /// How far a run has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Time (ns), or the path parameter.
-    pub time_ns: f64,
+    /// When, or where on the path.
+    pub at: At,
     /// Time at which it ends (ns), or the number of stages.
-    pub end_ns: f64,
+    pub end: f64,
     /// Steps taken.
     pub steps: u64,
     /// Largest force on a free point (pN).

@@ -6,7 +6,7 @@
 //! the other, so that the straight lines beyond them overlap) the sum says nothing, and nothing is
 //! concluded.
 
-use super::Record;
+use super::{At, Record};
 use crate::scene::Slides;
 use crate::shape::{Ribbon, WHOLE, turn_of_ends};
 use crate::{Assembly, End};
@@ -18,8 +18,8 @@ use std::fmt;
 pub struct Slip {
     /// The filament.
     pub filament: usize,
-    /// When it was found (ns); of an equilibrium the path parameter.
-    pub time_ns: f64,
+    /// When it was found, or where on the path.
+    pub at: At,
     /// Turn of the end against the start (turns).
     pub link_turns: f64,
     /// Twist plus writhe (turns).
@@ -83,7 +83,7 @@ impl LinkWatch {
             let [Some(one), Some(other)] = ends else {
                 return None;
             };
-            let turn = turn_of_ends(assembly, filament, 0.0)?;
+            let turn = turn_of_ends(assembly, filament, At::Path(0.0))?;
             let ribbon = Ribbon::of(assembly, filament, start);
             Some(Held {
                 filament,
@@ -100,27 +100,26 @@ impl LinkWatch {
     /// Follows a record that was found good when it was made.
     pub(super) fn follow(&mut self, assembly: &Assembly, record: &Record) {
         for held in &mut self.held {
-            held.compare(assembly, &record.state, record.time_ns);
+            held.compare(assembly, &record.state, record.at);
         }
     }
 
-    /// The first filament that has lost a turn in `state`, at `time_ns` (of an equilibrium the path
-    /// parameter); `before` is the last good state. To be asked at every record, in order.
+    /// The first filament that has lost a turn in `state`; `before` is the last good state. To be asked at every record, in order.
     pub(super) fn slip(
         &mut self,
         assembly: &Assembly,
-        (state, time_ns): (&State, f64),
+        (state, at): (&State, At),
         before: Option<&State>,
     ) -> Option<Slip> {
         self.held.iter_mut().find_map(|held| {
-            let (link_turns, found_turns) = held.compare(assembly, state, time_ns)?;
+            let (link_turns, found_turns) = held.compare(assembly, state, at)?;
             let joints = [state, before.unwrap_or(state)]
                 .map(|state| Ribbon::of(assembly, held.filament, state).most_twisted());
             let is_second = joints[1].1.abs() > joints[0].1.abs();
             let (joint_s_nm, angle) = joints[usize::from(is_second)];
             Some(Slip {
                 filament: held.filament,
-                time_ns,
+                at,
                 link_turns,
                 found_turns,
                 joint_s_nm,
@@ -132,8 +131,8 @@ impl LinkWatch {
 
 impl Held {
     /// The turn of the ends and the sum of twist and writhe (turns), if they tell of a slip.
-    fn compare(&mut self, assembly: &Assembly, state: &State, time_ns: f64) -> Option<(f64, f64)> {
-        let link_turns = turn_of_ends(assembly, self.filament, time_ns)?;
+    fn compare(&mut self, assembly: &Assembly, state: &State, at: At) -> Option<(f64, f64)> {
+        let link_turns = turn_of_ends(assembly, self.filament, at)?;
         let ribbon = Ribbon::of(assembly, self.filament, state);
         let is_forward = ribbon.is_forward();
         let may_go_round = self.is_loose && !(is_forward && self.was_forward);

@@ -76,7 +76,7 @@ impl<'a> Taken<'a> {
     pub(super) fn take(&mut self, record: Record) -> bool {
         let Recorded { links, last, .. } = &mut self.recorded;
         let before = last.as_ref().map(|record| &record.state);
-        let here = (&record.state, record.time_ns);
+        let here = (&record.state, record.at);
         self.slip = links.slip(self.assembly, here, before);
         if self.slip.is_some() {
             return false;

@@ -3,13 +3,12 @@
 use super::Ribbon;
 use crate::assembly::StageTimes;
 use crate::scene::is_across;
-use crate::{Assembly, End, Task};
+use crate::{Assembly, At, End};
 use actin_mechanics::{State, Vector3, rotation};
 use std::f64::consts::PI;
 
 /// Link of filament 0 in turns: how far the end has been turned about the axis of the filament as
-/// built against the start, as the path of the scene prescribes at `time_ns` (of an equilibrium the
-/// path parameter).
+/// built against the start, as the path of the scene prescribes at that time or place.
 ///
 /// `twist + writhe = link`, with both ends going on straight along that axis to be closed at
 /// infinity, as long as the filament has not passed through itself or one of these straight lines
@@ -18,16 +17,16 @@ use std::f64::consts::PI;
 ///
 /// # Source
 /// J. H. White, Am. J. Math. 91 (1969) 693; F. B. Fuller, PNAS 75 (1978) 3557.
-pub fn link(assembly: &Assembly, time_ns: f64) -> Option<f64> {
-    link_of(assembly, 0, time_ns)
+pub fn link(assembly: &Assembly, at: At) -> Option<f64> {
+    link_of(assembly, 0, at)
 }
 
 /// The same of any filament.
 ///
 /// # Panics
 /// If there is no such filament.
-pub fn link_of(assembly: &Assembly, filament: usize, time_ns: f64) -> Option<f64> {
-    link_at(assembly, filament, path_parameter(assembly, time_ns))
+pub fn link_of(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
+    link_at(assembly, filament, path_parameter(assembly, at))
 }
 
 /// The same at a path parameter.
@@ -41,13 +40,13 @@ pub(crate) fn link_at(assembly: &Assembly, filament: usize, parameter: f64) -> O
     Some((turn(End::End)? - turn(End::Start)?) / (2.0 * PI))
 }
 
-/// How far the end of a filament is turned against its start (turns), as the path prescribes at
-/// `time_ns`: the link where the ends are parallel; elsewhere the angle that is left when the end's axis
+/// How far the end of a filament is turned against its start (turns), as the path prescribes:
+/// the link where the ends are parallel; elsewhere the angle that is left when the end's axis
 /// is carried back to that of the start by the smallest rotation, counted on from zero.
 ///
 /// None where an end is free, or tilted against the other by a right angle or more.
-pub(crate) fn turn_of_ends(assembly: &Assembly, filament: usize, time_ns: f64) -> Option<f64> {
-    let parameter = path_parameter(assembly, time_ns);
+pub(crate) fn turn_of_ends(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
+    let parameter = path_parameter(assembly, at);
     let axis = assembly.filaments[filament].axis();
     let turned = [End::Start, End::End].map(|end| {
         let clamp = assembly.held.clamp_at(filament, end)?;
@@ -70,12 +69,12 @@ pub(crate) fn turn_of_ends(assembly: &Assembly, filament: usize, time_ns: f64) -
 /// Twist plus writhe may differ from a whole number of turns by this (turns) and still tell it.
 pub(crate) const WHOLE: f64 = 0.05;
 
-/// Whether both ends of a filament are held, but twist plus writhe in `state` at `time_ns` tells nothing
+/// Whether both ends of a filament are held, but twist plus writhe in `state` tells nothing
 /// about turns that are lost.
 pub(crate) fn link_is_unknown(
     assembly: &Assembly,
     filament: usize,
-    (state, time_ns): (&State, f64),
+    (state, at): (&State, At),
 ) -> bool {
     if [End::Start, End::End]
         .iter()
@@ -84,7 +83,7 @@ pub(crate) fn link_is_unknown(
         return false;
     }
     let sum = Ribbon::of(assembly, filament, state).linking();
-    let Some((sum, turn)) = sum.zip(turn_of_ends(assembly, filament, time_ns)) else {
+    let Some((sum, turn)) = sum.zip(turn_of_ends(assembly, filament, at)) else {
         return true;
     };
     let off = sum - turn;
@@ -103,9 +102,9 @@ fn angle_about(turn: Vector3, axis: Vector3) -> f64 {
 }
 
 /// Where on the path of the scene a record stands.
-pub(crate) fn path_parameter(assembly: &Assembly, time_ns: f64) -> f64 {
-    match assembly.scene.task {
-        Task::Equilibrium(_) => time_ns,
-        Task::Dynamics(_) => StageTimes::of(assembly).parameter(time_ns).0,
+pub(crate) fn path_parameter(assembly: &Assembly, at: At) -> f64 {
+    match at {
+        At::Path(parameter) => parameter,
+        At::Time(time_ns) => StageTimes::of(assembly).parameter(time_ns).0,
     }
 }

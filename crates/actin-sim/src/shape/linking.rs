@@ -87,7 +87,7 @@ fn forward_writhe(tangents: &[Vector3]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Assembly, Scene, shape::link};
+    use crate::{Assembly, At, Scene, shape::link};
     use actin_mechanics::State;
     use actin_mechanics::rotation;
     use actin_mechanics::{Xorshift, perturb};
@@ -194,7 +194,7 @@ mod tests {
         assert!((sums[0] - 170.0 / 360.0).abs() < 1e-13 && (sums[1] + 170.0 / 360.0).abs() < 1e-13);
         let (s_nm, angle) = turned(170.0).most_twisted();
         assert!((s_nm - 30.0).abs() < 1e-12 && (angle - 170.0_f64.to_radians()).abs() < 1e-12);
-        assert_eq!(link(&assembly, 0.0), Some(0.0));
+        assert_eq!(link(&assembly, At::Path(0.0)), Some(0.0));
     }
 
     /// Ends that are turned and tilted against each other by anything below a right angle: the sum of
@@ -234,7 +234,7 @@ mod tests {
                     state.points.position.set(i + 1, place);
                 }
                 assembly.drive.place(&mut state, share);
-                let expected = super::super::turn_of_ends(&assembly, 0, share).unwrap();
+                let expected = super::super::turn_of_ends(&assembly, 0, At::Path(share)).unwrap();
                 let found = Ribbon::new(&assembly, &state).linking().unwrap();
                 assert!(
                     (found - expected).abs() < 1e-9,

@@ -43,7 +43,7 @@ pub(super) fn rest(case: &Case) -> Result<Outcome, String> {
         case: *case,
         measured: measure(case, &mut assembly),
         evidence: Evidence::Motion {
-            time_ns: last.time_ns,
+            time_ns: last.at.value(),
             force_evaluations: report.force_evaluations,
         },
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),

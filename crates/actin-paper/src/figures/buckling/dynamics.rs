@@ -70,7 +70,7 @@ pub(super) fn run(case: &Case) -> Result<Motion, String> {
         case: *case,
         end: measure(case, &mut assembly),
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
-        time_ns: last.time_ns,
+        time_ns: last.at.value(),
         force_evaluations: report.force_evaluations,
         nearest: nearest(case, last)?,
     })

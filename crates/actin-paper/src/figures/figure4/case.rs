@@ -193,7 +193,7 @@ impl Case {
             newton: self.newton()?,
             residual: (last.residual_force_pn, last.residual_torque_pn_nm),
             converged: report.has_converged(),
-            time_ns: last.time_ns,
+            time_ns: last.at.value(),
             force_evaluations: report.force_evaluations,
             snapshot: Snapshot::of(&assembly, &last.state),
         })
@@ -267,7 +267,7 @@ impl Case {
         } = self.done(&scene)?;
         let approach: Vec<(f64, f64)> = records
             .iter()
-            .map(|record| (record.time_ns, tip_drop(&assembly, record)))
+            .map(|record| (record.at.value(), tip_drop(&assembly, record)))
             .collect();
         Ok(ringdown::fit(&approach, equilibrium_nm))
     }
@@ -307,7 +307,7 @@ fn internal_energy(assembly: &Assembly, record: &Record) -> f64 {
 /// Time (ns) and [`internal_energy`] of every record.
 fn energies(assembly: &Assembly, records: &[Record]) -> Vec<(f64, f64)> {
     let each = records.iter();
-    each.map(|record| (record.time_ns, internal_energy(assembly, record)))
+    each.map(|record| (record.at.value(), internal_energy(assembly, record)))
         .collect()
 }
 

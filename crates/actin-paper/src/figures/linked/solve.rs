@@ -183,12 +183,16 @@ fn motion(scene: &Scene) -> Result<Motion, String> {
     let end = CentreLine::of(&assembly, last);
     let energies = |record: &Record| {
         let potential = record.potential_pn_nm();
-        [record.time_ns, potential + record.kinetic_pn_nm, potential]
+        [
+            record.at.value(),
+            potential + record.kinetic_pn_nm,
+            potential,
+        ]
     };
     Ok(Motion {
         energy: trajectory.records.iter().map(energies).collect(),
         converged: report.has_converged(),
-        time_ns: last.time_ns,
+        time_ns: last.at.value(),
         force_evaluations: report.force_evaluations,
         from_limit_nm: end.farthest_from(&limit.centre_line).0,
         limit,

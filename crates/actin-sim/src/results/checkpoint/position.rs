@@ -2,7 +2,7 @@
 
 use super::Damage;
 use super::bytes::{Reader, Writer};
-use crate::run::{Arrival, MotionPosition, PathPosition, Record, RunPosition, SaddlePush};
+use crate::run::{Arrival, At, MotionPosition, PathPosition, Record, RunPosition, SaddlePush};
 use actin_equilibrium::{Certificate, SolverWork, Waypoint};
 use actin_integrate::{Checkpoint, Mark};
 use actin_mechanics::State;
@@ -57,20 +57,21 @@ fn read_state(reader: &mut Reader<'_>, like: &State) -> Result<State, Damage> {
 /// Bytes of a record of a run with `terms` energies.
 pub(super) fn record_length(like: &State, terms: usize) -> usize {
     let state: usize = arrays(like).iter().map(|array| array.len()).sum();
-    8 * (4 + terms + state + like.controls.len())
+    1 + 8 * (4 + terms + state + like.controls.len())
 }
 
 pub(super) fn write_record(writer: &mut Writer, record: &Record) {
     let Record {
-        time_ns,
+        at,
         state,
         energies_pn_nm,
         kinetic_pn_nm,
         residual_force_pn,
         residual_torque_pn_nm,
     } = record;
+    writer.flag(at.path().is_some());
     writer.numbers(&[
-        *time_ns,
+        at.value(),
         *kinetic_pn_nm,
         *residual_force_pn,
         *residual_torque_pn_nm,
@@ -84,10 +85,11 @@ pub(super) fn read_record(
     like: &State,
     terms: usize,
 ) -> Result<Record, Damage> {
+    let at = if reader.flag()? { At::Path } else { At::Time };
     let mut numbers = [0.0; 4];
     reader.numbers(&mut numbers)?;
     let [
-        time_ns,
+        value,
         kinetic_pn_nm,
         residual_force_pn,
         residual_torque_pn_nm,
@@ -95,7 +97,7 @@ pub(super) fn read_record(
     let mut energies_pn_nm = vec![0.0; terms];
     reader.numbers(&mut energies_pn_nm)?;
     Ok(Record {
-        time_ns,
+        at: at(value),
         state: read_state(reader, like)?,
         energies_pn_nm,
         kinetic_pn_nm,

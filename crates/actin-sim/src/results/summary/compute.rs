@@ -7,7 +7,7 @@ use super::{
 use crate::results::energies::{Totals, distinct, sum_where};
 use crate::scene;
 use crate::shape::{self, Ribbon};
-use crate::{Assembly, End, Outcome, Reaction, Record, Task};
+use crate::{Assembly, End, Outcome, Reaction, Record};
 use actin_coupling::Linker;
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, State, Vector3};
@@ -18,15 +18,14 @@ impl Summary {
         let equilibrium = outcome.equilibrium.as_ref();
         let filaments = FilamentSummary::all(assembly, last);
         let first = &filaments[0];
-        let [time_ns, path] = when(assembly, last);
         let mut kinetic = LateKinetic::of(1);
         kinetic.add(last);
         Self {
             scene: assembly.scene.title.clone(),
             status: outcome.status,
             counts: assembly.counts(),
-            time_ns,
-            path,
+            time_ns: last.at.time_ns(),
+            path: last.at.path(),
             time_step_ns: outcome.time_step_ns,
             largest_frequency_rad_per_ns: outcome.largest_frequency_rad_per_ns,
             stability: outcome.certificate().map(StabilitySummary::new),
@@ -68,14 +67,6 @@ impl WorkSummary {
     }
 }
 
-/// Time of a record (ns), or where it stands on a path of equilibria.
-fn when(assembly: &Assembly, record: &Record) -> [Option<f64>; 2] {
-    match assembly.scene.task {
-        Task::Dynamics(_) => [Some(record.time_ns), None],
-        Task::Equilibrium(_) => [None, Some(record.time_ns)],
-    }
-}
-
 impl FilamentSummary {
     fn all(assembly: &Assembly, last: &Record) -> Vec<Self> {
         // The system's own loads belong to its present state, which need not be the record's.
@@ -83,7 +74,7 @@ impl FilamentSummary {
         for interaction in assembly.system.interactions() {
             interaction.add_loads(&last.state, &mut loads);
         }
-        let here = (last, shape::path_parameter(assembly, last.time_ns));
+        let here = (last, shape::path_parameter(assembly, last.at));
         let filaments = 0..assembly.filaments.len();
         filaments
             .map(|filament| Self::new(assembly, filament, here, &loads))

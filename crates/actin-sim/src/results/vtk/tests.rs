@@ -9,7 +9,7 @@ use vtkio::model::{Attribute, DataSet, IOBuffer, Piece, PolyDataPiece, VertexNum
 fn drawn() -> (Assembly, State, Box<PolyDataPiece>) {
     let assembly = fixture::clamped_start();
     let record = fixture::trajectory(&assembly).records.remove(1);
-    let picture = Drawing::new(&assembly).picture(record.time_ns, &record.state);
+    let picture = Drawing::new(&assembly).picture(record.at.value(), &record.state);
     picture.ensure_finite("0001.vtp").unwrap();
     let mut bytes = Vec::new();
     picture.write(&mut bytes).unwrap();
