@@ -2,6 +2,7 @@
 
 /// Counts of eigenvalues of the unregularised stiffness.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Certificate {
     /// Number of eigenvalues below `-resolution`.
     pub negative: usize,

@@ -40,6 +40,7 @@ pub struct Iteration {
 
 /// What a solve cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SolverWork {
     /// Newton steps.
     pub iterations: u64,

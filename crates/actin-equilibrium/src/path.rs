@@ -277,7 +277,7 @@ impl<'a> Walk<'a> {
             return plain;
         };
         let layout = self.newton.layout();
-        let motion = layout.difference(previous, state);
+        let motion = layout.difference(&state.in_motion(previous.clone()), state);
         let factor = (next - self.at.parameter) / (self.at.parameter - before);
         let mut extrapolated = plain.clone();
         layout.apply(&mut extrapolated, &motion, factor);
@@ -355,7 +355,7 @@ impl<'a> Walk<'a> {
         let goes_on = at.points > 0 && !jumped;
         at.rate = goes_on.then(|| motion(&moved) / (next - at.parameter));
         // Across a jump there is nothing to extrapolate.
-        at.previous = goes_on.then_some((left, at.parameter));
+        at.previous = goes_on.then(|| (left.into_motion(), at.parameter));
         at.parameter = next;
         at.points += 1;
         let flow = companion.arrive(&PathPoint {

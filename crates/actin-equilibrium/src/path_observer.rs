@@ -4,7 +4,7 @@ use crate::history::{Iteration, SolverWork};
 use crate::motion::StepSize;
 use crate::outcome::Equilibrium;
 use crate::path_options::PathOptions;
-use actin_mechanics::State;
+use actin_mechanics::{Motion, State};
 use std::ops::ControlFlow;
 
 /// An equilibrium on a path.
@@ -48,13 +48,14 @@ impl<F: FnMut(&PathPoint<'_>) -> ControlFlow<()>> PathObserver for F {
 
 /// Where a path stands at an equilibrium: all that its rest depends on besides the state.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Waypoint {
     /// The path parameter.
     pub parameter: f64,
     /// The next step of the parameter.
     pub step: f64,
     /// The equilibrium before, with its parameter, if the path came here without a jump.
-    pub previous: Option<(State, f64)>,
+    pub previous: Option<(Motion, f64)>,
     /// Motion per parameter in the last step, if there was one without a jump.
     pub rate: Option<f64>,
     /// Equilibria so far, this one included.

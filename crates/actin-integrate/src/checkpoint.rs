@@ -1,6 +1,6 @@
 //! Where a run can be left and taken up again. Files are no business of this crate.
 
-use actin_mechanics::{Split, State, System};
+use actin_mechanics::{Motion, Split, State, System};
 
 /// A sound, synchronised state of a run between two of its batches of steps.
 ///
@@ -37,6 +37,7 @@ impl Pause<'_> {
 /// All that a run carries at a pause. Scheme, step, drag, intervals and rules belong to the
 /// [`Run`](crate::Run), interactions and drive to the system.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Checkpoint {
     /// Where the run stands.
     pub here: Mark,
@@ -48,11 +49,12 @@ pub struct Checkpoint {
 
 /// A state of a run with what goes with it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mark {
     /// Steps since step 0.
     pub step: u64,
-    /// The state.
-    pub state: State,
+    /// What moves.
+    pub motion: Motion,
     /// Whether the loads of that state had been evaluated.
     pub loads_are_current: bool,
     /// Evaluations of the loads that the system had made.
@@ -65,7 +67,7 @@ impl Mark {
     pub(crate) fn new(step: u64, system: &System, largest_kinetic: f64) -> Self {
         Self {
             step,
-            state: system.state().clone(),
+            motion: system.state().motion(),
             loads_are_current: system.loads_are_current(),
             force_evaluations: system.force_evaluations(),
             largest_kinetic,
@@ -74,6 +76,6 @@ impl Mark {
 
     /// Puts a system of the same bodies and terms there.
     pub(crate) fn restore(&self, system: &mut System) {
-        system.restore(&self.state, self.loads_are_current, self.force_evaluations);
+        system.restore(&self.motion, self.loads_are_current, self.force_evaluations);
     }
 }

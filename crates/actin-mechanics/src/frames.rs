@@ -3,7 +3,7 @@
 mod drift;
 
 use crate::inertia::is_inertia;
-use crate::{Inertia, Quaternions, UnitQuaternion, Vector3, Vectors, vectors, wide};
+use crate::{Inertia, Quaternions, Shared, UnitQuaternion, Vector3, Vectors, vectors, wide};
 use drift::Drift;
 
 /// One frame, as it enters a [`Frames`].
@@ -22,6 +22,12 @@ pub struct Frames {
     pub orientation: Quaternions,
     /// Angular momenta in body axes.
     pub angular_momentum: Vectors,
+    inertias: Shared<Inertias>,
+}
+
+/// What does not move.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Inertias {
     /// 1 / transverse moment.
     inverse_transverse: Vec<f64>,
     /// (1 / axial - 1 / transverse) times the unit vector of the axis of symmetry.
@@ -33,12 +39,25 @@ pub struct Frames {
 impl Frames {
     /// Number of frames.
     pub fn len(&self) -> usize {
-        self.mobility.len()
+        self.inertias.mobility.len()
     }
 
     /// Whether there is no frame at all.
     pub fn is_empty(&self) -> bool {
-        self.mobility.is_empty()
+        self.inertias.mobility.is_empty()
+    }
+
+    /// The same bodies without orientations and motion.
+    pub(crate) fn bodies(&self) -> Self {
+        Self {
+            inertias: self.inertias.clone(),
+            ..Self::default()
+        }
+    }
+
+    /// Whether `other` shares the inertias and what is held.
+    pub(crate) fn shares_bodies_with(&self, other: &Self) -> bool {
+        self.inertias.is_same(&other.inertias)
     }
 
     /// Appends a frame at rest and returns its index.
@@ -60,10 +79,11 @@ impl Frames {
         );
         self.orientation.push(frame.orientation);
         self.angular_momentum.push(Vector3::zeros());
-        self.inverse_transverse.push(1.0 / transverse);
-        self.excess
+        self.inertias.inverse_transverse.push(1.0 / transverse);
+        self.inertias
+            .excess
             .push(axis.unit() * (1.0 / axial - 1.0 / transverse));
-        self.mobility.push(1.0);
+        self.inertias.mobility.push(1.0);
         self.len() - 1
     }
 
@@ -75,7 +95,7 @@ impl Frames {
     /// # Panics
     /// If there is no frame `i`.
     pub fn hold(&mut self, i: usize) {
-        self.mobility[i] = 0.0;
+        self.inertias.mobility[i] = 0.0;
         self.angular_momentum.set(i, Vector3::zeros());
     }
 
@@ -86,36 +106,39 @@ impl Frames {
     /// If there is no frame `i`.
     pub fn release(&mut self, i: usize) {
         if !self.is_free(i) {
-            self.mobility[i] = 1.0;
+            self.inertias.mobility[i] = 1.0;
             self.angular_momentum.set(i, Vector3::zeros());
         }
     }
 
     /// Whether torques turn frame `i`.
     pub fn is_free(&self, i: usize) -> bool {
-        self.mobility[i] > 0.0
+        self.inertias.mobility[i] > 0.0
     }
 
     /// Body angular velocity for body angular momentum `l` of frame `i`.
     pub fn angular_velocity(&self, i: usize, l: Vector3) -> Vector3 {
-        l * self.inverse_transverse[i] + l.component_mul(&self.excess.get(i))
+        l * self.inertias.inverse_transverse[i] + l.component_mul(&self.inertias.excess.get(i))
     }
 
     /// Inverse principal moments of frame `i` as if it were free.
     pub fn inverse_moments(&self, i: usize) -> Vector3 {
-        self.excess.get(i).add_scalar(self.inverse_transverse[i])
+        self.inertias
+            .excess
+            .get(i)
+            .add_scalar(self.inertias.inverse_transverse[i])
     }
 
     /// 1 / transverse moment, the excess of the inverse moment about each body axis over it, and 1
     /// for free frames, 0 for held ones.
     pub(crate) fn inertia_columns(&self) -> [&[f64]; 5] {
-        let excess = &self.excess;
+        let excess = &self.inertias.excess;
         [
-            &self.inverse_transverse,
+            &self.inertias.inverse_transverse,
             &excess.x,
             &excess.y,
             &excess.z,
-            &self.mobility,
+            &self.inertias.mobility,
         ]
     }
 
@@ -136,21 +159,26 @@ impl Frames {
 
     /// Applies the body torques `torque` for a time `h`.
     pub fn kick(&mut self, torque: &Vectors, h: f64) {
-        vectors::add_scaled(&mut self.angular_momentum, torque, &self.mobility, h);
+        vectors::add_scaled(
+            &mut self.angular_momentum,
+            torque,
+            &self.inertias.mobility,
+            h,
+        );
     }
 
     /// Adds to each component of each body angular momentum `deviates` times the root of the
     /// moment about that axis; nothing to those of held frames.
     pub(crate) fn add_thermal_impulses(&mut self, deviates: &Vectors) {
-        let (l, excess) = (&mut self.angular_momentum, &self.excess);
+        let (l, excess) = (&mut self.angular_momentum, &self.inertias.excess);
         for (l, excess, d) in [
             (&mut l.x, &excess.x, &deviates.x),
             (&mut l.y, &excess.y, &deviates.y),
             (&mut l.z, &excess.z, &deviates.z),
         ] {
-            let tops = excess.iter().zip(&self.inverse_transverse);
+            let tops = excess.iter().zip(&self.inertias.inverse_transverse);
             for (((l, d), m), (excess, inverse)) in
-                l.iter_mut().zip(d).zip(&self.mobility).zip(tops)
+                l.iter_mut().zip(d).zip(&self.inertias.mobility).zip(tops)
             {
                 *l += m * d / (excess + inverse).sqrt();
             }

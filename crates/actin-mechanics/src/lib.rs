@@ -3,7 +3,8 @@
 //! Two kinds of degree of freedom cover everything that moves. A **point** has a position, a
 //! velocity and an inverse mass. A **frame** has an orientation (body to lab), a body angular
 //! momentum and an inverse inertia; every frame is a symmetric top. A [`State`] holds both as
-//! structures of arrays. An [`Interaction`] adds its [`Loads`]: forces in the lab frame, torques
+//! structures of arrays; its copies share masses, inertias and what is held. A [`Motion`] is what time
+//! changes of it. An [`Interaction`] adds its [`Loads`]: forces in the lab frame, torques
 //! in the body frame. A [`System`] is a state with its interactions, and offers itself to
 //! integrators as a [`Split`] into drift and kick. [`Springs`], [`Weight`] and [`PointLoad`] are the
 //! interactions that need no model.
@@ -21,11 +22,13 @@ mod inertia;
 mod interaction;
 mod load;
 mod loads;
+mod motion;
 mod points;
 mod quaternions;
 mod random;
 mod residual;
 pub mod rotation;
+mod shared;
 mod slider;
 mod spring;
 mod state;
@@ -43,10 +46,12 @@ pub use inertia::{Axis, Inertia, InertiaError};
 pub use interaction::Interaction;
 pub use load::PointLoad;
 pub use loads::Loads;
+pub use motion::Motion;
 pub use points::{Point, Points};
 pub use quaternions::Quaternions;
 pub use random::{Xorshift, perturb, set_in_motion};
 pub use residual::Residual;
+pub use shared::Shared;
 pub use slider::Slider;
 pub use spring::{Hooke, Spring, SpringError, Springs};
 pub use state::State;

@@ -1,7 +1,7 @@
 //! Points: positions with a mass.
 
 use crate::inertia::is_inertia;
-use crate::{Vector3, Vectors, vectors};
+use crate::{Shared, Vector3, Vectors, vectors};
 use std::collections::BTreeMap;
 
 /// One point, as it enters a [`Points`].
@@ -20,7 +20,14 @@ pub struct Points {
     pub position: Vectors,
     /// Velocities in the lab frame.
     pub velocity: Vectors,
-    inverse_mass: Vec<f64>,
+    masses: Shared<Masses>,
+}
+
+/// What does not move.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Masses {
+    /// Inverse masses; zero for held points.
+    inverse: Vec<f64>,
     /// What the inverse mass of each held point is when it is free.
     held: BTreeMap<usize, f64>,
 }
@@ -28,12 +35,25 @@ pub struct Points {
 impl Points {
     /// Number of points.
     pub fn len(&self) -> usize {
-        self.inverse_mass.len()
+        self.masses.inverse.len()
     }
 
     /// Whether there is no point at all.
     pub fn is_empty(&self) -> bool {
-        self.inverse_mass.is_empty()
+        self.masses.inverse.is_empty()
+    }
+
+    /// The same bodies without places and motion.
+    pub(crate) fn bodies(&self) -> Self {
+        Self {
+            masses: self.masses.clone(),
+            ..Self::default()
+        }
+    }
+
+    /// Whether `other` shares the masses and what is held.
+    pub(crate) fn shares_bodies_with(&self, other: &Self) -> bool {
+        self.masses.is_same(&other.masses)
     }
 
     /// Appends a point at rest and returns its index.
@@ -49,7 +69,7 @@ impl Points {
         );
         self.position.push(point.position);
         self.velocity.push(Vector3::zeros());
-        self.inverse_mass.push(inverse);
+        self.masses.inverse.push(inverse);
         self.len() - 1
     }
 
@@ -59,10 +79,11 @@ impl Points {
     /// # Panics
     /// If there is no point `i`.
     pub fn hold(&mut self, i: usize) {
-        if self.is_free(i) {
-            self.held.insert(i, self.inverse_mass[i]);
+        let Masses { inverse, held } = &mut *self.masses;
+        if inverse[i] > 0.0 {
+            held.insert(i, inverse[i]);
         }
-        self.inverse_mass[i] = 0.0;
+        inverse[i] = 0.0;
         self.velocity.set(i, Vector3::zeros());
     }
 
@@ -79,8 +100,9 @@ impl Points {
     /// assert_eq!((state.points.is_free(i), state.points.mass(i)), (true, 4.0));
     /// ```
     pub fn release(&mut self, i: usize) {
-        if let Some(inverse) = self.held.remove(&i) {
-            self.inverse_mass[i] = inverse;
+        let Masses { inverse, held } = &mut *self.masses;
+        if let Some(free) = held.remove(&i) {
+            inverse[i] = free;
             self.velocity.set(i, Vector3::zeros());
         }
     }
@@ -90,24 +112,28 @@ impl Points {
     /// # Panics
     /// If there is no point `i`.
     pub fn mass(&self, i: usize) -> f64 {
-        let free = self.inverse_mass[i];
-        let inverse = if free > 0.0 { free } else { self.held[&i] };
+        let free = self.masses.inverse[i];
+        let inverse = if free > 0.0 {
+            free
+        } else {
+            self.masses.held[&i]
+        };
         1.0 / inverse
     }
 
     /// Whether forces move point `i`.
     pub fn is_free(&self, i: usize) -> bool {
-        self.inverse_mass[i] > 0.0
+        self.masses.inverse[i] > 0.0
     }
 
     /// Momentum of free point `i`.
     pub fn momentum(&self, i: usize) -> Vector3 {
-        self.velocity.get(i) / self.inverse_mass[i]
+        self.velocity.get(i) / self.masses.inverse[i]
     }
 
     /// Inverse masses; zero for held points.
     pub fn inverse_mass(&self) -> &[f64] {
-        &self.inverse_mass
+        &self.masses.inverse
     }
 
     /// Asserts that there are as many positions and velocities as points.
@@ -128,7 +154,7 @@ impl Points {
 
     /// Applies the forces `force` for a time `h`.
     pub fn kick(&mut self, force: &Vectors, h: f64) {
-        vectors::add_scaled(&mut self.velocity, force, &self.inverse_mass, h);
+        vectors::add_scaled(&mut self.velocity, force, &self.masses.inverse, h);
     }
 
     /// Adds to each velocity `deviates / sqrt(mass)`; nothing to those of held points.
@@ -139,7 +165,7 @@ impl Points {
             (&mut v.y, &deviates.y),
             (&mut v.z, &deviates.z),
         ] {
-            for ((v, d), m) in v.iter_mut().zip(d).zip(&self.inverse_mass) {
+            for ((v, d), m) in v.iter_mut().zip(d).zip(&self.masses.inverse) {
                 *v += m.sqrt() * d;
             }
         }
@@ -150,7 +176,7 @@ impl Points {
         let moving = |i: &usize| self.is_free(*i);
         (0..self.len())
             .filter(moving)
-            .map(|i| 0.5 * self.velocity.get(i).norm_squared() / self.inverse_mass[i])
+            .map(|i| 0.5 * self.velocity.get(i).norm_squared() / self.masses.inverse[i])
             .sum()
     }
 }

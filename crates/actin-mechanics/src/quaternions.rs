@@ -5,6 +5,7 @@ use nalgebra::{Quaternion, Unit};
 
 /// `n` unit quaternions (body to lab) as four arrays, scalar part first.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Quaternions {
     /// Scalar parts.
     pub w: Vec<f64>,

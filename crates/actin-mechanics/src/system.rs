@@ -1,6 +1,6 @@
 //! A state with its interactions, split into drift and kick.
 
-use crate::{Interaction, Loads, Residual, State, Vectors};
+use crate::{Interaction, Loads, Motion, Residual, State, Vectors};
 use std::sync::Arc;
 
 /// What an integrator may do to a system: nothing else is visible to it.
@@ -124,8 +124,8 @@ impl System {
     ///
     /// # Panics
     /// If `motion` has other numbers of bodies or controls.
-    pub fn restore(&mut self, motion: &State, loads_are_current: bool, force_evaluations: u64) {
-        self.state_mut().copy_motion_from(motion);
+    pub fn restore(&mut self, motion: &Motion, loads_are_current: bool, force_evaluations: u64) {
+        self.state_mut().set_motion(motion);
         if loads_are_current {
             self.loads();
         }
@@ -215,7 +215,7 @@ impl Split for System {
         let (state, force) = (&mut self.state, &self.loads.force);
         state.points.kick(force, translation);
         state.frames.kick(&self.loads.torque, rotation);
-        for slider in &state.sliders {
+        for slider in state.sliders.iter() {
             slider.kick(&mut state.points.velocity, force, translation);
         }
     }
@@ -238,7 +238,7 @@ impl Thermostat for System {
     fn add_thermal_impulses(&mut self, points: &Vectors, frames: &Vectors) {
         let state = &mut self.state;
         state.points.add_thermal_impulses(points);
-        for slider in &state.sliders {
+        for slider in state.sliders.iter() {
             slider.add_thermal_impulses(&mut state.points.velocity, points);
         }
         state.frames.add_thermal_impulses(frames);
@@ -254,7 +254,7 @@ fn damp_free(state: &mut State, translational: f64, rotational: f64) {
             points.velocity.set(i, v * translational);
         }
     }
-    for slider in &state.sliders {
+    for slider in state.sliders.iter() {
         slider.damp(&mut points.velocity, translational);
     }
     let frames = &mut state.frames;

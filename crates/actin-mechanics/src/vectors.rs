@@ -9,6 +9,7 @@ use crate::wide::{self, Simd, WithSimd};
 
 /// `n` three-vectors as three arrays of `n` components, so that loops over them vectorise.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Vectors {
     /// First components.
     pub x: Vec<f64>,
@@ -70,6 +71,11 @@ impl Vectors {
     /// Asserts that there are `count` of these vectors, which are `what`.
     pub(crate) fn assert_len(&self, what: &str, count: usize) {
         assert_lengths(what, &[&self.x, &self.y, &self.z], count);
+    }
+
+    /// Whether there are `count` of these vectors.
+    pub(crate) fn has_len(&self, count: usize) -> bool {
+        [&self.x, &self.y, &self.z].iter().all(|c| c.len() == count)
     }
 
     /// Sets every vector to zero.

@@ -77,9 +77,9 @@ pub(crate) fn of_monomers(count: f64, bonds: usize, task: &Task) -> f64 {
 
 /// Bytes of a recorded state with the energies of so many terms.
 pub(crate) fn of_record(state: &State, terms: usize) -> f64 {
-    // A point has 7 numbers, a frame 12, and energies are kept by term and by part.
-    let numbers = 7 * state.points.len() + 12 * state.frames.len() + state.controls.len();
-    8.0 * (numbers + 2 * terms) as f64
+    // Of a point 6 numbers move, of a frame 7.
+    let numbers = 6 * state.points.len() + 7 * state.frames.len() + state.controls.len();
+    8.0 * (numbers + terms) as f64
 }
 
 /// Refuses what takes more bytes than the machine has; `what` says what that is, in words that the
@@ -169,7 +169,7 @@ mod tests {
         assert!(message.starts_with(expected), "{message}");
     }
 
-    /// A record is what a state holds: 3 + 3 + 1 numbers of a point, 4 + 3 + 5 of a frame.
+    /// A record is what moves: 3 + 3 numbers of a point, 4 + 3 of a frame, and an energy of each term.
     #[test]
     fn a_record_is_counted_as_it_is_stored() {
         let text = "Scene(
@@ -179,7 +179,7 @@ mod tests {
         let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
         let state = assembly.system.state();
         assert_eq!((state.points.len(), state.frames.len()), (7, 6));
-        let expected = 8.0 * f64::from(7 * 7 + 6 * 12 + 2);
+        let expected = 8.0 * f64::from(7 * 6 + 6 * 7 + 1);
         assert!((of_record(state, 1) - expected).abs() < 1e-9);
     }
 }

@@ -4,7 +4,7 @@
     reason = "vector code must be compiled into the function that enables the instructions"
 )]
 
-use super::Frames;
+use super::{Frames, Inertias};
 use crate::wide::{self, Columns, ColumnsMut, Simd, Wide3, WideQuaternion, WithSimd};
 
 /// The free flow of all frames for a time `h`, to be compiled for whatever instructions the
@@ -25,10 +25,13 @@ impl WithSimd for Drift<'_> {
         let Frames {
             orientation: q,
             angular_momentum: l,
+            inertias,
+        } = self.frames;
+        let Inertias {
             inverse_transverse,
             excess,
             ..
-        } = self.frames;
+        } = &**inertias;
         let mut q = ColumnsMut::<S, 4>::new([&mut q.w, &mut q.x, &mut q.y, &mut q.z]);
         let mut l = ColumnsMut::<S, 3>::new([&mut l.x, &mut l.y, &mut l.z]);
         let inertia = Columns::<S, 4>::new([inverse_transverse, &excess.x, &excess.y, &excess.z]);

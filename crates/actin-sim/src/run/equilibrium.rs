@@ -148,7 +148,7 @@ impl<'a> Follower<'a> {
         let start = PathPosition {
             stage: 0,
             waypoint: None,
-            state: assembly.system.state().clone(),
+            motion: assembly.system.state().motion(),
             points: 0,
             saddles_left: 0,
             jumps: 0,
@@ -184,7 +184,7 @@ impl<'a> Follower<'a> {
         let ended = self.follow(newton, state)?;
         if let Some(slip) = self.taken.slip() {
             self.is_interrupted = false;
-            state.copy_motion_from(&self.position.state);
+            state.set_motion(&self.position.motion);
             self.checkpoint();
             let stage = place(self.assembly, self.position.stage);
             let place = format!("{stage}at path parameter {:.4}, ", slip.at.value());
@@ -247,7 +247,7 @@ impl<'a> Follower<'a> {
         newton: &mut Newton,
         state: &mut State,
     ) -> Result<Option<Box<PathFailure>>, SceneProblem> {
-        state.copy_motion_from(&self.position.state);
+        state.set_motion(&self.position.motion);
         newton.count_on(self.position.work);
         let result = if self.assembly.drive.is_still() {
             self.solve(newton, state)
@@ -274,7 +274,7 @@ impl<'a> Follower<'a> {
         match solved {
             Ok(equilibrium) => {
                 if self.record(0.0, state, &equilibrium).is_continue() {
-                    self.position.state.copy_motion_from(state);
+                    self.position.motion = state.motion();
                     self.position.work = newton.work();
                 }
                 Ok(())
@@ -345,7 +345,7 @@ impl<'a> Follower<'a> {
         let position = &mut self.position;
         position.stage += usize::from(is_end);
         position.waypoint = (!is_end).then(|| point.waypoint.clone());
-        position.state.copy_motion_from(point.state);
+        position.motion = point.state.motion();
         position.work = point.work;
     }
 

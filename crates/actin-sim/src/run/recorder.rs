@@ -111,7 +111,7 @@ impl<'a> Recorder<'a> {
         if let Some(slip) = self.taken.slip() {
             let step = self.last_good.as_ref().map_or(0, |good| good.here.step);
             if let Some(good) = &self.last_good {
-                system.state_mut().copy_motion_from(&good.here.state);
+                system.state_mut().set_motion(&good.here.motion);
             }
             self.keep_last_good(0);
             return Ending::Slipped(slip, step);

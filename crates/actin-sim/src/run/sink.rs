@@ -5,7 +5,7 @@
 use super::{At, Record, Recorded, SaddlePush, Trajectory};
 use actin_equilibrium::{Certificate, SolverWork, Waypoint};
 use actin_integrate::Checkpoint;
-use actin_mechanics::State;
+use actin_mechanics::Motion;
 use std::time::Instant;
 
 /// Takes what a run gives: memory ([`Trajectory`]), a run directory ([`Checkpoints`](crate::Checkpoints)),
@@ -82,8 +82,8 @@ pub struct PathPosition {
     pub stage: usize,
     /// Where the path stands in that stage; `None` before its first equilibrium.
     pub waypoint: Option<Waypoint>,
-    /// The state there.
-    pub state: State,
+    /// What moves, as it is there.
+    pub motion: Motion,
     /// Equilibria so far.
     pub points: usize,
     /// Saddles left so far.

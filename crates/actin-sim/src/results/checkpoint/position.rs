@@ -5,7 +5,7 @@ use super::bytes::{Reader, Writer};
 use crate::run::{Arrival, At, MotionPosition, PathPosition, Record, RunPosition, SaddlePush};
 use actin_equilibrium::{Certificate, SolverWork, Waypoint};
 use actin_integrate::{Checkpoint, Mark};
-use actin_mechanics::State;
+use actin_mechanics::{Motion, State};
 
 const MOTION: u64 = 1;
 const PATH: u64 = 2;
@@ -13,51 +13,48 @@ const PATH: u64 = 2;
 /// Bytes of a push.
 const PUSH: usize = 48;
 
-/// What time changes of a state, array by array.
-fn arrays(state: &State) -> [&[f64]; 14] {
-    let (x, v) = (&state.points.position, &state.points.velocity);
-    let (q, l) = (&state.frames.orientation, &state.frames.angular_momentum);
-    let time = std::slice::from_ref(&state.time);
+/// What moves, array by array.
+fn arrays(motion: &Motion) -> [&[f64]; 15] {
+    let (x, v) = (&motion.position, &motion.velocity);
+    let (q, l) = (&motion.orientation, &motion.angular_momentum);
+    let time = std::slice::from_ref(&motion.time);
+    let controls = &motion.controls;
     [
         &x.x, &x.y, &x.z, &v.x, &v.y, &v.z, &q.w, &q.x, &q.y, &q.z, &l.x, &l.y, &l.z, time,
+        controls,
     ]
 }
 
-fn arrays_mut(state: &mut State) -> [&mut [f64]; 14] {
-    let (x, v) = (&mut state.points.position, &mut state.points.velocity);
-    let (q, l) = (
-        &mut state.frames.orientation,
-        &mut state.frames.angular_momentum,
-    );
-    let time = std::slice::from_mut(&mut state.time);
+fn arrays_mut(motion: &mut Motion) -> [&mut [f64]; 15] {
+    let (x, v) = (&mut motion.position, &mut motion.velocity);
+    let (q, l) = (&mut motion.orientation, &mut motion.angular_momentum);
+    let time = std::slice::from_mut(&mut motion.time);
+    let controls = &mut motion.controls;
     [
         &mut x.x, &mut x.y, &mut x.z, &mut v.x, &mut v.y, &mut v.z, &mut q.w, &mut q.x, &mut q.y,
-        &mut q.z, &mut l.x, &mut l.y, &mut l.z, time,
+        &mut q.z, &mut l.x, &mut l.y, &mut l.z, time, controls,
     ]
 }
 
-/// Writes what time changes of a state.
-fn write_state(writer: &mut Writer, state: &State) {
-    for array in arrays(state) {
+fn write_motion(writer: &mut Writer, motion: &Motion) {
+    for array in arrays(motion) {
         writer.numbers(array);
     }
-    writer.numbers(&state.controls);
 }
 
-/// Reads what time changes into a copy of `like`, from which the rest is.
-fn read_state(reader: &mut Reader<'_>, like: &State) -> Result<State, Damage> {
-    let mut state = like.clone();
-    for array in arrays_mut(&mut state) {
+/// Reads a motion of as many bodies as in `like`.
+fn read_motion(reader: &mut Reader<'_>, like: &State) -> Result<Motion, Damage> {
+    let mut motion = like.motion();
+    for array in arrays_mut(&mut motion) {
         reader.numbers(array)?;
     }
-    reader.numbers(&mut state.controls)?;
-    Ok(state)
+    Ok(motion)
 }
 
 /// Bytes of a record of a run with `terms` energies.
 pub(super) fn record_length(like: &State, terms: usize) -> usize {
-    let state: usize = arrays(like).iter().map(|array| array.len()).sum();
-    1 + 8 * (4 + terms + state + like.controls.len())
+    let motion: usize = arrays(&like.motion()).iter().map(|array| array.len()).sum();
+    1 + 8 * (4 + terms + motion)
 }
 
 pub(super) fn write_record(writer: &mut Writer, record: &Record) {
@@ -77,7 +74,7 @@ pub(super) fn write_record(writer: &mut Writer, record: &Record) {
         *residual_torque_pn_nm,
     ]);
     writer.numbers(energies_pn_nm);
-    write_state(writer, state);
+    write_motion(writer, &state.motion());
 }
 
 pub(super) fn read_record(
@@ -98,7 +95,7 @@ pub(super) fn read_record(
     reader.numbers(&mut energies_pn_nm)?;
     Ok(Record {
         at: at(value),
-        state: read_state(reader, like)?,
+        state: like.in_motion(read_motion(reader, like)?),
         energies_pn_nm,
         kinetic_pn_nm,
         residual_force_pn,
@@ -160,7 +157,7 @@ fn read_push(reader: &mut Reader<'_>) -> Result<SaddlePush, Damage> {
 
 fn write_mark(writer: &mut Writer, mark: &Mark) {
     writer.count(mark.step);
-    write_state(writer, &mark.state);
+    write_motion(writer, &mark.motion);
     writer.flag(mark.loads_are_current);
     writer.count(mark.force_evaluations);
     writer.number(mark.largest_kinetic);
@@ -169,7 +166,7 @@ fn write_mark(writer: &mut Writer, mark: &Mark) {
 fn read_mark(reader: &mut Reader<'_>, like: &State) -> Result<Mark, Damage> {
     Ok(Mark {
         step: reader.count()?,
-        state: read_state(reader, like)?,
+        motion: read_motion(reader, like)?,
         loads_are_current: reader.flag()?,
         force_evaluations: reader.count()?,
         largest_kinetic: reader.number()?,
@@ -179,7 +176,7 @@ fn read_mark(reader: &mut Reader<'_>, like: &State) -> Result<Mark, Damage> {
 fn write_path(writer: &mut Writer, position: &PathPosition) {
     writer.size(position.stage);
     writer.optional(position.waypoint.as_ref(), write_waypoint);
-    write_state(writer, &position.state);
+    write_motion(writer, &position.motion);
     writer.size(position.points);
     writer.size(position.saddles_left);
     writer.size(position.jumps);
@@ -201,7 +198,7 @@ fn read_path(reader: &mut Reader<'_>, like: &State) -> Result<PathPosition, Dama
     Ok(PathPosition {
         stage: reader.size()?,
         waypoint: reader.optional(|reader| read_waypoint(reader, like))?,
-        state: read_state(reader, like)?,
+        motion: read_motion(reader, like)?,
         points: reader.size()?,
         saddles_left: reader.size()?,
         jumps: reader.size()?,
@@ -220,8 +217,8 @@ fn read_path(reader: &mut Reader<'_>, like: &State) -> Result<PathPosition, Dama
 fn write_waypoint(writer: &mut Writer, waypoint: &Waypoint) {
     writer.number(waypoint.parameter);
     writer.number(waypoint.step);
-    writer.optional(waypoint.previous.as_ref(), |writer, (state, parameter)| {
-        write_state(writer, state);
+    writer.optional(waypoint.previous.as_ref(), |writer, (motion, parameter)| {
+        write_motion(writer, motion);
         writer.number(*parameter);
     });
     writer.optional(waypoint.rate, Writer::number);
@@ -233,7 +230,7 @@ fn read_waypoint(reader: &mut Reader<'_>, like: &State) -> Result<Waypoint, Dama
     Ok(Waypoint {
         parameter: reader.number()?,
         step: reader.number()?,
-        previous: reader.optional(|reader| Ok((read_state(reader, like)?, reader.number()?)))?,
+        previous: reader.optional(|reader| Ok((read_motion(reader, like)?, reader.number()?)))?,
         rate: reader.optional(Reader::number)?,
         points: reader.size()?,
         refused: reader.size()?,

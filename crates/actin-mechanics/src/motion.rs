@@ -1,0 +1,160 @@
+//! What time changes of a state.
+
+use crate::{Quaternions, State, Vectors};
+
+/// Places and motion of all bodies, controls and time: what a checkpoint keeps of a [`State`]. Masses,
+/// inertias and what is held are not part of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Motion {
+    /// Positions of the points in the lab frame.
+    pub position: Vectors,
+    /// Their velocities in the lab frame.
+    pub velocity: Vectors,
+    /// Orientations of the frames, body to lab.
+    pub orientation: Quaternions,
+    /// Their angular momenta in body axes.
+    pub angular_momentum: Vectors,
+    /// What is set from outside.
+    pub controls: Vec<f64>,
+    /// Time, by which a drive places what it moves.
+    pub time: f64,
+}
+
+impl Motion {
+    /// Whether it is one of bodies and controls in the numbers of `state`.
+    pub fn fits(&self, state: &State) -> bool {
+        let (points, frames) = (state.points.len(), state.frames.len());
+        let vectors = [
+            (&self.position, points),
+            (&self.velocity, points),
+            (&self.angular_momentum, frames),
+        ];
+        let q = &self.orientation;
+        let turns = [&q.w, &q.x, &q.y, &q.z];
+        vectors.iter().all(|(v, n)| v.has_len(*n))
+            && turns.iter().all(|q| q.len() == frames)
+            && self.controls.len() == state.controls.len()
+    }
+}
+
+impl State {
+    /// A copy of everything that time changes.
+    pub fn motion(&self) -> Motion {
+        self.clone().into_motion()
+    }
+
+    /// Everything that time changes.
+    pub fn into_motion(self) -> Motion {
+        // Named one by one, so that a new field of the state is decided on here.
+        let Self {
+            points,
+            frames,
+            controls,
+            sliders: _,
+            time,
+        } = self;
+        Motion {
+            position: points.position,
+            velocity: points.velocity,
+            orientation: frames.orientation,
+            angular_momentum: frames.angular_momentum,
+            controls,
+            time,
+        }
+    }
+
+    /// Takes over a motion of the same bodies. Allocates nothing.
+    ///
+    /// # Panics
+    /// If `motion` has other numbers of bodies or controls.
+    pub fn set_motion(&mut self, motion: &Motion) {
+        let Motion {
+            position,
+            velocity,
+            orientation,
+            angular_momentum,
+            controls,
+            time,
+        } = motion;
+        self.points.position.copy_from(position);
+        self.points.velocity.copy_from(velocity);
+        self.frames.orientation.copy_from(orientation);
+        self.frames.angular_momentum.copy_from(angular_momentum);
+        self.controls.copy_from_slice(controls);
+        self.time = *time;
+    }
+
+    /// A state of the same bodies in a motion of them, with masses, inertias and what is held shared.
+    ///
+    /// # Panics
+    /// If `motion` is not one of as many bodies and controls.
+    #[must_use]
+    pub fn in_motion(&self, motion: Motion) -> Self {
+        assert!(motion.fits(self), "a motion of other bodies");
+        let (mut points, mut frames) = (self.points.bodies(), self.frames.bodies());
+        points.position = motion.position;
+        points.velocity = motion.velocity;
+        frames.orientation = motion.orientation;
+        frames.angular_momentum = motion.angular_momentum;
+        Self {
+            points,
+            frames,
+            controls: motion.controls,
+            sliders: self.sliders.clone(),
+            time: motion.time,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{
+        Frame, Inertia, Point, State, UnitQuaternion, Vector3, Xorshift, perturb, set_in_motion,
+    };
+
+    /// Two states of the same bodies, one of which moves in every way.
+    fn states() -> [State; 2] {
+        let mut state = State::default();
+        for _ in 0..3 {
+            state.points.push(Point {
+                position: Vector3::zeros(),
+                mass: 1.0,
+            });
+            state.frames.push(Frame {
+                orientation: UnitQuaternion::identity(),
+                inertia: Inertia::from_moments([1.0, 1.0, 2.0]).unwrap(),
+            });
+        }
+        state.controls = vec![0.0; 2];
+        let mut moved = state.clone();
+        let mut noise = Xorshift::new(3);
+        perturb(&mut moved, &mut noise, 1.0, 1.0);
+        set_in_motion(&mut moved, &mut noise, 1.0, 1.0);
+        moved.controls = vec![0.25, -1.0];
+        moved.time = 7.0;
+        [state, moved]
+    }
+
+    /// Whatever of a state moves is copied; a part that is left out would differ.
+    #[test]
+    fn motion_is_copied_whole() {
+        let [state, moved] = states();
+        let mut copies = [state.clone(), state.clone()];
+        copies[0].copy_motion_from(&moved);
+        copies[1].set_motion(&moved.motion());
+        assert_eq!(copies, [moved.clone(), moved.clone()]);
+        assert_eq!(state.in_motion(moved.motion()), moved);
+    }
+
+    /// Copies share what does not move; one that holds a body has masses of its own.
+    #[test]
+    fn copies_share_what_does_not_move() {
+        let [state, mut moved] = states();
+        assert!(state.shares_bodies_with(&moved));
+        assert!(state.shares_bodies_with(&state.in_motion(moved.motion())));
+        moved.points.hold(1);
+        assert!(!state.shares_bodies_with(&moved));
+        assert!(state.points.is_free(1) && !moved.points.is_free(1));
+    }
+}

@@ -1,0 +1,44 @@
+//! What the copies of a state share.
+
+use std::ops::{Deref, DerefMut};
+use std::sync::Arc;
+
+/// A value that copies share until one of them changes it, which then has its own.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shared<T>(Arc<T>);
+
+impl<T> Deref for Shared<T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        &self.0
+    }
+}
+
+impl<T: Clone> DerefMut for Shared<T> {
+    fn deref_mut(&mut self) -> &mut T {
+        Arc::make_mut(&mut self.0)
+    }
+}
+
+impl<T> Shared<T> {
+    /// Whether two share one value.
+    pub fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_copy_is_changed_by_itself() {
+        let one = Shared(Arc::new(vec![1, 2]));
+        let mut other = one.clone();
+        assert!(one.is_same(&other));
+        other.push(3);
+        assert!(!one.is_same(&other));
+        assert_eq!((one.len(), other.len()), (2, 3));
+    }
+}
