@@ -1,11 +1,12 @@
 //! Records and where they are: in memory, or read back one by one from wherever a sink has put them.
 
 use actin_mechanics::State;
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io;
 
 /// When a motion, or where a path of equilibria, was recorded.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum At {
     /// Time (ns).
     Time(f64),

@@ -5,7 +5,8 @@
 use super::{At, Record, Recorded, SaddlePush, Trajectory};
 use actin_equilibrium::{Certificate, SolverWork, Waypoint};
 use actin_integrate::Checkpoint;
-use actin_mechanics::Motion;
+use actin_mechanics::{Motion, State};
+use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
 /// Takes what a run gives: memory ([`Trajectory`]), a run directory ([`Checkpoints`](crate::Checkpoints)),
@@ -58,7 +59,7 @@ pub struct Progress {
 }
 
 /// Where a run stands: all that its rest depends on besides its scene and its records.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum RunPosition {
     /// A motion in time, at a check of its state.
     Motion(Box<MotionPosition>),
@@ -66,8 +67,27 @@ pub enum RunPosition {
     Path(Box<PathPosition>),
 }
 
+impl RunPosition {
+    /// Whether it is one of a run with as many bodies and controls as `state` has.
+    pub(crate) fn fits(&self, state: &State) -> bool {
+        match self {
+            Self::Motion(position) => {
+                let Checkpoint {
+                    here, last_good, ..
+                } = &position.checkpoint;
+                here.motion.fits(state) && last_good.motion.fits(state)
+            }
+            Self::Path(position) => {
+                let waypoint = position.waypoint.as_ref();
+                let previous = waypoint.and_then(|waypoint| waypoint.previous.as_ref());
+                position.motion.fits(state) && previous.is_none_or(|(motion, _)| motion.fits(state))
+            }
+        }
+    }
+}
+
 /// Where a motion in time stands.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MotionPosition {
     /// What the integrator carries.
     pub checkpoint: Checkpoint,
@@ -76,7 +96,7 @@ pub struct MotionPosition {
 }
 
 /// Where a path of equilibria stands.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathPosition {
     /// The stage, from 0.
     pub stage: usize,
@@ -97,7 +117,7 @@ pub struct PathPosition {
 }
 
 /// What a report says of an equilibrium.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Arrival {
     /// Counts of eigenvalues.
     pub certificate: Option<Certificate>,

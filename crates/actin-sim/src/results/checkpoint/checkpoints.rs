@@ -1,6 +1,6 @@
 //! Checkpoints of a run in its directory: when they are written, and what is left at the end.
 
-use super::file::{Identity, same_scene};
+use super::file::{Contents, Identity, same_scene};
 use super::log::{RecordLog, Tally};
 use super::{CheckpointError, Damage};
 use crate::results::atomic::replace_durably;
@@ -9,6 +9,7 @@ use crate::results::directory::{
 };
 use crate::results::{RunDirectoryError, Summary};
 use crate::run::{Plan, Record, RecordIter, Recorded, Records, RunPosition, Saved, Sink, Status};
+use std::borrow::Cow;
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
@@ -78,7 +79,7 @@ impl Checkpoints {
             recorded.follow(plan.assembly(), record);
         }
         Ok(Saved {
-            position: contents.position,
+            position: contents.position.into_owned(),
             recorded,
             wall_s: contents.wall_s,
         })
@@ -102,8 +103,12 @@ impl Checkpoints {
     ) -> Result<(), CheckpointError> {
         let log = self.path.with_file_name(RECORDS);
         let synced = self.log.sync(records);
-        let tally = synced.map_err(|error| Damage::from(error).of(&log))?;
-        let bytes = self.identity.encode(position, tally, wall_s);
+        let records = synced.map_err(|error| Damage::from(error).of(&log))?;
+        let bytes = self.identity.encode(&Contents {
+            wall_s,
+            records,
+            position: Cow::Borrowed(position),
+        });
         let replaced = replace_durably(&self.path, |out| out.write_all(&bytes));
         replaced.map_err(|error| Damage::from(error).of(&self.path))
     }

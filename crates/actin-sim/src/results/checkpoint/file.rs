@@ -1,18 +1,19 @@
 //! `checkpoint.bin`: its header, whose it is, and how it replaces the one before.
 
 use super::Damage;
-use super::bytes::{Reader, Writer};
 use super::log::{Tally, compare, open};
-use super::position::{read_position, write_position};
 use crate::run::RunPosition;
 use crate::{Plan, Task};
 use actin_mechanics::State;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::io::Read;
 use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"ACTINCKP";
-/// Version of the format: to be raised with every change of a byte.
-const FORMAT: u32 = 2;
+/// Version of the format: to be raised with every change of a byte,
+/// those of the records included.
+const FORMAT: u32 = 3;
 /// Bytes of the header: magic, version, length and checksum of the contents, checksum of these.
 const HEADER: usize = 8 + 4 + 8 + 4 + 4;
 /// Version of the program.
@@ -31,12 +32,19 @@ pub(super) struct Identity {
     is_motion: bool,
 }
 
+/// What a checkpoint begins with: other programs may write the rest in another way.
+#[derive(Serialize, Deserialize)]
+struct Origin<'a> {
+    program: &'a str,
+    scene: &'a str,
+}
+
 /// What a checkpoint says.
-#[derive(Debug)]
-pub(super) struct Contents {
-    pub(super) position: RunPosition,
-    pub(super) records: Tally,
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Contents<'a> {
     pub(super) wall_s: f64,
+    pub(super) records: Tally,
+    pub(super) position: Cow<'a, RunPosition>,
 }
 
 impl Identity {
@@ -52,73 +60,53 @@ impl Identity {
     }
 
     /// The bytes of a checkpoint.
-    pub(super) fn encode(&self, position: &RunPosition, records: Tally, wall_s: f64) -> Vec<u8> {
-        let mut body = Writer::default();
-        body.text(PROGRAM);
-        body.text(&self.scene);
-        for size in self.sizes() {
-            body.size(size);
-        }
-        body.number(wall_s);
-        body.size(records.count);
-        body.checksum(records.checksum);
-        write_position(&mut body, position);
-
-        let mut file = Writer::default();
-        file.bytes.extend_from_slice(MAGIC);
-        file.checksum(FORMAT);
-        file.size(body.bytes.len());
-        file.checksum(crc32fast::hash(&body.bytes));
-        file.checksum(crc32fast::hash(&file.bytes));
-        file.bytes.append(&mut body.bytes);
-        file.bytes
-    }
-
-    /// Numbers that a checkpoint must share with the assembly.
-    fn sizes(&self) -> [usize; 4] {
-        let State {
-            points,
-            frames,
-            controls,
-            ..
-        } = &self.like;
-        [points.len(), frames.len(), controls.len(), self.terms]
+    pub(super) fn encode(&self, contents: &Contents<'_>) -> Vec<u8> {
+        let origin = Origin {
+            program: PROGRAM,
+            scene: &self.scene,
+        };
+        let file = encode(&contents, encode(&origin, vec![0; HEADER]));
+        with_header(file)
     }
 
     /// Reads the checkpoint at `path`.
-    pub(super) fn read(&self, path: &Path) -> Result<Contents, Damage> {
+    pub(super) fn read(&self, path: &Path) -> Result<Contents<'static>, Damage> {
         let body = read_body(path)?;
-        let mut reader = Reader::new(&body);
-        let program = reader.text()?;
-        if program != PROGRAM {
+        let (origin, rest): (Origin<'_>, _) = decode(&body)?;
+        if origin.program != PROGRAM {
             return Err(Damage::Program {
-                found: program,
+                found: origin.program.to_owned(),
                 here: PROGRAM.to_owned(),
             });
         }
-        same_scene(&reader.text()?, &self.scene)?;
-        for expected in self.sizes() {
-            let found = reader.size()?;
-            if found != expected {
-                let what = format!("{found} bodies or terms where the scene has {expected}");
-                return Err(Damage::Contents(what));
-            }
-        }
-        let wall_s = reader.number()?;
-        let records = Tally {
-            count: reader.size()?,
-            checksum: reader.checksum()?,
-        };
-        let position = read_position(&mut reader, &self.like)?;
-        reader.end()?;
-        if matches!(position, RunPosition::Motion(_)) != self.is_motion {
+        same_scene(origin.scene, &self.scene)?;
+        let contents: Contents<'static> = decode_all(rest)?;
+        if matches!(*contents.position, RunPosition::Motion(_)) != self.is_motion {
             return Err(Damage::Contents("a run of another task".into()));
         }
-        Ok(Contents {
-            position,
-            records,
-            wall_s,
-        })
+        if !contents.position.fits(&self.like) {
+            let what = "other numbers of bodies or controls than the scene has";
+            return Err(Damage::Contents(what.into()));
+        }
+        Ok(contents)
+    }
+}
+
+/// Appends a value to `bytes`.
+pub(super) fn encode<T: Serialize>(value: &T, bytes: Vec<u8>) -> Vec<u8> {
+    postcard::to_extend(value, bytes).expect("numbers, texts and lists of them can be encoded")
+}
+
+/// Reads a value and returns what is behind it.
+fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<(T, &'a [u8]), Damage> {
+    postcard::take_from_bytes(bytes).map_err(|error| Damage::Contents(error.to_string()))
+}
+
+/// Reads a value, behind which nothing may be.
+pub(super) fn decode_all<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, Damage> {
+    match decode(bytes)? {
+        (value, []) => Ok(value),
+        (_, rest) => Err(Damage::Contents(format!("{} bytes too many", rest.len()))),
     }
 }
 
@@ -142,6 +130,18 @@ pub(super) fn same_scene(kept: &str, given: &str) -> Result<(), Damage> {
     }
 }
 
+/// Fills in the header of a file, for which there is room.
+fn with_header(mut file: Vec<u8>) -> Vec<u8> {
+    let (header, body) = file.split_at_mut(HEADER);
+    header[..8].copy_from_slice(MAGIC);
+    header[8..12].copy_from_slice(&FORMAT.to_le_bytes());
+    header[12..20].copy_from_slice(&(body.len() as u64).to_le_bytes());
+    header[20..24].copy_from_slice(&crc32fast::hash(body).to_le_bytes());
+    let of_header = crc32fast::hash(&header[..24]);
+    header[24..].copy_from_slice(&of_header.to_le_bytes());
+    file
+}
+
 /// What is behind the header, which is checked first: nothing is read or allocated for a file that
 /// is no checkpoint, of another format, or of another length than its header says.
 fn read_body(path: &Path) -> Result<Vec<u8>, Damage> {
@@ -153,28 +153,33 @@ fn read_body(path: &Path) -> Result<Vec<u8>, Damage> {
         expected: HEADER as u64,
     };
     file.read_exact(&mut header).map_err(short)?;
-    let mut reader = Reader::new(&header);
-    if &reader.count()?.to_le_bytes() != MAGIC {
+    if &header[..8] != MAGIC {
         return Err(Damage::OtherFile {
             expected: "ACTINCKP",
         });
     }
-    let format = reader.checksum()?;
-    let (length, checksum) = (reader.count()?, reader.checksum()?);
-    let of_header = crc32fast::hash(&header[..HEADER - 4]);
-    compare("its header".into(), of_header, reader.checksum()?)?;
+    let of_header = crc32fast::hash(&header[..24]);
+    compare("its header".into(), of_header, word(&header, 24))?;
+    let format = word(&header, 8);
     if format != FORMAT {
         return Err(Damage::Format {
             found: format,
             known: FORMAT,
         });
     }
+    let length = u64::from(word(&header, 16)) << 32 | u64::from(word(&header, 12));
     let expected = length.saturating_add(HEADER as u64);
     if found != expected {
         return Err(Damage::Length { found, expected });
     }
     let mut body = Vec::new();
     file.read_to_end(&mut body)?;
-    compare("its contents".into(), crc32fast::hash(&body), checksum)?;
+    let of_body = crc32fast::hash(&body);
+    compare("its contents".into(), of_body, word(&header, 20))?;
     Ok(body)
+}
+
+/// The little-endian number of four bytes at a place.
+fn word(header: &[u8; HEADER], at: usize) -> u32 {
+    u32::from_le_bytes(std::array::from_fn(|k| header[at + k]))
 }

@@ -1,10 +1,10 @@
 //! `records.bin`: records appended one after the other, each with the checksum of all up to it.
 
 use super::Damage;
-use super::bytes::{Reader, Writer};
-use super::position::{read_record, record_length, write_record};
-use crate::run::{Record, RecordIter, Records};
-use actin_mechanics::State;
+use super::file::{decode_all, encode};
+use crate::run::{At, Record, RecordIter, Records};
+use actin_mechanics::{Motion, State};
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
@@ -19,10 +19,72 @@ const CHECKSUM: usize = 4;
 const BUFFER: usize = 1 << 16;
 
 /// How many records there are, and the checksum of all of them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Tally {
     pub(super) count: usize,
     pub(super) checksum: u32,
+}
+
+/// A record in the log. Those of one run are of one length: their lists are, and numbers of a varying
+/// length there are none.
+#[derive(Serialize, Deserialize)]
+struct Stored<'a> {
+    at: At,
+    kinetic_pn_nm: f64,
+    residual_force_pn: f64,
+    residual_torque_pn_nm: f64,
+    energies_pn_nm: Cow<'a, [f64]>,
+    motion: Motion,
+}
+
+impl<'a> Stored<'a> {
+    fn new(record: &'a Record) -> Self {
+        let Record {
+            at,
+            state,
+            energies_pn_nm,
+            kinetic_pn_nm,
+            residual_force_pn,
+            residual_torque_pn_nm,
+        } = record;
+        Self {
+            at: *at,
+            kinetic_pn_nm: *kinetic_pn_nm,
+            residual_force_pn: *residual_force_pn,
+            residual_torque_pn_nm: *residual_torque_pn_nm,
+            energies_pn_nm: energies_pn_nm.into(),
+            motion: state.motion(),
+        }
+    }
+
+    /// The record of a run with states like `like` and `terms` energies.
+    fn read(bytes: &'a [u8], like: &State, terms: usize) -> Result<Record, Damage> {
+        let stored: Self = decode_all(bytes)?;
+        if !stored.motion.fits(like) || stored.energies_pn_nm.len() != terms {
+            return Err(Damage::Contents("a record of another scene".into()));
+        }
+        Ok(Record {
+            at: stored.at,
+            state: like.in_motion(stored.motion),
+            energies_pn_nm: stored.energies_pn_nm.into_owned(),
+            kinetic_pn_nm: stored.kinetic_pn_nm,
+            residual_force_pn: stored.residual_force_pn,
+            residual_torque_pn_nm: stored.residual_torque_pn_nm,
+        })
+    }
+
+    /// Bytes of a record of such a run.
+    fn length(like: &State, terms: usize) -> usize {
+        let record = Self {
+            at: At::Time(0.0),
+            kinetic_pn_nm: 0.0,
+            residual_force_pn: 0.0,
+            residual_torque_pn_nm: 0.0,
+            energies_pn_nm: vec![0.0; terms].into(),
+            motion: like.motion(),
+        };
+        encode(&record, Vec::new()).len()
+    }
 }
 
 /// The log of the records of a run: a file that is only ever appended to, and a buffer.
@@ -60,7 +122,7 @@ impl RecordLog {
             path,
             like: like.clone(),
             terms,
-            length: record_length(like, terms) + CHECKSUM,
+            length: Stored::length(like, terms) + CHECKSUM,
             file: None,
             written: tally,
             is_unsynced: false,
@@ -72,11 +134,10 @@ impl RecordLog {
 
     /// Adds a record. Where the disk refuses, [`sync`](Self::sync) will tell.
     pub(super) fn push(&mut self, record: &Record) {
-        let mut writer = Writer::default();
-        write_record(&mut writer, record);
-        let checksum = follow(self.taken.checksum, &writer.bytes);
-        writer.checksum(checksum);
-        self.buffer.append(&mut writer.bytes);
+        let start = self.buffer.len();
+        self.buffer = encode(&Stored::new(record), std::mem::take(&mut self.buffer));
+        let checksum = follow(self.taken.checksum, &self.buffer[start..]);
+        self.buffer.extend(checksum.to_le_bytes());
         self.taken = Tally {
             count: self.taken.count + 1,
             checksum,
@@ -222,10 +283,11 @@ impl Reading<'_> {
         self.source.read_exact(&mut self.bytes)?;
         let (body, written) = self.bytes.split_at(log.length - CHECKSUM);
         tally.checksum = follow(tally.checksum, body);
-        let written = Reader::new(written).checksum()?;
+        let written = written.try_into().expect("as many bytes as a checksum has");
+        let written = u32::from_le_bytes(written);
         compare(format!("record {}", tally.count), tally.checksum, written)?;
         tally.count += 1;
-        read_record(&mut Reader::new(body), &log.like, log.terms).map(Some)
+        Stored::read(body, &log.like, log.terms).map(Some)
     }
 }
 

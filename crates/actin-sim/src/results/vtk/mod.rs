@@ -4,7 +4,6 @@
 //! orientation array `orientation` and scale array `semi_axes_nm` (by vector components) draws
 //! the monomers as the ellipsoids that they are.
 
-mod base64;
 mod poly_data;
 mod xml;
 

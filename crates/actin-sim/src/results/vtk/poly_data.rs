@@ -4,7 +4,8 @@
 //! a 64-bit number. So every bit arrives, whatever decimal parser the reader has; the file is half
 //! as long as with decimals, and one `DataArray` stays one line.
 
-use super::base64;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use std::io::{self, Write};
 use std::ops::Range;
 
@@ -155,7 +156,7 @@ fn block(bytes: &[u8]) -> String {
     let mut run = Vec::with_capacity(8 + bytes.len());
     run.extend((bytes.len() as u64).to_le_bytes());
     run.extend(bytes);
-    base64::encode(&run)
+    STANDARD.encode(&run)
 }
 
 /// An index as VTK stores it.
