@@ -4,28 +4,10 @@
 use super::RunDirectoryError;
 use super::atomic::UNFINISHED;
 use super::lock::{LOCK, RunLock, refuse_in_use};
-use super::manifest::{MANIFEST, Manifest};
+use super::manifest::Manifest;
+use super::names::{BEFORE_RESULTS, MANIFEST};
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
-
-pub(super) const SCENE: &str = "scene.ron";
-pub(super) const SUMMARY: &str = "summary.json";
-pub(super) const ENERGIES: &str = "energies.csv";
-pub(super) const PROFILE: &str = "profile.csv";
-pub(super) const STATES: &str = "states.npz";
-pub(super) const COLLECTION: &str = "run.pvd";
-pub(super) const CHECKPOINT: &str = "checkpoint.bin";
-pub(super) const RECORDS: &str = "records.bin";
-pub(super) const PICTURES: &str = "vtk";
-
-/// Everything that a run writes, beside its pictures, its manifest and its lock.
-pub(super) const FILES: [&str; 8] = [
-    SCENE, SUMMARY, ENERGIES, PROFILE, STATES, COLLECTION, CHECKPOINT, RECORDS,
-];
-
-/// What a run writes before it has results.
-const BEFORE_RESULTS: [&str; 3] = [SCENE, CHECKPOINT, RECORDS];
 
 /// A directory that holds the results of one run.
 ///
@@ -132,18 +114,6 @@ impl RunDirectory {
     }
 }
 
-/// Name of the picture of a record, in the directory.
-pub(super) fn picture_name(record: usize) -> String {
-    format!("{PICTURES}/{record:04}.vtp")
-}
-
-/// The record whose picture has this name in the directory.
-pub(super) fn picture_index(name: &str) -> Option<usize> {
-    let rest = name.strip_prefix(PICTURES)?.strip_prefix('/')?;
-    let index = rest.strip_suffix(".vtp")?.parse().ok()?;
-    (picture_name(index) == name).then_some(index)
-}
-
 /// Whether there is nothing in a directory but what keeps runs apart.
 fn is_empty(directory: &Path) -> Result<bool, RunDirectoryError> {
     let io = || RunDirectoryError::io(directory);
@@ -167,19 +137,13 @@ fn refuse_link(path: &Path) -> Result<(), RunDirectoryError> {
     }
 }
 
-/// Removes a file that need not exist.
-pub(super) fn remove_if_there(path: &Path) -> Result<(), RunDirectoryError> {
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => {
-            Err(RunDirectoryError::io(path)(error))
-        }
-        _ => Ok(()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::results::manifest::remove_if_there;
+    use crate::results::names::{
+        CHECKPOINT, ENERGIES, FILES, PICTURES, PROFILE, RECORDS, SCENE, SUMMARY, picture_name,
+    };
 
     fn names(path: &Path) -> Vec<String> {
         let entries = fs::read_dir(path).unwrap();

@@ -1,7 +1,7 @@
 //! `energies.csv`: energies and residuals of every record, per term and per part.
 
 use super::clock;
-use super::directory::ENERGIES;
+use super::names::ENERGIES;
 use super::{RunDirectoryError, finite::ensure_finite_in};
 use crate::{Assembly, Part, Record, Records, Term};
 use std::collections::HashMap;

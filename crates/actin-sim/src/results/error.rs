@@ -1,6 +1,6 @@
 //! Why a run directory was refused or could not be written.
 
-use super::manifest::MANIFEST;
+use super::names::MANIFEST;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;

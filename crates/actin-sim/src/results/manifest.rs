@@ -5,15 +5,12 @@
 
 use super::RunDirectoryError;
 use super::atomic::{self, UNFINISHED};
-use super::directory::{FILES, PICTURES, SCENE, SUMMARY, picture_index, remove_if_there};
+use super::names::{FILES, MANIFEST, PICTURES, SCENE, SUMMARY, picture_index};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fs::{self, FileType};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-
-/// Name of the manifest, which no user file is likely to have.
-pub(super) const MANIFEST: &str = "actin-run.json";
 
 /// What the file says it is.
 const FORMAT: &str = "actin run directory";
@@ -223,6 +220,16 @@ fn found_in(folder: &Path, prefix: &str) -> Result<Vec<Found>, RunDirectoryError
 /// Whether runs write files of this name.
 fn is_of_runs(name: &str) -> bool {
     FILES.contains(&name) || picture_index(name).is_some()
+}
+
+/// Removes a file that need not exist.
+pub(super) fn remove_if_there(path: &Path) -> Result<(), RunDirectoryError> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(RunDirectoryError::io(path)(error))
+        }
+        _ => Ok(()),
+    }
 }
 
 #[cfg(test)]

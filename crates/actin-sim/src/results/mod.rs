@@ -27,6 +27,7 @@ mod finite;
 mod fixture;
 mod lock;
 mod manifest;
+mod names;
 mod profile;
 mod states;
 mod summary;

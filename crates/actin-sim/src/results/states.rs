@@ -12,7 +12,7 @@
 //!
 //! Entries are stored, not deflated, and may exceed 4 GiB.
 
-use super::directory::STATES;
+use super::names::STATES;
 use super::{RunDirectoryError, clock, finite::ensure_finite_in};
 use crate::{Assembly, FilamentSpan, Record, Records};
 use actin_mechanics::State;

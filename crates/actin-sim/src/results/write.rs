@@ -1,12 +1,12 @@
 //! Writing the results of a run into its directory: what is checked, and in which order.
 
 use super::atomic::{self, sync, sync_all};
-use super::directory::{
-    COLLECTION, ENERGIES, PICTURES, PROFILE, RunDirectory, SCENE, STATES, SUMMARY, picture_index,
-    picture_name, remove_if_there,
-};
+use super::directory::RunDirectory;
 use super::energies::EnergyTable;
-use super::manifest::Manifest;
+use super::manifest::{Manifest, remove_if_there};
+use super::names::{
+    COLLECTION, ENERGIES, PICTURES, PROFILE, SCENE, STATES, SUMMARY, picture_index, picture_name,
+};
 use super::states::States;
 use super::summary::LateKinetic;
 use super::vtk::{Drawing, write_collection};
@@ -334,7 +334,7 @@ mod tests {
     use super::*;
     use crate::results::fixture;
     use crate::results::lock::LOCK;
-    use crate::results::manifest::MANIFEST;
+    use crate::results::names::MANIFEST;
     use crate::{At, Trajectory};
     use actin_mechanics::State;
     use tempfile::TempDir;

@@ -4,9 +4,9 @@ use super::file::{Contents, Identity, same_scene};
 use super::log::{RecordLog, Tally};
 use super::{CheckpointError, Damage};
 use crate::results::atomic::replace_durably;
-use crate::results::directory::{
-    CHECKPOINT, RECORDS, RunDirectory, SCENE, SUMMARY, remove_if_there,
-};
+use crate::results::directory::RunDirectory;
+use crate::results::manifest::remove_if_there;
+use crate::results::names::{CHECKPOINT, RECORDS, SCENE, SUMMARY};
 use crate::results::{RunDirectoryError, Summary};
 use crate::run::{Plan, Record, RecordIter, Recorded, Records, RunPosition, Saved, Sink, Status};
 use std::borrow::Cow;

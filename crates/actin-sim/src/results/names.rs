@@ -1,0 +1,35 @@
+//! The names of the files of a run directory.
+
+pub(super) const SCENE: &str = "scene.ron";
+pub(super) const SUMMARY: &str = "summary.json";
+pub(super) const ENERGIES: &str = "energies.csv";
+pub(super) const PROFILE: &str = "profile.csv";
+pub(super) const STATES: &str = "states.npz";
+pub(super) const COLLECTION: &str = "run.pvd";
+pub(super) const CHECKPOINT: &str = "checkpoint.bin";
+pub(super) const RECORDS: &str = "records.bin";
+/// The folder of the pictures.
+pub(super) const PICTURES: &str = "vtk";
+
+/// The manifest, a name which no user file is likely to have.
+pub(super) const MANIFEST: &str = "actin-run.json";
+
+/// Everything that a run writes, beside its pictures, its manifest and its lock.
+pub(super) const FILES: [&str; 8] = [
+    SCENE, SUMMARY, ENERGIES, PROFILE, STATES, COLLECTION, CHECKPOINT, RECORDS,
+];
+
+/// What a run writes before it has results.
+pub(super) const BEFORE_RESULTS: [&str; 3] = [SCENE, CHECKPOINT, RECORDS];
+
+/// Name of the picture of a record, in the directory.
+pub(super) fn picture_name(record: usize) -> String {
+    format!("{PICTURES}/{record:04}.vtp")
+}
+
+/// The record whose picture has this name in the directory.
+pub(super) fn picture_index(name: &str) -> Option<usize> {
+    let rest = name.strip_prefix(PICTURES)?.strip_prefix('/')?;
+    let index = rest.strip_suffix(".vtp")?.parse().ok()?;
+    (picture_name(index) == name).then_some(index)
+}
