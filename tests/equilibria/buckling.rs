@@ -82,7 +82,7 @@ fn column(n: usize, wall: bool) -> (State, Parts, BodyOrder) {
         state.frames.hold(held);
         parts.joints.push(RodJoint::straight([held, 0], 0.5 * h));
     }
-    state.controls.push(0.0);
+    state.add_control(0.0);
     (state, parts, order)
 }
 
@@ -92,7 +92,8 @@ fn column(n: usize, wall: bool) -> (State, Parts, BodyOrder) {
 fn pinned_column() {
     let values = MESHES.map(|n| {
         let (state, parts, order) = column(n, false);
-        let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), 0);
+        let control = state.controls.ids().next().unwrap();
+        let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), control);
         let slider = Group::sliding(vec![n], vec![], Vector3::z());
         let layout = Layout::new(&state, Some(&order), vec![slider]).unwrap();
         let mut newton = Newton::new(layout, to(1e-9)).unwrap();
@@ -114,7 +115,8 @@ fn clamped_column() {
         let distance = 0.5 / n as f64;
         let joint = RodJoint::straight([n - 1, held], distance);
         parts.joints.push(joint);
-        let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), 0);
+        let control = state.controls.ids().next().unwrap();
+        let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), control);
         let slider = Group::sliding(vec![n], vec![held], Vector3::z());
         let layout = Layout::new(&state, Some(&order), vec![slider]).unwrap();
         let mut newton = Newton::new(layout, to(1e-9)).unwrap();
@@ -133,7 +135,8 @@ fn greenhills_column() {
         let (state, parts, order) = column(n, true);
         let weight = |k: usize| if k == n { 0.5 } else { 1.0 } / n as f64;
         let shares = (1..=n).map(|k| (k, weight(k))).collect();
-        let load = PointLoad::new(&state, shares, -Vector3::z(), 0);
+        let control = state.controls.ids().next().unwrap();
+        let load = PointLoad::new(&state, shares, -Vector3::z(), control);
         let layout = Layout::new(&state, Some(&order), vec![]).unwrap();
         let mut newton = Newton::new(layout, to(1e-9)).unwrap();
         let terms: Vec<Box<dyn Interaction>> = vec![Box::new(parts.rod()), Box::new(load)];

@@ -98,7 +98,7 @@ pub(crate) fn to(tolerance: f64) -> NewtonOptions {
     }
 }
 
-/// The control 0 at which the stiffness of the equilibrium near `straight` turns indefinite, by
+/// The first control at which the stiffness of the equilibrium near `straight` turns indefinite, by
 /// bisection; each equilibrium is solved for from `straight` itself.
 pub(crate) fn critical(
     newton: &mut Newton,
@@ -108,7 +108,8 @@ pub(crate) fn critical(
 ) -> f64 {
     let mut is_unstable = |control: f64| {
         let mut state = straight.clone();
-        state.controls[0] = control;
+        let factor = state.controls.ids().next().unwrap();
+        state.controls[factor] = control;
         newton.solve(&mut state, interactions).unwrap().is_saddle()
     };
     bisect(&mut is_unstable, bounds)

@@ -87,15 +87,15 @@ fn deflection(clamp: RodClamp, segments: usize) -> f64 {
     let mut state = State::default();
     let layout = rod.push(&mut state).unwrap();
     clamp.hold(&layout, RodEnd::Start, &mut state).unwrap();
-    state.controls.push(0.0);
+    let control = state.add_control(0.0);
     let tip = layout.end_point(RodEnd::End);
     let force = Vector3::x() * (rigidities.bend.x / (length * length));
-    let load = PointLoad::new(&state, vec![(tip, 1.0)], force, 0);
+    let load = PointLoad::new(&state, vec![(tip, 1.0)], force, control);
     let law = EnergyGradient::new(layout, RodMaterial::new(rigidities).unwrap());
     let terms: Vec<Box<dyn Interaction>> = vec![Box::new(law), Box::new(load)];
     let mut system = System::new(state, terms);
     for step in 1..=4 {
-        system.state_mut().controls[0] = f64::from(step) / 4.0;
+        system.state_mut().controls[control] = f64::from(step) / 4.0;
         settle(&mut system);
     }
     system.state().points.position.get(tip).x / length

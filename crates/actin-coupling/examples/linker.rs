@@ -20,8 +20,8 @@ fn main() -> Result<(), LinkerError> {
     let linker = Linker::new(site, LinkerEnd::Anchor(anchor), stiffness, rest_length)?;
 
     println!("force at rest: {} pN", linker.force(&state).norm());
-    let control = anchor.control.expect("it is movable");
-    state.controls[control] = 2.0;
+    let [x, ..] = anchor.controls.expect("it is movable");
+    state.controls[x] = 2.0;
     let force = linker.force(&state);
     println!("force at 2 nm along x: {} pN; k d = 4 pN", force.x);
     assert_eq!(force, Vector3::x() * 4.0);

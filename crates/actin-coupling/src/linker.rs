@@ -3,7 +3,8 @@
 use crate::site::{Site, ensure};
 use crate::{LinkerError, LinkerKey};
 use actin_mechanics::{
-    Coordinates, Hooke, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
+    ControlId, Coordinates, Hooke, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness,
+    Vector3,
 };
 
 /// A point outside of the filament that holds one end of a linker.
@@ -11,9 +12,8 @@ use actin_mechanics::{
 pub struct Anchor {
     /// Where it is before it is moved (nm, lab frame).
     pub position: Vector3,
-    /// Index in [`State::controls`] of the first of the three components of its displacement
-    /// (nm, lab frame); none if it stays.
-    pub control: Option<usize>,
+    /// The three components of its displacement (nm, lab frame); none if it stays.
+    pub controls: Option<[ControlId; 3]>,
 }
 
 impl Anchor {
@@ -21,26 +21,25 @@ impl Anchor {
     pub fn fixed(position: Vector3) -> Self {
         Self {
             position,
-            control: None,
+            controls: None,
         }
     }
 
     /// An anchor at `position` (nm, lab frame) that three controls of its own displace, which begin
     /// at zero.
     pub fn movable(state: &mut State, position: Vector3) -> Self {
-        let [first, ..] = [0.0; 3].map(|component| state.add_control(component));
         Self {
             position,
-            control: Some(first),
+            controls: Some([0.0; 3].map(|component| state.add_control(component))),
         }
     }
 
     /// Where it is in `state` (nm, lab frame).
     pub fn position(&self, state: &State) -> Vector3 {
-        let displacement = self.control.map_or_else(Vector3::zeros, |first| {
-            Vector3::from_column_slice(&state.controls[first..first + 3])
-        });
-        self.position + displacement
+        let displacement = self
+            .controls
+            .map(|c| c.map(|component| state.controls[component]));
+        self.position + displacement.map_or_else(Vector3::zeros, Vector3::from)
     }
 }
 
@@ -132,6 +131,14 @@ impl Linker {
     /// What holds the other end.
     pub fn end(&self) -> &LinkerEnd {
         &self.end
+    }
+
+    /// The controls of the displacement of its anchor, if it has one that moves.
+    pub fn anchor_controls(&self) -> Option<[ControlId; 3]> {
+        match &self.end {
+            LinkerEnd::Anchor(anchor) => anchor.controls,
+            LinkerEnd::Site(_) => None,
+        }
     }
 
     /// Where the other end is (nm, lab frame).

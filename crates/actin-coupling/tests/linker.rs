@@ -249,12 +249,15 @@ fn controls_move_an_anchor() {
     let mut scene = scene(&mut Xorshift::new(16));
     let site = scene.on_rod(1, 0.5);
     let position = site.position(&scene.state);
-    scene.state.controls = vec![9.0];
+    scene.state.add_control(9.0);
     let anchor = Anchor::movable(&mut scene.state, position);
-    assert_eq!(anchor.control, Some(1));
+    let controls = anchor.controls.unwrap();
+    assert!(scene.state.controls.ids().skip(1).eq(controls));
     let linker = Linker::new(site, LinkerEnd::Anchor(anchor), 7.0, 0.0).unwrap();
     assert_eq!(linker.force(&scene.state), Vector3::zeros());
-    scene.state.controls = vec![9.0, 1.0, -2.0, 3.0];
+    for (control, value) in controls.into_iter().zip([1.0, -2.0, 3.0]) {
+        scene.state.controls[control] = value;
+    }
     let expected = Vector3::new(7.0, -14.0, 21.0);
     // The anchor's place of some 20 nm is rounded.
     assert!((linker.force(&scene.state) - expected).norm() < 1e-12);

@@ -34,8 +34,8 @@ fn rod(segments: usize, again: bool) {
         ..ACTIN
     };
     let mut state = rod.state();
-    state.controls.push(2.0 * (160.0 / length).powi(2));
-    let load = PointLoad::new(&state, vec![(segments, 1.0)], Vector3::x(), 0);
+    let control = state.add_control(2.0 * (160.0 / length).powi(2));
+    let load = PointLoad::new(&state, vec![(segments, 1.0)], Vector3::x(), control);
     let mut terms = rod.interactions();
     terms.push(Box::new(load));
     let mut newton = rod.newton(&state);
@@ -44,7 +44,7 @@ fn rod(segments: usize, again: bool) {
             println!("no equilibrium");
             return;
         }
-        state.controls[0] *= 1.0 + 1e-6;
+        state.controls[control] *= 1.0 + 1e-6;
     }
     report(2 * segments + 2, &mut newton, &mut state, &terms);
 }
@@ -52,9 +52,9 @@ fn rod(segments: usize, again: bool) {
 fn filament(monomers: usize) {
     let (mut state, bonds) = actin::filament(monomers, 32, 5);
     let length = 160.0 * monomers as f64 / 60.0;
-    state.controls.push(2.0 * (160.0 / length).powi(2));
+    let control = state.add_control(2.0 * (160.0 / length).powi(2));
     let shares = vec![(monomers - 1, 0.5), (monomers - 2, 0.5)];
-    let load = PointLoad::new(&state, shares, Vector3::x(), 0);
+    let load = PointLoad::new(&state, shares, Vector3::x(), control);
     let terms: Vec<Box<dyn Interaction>> = vec![Box::new(bonds), Box::new(load)];
     let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).expect("it fits");
     let mut newton = Newton::new(layout, NewtonOptions::default()).expect("they are the defaults");

@@ -20,8 +20,8 @@ fn work(segments: usize, order: Order) -> actin_equilibrium::SolverWork {
         ..ACTIN
     };
     let mut state = rod.state();
-    state.controls.push(1e-6);
-    let load = PointLoad::new(&state, vec![(segments, 1.0)], Vector3::x(), 0);
+    let control = state.add_control(1e-6);
+    let load = PointLoad::new(&state, vec![(segments, 1.0)], Vector3::x(), control);
     let mut terms = rod.interactions();
     terms.push(Box::new(load));
     let layout = order(&rod, &state);

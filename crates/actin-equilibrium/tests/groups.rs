@@ -73,8 +73,8 @@ fn sliding_bodies_of_the_state_are_groups() {
         directions: vec![Vector3::x()],
         mass: 0.1394,
     });
-    state.controls.push(1.0);
-    let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::new(3.0, 9.0, 0.0), 0);
+    let control = state.add_control(1.0);
+    let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::new(3.0, 9.0, 0.0), control);
     let springs = Springs(vec![(0, 1, 6.0, 1.0)]);
     let terms: Terms = vec![Box::new(springs), Box::new(load)];
     let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
@@ -95,10 +95,15 @@ fn a_rigid_group_turns_into_the_force() {
     point(&mut state, Vector3::new(0.5, 8.0, 6.0));
     frame(&mut state, rotation::exp(Vector3::new(0.3, 0.2, 0.1)));
     state.points.hold(0);
-    state.controls.push(1.0);
+    let control = state.add_control(1.0);
     let bar = Group::rigid(vec![1, 2], vec![0]);
     let relative = state.frames.orientation.get(0).inverse() * Vector3::new(0.0, 8.0, 6.0);
-    let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::new(0.0, 1.0, -3.0), 0);
+    let load = PointLoad::new(
+        &state,
+        vec![(2, 1.0)],
+        Vector3::new(0.0, 1.0, -3.0),
+        control,
+    );
     let springs = Springs(vec![(0, 1, 20.0, 0.5)]);
     let terms: Terms = vec![Box::new(springs), Box::new(load)];
     let layout = Layout::new(&state, None, vec![bar]).unwrap();

@@ -14,8 +14,8 @@ type Terms = Vec<Box<dyn Interaction>>;
 /// A clamped rod with a force on its tip.
 fn cantilever(rod: &Rod, force: Vector3) -> (State, Terms) {
     let mut state = rod.state();
-    state.controls.push(1.0);
-    let load = PointLoad::new(&state, vec![(rod.segments, 1.0)], force, 0);
+    let control = state.add_control(1.0);
+    let load = PointLoad::new(&state, vec![(rod.segments, 1.0)], force, control);
     let mut terms = rod.interactions();
     terms.push(Box::new(load));
     (state, terms)
@@ -117,9 +117,9 @@ fn the_start_does_not_matter() {
 fn floppy_filaments_are_neutral_at_rest_and_solved_under_load() {
     let n = 31;
     let (mut state, bonds) = actin::filament(n, 32, 5);
-    state.controls.push(0.0);
+    let control = state.add_control(0.0);
     let shares = vec![(n - 1, 0.5), (n - 2, 0.5)];
-    let load = PointLoad::new(&state, shares, Vector3::x(), 0);
+    let load = PointLoad::new(&state, shares, Vector3::x(), control);
     let terms: Terms = vec![Box::new(bonds), Box::new(load)];
     let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).unwrap();
     let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
@@ -132,7 +132,7 @@ fn floppy_filaments_are_neutral_at_rest_and_solved_under_load() {
     assert_eq!(stability, Stability::Neutral { modes });
     for force in [0.1, 2.0, 20.0] {
         let mut loaded = before.clone();
-        loaded.controls[0] = force;
+        loaded.controls[control] = force;
         let equilibrium = newton.solve(&mut loaded, &terms).unwrap();
         println!("{force} pN: {:?}", equilibrium.work);
         let stability = equilibrium.certificate.unwrap().stability();
@@ -147,8 +147,8 @@ fn floppy_filaments_are_neutral_at_rest_and_solved_under_load() {
 fn a_strand_without_shear_stiffness_hangs_along_the_force() {
     let n = 16;
     let (mut state, bonds) = bonded_filament(n, 16);
-    state.controls.push(5.0);
-    let load = PointLoad::new(&state, vec![(n - 1, 1.0)], Vector3::x(), 0);
+    let control = state.add_control(5.0);
+    let load = PointLoad::new(&state, vec![(n - 1, 1.0)], Vector3::x(), control);
     let terms: Terms = vec![Box::new(bonds), Box::new(load)];
     let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
     let equilibrium = newton.minimize(&mut state, &terms, 3).unwrap();
@@ -241,8 +241,8 @@ fn the_floor_of_one_body_hides_nothing_of_another() {
     state.points.hold(0);
     state.points.hold(2);
     state.points.position.set(1, Vector3::new(0.01, 0.0, 0.9));
-    state.controls.push(1e-4);
-    let load = PointLoad::new(&state, vec![(1, 1.0)], -Vector3::z(), 0);
+    let control = state.add_control(1e-4);
+    let load = PointLoad::new(&state, vec![(1, 1.0)], -Vector3::z(), control);
     let springs = Springs(vec![(0, 1, 1e-3, 1.0), (2, 3, 0.1, 1.0)]);
     let terms: Terms = vec![Box::new(springs), Box::new(load)];
     let layout = Layout::new(&state, Some(&in_order(&state)), Vec::new()).unwrap();
@@ -263,10 +263,15 @@ fn too_few_steps_keep_the_best_state() {
     let mut state = ACTIN.state();
     state.points.hold(ACTIN.segments);
     state.frames.hold(ACTIN.segments);
-    state.controls.push(20.0);
+    let control = state.add_control(20.0);
     let middle = vec![(ACTIN.segments / 2, 1.0)];
     let mut terms = ACTIN.interactions();
-    terms.push(Box::new(PointLoad::new(&state, middle, Vector3::x(), 0)));
+    terms.push(Box::new(PointLoad::new(
+        &state,
+        middle,
+        Vector3::x(),
+        control,
+    )));
     let start: f64 = terms.iter().map(|term| term.energy(&state)).sum();
     let options = NewtonOptions {
         iterations: 1,
@@ -294,8 +299,8 @@ fn a_free_body_under_a_dead_load_fails() {
     let mut state = State::default();
     point(&mut state, Vector3::zeros());
     point(&mut state, Vector3::x());
-    state.controls.push(1.0);
-    let load = PointLoad::new(&state, vec![(0, 1.0)], Vector3::y(), 0);
+    let control = state.add_control(1.0);
+    let load = PointLoad::new(&state, vec![(0, 1.0)], Vector3::y(), control);
     let terms: Terms = vec![Box::new(Springs(vec![(0, 1, 1.0, 1.0)])), Box::new(load)];
     let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
     let failure = newton.solve(&mut state, &terms).unwrap_err();
@@ -401,8 +406,8 @@ fn stiffness_without_scale_is_refused() {
             point(&mut state, Vector3::z() * z);
         }
         state.points.hold(0);
-        state.controls.push(1.0);
-        let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::z(), 0);
+        let control = state.add_control(1.0);
+        let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::z(), control);
         let springs = Springs(vec![(0, 1, stiffness, 1.0), (1, 2, stiffness, 1.0)]);
         let terms: Terms = vec![Box::new(springs), Box::new(load)];
         let layout = Layout::new(&state, Some(&in_order(&state)), Vec::new()).unwrap();
@@ -431,9 +436,9 @@ fn stiffness_without_scale_is_refused() {
 fn long_floppy_filaments_hardly_overshoot() {
     let n = 1200;
     let (mut state, bonds) = actin::filament(n, 10, 5);
-    state.controls.push(2.0 * (60.0 / n as f64).powi(2));
+    let control = state.add_control(2.0 * (60.0 / n as f64).powi(2));
     let shares = vec![(n - 1, 0.5), (n - 2, 0.5)];
-    let load = PointLoad::new(&state, shares, Vector3::x(), 0);
+    let load = PointLoad::new(&state, shares, Vector3::x(), control);
     let terms: Terms = vec![Box::new(bonds), Box::new(load)];
     let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).unwrap();
     let options = NewtonOptions {

@@ -21,10 +21,10 @@ fn arch(force: f64) -> (State, Terms, Newton) {
         state.points.hold(i);
     }
     point(&mut state, Vector3::y() * 2.0);
-    state.controls.push(0.0);
+    let control = state.add_control(0.0);
     let rest = 104.0f64.sqrt();
     let springs = Springs(vec![(0, 2, 50.0, rest), (1, 2, 50.0, rest)]);
-    let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::y() * -force, 0);
+    let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::y() * -force, control);
     let top = Group::sliding(vec![2], vec![], Vector3::y());
     let layout = Layout::new(&state, None, vec![top]).unwrap();
     let newton = Newton::new(layout, NewtonOptions::default()).unwrap();
@@ -44,7 +44,8 @@ fn arch_limit() -> (f64, f64) {
 }
 
 fn proportional(state: &mut State, parameter: f64) {
-    state.controls[0] = parameter;
+    let control = state.controls.ids().next().unwrap();
+    state.controls[control] = parameter;
 }
 
 /// At a limit point the path ends just before it and reports the last equilibrium.
@@ -122,8 +123,8 @@ const COLUMN: Rod = Rod {
 
 fn compressed() -> (State, Terms) {
     let mut state = COLUMN.state();
-    state.controls.push(0.0);
-    let load = PointLoad::new(&state, vec![(32, 1.0)], Vector3::z() * -6.0, 0);
+    let control = state.add_control(0.0);
+    let load = PointLoad::new(&state, vec![(32, 1.0)], Vector3::z() * -6.0, control);
     let mut terms = COLUMN.interactions();
     terms.push(Box::new(load));
     (state, terms)

@@ -53,8 +53,13 @@ fn stiffness_is_the_derivative_of_the_loads_with_and_without_a_given_order() {
 fn stiffness_of_groups_includes_the_second_order_of_their_turn() {
     let (mut state, bonds) = bonded_filament(6, 4);
     perturb(&mut state, &mut Xorshift::new(4), 0.2, 0.1);
-    state.controls.push(1.0);
-    let load = PointLoad::new(&state, vec![(5, 1.0)], Vector3::new(300.0, 20.0, -100.0), 0);
+    let control = state.add_control(1.0);
+    let load = PointLoad::new(
+        &state,
+        vec![(5, 1.0)],
+        Vector3::new(300.0, 20.0, -100.0),
+        control,
+    );
     let interactions: Vec<Box<dyn Interaction>> = vec![Box::new(bonds), Box::new(load)];
     let ends = Group::rigid(vec![4, 5], vec![4, 5]);
     let inner = Group {

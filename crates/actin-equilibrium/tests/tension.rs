@@ -21,9 +21,9 @@ fn pulled(force: f64, turn: UnitQuaternion) -> (State, Vec<Box<dyn Interaction>>
         state.points.position.set(i, place);
         state.frames.orientation.set(i, turn);
     }
-    state.controls.push(1.0);
+    let control = state.add_control(1.0);
     let force = turn * Vector3::z() * force;
-    let load = PointLoad::new(&state, vec![(SHORT.segments, 1.0)], force, 0);
+    let load = PointLoad::new(&state, vec![(SHORT.segments, 1.0)], force, control);
     let mut terms = SHORT.interactions();
     terms.push(Box::new(load));
     (state, terms)

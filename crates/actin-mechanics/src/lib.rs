@@ -17,6 +17,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod controls;
 mod frames;
 mod inertia;
 mod interaction;
@@ -41,6 +42,7 @@ mod vectors;
 mod weight;
 pub mod wide;
 
+pub use controls::{ControlId, Controls};
 pub use frames::{Frame, Frames};
 pub use inertia::{Axis, Inertia, InertiaError};
 pub use interaction::Interaction;

@@ -1,6 +1,6 @@
 //! A dead load: a constant force on some points.
 
-use crate::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
+use crate::{ControlId, Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
 
 /// A force that keeps its direction, shared among points and scaled by a control.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,8 +11,8 @@ pub struct PointLoad {
     origin: Vec<Vector3>,
     /// Force at control value 1, lab frame.
     force: Vector3,
-    /// Index of the load factor in [`State::controls`].
-    control: usize,
+    /// The load factor.
+    control: ControlId,
 }
 
 impl PointLoad {
@@ -37,13 +37,17 @@ impl PointLoad {
     }
 
     /// The load of `force` (lab frame, at control value 1) shared among points, with its zero of
-    /// potential at the present positions; `control` is the index of its factor in
-    /// [`State::controls`].
+    /// potential at the present positions; `control` is its factor.
     ///
     /// # Panics
     /// If `state` has no such point or control, or if the force or a share is not finite.
-    pub fn new(state: &State, shares: Vec<(usize, f64)>, force: Vector3, control: usize) -> Self {
-        let (points, controls) = (state.points.len(), state.controls.len());
+    pub fn new(
+        state: &State,
+        shares: Vec<(usize, f64)>,
+        force: Vector3,
+        control: ControlId,
+    ) -> Self {
+        let points = state.points.len();
         for &(i, share) in &shares {
             assert!(
                 i < points,
@@ -55,8 +59,8 @@ impl PointLoad {
             );
         }
         assert!(
-            control < controls,
-            "there are {controls} controls, a load has control {control}"
+            state.controls.has(control),
+            "a load has {control:?}, which the state does not have"
         );
         assert!(
             force.iter().all(|f| f.is_finite()),
@@ -74,8 +78,8 @@ impl PointLoad {
         }
     }
 
-    /// Index of its factor in [`State::controls`].
-    pub fn control(&self) -> usize {
+    /// Its factor.
+    pub fn control(&self) -> ControlId {
         self.control
     }
 }
@@ -129,9 +133,10 @@ mod tests {
             let position = Vector3::zeros();
             state.points.push(Point { position, mass });
         }
-        state.controls.push(7.0);
+        state.add_control(7.0);
         let load = PointLoad::shared(&mut state, &[0, 1], Vector3::x() * 3.0);
-        assert_eq!((load.control(), state.controls[1]), (1, 1.0));
+        assert_eq!(Some(load.control()), state.controls.ids().nth(1));
+        assert_eq!(state.controls[load.control()], 1.0);
         let loads = crate::testing::loads_of(&load, &state);
         assert_eq!(loads.force.get(1), Vector3::x() * 1.5);
     }
@@ -141,15 +146,16 @@ mod tests {
         let mut state = State::default();
         let (position, mass) = (Vector3::zeros(), 1.0);
         state.points.push(Point { position, mass });
-        state.controls.push(1.0);
+        let own = state.add_control(1.0);
+        let other = state.clone().add_control(1.0);
         let is_refused = |point, share, force, control| {
             let make = || PointLoad::new(&state, vec![(point, share)], force, control);
             std::panic::catch_unwind(make).is_err()
         };
-        assert!(!is_refused(0, 1.0, Vector3::x(), 0));
-        assert!(is_refused(1, 1.0, Vector3::x(), 0));
-        assert!(is_refused(0, 1.0, Vector3::x(), 1));
-        assert!(is_refused(0, f64::NAN, Vector3::x(), 0));
-        assert!(is_refused(0, 1.0, Vector3::repeat(f64::INFINITY), 0));
+        assert!(!is_refused(0, 1.0, Vector3::x(), own));
+        assert!(is_refused(1, 1.0, Vector3::x(), own));
+        assert!(is_refused(0, 1.0, Vector3::x(), other));
+        assert!(is_refused(0, f64::NAN, Vector3::x(), own));
+        assert!(is_refused(0, 1.0, Vector3::repeat(f64::INFINITY), own));
     }
 }

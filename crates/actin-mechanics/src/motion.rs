@@ -1,6 +1,6 @@
 //! What time changes of a state.
 
-use crate::{Quaternions, State, Vectors};
+use crate::{Controls, Quaternions, State, Vectors};
 
 /// Places and motion of all bodies, controls and time: what a checkpoint keeps of a [`State`]. Masses,
 /// inertias and what is held are not part of it.
@@ -16,7 +16,7 @@ pub struct Motion {
     /// Their angular momenta in body axes.
     pub angular_momentum: Vectors,
     /// What is set from outside.
-    pub controls: Vec<f64>,
+    pub controls: Controls,
     /// Time, by which a drive places what it moves.
     pub time: f64,
 }
@@ -81,7 +81,7 @@ impl State {
         self.points.velocity.copy_from(velocity);
         self.frames.orientation.copy_from(orientation);
         self.frames.angular_momentum.copy_from(angular_momentum);
-        self.controls.copy_from_slice(controls);
+        self.controls.copy_from(controls);
         self.time = *time;
     }
 
@@ -126,12 +126,13 @@ mod tests {
                 inertia: Inertia::from_moments([1.0, 1.0, 2.0]).unwrap(),
             });
         }
-        state.controls = vec![0.0; 2];
+        let controls = [0.0; 2].map(|value| state.add_control(value));
         let mut moved = state.clone();
         let mut noise = Xorshift::new(3);
         perturb(&mut moved, &mut noise, 1.0, 1.0);
         set_in_motion(&mut moved, &mut noise, 1.0, 1.0);
-        moved.controls = vec![0.25, -1.0];
+        moved.controls[controls[0]] = 0.25;
+        moved.controls[controls[1]] = -1.0;
         moved.time = 7.0;
         [state, moved]
     }

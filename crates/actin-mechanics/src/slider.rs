@@ -125,9 +125,9 @@ mod tests {
             directions: vec![Vector3::z()],
             mass: 1.0,
         });
-        state.controls.push(1.0);
+        let control = state.add_control(1.0);
         let force = Vector3::new(3.0, 4.0, 2.0);
-        let load = PointLoad::new(&state, vec![(1, 1.0)], force, 0);
+        let load = PointLoad::new(&state, vec![(1, 1.0)], force, control);
         let mut system = System::new(state, vec![Box::new(load)]);
         assert!((system.residual().force - 2.0).abs() < 1e-15);
         system.kick(0.5, 0.5);

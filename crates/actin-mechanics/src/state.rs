@@ -1,6 +1,6 @@
 //! The state of everything that moves.
 
-use crate::{Frames, Points, Shared, Slider, Vector3};
+use crate::{ControlId, Controls, Frames, Points, Shared, Slider, Vector3};
 
 /// Points, frames and controls.
 ///
@@ -13,8 +13,8 @@ pub struct State {
     pub points: Points,
     /// Orientations with inertias.
     pub frames: Frames,
-    /// What is set from outside: load factors, by the index that a load was built with.
-    pub controls: Vec<f64>,
+    /// What is set from outside: load factors, displacements of anchors.
+    pub controls: Controls,
     /// Held bodies that slide together.
     pub sliders: Shared<Vec<Slider>>,
     /// Time, by which a drive places what it moves.
@@ -22,10 +22,17 @@ pub struct State {
 }
 
 impl State {
-    /// Adds a control, what is set from outside, and returns its index in `controls`.
-    pub fn add_control(&mut self, value: f64) -> usize {
-        self.controls.push(value);
-        self.controls.len() - 1
+    /// Adds a control, what is set from outside, and says which it is.
+    ///
+    /// ```
+    /// use actin_mechanics::State;
+    /// let mut state = State::default();
+    /// let factor = state.add_control(1.0);
+    /// state.controls[factor] = 0.5;
+    /// assert_eq!(state.controls.values(), [0.5]);
+    /// ```
+    pub fn add_control(&mut self, value: f64) -> ControlId {
+        self.controls.add(value)
     }
 
     /// Kinetic energy of the free bodies, sliding ones included.
@@ -104,7 +111,7 @@ impl State {
         frames.orientation.copy_from(&other.frames.orientation);
         let momentum = &other.frames.angular_momentum;
         frames.angular_momentum.copy_from(momentum);
-        controls.copy_from_slice(&other.controls);
+        controls.copy_from(&other.controls);
         *time = other.time;
     }
 

@@ -1,6 +1,6 @@
 //! Weight: a force per mass that is the same everywhere.
 
-use crate::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
+use crate::{ControlId, Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
 
 /// The weight of all points under a uniform acceleration, scaled by a control: term `weight`, one
 /// element.
@@ -11,7 +11,7 @@ use crate::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weight {
     acceleration: Vector3,
-    control: usize,
+    control: ControlId,
 }
 
 impl Weight {
@@ -43,8 +43,8 @@ impl Weight {
         }
     }
 
-    /// Index of its factor in [`State::controls`].
-    pub fn control(&self) -> usize {
+    /// Its factor.
+    pub fn control(&self) -> ControlId {
         self.control
     }
 }

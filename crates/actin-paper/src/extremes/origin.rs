@@ -51,9 +51,11 @@ fn shifted(shift: f64) -> Result<Outcome, Outcome> {
     for i in 0..there.points.len() {
         there.points.position.add(i, by);
     }
-    // The load's factor stands first, then the anchor's displacement.
-    for k in 0..3 {
-        there.controls[1 + k] += by[k];
+    let anchors = assembly.linkers.iter();
+    for controls in anchors.filter_map(|linker| linker.anchor_controls()) {
+        for (control, by) in controls.into_iter().zip(by.iter()) {
+            there.controls[control] += by;
+        }
     }
     let [a, b] = [&here, &there].map(|state| loads(assembly.system.interactions(), state));
     let force = a

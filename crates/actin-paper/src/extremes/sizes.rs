@@ -85,7 +85,7 @@ fn driven(count: u32) -> Result<Outcome, Outcome> {
     Plan::new(&assembly).map_err(|problem| Outcome::Refused(problem.to_string()))?;
     let mut state = assembly.rest.clone();
     assembly.drive.place(&mut state, f64::from(count));
-    let controls = state.controls.iter().zip(1_u32..);
+    let controls = state.controls.values().iter().zip(1_u32..);
     let error = controls.map(|(factor, i)| (factor - f64::from(i)).abs());
     Ok(Outcome::correct("factors", error.fold(0.0, f64::max), 0.0))
 }

@@ -6,11 +6,6 @@ use crate::scene::{
 
 /// How far a length, a displacement or a turn may be from that of the measured scene.
 const NEAR: f64 = 0.1;
-/// By which factor a force may differ.
-const FORCE: f64 = 2.0;
-/// How far the direction of a force may be from that of the measured scene, as a cosine.
-const ALONG: f64 = 0.98;
-
 /// How far the azimuth of a site may be from that of the measured scene (deg).
 const AZIMUTH_DEG: f64 = 4.0;
 
@@ -24,7 +19,7 @@ pub(super) fn is_like(scene: &Scene, measured: &Scene) -> bool {
         && scene.filament.axis() == measured.filament.axis()
         && near(length(scene), length(measured))
         && pairwise(&scene.clamps, &measured.clamps, same_clamp)
-        && pairwise(&scene.loads, &measured.loads, same_load)
+        && pairwise(&scene.loads, &measured.loads, Load::is_like)
         && pairwise(&scene.linkers, &measured.linkers, same_linker)
         && pairwise(&scene.path, &measured.path, same_stage)
         && has_default_models(scene)
@@ -66,26 +61,6 @@ fn near_vector(a: [f64; 3], b: [f64; 3]) -> bool {
 
 fn same_clamp(a: &Clamp, b: &Clamp) -> bool {
     (a.end, a.slides, a.hold) == (b.end, b.slides, b.hold)
-}
-
-/// Across a filament that stands on a wall all directions are one.
-fn same_load(a: &Load, b: &Load) -> bool {
-    let (
-        Load::EndForce {
-            end, force_pn: f, ..
-        },
-        Load::EndForce {
-            end: other,
-            force_pn: g,
-            ..
-        },
-    ) = (a, b);
-    let across = |v: &[f64; 3]| v[0].hypot(v[1]);
-    let (sizes, cosine) = (
-        norm(*f) / norm(*g),
-        (across(f) * across(g) + f[2] * g[2]) / (norm(*f) * norm(*g)),
-    );
-    end == other && (1.0 / FORCE..=FORCE).contains(&sizes) && cosine >= ALONG
 }
 
 fn same_linker(a: &Linker, b: &Linker) -> bool {

@@ -13,9 +13,9 @@ use super::{
     Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Part, PointInfo, Rod, SectionSpan, Term,
     imperfection,
 };
-use crate::scene::{End, HeldEnds, Load, Scene, SceneProblem, Section, path};
+use crate::scene::{End, HeldEnds, Scene, SceneProblem, Section};
 use actin_coupling::Linker;
-use actin_mechanics::{Interaction, PointLoad, State, System};
+use actin_mechanics::{ControlId, Interaction, State, System};
 use strand::{Body, Strand};
 
 impl Assembly {
@@ -69,6 +69,7 @@ struct Builder<'a> {
     filaments: Vec<FilamentSpan>,
     stock: Stock,
     clamps: Vec<Clamped>,
+    loads: Vec<ControlId>,
     linkers: Vec<Linker>,
 }
 
@@ -95,6 +96,7 @@ impl<'a> Builder<'a> {
             filaments: Vec::new(),
             stock: Stock::default(),
             clamps: Vec::new(),
+            loads: Vec::new(),
             linkers: Vec::new(),
         })
     }
@@ -118,27 +120,27 @@ impl<'a> Builder<'a> {
 
     fn push_loads(&mut self) {
         for (i, load) in self.scene.loads.iter().enumerate() {
-            let Load::EndForce {
-                filament,
-                end,
-                force_pn,
-            } = load;
-            let strand = &self.strands[*filament];
-            let section = strand.first_section + strand.filament.end_index(*end);
-            let points = self.stock.sections[section].tip_points(*end);
-            let share = 1.0 / points.len() as f64;
-            let shares = points.iter().map(|&point| (point, share)).collect();
-            let control = self.stock.state.controls.len();
-            self.stock.state.controls.push(path::UNSET);
-            let load = PointLoad::new(&self.stock.state, shares, (*force_pn).into(), control);
-            self.stock.push_term(Box::new(load), Part::Load(i));
+            let (strands, sections) = (&self.strands, &self.stock.sections);
+            let tip = |filament: usize, end| {
+                let strand = &strands[filament];
+                let section = strand.first_section + strand.filament.end_index(end);
+                sections[section].tip_points(end)
+            };
+            let (interaction, control) = load.build(&mut self.stock.state, tip);
+            self.loads.push(control);
+            self.stock.push_term(interaction, Part::Load(i));
         }
     }
 
     fn finish(mut self) -> Assembly {
         let scene = self.resolved_scene();
         let spans = self.spans();
-        let drive = Drive::new(&scene, &self.held, &self.clamps, &self.stock.state);
+        let drive = Drive::new(
+            &scene,
+            (&self.held, &self.clamps),
+            (&self.loads, &self.linkers),
+            &self.stock.state,
+        );
         drive.place(&mut self.stock.state, 0.0);
         let mut stock = self.stock;
         let rest = stock.state.clone();
@@ -158,6 +160,7 @@ impl<'a> Builder<'a> {
             rods: stock.rods,
             clamps: self.clamps,
             held: self.held,
+            loads: self.loads,
             linkers: self.linkers,
             spans,
         }

@@ -3,7 +3,8 @@
 use super::Clamped;
 use crate::scene::path::{self, Values};
 use crate::scene::{HeldEnds, Scene, Setting, Slides};
-use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
+use actin_coupling::Linker;
+use actin_mechanics::{ControlId, State, UnitQuaternion, Vector3, rotation};
 use std::ops::{Add, Mul, Sub};
 
 /// Everything that the path of a scene moves.
@@ -12,12 +13,10 @@ use std::ops::{Add, Mul, Sub};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drive {
     stages: usize,
-    /// Factors of loads, by their indices.
-    loads: Vec<(usize, Values<f64>)>,
-    /// Displacements of anchors, by the indices of their linkers.
-    anchors: Vec<(usize, Values<Vector3>)>,
-    /// Index of the first control of the first anchor: those of loads stand before it.
-    first_anchor: usize,
+    /// Factors of loads.
+    loads: Vec<(ControlId, Values<f64>)>,
+    /// Displacements of anchors, by components.
+    anchors: Vec<([ControlId; 3], Values<Vector3>)>,
     /// Those of all clamps, in order.
     ends: Vec<HeldEnd>,
 }
@@ -37,8 +36,14 @@ struct HeldEnd {
 }
 
 impl Drive {
-    /// The drive of a scene whose clamps, with the ends that they hold, hold these bodies of `rest`.
-    pub(super) fn new(scene: &Scene, held: &HeldEnds, clamps: &[Clamped], rest: &State) -> Self {
+    /// The drive of a scene whose clamps, with the ends that they hold, hold these bodies of `rest`; with
+    /// the controls of its loads and of the anchors of its linkers.
+    pub(super) fn new(
+        scene: &Scene,
+        (held, clamps): (&HeldEnds, &[Clamped]),
+        (loads, linkers): (&[ControlId], &[Linker]),
+        rest: &State,
+    ) -> Self {
         let path = &scene.path;
         let shift = |setting: &Setting| match *setting {
             Setting::Shift {
@@ -68,9 +73,14 @@ impl Drive {
         let moved = clamps.iter().zip(shifts.into_iter().zip(turns));
         Self {
             stages: path.len(),
-            loads: those_set(path::load_factors(path, scene.loads.len())),
-            anchors: those_set(path::values(path, scene.linkers.len(), anchor)),
-            first_anchor: scene.loads.len(),
+            loads: those_set(
+                loads.iter().copied().map(Some),
+                path::load_factors(path, loads.len()),
+            ),
+            anchors: those_set(
+                linkers.iter().map(Linker::anchor_controls),
+                path::values(path, linkers.len(), anchor),
+            ),
             ends: moved.map(|(c, by)| HeldEnd::new(c, by, rest)).collect(),
         }
     }
@@ -113,10 +123,11 @@ impl Drive {
         for (load, factor) in &self.loads {
             state.controls[*load] = self.at(factor, u).0;
         }
-        for (linker, displacement) in &self.anchors {
-            let first = self.first_anchor + 3 * linker;
+        for (components, displacement) in &self.anchors {
             let displacement = self.at(displacement, u).0;
-            state.controls[first..first + 3].copy_from_slice(displacement.as_slice());
+            for (control, value) in components.iter().zip(displacement.as_slice()) {
+                state.controls[*control] = *value;
+            }
         }
         for end in &self.ends {
             let [shift, turn] =
@@ -155,10 +166,13 @@ impl Drive {
     }
 }
 
-/// The values of those controls that some stage sets, with their indices.
-fn those_set<T>(all: Vec<Option<Values<T>>>) -> Vec<(usize, Values<T>)> {
-    let all = all.into_iter().enumerate();
-    all.filter_map(|(index, values)| Some((index, values?)))
+/// The values of those controls that some stage sets.
+fn those_set<C, T>(
+    controls: impl Iterator<Item = Option<C>>,
+    values: Vec<Option<Values<T>>>,
+) -> Vec<(C, Values<T>)> {
+    let all = controls.zip(values);
+    all.filter_map(|(control, values)| control.zip(values))
         .collect()
 }
 

@@ -37,7 +37,7 @@ pub(crate) use unstable_twist::{TwistRecords, TwistWatch};
 
 use crate::scene::{End, HeldEnds, Monomers, Scene};
 use actin_coupling::Linker;
-use actin_mechanics::{State, System, UnitQuaternion, Vector3};
+use actin_mechanics::{ControlId, State, System, UnitQuaternion, Vector3};
 use nalgebra::Unit;
 use std::ops::Range;
 
@@ -64,6 +64,8 @@ pub struct Assembly {
     pub clamps: Vec<Clamped>,
     /// Which of them holds which end.
     pub(crate) held: HeldEnds,
+    /// The controls of the factors of its loads, in the order of the scene.
+    pub(crate) loads: Vec<ControlId>,
     /// The linkers, in the order of the scene.
     pub linkers: Vec<Linker>,
     /// For each term the arc lengths (nm) between which each of its elements lies; empty for loads

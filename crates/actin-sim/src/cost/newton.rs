@@ -2,7 +2,7 @@
 //! filaments, by what a filament is made of and how it is led to its equilibrium.
 
 use crate::Assembly;
-use crate::scene::{Anchors, Equilibrium, Load, RodLaw, Setting, Task};
+use crate::scene::{Anchors, Equilibrium, RodLaw, Setting, Task};
 use actin_mechanics::Vector3;
 
 /// What a filament is made of, by the number of Newton steps it takes: the slowest of a scene counts.
@@ -172,19 +172,8 @@ fn pushes(assembly: &Assembly, i: usize, setting: &Setting) -> bool {
             inward > 0.0 && assembly.clamp_at(filament, other).is_some()
         }
         Setting::LoadFactor { load, factor } => {
-            let Load::EndForce {
-                filament,
-                end,
-                force_pn,
-            } = scene.loads[load];
-            let force = Vector3::from(force_pn) * factor;
-            let along = force.dot(&assembly.filaments[filament].axis());
-            let inward = if end == crate::End::Start {
-                along
-            } else {
-                -along
-            };
-            inward > 0.5 * force.norm()
+            let load = &scene.loads[load];
+            load.presses(factor, assembly.filaments[load.filament()].axis())
         }
         Setting::Turn { .. } | Setting::Anchor { .. } => false,
     }

@@ -1,8 +1,7 @@
 //! The kinetic energy beyond which a motion is not one: more than its loads can have given it.
 
 use crate::Assembly;
-use crate::scene::{Load, Slides, Task};
-use actin_mechanics::Vector3;
+use crate::scene::{Slides, Task};
 
 /// By how much the limit exceeds the bound: room for errors of the integrator near its stability
 /// limit and for loads that are not the gradient of an energy.
@@ -27,17 +26,12 @@ pub(super) fn kinetic_limit(assembly: &Assembly) -> f64 {
         let mut clamps = assembly.clamps.iter();
         clamps.any(|clamp| clamp.filament == filament && clamp.slides == Slides::Nowhere)
     };
-    let are_bounded = scene.loads.iter().all(|load| match load {
-        Load::EndForce { filament, .. } => is_fast(*filament),
-    });
+    let are_bounded = scene.loads.iter().all(|load| is_fast(load.filament()));
     if !scene.path.is_empty() || !are_bounded {
         return f64::INFINITY;
     }
-    let works = scene.loads.iter().map(|load| match load {
-        Load::EndForce {
-            filament, force_pn, ..
-        } => Vector3::from(*force_pn).norm() * assembly.length_of(*filament),
-    });
+    let works = scene.loads.iter();
+    let works = works.map(|load| load.force_pn().norm() * assembly.length_of(load.filament()));
     let work = 2.0 * works.sum::<f64>();
     let heat = thermal_energy(assembly) * (0.5 * assembly.counts().dofs as f64 + THERMAL_EXCESS);
     let limit = ROOM * (assembly.system.total_energy() + work + heat) + LEAST;

@@ -6,12 +6,12 @@ use super::taken::Taken;
 use super::unknowns::newton;
 use super::{At, Failure, Outcome, Progress, Record, RunPosition, Status};
 use crate::Assembly;
-use crate::scene::{Equilibrium as Settings, Load, SceneProblem};
+use crate::scene::{Equilibrium as Settings, SceneProblem};
 use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure,
     PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
 };
-use actin_mechanics::{Loads, State, System, Vector3};
+use actin_mechanics::{Loads, State, System};
 use std::ops::ControlFlow;
 
 /// Forces left over that are a larger share of a load hide it.
@@ -79,9 +79,8 @@ pub(super) fn run(
 fn lost_load(assembly: &Assembly, last: &Record) -> Option<SceneProblem> {
     let loads = assembly.scene.loads.iter().enumerate();
     loads.into_iter().find_map(|(i, load)| {
-        let Load::EndForce { force_pn, .. } = load;
-        // Controls of loads stand first, one for each.
-        let size = Vector3::from(*force_pn).norm() * last.state.controls[i].abs();
+        let factor = last.state.controls[assembly.loads[i]];
+        let size = load.force_pn().norm() * factor.abs();
         let is_lost = size > 0.0 && last.residual_force_pn > RESOLVED * size;
         is_lost.then(|| {
             let rule = format!(
@@ -89,11 +88,7 @@ fn lost_load(assembly: &Assembly, last: &Record) -> Option<SceneProblem> {
                  does; use a larger load",
                 last.residual_force_pn
             );
-            SceneProblem::new(
-                format!("loads[{i}].force_pn"),
-                format!("{force_pn:?}"),
-                rule,
-            )
+            load.problem(i, rule)
         })
     })
 }

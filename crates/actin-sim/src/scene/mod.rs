@@ -7,6 +7,7 @@ pub(crate) mod fitted;
 mod imperfection;
 mod law;
 mod linker;
+mod load;
 mod locate;
 mod magnitude;
 mod model;
@@ -28,13 +29,14 @@ pub use law::{
     BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw,
 };
 pub use linker::{Linker, LinkerSite};
+pub use load::Load;
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
 pub(crate) use place::HeldEnds;
 pub use problem::{SceneError, SceneProblem};
 pub(crate) use support::is_across;
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
 pub use types::{
-    Clamp, DragRates, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Load, Scene, Section,
+    Clamp, DragRates, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Scene, Section,
     Setting, Slides, Stage, StopTolerances, Task,
 };
 pub(crate) use validate::MOST_COUNTED;

@@ -1,7 +1,7 @@
 //! Whether a scene's loads are borne, and whether its turns go with how its ends slide.
 
 use super::path::{self, Values};
-use super::{Filament, HeldEnds, Load, Scene, SceneProblem, Setting, Slides};
+use super::{Filament, HeldEnds, Scene, SceneProblem, Setting, Slides};
 use actin_mechanics::Vector3;
 use std::collections::BTreeSet;
 
@@ -100,11 +100,8 @@ fn groups(scene: &Scene, joined: &[usize]) -> Vec<Group> {
         groups[joined[clamp.filament]].hold(slides);
     }
     for (i, load) in scene.loads.iter().enumerate() {
-        let Load::EndForce {
-            filament, force_pn, ..
-        } = load;
-        let group = &mut groups[joined[*filament]];
-        group.loads.push((i, Vector3::from(*force_pn)));
+        let group = &mut groups[joined[load.filament()]];
+        group.loads.push((i, load.force_pn()));
     }
     groups
 }

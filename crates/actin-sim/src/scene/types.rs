@@ -1,7 +1,7 @@
 //! What a scene says: filaments, clamps, loads and task. Where filaments are is in `place.rs`.
 
 use super::model::{JunctionModel, Monomers, RodModel};
-use super::{Imperfection, Linker, Thermal, written::Written};
+use super::{Imperfection, Linker, Load, Thermal, written::Written};
 use serde::{Deserialize, Serialize};
 
 /// A scene: filaments, what holds, loads and links them, and what is asked of them.
@@ -206,23 +206,6 @@ pub enum Hold {
     NodeAndFrame,
     /// Rod only: the last two nodes and the last segment's frame.
     TwoNodesAndFrame,
-}
-
-/// A load on a filament.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Load {
-    /// A constant force on a free end: on the last node of a rod, or half on each of the last two
-    /// monomers. On an end that slides it acts on the inner held body.
-    EndForce {
-        /// Index of the filament.
-        #[serde(default)]
-        filament: usize,
-        /// Which end.
-        end: End,
-        /// Force in the lab frame (pN).
-        force_pn: [f64; 3],
-    },
 }
 
 /// What is asked of a scene.

@@ -5,12 +5,10 @@ use super::rules::{
 };
 use super::support::{check_support, check_swings};
 use super::{
-    Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Load, Monomers, Scene,
-    SceneProblem, Section, Slides, StopTolerances, Task, imperfection, linker, magnitude, saddles,
-    stage, thermal,
+    Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Scene, SceneProblem,
+    Section, StopTolerances, Task, imperfection, linker, magnitude, saddles, stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
-use actin_mechanics::Vector3;
 
 /// Sections are contiguous if their boundaries agree to this length (nm).
 const BOUNDARY_TOLERANCE_NM: f64 = 1e-9;
@@ -39,7 +37,7 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), SceneProblem> {
         check_clamp(scene, &held, (i, clamp))?;
     }
     for (i, load) in scene.loads.iter().enumerate() {
-        check_load(scene, &held, (i, load))?;
+        load.check(i, (scene, &held))?;
     }
     for (i, linker) in scene.linkers.iter().enumerate() {
         linker::check(scene, i, linker)?;
@@ -284,36 +282,6 @@ fn check_clamp(
     Ok(())
 }
 
-fn check_load(
-    scene: &Scene,
-    held: &HeldEnds,
-    (i, load): (usize, &Load),
-) -> Result<(), SceneProblem> {
-    let Load::EndForce {
-        filament,
-        end,
-        force_pn,
-    } = load;
-    let key = format!("loads[{i}]");
-    scene.named_filament(&format!("{key}.filament"), *filament)?;
-    if force_pn.iter().any(|f| !f.is_finite()) {
-        return Err(SceneProblem::new(
-            format!("{key}.force_pn"),
-            show(force_pn),
-            "must be finite",
-        ));
-    }
-    let clamp = held.clamp_at(*filament, *end);
-    if clamp.is_some_and(|c| scene.clamps[c].slides == Slides::Nowhere) {
-        return Err(SceneProblem::new(
-            format!("{key}.end"),
-            show(end),
-            "this end is clamped: a force on it moves nothing",
-        ));
-    }
-    Ok(())
-}
-
 fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), SceneProblem> {
     positive("task.force_pn", equilibrium.force_pn)?;
     positive("task.torque_pn_nm", equilibrium.torque_pn_nm)?;
@@ -340,8 +308,7 @@ fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), SceneProblem> {
 /// half the force each.
 fn check_tolerance(scene: &Scene, key: &str, force_pn: f64) -> Result<(), SceneProblem> {
     for (i, load) in scene.loads.iter().enumerate() {
-        let Load::EndForce { force_pn: load, .. } = load;
-        let size = Vector3::from(*load).norm();
+        let size = load.force_pn().norm();
         if size > 0.0 && size <= 2.0 * force_pn {
             let rule = format!(
                 "must be below half of loads[{i}], which is {size:e} pN: as it is, the filament \

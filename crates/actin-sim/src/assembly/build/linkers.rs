@@ -7,7 +7,7 @@ use crate::scene::{self, LinkerSite, SceneProblem};
 use actin_cosserat::RodLayout;
 use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, RodPlace, Site};
 use actin_ellipsoid::Monomers;
-use actin_mechanics::Vector3;
+use actin_mechanics::{ControlId, Vector3};
 use std::collections::HashMap;
 
 /// A site this close to a node (nm) is at it: room for the round-off of sums of lengths.
@@ -17,14 +17,14 @@ const NODE_TOLERANCE_NM: f64 = 1e-9;
 const SHUT_NM: f64 = 1e-9;
 
 impl Builder<'_> {
-    /// Pushes the linkers, three controls of each behind those of the loads: those of its anchor,
-    /// without effect where it has none.
+    /// Pushes the linkers, with three controls of each that has an anchor.
     pub(super) fn push_linkers(&mut self) -> Result<(), SceneProblem> {
         let mut nodes = Nodes::default();
         for (i, linker) in self.scene.linkers.iter().enumerate() {
-            let control = self.stock.state.controls.len();
-            self.stock.state.controls.extend([0.0; 3]);
-            let linker = self.linker((i, linker), control, &mut nodes)?;
+            let state = &mut self.stock.state;
+            let has_anchor = linker.to.is_none();
+            let controls = has_anchor.then(|| [0.0; 3].map(|value| state.add_control(value)));
+            let linker = self.linker((i, linker), controls, &mut nodes)?;
             self.stock
                 .push_term(Box::new(linker.clone()), Part::Linker(i));
             self.linkers.push(linker);
@@ -32,14 +32,14 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Linker `i` of a scene, whose anchor is moved by three controls from `control` on.
+    /// Linker `i` of a scene, whose anchor is moved by `controls`.
     ///
     /// # Errors
     /// A linker that would have a direction but has none, both ends standing at one place.
     fn linker(
         &self,
         (i, linker): (usize, &scene::Linker),
-        control: usize,
+        controls: Option<[ControlId; 3]>,
         nodes: &mut Nodes,
     ) -> Result<Linker, SceneProblem> {
         let refused =
@@ -49,7 +49,7 @@ impl Builder<'_> {
             Some(other) => LinkerEnd::Site(self.site(other, nodes).map_err(refused)?),
             None => LinkerEnd::Anchor(Anchor {
                 position: self.anchor(linker, &site),
-                control: Some(control),
+                controls,
             }),
         };
         let (stiffness, rest_length) = (linker.stiffness_pn_per_nm, linker.rest_length_nm);
@@ -232,7 +232,7 @@ mod tests {
         assert_eq!(rod.linkers[1].end_position(&rod.rest), Vector3::x() * 9.0);
     }
 
-    /// Controls of linkers stand behind those of loads, three for each.
+    /// Each anchor has three controls of its own.
     #[test]
     fn controls_move_the_anchors() {
         let text = "Scene(
@@ -247,8 +247,9 @@ mod tests {
         )";
         let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
         let mut state = assembly.rest.clone();
-        assert_eq!(state.controls, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        state.controls[5] = 2.0;
+        assert_eq!(state.controls.values(), [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let [_, y, _] = assembly.linkers[1].anchor_controls().unwrap();
+        state.controls[y] = 2.0;
         let forces = assembly.linkers.iter().map(|l| l.force(&state));
         let expected = [Vector3::zeros(), Vector3::y() * 10.0];
         assert_eq!(forces.collect::<Vec<_>>(), expected);
