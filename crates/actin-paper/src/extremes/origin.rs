@@ -4,6 +4,7 @@ use super::row::{Outcome, Row, larger};
 use super::scenes::build;
 use actin_mechanics::{Interaction, Loads, State, Vector3};
 use actin_mechanics::{Xorshift, perturb};
+use actin_sim::coupling::Linker;
 
 /// By how much everything is moved (nm).
 const SHIFTS: [f64; 4] = [1e2, 1e4, 1e5, 1e6];
@@ -52,7 +53,7 @@ fn shifted(shift: f64) -> Result<Outcome, Outcome> {
         there.points.position.add(i, by);
     }
     let anchors = assembly.linkers.iter();
-    for controls in anchors.filter_map(|linker| linker.anchor_controls()) {
+    for controls in anchors.filter_map(Linker::anchor_controls) {
         for (control, by) in controls.into_iter().zip(by.iter()) {
             there.controls[control] += by;
         }

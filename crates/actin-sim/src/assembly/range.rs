@@ -157,73 +157,100 @@ pub(crate) struct RangeWatch<'a> {
 
 /// What was found so far.
 enum Found {
-    /// The worst for each section and quantity, with their places in the list.
-    Worst(
-        Vec<BeyondRange>,
-        HashMap<(usize, usize, &'static str), usize>,
-    ),
-    /// In a heat bath: the number of states, and of each quantity what was counted and in how many states
-    /// it went beyond its range.
-    Bath(u32, [(Quantity, Tally, u32); 2]),
+    Worst(Worst),
+    InBath(Box<InBath>),
+}
+
+/// The worst for each section and quantity.
+#[derive(Default)]
+struct Worst {
+    list: Vec<BeyondRange>,
+    /// Where each stands in the list: filament, section and quantity.
+    places: HashMap<(usize, usize, &'static str), usize>,
+}
+
+/// What was counted of each quantity in a heat bath, and in how many states it went beyond its range.
+struct InBath {
+    states: u32,
+    tallies: [(Quantity, Tally, u32); 2],
 }
 
 impl<'a> RangeWatch<'a> {
     pub(crate) fn new(assembly: &'a Assembly) -> Self {
         let found = match assembly.scene.thermal() {
-            None => Found::Worst(Vec::new(), HashMap::new()),
-            Some(_) => Found::Bath(0, QUANTITIES.map(|q| (q, Tally::default(), 0))),
+            None => Found::Worst(Worst::default()),
+            Some(_) => Found::InBath(Box::new(InBath {
+                states: 0,
+                tallies: QUANTITIES.map(|quantity| (quantity, Tally::default(), 0)),
+            })),
         };
         Self { assembly, found }
     }
 
     pub(crate) fn add(&mut self, state: &State) {
-        let assembly = self.assembly;
         match &mut self.found {
-            Found::Worst(worst, known) => {
-                for rod in &assembly.rods {
-                    for quantity in QUANTITIES {
-                        let Some(beyond) = assembly.tally(rod, quantity, state).worst else {
-                            continue;
-                        };
-                        let place = (beyond.filament, beyond.section, quantity.name);
-                        let k = *known.entry(place).or_insert(worst.len());
-                        match worst.get_mut(k) {
-                            Some(known) if known.excess() >= beyond.excess() => {}
-                            Some(known) => *known = beyond,
-                            None => worst.push(beyond),
-                        }
-                    }
-                }
-            }
-            Found::Bath(states, tallies) => {
-                *states += 1;
-                for (quantity, all, states_beyond) in tallies {
-                    let before = all.beyond;
-                    for rod in &assembly.rods {
-                        all.add(assembly.tally(rod, *quantity, state));
-                    }
-                    *states_beyond += u32::from(all.beyond > before);
-                }
-            }
+            Found::Worst(worst) => worst.add(self.assembly, state),
+            Found::InBath(all) => all.add(self.assembly, state),
         }
     }
 
     /// What was found in all states.
     pub(crate) fn end(self) -> Vec<BeyondRange> {
-        let (states, tallies) = match self.found {
-            Found::Worst(worst, _) => return worst,
-            Found::Bath(states, tallies) => (states, tallies),
-        };
-        let found = tallies.into_iter().filter_map(|(_, all, states_beyond)| {
-            let fluctuations = Some(Fluctuations {
-                share_of_records: f64::from(states_beyond) / f64::from(states),
-                share_of_elements: all.beyond as f64 / all.elements as f64,
+        match self.found {
+            Found::Worst(worst) => worst.list,
+            Found::InBath(all) => all.end(),
+        }
+    }
+}
+
+impl Worst {
+    fn add(&mut self, assembly: &Assembly, state: &State) {
+        let all = assembly
+            .rods
+            .iter()
+            .flat_map(|rod| QUANTITIES.map(|q| (rod, q)));
+        for (rod, quantity) in all {
+            let Some(beyond) = assembly.tally(rod, quantity, state).worst else {
+                continue;
+            };
+            let key = (beyond.filament, beyond.section, quantity.name);
+            let place = *self.places.entry(key).or_insert(self.list.len());
+            match self.list.get_mut(place) {
+                Some(known) if known.excess() >= beyond.excess() => {}
+                Some(known) => *known = beyond,
+                None => self.list.push(beyond),
+            }
+        }
+    }
+}
+
+impl InBath {
+    fn add(&mut self, assembly: &Assembly, state: &State) {
+        self.states += 1;
+        for (quantity, all, states_beyond) in &mut self.tallies {
+            let before = all.beyond;
+            for rod in &assembly.rods {
+                all.add(assembly.tally(rod, *quantity, state));
+            }
+            *states_beyond += u32::from(all.beyond > before);
+        }
+    }
+
+    /// One entry for each quantity that went beyond its range in any state.
+    fn end(self) -> Vec<BeyondRange> {
+        let found = self
+            .tallies
+            .into_iter()
+            .filter_map(|(_, all, states_beyond)| {
+                let fluctuations = Some(Fluctuations {
+                    share_of_records: f64::from(states_beyond) / f64::from(self.states),
+                    share_of_elements: all.beyond as f64 / all.elements as f64,
+                });
+                all.worst.map(|worst| BeyondRange {
+                    fluctuations,
+                    ..worst
+                })
             });
-            all.worst.map(|worst| BeyondRange {
-                fluctuations,
-                ..worst
-            })
-        });
         found.collect()
     }
 }

@@ -104,10 +104,8 @@ impl<'a> EnergyTable<'a> {
     /// # Errors
     /// The first such number, with its column and the index of its row.
     pub(super) fn ensure_finite(&self, i: usize, record: &Record) -> Result<(), RunDirectoryError> {
-        let columns = self.header.iter().zip(self.row(record));
-        columns
-            .map(|(name, value)| ensure_finite_in((ENERGIES, name), i, &[], [value]))
-            .collect()
+        let mut columns = self.header.iter().zip(self.row(record));
+        columns.try_for_each(|(name, value)| ensure_finite_in((ENERGIES, name), i, &[], [value]))
     }
 
     /// Writes the table of `records`. Numbers have as many digits as bring them back exactly.

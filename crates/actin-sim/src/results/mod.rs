@@ -29,6 +29,8 @@ mod lock;
 mod manifest;
 mod names;
 mod profile;
+mod review;
+mod staged;
 mod states;
 mod summary;
 mod vtk;

@@ -1,23 +1,19 @@
 //! Writing the results of a run into its directory: what is checked, and in which order.
 
-use super::atomic::{self, sync, sync_all};
+use super::atomic;
 use super::directory::RunDirectory;
 use super::energies::EnergyTable;
-use super::manifest::{Manifest, remove_if_there};
-use super::names::{
-    COLLECTION, ENERGIES, PICTURES, PROFILE, SCENE, STATES, SUMMARY, picture_index, picture_name,
-};
+use super::manifest::Manifest;
+use super::names::{COLLECTION, ENERGIES, PICTURES, PROFILE, SCENE, STATES, SUMMARY, picture_name};
+use super::review::Review;
+use super::staged::Staged;
 use super::states::States;
-use super::summary::LateKinetic;
 use super::vtk::{Drawing, write_collection};
 use super::{RunDirectoryError, Summary, ThermalSummary, profile};
-use crate::assembly::{RangeWatch, TwistRecords};
 use crate::shape::{self, ProfilePoint};
-use crate::{Assembly, Outcome, Plan, Record, Records, Scene};
-use std::borrow::Cow;
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use crate::{Assembly, Outcome, Plan, Records, Scene};
+use std::fs;
+use std::io::{self, Write};
 
 impl RunDirectory {
     /// Writes the scene as resolved, which a run does before it starts.
@@ -164,171 +160,6 @@ impl<'a> Results<'a> {
     }
 }
 
-/// What is known of records that were looked at one by one.
-struct Review<'a> {
-    ranges: RangeWatch<'a>,
-    twist: TwistRecords<'a>,
-    kinetic: LateKinetic,
-    last: Option<Record>,
-    /// The first number that is not, those of `energies.csv` before those of `states.npz`.
-    are_finite: Result<(), RunDirectoryError>,
-}
-
-impl<'a> Review<'a> {
-    /// Looks at all records.
-    ///
-    /// # Errors
-    /// Records of other bodies or terms than those of the assembly, or that cannot be read.
-    fn of(
-        assembly: &'a Assembly,
-        records: &dyn Records,
-        (table, states): (&EnergyTable<'_>, &States<'_>),
-    ) -> Result<Self, RunDirectoryError> {
-        let mut ranges = RangeWatch::new(assembly);
-        let mut twist = TwistRecords::new(assembly);
-        let mut kinetic = LateKinetic::of(records.count());
-        let mut last = None;
-        let (mut energies, mut places) = (Ok(()), Ok(()));
-        for (i, record) in records.iter().enumerate() {
-            let record = record.map_err(RunDirectoryError::Unreadable)?;
-            ensure_same_bodies(assembly, i, &record)?;
-            ranges.add(&record.state);
-            twist.add(&record.state);
-            kinetic.add(&record);
-            energies = energies.and_then(|()| table.ensure_finite(i, &record));
-            places = places.and_then(|()| states.ensure_finite(i, &record));
-            last = Some(record);
-        }
-        Ok(Self {
-            ranges,
-            twist,
-            kinetic,
-            last: last.map(Cow::into_owned),
-            are_finite: energies.and(places),
-        })
-    }
-}
-
-/// Files that are written and have not got their names yet; those that never get them are removed.
-///
-/// They get their names picture by picture and then in the order in which they were written.
-struct Staged<'a> {
-    folder: &'a Path,
-    pictures: usize,
-    files: Vec<PathBuf>,
-    /// How many have their names.
-    published: usize,
-}
-
-impl<'a> Staged<'a> {
-    fn new(folder: &'a Path) -> Self {
-        Self {
-            folder,
-            pictures: 0,
-            files: Vec::new(),
-            published: 0,
-        }
-    }
-
-    fn file(
-        &mut self,
-        name: &str,
-        fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-    ) -> Result<(), RunDirectoryError> {
-        let path = self.folder.join(name);
-        atomic::stage(&path, fill).map_err(RunDirectoryError::io(&path))?;
-        self.files.push(path);
-        Ok(())
-    }
-
-    /// The next picture.
-    fn picture(
-        &mut self,
-        fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-    ) -> Result<(), RunDirectoryError> {
-        let path = self.folder.join(picture_name(self.pictures));
-        atomic::stage(&path, fill).map_err(RunDirectoryError::io(&path))?;
-        self.pictures += 1;
-        Ok(())
-    }
-
-    fn count(&self) -> usize {
-        self.pictures + self.files.len()
-    }
-
-    /// The final name of a file.
-    fn path(&self, i: usize) -> PathBuf {
-        match i.checked_sub(self.pictures) {
-            Some(file) => self.files[file].clone(),
-            None => self.folder.join(picture_name(i)),
-        }
-    }
-
-    /// Waits until all files are on the disk, and gives them their names; pictures of a longer run
-    /// before go, or a shorter one would seem to go on.
-    fn publish(mut self) -> Result<(), RunDirectoryError> {
-        let unfinished = |i| atomic::unfinished(&self.path(i));
-        sync_all(self.count(), unfinished)
-            .map_err(|(p, error)| RunDirectoryError::io(&p)(error))?;
-        remove_if_there(&self.folder.join(SUMMARY))?;
-        self.remove_old_pictures()?;
-        for i in 0..self.count() {
-            let path = self.path(i);
-            atomic::publish(&path).map_err(RunDirectoryError::io(&path))?;
-            self.published += 1;
-        }
-        for folder in [self.folder.join(PICTURES), self.folder.to_owned()] {
-            sync(&folder).map_err(RunDirectoryError::io(&folder))?;
-        }
-        Ok(())
-    }
-
-    fn remove_old_pictures(&self) -> Result<(), RunDirectoryError> {
-        let manifest = Manifest::read(self.folder)?;
-        let listed = manifest.iter().flat_map(Manifest::names);
-        listed
-            .filter(|name| picture_index(name).is_some_and(|i| i >= self.pictures))
-            .try_for_each(|name| remove_if_there(&self.folder.join(name)))
-    }
-}
-
-impl Drop for Staged<'_> {
-    fn drop(&mut self) {
-        for i in self.published..self.count() {
-            // What has led here is told by an error.
-            let _ = fs::remove_file(atomic::unfinished(&self.path(i)));
-        }
-    }
-}
-
-/// Refuses record `i` if it has other bodies or terms than those of the assembly.
-fn ensure_same_bodies(
-    assembly: &Assembly,
-    i: usize,
-    record: &Record,
-) -> Result<(), RunDirectoryError> {
-    let Record {
-        state,
-        energies_pn_nm,
-        ..
-    } = record;
-    for (quantity, found, expected) in [
-        ("points", state.points.len(), assembly.points.len()),
-        ("frames", state.frames.len(), assembly.frames.len()),
-        ("energies", energies_pn_nm.len(), assembly.terms.len()),
-    ] {
-        if found != expected {
-            return Err(RunDirectoryError::Mismatch {
-                record: i,
-                quantity,
-                found,
-                expected,
-            });
-        }
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -337,6 +168,7 @@ mod tests {
     use crate::results::names::MANIFEST;
     use crate::{At, Trajectory};
     use actin_mechanics::State;
+    use std::path::{Path, PathBuf};
     use tempfile::TempDir;
 
     /// Makes one number of a state useless.

@@ -419,7 +419,9 @@ mod tests {
     fn a_disk_that_refuses_loses_nothing() {
         let (_folder, mut log, records) = log();
         fs::create_dir(&log.path).unwrap();
-        records.iter().for_each(|record| log.push(record));
+        for record in &records {
+            log.push(record);
+        }
         assert!(log.sync(3).is_err());
         assert_eq!(Trajectory::read(&log).unwrap().records.len(), 3);
         fs::remove_dir(&log.path).unwrap();

@@ -95,7 +95,9 @@ mod tests {
             record.kinetic_pn_nm = kinetic;
         }
         let mut late = LateKinetic::of(3);
-        records.iter().for_each(|record| late.add(record));
+        for record in &records {
+            late.add(record);
+        }
         let summary = ThermalSummary::new(&warm, &late).unwrap();
         assert_eq!((summary.temperature_k, summary.seed), (300.0, u64::MAX));
         let expected = 2.0 * 2.0 / (warm.counts().dofs as f64 * BOLTZMANN_PN_NM_PER_K);

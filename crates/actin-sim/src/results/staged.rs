@@ -1,0 +1,101 @@
+//! New files of a run that get their names together, when all of them are on the disk.
+
+use super::RunDirectoryError;
+use super::atomic::{self, sync, sync_all};
+use super::manifest::{Manifest, remove_if_there};
+use super::names::{PICTURES, SUMMARY, picture_index, picture_name};
+use std::fs::{self, File};
+use std::io::{self, BufWriter};
+use std::path::{Path, PathBuf};
+
+/// Files that are written and have not got their names yet; those that never get them are removed.
+///
+/// They get their names picture by picture and then in the order in which they were written.
+pub(super) struct Staged<'a> {
+    pub(super) folder: &'a Path,
+    pictures: usize,
+    files: Vec<PathBuf>,
+    /// How many have their names.
+    published: usize,
+}
+
+impl<'a> Staged<'a> {
+    pub(super) fn new(folder: &'a Path) -> Self {
+        Self {
+            folder,
+            pictures: 0,
+            files: Vec::new(),
+            published: 0,
+        }
+    }
+
+    pub(super) fn file(
+        &mut self,
+        name: &str,
+        fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    ) -> Result<(), RunDirectoryError> {
+        let path = self.folder.join(name);
+        atomic::stage(&path, fill).map_err(RunDirectoryError::io(&path))?;
+        self.files.push(path);
+        Ok(())
+    }
+
+    /// The next picture.
+    pub(super) fn picture(
+        &mut self,
+        fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    ) -> Result<(), RunDirectoryError> {
+        let path = self.folder.join(picture_name(self.pictures));
+        atomic::stage(&path, fill).map_err(RunDirectoryError::io(&path))?;
+        self.pictures += 1;
+        Ok(())
+    }
+
+    fn count(&self) -> usize {
+        self.pictures + self.files.len()
+    }
+
+    /// The final name of a file.
+    fn path(&self, i: usize) -> PathBuf {
+        match i.checked_sub(self.pictures) {
+            Some(file) => self.files[file].clone(),
+            None => self.folder.join(picture_name(i)),
+        }
+    }
+
+    /// Waits until all files are on the disk, and gives them their names; pictures of a longer run
+    /// before go, or a shorter one would seem to go on.
+    pub(super) fn publish(mut self) -> Result<(), RunDirectoryError> {
+        let unfinished = |i| atomic::unfinished(&self.path(i));
+        sync_all(self.count(), unfinished)
+            .map_err(|(p, error)| RunDirectoryError::io(&p)(error))?;
+        remove_if_there(&self.folder.join(SUMMARY))?;
+        self.remove_old_pictures()?;
+        for i in 0..self.count() {
+            let path = self.path(i);
+            atomic::publish(&path).map_err(RunDirectoryError::io(&path))?;
+            self.published += 1;
+        }
+        for folder in [self.folder.join(PICTURES), self.folder.to_owned()] {
+            sync(&folder).map_err(RunDirectoryError::io(&folder))?;
+        }
+        Ok(())
+    }
+
+    fn remove_old_pictures(&self) -> Result<(), RunDirectoryError> {
+        let manifest = Manifest::read(self.folder)?;
+        let listed = manifest.iter().flat_map(Manifest::names);
+        listed
+            .filter(|name| picture_index(name).is_some_and(|i| i >= self.pictures))
+            .try_for_each(|name| remove_if_there(&self.folder.join(name)))
+    }
+}
+
+impl Drop for Staged<'_> {
+    fn drop(&mut self) {
+        for i in self.published..self.count() {
+            // What has led here is told by an error.
+            let _ = fs::remove_file(atomic::unfinished(&self.path(i)));
+        }
+    }
+}
