@@ -40,8 +40,9 @@ pub use assembly::{
 };
 pub use error::SimError;
 pub use results::{
-    CheckpointError, Checkpoints, Damage, FilamentSummary, RunDirectory, RunDirectoryError,
-    RunLock, StabilitySummary, Summary, ThermalSummary,
+    CheckpointError, Checkpoints, Damage, EndReaction, EndReactions, EnergySummary,
+    FilamentSummary, LinkerSummary, ResidualSummary, RunDirectory, RunDirectoryError, RunLock,
+    ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
 };
 pub use run::{
     Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, MotionPosition, Outcome,

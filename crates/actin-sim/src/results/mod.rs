@@ -40,7 +40,10 @@ pub use checkpoint::{CheckpointError, Checkpoints, Damage};
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;
 pub use lock::RunLock;
-pub use summary::{FilamentSummary, StabilitySummary, Summary, ThermalSummary};
+pub use summary::{
+    EndReaction, EndReactions, EnergySummary, FilamentSummary, LinkerSummary, ResidualSummary,
+    ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
+};
 
 use crate::{Assembly, Task};
 

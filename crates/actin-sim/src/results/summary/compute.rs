@@ -1,16 +1,12 @@
 //! The numbers of a summary, from the last record of a run.
 
 use super::{
-    EndReaction, EndReactions, EnergySummary, FilamentSummary, LateKinetic, LinkerSummary,
-    ResidualSummary, ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
+    EndReactions, EnergySummary, FilamentSummary, LateKinetic, LinkerSummary, ResidualSummary,
+    ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
 };
-use crate::results::energies::{Totals, distinct, sum_where};
-use crate::scene;
-use crate::shape::{self, Ribbon};
-use crate::{Assembly, End, Outcome, Reaction, Record};
-use actin_coupling::Linker;
+use crate::{Assembly, End, Outcome, Record, shape};
 use actin_equilibrium::Certificate;
-use actin_mechanics::{Loads, State, Vector3};
+use actin_mechanics::Loads;
 
 impl Summary {
     /// The summary of a run of `assembly` that ended with the record `last`.
@@ -125,81 +121,6 @@ impl From<(f64, f64)> for ResidualSummary {
     }
 }
 
-impl EnergySummary {
-    fn new(assembly: &Assembly, record: &Record) -> Self {
-        let terms = &assembly.terms;
-        let totals = Totals::new(terms, record);
-        let names = distinct(terms, |term| term.name);
-        let of_name = |name: &'static str| {
-            let energy = sum_where(terms, record, |term| term.name == name);
-            (name.to_owned(), energy)
-        };
-        Self {
-            total: totals.total,
-            potential: totals.potential,
-            elastic: totals.elastic,
-            kinetic: totals.kinetic,
-            terms: names.into_iter().map(of_name).collect(),
-        }
-    }
-}
-
-impl EndReactions {
-    fn new(assembly: &Assembly, filament: usize, state: &State, loads: &Loads) -> Self {
-        let at = |end| {
-            let clamp = assembly.clamp_at(filament, end)?;
-            Some(clamp.reaction(state, loads).into())
-        };
-        Self {
-            start: at(End::Start),
-            end: at(End::End),
-        }
-    }
-}
-
-impl ShapeSummary {
-    fn new(assembly: &Assembly, filament: usize, (state, parameter): (&State, f64)) -> Self {
-        let ribbon = Ribbon::of(assembly, filament, state);
-        Self {
-            twist_turns: ribbon.twist(),
-            writhe: shape::writhe_of(assembly, filament, &ribbon),
-            link_turns: shape::link_at(assembly, filament, parameter),
-            largest_distance_nm: ribbon.largest_distance_nm(),
-        }
-    }
-}
-
-impl LinkerSummary {
-    fn all(assembly: &Assembly, state: &State) -> Vec<Self> {
-        let written = &assembly.scene.linkers;
-        let linkers = written.iter().zip(&assembly.linkers);
-        linkers
-            .map(|(written, linker)| Self::new(written, linker, state))
-            .collect()
-    }
-
-    fn new(written: &scene::Linker, linker: &Linker, state: &State) -> Self {
-        Self {
-            filament: written.filament,
-            to_filament: written.to.map(|site| site.filament),
-            site_nm: linker.site().position(state).into(),
-            anchor_nm: linker.end_position(state).into(),
-            force_pn: linker.force(state).into(),
-            extension_nm: linker.extension(state),
-        }
-    }
-}
-
-impl From<Reaction> for EndReaction {
-    fn from(reaction: Reaction) -> Self {
-        let array = |v: Vector3| [v.x, v.y, v.z];
-        Self {
-            force_pn: array(reaction.force_pn),
-            torque_pn_nm: array(reaction.torque_pn_nm),
-        }
-    }
-}
-
 /// The end whose tip is reported: the last, unless it is clamped and the first is free.
 fn reported_tip(assembly: &Assembly, filament: usize) -> End {
     let is_clamped = |end| assembly.clamp_at(filament, end).is_some();
@@ -214,6 +135,7 @@ fn reported_tip(assembly: &Assembly, filament: usize) -> End {
 mod tests {
     use super::*;
     use crate::results::fixture;
+    use actin_mechanics::Vector3;
     use actin_mechanics::testing::resultant;
 
     fn last_summary(assembly: &Assembly) -> (Record, Summary) {

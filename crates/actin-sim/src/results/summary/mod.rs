@@ -1,8 +1,18 @@
-//! `summary.json`: the last record of a run in numbers.
+//! `summary.json`: the last record of a run in numbers. Each observable has a file of its own, with its keys,
+//! how it is found and its numbers, which must be finite.
 
 mod compute;
+mod energy;
+mod linkers;
 mod pushes;
+mod reactions;
+mod shape;
 mod thermal;
+
+pub use energy::EnergySummary;
+pub use linkers::LinkerSummary;
+pub use reactions::{EndReaction, EndReactions};
+pub use shape::ShapeSummary;
 
 pub(super) use thermal::LateKinetic;
 pub use thermal::ThermalSummary;
@@ -10,7 +20,6 @@ pub use thermal::ThermalSummary;
 use super::{RunDirectoryError, finite::ensure_finite};
 use crate::{BeyondRange, BeyondUse, Counts, SaddlePush, Status, UnstableTwist};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// What a run ended with. Field names are the keys of `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -133,76 +142,6 @@ pub struct StabilitySummary {
     pub resolution_pn_per_nm: f64,
 }
 
-/// Energies of one record (pN nm).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct EnergySummary {
-    /// Potential and kinetic energy.
-    pub total: f64,
-    /// Energy of all interactions.
-    pub potential: f64,
-    /// Energy of all interactions but loads.
-    pub elastic: f64,
-    /// Kinetic energy of the free bodies.
-    pub kinetic: f64,
-    /// Energy of each kind of interaction, under its name.
-    #[serde(flatten)]
-    pub terms: BTreeMap<String, f64>,
-}
-
-/// Reactions at the clamped ends; a free end has none and no key.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct EndReactions {
-    /// At the start.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub start: Option<EndReaction>,
-    /// At the end.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub end: Option<EndReaction>,
-}
-
-/// What a clamp does to the filament.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct EndReaction {
-    /// Force on the filament (pN, lab frame).
-    pub force_pn: [f64; 3],
-    /// Torque on the filament about the clamped point (pN nm, lab frame).
-    pub torque_pn_nm: [f64; 3],
-}
-
-/// The shape of the filament, which goes on straight beyond both ends.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ShapeSummary {
-    /// Twist from end to end (turns); over-twist is positive.
-    pub twist_turns: f64,
-    /// Writhe of the centre line; none of filaments whose points times those of all filaments are more
-    /// than 1e8.
-    pub writhe: Option<f64>,
-    /// Turn of the end against the start (turns), which is twist plus writhe; none unless both ends
-    /// are clamped and parallel.
-    pub link_turns: Option<f64>,
-    /// Largest distance of the centre line from the axis as built (nm).
-    pub largest_distance_nm: f64,
-}
-
-/// What a linker does.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LinkerSummary {
-    /// Index of the filament that has the site.
-    #[serde(default)]
-    pub filament: usize,
-    /// Index of the filament that has the site at the other end; none if that is an anchor.
-    #[serde(default)]
-    pub to_filament: Option<usize>,
-    /// Position of the site (nm, lab frame).
-    pub site_nm: [f64; 3],
-    /// Position of the other end: of the anchor, or of the other site (nm, lab frame).
-    pub anchor_nm: [f64; 3],
-    /// Force on the filament at the site (pN, lab frame); the opposite acts at the other end.
-    pub force_pn: [f64; 3],
-    /// Length beyond the rest length (nm); negative where the linker is shorter.
-    pub extension_nm: f64,
-}
-
 /// Largest loads on free bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ResidualSummary {
@@ -256,20 +195,14 @@ impl Summary {
     }
 
     fn scalars(&self) -> Vec<(String, f64)> {
-        let energy = &self.energy_pn_nm;
         let mut scalars: Vec<_> = [
             ("wall_s", self.wall_s),
             ("residual.force_pn", self.residual.force_pn),
             ("residual.torque_pn_nm", self.residual.torque_pn_nm),
-            ("energy_pn_nm.total", energy.total),
-            ("energy_pn_nm.potential", energy.potential),
-            ("energy_pn_nm.elastic", energy.elastic),
-            ("energy_pn_nm.kinetic", energy.kinetic),
         ]
         .map(|(key, value)| (key.to_owned(), value))
         .into();
-        let terms = energy.terms.iter();
-        scalars.extend(terms.map(|(name, value)| (format!("energy_pn_nm.{name}"), *value)));
+        scalars.extend(self.energy_pn_nm.scalars());
         let steps = [
             ("time_ns", self.time_ns),
             ("path", self.path),
@@ -318,46 +251,8 @@ fn vectors(
         ("tip_nm", tip_nm),
         ("tip_displacement_nm", tip_displacement_nm),
     ];
-    if let Some(start) = reactions.start {
-        vectors.push(("end_reactions.start.force_pn", start.force_pn));
-        vectors.push(("end_reactions.start.torque_pn_nm", start.torque_pn_nm));
-    }
-    if let Some(end) = reactions.end {
-        vectors.push(("end_reactions.end.force_pn", end.force_pn));
-        vectors.push(("end_reactions.end.torque_pn_nm", end.torque_pn_nm));
-    }
+    vectors.extend(reactions.vectors());
     vectors
-}
-
-impl ShapeSummary {
-    fn scalars(&self) -> impl Iterator<Item = (String, f64)> {
-        let all = [
-            ("shape.twist_turns", Some(self.twist_turns)),
-            ("shape.writhe", self.writhe),
-            ("shape.link_turns", self.link_turns),
-            ("shape.largest_distance_nm", Some(self.largest_distance_nm)),
-        ];
-        all.into_iter()
-            .filter_map(|(key, value)| Some((key.to_owned(), value?)))
-    }
-}
-
-impl LinkerSummary {
-    fn ensure_finite(&self, file: &str, key: &str) -> Result<(), RunDirectoryError> {
-        for (name, vector) in [
-            ("site_nm", self.site_nm),
-            ("anchor_nm", self.anchor_nm),
-            ("force_pn", self.force_pn),
-        ] {
-            ensure_finite(file, &format!("{key}.{name}"), &[3], vector)?;
-        }
-        ensure_finite(
-            file,
-            &format!("{key}.extension_nm"),
-            &[],
-            [self.extension_nm],
-        )
-    }
 }
 
 #[cfg(test)]

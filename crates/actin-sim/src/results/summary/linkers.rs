@@ -1,0 +1,63 @@
+//! Linkers in `summary.json`.
+
+use crate::results::{RunDirectoryError, finite::ensure_finite};
+use crate::{Assembly, scene};
+use actin_coupling::Linker;
+use actin_mechanics::State;
+use serde::{Deserialize, Serialize};
+
+/// What a linker does.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LinkerSummary {
+    /// Index of the filament that has the site.
+    #[serde(default)]
+    pub filament: usize,
+    /// Index of the filament that has the site at the other end; none if that is an anchor.
+    #[serde(default)]
+    pub to_filament: Option<usize>,
+    /// Position of the site (nm, lab frame).
+    pub site_nm: [f64; 3],
+    /// Position of the other end: of the anchor, or of the other site (nm, lab frame).
+    pub anchor_nm: [f64; 3],
+    /// Force on the filament at the site (pN, lab frame); the opposite acts at the other end.
+    pub force_pn: [f64; 3],
+    /// Length beyond the rest length (nm); negative where the linker is shorter.
+    pub extension_nm: f64,
+}
+
+impl LinkerSummary {
+    pub(super) fn all(assembly: &Assembly, state: &State) -> Vec<Self> {
+        let written = &assembly.scene.linkers;
+        let linkers = written.iter().zip(&assembly.linkers);
+        linkers
+            .map(|(written, linker)| Self::new(written, linker, state))
+            .collect()
+    }
+
+    fn new(written: &scene::Linker, linker: &Linker, state: &State) -> Self {
+        Self {
+            filament: written.filament,
+            to_filament: written.to.map(|site| site.filament),
+            site_nm: linker.site().position(state).into(),
+            anchor_nm: linker.end_position(state).into(),
+            force_pn: linker.force(state).into(),
+            extension_nm: linker.extension(state),
+        }
+    }
+
+    pub(super) fn ensure_finite(&self, file: &str, key: &str) -> Result<(), RunDirectoryError> {
+        for (name, vector) in [
+            ("site_nm", self.site_nm),
+            ("anchor_nm", self.anchor_nm),
+            ("force_pn", self.force_pn),
+        ] {
+            ensure_finite(file, &format!("{key}.{name}"), &[3], vector)?;
+        }
+        ensure_finite(
+            file,
+            &format!("{key}.extension_nm"),
+            &[],
+            [self.extension_nm],
+        )
+    }
+}

@@ -1,0 +1,48 @@
+//! Twist, writhe, link and distance from the axis, in `summary.json`.
+
+use crate::Assembly;
+use crate::shape::{self, Ribbon};
+use actin_mechanics::State;
+use serde::{Deserialize, Serialize};
+
+/// The shape of the filament, which goes on straight beyond both ends.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShapeSummary {
+    /// Twist from end to end (turns); over-twist is positive.
+    pub twist_turns: f64,
+    /// Writhe of the centre line; none of filaments whose points times those of all filaments are more
+    /// than 1e8.
+    pub writhe: Option<f64>,
+    /// Turn of the end against the start (turns), which is twist plus writhe; none unless both ends
+    /// are clamped and parallel.
+    pub link_turns: Option<f64>,
+    /// Largest distance of the centre line from the axis as built (nm).
+    pub largest_distance_nm: f64,
+}
+
+impl ShapeSummary {
+    pub(super) fn new(
+        assembly: &Assembly,
+        filament: usize,
+        (state, parameter): (&State, f64),
+    ) -> Self {
+        let ribbon = Ribbon::of(assembly, filament, state);
+        Self {
+            twist_turns: ribbon.twist(),
+            writhe: shape::writhe_of(assembly, filament, &ribbon),
+            link_turns: shape::link_at(assembly, filament, parameter),
+            largest_distance_nm: ribbon.largest_distance_nm(),
+        }
+    }
+
+    pub(super) fn scalars(&self) -> impl Iterator<Item = (String, f64)> {
+        let all = [
+            ("shape.twist_turns", Some(self.twist_turns)),
+            ("shape.writhe", self.writhe),
+            ("shape.link_turns", self.link_turns),
+            ("shape.largest_distance_nm", Some(self.largest_distance_nm)),
+        ];
+        all.into_iter()
+            .filter_map(|(key, value)| Some((key.to_owned(), value?)))
+    }
+}
