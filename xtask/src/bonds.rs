@@ -19,7 +19,7 @@ pub(crate) struct Options {
     /// Parts to compute, all if none is named.
     #[arg(value_enum)]
     parts: Vec<Part>,
-    /// Also into `docs/bonds.md`.
+    /// Also into `docs/tables/bonds.md`.
     #[arg(long, conflicts_with_all = ["quick", "samplings"])]
     write: bool,
 }

@@ -44,8 +44,8 @@ enum Task {
     FitParameters(fit::Options),
     /// Computes figures and tables of the paper and compares them with it.
     ReproduceFigures(figures::Options),
-    /// Compares the numbers that the documents mark with a report.
-    CheckDocs(docs::Options),
+    /// Checks or writes the generated pages of the book: keys of scenes, tables of results.
+    Docs(docs::Options),
     /// Measures what each saving of time costs in accuracy, scene by scene.
     Tradeoff(tradeoff::Options),
     /// Tries the program with random input, kills, damaged files and scenes changed without effect.
@@ -61,7 +61,7 @@ fn main() -> ExitCode {
         Task::Extremes(options) => extremes::run(options),
         Task::FitParameters(options) => fit::run(options),
         Task::ReproduceFigures(options) => figures::run(options),
-        Task::CheckDocs(options) => docs::run(&options).map_err(anyhow::Error::msg),
+        Task::Docs(options) => docs::run(&options).map_err(anyhow::Error::msg),
         Task::Tradeoff(options) => tradeoff::run(options),
         Task::Trials(options) => trials::run(&options),
     };

@@ -29,7 +29,7 @@ fn a_closed_pipe_ends_no_task() {
     let fit = ["fit-parameters", "--out"];
     let figure = ["reproduce-figures", "table1", "--quick", "--out"];
     let tasks: [(&[&str], &str); 4] = [
-        (&["check-docs"], ""),
+        (&["docs"], ""),
         (&fit, "curves.csv"),
         (&figure, "report.html"),
         (&["reproduce-figures", "fig99"], ""),

@@ -6,6 +6,7 @@
 //! | `sh` | run with `sh -e`; exit code 0 |
 //! | `python` | run with a Python that has numpy; exit code 0 |
 //! | `ron` | `actin check` accepts it |
+//! | `rust` | nothing here: a crate has its page among its documentation tests |
 //! | `text` behind one of these | its lines are in the output, in order; `...` stands for anything |
 //!
 //! A comment in the line above a block changes this: `<!-- file: NAME -->` writes the block to a file and
@@ -134,6 +135,11 @@ impl Page {
             }
             return;
         }
+        if block.language == "rust" {
+            assert!(is_doc_test(&self.name), "{place}: no crate tests this page");
+            self.output = None;
+            return;
+        }
         let Some(mut command) = self.command(block, &place) else {
             self.output = None;
             return;
@@ -180,6 +186,14 @@ fn both(output: &Output) -> String {
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Whether a crate includes a page in its documentation tests.
+fn is_doc_test(page: &str) -> bool {
+    let include = format!("#[doc = include_str!(\"../../../{page}\")]");
+    let crates = fs::read_dir(root().join("crates")).unwrap();
+    let mut sources = crates.map(|entry| entry.unwrap().path().join("src/lib.rs"));
+    sources.any(|lib| fs::read_to_string(lib).is_ok_and(|text| text.contains(&include)))
 }
 
 /// Runs a page; the number of blocks that have run.

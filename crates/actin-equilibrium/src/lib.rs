@@ -11,6 +11,10 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/how-to/write-an-interaction.md")]
+struct WriteAnInteraction;
+
 mod assemble;
 mod band;
 mod certificate;

@@ -50,6 +50,8 @@ pub use run::{
     SaddlePush, Saved, Sink, Slip, Status, Trajectory, solver,
 };
 pub use scene::fitted::laws as fitted_laws;
+#[cfg(feature = "schema")]
+pub use scene::schema;
 pub use scene::{
     Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, DragRates, Dynamics, End, Equilibrium,
     Filament, ForceLaw, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Linker,

@@ -1,30 +1,39 @@
-//! The book: every page is listed in its summary, and every link leads somewhere.
+//! What mdBook would check, read with the parser that it uses: the summary lists every page, and every link
+//! leads to a file and a heading. (mdBook as a library takes two minutes of processor time to build.)
 
 use super::files;
+use pulldown_cmark::{Event, Parser, Tag, TagEnd};
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
 const SUMMARY: &str = "docs/SUMMARY.md";
 
+/// A page: its links with their lines, and the names of its headings.
+#[derive(Debug, Default)]
+struct Page {
+    links: Vec<(usize, String)>,
+    headings: Vec<String>,
+}
+
 /// Pages that the summary leaves out, and links that lead to nothing.
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let found = files(root, "md")?.into_iter();
     let inside = |path: PathBuf| path.strip_prefix(root).map(Path::to_path_buf).ok();
-    let pages: BTreeMap<PathBuf, String> = found
-        .filter_map(|(path, text)| Some((inside(path)?, text)))
+    let pages: BTreeMap<PathBuf, Page> = found
+        .filter_map(|(path, text)| Some((inside(path)?, read(&text))))
         .collect();
     let summary = Path::new(SUMMARY);
-    let listed: Vec<PathBuf> = pages.get(summary).map_or_else(Vec::new, |text| {
-        let links = links(text).into_iter();
+    let listed: Vec<PathBuf> = pages.get(summary).map_or_else(Vec::new, |page| {
+        let links = page.links.iter();
         links.map(|(_, to)| target(summary, to).0).collect()
     });
     let left_out = pages
         .keys()
         .filter(|page| page.starts_with("docs") && *page != summary && !listed.contains(page))
         .map(|page| format!("{SUMMARY}: does not list {}", page.display()));
-    let broken = pages.iter().flat_map(|(page, text)| {
-        let links = links(text).into_iter();
-        links.filter_map(|(line, to)| broken(root, &pages, page, line, to))
+    let broken = pages.iter().flat_map(|(name, page)| {
+        let links = page.links.iter();
+        links.filter_map(|(line, to)| broken(root, &pages, name, *line, to))
     });
     Ok(left_out.chain(broken).collect())
 }
@@ -32,7 +41,7 @@ pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
 /// What is wrong with a link, if anything.
 fn broken(
     root: &Path,
-    pages: &BTreeMap<PathBuf, String>,
+    pages: &BTreeMap<PathBuf, Page>,
     page: &Path,
     line: usize,
     to: &str,
@@ -42,27 +51,47 @@ fn broken(
     if !root.join(&path).exists() {
         return Some(format!("{place}: links to {to}, which does not exist"));
     }
-    let text = pages.get(&path)?;
-    let has = |heading: &str| headings(text).iter().any(|h| h == heading);
-    (!heading.is_empty() && !has(heading))
+    let headings = &pages.get(&path)?.headings;
+    (!heading.is_empty() && !headings.iter().any(|h| h == heading))
         .then(|| format!("{place}: {to}: there is no such heading"))
 }
 
-/// Links to files, with the line each is in; code is left out.
-fn links(text: &str) -> Vec<(usize, &str)> {
-    let mut all = Vec::new();
-    let mut in_code = false;
-    for (line, text) in (1..).zip(text.lines()) {
-        in_code ^= text.starts_with("```");
-        if in_code {
-            continue;
+/// Links to files, pictures included, and headings of a page.
+fn read(text: &str) -> Page {
+    let mut page = Page::default();
+    let mut heading: Option<String> = None;
+    for (event, range) in
+        Parser::new_ext(text, pulldown_cmark::Options::ENABLE_TABLES).into_offset_iter()
+    {
+        match event {
+            Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. })
+                if !dest_url.contains("://") =>
+            {
+                let line = text[..range.start].matches('\n').count() + 1;
+                page.links.push((line, dest_url.into_string()));
+            }
+            Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
+            Event::Text(part) | Event::Code(part) => {
+                if let Some(heading) = &mut heading {
+                    heading.push_str(&part);
+                }
+            }
+            Event::End(TagEnd::Heading(_)) => {
+                page.headings.extend(heading.take().map(|h| name(&h)))
+            }
+            _ => {}
         }
-        let starts = text.match_indices("](").map(|(at, _)| &text[at + 2..]);
-        let targets = starts.filter_map(|rest| Some(&rest[..rest.find(')')?]));
-        let own = targets.filter(|to| !to.contains("://"));
-        all.extend(own.map(|to| (line, to)));
     }
-    all
+    page
+}
+
+/// The name by which a heading is linked to.
+fn name(heading: &str) -> String {
+    let kept = heading.trim().to_lowercase();
+    let kept = kept
+        .chars()
+        .filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+    kept.collect::<String>().replace(' ', "-")
 }
 
 /// The file of a link, from the root, and the heading in it.
@@ -82,35 +111,20 @@ fn target<'a>(page: &Path, link: &'a str) -> (PathBuf, &'a str) {
     (path, heading)
 }
 
-/// Names by which the headings of a page are linked to.
-fn headings(text: &str) -> Vec<String> {
-    let headings = text.lines().filter(|line| line.starts_with('#'));
-    let kept = |c: &char| c.is_alphanumeric() || " -_".contains(*c);
-    headings
-        .map(|line| line.trim_start_matches('#').trim().to_lowercase())
-        .map(|name| {
-            name.chars()
-                .filter(kept)
-                .collect::<String>()
-                .replace(' ', "-")
-        })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn links_are_resolved_from_their_page() {
-        let text = "[a](../b.md#c) and [d](https://e.org)\n```\n[f](g.md)\n```\n![h](i.svg)";
-        assert_eq!(links(text), [(1, "../b.md#c"), (5, "i.svg")]);
+        let text = "[a](../b.md#c) and [d](https://e.org) `[x](y.md)`\n```\n[f](g.md)\n```\n![h](i.svg)\n\
+                    # Where to add things, if any\n";
+        let page = read(text);
+        let link = |line, to: &str| (line, to.to_owned());
+        assert_eq!(page.links, [link(1, "../b.md#c"), link(5, "i.svg")]);
+        assert_eq!(page.headings, ["where-to-add-things-if-any"]);
         let (path, heading) = target(Path::new("docs/how-to/a.md"), "../b.md#c");
         assert_eq!((path, heading), (PathBuf::from("docs/b.md"), "c"));
-        assert_eq!(
-            headings("# Where to add things, if any"),
-            ["where-to-add-things-if-any"]
-        );
     }
 
     #[test]

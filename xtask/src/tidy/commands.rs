@@ -66,9 +66,9 @@ mod tests {
 
     #[test]
     fn commands_are_found_in_text() {
-        let text = "`cargo xtask check-docs`: see `cargo test -p a --test waves -- --nocapture`, or \
+        let text = "`cargo xtask docs`: see `cargo test -p a --test waves -- --nocapture`, or \
                     `cargo run --example NAME`; `cargo xtask` and `xtask/src`.";
-        let expected = [("xtask", "check-docs"), ("--test", "waves")];
+        let expected = [("xtask", "docs"), ("--test", "waves")];
         assert_eq!(commands(text), expected);
     }
 }

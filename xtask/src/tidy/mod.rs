@@ -20,6 +20,7 @@ pub(crate) fn findings(root: &Path) -> Result<Vec<String>, String> {
     all.extend(paths::findings(root)?);
     all.extend(book::findings(root)?);
     all.extend(commands::findings(root)?);
+    all.extend(crate::docs::findings(root)?);
     for (path, text) in &sources {
         let name = path
             .strip_prefix(root)
@@ -33,7 +34,7 @@ pub(crate) fn findings(root: &Path) -> Result<Vec<String>, String> {
 }
 
 /// All files below `root` with this extension and their texts, build output left out.
-fn files(root: &Path, extension: &str) -> Result<Vec<(PathBuf, String)>, String> {
+pub(crate) fn files(root: &Path, extension: &str) -> Result<Vec<(PathBuf, String)>, String> {
     let mut found = Vec::new();
     let mut folders = vec![root.to_path_buf()];
     while let Some(folder) = folders.pop() {

@@ -1,6 +1,6 @@
 //! Which bonds the monomers have. The shortest bond that is accepted, and
 //! weighted bonds beside drawn ones, on the paper's tables, on some of its figures, in motion and in
-//! heat: as tables, and as the page `docs/bonds.md`.
+//! heat: as tables, and as the page `docs/tables/bonds.md`.
 
 mod figures;
 mod heat;
@@ -28,7 +28,7 @@ pub struct Options {
     pub samplings: Option<u64>,
     /// Parts to compute, all if none is named.
     pub parts: Vec<Part>,
-    /// Also into `docs/bonds.md`.
+    /// Also into `docs/tables/bonds.md`.
     pub write: bool,
 }
 
@@ -107,7 +107,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
         ));
         table.write_csv(out, part.name())?;
         if options.write {
-            let document = workspace_root().join("docs/bonds.md");
+            let document = workspace_root().join("docs/tables/bonds.md");
             page::replace(&document, part.name(), &table.markdown())?;
         }
     }

@@ -43,7 +43,7 @@ pub struct Options {
     pub out: PathBuf,
     /// Also the rows that take minutes: 1e6 bodies, 1e7 steps.
     pub long: bool,
-    /// Also into `docs/extremes.md`, tables and pictures, if all rows are sound.
+    /// Also into `docs/tables/extremes.md`, with the pictures of `docs/extremes.md`, if all rows are sound.
     pub write: bool,
 }
 

@@ -41,7 +41,7 @@ pub(super) fn document(rows: &[Row], out: &Path, docs: &Path) -> Result<(), Stri
 }
 
 /// The page that holds the tables, and its pictures.
-const DOCUMENT: &str = "extremes.md";
+const DOCUMENT: &str = "tables/extremes.md";
 const PICTURES: [&str; 2] = ["extremes-limits.svg", "extremes-energy.svg"];
 
 /// Lines between which the tables stand in the document.

@@ -10,11 +10,12 @@ const LARGEST: f64 = 0.01;
 ///
 /// It breaks the symmetry of a straight filament, which otherwise stays straight under any
 /// compression. The filament is displaced but not changed: its shape without strain stays straight,
-/// and equilibria are those of the perfect filament. Where and how: [`crate::Assembly::build`].
+/// and equilibria are those of the perfect filament.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Imperfection {
-    /// Largest displacement of the axis (nm).
+    /// Largest displacement of the axis; positive, at most a hundredth of the length.
     pub amplitude_nm: f64,
     /// Seed of its shape.
     pub seed: u64,

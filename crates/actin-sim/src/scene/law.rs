@@ -2,160 +2,170 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How the rod departs from constant rigidities.
+/// Constitutive law of a rod.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum RodLaw {
-    /// Not at all.
+    /// The rigidities of the material at every strain.
     #[default]
     Constant,
-    /// The paper's B3(kappa) and xi(kappa), all parameters as published, `p_0` included.
+    /// The paper's twisting rigidity B3(kappa) and extension xi(kappa), all parameters as published,
+    /// `p_0` included.
     PublishedExtension,
-    /// The paper's B3(kappa) and an energy `C3 sigma_3 kappa_3` per length.
+    /// The paper's B3(kappa) and an energy C3 sigma_3 kappa_3 per length that couples stretch and twist.
     CouplingEnergy,
-    /// Laws fitted to measurements on filaments of monomers.
+    /// Laws fitted to filaments of monomers. The material must be left out.
     Fitted,
-    /// Laws of one's own; what is left out is constant.
+    /// Your own laws. Deformations without one keep the rigidity of the material.
     Laws(Box<RodLaws>),
 }
 
 /// A law for each deformation that has one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct RodLaws {
-    /// Bending.
+    /// Law of bending.
     pub bend: Option<BendLaw>,
-    /// Twist.
+    /// Law of twist.
     pub twist: Option<TwistLaw>,
-    /// Stretch.
+    /// Law of stretch.
     pub stretch: Option<StretchLaw>,
-    /// Shear.
+    /// Law of shear.
     pub shear: Option<ShearLaw>,
-    /// Natural length against twist.
+    /// Law of natural length against twist.
     pub twist_stretch: Option<TwistStretchLaw>,
 }
 
 /// A law of bending.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub enum BendLaw {
     /// Rigidity that rises with bending, twist and shear.
     Stiffening {
-        /// Rigidity at rest (pN nm^2).
+        /// Rigidity at rest; positive.
         rest_pn_nm2: f64,
-        /// What it gains (pN nm^2).
+        /// What the rigidity gains far from rest; at least 0.
         rise_pn_nm2: f64,
-        /// Curvature that gains half (rad/nm).
+        /// Curvature at which half is gained; positive.
         curvature_per_nm: f64,
-        /// Twist that gains half (rad/nm); without it twist does not stiffen.
+        /// Twist at which half is gained; positive. Left out, twist does not stiffen bending.
         #[serde(default)]
         twist_per_nm: Option<f64>,
-        /// Shear strain that gains half; without it shear does not stiffen.
+        /// Shear strain at which half is gained; positive. Left out, shear does not stiffen bending.
         #[serde(default)]
         shear: Option<f64>,
-        /// Largest curvature of the data behind it (rad/nm).
+        /// Largest curvature of the data behind the law; positive, may be infinite (`inf`).
         range_per_nm: f64,
     },
 }
 
 /// A law of twist.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub enum TwistLaw {
     /// Three tanh steps, as published.
     Tanh {
-        /// Limit of far over-twist (pN nm^2).
+        /// Limit of far over-twist; finite.
         b_plus_pn_nm2: f64,
-        /// Limit of far under-twist (pN nm^2).
+        /// Limit of far under-twist; finite.
         b_minus_pn_nm2: f64,
-        /// The seven parameters lambda.
+        /// The seven parameters lambda; finite, the second, fifth and seventh positive. The couple must
+        /// grow at the end of the range.
         lambda: [f64; 7],
-        /// Largest twist of the data behind it (rad/nm).
+        /// Largest twist of the data behind the law; positive and finite.
         range_per_nm: f64,
     },
     /// Saturating, with its own rise to either side.
     Sided {
-        /// Rigidity at rest (pN nm^2).
+        /// Rigidity at rest; at least 0.
         rest_pn_nm2: f64,
         /// In under-twist.
         under: TwistRise,
         /// In over-twist.
         over: TwistRise,
-        /// Largest twist of the data behind it (rad/nm).
+        /// Largest twist of the data behind the law; positive and finite.
         range_per_nm: f64,
     },
 }
 
 /// One side of a law of twist: the secant gains `rise k^2 / (k^2 + slow |k| + half^2)`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct TwistRise {
-    /// What it gains far from rest (pN nm^2).
+    /// What the rigidity gains far from rest; positive.
     pub rise_pn_nm2: f64,
-    /// Twist at which half is gained if `slow` is none (rad/nm).
+    /// Twist at which half is gained if `slow_per_nm` is 0; positive.
     pub half_per_nm: f64,
-    /// How much the rise is drawn out (rad/nm).
+    /// How much the rise is drawn out; at least 0.
     pub slow_per_nm: f64,
 }
 
 /// A law of stretch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub enum StretchLaw {
-    /// One rigidity at every strain, in place of the material's.
+    /// One rigidity at every strain, instead of the material's.
     Constant {
-        /// Rigidity (pN).
+        /// Rigidity; positive.
         rigidity_pn: f64,
     },
     /// One rigidity in tension, another in compression.
     Sided {
-        /// Far in tension (pN).
+        /// Rigidity far in tension; positive.
         tension_pn: f64,
-        /// Far in compression (pN).
+        /// Rigidity far in compression; positive.
         compression_pn: f64,
-        /// Strain over which one goes over into the other.
+        /// Strain over which one changes into the other; positive.
         width: f64,
     },
 }
 
 /// A law of shear.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum ShearLaw {
     /// Force with a linear and a cubic part.
     Cubic {
-        /// S1 and S2 (pN), which may be 0.
+        /// S1 and S2; each at least 0.
         linear_pn: [f64; 2],
-        /// Force over the cube of the strain (pN).
+        /// Force over the cube of the strain; at least 0, and positive unless S1 and S2 are.
         cubic_pn: f64,
     },
 }
 
 /// A law of natural length against twist.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum TwistStretchLaw {
     /// `xi - 1` as a polynomial of the twist.
     Polynomial {
-        /// `p_0` to `p_6` (nm^i/rad^i).
+        /// `p_0` to `p_6` (nm^i/rad^i); finite.
         coefficients: [f64; 7],
-        /// Largest twist of the data behind it (rad/nm).
+        /// Largest twist of the data behind the law; positive, may be infinite (`inf`).
         range_per_nm: f64,
     },
     /// `xi - 1 = slope k - bend (sqrt(k^2 + half^2) - half) + cubic k^3`.
     Rooted {
-        /// Slope at rest (nm/rad).
+        /// Slope at rest (nm/rad); finite.
         slope_nm: f64,
-        /// Half the difference of the slopes on either side (nm/rad).
+        /// Half the difference of the slopes on either side (nm/rad); finite.
         bend_nm: f64,
-        /// Twist over which one goes over into the other (rad/nm).
+        /// Twist over which one changes into the other; positive.
         half_per_nm: f64,
-        /// Coefficient of the cube (nm^3/rad^3).
+        /// Coefficient of the cube (nm^3/rad^3); finite.
         cubic_nm3: f64,
-        /// Largest twist of the data behind it (rad/nm).
+        /// Largest twist of the data behind the law; positive and finite.
         range_per_nm: f64,
     },
 }

@@ -11,48 +11,52 @@ use serde::{Deserialize, Serialize};
 /// another site, or an anchor given by its place or by its displacement from the site: exactly one
 /// of the three.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Linker {
     /// Index of the filament.
     #[serde(default)]
     pub filament: usize,
-    /// Arc length of the site (nm).
+    /// Arc length of the site; from 0 to the length of the filament.
     pub at_nm: f64,
-    /// Distance of the site from the axis (nm).
+    /// Distance of the site from the axis; at least 0.
     #[serde(default)]
     pub radius_nm: f64,
-    /// Azimuth of the site in the filament as built (deg); 0 is lab +x of a filament along lab +z.
+    /// Azimuth of the site in the filament as built; finite. 0 is lab +x of a filament along lab +z.
     #[serde(default)]
     pub azimuth_deg: f64,
-    /// The site at the other end.
+    /// The site at the other end; another place than this one. Exactly one of `to`, `anchor_nm` and
+    /// `displaced_nm` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<LinkerSite>,
-    /// Place of the anchor (nm, lab frame).
+    /// Place of the anchor (lab frame); finite.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub anchor_nm: Option<[f64; 3]>,
-    /// Place of the anchor from that of the site in the filament as built (nm, lab frame).
+    /// Place of the anchor from that of the site in the filament as built (lab frame); finite, and not
+    /// zero if there is a rest length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub displaced_nm: Option<[f64; 3]>,
-    /// Stiffness (pN/nm).
+    /// Stiffness; positive.
     pub stiffness_pn_per_nm: f64,
-    /// Rest length (nm).
+    /// Rest length; at least 0.
     #[serde(default)]
     pub rest_length_nm: f64,
 }
 
 /// Where on a filament a linker holds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename = "Site")]
 pub struct LinkerSite {
     /// Index of the filament.
     #[serde(default)]
     pub filament: usize,
-    /// Arc length (nm).
+    /// Arc length; from 0 to the length of the filament.
     pub at_nm: f64,
-    /// Distance from the axis (nm).
+    /// Distance from the axis; at least 0.
     #[serde(default)]
     pub radius_nm: f64,
-    /// Azimuth in the filament as built (deg).
+    /// Azimuth in the filament as built; finite.
     #[serde(default)]
     pub azimuth_deg: f64,
 }

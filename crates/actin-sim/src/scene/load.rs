@@ -14,6 +14,7 @@ const ALONG: f64 = 0.98;
 
 /// A load on a filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Load {
     /// A constant force on a free end: on the last node of a rod, or half on each of the last two
@@ -22,9 +23,10 @@ pub enum Load {
         /// Index of the filament.
         #[serde(default)]
         filament: usize,
-        /// Which end.
+        /// Which end. It must be free or slide.
         end: End,
-        /// Force in the lab frame (pN).
+        /// Force in the lab frame; finite. In `Equilibrium` forces along unconstrained directions must
+        /// balance.
         force_pn: [f64; 3],
     },
 }

@@ -17,6 +17,8 @@ mod problem;
 mod read;
 mod rules;
 mod saddles;
+#[cfg(feature = "schema")]
+mod schema;
 mod stage;
 mod support;
 mod thermal;
@@ -33,6 +35,8 @@ pub use load::Load;
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
 pub(crate) use place::HeldEnds;
 pub use problem::{SceneError, SceneProblem};
+#[cfg(feature = "schema")]
+pub use schema::schema;
 pub(crate) use support::is_across;
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
 pub use types::{

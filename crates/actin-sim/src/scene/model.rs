@@ -5,53 +5,58 @@ use actin_cosserat::Rigidities;
 use actin_ellipsoid::{EllipsoidParameters, constants};
 use serde::{Deserialize, Serialize};
 
-/// Parameters of the monomers. Every default is that of [`EllipsoidParameters`].
+/// Parameters of the monomers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Monomers {
-    /// Seed of drawn bonds; weighted bonds are not drawn, and leave it out.
+    /// Seed of drawn bonds. Left out with `Cubature`, which draws none.
     pub seed: u64,
-    /// Whether bonds are drawn, for each interface or once for all, or weighted.
+    /// How the bonds of an interface are chosen.
     pub anchors: Anchors,
-    /// Bonds per lateral interface (monomer i to i + 1): left out, 64 drawn or 12 weighted ones.
+    /// Bonds per lateral interface (monomer i to i + 1): 4 to 64 weighted, 12 by default; or 1 to 10,000
+    /// drawn, 64 by default.
     #[serde(default = "by_anchors")]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 12)))]
     pub lateral_bonds: usize,
     /// Bonds per longitudinal interface (monomer i to i + 2): the same.
     #[serde(default = "by_anchors")]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 12)))]
     pub longitudinal_bonds: usize,
-    /// Shortest bond of either kind that is accepted (nm): drawn ones below it are drawn again.
+    /// Shortest bond of either kind; at least 0, below both longest ones. Shorter bonds are drawn again.
     pub min_bond_nm: f64,
-    /// Rigidity of a lateral interface, shared by its bonds (pN/nm).
+    /// Rigidity of a lateral interface, shared by its bonds; positive.
     pub lateral_rigidity_pn_per_nm: f64,
-    /// Rigidity of a longitudinal interface, shared by its bonds (pN/nm).
+    /// Rigidity of a longitudinal interface, shared by its bonds; positive.
     pub longitudinal_rigidity_pn_per_nm: f64,
-    /// Longest lateral bond that is accepted (nm).
+    /// Longest lateral bond; greater than `min_bond_nm`.
     pub lateral_max_bond_nm: f64,
-    /// Longest longitudinal bond that is accepted (nm).
+    /// Longest longitudinal bond; greater than `min_bond_nm`.
     pub longitudinal_max_bond_nm: f64,
-    /// Distance of monomer centres from the axis (nm).
+    /// Distance of monomer centres from the axis; positive.
     pub radius_nm: f64,
-    /// Semi-axes along the radial, tangential and axial direction (nm).
+    /// Semi-axes along the radial, tangential and axial direction; positive, two of them equal.
     pub semi_axes_nm: [f64; 3],
-    /// Rise from monomer i to i + 1 (nm).
+    /// Rise from monomer i to i + 1; positive.
     pub rise_nm: f64,
-    /// Turn about the axis from monomer i to i + 1 (deg).
+    /// Turn about the axis from monomer i to i + 1, right-handed; finite.
     pub turn_deg: f64,
-    /// Azimuth of lattice index 0 (deg).
+    /// Azimuth of lattice index 0; finite.
     pub azimuth_deg: f64,
-    /// Mass of a monomer (ag = 1e-21 kg); rods take their mass per length from it.
+    /// Mass of a monomer (ag = 1e-21 kg); positive. Rods take their mass per length from it.
     pub mass_ag: f64,
 }
 
 /// How the bonds of an interface are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Anchors {
-    /// Each interface has anchors of its own.
+    /// Each interface has bonds of its own, drawn at random.
     Independent,
-    /// All interfaces of a kind share one pattern.
+    /// All interfaces of a kind share one pattern, drawn at random.
     Identical,
-    /// All interfaces of a kind have the same weighted bonds, which stand for all that could be drawn:
-    /// the mean filament. See [`actin_ellipsoid::Cubature`].
+    /// All interfaces of a kind have the same weighted bonds, which represent all that could be drawn:
+    /// the mean filament.
     Cubature,
 }
 
@@ -74,28 +79,32 @@ fn by_anchors() -> usize {
 
 /// Parameters of the rod.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct RodModel {
-    /// How strains and curvatures become loads.
+    /// How strains and curvatures become loads. `PaperBalance` takes the laws `Constant` and
+    /// `PublishedExtension` only.
     pub force_law: ForceLaw,
     /// Rigidities.
     pub material: Material,
-    /// How the rod departs from these rigidities.
+    /// Constitutive law. `Fitted` needs the default material.
     pub law: RodLaw,
 }
 
 /// The two force laws of the rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum ForceLaw {
-    /// Loads are the gradient of an energy.
+    /// Loads are minus the gradient of an energy.
     #[default]
     EnergyGradient,
-    /// The balance equations as the paper prints them; they have no potential.
+    /// The balance equations as the paper prints them. They have no potential: `Dynamics` only.
     PaperBalance,
 }
 
 /// Rigidities of the rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Material {
     /// Table 4 of the paper.
@@ -103,27 +112,29 @@ pub enum Material {
     Table4,
     /// Table 2 of the paper: the preceding paper's parameters with a section of 38.5 nm^2.
     PrecedingPaper,
-    /// Numbers of one's own.
+    /// Your own numbers.
     Rigidities {
-        /// Shearing (twice) and stretching rigidity (pN).
+        /// Shearing (twice) and stretching rigidity; each positive.
         shear_pn: [f64; 3],
-        /// Bending (twice) and twisting rigidity (pN nm^2).
+        /// Bending (twice) and twisting rigidity; each positive.
         bend_pn_nm2: [f64; 3],
     },
 }
 
 /// Parameters of the junctions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct JunctionModel {
     /// Weight of each bond.
     pub weight: JunctionWeight,
-    /// Number of monomers attached, 1 or 2.
+    /// Number of monomers that are attached: 1 or 2.
     pub attached_monomers: usize,
 }
 
 /// Weight of each bond of a junction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum JunctionWeight {
     /// The bonds of a junction share the rod's rigidity.
     Shared,

@@ -12,12 +12,12 @@ pub const BOLTZMANN_PN_NM_PER_K: f64 = 0.013_806_49;
 
 /// Thermal noise, the counterpart of drag: together they keep the filament at a temperature.
 ///
-/// The noise is a function of the seed, the number of the step and the index of the body; see
-/// [`actin_integrate::Bath`].
+/// The noise is a function of the seed, the number of the step and the index of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Thermal {
-    /// Temperature (K).
+    /// Temperature; positive.
     pub temperature_k: f64,
     /// Seed of the noise.
     pub seed: u64,

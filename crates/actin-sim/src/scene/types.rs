@@ -35,25 +35,27 @@ pub struct Scene {
 /// Shifts and turns begin at zero. A load that some stage sets begins at factor 0, any other acts
 /// in full throughout.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Stage {
-    /// What is set.
+    /// What is set. Of several settings of one control the last counts.
     pub set: Vec<Setting>,
-    /// Time that the stage takes in dynamics (ns), where controls move by a smooth ramp; statics
-    /// needs none.
+    /// Time that the stage takes in `Dynamics`, where controls move by a smooth ramp: required there,
+    /// positive, all stages together at most `duration_ns` of the task. `Equilibrium` ignores it.
     #[serde(default)]
     pub duration_ns: Option<f64>,
 }
 
 /// The value of a control at the end of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Setting {
     /// The factor of a load, by its index in `loads`.
     LoadFactor {
-        /// Which load.
+        /// Index of the load in `loads`, from 0.
         load: usize,
-        /// Its factor.
+        /// Its factor at the end of the stage; finite.
         factor: f64,
     },
     /// Displacement of a clamped end from where it was built.
@@ -61,10 +63,10 @@ pub enum Setting {
         /// Index of the filament.
         #[serde(default)]
         filament: usize,
-        /// Which end.
+        /// Which end. It must be clamped.
         end: End,
-        /// Displacement in the lab frame (nm); components along which the clamp slides are
-        /// without effect.
+        /// Displacement in the lab frame; finite. Components along which the clamp slides have no
+        /// effect.
         shift_nm: [f64; 3],
     },
     /// Turn of a clamped end from how it was built, about the clamped point.
@@ -72,27 +74,30 @@ pub enum Setting {
         /// Index of the filament.
         #[serde(default)]
         filament: usize,
-        /// Which end.
+        /// Which end. It must be clamped.
         end: End,
-        /// Rotation vector in the lab frame (deg), of any length; lab z is the axis of a filament
-        /// that is built without a direction of its own.
+        /// Rotation vector in the lab frame; finite, of any length. Lab z is the axis of a filament
+        /// without a `direction`. In `Dynamics` an end that slides `AlongAxis` may only turn about its
+        /// axis, and one that slides `Freely` not at all.
         turn_deg: [f64; 3],
     },
     /// Displacement of a linker's anchor from where the linker puts it, by the linker's index in
     /// `linkers`. A linker between two sites has no anchor.
     Anchor {
-        /// Which linker.
+        /// Index of the linker in `linkers`, from 0; it must have an anchor.
         linker: usize,
-        /// Displacement in the lab frame (nm).
+        /// Displacement in the lab frame; finite.
         shift_nm: [f64; 3],
     },
 }
 
 /// A filament: sections in order of arc length, the models that resolve them, and its place.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Filament {
-    /// Sections in order; each starts where the one before it ends.
+    /// Sections in order of arc length, at least one. The first starts at 0, each other where the one
+    /// before it ends; neighbours are of different kinds.
     pub sections: Vec<Section>,
     /// Parameters of the monomers, the same for all sections that resolve them.
     #[serde(default)]
@@ -103,17 +108,17 @@ pub struct Filament {
     /// Parameters of the junctions between monomers and rod.
     #[serde(default)]
     pub junction: JunctionModel,
-    /// Where arc length begins (nm, lab frame); the origin by default.
+    /// Where arc length begins (lab frame); finite.
     #[serde(default)]
     pub at_nm: [f64; 3],
-    /// Along which direction it is built (lab frame), of any length but zero; lab +z by default.
+    /// Direction along which the filament is built (lab frame); of any length but zero.
     #[serde(default = "along_z")]
     pub direction: [f64; 3],
-    /// Turn about its axis (deg, right-handed). Where it is zero, azimuth 0 is what the shortest
-    /// turn from lab z to the direction makes of lab +x.
+    /// Turn about its axis, right-handed; finite. At 0, azimuth 0 is where the shortest turn from lab z
+    /// to the direction takes lab +x.
     #[serde(default)]
     pub roll_deg: f64,
-    /// A small displacement from the axis with which a run begins; none by default.
+    /// A small displacement from the axis with which a run begins.
     #[serde(default)]
     pub imperfection: Option<Imperfection>,
 }
@@ -124,23 +129,24 @@ pub(super) fn along_z() -> [f64; 3] {
 
 /// A stretch of filament resolved in one way.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Section {
     /// Every monomer as a rigid ellipsoid. Boundaries move to the nearest place half a rise
     /// beyond a monomer.
     Ellipsoids {
-        /// Arc length at which the section starts (nm).
+        /// Arc length at which the section starts; at least 0.
         from_nm: f64,
-        /// Arc length at which it ends (nm).
+        /// Arc length at which it ends; greater than `from_nm`, by two monomers or more.
         to_nm: f64,
     },
     /// A Cosserat rod.
     Rod {
-        /// Arc length at which the section starts (nm).
+        /// Arc length at which the section starts; at least 0.
         from_nm: f64,
-        /// Arc length at which it ends (nm).
+        /// Arc length at which it ends; greater than `from_nm`.
         to_nm: f64,
-        /// Number of segments; by default segments as near to 10 nm as fits.
+        /// Number of segments, at least 1. By default the number that makes them most nearly 10 nm long.
         #[serde(default)]
         segments: Option<usize>,
     },
@@ -159,6 +165,7 @@ impl Section {
 
 /// One of the two ends of a filament.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum End {
     /// Where arc length begins.
     Start,
@@ -166,16 +173,17 @@ pub enum End {
     End,
 }
 
-/// An end that is held fast.
+/// A clamped end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Clamp {
     /// Index of the filament.
     #[serde(default)]
     pub filament: usize,
-    /// Which end.
+    /// Which end. Each end is clamped once at most.
     pub end: End,
-    /// What is held there.
+    /// What is held there. Monomers take `Wall` only.
     #[serde(default)]
     pub hold: Hold,
     /// Along which directions the end is free to slide as one rigid body.
@@ -185,6 +193,7 @@ pub struct Clamp {
 
 /// Directions along which a clamped end slides as one rigid body; it never turns by itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Slides {
     /// Not at all.
     #[default]
@@ -197,6 +206,7 @@ pub enum Slides {
 
 /// What a clamp holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Hold {
     /// Rod: the last node, and a wall frame joined to the last segment by half a segment of
     /// bending. Monomers: the last two.
@@ -208,33 +218,35 @@ pub enum Hold {
     TwoNodesAndFrame,
 }
 
-/// What is asked of a scene.
+/// What is computed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Task {
     /// Motion in time.
     Dynamics(Dynamics),
-    /// A state without residual loads, along the path if there is one.
+    /// A state at rest by Newton's method, along the path if there is one. Rods need `EnergyGradient`.
     Equilibrium(Equilibrium),
 }
 
 /// An equilibrium, or equilibria along the path of the scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Equilibrium {
-    /// Largest force on a free body (pN).
+    /// Largest force left on a free body; positive, and below half of every load.
     pub force_pn: f64,
-    /// Largest torque on a free body (pN nm).
+    /// Largest torque left on a free body; positive.
     pub torque_pn_nm: f64,
-    /// Most Newton iterations for one equilibrium.
+    /// Most Newton iterations for one equilibrium; at least 1.
     pub iterations: usize,
-    /// Largest step along a stage of the path, as a share of the stage.
+    /// Largest step along a stage of the path, as a share of the stage; positive, at most 1.
     pub largest_step: f64,
-    /// Smallest step, below which the path ends with what it has.
+    /// Smallest step, below which the path ends with what it has; positive, at most `largest_step`.
     pub smallest_step: f64,
-    /// How often a saddle is left along its lowest mode, for one equilibrium. With 0 saddles are kept
-    /// on the path. A run whose last equilibrium is a saddle fails, with all its results.
+    /// How often, for one equilibrium, a saddle is left along its lowest mode. With 0 the path follows
+    /// saddles. A run whose last equilibrium is a saddle fails; its results are written.
     pub leave_saddles: usize,
-    /// Whether the path goes on from where a sudden jump leads; it ends there if not.
+    /// Whether the path continues beyond a sudden jump to another equilibrium; otherwise it ends there.
     pub accept_jumps: bool,
     /// Whether the lowest eigenvalue of the stiffness is computed at the end.
     pub lowest_eigenvalue: bool,
@@ -257,38 +269,40 @@ impl Default for Equilibrium {
 
 /// Motion in time, with drag if asked for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Dynamics {
-    /// Simulated time (ns); less if the stop rule is met before.
+    /// Simulated time, less if the stop rule is met before; positive, at least what the path takes.
     pub duration_ns: f64,
     /// Integrator.
     #[serde(default)]
     pub integrator: Integrator,
-    /// Longest time step (ns); by default the stability limit times `step_safety`. Steps are shorter
-    /// where whole ones are to make up the duration and the interval of records.
+    /// Longest time step; positive, at most the stability limit. By default the limit times
+    /// `step_safety`. Steps are shortened so that whole ones make up the duration and the interval of
+    /// records.
     #[serde(default)]
     pub time_step_ns: Option<f64>,
-    /// Share of the estimated stability limit that the default time step takes.
+    /// Default time step over the estimated stability limit; greater than 0, below 1.
     #[serde(default = "default_step_safety")]
     pub step_safety: f64,
-    /// Whether a time step above the estimated stability limit may be run all the same.
+    /// Whether a time step above the estimated stability limit is accepted.
     #[serde(default)]
     pub allow_unstable_step: bool,
-    /// Drag rates; none by default.
+    /// Drag rates; no drag by default.
     #[serde(default)]
     pub drag: DragRates,
-    /// Thermal noise, which needs drag; none by default.
+    /// Thermal noise. Both drag rates must be positive, and `stop` be left out.
     #[serde(default)]
     pub thermal: Option<Thermal>,
-    /// When to stop early; never by default.
+    /// When to stop before the duration is over.
     #[serde(default)]
     pub stop: Option<StopTolerances>,
     /// How often a motion that has come to rest on a saddle is pushed off it along its lowest mode,
-    /// by 0.01 nm or 1e-3 rad, whichever a body reaches first. With 0, the default, a saddle ends the
-    /// run as a failure, with all its results.
+    /// by 0.01 nm or 1e-3 rad, whichever a body reaches first. With 0 a run that ends on a saddle fails;
+    /// its results are written. Not with `thermal`, nor with `PaperBalance`.
     #[serde(default)]
     pub leave_saddles: usize,
-    /// Time between recorded states (ns); by default about a hundredth of the duration.
+    /// Time between recorded states; positive. By default about a hundredth of the duration.
     #[serde(default)]
     pub record_every_ns: Option<f64>,
 }
@@ -299,6 +313,7 @@ fn default_step_safety() -> f64 {
 
 /// Integrators by name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Integrator {
     /// Position Verlet: order 2, one force evaluation a step.
     PositionVerlet,
@@ -315,24 +330,26 @@ pub enum Integrator {
 
 /// Mass-proportional drag: velocities decay as `exp(-rate t)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 #[serde(rename = "Drag")]
 pub struct DragRates {
-    /// Rate for velocities (1/ns).
+    /// Rate for velocities; at least 0.
     pub translational_per_ns: f64,
-    /// Rate for angular momenta (1/ns).
+    /// Rate for angular momenta; at least 0.
     pub rotational_per_ns: f64,
 }
 
-/// An equilibrium is reached when all three are below their tolerance.
+/// When a motion stops before its duration is over: once all three are below their tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 #[serde(rename = "StopRule")]
 pub struct StopTolerances {
-    /// Largest force on a free point (pN).
+    /// Largest force on a free point; positive, and below half of every load.
     pub force_pn: f64,
-    /// Largest torque on a free frame (pN nm).
+    /// Largest torque on a free frame; positive.
     pub torque_pn_nm: f64,
-    /// Kinetic energy of the free bodies (pN nm).
+    /// Kinetic energy of the free bodies; positive.
     pub kinetic_pn_nm: f64,
 }

@@ -3,24 +3,35 @@
 use super::{Clamp, Filament, Linker, Load, Scene, SceneProblem, Stage, Task};
 use serde::{Deserialize, Serialize};
 
-/// The keys of a scene. [`Scene`] says what they mean.
+/// A scene: filaments, what holds, loads and links them, and what is computed.
 #[derive(Clone, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename = "Scene")]
 pub(super) struct Written {
+    /// What the scene shows, in words.
     #[serde(default)]
     title: String,
+    /// The filament, if there is one only. Either this or `filaments` is required.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     filament: Option<Filament>,
+    /// The filaments, at least one, counted from 0. Only linkers join them; they pass through each
+    /// other.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     filaments: Option<Vec<Filament>>,
+    /// Clamped ends. All others are free.
     #[serde(default)]
     clamps: Vec<Clamp>,
+    /// Forces on ends.
     #[serde(default)]
     loads: Vec<Load>,
+    /// Springs from sites on filaments to points in space or to other sites.
     #[serde(default)]
     linkers: Vec<Linker>,
+    /// Stages along which loads, clamped ends and anchors are moved. Shifts and turns begin at zero, and
+    /// so does the factor of every load that some stage sets; all other loads act in full throughout.
     #[serde(default)]
     path: Vec<Stage>,
+    /// What is computed.
     task: Task,
 }
 
