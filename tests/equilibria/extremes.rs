@@ -125,7 +125,7 @@ impl Extreme {
         let failure = match failed.failure {
             Failure::PathEnded { failure, .. } => Some(failure),
             Failure::BeyondUse(worst) => {
-                println!("{}: beyond any use: {}", self.name, worst[0]);
+                println!("{}: outside the model: {}", self.name, worst[0]);
                 None
             }
             other => panic!("{}: {other}", self.name),

@@ -20,14 +20,14 @@ use std::time::Duration;
 
 /// What exit codes mean, for the help.
 const EXIT_CODES: &str = "Exit codes:
-    0  done (or --resume of a run that is)
-    2  bad input: scene, arguments, directory or checkpoint; nothing has been computed
+    0  done (or --resume of a run that is done)
+    2  bad input: scene, arguments, directory or checkpoint; nothing was computed
     3  numerical failure: the message names step, time, body and term; or the run ended on a saddle, a
-       filament lost twist, a load is lost in the residual forces of an equilibrium, or the result is
-       beyond any use; what was good is on disk
+       filament lost twist, a load is below 100 times the residual, or neighbours moved against each
+       other by their own size. What was computed before is on disk
    74  the run has ended, but its results could not be written (disk full, limit on file sizes): the
-       message says whether a checkpoint holds them, from which --resume writes them
-  130  interrupted (SIGINT, SIGTERM, SIGHUP): --resume goes on; a second SIGINT or SIGTERM ends the
+       message says whether a checkpoint holds them; if so, --resume writes them
+  130  interrupted (SIGINT, SIGTERM, SIGHUP): --resume continues; a second SIGINT or SIGTERM ends the
        program at once";
 
 /// Simulates actin filaments at two resolutions.
@@ -43,7 +43,7 @@ enum Command {
     /// Runs a scene and writes a run directory.
     #[command(after_help = EXIT_CODES)]
     Run(RunArguments),
-    /// Validates a scene; prints what it resolves to and what it would cost. Runs nothing.
+    /// Validates a scene; prints every default, what it resolves to, its time step and cost. Runs nothing.
     Check {
         /// The scene.
         scene: PathBuf,
@@ -57,11 +57,11 @@ struct RunArguments {
     /// Run directory; by default `runs/` and the name of the scene.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Replace an earlier run in that directory: the files that its actin-run.json lists, and no others.
+    /// Replace an earlier run in that directory: only the files that its actin-run.json lists.
     #[arg(long)]
     overwrite: bool,
-    /// Go on from the checkpoint in that directory: the results are those of a run that was not
-    /// interrupted, bit for bit.
+    /// Continue from the checkpoint in that directory: the results are those of an uninterrupted run,
+    /// bit for bit.
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
     /// Time between checkpoints.

@@ -113,7 +113,7 @@ fn checkpoints(
         plan,
         arguments.checkpoint_every,
         interrupted,
-        |error| eprintln!("warning: no checkpoint: {error}; the run goes on"),
+        |error| eprintln!("warning: no checkpoint: {error}; the run continues"),
     ))
 }
 
@@ -146,9 +146,7 @@ fn hint(out: &Path, error: RunDirectoryError) -> Failure {
     let failure = Failure::from(error);
     match failure {
         Failure::Input(message) if is_free && RunDirectory::existing(out).has_checkpoint() => {
-            Failure::Input(format!(
-                "{message}; it keeps a checkpoint, from which --resume goes on"
-            ))
+            Failure::Input(format!("{message}; --resume continues from its checkpoint"))
         }
         failure => failure,
     }
@@ -167,10 +165,10 @@ fn unwritten(
     Failure::Unwritten(if directory.has_checkpoint() {
         let go_on = go_on(arguments, directory);
         format!(
-            "{message}; a checkpoint is kept; once the cause is gone, this writes them: {go_on}"
+            "{message}; a checkpoint is kept; once the cause is removed, this writes them: {go_on}"
         )
     } else {
-        format!("{message}; nor could a checkpoint, so they are lost")
+        format!("{message}; a checkpoint could not be written either, so they are lost")
     })
 }
 
@@ -266,18 +264,15 @@ impl Task<'_> {
             return Failure::Unwritten(message);
         }
         let go_on = go_on(self.arguments, directory);
-        Failure::Interrupted(format!("{message}; to go on: {go_on}"))
+        Failure::Interrupted(format!("{message}; to continue: {go_on}"))
     }
 
     /// Keeps what a broken run has recorded, and says why it broke.
     fn broken(&self, checkpoints: &Checkpoints, failed: &FailedRun) -> Failure {
         let (why, kept) = match &failed.failure {
-            Broken::LoadLost(problem) => (
-                self.opened.locate(problem),
-                "the equilibria in which it is lost are",
-            ),
+            Broken::LoadLost(problem) => (self.opened.locate(problem), "the equilibria are"),
             Broken::Saddle(problem) => (self.opened.locate(problem), "all results are"),
-            failure @ Broken::BeyondUse(_) => (failure.to_string(), "all of it is"),
+            failure @ Broken::BeyondUse(_) => (failure.to_string(), "all results are"),
             failure => (failure.to_string(), GOOD),
         };
         if checkpoints.count() == 0 {

@@ -21,7 +21,11 @@ fn a_result_beyond_any_use_is_a_failure() {
     assert_eq!(code(&output), 3, "{}", stdout(&output));
     let message = stderr(&output);
     println!("{message}");
-    for part in ["beyond any use: the bonds at s = ", " (limit 1)", "is in a"] {
+    for part in [
+        "does not apply to the result: the bonds at s = ",
+        " (limit 1)",
+        "is in a",
+    ] {
         assert!(message.contains(part), "{part:?} in {message}");
     }
     let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();

@@ -1,4 +1,4 @@
-//! What a user should know of a scene beside its numbers: how far its results can be trusted.
+//! What a user should know about a scene besides its numbers: how far its results can be trusted.
 //! `actin check` and `actin run` print it, `summary.json` holds it under `notes`.
 //!
 //! What can be said of a scene before it runs is added to [`Assembly::notes`]; what only a run can
@@ -34,7 +34,7 @@ fn fitted_without_heat(law: &RodLaw) -> Option<(&'static str, InBath)> {
 const COMMAND: &str = "cargo run --release -p actin-paper --example persistence_length";
 
 impl Assembly {
-    /// What there is to know of this scene before it runs, a sentence or two each.
+    /// Notes on this scene before it runs, a sentence or two each.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         for (i, filament) in self.scene.filaments().enumerate() {
@@ -59,14 +59,14 @@ impl Assembly {
 }
 
 impl Outcome {
-    /// What this run could not find out, a sentence each; `last` is its last record.
+    /// Notes on what this run could not determine, a sentence each; `last` is its last record.
     pub(crate) fn notes(&self, assembly: &Assembly, last: &Record) -> Vec<String> {
         let mut notes = unknown_twist(assembly, last);
         let is_motion = matches!(assembly.scene.task, Task::Dynamics(_));
         if is_motion && self.has_converged() && self.at_rest.is_none() {
             notes.push(
                 "the stop rule was met, but it is not known whether the state at rest is stable: no \
-                 equilibrium of an energy was found next to it (force_law: PaperBalance has none)"
+                 equilibrium was found next to it (force_law: PaperBalance has no energy)"
                     .to_owned(),
             );
         }
@@ -82,15 +82,15 @@ fn unknown_twist(assembly: &Assembly, last: &Record) -> Vec<String> {
     unknown
         .map(|filament| {
             format!(
-                "filament {filament}: whether it has lost twist is not known. Twist plus writhe tells \
-                 nothing where one end has passed the other, or where the ends are tilted and the \
+                "filament {filament}: whether it has lost twist is not known. Twist plus writhe does not \
+                 decide where one end has passed the other, or where the ends are tilted and the \
                  filament turns back"
             )
         })
         .collect()
 }
 
-/// What there is to know of weighted bonds that are too few to stand for all.
+/// The note on weighted bonds that are too few to represent all.
 fn few_bonds(monomers: &Monomers, kind: InterfaceKind) -> Option<String> {
     if monomers.anchors != Anchors::Cubature {
         return None;
@@ -100,7 +100,7 @@ fn few_bonds(monomers: &Monomers, kind: InterfaceKind) -> Option<String> {
     let MomentCheck { residual, .. } = found.certificate;
     (!found.certificate.meets_moments()).then(|| {
         format!(
-            "{} weighted bonds for a {kind} interface are too few to stand for all: a moment is off by \
+            "{} weighted bonds for a {kind} interface are too few to represent all: a moment is off by \
              {:.0} % of its root mean square. Eight make twist a quarter too soft, four many times \
              (docs/bonds.md); 12 meet all moments, and anchors: Independent draws as many bonds as asked",
             found.points.len(),
@@ -109,22 +109,22 @@ fn few_bonds(monomers: &Monomers, kind: InterfaceKind) -> Option<String> {
     })
 }
 
-/// What there is to know of a rod's law in a heat bath. Nothing of constant rigidities that are not
-/// the published ones: they may be those at a temperature.
+/// The note on a rod's law in a heat bath. None for constant rigidities that are not the published
+/// ones: they may be those at a temperature.
 fn law_in_bath(rod: &RodModel) -> Option<String> {
     if rod.law == RodLaw::Constant && rod.material != Material::Table4 {
         return None;
     }
     let Some((name, (persistence, twist))) = fitted_without_heat(&rod.law) else {
-        let note = "rods under Laws in a heat bath: laws that were fitted to equilibria at zero \
-                    temperature are no free energy, and rods under them do not fluctuate as the \
-                    filaments that they were fitted to";
+        let note = "rods under Laws in a heat bath: laws fitted to equilibria at zero temperature are not \
+                    free energies, so rods under them fluctuate differently from the filaments that \
+                    they were fitted to";
         return Some(note.to_owned());
     };
     let (of_monomers, twist_of_monomers) = MONOMERS;
     Some(format!(
         "rods under the law {name} in a heat bath: its parameters come from equilibria of monomers \
-         at zero temperature, and it is no free energy. At 298 K free filaments of 110 nm have, as \
+         at zero temperature, so it is not a free energy. At 298 K free filaments of 110 nm have, as \
          such rods, a persistence length of {persistence:.1} um and a twisting rigidity of \
          {twist:.1e} pN nm^2, as monomers {of_monomers:.1} um and {twist_of_monomers:.1e} pN nm^2 \
          ({COMMAND})"

@@ -1,4 +1,4 @@
-//! Where a state is beyond any use: neighbours have moved against each other by as much as their own
+//! Where a state is outside the model: neighbours have moved against each other by as much as their own
 //! size, for which no model here is made. Where a rod leaves the data of its law is in `range`.
 
 use super::range::curvatures;
@@ -21,7 +21,7 @@ const BONDS: f64 = 1.0;
 /// centre of one comes to lie within the other.
 const OVERLAP: f64 = 1.0;
 
-/// A part of a filament in a state that is beyond any use.
+/// A part of a filament in a state to which the model does not apply.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeyondUse {
     /// Index of the filament.
@@ -78,7 +78,7 @@ impl fmt::Display for BeyondUse {
 type Furthest = (f64, f64);
 
 impl Assembly {
-    /// What is beyond any use in `state`: at most once per section and quantity, where it is worst.
+    /// Where the model does not apply to `state`: at most once per section and quantity, where it is worst.
     ///
     /// Only neighbours are looked at. Filaments have no volume in these models: that parts of one far
     /// apart, or two of them, pass through each other is not seen.

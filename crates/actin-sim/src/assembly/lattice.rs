@@ -92,8 +92,8 @@ fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), S
             format!("filament.sections[{i}].to_nm"),
             format!("{to_nm:?}"),
             format!(
-                "{reach:.2e} monomers reach this far: from {MOST_COUNTED:.1e} on their places on \
-                 the lattice are not told apart"
+                "{reach:.2e} monomers reach this far: beyond {MOST_COUNTED:.1e} lattice indices are not \
+                 exact"
             ),
         ));
     }

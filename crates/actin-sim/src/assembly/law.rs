@@ -24,7 +24,7 @@ impl Law {
             return Err(SceneProblem::new(
                 "filament.rod.force_law",
                 "PaperBalance",
-                "the printed balance goes with the laws Constant and PublishedExtension alone",
+                "PaperBalance takes the laws Constant and PublishedExtension only",
             ));
         }
         if rod.law == RodLaw::Fitted && rod.material != Material::default() {

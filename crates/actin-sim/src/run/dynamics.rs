@@ -115,7 +115,7 @@ fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Sc
         format!("{wanted:?}"),
         format!(
             "above the stability limit of {limit:.4e} ns ({} at the largest frequency, \
-             {frequency:.1} rad/ns); allow_unstable_step: true runs it all the same",
+             {frequency:.1} rad/ns); allow_unstable_step: true runs it anyway",
             scheme.name()
         ),
     )
@@ -248,7 +248,7 @@ fn conclude(
 fn way_off(dynamics: &Dynamics) -> &'static str {
     match dynamics.leave_saddles {
         0 => {
-            "with leave_saddles: 1 or more the motion is pushed off saddles and goes on; an \
+            "with leave_saddles: 1 or more the motion is pushed off saddles and continues; an \
              imperfection of the filament, such as (amplitude_nm: 0.01, seed: 1), keeps it off them"
         }
         _ => "more pushes or a longer duration_ns may lead off it",

@@ -48,7 +48,7 @@ pub struct Outcome {
     pub pushes: Vec<SaddlePush>,
     /// How often the path went on from where a sudden jump led.
     pub jumps: usize,
-    /// What is beyond any use in its states, the worst of all records; a run with any has failed.
+    /// Where the model does not apply to its states, the worst of all records; a run with any has failed.
     pub beyond_use: Vec<BeyondUse>,
     /// Time that the run took (s).
     pub wall_s: f64,
@@ -119,7 +119,7 @@ pub enum Failure {
     /// Equilibria were reached, but the last does not tell what a load does: which, and in what it is
     /// lost.
     LoadLost(SceneProblem),
-    /// The run reached its end, but through or in states that are beyond any use: what goes too far, at
+    /// The run reached its end, but through or in states to which the model does not apply: what goes too far, at
     /// least one.
     BeyondUse(Vec<BeyondUse>),
     /// The run ended, but on a saddle: how many negative eigenvalues there are, and what leads off it.
@@ -146,7 +146,7 @@ impl fmt::Display for Failure {
             Self::PathEnded { place, failure } => write!(f, "{place}{failure}"),
             Self::LoadLost(problem) | Self::Saddle(problem) => write!(f, "{problem}"),
             Self::BeyondUse(worst) => {
-                write!(f, "the result is beyond any use: {}", worst[0])?;
+                write!(f, "the model does not apply to the result: {}", worst[0])?;
                 match worst.len() - 1 {
                     0 => Ok(()),
                     others => write!(f, " (and {others} more)"),

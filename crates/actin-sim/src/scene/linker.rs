@@ -109,7 +109,7 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     if let Some(other) = &linker.to {
         check_site(scene, &key("to"), other)?;
         if other.is_at(&linker.site()) {
-            let rule = "is the site from which the linker goes: it joins two places";
+            let rule = "is the site at which the linker starts: must be another place";
             return Err(SceneProblem::new(key("to"), "", rule));
         }
     }
@@ -126,8 +126,8 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
 fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let first = linker.end_key();
     let rule = || match first {
-        "to" => "the linker goes to a site already: write one of the two".to_owned(),
-        first => format!("the anchor is given by {first} already: write one of the two"),
+        "to" => "the other end is given by to already: write one of the two".to_owned(),
+        first => format!("the other end is given by {first} already: write one of the two"),
     };
     let ends = [
         ("anchor_nm", linker.anchor_nm),

@@ -150,7 +150,7 @@ fn in_words(error: &RonError) -> Option<String> {
             let kind = outer.as_deref().unwrap_or("choice");
             format!("unknown {kind} {found}: known are {}", expected.join(", "))
         }
-        RonError::TrailingCharacters => "there is text behind the scene".into(),
+        RonError::TrailingCharacters => "unexpected text after the scene".into(),
         RonError::Eof => "the text ends before the scene does: a bracket is not closed".into(),
         _ => return None,
     })

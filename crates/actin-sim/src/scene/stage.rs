@@ -62,7 +62,7 @@ fn check_held(
     if held.is_held(filament, end) {
         return Ok(());
     }
-    let rule = "this end is free: only a clamped end is moved from outside";
+    let rule = "this end is free: only a clamped end can be moved";
     Err(SceneProblem::new(format!("{prefix}end"), show(end), rule))
 }
 
@@ -81,7 +81,7 @@ pub(super) fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Sce
         return Err(SceneProblem::new(
             "task.duration_ns",
             show(duration_ns),
-            format!("ends before the path does, whose stages take {whole:?} ns"),
+            format!("must be at least {whole:?}, which the stages of the path take"),
         ));
     }
     Ok(())

@@ -149,10 +149,10 @@ impl Group {
         };
         let (i, force) = loads[blamed];
         let size = left_over.norm();
-        let mut rule = vec!["nothing holds the filament against this force".to_owned()];
+        let mut rule = vec!["no clamp or linker resists this force".to_owned()];
         if forces.filter(drifts).count() > 1 {
             rule.push(format!(
-                ", and the others do not balance it: {size:.1e} pN are left over"
+                ", and the other forces do not balance it: their sum is {size:.1e} pN"
             ));
         }
         if size <= DIGITS * all {
@@ -235,7 +235,7 @@ mod tests {
         assert!(!is_borne("Clamp(end: Start)", &link(2, 1)) && !is_borne("", anchor));
         let message = refusal("", "", force);
         assert!(
-            message.contains("loads[0].force_pn = [0.0, 0.0, 1.0]: nothing holds"),
+            message.contains("loads[0].force_pn = [0.0, 0.0, 1.0]: no clamp or linker"),
             "{message}"
         );
     }
@@ -283,12 +283,12 @@ mod tests {
         );
         let message = balance(pair, &[stage(0.5, 0.6), stage(1.0, 1.0)].concat());
         assert!(message.contains("loads[0].force_pn"), "{message}");
-        assert!(message.contains("2.0e-1 pN are left over"), "{message}");
+        assert!(message.contains("their sum is 2.0e-1 pN"), "{message}");
         // Only one of the two is ramped: they do not balance before.
         let one = "Stage(set: [LoadFactor(load: 0, factor: 1.0)])";
-        assert!(balance(pair, one).contains("nothing holds"));
+        assert!(balance(pair, one).contains("no clamp or linker"));
         let half = pair.replace("-2.0", "-1.0");
-        assert!(balance(&half, "").contains("the others do not balance it"));
+        assert!(balance(&half, "").contains("the other forces do not balance it"));
     }
 
     /// What was written with too few digits is told in full, and is taken then.

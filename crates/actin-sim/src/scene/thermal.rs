@@ -60,8 +60,8 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
             return Err(SceneProblem::new(
                 format!("task.drag.{name}"),
                 format!("{rate:?}"),
-                "must be greater than 0 where there is thermal noise, which is the counterpart of \
-                 drag: without it this motion would never take up the temperature",
+                "must be greater than 0 with thermal noise: without drag this motion never reaches the \
+                 temperature",
             ));
         }
     }

@@ -86,7 +86,7 @@ fn check_place(filament: &Filament) -> Result<(), SceneProblem> {
     all_finite("filament.at_nm", filament.at_nm)?;
     all_finite("filament.direction", filament.direction)?;
     if filament.direction.iter().all(|d| d.abs() <= 0.0) {
-        let rule = "a filament lies along some direction: must not be zero";
+        let rule = "must not be zero";
         return Err(SceneProblem::new(
             "filament.direction",
             show(filament.direction),
@@ -217,7 +217,8 @@ fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(), ScenePro
         }
         Anchors::Cubature => {
             let weighted = format!("{FEWEST_POINTS} to {MOST_POINTS} weighted bonds");
-            let rule = format!("an interface has {weighted}, or others with anchors: Independent");
+            let rule =
+                format!("an interface has {weighted}; anchors: Independent takes other numbers");
             (FEWEST_POINTS..=MOST_POINTS, rule)
         }
     };
@@ -275,8 +276,7 @@ fn check_clamp(
         return Err(SceneProblem::new(
             format!("{key}.hold"),
             show(clamp.hold),
-            "nodes and frames are held at a rod's end, but monomers end the filament here: \
-             write Wall, which holds the last two",
+            "monomers end the filament here: they take Wall only, which holds the last two",
         ));
     }
     Ok(())
@@ -311,8 +311,8 @@ fn check_tolerance(scene: &Scene, key: &str, force_pn: f64) -> Result<(), SceneP
         let size = load.force_pn().norm();
         if size > 0.0 && size <= 2.0 * force_pn {
             let rule = format!(
-                "must be below half of loads[{i}], which is {size:e} pN: as it is, the filament \
-                 counts as at rest before it has moved"
+                "must be below half of loads[{i}] ({size:e} pN): otherwise the filament counts as \
+                 at rest before it has moved"
             );
             return Err(SceneProblem::new(
                 format!("{key}.force_pn"),

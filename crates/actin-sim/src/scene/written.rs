@@ -48,7 +48,7 @@ impl TryFrom<Written> for Scene {
                 return Err(SceneProblem::new("filament", "", rule));
             }
             (Some(_), Some(_)) => {
-                let rule = "the filament is given by filament already: write one of the two";
+                let rule = "the scene has filament already: write one of the two";
                 return Err(SceneProblem::new("filaments", "", rule));
             }
         };

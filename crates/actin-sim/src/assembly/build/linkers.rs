@@ -60,7 +60,7 @@ impl Builder<'_> {
             return Err(SceneProblem::new(
                 format!("linkers[{i}].{}", linker.end_key()),
                 value.map_or_else(String::new, |v| format!("{v:?}")),
-                "stands at the site: a linker with a rest length needs a direction",
+                "puts the anchor at the site: a linker with a rest length needs a direction",
             ));
         }
         Ok(built)

@@ -54,7 +54,7 @@ pub struct Summary {
     #[serde(default)]
     pub jumps: usize,
     /// Whether other stable states are likely: a saddle that was left has one on either side, and a
-    /// path back jumps elsewhere. Where this is false there may be others all the same.
+    /// path back jumps elsewhere. Where this is false there may still be others.
     #[serde(default)]
     pub other_states_likely: bool,
     /// Energies.
@@ -76,7 +76,7 @@ pub struct Summary {
     /// the last record in one computed alone); there the numbers rest on the laws' continuation.
     /// In a heat bath one entry for each quantity, with how often it occurs.
     pub beyond_range: Vec<BeyondRange>,
-    /// What is beyond any use, the worst of all records of a run; a run with any has failed.
+    /// Where the model does not apply, the worst of all records; a run with any has failed.
     #[serde(default)]
     pub beyond_use: Vec<BeyondUse>,
     /// Where the force along a rod makes its twist unstable, the worst of all records in a run's
