@@ -1,5 +1,5 @@
 //! What checks and checkpoints cost in time. Nothing is asserted. The table of checks in
-//! `docs/numerics.md` is what `cost_of_checks` prints.
+//! `docs/measured/motion.md` is what `cost_of_checks` prints.
 
 use crate::common::{build, checkpoints};
 use actin_integrate::{DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Run, advance, stable_step};

@@ -192,7 +192,7 @@ fn monomers_have_the_temperature_at_their_default_step() {
     }
 }
 
-/// The table of `docs/numerics.md`.
+/// The table of temperatures in `docs/measured/heat.md`.
 #[test]
 #[ignore = "takes half an hour; run by hand with --ignored --nocapture"]
 fn temperatures_of_positions_at_shares_of_the_limit() {

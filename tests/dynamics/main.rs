@@ -1,6 +1,6 @@
 //! Motion of assembled free filaments: order, reversal, momenta, energy.
 //!
-//! The tables of `docs/numerics.md` are what these tests print with `--nocapture`.
+//! The tables of `docs/measured/motion.md` are what these tests print with `--nocapture`.
 
 mod damped;
 mod energy;

@@ -2,7 +2,7 @@
 //! why not, in a bounded number of steps; never in a wrong answer.
 //!
 //! `cargo test -p actin-sim --test equilibria extremes -- --nocapture` prints
-//! the table of `docs/statics.md`.
+//! the table of `docs/measured/statics.md`.
 
 use crate::common::{build, run, run_anyway};
 use actin_equilibrium::{PathFailure, Stability};

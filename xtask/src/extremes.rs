@@ -13,7 +13,7 @@ pub(crate) struct Options {
     /// Also the rows that take minutes: 1e6 bodies, 1e7 steps.
     #[arg(long)]
     long: bool,
-    /// Also into `docs/extremes.md`, tables and pictures, if all rows are sound.
+    /// Also into `docs/tables/extremes.md`, with the pictures of `docs/extremes.md`, if all rows are sound.
     #[arg(long, requires = "long")]
     write: bool,
 }

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 /// What is fitted, and where the result goes.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
-    /// Fits a table of one's own, with its columns of twist, length, bending or stretch
-    /// (docs/fitting.md).
+    /// Fits your table, with its columns of twist, length, bending or stretch
+    /// (docs/how-to/fit-a-rod-law.md).
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["measure", "all_rows"])]
     data: Option<PathBuf>,
     /// Measures filaments of monomers first and fits what they show, bending and shear included.

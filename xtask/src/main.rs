@@ -30,15 +30,15 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Task {
-    /// Measures how fast the fixed cases run, beside what was aimed at.
+    /// Measures rates of fixed cases beside their targets.
     Bench(bench::Options),
     /// Measures what scenes cost beside their estimates, and how that grows with their size.
     Costs(costs::Options),
     /// Compares drawn and weighted bonds, and the shortest bond, on the paper's tables and figures.
     Bonds(bonds::Options),
-    /// Formatting, lints as errors, documentation, benches that build, random input, tidiness.
+    /// Formatting, lints as errors, documentation, benches that build, random input, tidiness, the book.
     Check,
-    /// Takes every number of a scene to where it breaks and writes what becomes of it.
+    /// Takes every number of a scene to its limits and lists the outcomes.
     Extremes(extremes::Options),
     /// Fits a rod's laws to tables or to filaments of monomers.
     FitParameters(fit::Options),
@@ -48,7 +48,7 @@ enum Task {
     Docs(docs::Options),
     /// Measures what each saving of time costs in accuracy, scene by scene.
     Tradeoff(tradeoff::Options),
-    /// Tries the program with random input, kills, damaged files and scenes changed without effect.
+    /// Tests the program with random input, kills, damaged files and equivalent scenes.
     Trials(trials::Options),
 }
 

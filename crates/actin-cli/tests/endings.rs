@@ -8,7 +8,7 @@ use workplace::{Workplace, code, stderr, stdout};
 /// Monomers that are pushed through their own wall: exit code 3, what is beyond use and where, and all of
 /// it on disk with the status of a failure.
 #[test]
-fn a_result_beyond_any_use_is_a_failure() {
+fn a_result_outside_the_model_is_a_failure() {
     let place = Workplace::with(
         "Scene(
             filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 30.0)]),
@@ -24,7 +24,7 @@ fn a_result_beyond_any_use_is_a_failure() {
     for part in [
         "does not apply to the result: the bonds at s = ",
         " (limit 1)",
-        "is in a",
+        "are in a",
     ] {
         assert!(message.contains(part), "{part:?} in {message}");
     }

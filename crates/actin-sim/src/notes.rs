@@ -13,7 +13,7 @@ use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck}
 /// 0.2 um and 1e2 pN nm^2, with the default bonds).
 ///
 /// # Source
-/// `docs/validation.md`, "Persistence length from thermal motion"; monomers: `docs/bonds.md`, "Heat".
+/// `docs/measured/heat.md`, "Persistence length"; monomers: `docs/tables/bonds.md`, "Heat".
 type InBath = (f64, f64);
 
 const MONOMERS: InBath = (11.7, 7.6e3);

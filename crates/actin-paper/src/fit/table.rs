@@ -1,4 +1,4 @@
-//! A table of one's own, read from CSV: `docs/fitting.md` describes it.
+//! A user's table, read from CSV: `docs/how-to/fit-a-rod-law.md` describes it.
 
 use super::column::Column;
 use csv::StringRecord;

@@ -279,7 +279,7 @@ fn crossings(scene: &str, law: &str, resolved: &Resolved) -> (f64, Vec<Crossing>
 }
 
 /// One couple everywhere, and how much of the turn a junction swallows: the table of
-/// `docs/validation.md`. A rod beside the same monomers under a law that follows them has as
+/// `docs/measured/fitted-law.md`. A rod beside the same monomers under a law that follows them has as
 /// much twist as they have, and a junction of shared weight is as soft as what it stands for.
 #[test]
 fn a_mixed_filament_carries_one_couple_through_its_junctions() {
