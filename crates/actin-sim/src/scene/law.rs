@@ -13,7 +13,8 @@ pub enum RodLaw {
     /// The paper's twisting rigidity B3(kappa) and extension xi(kappa), all parameters as published,
     /// `p_0` included.
     PublishedExtension,
-    /// The paper's B3(kappa) and an energy C3 sigma_3 kappa_3 per length that couples stretch and twist.
+    /// The paper's B3(kappa) and an energy `C3 sigma_3 kappa_3` per length that couples stretch
+    /// and twist.
     CouplingEnergy,
     /// Laws fitted to filaments of monomers. The material must be left out.
     Fitted,
