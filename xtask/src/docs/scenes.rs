@@ -3,6 +3,7 @@
 
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 /// What the generated page opens with.
 const HEAD: &str = "# Every key of a scene\n\n\
@@ -87,7 +88,7 @@ fn choice(variant: &Value) -> String {
             kind if inside["$ref"].is_string() => format!("({kind})"),
             _ => "(...)".to_owned(),
         };
-        text += &format!("\n- `{name}`{holds}: {}\n", words(variant));
+        _ = write!(text, "\n- `{name}`{holds}: {}\n", words(variant));
         if inside["properties"].is_object() {
             text += &keys(inside);
         }
@@ -116,9 +117,10 @@ fn keys(definition: &Value) -> String {
             default(key)
         };
         let (unit, kind) = (unit(name), kind(key));
-        text += &format!(
-            "| {shown} | {unit} | {kind} | {default} | {} |\n",
-            words(key)
+        let meaning = words(key);
+        _ = writeln!(
+            text,
+            "| {shown} | {unit} | {kind} | {default} | {meaning} |"
         );
     }
     text

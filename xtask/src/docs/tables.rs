@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 pub(super) const FOLDER: &str = "docs/tables/";
 
 /// Significant digits of a number.
-const DIGITS: usize = 4;
+const DIGITS: u8 = 4;
 
 /// Pages by their paths: all verdicts, and all rows of each artefact.
 pub(super) fn files(rows: &[Row]) -> BTreeMap<String, String> {
@@ -198,19 +198,19 @@ fn listed(rows: &[&Row]) -> String {
 }
 
 /// A number with so many significant digits, whole digits always.
-pub(super) fn digits(value: f64, significant: usize) -> String {
+pub(super) fn digits(value: f64, significant: u8) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
     let magnitude = value.abs().log10().floor();
     if !(-3.0..6.0).contains(&magnitude) {
-        let text = format!("{value:.*e}", significant - 1);
+        let text = format!("{value:.*e}", usize::from(significant) - 1);
         let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
         return format!("{}e{exponent}", trimmed(mantissa));
     }
     // Between -3 and 5, so that the difference is small and whole.
     #[expect(clippy::cast_possible_truncation)]
-    let decimals = significant as i32 - 1 - magnitude as i32;
+    let decimals = i32::from(significant) - 1 - magnitude as i32;
     let decimals = usize::try_from(decimals).unwrap_or(0);
     trimmed(&format!("{value:.decimals$}")).to_owned()
 }

@@ -77,7 +77,7 @@ fn read(text: &str) -> Page {
                 }
             }
             Event::End(TagEnd::Heading(_)) => {
-                page.headings.extend(heading.take().map(|h| name(&h)))
+                page.headings.extend(heading.take().map(|h| name(&h)));
             }
             _ => {}
         }
