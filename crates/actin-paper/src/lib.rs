@@ -9,7 +9,7 @@
 //! - [`tradeoff`]: what each saving of time costs in accuracy.
 //! - [`extremes`]: every number of a scene, taken to where it breaks.
 //! - [`costs`]: what scenes cost, beside what was estimated.
-//! - [`bench`]: rates of fixed cases.
+//! - [`mod@bench`]: rates of fixed cases.
 //!
 //! Scenes and committed numbers are those of the workspace that the crate was built in: `scenarios` and
 //! `docs`. How pictures and pages look is decided in `actin-draw`, how scenes run in `actin-sim`.
