@@ -166,7 +166,7 @@ fn a_full_disk_loses_no_checkpoint() {
     println!("{}", stderr(&output));
     assert_eq!(code(&output), 74);
     assert!(stderr(&output).contains("warning: no checkpoint: a/records.bin: "));
-    assert!(stderr(&output).contains("a checkpoint is kept; once the cause is gone"));
+    assert!(stderr(&output).contains("a checkpoint is kept; once the cause is removed"));
     let output = place.actin(&["--out", "a", "--resume"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert_same_files(&place.path("whole"), &place.path("a"));
@@ -234,7 +234,7 @@ fn a_failed_run_fails_again_in_the_same_words() {
 /// A force that is smaller than the rounding of others: exit code 3, with the place in the scene, and
 /// the equilibrium on the disk; taken up again, the same words and the same files.
 #[test]
-fn an_equilibrium_in_which_a_load_is_lost_is_kept() {
+fn an_equilibrium_with_a_load_below_the_residual_is_kept() {
     let place = Workplace::with(
         "Scene(
             filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 60.0)]),
@@ -250,7 +250,7 @@ fn an_equilibrium_in_which_a_load_is_lost_is_kept() {
     for part in [
         "error: scene.ron:4:",
         "loads[0].force_pn = [0.0, 0.0, 1e-12]: is below 100 times the residual of",
-        "; the equilibria in which it is lost are in a",
+        "; the equilibria are in a",
     ] {
         assert!(message.contains(part), "{part:?} in {message}");
     }
