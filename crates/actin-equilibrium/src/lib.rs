@@ -52,7 +52,7 @@ pub use newton::Newton;
 pub use options::{NewtonOptions, OptionsError};
 pub use outcome::{Convergence, Equilibrium, NewtonFailure, SolveError};
 pub use path::{Path, PathEnd, PathError, PathFailure};
-pub use path_observer::{PathObserver, PathPoint, Waypoint};
+pub use path_observer::{PathCheckpoint, PathObserver, PathPoint};
 pub use path_options::{Jumps, PathOptions, Saddles};
 pub use relax::{EquilibriumError, relax};
 pub use saddle::Push;

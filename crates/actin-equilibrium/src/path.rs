@@ -10,7 +10,7 @@ use crate::motion::StepSize;
 use crate::newton::Newton;
 use crate::options::OptionsError;
 use crate::outcome::{Equilibrium, NewtonFailure, SolveError};
-use crate::path_observer::{PathObserver, PathPoint, Waypoint};
+use crate::path_observer::{PathCheckpoint, PathObserver, PathPoint};
 use crate::path_options::{Jumps, PathOptions, Saddles};
 use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
@@ -127,7 +127,7 @@ impl Path {
     /// If the path cannot be followed to its end; `state` is then the last equilibrium.
     pub fn follow_from(
         &self,
-        waypoint: Option<&Waypoint>,
+        waypoint: Option<&PathCheckpoint>,
         newton: &mut Newton,
         state: &mut State,
         interactions: &[Box<dyn Interaction>],
@@ -137,7 +137,7 @@ impl Path {
         let before = newton.work();
         let mut walk = Walk::new(&self.0, waypoint, newton, interactions);
         let result = walk.finish(state, set, companion);
-        let Waypoint {
+        let PathCheckpoint {
             points,
             refused,
             parameter,
@@ -172,14 +172,14 @@ struct Walk<'a> {
     options: &'a PathOptions,
     newton: &'a mut Newton,
     interactions: &'a [Box<dyn Interaction>],
-    at: Waypoint,
+    at: PathCheckpoint,
     last: Option<Equilibrium>,
 }
 
 impl<'a> Walk<'a> {
     fn new(
         options: &'a PathOptions,
-        waypoint: Option<&Waypoint>,
+        waypoint: Option<&PathCheckpoint>,
         newton: &'a mut Newton,
         interactions: &'a [Box<dyn Interaction>],
     ) -> Self {
@@ -187,7 +187,7 @@ impl<'a> Walk<'a> {
             options,
             newton,
             interactions,
-            at: waypoint.map_or_else(|| Waypoint::start(options), Waypoint::clone),
+            at: waypoint.map_or_else(|| PathCheckpoint::start(options), PathCheckpoint::clone),
             last: None,
         }
     }

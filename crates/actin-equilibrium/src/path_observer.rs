@@ -23,7 +23,7 @@ pub struct PathPoint<'a> {
     /// What the solver has done so far.
     pub work: SolverWork,
     /// What the rest of the path depends on besides the state.
-    pub waypoint: &'a Waypoint,
+    pub waypoint: &'a PathCheckpoint,
 }
 
 /// Observes a path of equilibria, and may end it.
@@ -49,7 +49,7 @@ impl<F: FnMut(&PathPoint<'_>) -> ControlFlow<()>> PathObserver for F {
 /// Where a path stands at an equilibrium: all that its rest depends on besides the state.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Waypoint {
+pub struct PathCheckpoint {
     /// The path parameter.
     pub parameter: f64,
     /// The next step of the parameter.
@@ -64,7 +64,7 @@ pub struct Waypoint {
     pub refused: usize,
 }
 
-impl Waypoint {
+impl PathCheckpoint {
     /// Before the first equilibrium.
     pub(crate) fn start(options: &PathOptions) -> Self {
         Self {

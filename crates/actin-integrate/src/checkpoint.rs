@@ -15,7 +15,7 @@ pub struct Pause<'a> {
     pub(crate) system: &'a System,
     pub(crate) largest_kinetic: f64,
     pub(crate) evaluations_before: u64,
-    pub(crate) last_good: &'a Mark,
+    pub(crate) last_good: &'a Snapshot,
 }
 
 impl Pause<'_> {
@@ -27,7 +27,7 @@ impl Pause<'_> {
     /// What is needed to go on from here.
     pub fn checkpoint(&self) -> Checkpoint {
         Checkpoint {
-            here: Mark::new(self.step, self.system, self.largest_kinetic),
+            here: Snapshot::new(self.step, self.system, self.largest_kinetic),
             last_good: self.last_good.clone(),
             evaluations_before: self.evaluations_before,
         }
@@ -40,9 +40,9 @@ impl Pause<'_> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Checkpoint {
     /// Where the run stands.
-    pub here: Mark,
+    pub here: Snapshot,
     /// The last state that observers have seen.
-    pub last_good: Mark,
+    pub last_good: Snapshot,
     /// Evaluations of the loads that the system had made when the run began.
     pub evaluations_before: u64,
 }
@@ -50,7 +50,7 @@ pub struct Checkpoint {
 /// A state of a run with what goes with it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Mark {
+pub struct Snapshot {
     /// Steps since step 0.
     pub step: u64,
     /// What moves.
@@ -63,7 +63,7 @@ pub struct Mark {
     pub largest_kinetic: f64,
 }
 
-impl Mark {
+impl Snapshot {
     pub(crate) fn new(step: u64, system: &System, largest_kinetic: f64) -> Self {
         Self {
             step,

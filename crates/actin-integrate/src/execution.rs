@@ -2,8 +2,8 @@
 
 use crate::diagnosis::{Probe, Watch, blame, broken_energy};
 use crate::{
-    Body, Checkpoint, FailureKind, Mark, Moment, Observer, Pause, Reason, Run, RunFailure,
-    RunOutcome,
+    Body, Checkpoint, FailureKind, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome,
+    Snapshot,
 };
 use actin_mechanics::{Split, State, System};
 use std::ops::ControlFlow;
@@ -16,7 +16,7 @@ pub(crate) struct Execution<'a, 'o> {
     watch: Watch,
     step: u64,
     /// The last state that was observed, or the start.
-    last_good: Mark,
+    last_good: Snapshot,
     /// The state at the last check, from which a failure is retraced.
     sound: (u64, State),
     evaluations_before: u64,
@@ -28,7 +28,7 @@ impl<'a, 'o> Execution<'a, 'o> {
         system: &'a mut System,
         observers: &'a mut [&'o mut dyn Observer],
     ) -> Self {
-        let start = Mark::new(run.first_step, system, 0.0);
+        let start = Snapshot::new(run.first_step, system, 0.0);
         let checkpoint = Checkpoint {
             evaluations_before: start.force_evaluations,
             last_good: start.clone(),
@@ -191,7 +191,7 @@ impl<'a, 'o> Execution<'a, 'o> {
         }
         let at_rest = self.is_at_rest();
         let goes_on = self.step < self.end() && !interrupted && self.intervene(time, at_rest);
-        self.last_good = Mark::new(self.step, self.system, self.watch.largest_kinetic);
+        self.last_good = Snapshot::new(self.step, self.system, self.watch.largest_kinetic);
         if at_rest && !goes_on {
             Some(Reason::Converged)
         } else if self.step == self.end() {

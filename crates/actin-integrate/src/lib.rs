@@ -39,7 +39,7 @@ mod stop;
 mod surroundings;
 
 pub use bath::{Bath, BathError};
-pub use checkpoint::{Checkpoint, Mark, Pause};
+pub use checkpoint::{Checkpoint, Pause, Snapshot};
 pub use composition::{Composition, CompositionError, Stage};
 pub use drag::{Drag, DragError};
 pub use error::IntegrationError;

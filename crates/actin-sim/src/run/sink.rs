@@ -3,7 +3,7 @@
 //! What goes through a sink is values; files are the business of `results`.
 
 use super::{At, Record, Recorded, SaddlePush, Trajectory};
-use actin_equilibrium::{Certificate, SolverWork, Waypoint};
+use actin_equilibrium::{Certificate, PathCheckpoint, SolverWork};
 use actin_integrate::Checkpoint;
 use actin_mechanics::{Motion, State};
 use serde::{Deserialize, Serialize};
@@ -101,7 +101,7 @@ pub struct PathPosition {
     /// The stage, from 0.
     pub stage: usize,
     /// Where the path stands in that stage; `None` before its first equilibrium.
-    pub waypoint: Option<Waypoint>,
+    pub waypoint: Option<PathCheckpoint>,
     /// What moves, as it is there.
     pub motion: Motion,
     /// Equilibria so far.

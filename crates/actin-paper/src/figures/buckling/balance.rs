@@ -5,7 +5,7 @@ use super::case::Case;
 use super::dynamics::{STOP, dynamics};
 use super::group::{Group, Rods};
 use super::outcome::{Evidence, Outcome, measure};
-use crate::figures::viewer::Snapshot;
+use crate::figures::viewer::Pose;
 use crate::run::run_to_end;
 use actin_draw::report::Row;
 use actin_sim::{Assembly, DragRates, Task};
@@ -47,7 +47,7 @@ pub(super) fn rest(case: &Case) -> Result<Outcome, String> {
             force_evaluations: report.force_evaluations,
         },
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
-        snapshot: Snapshot::of(&assembly, &last.state).without_linkers(),
+        pose: Pose::of(&assembly, &last.state).without_linkers(),
     })
 }
 

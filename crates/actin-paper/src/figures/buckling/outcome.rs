@@ -2,7 +2,7 @@
 //! plane in which the filament happens to buckle.
 
 use super::case::Case;
-use crate::figures::viewer::Snapshot;
+use crate::figures::viewer::Pose;
 use crate::run::run_to_end;
 use actin_sim::shape::Ribbon;
 use actin_sim::{Assembly, End, Part};
@@ -19,7 +19,7 @@ pub(super) struct Outcome {
     /// Residual force (pN) and torque (pN nm).
     pub residual: (f64, f64),
     /// The state, without the pull that breaks the symmetry.
-    pub snapshot: Snapshot,
+    pub pose: Pose,
 }
 
 /// How a state was found.
@@ -110,7 +110,7 @@ pub(super) fn outcome(case: &Case, assembly: &mut Assembly) -> Result<Outcome, S
             points: found.points,
         },
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
-        snapshot: Snapshot::of(assembly, &last.state).without_linkers(),
+        pose: Pose::of(assembly, &last.state).without_linkers(),
     })
 }
 

@@ -133,7 +133,7 @@ pub(super) fn view_in_space(plan: &Plan, results: &Results, out: &Path) -> Resul
             group: format!("{} deg of {}", turn.abs(), direction(turn > 0)),
             name: o.case.resolved.name(),
             share: o.case.resolved.rod_share(),
-            snapshot: o.snapshot.clone(),
+            pose: o.pose.clone(),
         })
         .collect();
     let caption = "The equilibria of seed 0 in space, each in the plane in which it buckled; the \

@@ -2,7 +2,7 @@
 
 use super::ringdown::{self, RingDown};
 use super::variant::Variant;
-use crate::figures::viewer::Snapshot;
+use crate::figures::viewer::Pose;
 use crate::run::{run_to_end, scenario};
 use actin_sim::{
     Assembly, DragRates, End, Equilibrium, ForceLaw, Outcome, Record, Scene, Section, Task,
@@ -54,7 +54,7 @@ pub(super) struct Result4 {
     pub time_ns: f64,
     pub force_evaluations: u64,
     /// The state at the end.
-    pub snapshot: Snapshot,
+    pub pose: Pose,
 }
 
 /// An equilibrium by Newton's method.
@@ -195,7 +195,7 @@ impl Case {
             converged: report.has_converged(),
             time_ns: last.at.value(),
             force_evaluations: report.force_evaluations,
-            snapshot: Snapshot::of(&assembly, &last.state),
+            pose: Pose::of(&assembly, &last.state),
         })
     }
 }

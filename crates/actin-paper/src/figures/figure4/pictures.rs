@@ -46,7 +46,7 @@ pub(super) fn view_in_space(results: &[Result4], out: &Path) -> Result<View, Str
             group: r.case.variant.words(),
             name: r.case.name(),
             share: r.case.rod_share(),
-            snapshot: r.snapshot.clone(),
+            pose: r.pose.clone(),
         })
         .collect();
     let caption = "Where the damped motions came to rest, in space: monomers with their own \

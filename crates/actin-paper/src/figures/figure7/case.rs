@@ -1,6 +1,6 @@
 //! One filament turned in its middle: its scene, and what its two halves store.
 
-use crate::figures::viewer::Snapshot;
+use crate::figures::viewer::Pose;
 use crate::run::{run_to_end, scenario};
 use actin_sim::shape::{ProfilePoint, Ribbon, profile};
 use actin_sim::{Assembly, Hold, Monomers, Part, RodLaw, Scene, Slides};
@@ -57,7 +57,7 @@ pub(super) struct Halves {
     pub residual: (f64, f64),
     /// Arc length from the middle (nm), towards the over-twisted half, and energy per length (pN).
     pub profile: Vec<(f64, f64)>,
-    pub snapshot: Snapshot,
+    pub pose: Pose,
 }
 
 impl Halves {
@@ -187,7 +187,7 @@ impl Case {
             doubtful: 0,
             residual: (0.0, 0.0),
             profile,
-            snapshot: Snapshot::of(assembly, assembly.system.state()),
+            pose: Pose::of(assembly, assembly.system.state()),
         }
     }
 }

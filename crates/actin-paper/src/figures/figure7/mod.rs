@@ -170,7 +170,7 @@ fn view(results: &[Halves], out: &Path) -> Result<View, String> {
                 group: "both ends held".into(),
                 name: kind,
                 share,
-                snapshot: h.snapshot.clone(),
+                pose: h.pose.clone(),
             })
         })
         .collect();

@@ -57,7 +57,7 @@ pub(super) fn view_in_space(
             group: "equilibria".into(),
             name: o.case.name(),
             share: o.case.rod_share(),
-            snapshot: o.lowest.snapshot.clone(),
+            pose: o.lowest.pose.clone(),
         })
         .collect();
     let caption = "The certified equilibria in space, with their linkers and the fixed anchors. \

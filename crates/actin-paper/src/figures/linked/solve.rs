@@ -2,7 +2,7 @@
 
 use super::case::Case;
 use super::centre_line::CentreLine;
-use crate::figures::viewer::Snapshot;
+use crate::figures::viewer::Pose;
 use crate::run::run_to_end;
 use actin_sim::{Assembly, Equilibrium, Failure, Plan, Record, RunError, Scene, Task, Trajectory};
 
@@ -33,7 +33,7 @@ pub(super) struct Balance {
     pub forces: Vec<f64>,
     /// Turn of the body that holds the second linker, from how it was built (deg).
     pub roll: f64,
-    pub snapshot: Snapshot,
+    pub pose: Pose,
 }
 
 /// A damped motion that has come to rest.
@@ -169,7 +169,7 @@ fn describe(assembly: &Assembly, last: &Record, report: &actin_sim::Outcome) -> 
             .map(|l| l.force(&last.state).norm())
             .collect(),
         roll: turned.angle().to_degrees(),
-        snapshot: Snapshot::of(assembly, &last.state),
+        pose: Pose::of(assembly, &last.state),
     }
 }
 

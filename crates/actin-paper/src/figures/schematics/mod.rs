@@ -15,7 +15,7 @@ pub(super) use models::reproduce as figure1;
 
 pub(in crate::figures) use filament::Drawn;
 
-use super::viewer::{self, Attitude, Shown, Snapshot};
+use super::viewer::{self, Attitude, Pose, Shown};
 use actin_draw::report::{Artefact, Picture, Row, save};
 use actin_draw::scene3d::Sheet;
 use solved::Solved;
@@ -61,6 +61,6 @@ fn shown(solved: &Solved) -> Shown {
         name: solved.name.rsplit('/').next().unwrap_or(solved.name).into(),
         // Monomers are 2.7 nm apart, segments 10 nm long or less: of what there is more.
         share: rods / (rods + counts.monomers as f64),
-        snapshot: Snapshot::of(&solved.assembly, solved.assembly.system.state()),
+        pose: Pose::of(&solved.assembly, solved.assembly.system.state()),
     }
 }

@@ -4,9 +4,9 @@
 //! palette.
 
 mod bonds;
-mod snapshot;
+mod pose;
 
-pub(super) use snapshot::Snapshot;
+pub(super) use pose::Pose;
 
 use actin_draw::report::{View, save};
 use serde::Serialize;
@@ -22,7 +22,7 @@ pub(super) struct Shown {
     /// Share of rod, for the colour among the group.
     pub share: f64,
     #[serde(flatten)]
-    pub snapshot: Snapshot,
+    pub pose: Pose,
 }
 
 /// From where a filament is seen first: towards the viewer, and what points upwards.
@@ -68,12 +68,12 @@ pub(super) fn write(
     if states.is_empty() {
         return Err(format!("{file}: no states to show"));
     }
-    if let Some(bad) = states.iter().find(|s| !s.snapshot.is_finite()) {
+    if let Some(bad) = states.iter().find(|s| !s.pose.is_finite()) {
         return Err(format!("{file}: {} {} is not finite", bad.group, bad.name));
     }
     let (mut bonds, mut states) = (Vec::new(), states.to_vec());
     for state in &mut states {
-        state.snapshot.share_bonds(&mut bonds);
+        state.pose.share_bonds(&mut bonds);
     }
     let view = File {
         attitude,
@@ -114,12 +114,12 @@ mod tests {
             group: "a".into(),
             name: "b".into(),
             share: 0.5,
-            snapshot: Snapshot::of(assembly, assembly.system.state()),
+            pose: Pose::of(assembly, assembly.system.state()),
         }
     }
 
-    fn monomers(snapshot: &Snapshot) -> Vec<[f64; 7]> {
-        let strands = snapshot.strands.iter();
+    fn monomers(pose: &Pose) -> Vec<[f64; 7]> {
+        let strands = pose.strands.iter();
         strands.flat_map(|s| s.monomers.clone()).collect()
     }
 
@@ -127,20 +127,20 @@ mod tests {
     /// of the plausible bugs: a rod one node short, monomers in the order of something else, a
     /// quaternion with its scalar last, nothing but the first filament.
     #[test]
-    fn a_snapshot_holds_the_bodies_of_the_assembly() {
+    fn a_pose_holds_the_bodies_of_the_assembly() {
         for assembly in [mixed(), built("crosslinked.ron")] {
-            let snapshot = shown(&assembly).snapshot;
+            let pose = shown(&assembly).pose;
             let counts = assembly.counts();
-            let monomers = monomers(&snapshot);
+            let monomers = monomers(&pose);
             assert_eq!(monomers.len(), counts.monomers);
-            let segments: usize = snapshot.rods.iter().map(|rod| rod.frames.len()).sum();
+            let segments: usize = pose.rods.iter().map(|rod| rod.frames.len()).sum();
             assert_eq!(segments, counts.segments);
-            let mut rods = snapshot.rods.iter();
+            let mut rods = pose.rods.iter();
             assert!(rods.all(|r| r.nodes.len() == r.frames.len() + 1));
-            assert_eq!(snapshot.junctions.len(), assembly.junction_bonds().len());
-            assert_eq!(snapshot.linkers.len(), assembly.linkers.len());
-            assert_eq!(snapshot.clamps.len(), assembly.clamps.len());
-            let lines: Vec<usize> = snapshot.lines.iter().map(Vec::len).collect();
+            assert_eq!(pose.junctions.len(), assembly.junction_bonds().len());
+            assert_eq!(pose.linkers.len(), assembly.linkers.len());
+            assert_eq!(pose.clamps.len(), assembly.clamps.len());
+            let lines: Vec<usize> = pose.lines.iter().map(Vec::len).collect();
             let spans = assembly.filaments.iter().map(|f| f.points.len());
             assert!(lines.into_iter().eq(spans));
             let state = assembly.system.state();
@@ -154,7 +154,7 @@ mod tests {
                 assert!((state.frames.orientation.get(frame).w - w).abs() < 1e-4);
             }
             // What is built straight lies on its axis, each filament on its own.
-            for (line, filament) in snapshot.lines.iter().zip(&assembly.filaments) {
+            for (line, filament) in pose.lines.iter().zip(&assembly.filaments) {
                 let off_axis = |p: &[f64; 3]| {
                     let place = filament.seen_along_z(Vector3::from(*p));
                     place.x.hypot(place.y)
@@ -169,22 +169,22 @@ mod tests {
     #[test]
     fn linked_filaments_keep_their_sites_and_bonds_apart() {
         let assembly = built("crosslinked.ron");
-        let mut snapshot = shown(&assembly).snapshot;
-        assert!(snapshot.anchors.is_empty() && snapshot.linkers.len() == 4);
+        let mut pose = shown(&assembly).pose;
+        assert!(pose.anchors.is_empty() && pose.linkers.len() == 4);
         // The gaps of 8.4 nm between sites on neighbouring filaments.
-        for [ax, ay, az, bx, by, bz] in &snapshot.linkers {
+        for [ax, ay, az, bx, by, bz] in &pose.linkers {
             let gap = Vector3::new(bx - ax, by - ay, bz - az).norm();
             assert!((gap - 8.4).abs() < 0.02, "{gap}");
         }
-        let sets = |snapshot: &mut Snapshot| -> Vec<usize> {
-            snapshot.share_bonds(&mut Vec::new());
-            snapshot.strands.iter().map(|s| s.bonds).collect()
+        let sets = |pose: &mut Pose| -> Vec<usize> {
+            pose.share_bonds(&mut Vec::new());
+            pose.strands.iter().map(|s| s.bonds).collect()
         };
-        assert_eq!(sets(&mut snapshot), [0; 5]);
+        assert_eq!(sets(&mut pose), [0; 5]);
         let drawn = "monomers: Monomers(anchors: Independent), sections: [";
         let drawn = assembled(&text("crosslinked.ron").replace("sections: [", drawn));
-        assert_eq!(sets(&mut shown(&drawn).snapshot), [0, 1, 1, 2, 2]);
-        let anchored = shown(&mixed()).snapshot;
+        assert_eq!(sets(&mut shown(&drawn).pose), [0, 1, 1, 2, 2]);
+        let anchored = shown(&mixed()).pose;
         assert_eq!(anchored.anchors.len(), anchored.linkers.len());
     }
 
@@ -193,10 +193,10 @@ mod tests {
     #[test]
     fn bonds_of_the_viewer_are_those_that_act() {
         let assembly = mixed();
-        let mut snapshot = shown(&assembly).snapshot;
+        let mut pose = shown(&assembly).pose;
         let mut sets = Vec::new();
-        snapshot.share_bonds(&mut sets);
-        let strand = &snapshot.strands[0];
+        pose.share_bonds(&mut sets);
+        let strand = &pose.strands[0];
         let to_lab = |k: usize, anchor: &[i16]| {
             let [x, y, z, w, i, j, l] = strand.monomers[k];
             let arm = Vector3::from_iterator(anchor.iter().map(|a| f64::from(*a) * 1e-2));
@@ -237,11 +237,11 @@ mod tests {
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
         let strand = &value["states"][0]["strands"][0];
         let monomers = strand["monomers"].as_array().unwrap();
-        assert_eq!(monomers.len(), shown.snapshot.strands[0].monomers.len());
+        assert_eq!(monomers.len(), shown.pose.strands[0].monomers.len());
         assert!(!text.contains("null"));
         // A body takes 7 numbers, and 3 for its centre line, of at most 8 characters each; a monomer
         // 16 bonds of 6 numbers of at most 5 characters, and as many names of its place.
-        let bodies = shown.snapshot.lines[0].len();
+        let bodies = shown.pose.lines[0].len();
         let all = value["states"][0]["strands"].as_array().unwrap().iter();
         let all: usize = all.map(|s| s["monomers"].as_array().unwrap().len()).sum();
         assert!(text.len() < 100 * bodies + 500 * all + 1000);
@@ -251,7 +251,7 @@ mod tests {
         let twice = std::fs::read_to_string(folder.path().join(&view.file)).unwrap();
         assert!(twice.len() - text.len() < 100 * bodies + 1000);
         let mut bad = shown;
-        bad.snapshot.strands[0].monomers[0][0] = f64::NAN;
+        bad.pose.strands[0].monomers[0][0] = f64::NAN;
         let refused = write("a", Attitude::LYING, &[bad], "c".into(), folder.path());
         assert!(refused.unwrap_err().contains("not finite"));
         assert!(write("a", Attitude::LYING, &[], "c".into(), folder.path()).is_err());

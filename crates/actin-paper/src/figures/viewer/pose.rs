@@ -14,7 +14,7 @@ const PER_UNIT: f64 = 1e4;
 
 /// Bodies and what holds and pulls them (nm, pN, lab frame).
 #[derive(Clone, Debug, Default, Serialize)]
-pub(crate) struct Snapshot {
+pub(crate) struct Pose {
     /// Sections of monomers.
     pub strands: Vec<Strand>,
     /// Radius of the cross-section of rods.
@@ -62,7 +62,7 @@ pub(crate) struct Rod {
 /// Half the width of the plate at a held end (nm).
 const PLATE_NM: f64 = 6.0;
 
-impl Snapshot {
+impl Pose {
     /// What is seen of `state`.
     pub(crate) fn of(assembly: &Assembly, state: &State) -> Self {
         let drawn = Drawn::in_state(assembly, state);
