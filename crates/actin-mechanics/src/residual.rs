@@ -4,6 +4,7 @@
 /// torque, over bodies that move together the norm of their resultant along the directions in which they
 /// move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Residual {
     /// Largest force (pN).
     pub force: f64,

@@ -11,7 +11,7 @@ use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure,
     PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
 };
-use actin_mechanics::{Loads, State, System};
+use actin_mechanics::{Loads, Residual, State, System};
 use std::ops::ControlFlow;
 
 /// Forces left over that are a larger share of a load hide it.
@@ -31,9 +31,9 @@ pub struct EquilibriumReport {
     pub points: usize,
     /// Force (pN) and torque (pN nm) that rounding leaves, if the last equilibrium ended there and not
     /// within its tolerance.
-    pub floor: Option<(f64, f64)>,
+    pub floor: Option<Residual>,
     /// Residual force (pN) and torque (pN nm) before each Newton step of the last equilibrium.
-    pub history: Vec<(f64, f64)>,
+    pub history: Vec<Residual>,
 }
 
 /// Solves for the equilibrium, or follows the path.
@@ -323,12 +323,11 @@ impl<'a> Follower<'a> {
         self.position.saddles_left += equilibrium.saddles_left;
         self.position.last = Some(Arrival {
             certificate: equilibrium.certificate,
-            floor: (equilibrium.ending == Convergence::FloorReached)
-                .then_some((equilibrium.floor.force, equilibrium.floor.torque)),
+            floor: (equilibrium.ending == Convergence::FloorReached).then_some(equilibrium.floor),
             history: equilibrium
                 .history
                 .iter()
-                .map(|step| (step.residual.force, step.residual.torque))
+                .map(|step| step.residual)
                 .collect(),
         });
         ControlFlow::Continue(())

@@ -5,7 +5,7 @@
 use super::{At, Record, Recorded, SaddlePush, Trajectory};
 use actin_equilibrium::{Certificate, PathCheckpoint, SolverWork};
 use actin_integrate::Checkpoint;
-use actin_mechanics::{Motion, State};
+use actin_mechanics::{Motion, Residual, State};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
@@ -122,9 +122,9 @@ pub struct Arrival {
     /// Counts of eigenvalues.
     pub certificate: Option<Certificate>,
     /// Force (pN) and torque (pN nm) that rounding leaves, if it ended there and not within its tolerance.
-    pub floor: Option<(f64, f64)>,
+    pub floor: Option<Residual>,
     /// Residual force (pN) and torque (pN nm) before each Newton step.
-    pub history: Vec<(f64, f64)>,
+    pub history: Vec<Residual>,
 }
 
 /// An interrupted run.

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{Assembly, End, Outcome, Record, shape};
 use actin_equilibrium::Certificate;
-use actin_mechanics::Loads;
+use actin_mechanics::{Loads, Residual};
 
 impl Summary {
     /// The summary of a run of `assembly` that ended with the record `last`.
@@ -39,7 +39,10 @@ impl Summary {
             beyond_use: outcome.beyond_use.clone(),
             linkers: LinkerSummary::all(assembly, &last.state),
             shape: first.shape,
-            residual: (last.residual_force_pn, last.residual_torque_pn_nm).into(),
+            residual: ResidualSummary {
+                force_pn: last.residual_force_pn,
+                torque_pn_nm: last.residual_torque_pn_nm,
+            },
             residual_floor: equilibrium.and_then(|e| e.floor).map(Into::into),
             thermal: ThermalSummary::new(assembly, &kinetic),
             lowest_stiffness_eigenvalue: equilibrium.and_then(|e| e.lowest_eigenvalue),
@@ -112,11 +115,11 @@ impl StabilitySummary {
     }
 }
 
-impl From<(f64, f64)> for ResidualSummary {
-    fn from((force_pn, torque_pn_nm): (f64, f64)) -> Self {
+impl From<Residual> for ResidualSummary {
+    fn from(residual: Residual) -> Self {
         Self {
-            force_pn,
-            torque_pn_nm,
+            force_pn: residual.force,
+            torque_pn_nm: residual.torque,
         }
     }
 }
