@@ -39,10 +39,7 @@ impl Summary {
             beyond_use: outcome.beyond_use.clone(),
             linkers: LinkerSummary::all(assembly, &last.state),
             shape: first.shape,
-            residual: ResidualSummary {
-                force_pn: last.residual_force_pn,
-                torque_pn_nm: last.residual_torque_pn_nm,
-            },
+            residual: ResidualSummary::of(last),
             residual_floor: equilibrium.and_then(|e| e.floor).map(Into::into),
             thermal: ThermalSummary::new(assembly, &kinetic),
             lowest_stiffness_eigenvalue: equilibrium.and_then(|e| e.lowest_eigenvalue),
@@ -111,6 +108,15 @@ impl StabilitySummary {
             negative_eigenvalues: certificate.negative,
             unresolved_eigenvalues: certificate.unresolved,
             resolution_pn_per_nm: certificate.resolution,
+        }
+    }
+}
+
+impl ResidualSummary {
+    fn of(record: &Record) -> Self {
+        Self {
+            force_pn: record.residual_force_pn,
+            torque_pn_nm: record.residual_torque_pn_nm,
         }
     }
 }
