@@ -17,6 +17,7 @@
 struct Readme;
 
 mod bonds;
+mod cell;
 pub mod constants;
 mod cubature;
 mod ellipsoid;
@@ -32,6 +33,7 @@ mod stream;
 mod table;
 
 pub use bonds::{Bonds, Pair};
+pub use cell::{Cell, CellError, CellResponse, Control, Displacements, Hold, SixMatrix, SixVector};
 pub use cubature::{Cubature, CubatureError, CubaturePoint, MomentCheck};
 pub use ellipsoid::Ellipsoid;
 pub use helix::{Helix, Neighbour};

@@ -1,0 +1,137 @@
+//! Rotations and translations of the rotation group as functions of a rotation vector, with first
+//! and second derivatives.
+
+use actin_mechanics::{Matrix3, Vector3};
+
+/// Terms of the series of the last two functions: enough for angles up to pi to round-off.
+const TERMS: u32 = 16;
+
+/// The Stumpff functions `c_n(p) = sum_k (-p)^k / (2 k + n)!` for `n` from 0 to 7.
+///
+/// `c_0 = cos(a)`, `c_1 = sin(a)/a`, `c_2 = (1 - cos(a))/a^2`, `c_3 = (a - sin(a))/a^3` at
+/// `p = a^2`. The last two come from their series, the others from `c_n = 1/n! - p c_{n+2}`: relative
+/// error below 1e-13 for `p` up to 10.
+fn stumpff(p: f64) -> [f64; 8] {
+    let series = |n: u32| {
+        let mut sum = 0.0;
+        for k in (1..=TERMS).rev() {
+            let divisor = f64::from((2 * k + n) * (2 * k + n - 1));
+            sum = -p / divisor * (1.0 + sum);
+        }
+        1.0 + sum
+    };
+    let mut c = [0.0; 8];
+    c[7] = series(7) / 5040.0;
+    c[6] = series(6) / 720.0;
+    let mut factorial = 120.0;
+    for n in (0..6).rev() {
+        c[n] = 1.0 / factorial - p * c[n + 2];
+        factorial /= (n as f64).max(1.0);
+    }
+    c
+}
+
+/// `(n c_{n+2} - c_{n+1}) / 2` for each `n`: the derivatives of Stumpff functions by `p`.
+fn slopes<const N: usize, const M: usize>(c: &[f64; N]) -> [f64; M] {
+    std::array::from_fn(|n| 0.5 * (n as f64 * c[n + 2] - c[n + 1]))
+}
+
+/// A matrix that depends on a rotation vector `w` (rad), with its derivatives.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MatrixJet {
+    /// The matrix.
+    pub(super) value: Matrix3,
+    /// Its derivatives by the components of `w`.
+    pub(super) first: [Matrix3; 3],
+    /// Its second derivatives, both orders of a mixed one.
+    pub(super) second: [[Matrix3; 3]; 3],
+}
+
+impl MatrixJet {
+    /// The rotation by `w`, `exp([w]x)`.
+    pub(super) fn rotation(w: Vector3) -> Self {
+        Self::of(w, 0)
+    }
+
+    /// The left Jacobian `J_l(w)`: the mean of the rotations by `t w`, `t` from 0 to 1.
+    ///
+    /// A curve whose direction turns evenly, by `w` in all, ends at `J_l(w) v` if it starts along `v`
+    /// and would without turning end there.
+    pub(super) fn left_jacobian(w: Vector3) -> Self {
+        Self::of(w, 1)
+    }
+
+    /// `c_n 1 + c_{n+1} [w]x + c_{n+2} w w^T`.
+    fn of(w: Vector3, n: usize) -> Self {
+        let c = stumpff(w.norm_squared());
+        let first: [f64; 6] = slopes(&c);
+        let second: [f64; 4] = slopes(&first);
+        let (cross, outer) = (w.cross_matrix(), w * w.transpose());
+        let sum = |k: &[f64]| Matrix3::identity() * k[n] + cross * k[n + 1] + outer * k[n + 2];
+        let unit = |a| Vector3::ith(a, 1.0);
+        let turned = |a: usize| unit(a).cross_matrix();
+        let along = |a: usize| unit(a) * w.transpose() + w * unit(a).transpose();
+        // Derivatives of the last two terms at fixed coefficients.
+        let partial = |k: &[f64], a: usize| turned(a) * k[n + 1] + along(a) * k[n + 2];
+        let [by_p, by_p_twice] = [sum(&first), sum(&second)];
+        let mixed = |a: usize, b: usize| {
+            let both = unit(a) * unit(b).transpose() + unit(b) * unit(a).transpose();
+            let diagonal = if a == b { 2.0 } else { 0.0 };
+            by_p_twice * (4.0 * w[a] * w[b])
+                + by_p * diagonal
+                + partial(&first, b) * (2.0 * w[a])
+                + partial(&first, a) * (2.0 * w[b])
+                + both * c[n + 2]
+        };
+        Self {
+            value: sum(&c),
+            first: std::array::from_fn(|a| by_p * (2.0 * w[a]) + partial(&c, a)),
+            second: std::array::from_fn(|a| std::array::from_fn(|b| mixed(a, b))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use actin_mechanics::rotation;
+    use actin_mechanics::testing::derivative;
+
+    const TURNS: [[f64; 3]; 4] = [
+        [0.0, 0.0, 0.0],
+        [1e-9, 2e-9, -3e-9],
+        [0.2, -0.5, 0.1],
+        [1.5, 1.0, -2.0],
+    ];
+
+    /// The rotation is that of the quaternion, and the Jacobian the inverse of its inverse.
+    #[test]
+    fn values_are_those_of_the_rotation_group() {
+        for turn in TURNS.map(Vector3::from) {
+            let expected = rotation::exp(turn).to_rotation_matrix().into_inner();
+            assert!((MatrixJet::rotation(turn).value - expected).norm() < 1e-13);
+            let inverse = rotation::right_jacobian_inverse(turn).transpose();
+            let product = MatrixJet::left_jacobian(turn).value * inverse;
+            assert!((product - Matrix3::identity()).norm() < 1e-13);
+        }
+    }
+
+    /// Eight-point differences have an error of about 1e-12 here.
+    #[test]
+    fn jets_hold_the_derivatives() {
+        for turn in TURNS.map(Vector3::from) {
+            for of in [MatrixJet::rotation, MatrixJet::left_jacobian] {
+                let jet = of(turn);
+                for a in 0..3 {
+                    let at = |h: f64| of(turn + Vector3::ith(a, h));
+                    let first = derivative(0.02, |h| at(h).value);
+                    assert!((jet.first[a] - first).norm() < 1e-11, "{turn}");
+                    for b in 0..3 {
+                        let second = derivative(0.02, |h| at(h).first[b]);
+                        assert!((jet.second[a][b] - second).norm() < 1e-11, "{turn}");
+                    }
+                }
+            }
+        }
+    }
+}

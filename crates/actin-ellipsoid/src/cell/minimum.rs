@@ -1,0 +1,237 @@
+//! The least energy of a cell under given strains and loads: Newton's method with damping.
+
+use super::pairs::Derivatives;
+use super::{Cell, CellError, Displacements, STRAINS, SixVector};
+use nalgebra::linalg::{Cholesky, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, Dyn};
+
+/// Largest residual force (pN) or couple (pN nm) on a monomer: a hundred times what rounding leaves.
+const ALLOWED: f64 = 1e-9;
+/// Newton steps before the search is given up.
+const MOST_STEPS: usize = 400;
+/// Largest displacement (nm) or turn (rad) of a step.
+const LONGEST: f64 = 0.2;
+/// Share of the slope that a step must gain at least.
+const ARMIJO: f64 = 1e-4;
+/// Share of the energy below which a promised gain is lost in rounding.
+const ROUNDING: f64 = 1e-12;
+/// Stiffness (pN/nm) of the conditions that hold the cell to its axis: of the size of the others. The
+/// minimum does not depend on it.
+const HOLDING: f64 = 1e3;
+/// Stiffness (pN/nm) below which a mode counts as one of no stiffness.
+const MARGINAL: f64 = 1e-6;
+/// How far (nm, rad) a saddle is left along its most unstable mode.
+const KICK: f64 = 0.02;
+
+/// Where a cell is.
+#[derive(Clone, Debug)]
+pub(super) struct CellState {
+    pub(super) coordinates: Displacements,
+    pub(super) strain: SixVector,
+}
+
+/// What is minimised: the energy less the work of the given loads on the free strains.
+#[derive(Debug)]
+pub(super) struct Problem<'a> {
+    pub(super) cell: &'a Cell,
+    /// Strains that are free.
+    pub(super) free: Vec<usize>,
+    /// Loads: those of the free strains count.
+    pub(super) loads: SixVector,
+}
+
+/// A minimum, and how it was found.
+#[derive(Debug)]
+pub(super) struct Minimum {
+    pub(super) state: CellState,
+    pub(super) derivatives: Derivatives,
+    pub(super) iterations: usize,
+}
+
+impl Problem<'_> {
+    /// Number of unknowns.
+    fn size(&self) -> usize {
+        self.cell.coordinates() + self.free.len()
+    }
+
+    /// Where the unknown `k` stands among the coordinates and strains.
+    fn place(&self, k: usize) -> usize {
+        let coordinates = self.cell.coordinates();
+        k.checked_sub(coordinates)
+            .map_or(k, |k| coordinates + self.free[k])
+    }
+
+    /// Work of the loads (pN nm).
+    fn work(&self, strain: &SixVector) -> f64 {
+        let work = |&k: &usize| self.loads[k] * strain[k];
+        self.free.iter().map(work).sum::<f64>() * self.cell.length()
+    }
+
+    fn energy(&self, state: &CellState) -> f64 {
+        self.cell.energy(&state.coordinates, &state.strain) - self.work(&state.strain)
+    }
+
+    /// Gradient and second derivatives by the unknowns, along what is not held; the second
+    /// derivatives across it are those of springs, so that they can be inverted.
+    fn reduce(&self, all: &Derivatives) -> (DVector<f64>, DMatrix<f64>) {
+        let (size, coordinates) = (self.size(), self.cell.coordinates());
+        let mut gradient = DVector::from_fn(size, |k, _| all.gradient[self.place(k)]);
+        for (k, &strain) in self.free.iter().enumerate() {
+            gradient[coordinates + k] -= self.cell.length() * self.loads[strain];
+        }
+        let hessian = DMatrix::from_fn(size, size, |i, j| {
+            all.hessian[(self.place(i), self.place(j))]
+        });
+        self.cell.project_vector(&mut gradient);
+        (gradient, self.cell.project(hessian))
+    }
+
+    /// The state a step further, `share` of it.
+    fn moved(&self, from: &CellState, step: &DVector<f64>, share: f64) -> CellState {
+        let coordinates = self.cell.coordinates();
+        let mut state = from.clone();
+        state.coordinates += step.rows(0, coordinates) * share;
+        for (k, &strain) in self.free.iter().enumerate() {
+            state.strain[strain] += share * step[coordinates + k];
+        }
+        state
+    }
+
+    /// The minimum that is reached from `start`.
+    pub(super) fn minimise(&self, start: CellState) -> Result<Minimum, CellError> {
+        let mut state = start;
+        let mut residual = f64::INFINITY;
+        for iterations in 0..MOST_STEPS {
+            let derivatives = self.cell.derivatives(&state.coordinates, &state.strain);
+            let (gradient, hessian) = self.reduce(&derivatives);
+            residual = gradient.amax();
+            let step = if residual > ALLOWED {
+                newton_step(&gradient, &hessian)
+            } else if let Some(mode) = unstable_mode(hessian) {
+                self.kick(&state, &mode)
+            } else {
+                return Ok(Minimum {
+                    state,
+                    derivatives,
+                    iterations,
+                });
+            };
+            let energy = derivatives.energy - self.work(&state.strain);
+            let slope = gradient.dot(&step);
+            state = self.search(&state, &step, energy, slope);
+        }
+        Err(CellError::NoMinimum {
+            strain: state.strain.into(),
+            residual,
+            allowed: ALLOWED,
+            iterations: MOST_STEPS,
+        })
+    }
+
+    /// The state along a step that gains enough. A promise that is lost in rounding is not checked.
+    fn search(&self, from: &CellState, step: &DVector<f64>, energy: f64, slope: f64) -> CellState {
+        let mut share = 1.0;
+        loop {
+            let state = self.moved(from, step, share);
+            let gain = share * slope;
+            let lost = ROUNDING * (1.0 + energy.abs());
+            if gain.abs() < lost || self.energy(&state) <= energy + ARMIJO * gain {
+                return state;
+            }
+            share *= 0.5;
+        }
+    }
+
+    /// The step along an unstable mode, to the side where the energy is less.
+    fn kick(&self, state: &CellState, mode: &DVector<f64>) -> DVector<f64> {
+        let step = mode * (KICK / mode.amax());
+        let side = |sign: f64| self.energy(&self.moved(state, &step, sign));
+        if side(1.0) <= side(-1.0) { step } else { -step }
+    }
+}
+
+/// The step to the minimum of the local paraboloid; where that has none, of a steeper one.
+fn newton_step(gradient: &DVector<f64>, hessian: &DMatrix<f64>) -> DVector<f64> {
+    let mut damping = 0.0;
+    let factor = loop {
+        if let Some(factor) = factor(hessian, damping) {
+            break factor;
+        }
+        damping = f64::max(4.0 * damping, 1e-3);
+    };
+    let step = -factor.solve(gradient);
+    let longest = step.amax();
+    step * (LONGEST / longest).min(1.0)
+}
+
+/// The Cholesky factor with `damping` added to the diagonal, if there is one without pivots that are
+/// lost in rounding.
+fn factor(hessian: &DMatrix<f64>, damping: f64) -> Option<Cholesky<f64, Dyn>> {
+    let mut damped = hessian.clone();
+    for k in 0..damped.nrows() {
+        damped[(k, k)] += damping;
+    }
+    let factor = Cholesky::new(damped)?;
+    let least = factor.l_dirty().diagonal().min();
+    (least * least > 1e-3 * MARGINAL).then_some(factor)
+}
+
+/// The mode of most negative stiffness, if there is any beyond rounding.
+fn unstable_mode(hessian: DMatrix<f64>) -> Option<DVector<f64>> {
+    if factor(&hessian, MARGINAL).is_some() {
+        return None;
+    }
+    let eigen = SymmetricEigen::new(hessian);
+    let (place, lowest) = eigen.eigenvalues.argmin();
+    (lowest < -MARGINAL).then(|| eigen.eigenvectors.column(place).into_owned())
+}
+
+impl Cell {
+    /// Takes from a vector of unknowns, coordinates first, what is held.
+    pub(super) fn project_vector(&self, vector: &mut DVector<f64>) {
+        let mut rows = vector.rows_mut(0, self.coordinates());
+        let along = &self.held * &rows;
+        rows -= self.held.tr_mul(&along);
+    }
+
+    /// `P K P + c A^T A`, `A` the rows that are held, `P = 1 - A^T A`, for a symmetric matrix of
+    /// unknowns, coordinates first.
+    pub(super) fn project(&self, mut matrix: DMatrix<f64>) -> DMatrix<f64> {
+        let coordinates = self.coordinates();
+        let rows = &self.held * matrix.rows(0, coordinates);
+        let corner = rows.columns(0, coordinates) * self.held.transpose();
+        // K - A^T (A K) - (A K)^T A + A^T (A K A^T + c) A
+        let mut held = DMatrix::zeros(self.held.nrows(), matrix.ncols());
+        held.columns_mut(0, coordinates).copy_from(&self.held);
+        let inner = corner + DMatrix::identity(6, 6) * HOLDING;
+        let half = inner * &held * 0.5 - rows;
+        let product = held.tr_mul(&half);
+        matrix += &product;
+        matrix += product.transpose();
+        matrix
+    }
+
+    /// Derivatives of the displacements by the strains at a minimum, one per column, and the Schur
+    /// complement: second derivatives of the least energy by the strains.
+    pub(super) fn condense(&self, all: &Derivatives) -> DMatrix<f64> {
+        let coordinates = self.coordinates();
+        let hessian = all
+            .hessian
+            .view((0, 0), (coordinates, coordinates))
+            .into_owned();
+        let hessian = self.project(hessian);
+        let mixed = all.hessian.view((0, coordinates), (coordinates, STRAINS));
+        let mixed = &mixed - self.held.tr_mul(&(&self.held * mixed));
+        let mut damping = 0.0;
+        let factor = loop {
+            if let Some(factor) = factor(&hessian, damping) {
+                break factor;
+            }
+            damping = f64::max(4.0 * damping, MARGINAL);
+        };
+        let corner = all
+            .hessian
+            .view((coordinates, coordinates), (STRAINS, STRAINS));
+        corner - mixed.tr_mul(&factor.solve(&mixed))
+    }
+}

@@ -1,0 +1,297 @@
+//! Energies of the pairs of a cell with first and second derivatives by all coordinates and strains.
+
+use super::jets::MatrixJet;
+use super::{Cell, PER_MONOMER, STRAINS, SixVector};
+use crate::Interface;
+use actin_mechanics::{Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector, SMatrix, SVector};
+
+/// Coordinates that the energy of a pair depends on: `u`, `w` of the lower and of the upper monomer,
+/// then the six strains.
+const OF_PAIR: usize = 2 * PER_MONOMER + STRAINS;
+type Row = SVector<f64, OF_PAIR>;
+type Square = SMatrix<f64, OF_PAIR, OF_PAIR>;
+/// How a bond's vector changes with the coordinates of its pair.
+type Gradients = SMatrix<f64, 3, OF_PAIR>;
+
+/// Two neighbours in a cell.
+#[derive(Clone, Debug)]
+pub(super) struct CellPair {
+    lower: usize,
+    upper: usize,
+    /// Lattice steps between them.
+    steps: usize,
+    bonds: Vec<CellBond>,
+}
+
+/// A bond, its ends relative to the centres and turned as the monomers are in the built filament.
+#[derive(Clone, Copy, Debug)]
+struct CellBond {
+    lower: Vector3,
+    upper: Vector3,
+    length: f64,
+    /// pN/nm.
+    stiffness: f64,
+}
+
+/// One monomer in the frame of its place.
+struct Body {
+    centre: Vector3,
+    turn: MatrixJet,
+}
+
+/// The motion along the axis from the lower to the upper monomer, as a function of the strains.
+struct Motion {
+    /// Steps times rise (nm).
+    length: f64,
+    rotation: MatrixJet,
+    /// The left Jacobian of the same turn.
+    jacobian: MatrixJet,
+    /// `e3 + sigma`.
+    direction: Vector3,
+}
+
+/// The energy of a cell (pN nm) and its derivatives by displacements and turns of all monomers, then by
+/// the strains.
+#[derive(Debug)]
+pub(super) struct Derivatives {
+    pub(super) energy: f64,
+    pub(super) gradient: DVector<f64>,
+    pub(super) hessian: DMatrix<f64>,
+}
+
+/// The same of one pair.
+struct OfPair {
+    energy: f64,
+    gradient: Row,
+    hessian: Square,
+}
+
+impl CellPair {
+    /// The pair of the cell's monomers `lower` and `upper`, whose orientations in the built filament are
+    /// `axes`.
+    pub(super) fn new(
+        [lower, upper]: [usize; 2],
+        interface: &Interface,
+        axes: [Matrix3; 2],
+        rigidity: f64,
+    ) -> Self {
+        let bonds = interface.bonds.iter().map(|bond| CellBond {
+            lower: axes[0] * bond.lower,
+            upper: axes[1] * bond.upper,
+            length: bond.rest_length,
+            stiffness: rigidity * bond.weight,
+        });
+        Self {
+            lower,
+            upper,
+            steps: interface.kind.steps(),
+            bonds: bonds.collect(),
+        }
+    }
+
+    /// Energy of the pair alone.
+    fn energy(&self, lower: &Body, upper: &Body, motion: &Motion) -> f64 {
+        let shift = motion.shift();
+        let energy = |bond: &CellBond| {
+            let end = motion.rotation.value * upper.end(bond.upper) + shift;
+            let stretch = (end - lower.end(bond.lower)).norm() - bond.length;
+            0.5 * bond.stiffness * stretch * stretch
+        };
+        self.bonds.iter().map(energy).sum()
+    }
+
+    /// Energy of the pair with its derivatives.
+    ///
+    /// With `d` a bond's vector, `r` its length and `G` its derivatives, the energy `k/2 (r - L)^2` has the
+    /// gradient `G^T f`, `f = k (1 - L/r) d`, and the second derivatives
+    /// `k (1 - L/r) G^T G + (k L / r^3) (G^T d) (G^T d)^T + f . d''`.
+    fn derivatives(&self, lower: &Body, upper: &Body, motion: &Motion) -> OfPair {
+        let mut gradient = Row::zeros();
+        let mut hessian = Square::zeros();
+        let mut energy = 0.0;
+        let mut curved = Curved::default();
+        let mut slopes = motion.slopes();
+        let shift = motion.shift();
+        let bend = motion.shift_by_curvature();
+        for bond in &self.bonds {
+            let end = upper.end(bond.upper);
+            let d = motion.rotation.value * end + shift - lower.end(bond.lower);
+            let r = d.norm().max(f64::MIN_POSITIVE);
+            for a in 0..3 {
+                let of_lower = lower.turn.first[a] * bond.lower;
+                slopes.set_column(3 + a, &-of_lower);
+                let of_upper = motion.rotation.value * (upper.turn.first[a] * bond.upper);
+                slopes.set_column(9 + a, &of_upper);
+                let of_bend = motion.rotation.first[a] * end * motion.length + bend.column(a);
+                slopes.set_column(12 + a, &of_bend);
+            }
+            let relative = bond.stiffness * (1.0 - bond.length / r);
+            let along: Row = slopes.tr_mul(&d);
+            energy += 0.5 * bond.stiffness * (r - bond.length).powi(2);
+            gradient += along * relative;
+            hessian += slopes.tr_mul(&slopes) * relative;
+            hessian.ger(
+                bond.stiffness * bond.length / (r * r * r),
+                &along,
+                &along,
+                1.0,
+            );
+            curved.add(relative * d, bond, end);
+        }
+        curved.add_to(&mut hessian, lower, upper, motion);
+        OfPair {
+            energy,
+            gradient,
+            hessian,
+        }
+    }
+}
+
+impl Body {
+    /// Where a point of the body is that is at `arm` from its centre in the built filament.
+    fn end(&self, arm: Vector3) -> Vector3 {
+        self.centre + self.turn.value * arm
+    }
+}
+
+impl Motion {
+    fn new(strain: &SixVector, length: f64) -> Self {
+        let turn = strain.fixed_rows::<3>(0) * length;
+        Self {
+            length,
+            rotation: MatrixJet::rotation(turn),
+            jacobian: MatrixJet::left_jacobian(turn),
+            direction: Vector3::z() + strain.fixed_rows::<3>(3),
+        }
+    }
+
+    /// The translation.
+    fn shift(&self) -> Vector3 {
+        self.jacobian.value * self.direction * self.length
+    }
+
+    /// Its derivatives by the curvature, one per column.
+    fn shift_by_curvature(&self) -> Matrix3 {
+        let square = self.length * self.length;
+        let column = |a: usize| self.jacobian.first[a] * self.direction * square;
+        Matrix3::from_columns(&[0, 1, 2].map(column))
+    }
+
+    /// The derivatives of a bond's vector that are the same for all bonds; the others are zero.
+    fn slopes(&self) -> Gradients {
+        let mut slopes = Gradients::zeros();
+        let mut set = |column: usize, block: Matrix3| {
+            slopes.fixed_view_mut::<3, 3>(0, column).copy_from(&block);
+        };
+        set(0, -Matrix3::identity());
+        set(6, self.rotation.value);
+        set(15, self.jacobian.value * self.length);
+        slopes
+    }
+}
+
+/// Sums over the bonds of a pair from which all `f . d''` follow.
+#[derive(Default)]
+struct Curved {
+    /// `f`.
+    force: Vector3,
+    /// `f a^T`, `f b^T` and `f y^T`, with the ends `a`, `b` as built and `y` the upper end where it is.
+    lower: Matrix3,
+    upper: Matrix3,
+    end: Matrix3,
+}
+
+impl Curved {
+    fn add(&mut self, force: Vector3, bond: &CellBond, end: Vector3) {
+        self.force += force;
+        self.lower += force * bond.lower.transpose();
+        self.upper += force * bond.upper.transpose();
+        self.end += force * end.transpose();
+    }
+
+    /// Adds `f . d''`, summed over the bonds.
+    fn add_to(&self, hessian: &mut Square, lower: &Body, upper: &Body, motion: &Motion) {
+        let length = motion.length;
+        let turned = motion.rotation.value.tr_mul(&self.upper);
+        let along = self.force * motion.direction.transpose();
+        for a in 0..3 {
+            let back = motion.rotation.first[a].transpose() * length;
+            let (place, arms) = (back * self.force, back * self.upper);
+            let shear = motion.jacobian.first[a].tr_mul(&self.force) * (length * length);
+            for b in 0..3 {
+                add_both(hessian, 12 + a, 6 + b, place[b]);
+                add_both(hessian, 12 + a, 9 + b, upper.turn.first[b].dot(&arms));
+                add_both(hessian, 12 + a, 15 + b, shear[b]);
+                // Both orders of these are met.
+                hessian[(3 + a, 3 + b)] -= lower.turn.second[a][b].dot(&self.lower);
+                hessian[(9 + a, 9 + b)] += upper.turn.second[a][b].dot(&turned);
+                let bend = motion.rotation.second[a][b].dot(&self.end)
+                    + motion.jacobian.second[a][b].dot(&along) * length;
+                hessian[(12 + a, 12 + b)] += bend * length * length;
+            }
+        }
+    }
+}
+
+/// Adds to an entry and to its mirror image.
+fn add_both(matrix: &mut Square, i: usize, j: usize, value: f64) {
+    matrix[(i, j)] += value;
+    matrix[(j, i)] += value;
+}
+
+impl Cell {
+    /// The bodies, and the motions of one and of two steps.
+    fn geometry(&self, coordinates: &DVector<f64>, strain: &SixVector) -> (Vec<Body>, [Motion; 2]) {
+        let body = |(i, offset): (usize, &Vector3)| Body {
+            centre: offset + coordinates.fixed_rows::<3>(PER_MONOMER * i),
+            turn: MatrixJet::rotation(coordinates.fixed_rows::<3>(PER_MONOMER * i + 3).into()),
+        };
+        let motions = [1.0, 2.0].map(|steps| Motion::new(strain, steps * self.rise));
+        (self.offsets.iter().enumerate().map(body).collect(), motions)
+    }
+
+    /// The energy of the cell (pN nm).
+    pub(super) fn energy(&self, coordinates: &DVector<f64>, strain: &SixVector) -> f64 {
+        let (bodies, motions) = self.geometry(coordinates, strain);
+        let energy = |pair: &CellPair| {
+            let motion = &motions[pair.steps - 1];
+            pair.energy(&bodies[pair.lower], &bodies[pair.upper], motion)
+        };
+        self.pairs.iter().map(energy).sum()
+    }
+
+    /// The energy of the cell with its derivatives.
+    pub(super) fn derivatives(
+        &self,
+        coordinates: &DVector<f64>,
+        strain: &SixVector,
+    ) -> Derivatives {
+        let (bodies, motions) = self.geometry(coordinates, strain);
+        let size = self.coordinates() + STRAINS;
+        let mut all = Derivatives {
+            energy: 0.0,
+            gradient: DVector::zeros(size),
+            hessian: DMatrix::zeros(size, size),
+        };
+        for pair in &self.pairs {
+            let motion = &motions[pair.steps - 1];
+            let of_pair = pair.derivatives(&bodies[pair.lower], &bodies[pair.upper], motion);
+            all.energy += of_pair.energy;
+            let places = [
+                pair.lower * PER_MONOMER,
+                pair.upper * PER_MONOMER,
+                size - STRAINS,
+            ];
+            for (i, row) in places.into_iter().enumerate() {
+                let mut gradient = all.gradient.fixed_rows_mut::<6>(row);
+                gradient += of_pair.gradient.fixed_rows::<6>(6 * i);
+                for (j, column) in places.into_iter().enumerate() {
+                    let mut block = all.hessian.fixed_view_mut::<6, 6>(row, column);
+                    block += of_pair.hessian.fixed_view::<6, 6>(6 * i, 6 * j);
+                }
+            }
+        }
+        all
+    }
+}
