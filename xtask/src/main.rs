@@ -13,6 +13,7 @@ mod docs;
 mod extremes;
 mod figures;
 mod fit;
+mod homogenise;
 mod tidy;
 mod tradeoff;
 mod trials;
@@ -42,6 +43,8 @@ enum Task {
     Extremes(extremes::Options),
     /// Fits a rod's laws to tables or to filaments of monomers.
     FitParameters(fit::Options),
+    /// Measures what monomers store per length under all strains, on a grid.
+    Homogenise(homogenise::Options),
     /// Computes figures and tables of the paper and compares them with it.
     ReproduceFigures(figures::Options),
     /// Checks or writes the generated pages of the book: keys of scenes, tables of results.
@@ -60,6 +63,7 @@ fn main() -> ExitCode {
         Task::Costs(options) => costs::run(options),
         Task::Extremes(options) => extremes::run(options),
         Task::FitParameters(options) => fit::run(options),
+        Task::Homogenise(options) => homogenise::run(options),
         Task::ReproduceFigures(options) => figures::run(options),
         Task::Docs(options) => docs::run(&options).map_err(anyhow::Error::msg),
         Task::Tradeoff(options) => tradeoff::run(options),

@@ -6,6 +6,7 @@
 //! - [`committed`]: how rows differ from those that the documents were written from.
 //! - [`fit`]: laws of the rod fitted to measured rows.
 //! - [`bonds`]: which bonds monomers have, and what depends on it.
+//! - [`homogenise`]: what monomers store per length under all six strains.
 //! - [`tradeoff`]: what each saving of time costs in accuracy.
 //! - [`extremes`]: every number of a scene, taken to where it breaks.
 //! - [`costs`]: what scenes cost, beside what was estimated.
@@ -25,6 +26,7 @@ pub mod costs;
 pub mod extremes;
 pub mod figures;
 pub mod fit;
+pub mod homogenise;
 pub mod measure;
 mod palette;
 mod published;

@@ -1,0 +1,82 @@
+//! Cells of the filaments that are compared, and shorthand for their strains.
+
+use actin_sim::ellipsoid::{
+    Anchors, Cell, CellResponse, Control, EllipsoidModel, EllipsoidParameters, Hold, SixVector,
+};
+
+/// Monomers of a cell of the mean filament: one period of its mean structure.
+pub(super) const PERIOD: usize = 13;
+/// Drawn bonds per interface.
+pub(super) const DRAWN: usize = 64;
+
+/// The cell of the mean filament, whose interfaces all have the default weighted bonds.
+pub(super) fn mean() -> Result<Cell, String> {
+    of(EllipsoidParameters::default(), PERIOD, Hold::Means)
+}
+
+/// The cell of a filament whose interfaces share one pattern of drawn bonds.
+pub(super) fn patterned(seed: u64) -> Result<Cell, String> {
+    let parameters = EllipsoidParameters {
+        anchors: Anchors::Identical,
+        ..EllipsoidParameters::drawn(DRAWN, seed)
+    };
+    of(parameters, PERIOD, Hold::Means)
+}
+
+/// The cell of a filament whose bonds are all drawn afresh.
+pub(super) fn drawn(seed: u64, monomers: usize) -> Result<Cell, String> {
+    of(
+        EllipsoidParameters::drawn(DRAWN, seed),
+        monomers,
+        Hold::Means,
+    )
+}
+
+/// A cell of any parameters.
+pub(super) fn of(
+    parameters: EllipsoidParameters,
+    monomers: usize,
+    hold: Hold,
+) -> Result<Cell, String> {
+    let model = EllipsoidModel::new(parameters).map_err(|e| e.to_string())?;
+    Cell::new(&model, monomers, hold).map_err(|e| e.to_string())
+}
+
+/// A force or couple of zero.
+pub(super) const FREE: Control = Control::Load(0.0);
+/// A strain of zero.
+pub(super) const NONE: Control = Control::Strain(0.0);
+
+/// The response under some strains and loads, from `start`, by default from rest.
+pub(super) fn relax(
+    cell: &Cell,
+    controls: [Control; 6],
+    start: Option<&CellResponse>,
+) -> Result<CellResponse, String> {
+    cell.relax_under(&controls, start)
+        .map_err(|e| e.to_string())
+}
+
+/// Steps in which twist is brought up (rad/nm).
+const TWIST_STEP: f64 = 5e-3;
+
+/// The straight filament of this twist (rad/nm) that is otherwise free.
+pub(super) fn twisted(cell: &Cell, twist: f64) -> Result<CellResponse, String> {
+    let steps = (twist.abs() / TWIST_STEP).ceil().max(1.0) as u32;
+    let mut response: Option<CellResponse> = None;
+    for k in 1..=steps {
+        let twist = Control::Strain(twist * f64::from(k) / f64::from(steps));
+        response = Some(relax(
+            cell,
+            [NONE, NONE, twist, FREE, FREE, FREE],
+            response.as_ref(),
+        )?);
+    }
+    response.ok_or_else(|| "no step of twist".to_owned())
+}
+
+/// The strain of this curvature, at `angle` (rad) from the direction of shear, twist, shear and stretch.
+pub(super) fn strain([curvature, twist, shear, stretch, angle]: [f64; 5]) -> SixVector {
+    let (sin, cos) = angle.sin_cos();
+    SixVector::new(curvature * cos, curvature * sin, twist, shear, 0.0, stretch)
+}

@@ -1,0 +1,56 @@
+//! `cargo xtask homogenise`: what a filament of monomers stores per length under all six strains.
+
+use actin_paper::homogenise;
+use std::path::PathBuf;
+
+/// What is computed, and where it goes.
+#[derive(clap::Args, Debug)]
+pub(crate) struct Options {
+    /// Parts to compute, all if none is named.
+    #[arg(value_enum)]
+    parts: Vec<Part>,
+    /// Where to write tables and pictures; slices of the grid that are there are kept.
+    #[arg(long, default_value = "target/homogenise")]
+    out: PathBuf,
+    /// A coarser grid and fewer samplings.
+    #[arg(long)]
+    quick: bool,
+    /// Samplings of drawn bonds.
+    #[arg(long)]
+    samplings: Option<u64>,
+}
+
+/// A part of the study.
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum Part {
+    /// Twist, stretch, bending and shear under tension, beside the paper's tables.
+    Checks,
+    /// Size of the cell, what ties it to its axis, number of samplings.
+    Variants,
+    /// Scatter over drawn bonds.
+    Scatter,
+    /// Energy, loads and tangent over all strains.
+    Grid,
+}
+
+impl From<Part> for homogenise::Part {
+    fn from(part: Part) -> Self {
+        match part {
+            Part::Checks => Self::Checks,
+            Part::Variants => Self::Variants,
+            Part::Scatter => Self::Scatter,
+            Part::Grid => Self::Grid,
+        }
+    }
+}
+
+/// Computes the parts, prints their tables and writes them.
+pub(crate) fn run(options: Options) -> Result<(), String> {
+    let options = homogenise::Options {
+        out: options.out,
+        quick: options.quick,
+        samplings: options.samplings,
+        parts: options.parts.into_iter().map(Into::into).collect(),
+    };
+    homogenise::run(&options, &|line| println!("{line}"))
+}
