@@ -31,6 +31,8 @@ enum Part {
     Scatter,
     /// Energy, loads and tangent over all strains.
     Grid,
+    /// A law of rods fitted to the grid.
+    Law,
 }
 
 impl From<Part> for homogenise::Part {
@@ -40,6 +42,7 @@ impl From<Part> for homogenise::Part {
             Part::Variants => Self::Variants,
             Part::Scatter => Self::Scatter,
             Part::Grid => Self::Grid,
+            Part::Law => Self::Law,
         }
     }
 }

@@ -28,6 +28,7 @@ mod energy_gradient;
 mod error;
 mod extended;
 mod fast;
+mod homogenised;
 mod key;
 mod law;
 mod layout;
@@ -45,6 +46,7 @@ pub use elements::{RodElements, RodJoint, RodSegment};
 pub use energy_gradient::EnergyGradient;
 pub use error::{RodError, RodParameterError};
 pub use extended::{JoinedElement, SegmentCurvature, SegmentLaw, TwistStability};
+pub use homogenised::{EnergyAndLoads, Homogenised, HomogenisedForm, Term};
 pub use key::RodKey;
 pub use law::{
     BendLaw, CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw,

@@ -221,7 +221,7 @@ impl Cell {
             .into_owned();
         let hessian = self.project(hessian);
         let mixed = all.hessian.view((0, coordinates), (coordinates, STRAINS));
-        let mixed = &mixed - self.held.tr_mul(&(&self.held * mixed));
+        let mixed = mixed - self.held.tr_mul(&(&self.held * mixed));
         let mut damping = 0.0;
         let factor = loop {
             if let Some(factor) = factor(&hessian, damping) {

@@ -90,17 +90,16 @@ impl Cell {
         if monomers < 3 || missing.abs() > 1e-9 {
             return Err(CellError::NoPeriod { monomers, missing });
         }
-        let place = |i: usize| {
-            let index = i64::try_from(i).expect("a cell is shorter than 2^63");
+        let place = |(index, _): (i64, usize)| {
             let height = Vector3::z() * helix.arc_length(index);
             let axes = helix.orientation(index).to_rotation_matrix().into_inner();
             (helix.centre(index) - height, axes)
         };
-        let places: Vec<_> = (0..monomers).map(place).collect();
+        let indices = || (0_i64..).zip(0..monomers);
+        let places: Vec<_> = indices().map(place).collect();
         let mut pairs = Vec::new();
-        for lower in 0..monomers {
+        for (index, lower) in indices() {
             for kind in InterfaceKind::ALL {
-                let index = i64::try_from(lower).expect("a cell is shorter than 2^63");
                 let interface = model.interface(kind, index)?;
                 let upper = (lower + kind.steps()) % monomers;
                 let axes = [places[lower].1, places[upper].1];

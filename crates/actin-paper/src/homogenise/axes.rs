@@ -33,7 +33,7 @@ impl Axes {
             negative.chain([0.0]).chain(half.iter().copied()).collect()
         };
         Self {
-            twist: sided(&[3e-3, 9e-3, 0.018, 0.03, 0.045]),
+            twist: sided(&[1e-3, 3e-3, 6e-3, 0.01, 0.015, 0.021, 0.029, 0.038, 0.048]),
             extension: vec![-2e-3, -5e-4, 0.0, 2e-4, 6e-4, 1.5e-3, 3e-3, 6e-3],
             angle_deg: vec![0.0, 45.0, 90.0, 135.0, 180.0],
             curvature: vec![0.0, 5e-4, 1e-3, 2.5e-3, 5e-3, 1e-2, 2e-2],

@@ -14,12 +14,14 @@ pub(super) fn mean() -> Result<Cell, String> {
     of(EllipsoidParameters::default(), PERIOD, Hold::Means)
 }
 
-/// The cell of a filament whose interfaces share one pattern of drawn bonds.
-pub(super) fn patterned(seed: u64) -> Result<Cell, String> {
-    let parameters = EllipsoidParameters {
+/// The cell of a filament whose interfaces share one pattern of drawn bonds, none shorter than this (nm).
+pub(super) fn patterned(seed: u64, shortest: f64) -> Result<Cell, String> {
+    let mut parameters = EllipsoidParameters {
         anchors: Anchors::Identical,
         ..EllipsoidParameters::drawn(DRAWN, seed)
     };
+    parameters.lateral.minimum_length = shortest;
+    parameters.longitudinal.minimum_length = shortest;
     of(parameters, PERIOD, Hold::Means)
 }
 
@@ -62,17 +64,14 @@ const TWIST_STEP: f64 = 5e-3;
 
 /// The straight filament of this twist (rad/nm) that is otherwise free.
 pub(super) fn twisted(cell: &Cell, twist: f64) -> Result<CellResponse, String> {
-    let steps = (twist.abs() / TWIST_STEP).ceil().max(1.0) as u32;
-    let mut response: Option<CellResponse> = None;
-    for k in 1..=steps {
-        let twist = Control::Strain(twist * f64::from(k) / f64::from(steps));
-        response = Some(relax(
-            cell,
-            [NONE, NONE, twist, FREE, FREE, FREE],
-            response.as_ref(),
-        )?);
+    let controls = |twist: f64| [NONE, NONE, Control::Strain(twist), FREE, FREE, FREE];
+    let mut reached = twist.abs().min(TWIST_STEP);
+    let mut response = relax(cell, controls(reached.copysign(twist)), None)?;
+    while reached < twist.abs() {
+        reached = twist.abs().min(reached + TWIST_STEP);
+        response = relax(cell, controls(reached.copysign(twist)), Some(&response))?;
     }
-    response.ok_or_else(|| "no step of twist".to_owned())
+    Ok(response)
 }
 
 /// The strain of this curvature, at `angle` (rad) from the direction of shear, twist, shear and stretch.

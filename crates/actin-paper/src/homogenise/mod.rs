@@ -7,6 +7,7 @@ mod axes;
 mod checks;
 mod filament;
 mod grid;
+mod law;
 mod pictures;
 mod rows;
 mod scatter;
@@ -41,10 +42,18 @@ pub enum Part {
     Scatter,
     /// Energy, loads and tangent over all strains.
     Grid,
+    /// A law of rods fitted to the grid, which is computed if it is not there.
+    Law,
 }
 
 impl Part {
-    const ALL: [Self; 4] = [Self::Checks, Self::Variants, Self::Scatter, Self::Grid];
+    const ALL: [Self; 5] = [
+        Self::Checks,
+        Self::Variants,
+        Self::Scatter,
+        Self::Grid,
+        Self::Law,
+    ];
 }
 
 /// Computes the parts, prints their tables and writes them.
@@ -58,6 +67,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
         .samplings
         .unwrap_or(if options.quick { 4 } else { 8 })
         .max(2);
+    let axes = axes::Axes::new(options.quick);
     let is_wanted = |part: &Part| options.parts.is_empty() || options.parts.contains(part);
     for part in Part::ALL.into_iter().filter(is_wanted) {
         let clock = Instant::now();
@@ -66,9 +76,12 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
             Part::Variants => variants::run(out, samplings, tell)?,
             Part::Scatter => scatter::run(out, samplings, tell)?,
             Part::Grid => {
-                let axes = axes::Axes::new(options.quick);
                 let grid = grid::compute(out, &axes, tell)?;
                 pictures::draw(out, &grid)?;
+            }
+            Part::Law => {
+                let grid = grid::compute(out, &axes, tell)?;
+                law::run(out, &axes, &grid, samplings, tell)?;
             }
         }
         tell(format_args!(

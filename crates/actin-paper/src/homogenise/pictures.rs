@@ -1,7 +1,7 @@
 //! Pictures of the grid.
 
 use super::rows::Row;
-use actin_draw::{Chart, Colour, Ramp, Series};
+use actin_draw::{Chart, Ramp, Series};
 use std::path::Path;
 
 /// What is drawn over the strain of place `x`, one line per value of the strain of place `by` (5 is the
@@ -112,7 +112,7 @@ impl Picture<'_> {
             });
             Series {
                 label: Some(format!("{} {value}", self.by.1)),
-                colour: Colour::from(Ramp::RED_YELLOW_BLUE.at(k as f64 / last)),
+                colour: Ramp::RED_YELLOW_BLUE.at(k as f64 / last),
                 points: of_value
                     .map(|row| (strain(row, self.x.0), (self.y)(row)))
                     .collect(),

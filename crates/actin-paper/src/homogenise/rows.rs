@@ -1,5 +1,6 @@
 //! Points of the grid as rows of a table.
 
+use super::filament::strain;
 use actin_sim::ellipsoid::{CellResponse, SixMatrix, SixVector};
 use std::path::Path;
 
@@ -56,6 +57,12 @@ impl Row {
             loads: response.loads,
             tangent: response.tangent,
         }
+    }
+
+    /// The six strains.
+    pub(super) fn six(&self) -> SixVector {
+        let [curvature, twist, shear, stretch, angle] = self.strain;
+        strain([curvature, twist, shear, stretch, angle.to_radians()])
     }
 
     /// The least eigenvalue of the tangent with couples in pN and curvatures without unit: both are

@@ -69,14 +69,15 @@ fn of_loads(a: &CellResponse, b: &CellResponse, turn_deg: f64) -> f64 {
 fn many_samplings(samplings: u64, base: &[CellResponse]) -> Result<String, String> {
     let all = of_drawn(2 * samplings, 2 * PERIOD)?;
     let mut text = String::new();
-    for count in [samplings, 2 * samplings] {
+    for some in [&all[..all.len() / 2], &all[..]] {
+        let count = some.len();
         let _ = write!(
             text,
             "| mean energy of {count} samplings of drawn bonds, cell of 26 |"
         );
         for (k, mean) in base.iter().enumerate() {
-            let drawn = all.iter().take(count as usize).map(|one| one[k].energy);
-            let share = drawn.sum::<f64>() / count as f64 / mean.energy - 1.0;
+            let drawn: f64 = some.iter().map(|one| one[k].energy).sum();
+            let share = drawn / count as f64 / mean.energy - 1.0;
             let _ = write!(text, " {share:+.4} |");
         }
         text.push('\n');
