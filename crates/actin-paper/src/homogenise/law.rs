@@ -17,8 +17,8 @@ use std::path::Path;
 const RANGE: (f64, f64, f64) = (0.0101, 0.0151, -6e-4);
 /// Nodes beyond the twists of the grid, where slopes of the couple alone say anything (rad/nm).
 const OUTER: f64 = 0.06;
-/// Points that are fitted, at most.
-const POINTS: usize = 4000;
+/// Points that are fitted, about.
+const POINTS: usize = 3000;
 /// What counts as a difference of 1: a share of the value, and energy (pN), couple (pN nm), shear force and
 /// tension (pN).
 const SHARE: f64 = 0.05;
@@ -122,13 +122,13 @@ fn is_in_range(row: &Row) -> bool {
     row.strain[0] <= curvature && row.strain[2] <= shear && row.extension >= extension
 }
 
-/// So many of the rows that they are fitted in seconds: every so many.
+/// So many of the rows that they are fitted in seconds, at random: every so many of them would leave out values
+/// of the axes.
 fn thinned<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
-    // A prime stride meets all values of all axes.
-    let stride = [1, 2, 3, 5, 7, 11, 13]
-        .into_iter()
-        .find(|s| rows.len() / s <= POINTS);
-    rows.iter().step_by(stride.unwrap_or(17)).copied().collect()
+    let mut noise = Noise::new(2);
+    let share = POINTS as f64 / rows.len() as f64;
+    let mut is_kept = |_: &&&Row| 0.5 * (noise.sample() + 1.0) < share;
+    rows.iter().filter(|row| is_kept(row)).copied().collect()
 }
 
 /// The form with the twists of the grid and one beyond on each side.
