@@ -1,6 +1,7 @@
 //! `cargo xtask homogenise`: what a filament of monomers stores per length under all six strains.
 
 use actin_paper::homogenise;
+use anyhow::{Error, Result};
 use std::path::PathBuf;
 
 /// What is computed, and where it goes.
@@ -48,12 +49,12 @@ impl From<Part> for homogenise::Part {
 }
 
 /// Computes the parts, prints their tables and writes them.
-pub(crate) fn run(options: Options) -> Result<(), String> {
+pub(crate) fn run(options: Options) -> Result<()> {
     let options = homogenise::Options {
         out: options.out,
         quick: options.quick,
         samplings: options.samplings,
         parts: options.parts.into_iter().map(Into::into).collect(),
     };
-    homogenise::run(&options, &|line| println!("{line}"))
+    homogenise::run(&options, &|line| println!("{line}")).map_err(Error::msg)
 }

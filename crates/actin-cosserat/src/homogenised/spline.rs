@@ -1,6 +1,6 @@
 //! Natural cubic splines through values at given nodes.
 
-use crate::RodParameterError;
+use crate::{RodKey, RodParameterError};
 
 /// A natural cubic spline: two continuous derivatives, straight beyond its ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +15,7 @@ impl Spline {
     /// The spline through one value for each node.
     pub(crate) fn new(nodes: &[f64], values: &[f64]) -> Result<Self, RodParameterError> {
         let error = |value: f64, rule| RodParameterError {
-            key: "nodes",
+            key: RodKey::Twist,
             value,
             rule,
         };
@@ -29,7 +29,7 @@ impl Spline {
         }
         if let Some(value) = values.iter().find(|value| !value.is_finite()) {
             return Err(RodParameterError {
-                key: "values",
+                key: RodKey::Coefficient,
                 value: *value,
                 rule: "finite",
             });
@@ -129,9 +129,9 @@ mod tests {
             vec![0.0, f64::NAN, 1.0],
         ] {
             let refused = Spline::new(&nodes, &vec![0.0; nodes.len()]).unwrap_err();
-            assert_eq!(refused.key, "nodes");
+            assert_eq!(refused.key, RodKey::Twist);
         }
         let refused = Spline::new(&[0.0, 1.0, 2.0], &[0.0, f64::NAN, 1.0]).unwrap_err();
-        assert_eq!(refused.key, "values");
+        assert_eq!(refused.key, RodKey::Coefficient);
     }
 }

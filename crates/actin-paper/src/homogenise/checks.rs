@@ -2,7 +2,7 @@
 
 use super::filament::{FREE, NONE, mean, patterned, relax, twisted};
 use crate::Tell;
-use crate::figures::paper::{Entry, Table, entries};
+use crate::published::{Entry, Table, entries};
 use actin_sim::ellipsoid::constants::{MINIMUM_LENGTH, RISE};
 use actin_sim::ellipsoid::{Cell, CellResponse, Control};
 use rayon::prelude::*;

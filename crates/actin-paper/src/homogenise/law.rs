@@ -7,7 +7,6 @@ use super::rows::Row;
 use crate::Tell;
 use actin_cosserat::{EnergyAndLoads, Homogenised, HomogenisedForm, Term};
 use actin_fit::{Mat, Observations, fit_linear};
-use actin_mechanics::testing::Noise;
 use actin_sim::ellipsoid::Cell;
 use rayon::prelude::*;
 use std::fmt::Write as _;
@@ -23,9 +22,9 @@ const POINTS: usize = 3000;
 /// tension (pN).
 const SHARE: f64 = 0.05;
 const FLOORS: [f64; 4] = [0.02, 3.0, 0.3, 2.0];
-/// Random strains of the mean filament, and of each drawn one.
-const RANDOM: usize = 400;
-const OF_DRAWN: usize = 60;
+/// Other strains of the mean filament, and of each drawn one.
+const OTHERS: u64 = 400;
+const OF_DRAWN: u64 = 60;
 
 /// Terms in the order in which they are tried.
 const STEPS: [(&str, &[Term]); 9] = [
@@ -65,47 +64,23 @@ pub(super) fn run(
 ) -> Result<(), String> {
     let cell = mean()?;
     let form = form(&cell, axes, grid)?;
-    let fitted: Vec<&Row> = grid.iter().filter(|row| is_in_range(row)).collect();
-    let training: Vec<&Row> = thinned(&fitted);
-    let mut table = String::from(
-        "| terms | energy | couple | twisting couple | shear force | tension | tangent | positive |\n",
-    );
-    let _ = writeln!(table, "| --- |{}", " ---: |".repeat(7));
-    let mut terms: Vec<Term> = Vec::new();
-    let mut law = None;
-    for (name, more) in STEPS {
-        terms.extend(more);
-        let found = fit(&form, &terms, &training)?;
-        let _ = writeln!(
-            table,
-            "| + {name} | {}",
-            Residuals::of(&found, fitted.iter().copied()).printed()
-        );
-        law = Some(found);
-    }
-    let law = law.ok_or("no terms")?;
-    let random = random_rows(&cell, axes, 1, RANDOM)?;
-    let _ = writeln!(
-        table,
-        "| random strains | {}",
-        Residuals::of(&law, &random).printed()
-    );
+    let (fitted, outside): (Vec<&Row>, Vec<&Row>) = grid.iter().partition(|row| is_in_range(row));
+    let (law, mut table) = stepwise(&form, &fitted)?;
+    let others = other_rows(&cell, axes, 1, OTHERS)?;
     let mut drawn = Vec::new();
     for seed in 1..=samplings {
         let cell = filament::drawn(seed, 2 * PERIOD)?;
-        drawn.extend(random_rows(&cell, axes, seed, OF_DRAWN)?);
+        drawn.extend(other_rows(&cell, axes, seed, OF_DRAWN)?);
     }
-    let _ = writeln!(
-        table,
-        "| drawn bonds | {}",
-        Residuals::of(&law, &drawn).printed()
-    );
-    let outside: Vec<&Row> = grid.iter().filter(|row| !is_in_range(row)).collect();
-    let _ = writeln!(
-        table,
-        "| beyond the range | {}",
-        Residuals::of(&law, outside).printed()
-    );
+    let cases = [
+        ("other strains", others.iter().collect()),
+        ("drawn bonds", drawn.iter().collect()),
+        ("beyond the range", outside),
+    ];
+    for (name, rows) in cases {
+        let residuals = Residuals::of(&law, rows);
+        let _ = writeln!(table, "| {name} | {}", residuals.printed());
+    }
     table.push_str(&by_twist(&law, axes, &fitted));
     tell(format_args!("{table}"));
     let write = |file: &str, text: String| {
@@ -116,19 +91,40 @@ pub(super) fn run(
     write("law.csv", coefficients(&law))
 }
 
+/// The law with all terms, and a table of what each step brings.
+fn stepwise(form: &HomogenisedForm, rows: &[&Row]) -> Result<(Homogenised, String), String> {
+    let training = thinned(rows);
+    let mut table = String::from(
+        "| terms | energy | couple | twisting couple | shear force | tension | tangent | positive |\n",
+    );
+    let _ = writeln!(table, "| --- |{}", " ---: |".repeat(7));
+    let mut terms: Vec<Term> = Vec::new();
+    let mut law = None;
+    for (name, more) in STEPS {
+        terms.extend(more);
+        let found = fit(form, &terms, &training)?;
+        let residuals = Residuals::of(&found, rows.iter().copied());
+        let _ = writeln!(table, "| + {name} | {}", residuals.printed());
+        law = Some(found);
+    }
+    Ok((law.ok_or("no terms")?, table))
+}
+
 /// Whether a point is fitted.
 fn is_in_range(row: &Row) -> bool {
     let (curvature, shear, extension) = RANGE;
     row.strain[0] <= curvature && row.strain[2] <= shear && row.extension >= extension
 }
 
-/// So many of the rows that they are fitted in seconds, at random: every so many of them would leave out values
-/// of the axes.
+/// So many of the rows that they are fitted in seconds, spread evenly: every so many of them would leave out
+/// values of the axes.
 fn thinned<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
-    let mut noise = Noise::new(2);
     let share = POINTS as f64 / rows.len() as f64;
-    let mut is_kept = |_: &&&Row| 0.5 * (noise.sample() + 1.0) < share;
-    rows.iter().filter(|row| is_kept(row)).copied().collect()
+    let kept = rows
+        .iter()
+        .zip(1..)
+        .filter(|&(_, k)| evenly::<1>(k)[0] < share);
+    kept.map(|(row, _)| *row).collect()
 }
 
 /// The form with the twists of the grid and one beyond on each side.
@@ -255,28 +251,43 @@ impl Residuals {
 /// relative differences say nothing.
 const FIRM: [f64; 6] = [1e3, 1e3, 500.0, 30.0, 30.0, 1e3];
 
-/// Random strains within the range, those of `seed`.
-fn random_rows(cell: &Cell, axes: &Axes, seed: u64, count: usize) -> Result<Vec<Row>, String> {
-    let mut noise = Noise::new(seed);
+/// The `k`-th of a sequence of points that fill the unit cube evenly.
+///
+/// # Source
+/// M. Roberts, The unreasonable effectiveness of quasirandom sequences (2018): an additive recurrence with the
+/// powers of the root of `x^(N+1) = x + 1`.
+fn evenly<const N: usize>(k: u64) -> [f64; N] {
+    let mut root: f64 = 1.5;
+    for _ in 0..60 {
+        root = (1.0 + root).powf(1.0 / (N as f64 + 1.0));
+    }
+    let mut step = 1.0;
+    std::array::from_fn(|_| {
+        step /= root;
+        (0.5 + k as f64 * step).fract()
+    })
+}
+
+/// Strains within the range that are no points of the grid, others for each `seed`.
+fn other_rows(cell: &Cell, axes: &Axes, seed: u64, count: u64) -> Result<Vec<Row>, String> {
     let last = |values: &[f64]| values[values.len() - 1];
     let (curvature, shear, _) = RANGE;
     let (twist, stretch) = (last(&axes.twist), last(&axes.extension).min(3e-3));
-    let mut draw = || {
-        let mut uniform = || 0.5 * (noise.sample() + 1.0);
-        // Small strains are as common as large ones.
-        let cube = |x: f64| x * x * x;
-        let twist = twist * cube(2.0 * uniform() - 1.0);
-        let extension = stretch * uniform() * uniform();
+    let draw = |k: u64| {
+        let [a, b, c, d, e] = evenly(k);
+        // Small twists and extensions are more common than large ones.
+        let side: f64 = 2.0 * b - 1.0;
         let point = [
-            curvature * uniform(),
-            twist,
-            shear * uniform(),
+            curvature * a,
+            twist * side * side * side,
+            shear * c,
             0.0,
-            360.0 * uniform(),
+            360.0 * d,
         ];
-        (point, extension)
+        (point, stretch * e * e)
     };
-    let points: Vec<([f64; 5], f64)> = (0..count).map(|_| draw()).collect();
+    let first = seed * count + 1;
+    let points: Vec<([f64; 5], f64)> = (first..first + count).map(draw).collect();
     let mean = mean()?;
     let row = |&(mut point, extension): &([f64; 5], f64)| {
         let natural = twisted(&mean, point[1])?;
