@@ -88,6 +88,16 @@ pub(super) fn draw(out: &Path, rows: &[Row]) -> Result<(), String> {
         .try_for_each(|picture| picture.draw(out, rows))
 }
 
+/// Most lines of a picture.
+const LINES: usize = 9;
+
+/// Every how many of so many lines are drawn, so that the first, the middle and the last are among them.
+fn stride(lines: usize) -> usize {
+    let is_even = |s: &usize| (lines - 1).is_multiple_of(2 * s) && (lines - 1) / s < LINES;
+    let found = (2..lines).find(is_even).filter(|_| lines > LINES);
+    found.unwrap_or(1)
+}
+
 /// A strain of a row, or its extension.
 fn strain(row: &Row, place: usize) -> f64 {
     row.strain.get(place).copied().unwrap_or(row.extension)
@@ -104,6 +114,11 @@ impl Picture<'_> {
         let mut values: Vec<f64> = chosen.iter().map(|row| strain(row, self.by.0)).collect();
         values.sort_by(f64::total_cmp);
         values.dedup();
+        let values: Vec<f64> = values
+            .iter()
+            .step_by(stride(values.len()))
+            .copied()
+            .collect();
         let last = (values.len().max(2) - 1) as f64;
         let series = values.iter().enumerate().map(|(k, &value)| {
             let of_value = chosen.iter().filter(|row| {
