@@ -38,6 +38,11 @@ fn loads_and_tangent_are_exact() {
         assert!((tangent - tangent.transpose()).amax() <= 1e-12 * tangent.amax());
         for k in 0..6 {
             let h = if k == 5 { 5e-6 } else { 2e-5 };
+            // Third derivatives of splines jump at nodes: a difference across one is no derivative.
+            let is_near = |node: &f64| (node - strain[2]).abs() < 5.0 * h;
+            if k == 2 && law.form().nodes().iter().any(is_near) {
+                continue;
+            }
             let at = |h: f64| strain + SixVector::ith(k, h);
             let slope = derivative(h, |h| law.energy_density(&at(h)));
             assert!(
