@@ -2,6 +2,7 @@
 
 use super::Damage;
 use super::log::{Tally, compare, open};
+use super::wire::{decode, decode_all, encode};
 use crate::run::RunPosition;
 use crate::{Plan, Task};
 use actin_mechanics::State;
@@ -92,24 +93,6 @@ impl Identity {
     }
 }
 
-/// Appends a value to `bytes`.
-pub(super) fn encode<T: Serialize>(value: &T, bytes: Vec<u8>) -> Vec<u8> {
-    postcard::to_extend(value, bytes).expect("numbers, texts and lists of them can be encoded")
-}
-
-/// Reads a value and returns what is behind it.
-fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<(T, &'a [u8]), Damage> {
-    postcard::take_from_bytes(bytes).map_err(|error| Damage::Contents(error.to_string()))
-}
-
-/// Reads a value, behind which nothing may be.
-pub(super) fn decode_all<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, Damage> {
-    match decode(bytes)? {
-        (value, []) => Ok(value),
-        (_, rest) => Err(Damage::Contents(format!("{} bytes too many", rest.len()))),
-    }
-}
-
 /// Refuses another scene, with the first line that differs.
 pub(super) fn same_scene(kept: &str, given: &str) -> Result<(), Damage> {
     if kept == given {
@@ -182,31 +165,4 @@ fn read_body(path: &Path) -> Result<Vec<u8>, Damage> {
 /// The little-endian number of four bytes at a place.
 fn word(header: &[u8; HEADER], at: usize) -> u32 {
     u32::from_le_bytes(std::array::from_fn(|k| header[at + k]))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Bits come back, signed zeros and what is no number included.
-    #[test]
-    fn numbers_come_back_to_the_bit() {
-        let numbers = vec![-0.0, f64::NAN, -f64::NAN, 5e-324, 1.0 / 3.0];
-        let bytes = encode(&numbers, Vec::new());
-        let back: Vec<f64> = decode_all(&bytes).unwrap();
-        let bits = |numbers: &[f64]| numbers.iter().map(|n| n.to_bits()).collect::<Vec<_>>();
-        assert_eq!(bits(&back), bits(&numbers));
-        let mut longer = bytes.clone();
-        longer.push(0);
-        let error = decode_all::<Vec<f64>>(&longer).unwrap_err();
-        assert!(error.to_string().contains("1 bytes too many"), "{error}");
-    }
-
-    /// Lengths that promise more than there is: refused, and nothing is allocated for them.
-    #[test]
-    fn promises_are_not_believed() {
-        let bytes = encode(&(1_u64 << 60), Vec::new());
-        assert!(decode_all::<Vec<f64>>(&bytes).is_err());
-        assert!(decode_all::<String>(&bytes).is_err());
-    }
 }

@@ -1,7 +1,7 @@
 //! `records.bin`: records appended one after the other, each with the checksum of all up to it.
 
 use super::Damage;
-use super::file::{decode_all, encode};
+use super::wire::{decode_all, encode};
 use crate::run::{At, Record, RecordIter, Records};
 use actin_mechanics::{Motion, State};
 use serde::{Deserialize, Serialize};
