@@ -4,6 +4,7 @@
 use crate::command::{cargo, execute, workspace_root};
 use crate::tidy;
 use anyhow::{Context, Result, bail};
+use std::process::Command;
 
 /// A step that cargo carries out.
 struct Step {
@@ -57,6 +58,7 @@ pub(crate) fn run() -> Result<()> {
         println!("check: {purpose}: cargo {}", arguments.join(" "));
         execute(cargo(arguments).envs(step.variable)).context(purpose)?;
     }
+    book()?;
     println!("check: tidy");
     let findings = tidy::findings(&workspace_root()).map_err(anyhow::Error::msg)?;
     if findings.is_empty() {
@@ -64,4 +66,22 @@ pub(crate) fn run() -> Result<()> {
         return Ok(());
     }
     bail!("tidy:\n  {}", findings.join("\n  "))
+}
+
+/// Builds the book where there is an mdBook; with `ACTIN_REQUIRE_MDBOOK` there has to be one.
+fn book() -> Result<()> {
+    println!("check: book: mdbook build docs");
+    let mut command = Command::new("mdbook");
+    command
+        .args(["build", "docs"])
+        .current_dir(workspace_root());
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(_) => bail!("mdbook build docs failed"),
+        Err(error) if std::env::var_os("ACTIN_REQUIRE_MDBOOK").is_none() => {
+            println!("check: book: not built: mdbook: {error}");
+            Ok(())
+        }
+        Err(error) => Err(error).context("mdbook"),
+    }
 }
