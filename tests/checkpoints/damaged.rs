@@ -177,10 +177,7 @@ fn other_formats_and_files_are_named() {
     left.replace("checkpoint.bin", &[b'x'; 4000]);
     assert!(left.refusal().contains("not a checkpoint"));
     fs::remove_file(left.directory.path().join("checkpoint.bin")).unwrap();
-    assert!(
-        left.refusal()
-            .contains("there is no checkpoint to resume from")
-    );
+    assert!(left.refusal().contains("there is nothing to resume from"));
 }
 
 /// A header that promises 2^63 bytes, checksum and all: refused before anything is allocated.

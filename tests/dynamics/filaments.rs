@@ -1,7 +1,7 @@
 //! The free filaments of these tests, and how they are set in motion.
 
 use actin_mechanics::{State, System, Vector3, rotation};
-use actin_mechanics::{Xorshift, perturb, set_in_motion};
+use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 use actin_sim::{Assembly, ForceLaw, Scene};
 
 /// kBT at 298 K (pN nm).
@@ -70,7 +70,7 @@ pub(crate) fn fly_off(
     shake: f64,
 ) -> System {
     let mut noise = Xorshift::new(5);
-    set_in_motion(assembly.system.state_mut(), &mut noise, shake, shake);
+    randomise_velocities(assembly.system.state_mut(), &mut noise, shake, shake);
     bend(&mut assembly, kappa);
     let state = assembly.system.state_mut();
     for i in 0..state.points.len() {

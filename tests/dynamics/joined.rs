@@ -5,7 +5,7 @@ use crate::invariants::{scales, step};
 use crate::record::scientific;
 use actin_integrate::{Drag, PEFRL, advance};
 use actin_mechanics::{System, Vector3};
-use actin_mechanics::{Xorshift, perturb, set_in_motion};
+use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 use actin_sim::{Assembly, Scene};
 
 /// Monomers beside a rod that lies across them, held together by two stretched linkers, one with a
@@ -40,7 +40,7 @@ fn tumbling() -> System {
     let mut system = Assembly::build(&scene.unwrap()).unwrap().system;
     let mut noise = Xorshift::new(5);
     let state = system.state_mut();
-    set_in_motion(state, &mut noise, 1.0, 1.0);
+    randomise_velocities(state, &mut noise, 1.0, 1.0);
     perturb(state, &mut noise, 2e-3, 1e-3);
     let (velocity, omega) = (
         Vector3::new(20.0, -10.0, 30.0),

@@ -75,9 +75,8 @@ fn book() -> Result<()> {
     command
         .args(["build", "docs"])
         .current_dir(workspace_root());
-    match command.status() {
-        Ok(status) if status.success() => Ok(()),
-        Ok(_) => bail!("mdbook build docs failed"),
+    match Command::new("mdbook").arg("--version").output() {
+        Ok(_) => execute(&mut command),
         Err(error) if std::env::var_os("ACTIN_REQUIRE_MDBOOK").is_none() => {
             println!("check: book: not built: mdbook: {error}");
             Ok(())

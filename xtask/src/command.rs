@@ -27,7 +27,7 @@ pub(crate) fn execute(command: &mut Command) -> Result<()> {
     let mut child = command
         .stdout(Stdio::piped())
         .spawn()
-        .context("cargo did not start")?;
+        .with_context(|| format!("{} did not start", command.get_program().display()))?;
     let output = child.stdout.take().expect("it is piped");
     for line in BufReader::new(output).split(b'\n') {
         println!("{}", String::from_utf8_lossy(&line?));

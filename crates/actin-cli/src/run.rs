@@ -162,6 +162,9 @@ fn unwritten(
         return Failure::from(error);
     }
     let message = format!("the run has ended, but its results could not be written: {error}");
+    if let RunDirectoryError::Unreadable(_) = error {
+        return Failure::Unwritten(format!("{message}; run it again with --overwrite"));
+    }
     Failure::Unwritten(if directory.has_checkpoint() {
         let go_on = go_on(arguments, directory);
         format!(

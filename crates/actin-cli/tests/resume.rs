@@ -186,7 +186,7 @@ fn what_cannot_be_resumed_is_refused() {
     assert_eq!(code(&absent), 2);
     assert_eq!(
         stderr(&absent),
-        "error: a/checkpoint.bin: there is no checkpoint to resume from; run without --resume to \
+        "error: a/checkpoint.bin: missing: there is nothing to resume from; run without --resume to \
          begin\n"
     );
     assert!(!place.path("a").exists());

@@ -51,7 +51,7 @@ pub use loads::Loads;
 pub use motion::Motion;
 pub use points::{Point, Points};
 pub use quaternions::Quaternions;
-pub use random::{Xorshift, perturb, set_in_motion};
+pub use random::{Xorshift, perturb, randomise_velocities};
 pub use residual::Residual;
 pub use shared::Shared;
 pub use slider::Slider;

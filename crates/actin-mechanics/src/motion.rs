@@ -110,7 +110,8 @@ impl State {
 #[cfg(test)]
 mod tests {
     use crate::{
-        Frame, Inertia, Point, State, UnitQuaternion, Vector3, Xorshift, perturb, set_in_motion,
+        Frame, Inertia, Point, State, UnitQuaternion, Vector3, Xorshift, perturb,
+        randomise_velocities,
     };
 
     /// Two states of the same bodies, one of which moves in every way.
@@ -130,7 +131,7 @@ mod tests {
         let mut moved = state.clone();
         let mut noise = Xorshift::new(3);
         perturb(&mut moved, &mut noise, 1.0, 1.0);
-        set_in_motion(&mut moved, &mut noise, 1.0, 1.0);
+        randomise_velocities(&mut moved, &mut noise, 1.0, 1.0);
         moved.controls[controls[0]] = 0.25;
         moved.controls[controls[1]] = -1.0;
         moved.time = 7.0;

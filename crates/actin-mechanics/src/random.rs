@@ -44,7 +44,7 @@ pub fn perturb(state: &mut State, random: &mut Xorshift, length: f64, angle: f64
 }
 
 /// Gives every free body a random motion of up to `velocity` and `angular_velocity` per axis.
-pub fn set_in_motion(
+pub fn randomise_velocities(
     state: &mut State,
     random: &mut Xorshift,
     velocity: f64,

@@ -117,7 +117,7 @@ mod tests {
     use super::*;
     use crate::wide::Arch;
     use crate::{Frame, Inertia, Point, Slider, UnitQuaternion, Vector3};
-    use crate::{Xorshift, perturb, set_in_motion};
+    use crate::{Xorshift, perturb, randomise_velocities};
 
     /// Points and frames in motion, the second of each held, and the third point sliding along z.
     fn moving(bodies: usize) -> State {
@@ -135,7 +135,7 @@ mod tests {
         }
         let mut noise = Xorshift::new(8);
         perturb(&mut state, &mut noise, 1.0, 1.0);
-        set_in_motion(&mut state, &mut noise, 1.0, 1.0);
+        randomise_velocities(&mut state, &mut noise, 1.0, 1.0);
         if bodies > 1 {
             state.points.hold(1);
             state.frames.hold(1);

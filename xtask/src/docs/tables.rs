@@ -187,7 +187,10 @@ fn listed(rows: &[&Row]) -> String {
         let met = row
             .pass
             .map_or("", |pass| if pass { "yes" } else { "**no**" });
-        let (ours, note) = (digits(row.ours, DIGITS), row.note.replace('|', "\\|"));
+        let (ours, note) = (
+            digits(row.ours, DIGITS),
+            row.note.replace('|', "\\|").replace('<', "&lt;"),
+        );
         let (name, unit) = (&row.quantity, &row.unit);
         _ = writeln!(
             text,

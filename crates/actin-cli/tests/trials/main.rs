@@ -59,13 +59,19 @@ fn spoilt_scenes_are_run() {
 /// Runs that are killed at random moments until they are done: the same bytes.
 #[test]
 fn killed_runs_are_resumed() {
-    try_all("kill", (1, 20), kills::kill);
+    let tally = try_all("kill", (1, 20), kills::kill);
+    assert!(
+        tally["kills"] > 0,
+        "every run was done before it was killed"
+    );
 }
 
 /// Interrupted runs whose checkpoint or records are damaged: refused, or the same bytes.
 #[test]
 fn damaged_checkpoints_are_refused() {
-    try_all("damage", (2, 60), kills::damage);
+    let tally = try_all("damage", (4, 60), kills::damage);
+    let refused = tally.get("refused by name").copied().unwrap_or(0);
+    assert!(refused > 0, "nothing was refused: {tally:?}");
 }
 
 /// Scenes changed in ways that must not change the answer.
@@ -84,7 +90,7 @@ fn number(variable: &str) -> Option<u64> {
 }
 
 /// Tries `few` cases of a kind, `many` if `ACTIN_TRIALS` is `all`, or as many as it says.
-fn try_all(kind: &str, (few, many): (u64, u64), attempt: fn(&mut Case<'_>) -> Outcome) {
+fn try_all(kind: &str, (few, many): (u64, u64), attempt: fn(&mut Case<'_>) -> Outcome) -> Tally {
     let cases = match std::env::var("ACTIN_TRIALS") {
         Err(_) => few,
         Ok(all) if all == "all" => many,
@@ -114,6 +120,7 @@ fn try_all(kind: &str, (few, many): (u64, u64), attempt: fn(&mut Case<'_>) -> Ou
         failures.len()
     );
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+    tally
 }
 
 /// One case in a folder of its own, which goes if all is well.

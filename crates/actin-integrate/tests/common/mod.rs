@@ -5,7 +5,7 @@ use actin_integrate::{Drag, POSITION_VERLET, advance};
 use actin_mechanics::{
     Frame, Inertia, Interaction, Loads, Point, State, System, UnitQuaternion, Vector3, rotation,
 };
-use actin_mechanics::{Xorshift, perturb, set_in_motion};
+use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 
 /// Springs between points, energy `k/2 (|d| - rest)^2`.
 #[derive(Clone, Debug)]
@@ -182,7 +182,7 @@ pub(crate) fn spinning_tops() -> System {
     let mut system = three_tops();
     let mut noise = Xorshift::new(7);
     perturb(system.state_mut(), &mut noise, 0.1, 0.3);
-    set_in_motion(system.state_mut(), &mut noise, 0.5, 1.5);
+    randomise_velocities(system.state_mut(), &mut noise, 0.5, 1.5);
     system
 }
 
@@ -195,7 +195,7 @@ pub(crate) fn vibrating_tops(seed: u64) -> System {
     system.state_mut().stop();
     let mut noise = Xorshift::new(seed);
     perturb(system.state_mut(), &mut noise, 0.01, 0.03);
-    set_in_motion(system.state_mut(), &mut noise, 0.05, 0.15);
+    randomise_velocities(system.state_mut(), &mut noise, 0.05, 0.15);
     system
 }
 

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 const COMMITTED: &str = "docs/report-quick.json";
 /// What brings it up to date, and what does so with the full report.
 const REWRITES: &str = "cargo xtask reproduce-figures --quick --write";
-const REWRITES_FULL: &str = "cargo xtask reproduce-figures && cargo xtask check-docs \
+const REWRITES_FULL: &str = "cargo xtask reproduce-figures && cargo xtask docs \
     target/figures/report.json --write";
 
 /// Rows agree within this share: another processor rounds otherwise, which moves numbers by up to 2e-8

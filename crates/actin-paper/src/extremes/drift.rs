@@ -4,7 +4,7 @@ use super::row::{Outcome, Row};
 use super::stability::free;
 use actin_integrate::{Drag, PEFRL, advance, largest_frequency, stable_step};
 use actin_mechanics::{State, System, Vector3};
-use actin_mechanics::{Xorshift, set_in_motion};
+use actin_mechanics::{Xorshift, randomise_velocities};
 
 /// Small filaments.
 const FILAMENTS: [(&str, &str); 2] = [
@@ -84,7 +84,7 @@ fn stop_centre(state: &mut State) {
 /// A free filament in motion, on its whole or about its centre of mass only.
 fn moving(sections: &str, is_flying: bool) -> Result<System, Outcome> {
     let mut system = free(sections)?;
-    set_in_motion(system.state_mut(), &mut Xorshift::new(11), 2.0, 0.5);
+    randomise_velocities(system.state_mut(), &mut Xorshift::new(11), 2.0, 0.5);
     if !is_flying {
         stop_centre(system.state_mut());
     }

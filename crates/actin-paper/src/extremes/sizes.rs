@@ -122,12 +122,12 @@ fn peak_memory_mb() -> f64 {
 
 /// Some steps of shaken filaments, by their momentum: what they have at the start they keep.
 fn moved(text: &str, steps: u64) -> Result<Outcome, Outcome> {
-    use actin_mechanics::{Xorshift, set_in_motion};
+    use actin_mechanics::{Xorshift, randomise_velocities};
     let mut assembly = build(text)?;
     let plan = Plan::new(&assembly).map_err(|problem| Outcome::Refused(problem.to_string()))?;
     let estimate = *plan.estimate().expect("a motion has an estimate");
     let system = &mut assembly.system;
-    set_in_motion(system.state_mut(), &mut Xorshift::new(2), 1.0, 0.1);
+    randomise_velocities(system.state_mut(), &mut Xorshift::new(2), 1.0, 0.1);
     let before = system.state().momentum();
     advance(system, &PEFRL, estimate.time_step_ns, steps, &Drag::NONE);
     let points = system.state().points.len() as f64;

@@ -5,7 +5,7 @@ use super::row::{Outcome, Row, larger};
 use super::scenes::{Parts, either};
 use actin_integrate::{Composition, Drag, advance};
 use actin_mechanics::System;
-use actin_mechanics::{Xorshift, set_in_motion};
+use actin_mechanics::{Xorshift, randomise_velocities};
 use actin_sim::Integrator;
 
 /// All integrators, with the names that the table has for them.
@@ -82,7 +82,7 @@ pub(super) fn limits(system: &mut System, integrator: Integrator) -> Limits {
 /// Whether motion of 1e-8 nm/ns and rad/ns grows at step `h` (ns). Leaves the state as it was.
 fn grows(system: &mut System, integrator: Integrator, h: f64) -> bool {
     let rest = system.state().clone();
-    set_in_motion(system.state_mut(), &mut Xorshift::new(3), 1e-8, 1e-8);
+    randomise_velocities(system.state_mut(), &mut Xorshift::new(3), 1e-8, 1e-8);
     let start = system.state().kinetic_energy();
     let mut grown = false;
     for _ in 0..STEPS / 50 {
@@ -128,7 +128,7 @@ pub(super) fn energy_error(system: &mut System, integrator: Integrator, share: f
     let scheme = integrator.composition();
     let h = actin_integrate::stable_step(scheme, frequency, share).expect("it is positive");
     let rest = system.state().clone();
-    set_in_motion(system.state_mut(), &mut Xorshift::new(3), 1e-3, 1e-3);
+    randomise_velocities(system.state_mut(), &mut Xorshift::new(3), 1e-3, 1e-3);
     let start = system.total_energy();
     let mut largest: f64 = 0.0;
     for _ in 0..100 {

@@ -2,7 +2,7 @@
 
 use crate::{Assembly, At, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory};
 use actin_mechanics::{Loads, State};
-use actin_mechanics::{Xorshift, perturb, set_in_motion};
+use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 
 /// Monomers at a clamped start, then a rod; the title has everything that XML escapes.
 const CLAMPED_START: &str = r#"Scene(
@@ -89,7 +89,7 @@ pub(super) fn trajectory(assembly: &Assembly) -> Trajectory {
     let records = [0.0, 0.1, 1.0 / 3.0].map(|time_ns| {
         let mut state = assembly.rest.clone();
         perturb(&mut state, &mut noise, 0.1, 0.05);
-        set_in_motion(&mut state, &mut noise, 2.0, 1.5);
+        randomise_velocities(&mut state, &mut noise, 2.0, 1.5);
         record(assembly, time_ns, state)
     });
     Trajectory {

@@ -45,7 +45,7 @@ impl Plan<'_> {
     ///
     /// # Errors
     /// A state that explodes, a path that ends early, twist that is lost, an end on a saddle or in an
-    /// equilibrium in which a load is lost, states that are beyond any use. The sink has all records up
+    /// equilibrium in which a load is lost, states far outside the range of the model. The sink has all records up
     /// to the last good one.
     pub fn run_into(&self, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
         self.execute(None, sink)

@@ -1,7 +1,7 @@
 //! The records of a run as they are taken: what is known of them without keeping them.
 
 use super::slip::{LinkWatch, Slip};
-use super::{Progress, Record, RunPosition, Sink};
+use super::{Plan, Progress, Record, RunPosition, Sink};
 use crate::assembly::worst_of;
 use crate::{Assembly, BeyondUse};
 
@@ -28,6 +28,16 @@ impl Recorded {
             last: None,
             beyond_use: Vec::new(),
         }
+    }
+
+    /// That of a run that has taken `records`, in order: what a sink of one's own needs to
+    /// [resume](crate::Plan::resume_into).
+    pub fn of(plan: &Plan<'_>, records: impl IntoIterator<Item = Record>) -> Self {
+        let mut recorded = Self::new(plan.assembly());
+        for record in records {
+            recorded.follow(plan.assembly(), record);
+        }
+        recorded
     }
 
     /// How many records there are.
@@ -111,7 +121,7 @@ impl<'a> Taken<'a> {
         self.slip.take()
     }
 
-    /// What is beyond any use in them, the worst of all.
+    /// What is far outside the range of the model in them, the worst of all.
     pub(super) fn into_beyond_use(self) -> Vec<BeyondUse> {
         self.recorded.beyond_use
     }

@@ -18,8 +18,8 @@ pub struct CheckpointError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Damage {
-    /// There is none.
-    #[error("there is no checkpoint to resume from; run without --resume to begin")]
+    /// There is no such file.
+    #[error("missing: there is nothing to resume from; run without --resume to begin")]
     Missing,
     /// The file system refused.
     #[error("{0}")]

@@ -16,7 +16,7 @@ const HEADER: u64 = 8;
 /// Bytes of a checksum.
 const CHECKSUM: usize = 4;
 /// So many bytes of records wait until they are written together.
-const BUFFER: usize = 1 << 16;
+const BUFFER: usize = 1 << 20;
 
 /// How many records there are, and the checksum of all of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -102,10 +102,8 @@ pub(super) struct RecordLog {
     length: usize,
     /// Open from the first time that it is written to.
     file: Option<File>,
-    /// What is in the file.
+    /// What is on the disk.
     written: Tally,
-    /// Whether some of that may not have reached the disk.
-    is_unsynced: bool,
     /// All records.
     taken: Tally,
     /// Those that are not in the file, as bytes.
@@ -125,7 +123,6 @@ impl RecordLog {
             length: Stored::length(like, terms) + CHECKSUM,
             file: None,
             written: tally,
-            is_unsynced: false,
             taken: tally,
             buffer: Vec::new(),
             patience: BUFFER,
@@ -152,14 +149,10 @@ impl RecordLog {
         if !self.buffer.is_empty() || self.taken.count == 0 {
             self.flush()?;
         }
-        if let (Some(file), true) = (&self.file, self.is_unsynced) {
-            file.sync_data()?;
-            self.is_unsynced = false;
-        }
         self.tally_of(count)
     }
 
-    /// Writes what is in the buffer. What a failure leaves behind the known records is cut off again.
+    /// Writes what is in the buffer and waits until it is on the disk. What a failure leaves behind the known records is cut off again.
     fn flush(&mut self) -> io::Result<()> {
         let start = match self.written.count {
             0 => 0,
@@ -169,7 +162,8 @@ impl RecordLog {
             Some(file) => file,
             None => create(&self.path, start)?,
         };
-        let written = append(&mut file, start, &self.buffer);
+        // A failed sync may drop what was written: the buffer is kept until the disk has it.
+        let written = append(&mut file, start, &self.buffer).and_then(|()| file.sync_data());
         if let Err(error) = written {
             // Room for other files on a disk that is full; without it the rest is overwritten next time.
             let _ = file.set_len(start);
@@ -177,7 +171,6 @@ impl RecordLog {
         }
         self.file = Some(file);
         self.written = self.taken;
-        self.is_unsynced = true;
         self.buffer.clear();
         self.patience = BUFFER;
         Ok(())
@@ -236,7 +229,7 @@ impl RecordLog {
         if found < expected {
             return Err(Damage::Length { found, expected });
         }
-        let mut file = BufReader::with_capacity(BUFFER, file);
+        let mut file = BufReader::with_capacity(1 << 16, file);
         let mut magic = [0; 8];
         file.read_exact(&mut magic)?;
         if &magic != MAGIC {
