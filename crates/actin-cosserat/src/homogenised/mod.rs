@@ -1,6 +1,6 @@
 //! One potential for all six strains, as periodic cells of monomers give it.
 //!
-//! Its form is here, its numbers come from whoever measured them. It is no part of a
+//! Its form is here, its numbers come from a fit to measured cells. It is no part of a
 //! [`crate::RodMaterial`] yet: twist, shear and stretch of one place are one law here, and a rod has them at
 //! different places.
 

@@ -151,7 +151,7 @@ fn fluctuation(scheme: &Composition, share: f64) -> f64 {
     2.0 * share.powi(order) / (1.0 - share * share)
 }
 
-/// Wavering of the energy from a thousandth of the limit to just below it.
+/// Fluctuation of the energy from a thousandth of the limit to just below it.
 pub(super) fn below(integrators: &[(&str, Integrator)]) -> Vec<Row> {
     let mut rows = Vec::new();
     for (model, sections) in MODELS {

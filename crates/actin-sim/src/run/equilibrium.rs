@@ -314,7 +314,7 @@ impl<'a> Follower<'a> {
         .map(drop)
     }
 
-    /// Records an equilibrium; breaks, with nothing recorded, where twist was lost on the way to it.
+    /// Records an equilibrium, unless twist was lost on the way to it: then the path ends there.
     fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) -> ControlFlow<()> {
         if !self.taken.take(record(&self.assembly.system, u, state)) {
             return ControlFlow::Break(());
