@@ -40,7 +40,7 @@ fn fluctuations_beyond_the_data_are_summed_up() {
         let found = [
             often.share_of_records,
             often.share_of_elements,
-            beyond.value_per_nm.abs(),
+            beyond.value.abs(),
         ];
         for (found, expected) in found.into_iter().zip(expected) {
             assert!((found - expected).abs() < 1e-12, "{found} and {expected}");
@@ -101,7 +101,7 @@ fn without_heat_each_section_is_listed() {
         }
     }
     let found = assembly.beyond_range_over(&bent);
-    let places: Vec<(usize, f64)> = found.iter().map(|b| (b.filament, b.value_per_nm)).collect();
+    let places: Vec<(usize, f64)> = found.iter().map(|b| (b.filament, b.value)).collect();
     let [first, second]: [(usize, f64); 2] = places.try_into().expect("one for each section");
     assert_eq!((first.0, second.0), (0, 1));
     assert!((first.1.abs() - 0.15 / SEGMENT).abs() < 1e-12);

@@ -377,17 +377,21 @@ fn print_tips(summary: &Summary) {
 
 fn print_beyond(summary: &Summary) {
     for beyond in &summary.beyond_range {
-        let (quantity, value) = (&beyond.quantity, beyond.value_per_nm);
+        let (quantity, value, range) = (&beyond.quantity, beyond.value, beyond.range);
         let place = format!("s = {:.1} nm{}", beyond.s_nm, of_filament(beyond.filament));
-        let range = beyond.range_per_nm;
+        let (unit, elements) = if beyond.is_strain() {
+            ("", "segments")
+        } else {
+            (" rad/nm", "bending elements")
+        };
         match beyond.fluctuations {
             None => println!(
-                "beyond the data of its law: {quantity} {value:.4} rad/nm at {place}, data reach \
+                "beyond the data of its law: {quantity} {value:.4}{unit} at {place}, data reach \
                  {range:.4}"
             ),
             Some(often) => println!(
                 "fluctuations beyond the data of a law: {quantity} in {} of the records and {} of \
-                 all bending elements, at most {value:.4} rad/nm at {place}, data reach {range:.4}",
+                 all {elements}, at most {value:.4}{unit} at {place}, data reach {range:.4}",
                 percent(often.share_of_records),
                 percent(often.share_of_elements)
             ),

@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // At rest: curved about body axis d2 with a radius of 100 nm; a third component would twist it.
     let radius = 100.0;
     rod.bend(&mut state, |_s| Vector3::y() / radius);
-    let law = RodElements::at_rest(&state, &rod, RodMaterial::new(rigidities)?);
+    let law = RodElements::at_rest(&state, &rod, RodMaterial::new(rigidities)?)?;
 
     // At the start: straight.
     rod.bend(&mut state, |_s| Vector3::zeros());

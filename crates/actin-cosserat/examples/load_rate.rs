@@ -64,7 +64,8 @@ fn main() {
         for law in common::laws() {
             rods.push((law.0, Box::new(common::interaction(&layout, law))));
         }
-        rods.push(("printed", Box::new(PaperBalance::new(layout, constant.1))));
+        let printed = PaperBalance::new(layout, constant.1).expect("its rigidities are constant");
+        rods.push(("printed", Box::new(printed)));
         rods.retain(|(name, _)| chosen.as_deref().is_none_or(|chosen| chosen == *name));
         for (name, rod) in rods {
             if let Some(evaluations) = counted {

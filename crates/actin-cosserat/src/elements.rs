@@ -77,13 +77,15 @@ impl RodJoint {
 /// let rod = StraightRod::uniform(50, 1.0).push(&mut state)?;
 /// let material = RodMaterial::new(Rigidities::table4())?;
 /// rod.bend(&mut state, |_| Vector3::x() / 100.0);
-/// let law = RodElements::at_rest(&state, &rod, material);
+/// let law = RodElements::at_rest(&state, &rod, material)?;
 /// assert!(law.energy(&state) < 1e-12);
 /// rod.bend(&mut state, |_| Vector3::zeros());
 /// // The outer half segments have no joint, so that 49 of the 50 nm bend.
 /// assert!((law.energy(&state) - 3.9e4 * 49.0 / 2e4).abs() < 1e-9);
 /// # Ok::<(), actin_cosserat::RodError>(())
 /// ```
+///
+/// A segment here does not know the curvature around it, so that a potential is refused.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RodElements {
     material: RodMaterial,
@@ -95,12 +97,13 @@ impl RodElements {
     /// The rod that these segments and joints make up.
     ///
     /// # Errors
-    /// A rest length or distance that is not positive and finite.
+    /// A rest length or distance that is not positive and finite; a potential.
     pub fn new(
         material: RodMaterial,
         segments: Vec<RodSegment>,
         joints: Vec<RodJoint>,
     ) -> Result<Self, RodError> {
+        check_laws(&material)?;
         for (segment, each) in segments.iter().enumerate() {
             let value = each.rest_length;
             if !is_length(value) {
@@ -123,9 +126,17 @@ impl RodElements {
     /// The rod `layout` with the bends and twists of `state` as its rest shape, whatever it is
     /// curved like; rest lengths are those of the layout.
     ///
+    /// # Errors
+    /// A potential.
+    ///
     /// # Panics
     /// If `state` does not have the rod's bodies.
-    pub fn at_rest(state: &State, layout: &RodLayout, material: RodMaterial) -> Self {
+    pub fn at_rest(
+        state: &State,
+        layout: &RodLayout,
+        material: RodMaterial,
+    ) -> Result<Self, RodError> {
+        check_laws(&material)?;
         let bodies = layout.points().zip(layout.frames());
         let segments = bodies.zip(layout.segment_lengths());
         let segments = segments.map(|((i, frame), &rest_length)| RodSegment {
@@ -140,11 +151,11 @@ impl RodElements {
             let curvature = element.curvature(q.get(a), q.get(a + 1));
             RodJoint::curved([a, a + 1], rest_distance, curvature)
         });
-        Self {
+        Ok(Self {
             material,
             segments: segments.collect(),
             joints: joints.collect(),
-        }
+        })
     }
 
     /// The segments.
@@ -167,6 +178,11 @@ impl RodElements {
             joint.element().curvature(qa, qb)
         })
     }
+}
+
+fn check_laws(material: &RodMaterial) -> Result<(), RodError> {
+    let laws = material.laws().map(|_| ());
+    laws.ok_or(RodError::Potential("RodElements"))
 }
 
 fn is_length(value: f64) -> bool {
@@ -264,7 +280,7 @@ mod tests {
         let layout = layout.unwrap();
         let material = RodMaterial::new(Rigidities::table4()).unwrap();
         layout.bend(&mut state, |s| Vector3::new(0.02 * s, -0.1, 0.05));
-        let law = RodElements::at_rest(&state, &layout, material);
+        let law = RodElements::at_rest(&state, &layout, material).unwrap();
         (state, law)
     }
 
@@ -293,7 +309,7 @@ mod tests {
         let layout = rod.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state);
         let layout = layout.unwrap();
         let material = RodMaterial::new(Rigidities::table4()).unwrap();
-        let elements = RodElements::at_rest(&state, &layout, material);
+        let elements = RodElements::at_rest(&state, &layout, material).unwrap();
         let gradient = EnergyGradient::new(layout, material);
         perturb(&mut state, &mut Xorshift::new(5), 0.05, 0.1);
         let (energy, expected) = (elements.energy(&state), gradient.energy(&state));

@@ -24,13 +24,18 @@ pub struct EnergyGradient {
 }
 
 impl EnergyGradient {
-    /// The law on a rod.
+    /// The law on a rod. A potential couples its segments to the curvature around them;
+    /// [`with_extension`](Self::with_extension) says what else is around its ends.
     pub fn new(layout: RodLayout, material: RodMaterial) -> Self {
+        let extended = material.potential().map(|_| ExtendedSegments {
+            law: SegmentLaw::default(),
+            curvature: SegmentCurvature::new(&layout, &[], &[]),
+        });
         Self {
-            fast: FastRod::new(&layout, &material, None),
+            fast: FastRod::new(&layout, &material, extended.as_ref()),
             layout,
             material,
-            extended: None,
+            extended,
         }
     }
 

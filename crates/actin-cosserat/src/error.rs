@@ -58,6 +58,9 @@ pub enum RodError {
         /// Which segment, counted from 0.
         segment: usize,
     },
+    /// A potential where nothing knows the curvature around a segment.
+    #[error("{0} takes a law for each strain only: EnergyGradient takes a potential")]
+    Potential(&'static str),
     /// A wall clamp at an end that was built without a wall frame.
     #[error("the {0} of the rod has no wall frame to be clamped to: build it with one")]
     NoWall(RodEnd),

@@ -37,6 +37,7 @@ mod paper_balance;
 mod rigidities;
 mod shape;
 mod shear;
+mod strain_laws;
 
 pub use bending::{BendingElement, BendingLoads, BendingStiffness};
 pub use build::{StraightRod, Walls};
@@ -46,7 +47,7 @@ pub use elements::{RodElements, RodJoint, RodSegment};
 pub use energy_gradient::EnergyGradient;
 pub use error::{RodError, RodParameterError};
 pub use extended::{JoinedElement, SegmentCurvature, SegmentLaw, TwistStability};
-pub use homogenised::{EnergyAndLoads, Homogenised, HomogenisedForm, Term};
+pub use homogenised::{EnergyAndLoads, Homogenised, HomogenisedForm, StrainRange, Term};
 pub use key::RodKey;
 pub use law::{
     BendLaw, CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw,
@@ -57,6 +58,7 @@ pub use material::RodMaterial;
 pub use paper_balance::PaperBalance;
 pub use rigidities::Rigidities;
 pub use shear::{ShearElement, ShearLoads, ShearStiffness};
+pub use strain_laws::StrainLaws;
 
 /// The crate of points, frames, loads and interactions that rods are made of.
 pub use actin_mechanics as mechanics;

@@ -1,19 +1,27 @@
 //! The constitutive law: from strains to forces, couples, their tangents and energies per length.
 //!
-//! The rod and whatever is joined to it ask the material only through these six functions. The
-//! laws it is made of are in `law/`; what couples the strain of a segment to the curvature around
-//! it is in `extended/`.
+//! The rod and whatever is joined to it ask the material only through these six functions. A law for
+//! each strain is in `strain_laws.rs`, one potential for all in `homogenised/`; what couples the
+//! strain of a segment to the curvature around it is in `extended/`.
 
-use crate::{BendLaw, CubicShear, Rigidities, RodParameterError, StretchLaw, TwistLaw};
+use crate::homogenised::STRAIGHT;
+use crate::{
+    BendLaw, CubicShear, Homogenised, Rigidities, RodKey, RodParameterError, StrainLaws,
+    StretchLaw, TwistLaw,
+};
 use actin_mechanics::{Matrix3, Vector3};
 
 /// The material of a rod: how it resists shear, stretch, bending and twist, validated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RodMaterial {
-    shear: CubicShear,
-    stretch: StretchLaw,
-    bend: BendLaw,
-    twist: TwistLaw,
+pub struct RodMaterial(Kind);
+
+/// What a material is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Kind {
+    /// A law for each strain.
+    Laws(StrainLaws),
+    /// One potential for all.
+    Potential(&'static Homogenised),
 }
 
 impl RodMaterial {
@@ -23,16 +31,17 @@ impl RodMaterial {
     /// A rigidity that is not positive and finite.
     pub fn new(rigidities: Rigidities) -> Result<Self, RodParameterError> {
         rigidities.validate()?;
-        let Rigidities { shear, bend } = rigidities;
-        Ok(Self {
-            shear: CubicShear {
-                linear: [shear.x, shear.y],
-                cubic: 0.0,
-            },
-            stretch: StretchLaw::Constant(shear.z),
-            bend: BendLaw::Constant([bend.x, bend.y]),
-            twist: TwistLaw::Constant(bend.z),
-        })
+        Ok(Self(Kind::Laws(StrainLaws::constant(rigidities))))
+    }
+
+    /// The material of one potential for all strains, of which there are few in a program:
+    /// [`Homogenised::mean_filament`], or a leaked one ([`Box::leak`]).
+    ///
+    /// Twist, shear and stretch are one law there, so that loads of a segment depend on the mean
+    /// curvature around it. Functions of one strain alone take the others as zero, and the length as
+    /// natural.
+    pub fn homogenised(law: &'static Homogenised) -> Self {
+        Self(Kind::Potential(law))
     }
 
     /// The same with another law of twist.
@@ -49,148 +58,132 @@ impl RodMaterial {
     /// ```
     ///
     /// # Errors
-    /// What [`TwistLaw::validate`] refuses.
+    /// What [`TwistLaw::validate`] refuses, and a potential, which has a law of every strain.
     pub fn with_twist(self, twist: TwistLaw) -> Result<Self, RodParameterError> {
         twist.validate()?;
-        Ok(Self { twist, ..self })
+        let laws = self.replaceable(RodKey::Twist)?;
+        Ok(Self(Kind::Laws(StrainLaws { twist, ..laws })))
     }
 
     /// The same with another law of bending.
     ///
     /// # Errors
-    /// What [`BendLaw::validate`] refuses.
+    /// What [`BendLaw::validate`] refuses, and a potential.
     pub fn with_bend(self, bend: BendLaw) -> Result<Self, RodParameterError> {
         bend.validate()?;
-        Ok(Self { bend, ..self })
+        let laws = self.replaceable(RodKey::Bend)?;
+        Ok(Self(Kind::Laws(StrainLaws { bend, ..laws })))
     }
 
     /// The same with another law of stretch.
     ///
     /// # Errors
-    /// What [`StretchLaw::validate`] refuses.
+    /// What [`StretchLaw::validate`] refuses, and a potential.
     pub fn with_stretch(self, stretch: StretchLaw) -> Result<Self, RodParameterError> {
         stretch.validate()?;
-        Ok(Self { stretch, ..self })
+        let laws = self.replaceable(RodKey::Tension)?;
+        Ok(Self(Kind::Laws(StrainLaws { stretch, ..laws })))
     }
 
     /// The same with another law of shear.
     ///
     /// # Errors
-    /// What [`CubicShear::validate`] refuses.
+    /// What [`CubicShear::validate`] refuses, and a potential.
     pub fn with_shear(self, shear: CubicShear) -> Result<Self, RodParameterError> {
         shear.validate()?;
-        Ok(Self { shear, ..self })
+        let laws = self.replaceable(RodKey::Shear)?;
+        Ok(Self(Kind::Laws(StrainLaws { shear, ..laws })))
     }
 
-    /// The law of bending.
-    pub fn bend(&self) -> &BendLaw {
-        &self.bend
+    /// The laws, of which one is to be replaced.
+    fn replaceable(self, key: RodKey) -> Result<StrainLaws, RodParameterError> {
+        match self.0 {
+            Kind::Laws(laws) => Ok(laws),
+            Kind::Potential(_) => Err(RodParameterError {
+                key,
+                value: f64::NAN,
+                rule: "left out: a potential has a law of every strain",
+            }),
+        }
     }
 
-    /// The law of twist.
-    pub fn twist(&self) -> &TwistLaw {
-        &self.twist
+    /// What it is made of.
+    #[inline]
+    pub(crate) fn kind(&self) -> &Kind {
+        &self.0
     }
 
-    /// The law of stretch.
-    pub fn stretch(&self) -> &StretchLaw {
-        &self.stretch
+    /// A law for each strain; none where all have one potential.
+    pub fn laws(&self) -> Option<&StrainLaws> {
+        match &self.0 {
+            Kind::Laws(laws) => Some(laws),
+            Kind::Potential(_) => None,
+        }
     }
 
-    /// The law of shear.
-    pub fn shear(&self) -> &CubicShear {
-        &self.shear
+    /// The potential of all strains, if there is one.
+    pub fn potential(&self) -> Option<&'static Homogenised> {
+        match self.0 {
+            Kind::Laws(_) => None,
+            Kind::Potential(law) => Some(law),
+        }
     }
 
     /// Force in body axes (pN) at shear strain `sigma`.
     #[inline]
     pub fn shear_force(&self, sigma: Vector3) -> Vector3 {
-        self.shear_force_beyond(sigma, 0.0)
+        match &self.0 {
+            Kind::Laws(laws) => laws.shear_force_beyond(sigma, 0.0),
+            Kind::Potential(law) => law.segment_loads(sigma, STRAIGHT).0,
+        }
     }
 
     /// Energy per rest length (pN) at shear strain `sigma`, of which
     /// [`shear_force`](Self::shear_force) is the gradient.
     #[inline]
     pub fn shear_energy_density(&self, sigma: Vector3) -> f64 {
-        self.shear_energy_beyond(sigma, 0.0)
+        match &self.0 {
+            Kind::Laws(laws) => laws.shear_energy_beyond(sigma, 0.0),
+            Kind::Potential(law) => law.segment_energy(sigma, STRAIGHT),
+        }
     }
 
     /// Tangent (pN) at shear strain `sigma`: the derivative of [`shear_force`](Self::shear_force)
     /// with respect to `sigma`, symmetric.
     #[inline]
     pub fn shear_tangent(&self, sigma: Vector3) -> Matrix3 {
-        self.shear_tangent_beyond(sigma, 0.0)
-    }
-
-    /// The force where a strain of `natural` in length costs nothing.
-    #[inline]
-    pub(crate) fn shear_force_beyond(&self, sigma: Vector3, natural: f64) -> Vector3 {
-        let across = self.shear.force(sigma.xy());
-        let (strain, along, _) = self.length_strain(sigma);
-        Vector3::new(across.x, across.y, 0.0) + along * self.stretch.force(strain - natural)
-    }
-
-    /// Its energy per length (pN).
-    #[inline]
-    pub(crate) fn shear_energy_beyond(&self, sigma: Vector3, natural: f64) -> f64 {
-        let (strain, ..) = self.length_strain(sigma);
-        self.shear.energy_density(sigma.xy()) + self.stretch.energy_density(strain - natural)
-    }
-
-    /// Its derivative (pN), symmetric.
-    #[inline]
-    pub(crate) fn shear_tangent_beyond(&self, sigma: Vector3, natural: f64) -> Matrix3 {
-        let (strain, along, bend) = self.length_strain(sigma);
-        let outer = along * along.transpose();
-        let strain = strain - natural;
-        let mut tangent = self.stretch.tangent(strain) * outer
-            + bend * self.stretch.force(strain) * (Matrix3::identity() - outer);
-        let mut corner = tangent.fixed_view_mut::<2, 2>(0, 0);
-        corner += self.shear.tangent(sigma.xy());
-        tangent
-    }
-
-    /// The strain of length, its gradient by `sigma`, and the factor of its second derivative,
-    /// which is across the gradient.
-    ///
-    /// Where shear is linear it is the component along d3. Where shear is cubic it is the change
-    /// of the segment's length, `|e3 + sigma| - 1`: tension along d3 pulls a segment across as
-    /// soon as it shears, more than a shearing rigidity below the tension holds it back, so that a
-    /// rod that does not resist small shear would give way under any tension. Tension along the
-    /// segment holds it straight, as a string.
-    #[inline]
-    pub(crate) fn length_strain(&self, sigma: Vector3) -> (f64, Vector3, f64) {
-        if self.shear.cubic == 0.0 {
-            return (sigma.z, Vector3::z(), 0.0);
+        match &self.0 {
+            Kind::Laws(laws) => laws.shear_tangent_beyond(sigma, 0.0),
+            Kind::Potential(law) => law.segment_jet(sigma, STRAIGHT).by_strain,
         }
-        let segment = Vector3::z() + sigma;
-        let length = segment.norm();
-        // |segment| - 1, without its cancellation at small strain.
-        let strain = (2.0 * sigma.z + sigma.norm_squared()) / (length + 1.0);
-        (strain, segment / length, length.recip())
     }
 
     /// Couple in body axes (pN nm) at curvature `kappa` (rad/nm).
     #[inline]
     pub fn bending_couple(&self, kappa: Vector3) -> Vector3 {
-        let mut couple = self.bend.couple(kappa);
-        couple.z += self.twist.couple(kappa.z);
-        couple
+        match &self.0 {
+            Kind::Laws(laws) => laws.bending_couple(kappa),
+            Kind::Potential(law) => law.joint_couple(kappa),
+        }
     }
 
     /// Tangent (pN nm^2) at curvature `kappa` (rad/nm): the derivative of
     /// [`bending_couple`](Self::bending_couple) with respect to `kappa`, symmetric.
     #[inline]
     pub fn bending_tangent(&self, kappa: Vector3) -> Matrix3 {
-        let mut tangent = self.bend.tangent(kappa);
-        tangent[(2, 2)] += self.twist.tangent(kappa.z);
-        tangent
+        match &self.0 {
+            Kind::Laws(laws) => laws.bending_tangent(kappa),
+            Kind::Potential(law) => law.joint_tangent(kappa),
+        }
     }
 
     /// Energy per rest length (pN) at curvature `kappa` (rad/nm), of which
     /// [`bending_couple`](Self::bending_couple) is the gradient.
     #[inline]
     pub fn bending_energy_density(&self, kappa: Vector3) -> f64 {
-        self.bend.energy_density(kappa) + self.twist.energy_density(kappa.z)
+        match &self.0 {
+            Kind::Laws(laws) => laws.bending_energy_density(kappa),
+            Kind::Potential(law) => law.joint_energy(kappa),
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::energy_gradient::write_bending_energies;
 use crate::{
-    BendingElement, RodEnd, RodLayout, RodMaterial, SegmentCurvature, ShearElement, TwistStretch,
+    BendingElement, RodEnd, RodError, RodLayout, RodMaterial, SegmentCurvature, ShearElement, TwistStretch,
 };
 use actin_mechanics::{Interaction, Loads, State, UnitQuaternion, Vector3};
 
@@ -36,12 +36,18 @@ pub struct PaperBalance {
 
 impl PaperBalance {
     /// The law on a rod.
-    pub fn new(layout: RodLayout, material: RodMaterial) -> Self {
-        Self {
+    ///
+    /// # Errors
+    /// A potential: the print has a law for each strain.
+    pub fn new(layout: RodLayout, material: RodMaterial) -> Result<Self, RodError> {
+        if material.potential().is_some() {
+            return Err(RodError::Potential("PaperBalance"));
+        }
+        Ok(Self {
             layout,
             material,
             extension: None,
-        }
+        })
     }
 
     /// The same with `e` and `E` scaled by `1/xi` as printed. No couple answers to that.

@@ -282,7 +282,8 @@ fn only_the_printed_balance_does_work_around_a_cycle() {
             } else {
                 let curvature = SegmentCurvature::new(&layout, &[], &[]);
                 let law = TwistStretch::published();
-                let rod = PaperBalance::new(layout, *rod.material()).with_extension(law, curvature);
+                let rod = PaperBalance::new(layout, *rod.material()).unwrap();
+                let rod = rod.with_extension(law, curvature);
                 loads_of(&rod, &state)
             };
             let turning = (0..10).map(|i| loads.torque.get(i).z * 10.0 * i as f64 * dk);

@@ -29,7 +29,7 @@ fn the_difference_of_the_laws_is_of_the_order_of_the_strain() {
                 let (mut state, layout) = rod(segments, walls, &mut noise);
                 perturb(&mut state, &mut noise, 10.0 * strain, strain);
                 let gradient = EnergyGradient::new(layout.clone(), material());
-                let printed = PaperBalance::new(layout, material());
+                let printed = PaperBalance::new(layout, material()).unwrap();
                 relative_difference(&loads_of(&printed, &state), &loads_of(&gradient, &state))
             };
             let (coarse, fine) = (difference(2e-4), difference(1e-4));
@@ -46,13 +46,13 @@ fn forces_balance_and_shear_keeps_angular_momentum() {
     let mut noise = Xorshift::new(12);
     for walls in ALL_WALLS {
         let (state, layout) = strained_rod(5, walls, &mut noise);
-        let loads = loads_of(&PaperBalance::new(layout, material()), &state);
+        let loads = loads_of(&PaperBalance::new(layout, material()).unwrap(), &state);
         let scale: f64 = loads.force.iter().map(|f| f.norm()).sum();
         let (force, _) = resultant(&state, &loads);
         assert!(force.norm() < 1e-14 * scale);
     }
     let (state, layout) = strained_rod(1, ALL_WALLS[0], &mut noise);
-    let loads = loads_of(&PaperBalance::new(layout, material()), &state);
+    let loads = loads_of(&PaperBalance::new(layout, material()).unwrap(), &state);
     let (_, torque) = resultant(&state, &loads);
     assert!(torque.norm() < 1e-13 * loads.torque.get(1).norm());
 }
@@ -65,7 +65,7 @@ fn torque_left_over(theta: Vector3) -> Vector3 {
     state.frames.orientation.set(1, q);
     let tip = state.points.position.get(1) + q * Vector3::z() * 10.0;
     state.points.position.set(2, tip);
-    let loads = loads_of(&PaperBalance::new(layout, material()), &state);
+    let loads = loads_of(&PaperBalance::new(layout, material()).unwrap(), &state);
     resultant(&state, &loads).1
 }
 
@@ -139,7 +139,7 @@ fn a_closed_loop_of_strains_does_net_work() {
     let material = RodMaterial::new(Rigidities::table4()).unwrap();
     let bending_energy = 0.5 * 3.9e4 * angle * angle / 10.0;
 
-    let printed = work(&PaperBalance::new(layout.clone(), material), &corners);
+    let printed = work(&PaperBalance::new(layout.clone(), material).unwrap(), &corners);
     let expected = bending_energy * (1.0 - e.powi(-3));
     // Chords of 200 steps: second order in the step, 1e-5 relative.
     assert!((printed / expected - 1.0).abs() < 1e-4, "{printed}");
@@ -154,7 +154,7 @@ fn it_says_that_it_is_not_conservative_and_gives_the_printed_energy() {
     let mut noise = Xorshift::new(13);
     let (state, layout) = strained_rod(4, ALL_WALLS[3], &mut noise);
     let gradient = EnergyGradient::new(layout.clone(), material());
-    let printed = PaperBalance::new(layout, material());
+    let printed = PaperBalance::new(layout, material()).unwrap();
     assert!(gradient.is_conservative() && !printed.is_conservative());
     assert!(gradient.second_order().is_some() && printed.second_order().is_none());
     assert_eq!(
@@ -182,7 +182,7 @@ fn extension_of_a_bending_element_is_that_of_its_own_segments() {
     for point in [1, 2] {
         state.points.position.add(point, Vector3::z() * 2.0);
     }
-    let law = PaperBalance::new(layout, RodMaterial::new(Rigidities::table4()).unwrap());
+    let law = PaperBalance::new(layout, RodMaterial::new(Rigidities::table4()).unwrap()).unwrap();
     let torque = loads_of(&law, &state).torque;
     let couple = 1.3e4 * 0.01;
     let [at_wall, inside, far_wall] = [1.2_f64, 1.1, 1.0].map(|e| couple / e.powi(3));

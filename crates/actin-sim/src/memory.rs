@@ -61,7 +61,11 @@ pub(crate) fn of_filament(task: &Task) -> f64 {
 pub(crate) fn of_segments(count: f64, rod: &RodModel, task: &Task) -> f64 {
     let each = match rod.law {
         RodLaw::Constant => SEGMENT,
-        _ => LAW_SEGMENT,
+        RodLaw::PublishedExtension
+        | RodLaw::CouplingEnergy
+        | RodLaw::Fitted
+        | RodLaw::Homogenised
+        | RodLaw::Laws(_) => LAW_SEGMENT,
     };
     let trials = match (rod.force_law, task) {
         (ForceLaw::PaperBalance, Task::Dynamics(_)) => TRIAL_VECTORS,

@@ -26,7 +26,7 @@ fn fitted_without_heat(law: &RodLaw) -> Option<(&'static str, InBath)> {
         RodLaw::PublishedExtension => Some(("PublishedExtension", (9.5, 4.8e3))),
         RodLaw::CouplingEnergy => Some(("CouplingEnergy", (9.5, 4.8e3))),
         RodLaw::Fitted => Some(("Fitted", (9.7, 4.6e3))),
-        RodLaw::Laws(_) => None,
+        RodLaw::Homogenised | RodLaw::Laws(_) => None,
     }
 }
 
@@ -115,6 +115,11 @@ fn law_in_bath(rod: &RodModel) -> Option<String> {
     if rod.law == RodLaw::Constant && rod.material != Material::Table4 {
         return None;
     }
+    if rod.law == RodLaw::Homogenised {
+        let note = "rods under the law Homogenised in a heat bath: its energy is one at zero temperature, \
+                    not a free energy, and how such rods fluctuate has not been measured";
+        return Some(note.to_owned());
+    }
     let Some((name, (persistence, twist))) = fitted_without_heat(&rod.law) else {
         let note = "rods under Laws in a heat bath: laws fitted to equilibria at zero temperature are not \
                     free energies, so rods under them fluctuate differently from the filaments that \
@@ -188,6 +193,7 @@ mod tests {
                 60.0,
             ),
             rod("material: PrecedingPaper", 80.0),
+            rod("law: Homogenised", 120.0),
             "Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0)],
                 rod: RodModel(law: CouplingEnergy), at_nm: (100.0, 0.0, 0.0))"
                 .to_owned(),
@@ -204,6 +210,7 @@ mod tests {
                 "rods under the law Fitted in a heat bath",
                 "rods under the law Constant in a heat bath",
                 "rods under Laws in a heat bath",
+                "rods under the law Homogenised in a heat bath",
             ]
         );
         assert_eq!(notes(&filaments, ""), [""; 0]);

@@ -25,6 +25,8 @@ pub struct SegmentCurvature {
     /// Where the elements around each segment begin, and where those of the last one end.
     offsets: Vec<usize>,
     around: Vec<Around>,
+    /// Share of each segment's length that elements stand for: half for each side that has any.
+    covered: Vec<f64>,
 }
 
 /// One of the elements around a segment.
@@ -66,6 +68,7 @@ impl SegmentCurvature {
         let mut curvature = Self {
             offsets: Vec::with_capacity(segments + 1),
             around: Vec::with_capacity(2 * segments + start.len() + end.len()),
+            covered: Vec::with_capacity(segments),
         };
         curvature.offsets.push(0);
         for (k, frame) in layout.frames().enumerate() {
@@ -92,6 +95,13 @@ impl SegmentCurvature {
             }));
         }
         self.offsets.push(self.around.len());
+        self.covered.push(0.5 * present as f64);
+    }
+
+    /// Share of the length of `segment` that the elements around it stand for.
+    #[inline]
+    pub(crate) fn covered(&self, segment: usize) -> f64 {
+        self.covered[segment]
     }
 
     /// The elements around `segment`.

@@ -1,7 +1,8 @@
 //! What couples the strain of a segment to the curvature around it.
 
 use crate::law::Jet;
-use crate::{BendLaw, RodMaterial, Stiffening, TwistStretch};
+use crate::material::Kind;
+use crate::{BendLaw, RodMaterial, Stiffening, StrainLaws, TwistStretch};
 use actin_mechanics::{Matrix3, Vector3};
 
 /// A segment's energy per rest length as a function of its strain and the mean curvature around
@@ -10,11 +11,31 @@ use actin_mechanics::{Matrix3, Vector3};
 /// `W(sigma, xi(kappa_3) - 1) + U(kappa, gamma) - U(kappa, 0)`, with `W` the material's energy of
 /// shear and of stretch beyond the natural extension `xi - 1`, `xi` the law of twist and stretch,
 /// and `U` that of bending where shear stiffens it. The nodes' own energy, without shear, stays
-/// with them.
+/// with them. Of a potential it is `W(sigma, kappa) - U(kappa)`, `U` being
+/// [`Homogenised::joint_energy`](crate::Homogenised::joint_energy).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SegmentLaw {
     twist_stretch: Option<TwistStretch>,
     stiffening: Option<Stiffening>,
+}
+
+/// The mean curvature around a segment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MeanCurvature {
+    /// The mean (rad/nm).
+    pub(crate) kappa: Vector3,
+    /// Share of the segment's length that bending elements stand for, which have the energy of bending there.
+    pub(crate) covered: f64,
+}
+
+impl MeanCurvature {
+    /// Of a segment that has neighbours on both sides.
+    pub(crate) const fn inside(kappa: Vector3) -> Self {
+        Self {
+            kappa,
+            covered: 1.0,
+        }
+    }
 }
 
 /// First and second derivatives of the energy per length.
@@ -31,9 +52,13 @@ pub(crate) struct SegmentJet {
 }
 
 impl SegmentLaw {
-    /// What a material and a law of twist and stretch need; `None` where nothing couples.
+    /// What a material and a law of twist and stretch need; `None` where nothing couples. A potential
+    /// has its own length, and no use for `twist_stretch`.
     pub fn of(material: &RodMaterial, twist_stretch: Option<TwistStretch>) -> Option<Self> {
-        let stiffening = match material.bend() {
+        let Some(laws) = material.laws() else {
+            return Some(Self::default());
+        };
+        let stiffening = match laws.bend() {
             BendLaw::Stiffening(law) if law.shear.is_finite() => Some(*law),
             _ => None,
         };
@@ -71,8 +96,16 @@ impl SegmentLaw {
         &self,
         material: &RodMaterial,
         sigma: Vector3,
-        kappa: Vector3,
+        curvature: MeanCurvature,
     ) -> (Vector3, Vector3) {
+        match material.kind() {
+            Kind::Laws(laws) => self.loads_of(laws, sigma, curvature.kappa),
+            Kind::Potential(law) => law.segment_loads(sigma, curvature),
+        }
+    }
+
+    #[inline]
+    fn loads_of(&self, material: &StrainLaws, sigma: Vector3, kappa: Vector3) -> (Vector3, Vector3) {
         let [extension, slope, _] = self.extension(kappa.z);
         let mut force = material.shear_force_beyond(sigma, extension);
         let (strain, ..) = material.length_strain(sigma);
@@ -87,7 +120,17 @@ impl SegmentLaw {
     }
 
     /// Energy per length (pN).
-    pub(crate) fn energy(&self, material: &RodMaterial, sigma: Vector3, kappa: Vector3) -> f64 {
+    pub(crate) fn energy(
+        &self,
+        material: &RodMaterial,
+        sigma: Vector3,
+        curvature: MeanCurvature,
+    ) -> f64 {
+        let material = match material.kind() {
+            Kind::Laws(laws) => laws,
+            Kind::Potential(law) => return law.segment_energy(sigma, curvature),
+        };
+        let kappa = curvature.kappa;
         let [extension, ..] = self.extension(kappa.z);
         let own = material.shear_energy_beyond(sigma, extension);
         let added = (self.stiffening.as_ref()).map(|law| Stiffened::new(law, sigma, kappa));
@@ -95,7 +138,19 @@ impl SegmentLaw {
     }
 
     /// First and second derivatives.
-    pub(crate) fn jet(&self, material: &RodMaterial, sigma: Vector3, kappa: Vector3) -> SegmentJet {
+    pub(crate) fn jet(
+        &self,
+        material: &RodMaterial,
+        sigma: Vector3,
+        curvature: MeanCurvature,
+    ) -> SegmentJet {
+        match material.kind() {
+            Kind::Laws(laws) => self.jet_of(laws, sigma, curvature.kappa),
+            Kind::Potential(law) => law.segment_jet(sigma, curvature),
+        }
+    }
+
+    fn jet_of(&self, material: &StrainLaws, sigma: Vector3, kappa: Vector3) -> SegmentJet {
         let [extension, slope, second] = self.extension(kappa.z);
         let (strain, along, _) = material.length_strain(sigma);
         let stretch = material.stretch();
@@ -103,7 +158,7 @@ impl SegmentLaw {
             stretch.force(strain - extension),
             stretch.tangent(strain - extension),
         );
-        let (force, couple) = self.loads(material, sigma, kappa);
+        let (force, couple) = self.loads_of(material, sigma, kappa);
         let turn = Vector3::z() * slope;
         let mut jet = SegmentJet {
             force,

@@ -13,5 +13,6 @@ mod twist_stability;
 
 pub use curvature::{JoinedElement, SegmentCurvature};
 pub use law::SegmentLaw;
+pub(crate) use law::{MeanCurvature, SegmentJet};
 pub(crate) use segments::ExtendedSegments;
 pub use twist_stability::TwistStability;

@@ -1,7 +1,7 @@
 //! Energies, loads and stiffness of segments that the curvature around them reaches.
 
 use super::curvature::Around;
-use super::law::SegmentJet;
+use super::law::{MeanCurvature, SegmentJet};
 use super::{SegmentCurvature, SegmentLaw};
 use crate::bending::BendingLoads;
 use crate::shear::ShearLoads;
@@ -24,7 +24,7 @@ struct Segment<'a> {
     frame: usize,
     q: UnitQuaternion,
     l: Vector3,
-    kappa: Vector3,
+    curvature: MeanCurvature,
     around: &'a [Around],
 }
 
@@ -50,7 +50,10 @@ impl ExtendedSegments {
             frame,
             q: state.frames.orientation.get(frame),
             l: x.get(i + 1) - x.get(i),
-            kappa: self.curvature.mean(k, state),
+            curvature: MeanCurvature {
+                kappa: self.curvature.mean(k, state),
+                covered: self.curvature.covered(k),
+            },
             around: self.curvature.around(k),
         }
     }
@@ -63,7 +66,7 @@ impl ExtendedSegments {
     ) {
         for (k, energy) in energies.iter_mut().enumerate() {
             let segment = self.segment(k, layout, state);
-            let density = self.law.energy(material, segment.strain(), segment.kappa);
+            let density = self.law.energy(material, segment.strain(), segment.curvature);
             *energy = segment.element.rest_length * density;
         }
     }
@@ -77,7 +80,7 @@ impl ExtendedSegments {
         let q = &state.frames.orientation;
         for k in 0..layout.segments() {
             let segment = self.segment(k, layout, state);
-            let (n, couple) = self.law.loads(material, segment.strain(), segment.kappa);
+            let (n, couple) = self.law.loads(material, segment.strain(), segment.curvature);
             let axes = segment.q.to_rotation_matrix().into_inner();
             let shear = ShearLoads::of_force(n, axes, axes.tr_mul(&segment.l));
             loads.force.add(segment.points[0], shear.force);
@@ -101,7 +104,7 @@ impl ExtendedSegments {
     ) {
         for k in 0..layout.segments() {
             let segment = self.segment(k, layout, state);
-            let jet = self.law.jet(material, segment.strain(), segment.kappa);
+            let jet = self.law.jet(material, segment.strain(), segment.curvature);
             let own =
                 (segment.element).stiffness_of(jet.force, jet.by_strain, (segment.q, segment.l));
             own.push(segment.points, segment.frame, stiffness);

@@ -1,7 +1,8 @@
 //! Under which forces along a rod its twist is stable.
 
 use super::SegmentLaw;
-use crate::RodMaterial;
+use crate::material::Kind;
+use crate::{RodMaterial, StrainLaws};
 use actin_mechanics::Vector3;
 
 /// How stable the twist of a segment is under the force along it.
@@ -41,6 +42,9 @@ impl SegmentLaw {
     /// every stronger compression; where `xi'' > 0`, under every larger tension. `None` where
     /// `xi''` is zero: no force changes the tangent of twist (beyond the law's range, too).
     ///
+    /// Of a potential it is the force nearest to none at which the tangent vanishes, if there is one at a
+    /// stretch of up to 0.02 from the natural length.
+    ///
     /// ```
     /// use actin_cosserat::{Rigidities, RodMaterial, SegmentLaw, TanhTwist, TwistLaw, TwistStretch};
     /// use actin_mechanics::Vector3;
@@ -59,8 +63,12 @@ impl SegmentLaw {
         sigma: Vector3,
         kappa: Vector3,
     ) -> Option<f64> {
+        let laws = match material.kind() {
+            Kind::Laws(laws) => laws,
+            Kind::Potential(law) => return law.critical_tension(sigma, kappa),
+        };
         let [.., second] = self.extension(kappa.z);
-        (second != 0.0).then(|| self.free_tangent(material, sigma, kappa) / second)
+        (second != 0.0).then(|| self.free_tangent(laws, sigma, kappa) / second)
     }
 
     /// Compression (pN) beyond which twist is unstable at strain `sigma` and mean curvature
@@ -72,6 +80,9 @@ impl SegmentLaw {
         sigma: Vector3,
         kappa: Vector3,
     ) -> Option<f64> {
+        if let Kind::Potential(law) = material.kind() {
+            return law.critical_compression(sigma, kappa);
+        }
         let [.., second] = self.extension(kappa.z);
         let tension = self.critical_tension(material, sigma, kappa)?;
         (second < 0.0).then(|| (-tension).max(0.0))
@@ -85,18 +96,37 @@ impl SegmentLaw {
         sigma: Vector3,
         kappa: Vector3,
     ) -> TwistStability {
-        let [extension, _, second] = self.extension(kappa.z);
-        let (strain, ..) = material.length_strain(sigma);
-        let tension = material.stretch().force(strain - extension);
+        let [tension, tangent] = self.tension_and_tangent(material, sigma, kappa);
         TwistStability {
             tension,
-            tangent: self.free_tangent(material, sigma, kappa) - tension * second,
+            tangent,
             critical_tension: self.critical_tension(material, sigma, kappa),
         }
     }
 
+    /// [`TwistStability::tangent`] alone (pN nm^2).
+    pub fn twist_tangent(&self, material: &RodMaterial, sigma: Vector3, kappa: Vector3) -> f64 {
+        self.tension_and_tangent(material, sigma, kappa)[1]
+    }
+
+    fn tension_and_tangent(
+        &self,
+        material: &RodMaterial,
+        sigma: Vector3,
+        kappa: Vector3,
+    ) -> [f64; 2] {
+        let laws = match material.kind() {
+            Kind::Laws(laws) => laws,
+            Kind::Potential(law) => return law.tension_and_twist_tangent(sigma, kappa),
+        };
+        let [extension, _, second] = self.extension(kappa.z);
+        let (strain, ..) = laws.length_strain(sigma);
+        let tension = laws.stretch().force(strain - extension);
+        [tension, self.free_tangent(laws, sigma, kappa) - tension * second]
+    }
+
     /// Tangent of twist without a force along the rod (pN nm^2).
-    fn free_tangent(&self, material: &RodMaterial, sigma: Vector3, kappa: Vector3) -> f64 {
+    fn free_tangent(&self, material: &StrainLaws, sigma: Vector3, kappa: Vector3) -> f64 {
         let tangent = material.bending_tangent(kappa) + self.shear_by_curvature(sigma, kappa);
         tangent[(2, 2)]
     }
@@ -105,6 +135,7 @@ impl SegmentLaw {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::extended::MeanCurvature;
     use crate::{
         BendLaw, CubicShear, Rigidities, RootedStretch, SidedTwist, Stiffening, StretchLaw,
         TanhTwist, TwistLaw, TwistRise, TwistStretch,
@@ -209,7 +240,7 @@ mod tests {
                 let couple = |tension: f64, h: f64| {
                     let kappa = kappa + Vector3::z() * h;
                     let sigma = strain_under(&parts, [g1, g2, tension], kappa);
-                    let (_, couple) = law.loads(material, sigma, kappa);
+                    let (_, couple) = law.loads(material, sigma, MeanCurvature::inside(kappa));
                     couple.z + material.bending_couple(kappa).z
                 };
                 let critical = law.critical_tension(material, Vector3::new(g1, g2, 0.0), kappa);

@@ -1,16 +1,23 @@
 //! One potential for all six strains, as periodic cells of monomers give it.
 //!
-//! Its form is here, its numbers come from a fit to measured cells. It is no part of a
-//! [`crate::RodMaterial`] yet: twist, shear and stretch of one place are one law here, and a rod has them at
-//! different places.
+//! Its form is here; its numbers come from a fit to measured cells (`mean_filament.rs`). Twist, shear and
+//! stretch of one place are one law, and a rod has them at different places: `joint.rs` and `segment.rs` share the
+//! energy among them.
 
+mod joint;
+mod mean_filament;
+mod segment;
 mod spline;
 mod terms;
+mod twist_stability;
 
+pub use mean_filament::StrainRange;
 pub use terms::Term;
 
 use crate::RodParameterError;
 use nalgebra::{Matrix6, Vector6};
+pub(crate) use segment::STRAIGHT;
+use segment::joined;
 use spline::Spline;
 use terms::TermJet;
 
@@ -62,6 +69,7 @@ pub struct Homogenised {
     form: HomogenisedForm,
     /// One per term.
     coefficients: Vec<Spline>,
+    range: StrainRange,
 }
 
 /// Energy per length and loads that one unit of a coefficient adds.
@@ -163,7 +171,11 @@ impl Homogenised {
             .into_iter()
             .map(spline)
             .collect::<Result<_, _>>()?;
-        Ok(Self { form, coefficients })
+        Ok(Self {
+            form,
+            coefficients,
+            range: StrainRange::UNBOUNDED,
+        })
     }
 
     /// The form.

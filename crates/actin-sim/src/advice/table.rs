@@ -17,8 +17,8 @@ pub struct Measured {
     pub scene: String,
     /// Stretches of monomers (nm), such as `0-40+120-160.2`; empty for a pure rod.
     pub monomers_nm: String,
-    /// The rod's law: `Constant`, `PublishedExtension`, `Fitted`, or `FittedConstantShear`, which is `Fitted`
-    /// without its law of shear.
+    /// The rod's law: `Constant`, `PublishedExtension`, `Fitted`, `FittedConstantShear`, which is `Fitted`
+    /// without its law of shear, or `Homogenised`.
     pub law: String,
     /// Length of segments (nm).
     pub segment_nm: f64,
@@ -77,11 +77,12 @@ fn law(name: &str) -> Option<RodLaw> {
 /// A law and its name.
 type NamedLaw = (&'static str, fn() -> RodLaw);
 
-const LAWS: [NamedLaw; 4] = [
+const LAWS: [NamedLaw; 5] = [
     ("Constant", || RodLaw::Constant),
     ("PublishedExtension", || RodLaw::PublishedExtension),
     ("Fitted", || RodLaw::Fitted),
     ("FittedConstantShear", constant_shear),
+    ("Homogenised", || RodLaw::Homogenised),
 ];
 
 /// The law `Fitted` with the constant shearing rigidity, for short spans.

@@ -1,9 +1,9 @@
 //! From a scene's rod law to the interaction of a rod.
 
-use super::TwistWatch;
+use super::{Ranges, TwistWatch};
 use crate::scene::{self, ForceLaw, Material, RodLaw, RodLaws, RodModel, SceneProblem, fitted};
 use actin_cosserat::{
-    BendLaw, CubicShear, EnergyGradient, JoinedElement, PaperBalance, PolynomialStretch, RodKey,
+    BendLaw, CubicShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance, PolynomialStretch, RodKey,
     RodLayout, RodMaterial, RodParameterError, RootedStretch, SegmentCurvature, SegmentLaw,
     SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, constants,
 };
@@ -27,11 +27,11 @@ impl Law {
                 "PaperBalance takes the laws Constant and PublishedExtension only",
             ));
         }
-        if rod.law == RodLaw::Fitted && rod.material != Material::default() {
+        if let Some(name) = whole(&rod.law).filter(|_| rod.material != Material::default()) {
             return Err(SceneProblem::new(
                 "filament.rod.material",
                 format!("{:?}", rod.material),
-                "the law Fitted has a law for every deformation: leave the material out",
+                format!("the law {name} has a law for every deformation: leave the material out"),
             ));
         }
         let rigidities = rod.material.rigidities();
@@ -44,6 +44,7 @@ impl Law {
                 published(material, law)?
             }
             RodLaw::Fitted => with_laws(material, &fitted::laws())?,
+            RodLaw::Homogenised => (RodMaterial::homogenised(Homogenised::mean_filament()), None),
             RodLaw::Laws(laws) => with_laws(material, laws)?,
         };
         Ok(Self {
@@ -53,12 +54,9 @@ impl Law {
         })
     }
 
-    /// Largest twist (rad/nm) that the data behind the laws of twist and of length reach.
-    pub(super) fn twist_range(&self) -> Option<f64> {
-        let twist = self.material.twist().range();
-        let length = self.twist_stretch.map(|law| law.range());
-        let both = twist.into_iter().chain(length);
-        both.reduce(f64::min).filter(|range| range.is_finite())
+    /// How far the data behind the laws reach.
+    pub(super) fn ranges(&self) -> Ranges {
+        Ranges::of(&self.material, self.twist_stretch.as_ref())
     }
 
     /// What the twist of such a rod is watched with; nothing where no force along it can make it
@@ -71,7 +69,10 @@ impl Law {
         if self.balance != ForceLaw::EnergyGradient {
             return None;
         }
-        let law = SegmentLaw::of(&self.material, Some(self.twist_stretch?))?;
+        if self.twist_stretch.is_none() && self.material.potential().is_none() {
+            return None;
+        }
+        let law = SegmentLaw::of(&self.material, self.twist_stretch)?;
         Some(TwistWatch {
             law,
             material: self.material,
@@ -96,13 +97,26 @@ impl Law {
                 }
             }
             ForceLaw::PaperBalance => {
-                let rod = PaperBalance::new(own, material);
+                let rod = PaperBalance::new(own, material)
+                    .expect("the printed balance was refused for a potential");
                 match self.twist_stretch {
                     Some(law) => Box::new(rod.with_extension(law, curvature())),
                     None => Box::new(rod),
                 }
             }
         }
+    }
+}
+
+/// The name of a law that leaves nothing to the material.
+fn whole(law: &RodLaw) -> Option<&'static str> {
+    match law {
+        RodLaw::Fitted => Some("Fitted"),
+        RodLaw::Homogenised => Some("Homogenised"),
+        RodLaw::Constant
+        | RodLaw::PublishedExtension
+        | RodLaw::CouplingEnergy
+        | RodLaw::Laws(_) => None,
     }
 }
 

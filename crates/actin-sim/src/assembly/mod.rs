@@ -29,8 +29,8 @@ pub use parts::{
     BodyKind, Counts, FilamentSpan, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term,
 };
 pub(crate) use ramp::{Ramp, StageTimes};
-pub(crate) use range::RangeWatch;
 pub use range::{BeyondRange, Fluctuations};
+pub(crate) use range::{RangeWatch, Ranges};
 pub use reaction::{Clamped, Reaction};
 pub use unstable_twist::UnstableTwist;
 pub(crate) use unstable_twist::{TwistRecords, TwistWatch};

@@ -1,6 +1,6 @@
 //! What bodies, sections and terms are, for writers and pictures.
 
-use super::TwistWatch;
+use super::{Ranges, TwistWatch};
 use crate::scene::End;
 use actin_cosserat::{JoinedElement, RodLayout};
 use actin_mechanics::{UnitQuaternion, Vector3};
@@ -91,10 +91,8 @@ pub(crate) struct Rod {
     pub section: usize,
     /// What it is made of.
     pub layout: RodLayout,
-    /// Largest twist of these data (rad/nm), if there are data.
-    pub twist_range: Option<f64>,
-    /// Largest curvature of such data (rad/nm).
-    pub bend_range: Option<f64>,
+    /// How far these data reach.
+    pub ranges: Ranges,
     /// The elements that join its start and its end to the frames of junctions.
     pub joined: [Vec<JoinedElement>; 2],
     /// What its twist is watched with, where the force along it can make it unstable.

@@ -1,30 +1,85 @@
 //! Where a state leaves the data behind a rod's fitted laws.
 
 use super::{Assembly, Rod};
-use actin_cosserat::BendingElement;
+use actin_cosserat::{BendLaw, BendingElement, RodMaterial, StrainRange, TwistStretch};
 use actin_mechanics::{State, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// A rod goes further than the data that one of its laws was fitted to.
+///
+/// Written, `value` and `range` of twist and of curvature are `value_per_nm` and `range_per_nm`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(into = "Written", from = "Written")]
 pub struct BeyondRange {
     /// Index of the filament.
-    #[serde(default)]
     pub filament: usize,
     /// Index of the section in its filament.
     pub section: usize,
-    /// `twist` or `curvature`.
+    /// `twist`, `curvature`, `shear`, or `stretch` beyond the natural length.
     pub quantity: String,
     /// Where it goes furthest, as arc length at rest (nm).
     pub s_nm: f64,
-    /// What it reaches there (rad/nm).
-    pub value_per_nm: f64,
-    /// How far the data reach (rad/nm).
-    pub range_per_nm: f64,
+    /// What it reaches there (rad/nm, or a strain).
+    pub value: f64,
+    /// How far the data reach (the same); in compression the bound of that.
+    pub range: f64,
     /// How often, where the state fluctuates; none without a heat bath.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fluctuations: Option<Fluctuations>,
+}
+
+/// The same as it is written.
+#[derive(Clone, Serialize, Deserialize)]
+struct Written {
+    #[serde(default)]
+    filament: usize,
+    section: usize,
+    quantity: String,
+    s_nm: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    value_per_nm: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    range_per_nm: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    value: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    range: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    fluctuations: Option<Fluctuations>,
+}
+
+impl From<BeyondRange> for Written {
+    fn from(beyond: BeyondRange) -> Self {
+        let (value, range) = (Some(beyond.value), Some(beyond.range));
+        let is_strain = beyond.is_strain();
+        let of_strain = |number: Option<f64>| number.filter(|_| is_strain);
+        let per_nm = |number: Option<f64>| number.filter(|_| !is_strain);
+        Self {
+            filament: beyond.filament,
+            section: beyond.section,
+            quantity: beyond.quantity,
+            s_nm: beyond.s_nm,
+            value_per_nm: per_nm(value),
+            range_per_nm: per_nm(range),
+            value: of_strain(value),
+            range: of_strain(range),
+            fluctuations: beyond.fluctuations,
+        }
+    }
+}
+
+impl From<Written> for BeyondRange {
+    fn from(written: Written) -> Self {
+        Self {
+            filament: written.filament,
+            section: written.section,
+            quantity: written.quantity,
+            s_nm: written.s_nm,
+            value: written.value_per_nm.or(written.value).unwrap_or(f64::NAN),
+            range: written.range_per_nm.or(written.range).unwrap_or(f64::NAN),
+            fluctuations: written.fluctuations,
+        }
+    }
 }
 
 /// How often thermal fluctuations pass a bound.
@@ -32,36 +87,87 @@ pub struct BeyondRange {
 pub struct Fluctuations {
     /// Share of the records in which they do anywhere.
     pub share_of_records: f64,
-    /// Share of all bending elements of all records in which they do. It does not grow with the
-    /// length of a filament or the duration of a run.
+    /// Share of all bending elements (of shear and stretch: of all segments) of all records in which they
+    /// do. It does not grow with the length of a filament or the duration of a run.
     pub share_of_elements: f64,
 }
+
+/// How far the data behind a rod's laws reach; none where nothing bounds them.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Ranges {
+    twist: Option<f64>,
+    curvature: Option<f64>,
+    shear: Option<f64>,
+    /// In compression and in tension.
+    stretch: Option<[f64; 2]>,
+}
+
+impl Ranges {
+    /// Those of a material, and of the law of its natural length.
+    pub(super) fn of(material: &RodMaterial, length: Option<&TwistStretch>) -> Self {
+        if let Some(law) = material.potential() {
+            return Self::of_potential(law.range());
+        }
+        let laws = material.laws();
+        let twist = laws.and_then(|laws| laws.twist().range());
+        let both = twist.into_iter().chain(length.map(TwistStretch::range));
+        Self {
+            twist: both.reduce(f64::min).filter(|range| range.is_finite()),
+            curvature: laws.and_then(|laws| BendLaw::range(laws.bend())),
+            ..Self::default()
+        }
+    }
+
+    fn of_potential(range: &StrainRange) -> Self {
+        let finite = |bound: f64| Some(bound).filter(|bound| bound.is_finite());
+        Self {
+            twist: finite(range.twist),
+            curvature: finite(range.curvature),
+            shear: finite(range.shear),
+            stretch: Some(range.stretch).filter(|bounds| bounds.iter().all(|b| b.is_finite())),
+        }
+    }
+}
+
+/// Values of a quantity with their arc lengths from the rod's start (nm).
+type Values<'a> = Box<dyn Iterator<Item = (f64, f64)> + 'a>;
 
 /// What a law's data bound.
 #[derive(Clone, Copy)]
 struct Quantity {
     name: &'static str,
-    range: fn(&Rod) -> Option<f64>,
-    of: fn(Vector3) -> f64,
+    /// The lowest and the highest value.
+    range: fn(&Ranges) -> Option<[f64; 2]>,
+    of: for<'a> fn(&'a Rod, &'a State) -> Values<'a>,
 }
 
-const QUANTITIES: [Quantity; 2] = [
+const QUANTITIES: [Quantity; 4] = [
     Quantity {
         name: "twist",
-        range: |rod| rod.twist_range,
-        of: |kappa| kappa.z,
+        range: |ranges| ranges.twist.map(|bound| [-bound, bound]),
+        of: |rod, state| Box::new(curvatures(rod, state).map(|(s, kappa)| (s, kappa.z))),
     },
     Quantity {
         name: "curvature",
-        range: |rod| rod.bend_range,
-        of: |kappa| kappa.xy().norm(),
+        range: |ranges| ranges.curvature.map(|bound| [-bound, bound]),
+        of: |rod, state| Box::new(curvatures(rod, state).map(|(s, kappa)| (s, kappa.xy().norm()))),
+    },
+    Quantity {
+        name: "shear",
+        range: |ranges| ranges.shear.map(|bound| [-bound, bound]),
+        of: |rod, state| Box::new(strains(rod, state).map(|(s, strain)| (s, strain.xy().norm()))),
+    },
+    Quantity {
+        name: "stretch",
+        range: |ranges| ranges.stretch,
+        of: |rod, state| Box::new(strains(rod, state).map(|(s, strain)| (s, strain.z))),
     },
 ];
 
 impl Assembly {
     /// Where the rods leave the data of their laws in `state`: at most once per section and
     /// quantity, where it is worst. Beyond their data laws of twist and of length go on with the
-    /// slope that they have there, bending by its formula.
+    /// slope that they have there, bending and potentials by their formulas.
     ///
     /// The bending elements that join a rod to the frames of its junctions count as its own, at
     /// the end of the rod.
@@ -88,15 +194,23 @@ impl Assembly {
 
     /// How a quantity stands in a rod; nothing is counted where it has no range.
     fn tally(&self, rod: &Rod, quantity: Quantity, state: &State) -> Tally {
-        let Some(range_per_nm) = (quantity.range)(rod) else {
+        let Some([lowest, highest]) = (quantity.range)(&rod.ranges) else {
             return Tally::default();
         };
+        let bound = |value: f64| if value < 0.0 { lowest } else { highest };
+        let is_further = |value: f64, than: f64| {
+            let (of_value, of_other) = (bound(value).abs(), bound(than).abs());
+            if of_value == of_other {
+                value.abs() > than.abs()
+            } else {
+                value.abs() * of_other > than.abs() * of_value
+            }
+        };
         let (mut elements, mut beyond, mut largest) = (0, 0, (0.0, 0.0));
-        for (s, kappa) in curvatures(rod, state) {
-            let value = (quantity.of)(kappa);
+        for (s, value) in (quantity.of)(rod, state) {
             elements += 1;
-            beyond += usize::from(value.abs() > range_per_nm);
-            if value.abs() > f64::abs(largest.1) {
+            beyond += usize::from(value < lowest || value > highest);
+            if is_further(value, largest.1) {
                 largest = (s, value);
             }
         }
@@ -107,8 +221,8 @@ impl Assembly {
                 section: rod.section - self.filaments[filament].sections.start,
                 quantity: quantity.name.to_owned(),
                 s_nm: self.sections[rod.section].from_nm + largest.0,
-                value_per_nm: largest.1,
-                range_per_nm,
+                value: largest.1,
+                range: bound(largest.1).abs(),
                 fluctuations: None,
             }
         });
@@ -121,9 +235,14 @@ impl Assembly {
 }
 
 impl BeyondRange {
+    /// Whether it is of a strain: a number without a unit.
+    pub fn is_strain(&self) -> bool {
+        matches!(self.quantity.as_str(), "shear" | "stretch")
+    }
+
     /// The value over the range.
     fn excess(&self) -> f64 {
-        self.value_per_nm.abs() / self.range_per_nm
+        self.value.abs() / self.range
     }
 }
 
@@ -146,6 +265,21 @@ pub(super) fn curvatures<'a>(
     own.chain(joined).map(|(s, frames, element)| {
         let [first, second] = frames.map(|frame| state.frames.orientation.get(frame));
         (s, element.curvature(first, second))
+    })
+}
+
+/// Strain of every segment of a rod under a potential, its third component beyond the natural length, with
+/// the arc length of its middle from the rod's start (nm).
+fn strains<'a>(rod: &'a Rod, state: &'a State) -> impl Iterator<Item = (f64, Vector3)> + 'a {
+    let potential = rod.twist_watch.as_ref();
+    let potential = potential.and_then(|watch| Some((watch, watch.material.potential()?)));
+    potential.into_iter().flat_map(move |(watch, law)| {
+        let middles = rod.layout.element_positions();
+        (0..rod.layout.segments()).map(move |k| {
+            let (mut sigma, kappa) = watch.strains(rod, k, state);
+            sigma.z -= law.form().natural_stretch(kappa.z);
+            (middles[k], sigma)
+        })
     })
 }
 
@@ -172,7 +306,7 @@ struct Worst {
 /// What was counted of each quantity in a heat bath, and in how many states it went beyond its range.
 struct InBath {
     states: u32,
-    tallies: [(Quantity, Tally, u32); 2],
+    tallies: [(Quantity, Tally, u32); QUANTITIES.len()],
 }
 
 impl<'a> RangeWatch<'a> {
@@ -306,6 +440,6 @@ mod tests {
         assert!((beyond.s_nm - section.from_nm).abs() < 1e-12);
         let segment = 2.0 * (assembly.frames[section.frames.start].s_nm - section.from_nm);
         let distance = 0.5 * segment + 0.25 * 2.7385;
-        assert!((beyond.value_per_nm + 0.4 / distance).abs() < 1e-3 * 0.4 / distance);
+        assert!((beyond.value + 0.4 / distance).abs() < 1e-3 * 0.4 / distance);
     }
 }

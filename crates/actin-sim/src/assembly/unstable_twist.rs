@@ -1,7 +1,7 @@
 //! Where the force along a rod makes its twist unstable.
 
 use super::{Assembly, Rod};
-use actin_cosserat::{RodMaterial, SegmentCurvature, SegmentLaw, ShearElement, TwistStability};
+use actin_cosserat::{RodMaterial, SegmentCurvature, SegmentLaw, ShearElement};
 use actin_mechanics::{State, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -70,9 +70,10 @@ impl Assembly {
     fn weakest_of(&self, rod: &Rod, state: &State) -> Option<Weakest> {
         let watch = rod.twist_watch.as_ref()?;
         let segments = 0..rod.layout.segments();
-        let all = segments.map(|k| (k, watch.look_at(rod, k, state)));
-        let (k, (twist_per_nm, stability)) =
-            all.min_by(|a, b| a.1.1.tangent.total_cmp(&b.1.1.tangent))?;
+        let all = segments.map(|k| (k, watch.tangent(rod, k, state)));
+        let (k, _) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let (sigma, kappa) = watch.strains(rod, k, state);
+        let stability = watch.law.twist_stability(&watch.material, sigma, kappa);
         if stability.is_stable() {
             return None;
         }
@@ -84,7 +85,7 @@ impl Assembly {
                 filament,
                 section: rod.section - self.filaments[filament].sections.start,
                 s_nm: self.sections[rod.section].from_nm + middle,
-                twist_per_nm,
+                twist_per_nm: kappa.z,
                 compression_pn: -stability.tension,
                 bound_pn: -stability.critical_tension?,
                 share_of_records: 1.0,
@@ -141,15 +142,19 @@ impl<'a> TwistRecords<'a> {
 }
 
 impl TwistWatch {
-    /// Mean twist around segment `k` (rad/nm), and how stable it is.
-    fn look_at(&self, rod: &Rod, k: usize, state: &State) -> (f64, TwistStability) {
+    /// Strain of segment `k`, and mean curvature around it (rad/nm).
+    pub(super) fn strains(&self, rod: &Rod, k: usize, state: &State) -> (Vector3, Vector3) {
         let layout = &rod.layout;
         let (i, frame) = (layout.points().start + k, layout.frames().start + k);
         let x = &state.points.position;
         let element = ShearElement::segment(layout.segment_lengths()[k]);
         let sigma = element.strain(state.frames.orientation.get(frame), x.get(i + 1) - x.get(i));
-        let kappa: Vector3 = self.curvature.mean(k, state);
-        let stability = self.law.twist_stability(&self.material, sigma, kappa);
-        (kappa.z, stability)
+        (sigma, self.curvature.mean(k, state))
+    }
+
+    /// Tangent of the twist of segment `k` (pN nm^2).
+    fn tangent(&self, rod: &Rod, k: usize, state: &State) -> f64 {
+        let (sigma, kappa) = self.strains(rod, k, state);
+        self.law.twist_tangent(&self.material, sigma, kappa)
     }
 }

@@ -204,7 +204,11 @@ impl Elements {
             }
             let elements = match filament.rod.law {
                 RodLaw::Constant => &mut all.constant,
-                _ => &mut all.following,
+                RodLaw::PublishedExtension
+                | RodLaw::CouplingEnergy
+                | RodLaw::Fitted
+                | RodLaw::Homogenised
+                | RodLaw::Laws(_) => &mut all.following,
             };
             *elements += one.elements as f64;
         }

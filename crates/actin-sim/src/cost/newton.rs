@@ -88,7 +88,7 @@ fn kind(assembly: &Assembly) -> Kind {
             RodLaw::Constant | RodLaw::PublishedExtension | RodLaw::CouplingEnergy => {
                 Kind::Constant
             }
-            RodLaw::Fitted | RodLaw::Laws(_) => Kind::Law,
+            RodLaw::Fitted | RodLaw::Homogenised | RodLaw::Laws(_) => Kind::Law,
         }
     });
     each.max().unwrap_or(Kind::Constant)
@@ -107,9 +107,10 @@ fn from_rest(assembly: &Assembly, kind: Kind) -> f64 {
     let longest = sections.map(|section| section.points.len()).max();
     let rows = longest.unwrap_or(0) as f64 / SHORT;
     let laws = assembly.scene.filaments().map(|one| &one.rod.law);
-    let has_law = laws
-        .into_iter()
-        .any(|law| matches!(law, RodLaw::Fitted | RodLaw::Laws(_)));
+    let has_law = laws.into_iter().any(|law| match law {
+        RodLaw::Fitted | RodLaw::Homogenised | RodLaw::Laws(_) => true,
+        RodLaw::Constant | RodLaw::PublishedExtension | RodLaw::CouplingEnergy => false,
+    });
     let of_rods = match kind {
         Kind::Monomers if has_law && assembly.counts().segments > 0 => {
             FROM_REST[Kind::Law as usize]

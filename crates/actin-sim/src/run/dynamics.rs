@@ -173,7 +173,7 @@ fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, SceneProb
 pub(crate) fn shears_softly(law: &RodLaw) -> bool {
     match law {
         RodLaw::Constant | RodLaw::PublishedExtension | RodLaw::CouplingEnergy => false,
-        RodLaw::Fitted => true,
+        RodLaw::Fitted | RodLaw::Homogenised => true,
         RodLaw::Laws(laws) => laws.shear.is_some(),
     }
 }

@@ -44,10 +44,11 @@ pub(super) struct Laws<A, B, T, X> {
 impl<A: Shear, B: Bend, T: Twist, X: Length> Laws<A, B, T, X> {
     /// Those of a material and of what couples its segments, if they are of these kinds.
     pub(super) fn of(material: &RodMaterial, coupling: Option<&SegmentLaw>) -> Option<Self> {
+        let laws = material.laws()?;
         Some(Self {
-            shear: A::of(material.shear(), material.stretch())?,
-            bend: B::of(material.bend(), coupling.and_then(SegmentLaw::stiffening))?,
-            twist: T::of(material.twist())?,
+            shear: A::of(laws.shear(), laws.stretch())?,
+            bend: B::of(laws.bend(), coupling.and_then(SegmentLaw::stiffening))?,
+            twist: T::of(laws.twist())?,
             length: X::of(coupling.and_then(SegmentLaw::twist_stretch))?,
         })
     }

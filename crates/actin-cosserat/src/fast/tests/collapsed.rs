@@ -3,6 +3,7 @@
 //! Where shear is cubic, tension is along the segment. Its length and direction are that of
 //! `e3 + sigma`, which is a small difference there.
 
+use crate::extended::MeanCurvature;
 use super::*;
 use crate::fast::laws::Law;
 use actin_mechanics::wide::{Columns, ColumnsMut, Simd, WithSimd};
@@ -71,7 +72,7 @@ fn laws_of_collapsed_and_inverted_segments_are_the_scalar_ones() {
         for arch in [Arch::Scalar, Arch::new()] {
             let found = of_segments(arch, &rod, &states);
             for ([sigma, kappa], [force, couple]) in states.iter().zip(found) {
-                let expected = scalar.loads(&law.1, *sigma, *kappa);
+                let expected = scalar.loads(&law.1, *sigma, MeanCurvature::inside(*kappa));
                 // Some ten roundings of terms that are no larger than these forces, or than
                 // 4e4 pN nm^2 times strain and curvature.
                 let scale = expected.0.norm() + 4e4 * (sigma.norm() + kappa.norm());

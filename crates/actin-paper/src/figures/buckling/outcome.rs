@@ -127,12 +127,13 @@ pub(super) fn measure(case: &Case, assembly: &mut Assembly) -> Measured {
     let centre_line: Vec<Place> = line.map(Into::into).collect();
     let ribbon = Ribbon::new(assembly, state);
     let beyond = assembly.beyond_range(state).into_iter();
+    let beyond = beyond.filter(|b| !b.is_strain());
     Measured {
         height_nm: height(&centre_line),
         couple_pn_nm: couple * case.sign(),
         force_pn: -force,
         energy_pn_nm: elastic(assembly),
-        beyond_per_nm: beyond.map(|b| b.value_per_nm.abs()).reduce(f64::max),
+        beyond_per_nm: beyond.map(|b| b.value.abs()).reduce(f64::max),
         link_turns: f64::from(2 * case.turn_deg) / 360.0,
         twist_turns: ribbon.twist(),
         // None is given of curves a hundred times as long.

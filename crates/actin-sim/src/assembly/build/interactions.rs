@@ -62,8 +62,7 @@ impl Strand<'_> {
         Rod {
             section: self.first_section + i,
             layout: layout.clone(),
-            twist_range: self.law.twist_range(),
-            bend_range: self.law.material.bend().range(),
+            ranges: self.law.ranges(),
             joined: around.clone(),
             twist_watch: self.law.twist_watch(layout, around),
         }

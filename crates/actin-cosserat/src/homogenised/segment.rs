@@ -1,0 +1,53 @@
+//! What the segments of a rod take of the potential: `W(sigma, kappa) - U(kappa)`, with `kappa` the mean
+//! curvature around a segment and `U` what the joints have (`joint.rs`).
+//!
+//! Beside a free end half a segment has no joint, and keeps its `U`: there the rod stores what it does elsewhere,
+//! and a rod that bears tension alone is strained alike up to its end.
+
+use super::{Homogenised, SixVector};
+use crate::extended::{MeanCurvature, SegmentJet};
+use actin_mechanics::{Matrix3, Vector3};
+
+/// No curvature, in joints either.
+pub(crate) const STRAIGHT: MeanCurvature = MeanCurvature::inside(Vector3::new(0.0, 0.0, 0.0));
+
+impl Homogenised {
+    /// Energy per length (pN) of a segment at strain `sigma`.
+    pub(crate) fn segment_energy(&self, sigma: Vector3, curvature: MeanCurvature) -> f64 {
+        let MeanCurvature { kappa, covered } = curvature;
+        self.energy_density(&joined(sigma, kappa)) - covered * self.joint_energy(kappa)
+    }
+
+    /// Force (pN) and couple (pN nm), its derivatives by the strain and by the curvature.
+    pub(crate) fn segment_loads(
+        &self,
+        sigma: Vector3,
+        curvature: MeanCurvature,
+    ) -> (Vector3, Vector3) {
+        let MeanCurvature { kappa, covered } = curvature;
+        let loads = self.loads(&joined(sigma, kappa));
+        let couple: Vector3 = loads.fixed_rows::<3>(0).into();
+        let force = loads.fixed_rows::<3>(3).into();
+        (force, couple - covered * self.joint_couple(kappa))
+    }
+
+    /// First and second derivatives.
+    pub(crate) fn segment_jet(&self, sigma: Vector3, curvature: MeanCurvature) -> SegmentJet {
+        let MeanCurvature { kappa, covered } = curvature;
+        let (force, couple) = self.segment_loads(sigma, curvature);
+        let tangent = self.tangent(&joined(sigma, kappa));
+        let by_curvature: Matrix3 = tangent.fixed_view::<3, 3>(0, 0).into();
+        SegmentJet {
+            force,
+            couple,
+            by_strain: tangent.fixed_view::<3, 3>(3, 3).into(),
+            mixed: tangent.fixed_view::<3, 3>(3, 0).into(),
+            by_curvature: by_curvature - covered * self.joint_tangent(kappa),
+        }
+    }
+}
+
+/// The six strains.
+pub(super) fn joined(sigma: Vector3, kappa: Vector3) -> SixVector {
+    SixVector::new(kappa.x, kappa.y, kappa.z, sigma.x, sigma.y, sigma.z)
+}

@@ -1,0 +1,64 @@
+//! Under which forces along a rod the potential's twist is stable.
+
+use super::{Homogenised, joined};
+use actin_mechanics::Vector3;
+
+/// How far from the natural length a critical force is looked for, and in how many steps.
+const REACH: (f64, u32) = (0.02, 200);
+
+/// Halvings of a step: to 1e-13 of a stretch.
+const HALVINGS: u32 = 30;
+
+impl Homogenised {
+    /// Force along a segment (pN), and the derivative of the couple about d3 by the twist at that
+    /// force, shear and bending (pN nm^2): negative infinity where stretch is unstable by itself.
+    pub(crate) fn tension_and_twist_tangent(&self, sigma: Vector3, kappa: Vector3) -> [f64; 2] {
+        let strain = joined(sigma, kappa);
+        let tangent = self.tangent(&strain);
+        let (twist, mixed, stretch) = (tangent[(2, 2)], tangent[(2, 5)], tangent[(5, 5)]);
+        let at_force = if stretch > 0.0 {
+            twist - mixed * mixed / stretch
+        } else {
+            f64::NEG_INFINITY
+        };
+        [self.loads(&strain)[5], at_force]
+    }
+
+    /// The force (pN) nearest to none at which that derivative vanishes, if there is one within
+    /// [`REACH`].
+    pub(crate) fn critical_tension(&self, sigma: Vector3, kappa: Vector3) -> Option<f64> {
+        let natural = self.form.natural_stretch(kappa.z);
+        let at = |e: f64| {
+            let sigma = Vector3::new(sigma.x, sigma.y, natural + e);
+            self.tension_and_twist_tangent(sigma, kappa)
+        };
+        let is_stable = |e: f64| at(e)[1] > 0.0;
+        let at_rest = is_stable(0.0);
+        let (reach, steps) = REACH;
+        let step = reach / f64::from(steps);
+        let both = (1..=steps).flat_map(|n| [-step, step].map(|step| (n, step)));
+        let mut found = both.map(|(n, step)| [f64::from(n - 1) * step, f64::from(n) * step]);
+        let [mut inner, mut outer] = found.find(|[_, outer]| is_stable(*outer) != at_rest)?;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (inner + outer);
+            if is_stable(middle) == at_rest {
+                inner = middle;
+            } else {
+                outer = middle;
+            }
+        }
+        Some(at(inner)[0])
+    }
+
+    /// The compression (pN) beyond which twist is unstable: zero where it is without any, none where
+    /// compression does not soften it.
+    pub(crate) fn critical_compression(&self, sigma: Vector3, kappa: Vector3) -> Option<f64> {
+        let natural = self.form.natural_stretch(kappa.z);
+        let free = Vector3::new(sigma.x, sigma.y, natural);
+        if self.tension_and_twist_tangent(free, kappa)[1] <= 0.0 {
+            return Some(0.0);
+        }
+        let tension = self.critical_tension(sigma, kappa)?;
+        (tension < 0.0).then_some(-tension)
+    }
+}

@@ -1,0 +1,119 @@
+//! A law for each strain: those of shear, stretch, bending and twist side by side.
+
+use crate::{BendLaw, CubicShear, Rigidities, StretchLaw, TwistLaw};
+use actin_mechanics::{Matrix3, Vector3};
+
+/// A law for each strain of a rod.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StrainLaws {
+    pub(crate) shear: CubicShear,
+    pub(crate) stretch: StretchLaw,
+    pub(crate) bend: BendLaw,
+    pub(crate) twist: TwistLaw,
+}
+
+impl StrainLaws {
+    /// Constant rigidities, which were validated.
+    pub(crate) fn constant(Rigidities { shear, bend }: Rigidities) -> Self {
+        Self {
+            shear: CubicShear {
+                linear: [shear.x, shear.y],
+                cubic: 0.0,
+            },
+            stretch: StretchLaw::Constant(shear.z),
+            bend: BendLaw::Constant([bend.x, bend.y]),
+            twist: TwistLaw::Constant(bend.z),
+        }
+    }
+
+    /// The law of bending.
+    pub fn bend(&self) -> &BendLaw {
+        &self.bend
+    }
+
+    /// The law of twist.
+    pub fn twist(&self) -> &TwistLaw {
+        &self.twist
+    }
+
+    /// The law of stretch.
+    pub fn stretch(&self) -> &StretchLaw {
+        &self.stretch
+    }
+
+    /// The law of shear.
+    pub fn shear(&self) -> &CubicShear {
+        &self.shear
+    }
+
+    /// The force (pN, body axes) at shear strain `sigma` where a strain of `natural` in length costs
+    /// nothing.
+    #[inline]
+    pub(crate) fn shear_force_beyond(&self, sigma: Vector3, natural: f64) -> Vector3 {
+        let across = self.shear.force(sigma.xy());
+        let (strain, along, _) = self.length_strain(sigma);
+        Vector3::new(across.x, across.y, 0.0) + along * self.stretch.force(strain - natural)
+    }
+
+    /// Its energy per length (pN).
+    #[inline]
+    pub(crate) fn shear_energy_beyond(&self, sigma: Vector3, natural: f64) -> f64 {
+        let (strain, ..) = self.length_strain(sigma);
+        self.shear.energy_density(sigma.xy()) + self.stretch.energy_density(strain - natural)
+    }
+
+    /// Its derivative (pN), symmetric.
+    #[inline]
+    pub(crate) fn shear_tangent_beyond(&self, sigma: Vector3, natural: f64) -> Matrix3 {
+        let (strain, along, bend) = self.length_strain(sigma);
+        let outer = along * along.transpose();
+        let strain = strain - natural;
+        let mut tangent = self.stretch.tangent(strain) * outer
+            + bend * self.stretch.force(strain) * (Matrix3::identity() - outer);
+        let mut corner = tangent.fixed_view_mut::<2, 2>(0, 0);
+        corner += self.shear.tangent(sigma.xy());
+        tangent
+    }
+
+    /// The strain of length, its gradient by `sigma`, and the factor of its second derivative,
+    /// which is across the gradient.
+    ///
+    /// Where shear is linear it is the component along d3. Where shear is cubic it is the change
+    /// of the segment's length, `|e3 + sigma| - 1`: tension along d3 pulls a segment across as
+    /// soon as it shears, more than a shearing rigidity below the tension holds it back, so that a
+    /// rod that does not resist small shear would give way under any tension. Tension along the
+    /// segment holds it straight, as a string.
+    #[inline]
+    pub(crate) fn length_strain(&self, sigma: Vector3) -> (f64, Vector3, f64) {
+        if self.shear.cubic == 0.0 {
+            return (sigma.z, Vector3::z(), 0.0);
+        }
+        let segment = Vector3::z() + sigma;
+        let length = segment.norm();
+        // |segment| - 1, without its cancellation at small strain.
+        let strain = (2.0 * sigma.z + sigma.norm_squared()) / (length + 1.0);
+        (strain, segment / length, length.recip())
+    }
+
+    /// Couple in body axes (pN nm) at curvature `kappa` (rad/nm).
+    #[inline]
+    pub(crate) fn bending_couple(&self, kappa: Vector3) -> Vector3 {
+        let mut couple = self.bend.couple(kappa);
+        couple.z += self.twist.couple(kappa.z);
+        couple
+    }
+
+    /// Its derivative (pN nm^2), symmetric.
+    #[inline]
+    pub(crate) fn bending_tangent(&self, kappa: Vector3) -> Matrix3 {
+        let mut tangent = self.bend.tangent(kappa);
+        tangent[(2, 2)] += self.twist.tangent(kappa.z);
+        tangent
+    }
+
+    /// Energy per rest length (pN) at curvature `kappa`.
+    #[inline]
+    pub(crate) fn bending_energy_density(&self, kappa: Vector3) -> f64 {
+        self.bend.energy_density(kappa) + self.twist.energy_density(kappa.z)
+    }
+}
