@@ -47,7 +47,7 @@ pub use elements::{RodElements, RodJoint, RodSegment};
 pub use energy_gradient::EnergyGradient;
 pub use error::{RodError, RodParameterError};
 pub use extended::{JoinedElement, SegmentCurvature, SegmentLaw, TwistStability};
-pub use homogenised::{EnergyAndLoads, Homogenised, HomogenisedForm, StrainRange, Term};
+pub use homogenised::{Homogenised, HomogenisedForm, PotentialJet, StrainRange, Term};
 pub use key::RodKey;
 pub use law::{
     BendLaw, CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw,

@@ -2,7 +2,8 @@
 
 use crate::energy_gradient::write_bending_energies;
 use crate::{
-    BendingElement, RodEnd, RodError, RodLayout, RodMaterial, SegmentCurvature, ShearElement, TwistStretch,
+    BendingElement, RodEnd, RodError, RodLayout, RodMaterial, SegmentCurvature, ShearElement,
+    TwistStretch,
 };
 use actin_mechanics::{Interaction, Loads, State, UnitQuaternion, Vector3};
 

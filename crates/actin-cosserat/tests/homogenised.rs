@@ -128,7 +128,10 @@ fn uniform_rods_have_the_energy_and_loads_of_the_potential() {
             };
             let expected = 80.0 * law.energy_density(&strain.into());
             let found = energy(strain);
-            assert!((found - expected).abs() < 1e-10 * expected.abs(), "{walls:?}");
+            assert!(
+                (found - expected).abs() < 1e-10 * expected.abs(),
+                "{walls:?}"
+            );
             let loads = 80.0 * law.loads(&strain.into());
             for k in 0..6 {
                 let slope = actin_mechanics::testing::derivative(1e-6, |h| {
@@ -136,7 +139,10 @@ fn uniform_rods_have_the_energy_and_loads_of_the_potential() {
                     moved[k] += h;
                     energy(moved)
                 });
-                assert!((slope - loads[k]).abs() < 1e-7 * loads.amax(), "{k}, {walls:?}");
+                assert!(
+                    (slope - loads[k]).abs() < 1e-7 * loads.amax(),
+                    "{k}, {walls:?}"
+                );
             }
         }
     }
@@ -182,5 +188,10 @@ fn potentials_are_refused_where_they_cannot_be() {
     assert_eq!(refused, RodError::Potential("PaperBalance"));
     let refused = material().with_twist(TwistLaw::Constant(1e4)).unwrap_err();
     assert_eq!(refused.key, RodKey::Twist);
-    assert!(RodMaterial::new(Rigidities::table4()).unwrap().potential().is_none());
+    assert!(
+        RodMaterial::new(Rigidities::table4())
+            .unwrap()
+            .potential()
+            .is_none()
+    );
 }

@@ -139,7 +139,10 @@ fn a_closed_loop_of_strains_does_net_work() {
     let material = RodMaterial::new(Rigidities::table4()).unwrap();
     let bending_energy = 0.5 * 3.9e4 * angle * angle / 10.0;
 
-    let printed = work(&PaperBalance::new(layout.clone(), material).unwrap(), &corners);
+    let printed = work(
+        &PaperBalance::new(layout.clone(), material).unwrap(),
+        &corners,
+    );
     let expected = bending_energy * (1.0 - e.powi(-3));
     // Chords of 200 steps: second order in the step, 1e-5 relative.
     assert!((printed / expected - 1.0).abs() < 1e-4, "{printed}");

@@ -105,7 +105,12 @@ impl SegmentLaw {
     }
 
     #[inline]
-    fn loads_of(&self, material: &StrainLaws, sigma: Vector3, kappa: Vector3) -> (Vector3, Vector3) {
+    fn loads_of(
+        &self,
+        material: &StrainLaws,
+        sigma: Vector3,
+        kappa: Vector3,
+    ) -> (Vector3, Vector3) {
         let [extension, slope, _] = self.extension(kappa.z);
         let mut force = material.shear_force_beyond(sigma, extension);
         let (strain, ..) = material.length_strain(sigma);

@@ -66,7 +66,9 @@ impl ExtendedSegments {
     ) {
         for (k, energy) in energies.iter_mut().enumerate() {
             let segment = self.segment(k, layout, state);
-            let density = self.law.energy(material, segment.strain(), segment.curvature);
+            let density = self
+                .law
+                .energy(material, segment.strain(), segment.curvature);
             *energy = segment.element.rest_length * density;
         }
     }
@@ -80,7 +82,9 @@ impl ExtendedSegments {
         let q = &state.frames.orientation;
         for k in 0..layout.segments() {
             let segment = self.segment(k, layout, state);
-            let (n, couple) = self.law.loads(material, segment.strain(), segment.curvature);
+            let (n, couple) = self
+                .law
+                .loads(material, segment.strain(), segment.curvature);
             let axes = segment.q.to_rotation_matrix().into_inner();
             let shear = ShearLoads::of_force(n, axes, axes.tr_mul(&segment.l));
             loads.force.add(segment.points[0], shear.force);

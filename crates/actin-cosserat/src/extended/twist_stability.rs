@@ -122,7 +122,10 @@ impl SegmentLaw {
         let [extension, _, second] = self.extension(kappa.z);
         let (strain, ..) = laws.length_strain(sigma);
         let tension = laws.stretch().force(strain - extension);
-        [tension, self.free_tangent(laws, sigma, kappa) - tension * second]
+        [
+            tension,
+            self.free_tangent(laws, sigma, kappa) - tension * second,
+        ]
     }
 
     /// Tangent of twist without a force along the rod (pN nm^2).

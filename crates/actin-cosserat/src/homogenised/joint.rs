@@ -16,7 +16,7 @@ impl Homogenised {
     /// Couple (pN nm), the gradient of [`joint_energy`](Self::joint_energy).
     pub fn joint_couple(&self, kappa: Vector3) -> Vector3 {
         let loads = self.loads(&self.unsheared(kappa));
-        let [_, slope, _] = self.form.natural.jet(kappa.z);
+        let [_, slope, _] = self.form.natural_jet(kappa.z);
         let mut couple: Vector3 = loads.fixed_rows::<3>(0).into();
         // The length follows the twist.
         couple.z += slope * loads[5];
@@ -27,7 +27,7 @@ impl Homogenised {
     pub fn joint_tangent(&self, kappa: Vector3) -> Matrix3 {
         let strain = self.unsheared(kappa);
         let tangent = self.tangent(&strain);
-        let [_, slope, bend] = self.form.natural.jet(kappa.z);
+        let [_, slope, bend] = self.form.natural_jet(kappa.z);
         let mut of_curvature: Matrix3 = tangent.fixed_view::<3, 3>(0, 0).into();
         let with_length: Vector3 = tangent.fixed_view::<3, 1>(0, 5).into();
         let row = Vector3::z().transpose();

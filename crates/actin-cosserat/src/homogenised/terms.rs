@@ -1,57 +1,77 @@
-//! The terms of the law: products of functions of the four invariants of extension, bending and shear.
+//! The terms of the law: functions of extension, bending, shear, their coupling and twist.
 
+/// Invariants of the strains: `e`, `a`, `g`, `c` and `k = kappa_3`, in this order.
+pub(super) type Invariants = [f64; 5];
+
+/// Sizes beyond which extension, curvature (rad/nm) and shear no longer add to a term.
+const EXTENSION: f64 = 0.02;
+const CURVATURE: f64 = 0.02;
+const SHEAR: f64 = 0.1;
 /// Curvature (rad/nm) at which bending begins to pull: below it the shift of the neutral axis grows.
 const BENT: f64 = 2.5e-3;
 /// Extension over which tension gives way to compression.
-const SLACK: f64 = 2e-4;
+const SLACK: f64 = 7e-5;
+/// What bending, shear and twist add to the extension at which bonds begin to give way (nm^2, 1, nm^2).
+const TIGHT: [f64; 3] = [20.0, 5.0, 20.0];
 
-/// One term: a product of functions of the extension `e`, of `a = kappa_1^2 + kappa_2^2`, of
-/// `g = sigma_1^2 + sigma_2^2` and of `c = kappa_1 sigma_1 + kappa_2 sigma_2`.
+/// One term: a function of the extension `e`, of `a = kappa_1^2 + kappa_2^2`, of `g = sigma_1^2 + sigma_2^2`, of
+/// `c = kappa_1 sigma_1 + kappa_2 sigma_2` and of the twist, times a polynomial of
+/// [`degree`](Self::degree) in `t = kappa_3 / sqrt(kappa_3^2 + 0.02^2)`.
+///
+/// Bounded are `E = e / sqrt(1 + (e / 0.02)^2)`, `A = a / (1 + a / 0.02^2)`, `G = g / (1 + g / 0.1^2)`,
+/// `C = c / ((1 + a / 0.02^2) (1 + g / 0.1^2))` and `r = sqrt(A + b^2) - b` with `b = 0.0025` /nm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Term {
-    /// `1`: what twist alone stores.
+    /// `e^2`: stretch at any size.
+    AnyStretch,
+    /// `a`: bending at any size.
+    AnyBend,
+    /// `g`: shear at any size.
+    AnyShear,
+    /// `kappa_3^2`: what twist alone stores.
     Twist,
-    /// `e^2`: stretch.
+    /// `E^2`: stretch.
     Stretch,
-    /// `min(e, 0)^2`, smooth: compression, which the filament resists less.
+    /// `min(x, 0)^2`, smooth, of `x = e + 20 a + 5 g + 20 kappa_3^2`: bonds that are pushed together give way,
+    /// unless bending, shear or twist has tightened them.
     Compression,
-    /// `a`: bending.
+    /// `A`: bending.
     Bend,
-    /// `r = sqrt(a + a_0) - sqrt(a_0)`: bending that tends to a constant couple.
+    /// `r`: bending that tends to a constant couple.
     BendRoot,
-    /// `e r`: bending lengthens, as the compressed side gives way more.
+    /// `E r`: bending lengthens, as the compressed side gives way more.
+    StretchRoot,
+    /// `E A`.
     StretchBend,
-    /// `max(e, 0) r`, smooth: the same in tension alone.
-    TensionBend,
-    /// `e^2 r`.
-    StretchTwiceBend,
-    /// `g`: shear, resisted by what twist has tightened.
+    /// `G`: shear, resisted by what twist has tightened.
     Shear,
-    /// `e g`: shear shortens, and tension resists it.
+    /// `E G`: shear shortens, and tension resists it.
     StretchShear,
-    /// `max(e, 0) g`, smooth: the same in tension alone.
-    TensionShear,
-    /// `g^2`.
-    ShearTwice,
-    /// `c`: bending turns into shear along its axis, which is chiral.
+    /// `C`: bending turns into shear along its axis, which is chiral.
     Coupling,
-    /// `a g`.
-    BendShear,
-    /// `a c`.
-    BendCoupling,
-    /// `g c`.
+    /// `E C`.
+    StretchCoupling,
+    /// `r G`: bending tightens, and with it resists shear.
+    RootShear,
+    /// `r C`.
+    RootCoupling,
+    /// `G C`.
     ShearCoupling,
+    /// `G^2`.
+    ShearTwice,
+    /// `E r G`.
+    StretchRootShear,
 }
 
 /// A function of one variable with its first and second derivative.
-type Jet = [f64; 3];
+pub(super) type Jet = [f64; 3];
 
-/// A term with its derivatives by `e`, `a`, `g`, `c`.
+/// A function of the invariants with its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct TermJet {
+pub(super) struct InvariantJet {
     pub(super) value: f64,
-    pub(super) first: [f64; 4],
-    pub(super) second: [[f64; 4]; 4],
+    pub(super) first: Invariants,
+    pub(super) second: [Invariants; 5],
 }
 
 const ONE: Jet = [1.0, 0.0, 0.0];
@@ -64,99 +84,200 @@ fn square(x: f64) -> Jet {
     [x * x, 2.0 * x, 2.0]
 }
 
-/// `sqrt(a + a_0) - sqrt(a_0)`.
-fn root(a: f64) -> Jet {
-    let r = (a + BENT * BENT).sqrt();
-    // Without the cancellation of the difference.
-    [a / (r + BENT), 0.5 / r, -0.25 / (r * r * r)]
-}
-
-/// `(e + sqrt(e^2 + e_0^2)) / 2`.
-fn tension(e: f64) -> Jet {
-    let r = e.hypot(SLACK);
+fn times(f: Jet, g: Jet) -> Jet {
     [
-        0.5 * (e + r),
-        0.5 * (1.0 + e / r),
-        0.5 * SLACK * SLACK / (r * r * r),
+        f[0] * g[0],
+        f[1] * g[0] + f[0] * g[1],
+        f[2] * g[0] + 2.0 * f[1] * g[1] + f[0] * g[2],
     ]
 }
 
-/// The square of `(e - sqrt(e^2 + e_0^2)) / 2`.
-fn compression(e: f64) -> Jet {
-    let r = e.hypot(SLACK);
-    let (v, d) = (0.5 * (e - r), 0.5 * (1.0 - e / r));
+/// `f` of the inner function, which was taken at its value.
+pub(super) fn of(f: Jet, inner: Jet) -> Jet {
+    [
+        f[0],
+        f[1] * inner[1],
+        f[2] * inner[1] * inner[1] + f[1] * inner[2],
+    ]
+}
+
+/// `e / sqrt(1 + (e / size)^2)`.
+pub(super) fn bounded(e: f64, size: f64) -> Jet {
+    let q = (1.0 + (e / size).powi(2)).sqrt();
+    [e / q, q.powi(-3), -3.0 * e / (size * size) * q.powi(-5)]
+}
+
+/// `x / (1 + x / size^2)`, of a square.
+fn bounded_square(x: f64, size: f64) -> Jet {
+    let q = 1.0 + x / (size * size);
+    [x / q, q.powi(-2), -2.0 / (size * size) * q.powi(-3)]
+}
+
+/// `1 / (1 + x / size^2)`.
+fn fading(x: f64, size: f64) -> Jet {
+    let (s, q) = (size * size, 1.0 + x / (size * size));
+    [q.recip(), -q.powi(-2) / s, 2.0 / (s * s) * q.powi(-3)]
+}
+
+/// `sqrt(A + b^2) - b`.
+fn root(a: f64) -> Jet {
+    let bent = bounded_square(a, CURVATURE);
+    let r = (bent[0] + BENT * BENT).sqrt();
+    // Without the cancellation of the difference.
+    let outer = [bent[0] / (r + BENT), 0.5 / r, -0.25 / (r * r * r)];
+    of(outer, bent)
+}
+
+/// The square of `(x - sqrt(x^2 + w^2)) / 2`.
+fn compression(x: f64) -> Jet {
+    let r = x.hypot(SLACK);
+    let (v, d) = (0.5 * (x - r), 0.5 * (1.0 - x / r));
     let bend = -0.5 * SLACK * SLACK / (r * r * r);
     [v * v, 2.0 * v * d, 2.0 * (d * d + v * bend)]
 }
 
 impl Term {
     /// All terms, in the order of the coefficients of a law.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 19] = [
+        Self::AnyStretch,
+        Self::AnyBend,
+        Self::AnyShear,
         Self::Twist,
         Self::Stretch,
         Self::Compression,
         Self::Bend,
         Self::BendRoot,
+        Self::StretchRoot,
         Self::StretchBend,
-        Self::TensionBend,
-        Self::StretchTwiceBend,
         Self::Shear,
         Self::StretchShear,
-        Self::TensionShear,
-        Self::ShearTwice,
         Self::Coupling,
-        Self::BendShear,
-        Self::BendCoupling,
+        Self::StretchCoupling,
+        Self::RootShear,
+        Self::RootCoupling,
         Self::ShearCoupling,
+        Self::ShearTwice,
+        Self::StretchRootShear,
     ];
 
-    /// The functions whose product it is.
-    fn factors(self, [e, a, g, c]: [f64; 4]) -> [Jet; 4] {
+    /// Degree of the polynomial in the twist.
+    pub const fn degree(self) -> usize {
         match self {
-            Self::Twist => [ONE; 4],
-            Self::Stretch => [square(e), ONE, ONE, ONE],
-            Self::Compression => [compression(e), ONE, ONE, ONE],
-            Self::Bend => [ONE, linear(a), ONE, ONE],
-            Self::BendRoot => [ONE, root(a), ONE, ONE],
-            Self::StretchBend => [linear(e), root(a), ONE, ONE],
-            Self::TensionBend => [tension(e), root(a), ONE, ONE],
-            Self::StretchTwiceBend => [square(e), root(a), ONE, ONE],
-            Self::Shear => [ONE, ONE, linear(g), ONE],
-            Self::StretchShear => [linear(e), ONE, linear(g), ONE],
-            Self::TensionShear => [tension(e), ONE, linear(g), ONE],
-            Self::ShearTwice => [ONE, ONE, square(g), ONE],
-            Self::Coupling => [ONE, ONE, ONE, linear(c)],
-            Self::BendShear => [ONE, linear(a), linear(g), ONE],
-            Self::BendCoupling => [ONE, linear(a), ONE, linear(c)],
-            Self::ShearCoupling => [ONE, ONE, linear(g), linear(c)],
+            Self::AnyStretch | Self::AnyBend | Self::AnyShear => 0,
+            Self::ShearTwice => 1,
+            Self::Compression => 2,
+            Self::StretchBend
+            | Self::StretchCoupling
+            | Self::ShearCoupling
+            | Self::StretchRootShear => 4,
+            Self::Bend | Self::BendRoot | Self::StretchRoot | Self::RootShear => 5,
+            Self::RootCoupling => 6,
+            Self::Stretch | Self::StretchShear => 8,
+            Self::Twist | Self::Shear | Self::Coupling => 9,
         }
     }
 
-    /// The term at the four invariants.
-    pub(super) fn jet(self, invariants: [f64; 4]) -> TermJet {
+    /// The functions whose product it is, but for compression.
+    fn factors(self, [e, a, g, c, k]: Invariants) -> [Jet; 5] {
+        let stretch = bounded(e, EXTENSION);
+        let (bend, r) = (bounded_square(a, CURVATURE), root(a));
+        let shear = bounded_square(g, SHEAR);
+        let coupled = |stretch, bend, shear| {
+            let (a, g) = (fading(a, CURVATURE), fading(g, SHEAR));
+            [stretch, times(bend, a), times(shear, g), linear(c), ONE]
+        };
+        match self {
+            Self::AnyStretch => [square(e), ONE, ONE, ONE, ONE],
+            Self::AnyBend => [ONE, linear(a), ONE, ONE, ONE],
+            Self::AnyShear => [ONE, ONE, linear(g), ONE, ONE],
+            Self::Twist => [ONE, ONE, ONE, ONE, square(k)],
+            Self::Stretch => [times(stretch, stretch), ONE, ONE, ONE, ONE],
+            Self::Compression => [ONE; 5],
+            Self::Bend => [ONE, bend, ONE, ONE, ONE],
+            Self::BendRoot => [ONE, r, ONE, ONE, ONE],
+            Self::StretchRoot => [stretch, r, ONE, ONE, ONE],
+            Self::StretchBend => [stretch, bend, ONE, ONE, ONE],
+            Self::Shear => [ONE, ONE, shear, ONE, ONE],
+            Self::StretchShear => [stretch, ONE, shear, ONE, ONE],
+            Self::Coupling => coupled(ONE, ONE, ONE),
+            Self::StretchCoupling => coupled(stretch, ONE, ONE),
+            Self::RootShear => [ONE, r, shear, ONE, ONE],
+            Self::RootCoupling => coupled(ONE, r, ONE),
+            Self::ShearCoupling => coupled(ONE, ONE, shear),
+            Self::ShearTwice => [ONE, ONE, times(shear, shear), ONE, ONE],
+            Self::StretchRootShear => [stretch, r, shear, ONE, ONE],
+        }
+    }
+
+    /// The term without its polynomial.
+    pub(super) fn jet(self, invariants: Invariants) -> InvariantJet {
+        if self == Self::Compression {
+            return compressed(invariants);
+        }
         let factors = self.factors(invariants);
         // The product with the factors `i` and `j` differentiated.
-        let product = |orders: [usize; 4]| -> f64 {
-            factors
-                .iter()
-                .zip(orders)
-                .map(|(jet, order)| jet[order])
-                .product()
+        let product = |orders: [usize; 5]| -> f64 {
+            let of_each = factors.iter().zip(orders);
+            of_each.map(|(jet, order)| jet[order]).product()
         };
-        let mut jet = TermJet {
-            value: product([0; 4]),
-            ..TermJet::default()
+        let mut jet = InvariantJet {
+            value: product([0; 5]),
+            ..InvariantJet::default()
         };
-        for i in 0..4 {
-            let mut orders = [0; 4];
+        for i in 0..5 {
+            let mut orders = [0; 5];
             orders[i] += 1;
             jet.first[i] = product(orders);
-            for j in 0..4 {
+            for j in 0..5 {
                 let mut twice = orders;
                 twice[j] += 1;
                 jet.second[i][j] = product(twice);
             }
         }
         jet
+    }
+}
+
+/// [`Term::Compression`].
+fn compressed([e, a, g, _, k]: Invariants) -> InvariantJet {
+    let [of_a, of_g, of_k] = TIGHT;
+    let [value, slope, bend] = compression(e + of_a * a + of_g * g + of_k * k * k);
+    let by = [1.0, of_a, of_g, 0.0, 2.0 * of_k * k];
+    let mut second = by.map(|x| by.map(|y| bend * x * y));
+    second[4][4] += 2.0 * of_k * slope;
+    InvariantJet {
+        value,
+        first: by.map(|x| slope * x),
+        second,
+    }
+}
+
+impl InvariantJet {
+    /// Times a function of the twist.
+    pub(super) fn times(mut self, [p, slope, bend]: Jet) -> Self {
+        let by_twist = self.first[4];
+        let mixed = self.second[4];
+        self.second[4][4] = p * mixed[4] + 2.0 * slope * by_twist + bend * self.value;
+        for i in 0..4 {
+            let crossed = p * mixed[i] + slope * self.first[i];
+            (self.second[i][4], self.second[4][i]) = (crossed, crossed);
+            for j in 0..4 {
+                self.second[i][j] *= p;
+            }
+            self.first[i] *= p;
+        }
+        self.first[4] = p * by_twist + slope * self.value;
+        self.value *= p;
+        self
+    }
+
+    pub(super) fn add(&mut self, other: &Self) {
+        self.value += other.value;
+        for i in 0..5 {
+            self.first[i] += other.first[i];
+            for j in 0..5 {
+                self.second[i][j] += other.second[i][j];
+            }
+        }
     }
 }

@@ -3,9 +3,10 @@
 use super::{Ranges, TwistWatch};
 use crate::scene::{self, ForceLaw, Material, RodLaw, RodLaws, RodModel, SceneProblem, fitted};
 use actin_cosserat::{
-    BendLaw, CubicShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance, PolynomialStretch, RodKey,
-    RodLayout, RodMaterial, RodParameterError, RootedStretch, SegmentCurvature, SegmentLaw,
-    SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, constants,
+    BendLaw, CubicShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance,
+    PolynomialStretch, RodKey, RodLayout, RodMaterial, RodParameterError, RootedStretch,
+    SegmentCurvature, SegmentLaw, SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistLaw,
+    TwistRise, TwistStretch, constants,
 };
 use actin_mechanics::Interaction;
 

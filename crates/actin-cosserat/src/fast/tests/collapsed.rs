@@ -3,8 +3,8 @@
 //! Where shear is cubic, tension is along the segment. Its length and direction are that of
 //! `e3 + sigma`, which is a small difference there.
 
-use crate::extended::MeanCurvature;
 use super::*;
+use crate::extended::MeanCurvature;
 use crate::fast::laws::Law;
 use actin_mechanics::wide::{Columns, ColumnsMut, Simd, WithSimd};
 

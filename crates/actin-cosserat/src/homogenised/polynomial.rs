@@ -1,0 +1,51 @@
+//! Polynomials in the bounded twist `t = kappa_3 / sqrt(kappa_3^2 + k_0^2)`: they tend to a constant at large twist,
+//! and see most of it where coefficients change most.
+
+use super::terms::{Jet, bounded, of};
+
+/// `k_0` (rad/nm).
+const SIZE: f64 = 0.02;
+
+/// Largest degree of a polynomial.
+pub(super) const DEGREE: usize = 9;
+
+/// Coefficients of `t^0` to `t^9`.
+pub(super) type Polynomial = [f64; DEGREE + 1];
+
+/// `t` with its derivatives by the twist (rad/nm).
+pub(super) fn bounded_twist(twist: f64) -> Jet {
+    bounded(twist, SIZE).map(|x| x / SIZE)
+}
+
+/// A polynomial with its derivatives by the twist, of which `t` is given.
+#[inline]
+pub(super) fn polynomial(coefficients: &[f64], t: Jet) -> Jet {
+    let (mut value, mut slope, mut bend) = (0.0, 0.0, 0.0);
+    for c in coefficients.iter().rev() {
+        bend = bend * t[0] + 2.0 * slope;
+        slope = slope * t[0] + value;
+        value = value * t[0] + c;
+    }
+    of([value, slope, bend], t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1 + 2 t + 3 t^2 by hand at a twist of 0.015: t = 0.6, t' = 25.6, t'' = -1843.2.
+    #[test]
+    fn a_polynomial_by_hand() {
+        let t = bounded_twist(0.015);
+        for (x, y) in t.into_iter().zip([0.6, 25.6, -1843.2]) {
+            assert!((x - y).abs() < 1e-12 * y.abs(), "{x}");
+        }
+        let mut coefficients = Polynomial::default();
+        coefficients[..3].copy_from_slice(&[1.0, 2.0, 3.0]);
+        let jet = polynomial(&coefficients, t);
+        let expected = [3.28, 5.6 * 25.6, 6.0 * 25.6 * 25.6 - 5.6 * 1843.2];
+        for (x, y) in jet.into_iter().zip(expected) {
+            assert!((x - y).abs() < 1e-12 * y.abs(), "{x}");
+        }
+    }
+}
