@@ -22,7 +22,7 @@ pub(crate) struct Choice {
     pub(crate) duration_ns: f64,
 }
 
-const FILAMENTS: [&str; 4] = [
+const FILAMENTS: [&str; 5] = [
     "filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)])",
     "filament: Filament(
          sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0), Rod(from_nm: 12.0, to_nm: 42.0)],
@@ -34,6 +34,10 @@ const FILAMENTS: [&str; 4] = [
              monomers: Monomers(anchors: Independent, lateral_bonds: 6, longitudinal_bonds: 6)),
          Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)], at_nm: (12.0, 0.0, 0.0),
                   roll_deg: 40.0)]",
+    "filament: Filament(
+         sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0), Rod(from_nm: 12.0, to_nm: 42.0)],
+         monomers: Monomers(anchors: Independent, lateral_bonds: 6, longitudinal_bonds: 6),
+         rod: RodModel(law: Homogenised))",
 ];
 
 /// Which of them are two.

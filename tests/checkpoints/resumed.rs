@@ -100,7 +100,7 @@ fn surroundings() -> impl Strategy<Value = (f64, bool, Option<u64>)> {
 
 fn choice() -> impl Strategy<Value = Choice> {
     (
-        0_usize..4,
+        0_usize..5,
         0_usize..4,
         0_usize..5,
         surroundings(),

@@ -14,6 +14,7 @@ mod elastica;
 mod extremes;
 mod helical;
 mod history;
+mod homogenised;
 mod joined;
 mod linkers;
 mod lost_twist;

@@ -90,8 +90,10 @@ fn couple_against_shift_is_force_against_turn() {
         (ROD, "PublishedExtension"),
         (ROD, "CouplingEnergy"),
         (ROD, "Fitted"),
+        (ROD, "Homogenised"),
         (MIXED, "PublishedExtension"),
         (MIXED, "Fitted"),
+        (MIXED, "Homogenised"),
         (MONOMERS, "Constant"),
     ] {
         for turn_deg in [100.0, -80.0] {

@@ -1,0 +1,95 @@
+//! Rods under the potential of the mean filament: convergence, what the filament's monomers do, certificates.
+
+use crate::common::{build, run, solved};
+use actin_sim::{Assembly, Outcome};
+
+/// A filament of `length` nm from a wall, its end held by `end`, under a force on it (pN).
+fn scene(sections: &str, end: &str, [x, y, z]: [f64; 3]) -> String {
+    format!(
+        "Scene(
+            filament: Filament(sections: [{sections}], rod: RodModel(law: Homogenised)),
+            clamps: [Clamp(end: Start), {end}],
+            loads: [EndForce(end: End, force_pn: ({x:?}, {y:?}, {z:?}))],
+            task: Equilibrium(force_pn: 1e-8, torque_pn_nm: 1e-8),
+        )"
+    )
+}
+
+fn rod(length: f64, segments: usize) -> String {
+    format!("Rod(from_nm: 0.0, to_nm: {length:?}, segments: {segments})")
+}
+
+/// Displacement of the end (nm) of an equilibrium that is certified to be stable.
+fn moved((assembly, outcome): &(Assembly, Outcome)) -> [f64; 3] {
+    let certificate = &outcome.equilibrium.as_ref().unwrap().certificate;
+    assert_eq!(certificate.negative, 0);
+    let last = assembly.points.len() - 1;
+    let place = |state: &actin_mechanics::State| state.points.position.get(last);
+    (place(assembly.system.state()) - place(&assembly.rest)).into()
+}
+
+/// Bent, pulled and sheared at once, and twisted by the pull. Without the half segment's energy at the free end the
+/// twist there would be off at any length of segments, and the order 1.
+#[test]
+fn combined_loads_converge_with_order_two() {
+    let force = [0.5, 0.2, 10.0];
+    let tips = [16, 32, 64, 128].map(|n| moved(&solved(&scene(&rod(160.0, n), "", force))));
+    for k in 0..3 {
+        let [a, b, c, d] = tips.map(|tip| tip[k]);
+        let orders = [(a - b) / (b - c), (b - c) / (c - d)].map(|ratio| ratio.abs().log2());
+        println!("component {k}: {d:.6} nm, orders {orders:.3?}");
+        assert!(orders.iter().all(|order| (order - 2.0).abs() < 0.1));
+    }
+}
+
+/// Tips of 160 nm pulled across by 0.1 pN and along; monomers: mean filament, weighted bonds.
+#[test]
+fn tips_under_tension() {
+    for (along, monomers) in [(1.0, 3.50), (5.0, 1.66), (10.0, 1.02), (40.0, 0.318)] {
+        let [tip, _, longer] = moved(&solved(&scene(&rod(160.0, 32), "", [0.1, 0.0, along])));
+        let error = tip / monomers - 1.0;
+        println!(
+            "{along} pN: {tip:.4} nm, {:+.1} %; longer by {longer:.4} nm",
+            1e2 * error
+        );
+        // The potential's own error grows where tension is small.
+        let bound = if along < 10.0 { 0.2 } else { 0.03 };
+        assert!(error.abs() < bound, "{along}: {error}");
+    }
+}
+
+/// Guided beams, whose ends do not turn, and straight rods.
+#[test]
+fn print_beams_and_straight_rods() {
+    let freely = "Clamp(end: End, slides: Freely)";
+    for along in [0.0, 5.0, 10.0] {
+        let [x, ..] = moved(&solved(&scene(&rod(90.0, 18), freely, [0.1, 0.0, along])));
+        println!("guided, 90 nm, {along} pN: {:.3} nm per pN", x / 0.1);
+    }
+    for along in [-10.0, -5.0, -2.0, -1.0, 1.0, 2.0, 5.0, 10.0, 40.0] {
+        for (name, end) in [("turns", ""), ("does not turn", freely)] {
+            let mut assembly = build(&scene(&rod(160.0, 32), end, [0.0, 0.0, along]));
+            match run(&mut assembly) {
+                Ok((_, outcome)) => {
+                    let certificate = &outcome.equilibrium.as_ref().unwrap().certificate;
+                    let last = assembly.points.len() - 1;
+                    let state = assembly.system.state();
+                    let longer = state.points.position.get(last) - assembly.rest.points.position.get(last);
+                    println!("straight, {along} pN, {name}: {longer:?} nm, {} negative", certificate.negative);
+                }
+                Err(error) => println!("straight, {along} pN, {name}: {error}"),
+            }
+        }
+    }
+}
+
+/// Monomers between two rods, bent, pulled and held.
+#[test]
+fn mixed_filaments_have_a_certificate() {
+    let sections = "Rod(from_nm: 0.0, to_nm: 40.0), Ellipsoids(from_nm: 40.0, to_nm: 75.0),
+        Rod(from_nm: 75.0, to_nm: 115.0)";
+    let tip = moved(&solved(&scene(sections, "", [0.3, 0.0, 5.0])));
+    let whole = moved(&solved(&scene(&rod(115.0, 12), "", [0.3, 0.0, 5.0])));
+    println!("mixed {tip:.4?} nm, rod {whole:.4?} nm");
+    assert!((tip[0] / whole[0] - 1.0).abs() < 0.1);
+}
