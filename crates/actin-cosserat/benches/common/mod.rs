@@ -1,7 +1,7 @@
 //! Rods to measure: 160 nm from a wall, well bent, under each law that has a loop of its own.
 
 use actin_cosserat::{
-    BendLaw, CubicShear, EnergyGradient, Rigidities, RodLayout, RodMaterial, RootedStretch,
+    BendLaw, CubicShear, EnergyGradient, Homogenised, Rigidities, RodLayout, RodMaterial, RootedStretch,
     SegmentCurvature, SegmentLaw, SidedTwist, Stiffening, StraightRod, StretchLaw, TanhTwist,
     TwistLaw, TwistRise, TwistStretch, Walls,
 };
@@ -27,8 +27,8 @@ pub(crate) fn rod(segments: usize, angle: f64) -> (State, RodLayout) {
 /// A law by its name, its material, and how its length depends on the twist.
 type Law = (&'static str, RodMaterial, Option<TwistStretch>);
 
-/// Constant rigidities, those of the published extension, and those fitted to monomers.
-pub(crate) fn laws() -> [Law; 3] {
+/// Constant rigidities, those of the published extension, those fitted to monomers, and the potential.
+pub(crate) fn laws() -> [Law; 4] {
     let constant = RodMaterial::new(Rigidities::table4()).expect("the table is valid");
     let twist = TwistLaw::Tanh(TanhTwist::published());
     let published = constant.with_twist(twist).expect("the law is valid");
@@ -37,6 +37,7 @@ pub(crate) fn laws() -> [Law; 3] {
         ("constant", constant, None),
         ("published", published, Some(TwistStretch::published())),
         ("fitted", fitted, Some(rooted)),
+        ("homogenised", RodMaterial::homogenised(Homogenised::mean_filament()), None),
     ]
 }
 

@@ -58,6 +58,8 @@ struct Chain<'a, S: Simd, L> {
     nodes: [Columns<'a, S, 3>; 2],
     frames: [Columns<'a, S, 4>; 2],
     bodies: Columns<'a, S, 5>,
+    /// What elements before stand for, over their rest distance.
+    covers: Columns<'a, S, 1>,
     /// Angles from the next group's frames to those after, and their coefficients: they are found a
     /// group ahead, because all else in a group waits for them.
     ahead: [S::f64s; 4],
@@ -89,6 +91,7 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
                 quaternions(q, frames.start + 1..frames.end),
             ],
             bodies: Columns::new([length, inverse, &bodies.inverse_distances, before, after]),
+            covers: Columns::new([&bodies.covers]),
             ahead: [simd.splat_f64s(0.0); 4],
             angles: ShiftedUp::after(simd, angle_at_wall(layout, state)),
             reactions: ShiftedUp::new(simd),
@@ -118,6 +121,12 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         let own = self
             .law
             .bending(simd, wide::scale(simd, before, inverse_distance));
+        let own = if L::COVERS {
+            let [covers] = self.covers.get(simd, group);
+            wide::scale(simd, own, covers)
+        } else {
+            own
+        };
         let [first, second] = &self.nodes;
         let l = wide::sub(simd, second.get(simd, group), first.get(simd, group));
         let segments = Segments::new(simd, q, l, [length, inverse_length]);

@@ -71,7 +71,7 @@ use actin_mechanics::wide::Arch;
 use actin_mechanics::{Loads, State};
 use laws::{
     Bend, ConstantBend, ConstantTwist, CubicAcross, Laws, Length, LinearShear, NaturalLength,
-    Polynomial, Rooted, Shear, Sided, Tanh, Twist, WideStiffening,
+    Polynomial, Potential, Rooted, Shear, Sided, Tanh, Twist, WideStiffening,
 };
 use rod::Rod;
 
@@ -94,6 +94,8 @@ enum Kind {
     Fitted(Rod<Fitted>),
     /// The same with constant shear.
     FittedLinearShear(Rod<FittedLinearShear>),
+    /// One potential for all strains.
+    Potential(Box<Rod<Potential>>),
 }
 
 impl FastRod {
@@ -103,6 +105,10 @@ impl FastRod {
         material: &RodMaterial,
         extended: Option<&ExtendedSegments>,
     ) -> Option<Self> {
+        if let Some(law) = material.potential() {
+            let rod = Rod::new(layout, Potential::of(law)?, extended)?;
+            return Some(Self(Kind::Potential(Box::new(rod))));
+        }
         let rod = (layout, material, extended);
         let kind = kind(rod, Kind::Constant)
             .or_else(|| kind(rod, Kind::Published))
@@ -123,6 +129,7 @@ impl FastRod {
             Kind::Published(rod) => rod.add_loads(arch, layout, state, loads),
             Kind::Fitted(rod) => rod.add_loads(arch, layout, state, loads),
             Kind::FittedLinearShear(rod) => rod.add_loads(arch, layout, state, loads),
+            Kind::Potential(rod) => rod.add_loads(arch, layout, state, loads),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::ends::{Joined, MOST_JOINED};
 use super::laws::Law;
 use crate::extended::ExtendedSegments;
-use crate::{RodEnd, RodLayout};
+use crate::{RodEnd, RodLayout, SegmentCurvature};
 use actin_mechanics::wide::Arch;
 use actin_mechanics::{Loads, State};
 
@@ -26,6 +26,9 @@ pub(super) struct Bodies {
     /// What angles of the elements before and after a segment contribute to the mean curvature around
     /// it: shares over rest distances (1/nm).
     pub(super) shares: [Vec<f64>; 2],
+    /// What the element before each segment stands for over its rest distance: 1, and beside a free end more
+    /// by the half segment there.
+    pub(super) covers: Vec<f64>,
 }
 
 impl Bodies {
@@ -44,8 +47,12 @@ impl Bodies {
         for (inverse, distance) in elements.zip(layout.voronoi_lengths()) {
             *inverse = distance.recip();
         }
+        let covers = inverse_distances
+            .iter()
+            .map(|&inverse| f64::from(u8::from(inverse > 0.0)));
         Self {
             lengths,
+            covers: covers.collect(),
             inverse_distances,
             shares: [zeros(), zeros()],
         }
@@ -87,6 +94,9 @@ impl<L: Law> Rod<L> {
                 let share = around.share / around.element.rest_distance;
                 rod.add_around(k, layout, around.frames, share)?;
             }
+            if L::COVERS {
+                rod.cover(k, layout, &extended?.curvature)?;
+            }
         }
         (rod.joined.len() <= MOST_JOINED).then_some(rod)
     }
@@ -114,6 +124,21 @@ impl<L: Law> Rod<L> {
             };
             self.joined.push(Joined { frames, end, share });
         }
+        Some(())
+    }
+
+    /// Has the only element around segment `k`, if it is one and the rod's own, stand for the part of the
+    /// segment that has none.
+    fn cover(&mut self, k: usize, layout: &RodLayout, curvature: &SegmentCurvature) -> Option<()> {
+        let bare = (1.0 - curvature.covered(k)) * layout.segment_lengths()[k];
+        let lane = match (curvature.around(k), self.bodies.shares[0][k] > 0.0) {
+            _ if bare == 0.0 => return Some(()),
+            ([], _) => return Some(()),
+            ([_], true) => k,
+            ([_], false) if self.bodies.shares[1][k] > 0.0 => k + 1,
+            _ => return None,
+        };
+        self.bodies.covers[lane] += bare * self.bodies.inverse_distances[lane];
         Some(())
     }
 

@@ -4,7 +4,7 @@
 //! Joints see each turn between neighbouring segments, segments the mean of those around them
 //! (`segment.rs`). `U` at the joints resists turns that alternate from joint to joint, which no mean sees.
 
-use super::{Homogenised, SixVector};
+use super::{Homogenised, PotentialJet, SixVector};
 use actin_mechanics::{Matrix3, Vector3};
 
 impl Homogenised {
@@ -15,26 +15,27 @@ impl Homogenised {
 
     /// Couple (pN nm), the gradient of [`joint_energy`](Self::joint_energy).
     pub fn joint_couple(&self, kappa: Vector3) -> Vector3 {
-        let loads = self.loads(&self.unsheared(kappa));
-        let [_, slope, _] = self.form.natural_jet(kappa.z);
-        let mut couple: Vector3 = loads.fixed_rows::<3>(0).into();
-        // The length follows the twist.
-        couple.z += slope * loads[5];
-        couple
+        self.joint_jet(kappa).0
     }
 
     /// Its derivative (pN nm^2), symmetric.
     pub fn joint_tangent(&self, kappa: Vector3) -> Matrix3 {
-        let strain = self.unsheared(kappa);
-        let tangent = self.tangent(&strain);
+        self.joint_jet(kappa).1
+    }
+
+    /// Both at once.
+    pub(super) fn joint_jet(&self, kappa: Vector3) -> (Vector3, Matrix3) {
+        let PotentialJet { loads, tangent, .. } = self.jet(&self.unsheared(kappa));
         let [_, slope, bend] = self.form.natural_jet(kappa.z);
+        // The length follows the twist.
+        let mut couple: Vector3 = loads.fixed_rows::<3>(0).into();
+        couple.z += slope * loads[5];
         let mut of_curvature: Matrix3 = tangent.fixed_view::<3, 3>(0, 0).into();
         let with_length: Vector3 = tangent.fixed_view::<3, 1>(0, 5).into();
-        let row = Vector3::z().transpose();
-        let crossed = slope * with_length * row;
+        let crossed = slope * with_length * Vector3::z().transpose();
         of_curvature += crossed + crossed.transpose();
-        of_curvature[(2, 2)] += slope * slope * tangent[(5, 5)] + bend * self.loads(&strain)[5];
-        of_curvature
+        of_curvature[(2, 2)] += slope * slope * tangent[(5, 5)] + bend * loads[5];
+        (couple, of_curvature)
     }
 
     /// No shear, and the natural length of this twist.

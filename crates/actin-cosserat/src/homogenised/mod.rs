@@ -14,6 +14,9 @@ mod twist_stability;
 pub use mean_filament::StrainRange;
 pub use terms::Term;
 
+pub(crate) use polynomial::TWIST;
+pub(crate) use terms::{BENT, CURVATURE, EXTENSION, SHEAR, SLACK, TIGHT};
+
 use crate::{RodKey, RodParameterError};
 use nalgebra::{Matrix6, Vector6};
 use polynomial::{DEGREE, Polynomial, bounded_twist, polynomial};

@@ -4,7 +4,7 @@
 //! Beside a free end half a segment has no joint, and keeps its `U`: there the rod stores what it does elsewhere,
 //! and a rod that bears tension alone is strained alike up to its end.
 
-use super::{Homogenised, SixVector};
+use super::{Homogenised, PotentialJet, SixVector};
 use crate::extended::{MeanCurvature, SegmentJet};
 use actin_mechanics::{Matrix3, Vector3};
 
@@ -34,15 +34,16 @@ impl Homogenised {
     /// First and second derivatives.
     pub(crate) fn segment_jet(&self, sigma: Vector3, curvature: MeanCurvature) -> SegmentJet {
         let MeanCurvature { kappa, covered } = curvature;
-        let (force, couple) = self.segment_loads(sigma, curvature);
-        let tangent = self.tangent(&joined(sigma, kappa));
+        let PotentialJet { loads, tangent, .. } = self.jet(&joined(sigma, kappa));
+        let (joint_couple, joint_tangent) = self.joint_jet(kappa);
+        let couple: Vector3 = loads.fixed_rows::<3>(0).into();
         let by_curvature: Matrix3 = tangent.fixed_view::<3, 3>(0, 0).into();
         SegmentJet {
-            force,
-            couple,
+            force: loads.fixed_rows::<3>(3).into(),
+            couple: couple - covered * joint_couple,
             by_strain: tangent.fixed_view::<3, 3>(3, 3).into(),
             mixed: tangent.fixed_view::<3, 3>(3, 0).into(),
-            by_curvature: by_curvature - covered * self.joint_tangent(kappa),
+            by_curvature: by_curvature - covered * joint_tangent,
         }
     }
 }

@@ -4,15 +4,15 @@
 pub(super) type Invariants = [f64; 5];
 
 /// Sizes beyond which extension, curvature (rad/nm) and shear no longer add to a term.
-const EXTENSION: f64 = 0.02;
-const CURVATURE: f64 = 0.02;
-const SHEAR: f64 = 0.1;
+pub(crate) const EXTENSION: f64 = 0.02;
+pub(crate) const CURVATURE: f64 = 0.02;
+pub(crate) const SHEAR: f64 = 0.1;
 /// Curvature (rad/nm) at which bending begins to pull: below it the shift of the neutral axis grows.
-const BENT: f64 = 2.5e-3;
+pub(crate) const BENT: f64 = 2.5e-3;
 /// Extension over which tension gives way to compression.
-const SLACK: f64 = 7e-5;
+pub(crate) const SLACK: f64 = 7e-5;
 /// What bending, shear and twist add to the extension at which bonds begin to give way (nm^2, 1, nm^2).
-const TIGHT: [f64; 3] = [20.0, 5.0, 20.0];
+pub(crate) const TIGHT: [f64; 3] = [20.0, 5.0, 20.0];
 
 /// One term: a function of the extension `e`, of `a = kappa_1^2 + kappa_2^2`, of `g = sigma_1^2 + sigma_2^2`, of
 /// `c = kappa_1 sigma_1 + kappa_2 sigma_2` and of the twist, times a polynomial of

@@ -90,7 +90,7 @@ const fn equilibrium(name: &'static str, length_nm: f64) -> Case {
 }
 
 /// All cases.
-pub(super) const CASES: [Case; 16] = [
+pub(super) const CASES: [Case; 18] = [
     case("rod-pv-16", rod(16, 1, VERLET), None),
     case("rod-pv-64", rod(64, 1, VERLET), Some(50e6)),
     case("rod-pv-256", rod(256, 1, VERLET), Some(50e6)),
@@ -100,6 +100,12 @@ pub(super) const CASES: [Case; 16] = [
     case("rod-fitted-pv-16", rod_of("Fitted", 16), None),
     case("rod-fitted-pv-64", rod_of("Fitted", 64), None),
     case("rod-fitted-pv-1024", rod_of("Fitted", 1024), None),
+    case(
+        "rod-homogenised-pv-64",
+        rod_of("Homogenised", 64),
+        Some(35e6),
+    ),
+    case("rod-homogenised-pv-1024", rod_of("Homogenised", 1024), None),
     case(
         "rod-published-pv-64",
         rod_of("PublishedExtension", 64),

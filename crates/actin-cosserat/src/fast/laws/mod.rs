@@ -6,6 +6,7 @@
 
 mod bend;
 mod length;
+mod potential;
 mod shear;
 mod twist;
 
@@ -15,6 +16,7 @@ use std::fmt::Debug;
 
 pub(super) use bend::{Bend, ConstantBend, WideStiffening};
 pub(super) use length::{Length, NaturalLength, Polynomial, Rooted};
+pub(super) use potential::Potential;
 pub(super) use shear::{CubicAcross, LinearShear, Shear};
 pub(super) use twist::{ConstantTwist, Sided, Tanh, Twist};
 
@@ -22,6 +24,9 @@ pub(super) use twist::{ConstantTwist, Sided, Tanh, Twist};
 pub(super) trait Law: Copy + Debug {
     /// Whether the curvature around a segment has to do with its strain.
     const COUPLES: bool;
+
+    /// Whether joints beside free ends stand for the half segments there.
+    const COVERS: bool = false;
 
     /// Couple of bending elements (pN nm) at curvature `kappa` (rad/nm). The reference is
     /// [`RodMaterial::bending_couple`].

@@ -40,6 +40,7 @@ fn of_segments(arch: Arch, rod: &FastRod, states: &[[Vector3; 2]]) -> Vec<[Vecto
         Kind::Published(rod) => arch.dispatch(OfSegments(rod.law, states)),
         Kind::Fitted(rod) => arch.dispatch(OfSegments(rod.law, states)),
         Kind::FittedLinearShear(rod) => arch.dispatch(OfSegments(rod.law, states)),
+        Kind::Potential(rod) => arch.dispatch(OfSegments(rod.law, states)),
     }
 }
 
@@ -74,12 +75,14 @@ fn laws_of_collapsed_and_inverted_segments_are_the_scalar_ones() {
             for ([sigma, kappa], [force, couple]) in states.iter().zip(found) {
                 let expected = scalar.loads(&law.1, *sigma, MeanCurvature::inside(*kappa));
                 // Some ten roundings of terms that are no larger than these forces, or than
-                // 4e4 pN nm^2 times strain and curvature.
+                // 4e4 pN nm^2 times strain and curvature; of the potential, whose polynomials are small
+                // differences of large terms, than twenty times that.
+                let cancels = if law.0 == "potential" { 20.0 } else { 1.0 };
                 let scale = expected.0.norm() + 4e4 * (sigma.norm() + kappa.norm());
                 let error = (force - expected.0)
                     .norm()
                     .max((couple - expected.1).norm());
-                assert!(error < 2e-15 * scale, "{}, {sigma}: {error:e}", law.0);
+                assert!(error < 2e-15 * cancels * scale, "{}, {sigma}: {error:e}", law.0);
                 assert!(force.iter().chain(&couple).all(|part| part.is_finite()));
             }
         }

@@ -1,0 +1,433 @@
+//! One potential for all strains.
+
+use super::Law;
+use crate::homogenised::{BENT, CURVATURE, EXTENSION, SHEAR, SLACK, TIGHT, TWIST};
+use crate::{Homogenised, Term};
+use actin_mechanics::wide::{Simd, Wide3};
+
+/// The law of [`Homogenised`]: what terms are multiplied by, as constants or as polynomials in the bounded
+/// twist.
+///
+/// Joints have the terms of curvature alone; in segments these cancel, so that polynomials of the others are all
+/// that is left of `W - U` but for compression, whose term is in both.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::fast) struct Potential {
+    natural: [f64; 10],
+    any_stretch: [f64; 1],
+    any_bend: [f64; 1],
+    any_shear: [f64; 1],
+    twist: [f64; 10],
+    stretch: [f64; 9],
+    compression: [f64; 3],
+    bend: [f64; 6],
+    root: [f64; 6],
+    stretch_root: [f64; 6],
+    stretch_bend: [f64; 5],
+    shear: [f64; 10],
+    stretch_shear: [f64; 9],
+    coupling: [f64; 10],
+    stretch_coupling: [f64; 5],
+    root_shear: [f64; 6],
+    root_coupling: [f64; 7],
+    shear_coupling: [f64; 5],
+    shear_twice: [f64; 2],
+    stretch_root_shear: [f64; 5],
+}
+
+impl Potential {
+    /// The law, where its polynomials have the degrees that the loop was written for.
+    pub(in crate::fast) fn of(law: &Homogenised) -> Option<Self> {
+        Some(Self {
+            natural: law.form().natural().try_into().ok()?,
+            any_stretch: of(law, Term::AnyStretch)?,
+            any_bend: of(law, Term::AnyBend)?,
+            any_shear: of(law, Term::AnyShear)?,
+            twist: of(law, Term::Twist)?,
+            stretch: of(law, Term::Stretch)?,
+            compression: of(law, Term::Compression)?,
+            bend: of(law, Term::Bend)?,
+            root: of(law, Term::BendRoot)?,
+            stretch_root: of(law, Term::StretchRoot)?,
+            stretch_bend: of(law, Term::StretchBend)?,
+            shear: of(law, Term::Shear)?,
+            stretch_shear: of(law, Term::StretchShear)?,
+            coupling: of(law, Term::Coupling)?,
+            stretch_coupling: of(law, Term::StretchCoupling)?,
+            root_shear: of(law, Term::RootShear)?,
+            root_coupling: of(law, Term::RootCoupling)?,
+            shear_coupling: of(law, Term::ShearCoupling)?,
+            shear_twice: of(law, Term::ShearTwice)?,
+            stretch_root_shear: of(law, Term::StretchRootShear)?,
+        })
+    }
+}
+
+/// The coefficients of a term.
+fn of<const N: usize>(law: &Homogenised, term: Term) -> Option<[f64; N]> {
+    law.coefficients(term).try_into().ok()
+}
+
+/// A polynomial at the bounded twist, and its derivative by that.
+#[inline(always)]
+fn jet<S: Simd, const N: usize>(simd: S, coefficients: &[f64; N], t: S::f64s) -> [S::f64s; 2] {
+    let mut value = simd.splat_f64s(coefficients[N - 1]);
+    let mut slope = value;
+    for k in (1..N - 1).rev() {
+        value = simd.mul_add_e_f64s(value, t, simd.splat_f64s(coefficients[k]));
+        slope = simd.mul_add_e_f64s(slope, t, value);
+    }
+    let lowest = simd.splat_f64s(coefficients[0]);
+    [simd.mul_add_e_f64s(value, t, lowest), slope]
+}
+
+/// Bounded twist `t = k / sqrt(k^2 + k_0^2)` and its derivative `k_0^2 / (k^2 + k_0^2)^(3/2)`.
+#[inline(always)]
+fn bounded_twist<S: Simd>(simd: S, k: S::f64s) -> [S::f64s; 2] {
+    let size = simd.splat_f64s(TWIST);
+    let squared = simd.mul_add_e_f64s(k, k, simd.mul_f64s(size, size));
+    let inverse = simd.div_f64s(simd.splat_f64s(1.0), simd.sqrt_f64s(squared));
+    let ratio = simd.mul_f64s(size, inverse);
+    let slope = simd.mul_f64s(simd.mul_f64s(ratio, ratio), inverse);
+    [simd.mul_f64s(k, inverse), slope]
+}
+
+/// The sum of the squares of two numbers.
+#[inline(always)]
+fn squared<S: Simd>(simd: S, [x, y, _]: Wide3<S>) -> S::f64s {
+    simd.mul_add_e_f64s(y, y, simd.mul_f64s(x, x))
+}
+
+/// `1 + x / size^2`.
+#[inline(always)]
+fn denominator<S: Simd>(simd: S, x: S::f64s, size: f64) -> S::f64s {
+    simd.mul_add_e_f64s(x, simd.splat_f64s((size * size).recip()), simd.splat_f64s(1.0))
+}
+
+/// Roots that the terms of bending need, before they are divided by.
+struct Roots<S: Simd> {
+    /// `q = 1 + a / size^2`.
+    q: S::f64s,
+    /// `s = sqrt((a + b^2 q) q)`, of which `s / q` is the root.
+    s: S::f64s,
+    /// `20 a + 20 k^2`, to which an extension is added.
+    tight: S::f64s,
+    /// The root of the square of that and of the width of compression.
+    slack: S::f64s,
+}
+
+impl<S: Simd> Roots<S> {
+    #[inline(always)]
+    fn new(simd: S, a: S::f64s, k: S::f64s) -> Self {
+        let q = denominator(simd, a, CURVATURE);
+        let p = simd.mul_add_e_f64s(q, simd.splat_f64s(BENT * BENT), a);
+        let [of_a, _, of_k] = TIGHT.map(|each| simd.splat_f64s(each));
+        let tight = simd.mul_f64s(simd.mul_f64s(k, k), of_k);
+        let tight = simd.mul_add_e_f64s(of_a, a, tight);
+        Self {
+            q,
+            s: simd.sqrt_f64s(simd.mul_f64s(p, q)),
+            tight,
+            slack: slack(simd, tight),
+        }
+    }
+}
+
+/// `sqrt(x^2 + w^2)`.
+#[inline(always)]
+fn slack<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
+    simd.sqrt_f64s(simd.mul_add_e_f64s(x, x, simd.splat_f64s(SLACK * SLACK)))
+}
+
+/// Terms of bending and of compression without extension, with their derivatives by `a`.
+struct Bent<S: Simd> {
+    /// `1 / q`.
+    fading: S::f64s,
+    /// `A` and `1 / q^2`.
+    bend: [S::f64s; 2],
+    /// `r` with its derivative.
+    root: [S::f64s; 2],
+    /// Of compression, by the extension.
+    slack: [S::f64s; 2],
+}
+
+impl<S: Simd> Bent<S> {
+    /// From the inverse of `q s` and that of the root of compression.
+    #[inline(always)]
+    fn new(simd: S, a: S::f64s, roots: &Roots<S>, [inverse, of_slack]: [S::f64s; 2]) -> Self {
+        let fading = simd.mul_f64s(inverse, roots.s);
+        let fading_twice = simd.mul_f64s(fading, fading);
+        let root = simd.mul_f64s(roots.s, fading);
+        // q / s, halved.
+        let over_root = simd.mul_f64s(simd.mul_f64s(inverse, roots.q), roots.q);
+        let half = simd.mul_f64s(over_root, simd.splat_f64s(0.5));
+        Self {
+            fading,
+            bend: [simd.mul_f64s(a, fading), fading_twice],
+            root: [
+                simd.sub_f64s(root, simd.splat_f64s(BENT)),
+                simd.mul_f64s(half, fading_twice),
+            ],
+            slack: given_way(simd, [roots.tight, roots.slack], of_slack),
+        }
+    }
+}
+
+/// The square of `(x - root) / 2` and its derivative, `-(x - root)^2 / 2 root`.
+#[inline(always)]
+fn given_way<S: Simd>(simd: S, [x, root]: [S::f64s; 2], inverse: S::f64s) -> [S::f64s; 2] {
+    let half = simd.mul_f64s(simd.sub_f64s(x, root), simd.splat_f64s(0.5));
+    let value = simd.mul_f64s(half, half);
+    let twice = simd.mul_f64s(value, simd.splat_f64s(-2.0));
+    [value, simd.mul_f64s(twice, inverse)]
+}
+
+/// `2 x`, of which the derivative of a square is made.
+#[inline(always)]
+fn twice<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
+    simd.add_f64s(x, x)
+}
+
+impl Law for Potential {
+    const COUPLES: bool = true;
+    const COVERS: bool = true;
+
+    #[inline(always)]
+    fn bending<S: Simd>(&self, simd: S, kappa: Wide3<S>) -> Wide3<S> {
+        let [x, y, k] = kappa;
+        let [t, slope] = bounded_twist(simd, k);
+        let a = squared(simd, kappa);
+        let roots = Roots::new(simd, a, k);
+        let qs = simd.mul_f64s(roots.q, roots.s);
+        let inverse = simd.div_f64s(simd.splat_f64s(1.0), simd.mul_f64s(qs, roots.slack));
+        let inverses = [simd.mul_f64s(inverse, roots.slack), simd.mul_f64s(inverse, qs)];
+        let bent = Bent::new(simd, a, &roots, inverses);
+        let [twist, twist_slope] = jet(simd, &self.twist, t);
+        let [bend, bend_slope] = jet(simd, &self.bend, t);
+        let [root, root_slope] = jet(simd, &self.root, t);
+        let [compression, compression_slope] = jet(simd, &self.compression, t);
+        let pushed = simd.mul_f64s(compression, bent.slack[1]);
+        let [of_a, _, of_k] = TIGHT.map(|each| simd.splat_f64s(each));
+        let mut by_a = simd.mul_add_e_f64s(bend, bent.bend[1], simd.splat_f64s(self.any_bend[0]));
+        by_a = simd.mul_add_e_f64s(root, bent.root[1], by_a);
+        by_a = twice(simd, simd.mul_add_e_f64s(of_a, pushed, by_a));
+        let mut by_t = simd.mul_f64s(twist_slope, simd.mul_f64s(k, k));
+        by_t = simd.mul_add_e_f64s(bend_slope, bent.bend[0], by_t);
+        by_t = simd.mul_add_e_f64s(root_slope, bent.root[0], by_t);
+        by_t = simd.mul_add_e_f64s(compression_slope, bent.slack[0], by_t);
+        let by_k = twice(simd, simd.mul_add_e_f64s(of_k, pushed, twist));
+        let about = simd.mul_add_e_f64s(by_k, k, simd.mul_f64s(by_t, slope));
+        [simd.mul_f64s(x, by_a), simd.mul_f64s(y, by_a), about]
+    }
+
+    #[inline(always)]
+    fn segment<S: Simd>(&self, simd: S, sigma: Wide3<S>, kappa: Wide3<S>) -> [Wide3<S>; 2] {
+        let strained = Strained::new(simd, &self.natural, sigma, kappa);
+        strained.loads(simd, self, sigma, kappa)
+    }
+}
+
+/// What the terms of a segment are made of.
+struct Strained<S: Simd> {
+    /// Bounded twist and its derivative.
+    twist: [S::f64s; 2],
+    /// Derivative of the natural length by the twist.
+    natural: S::f64s,
+    bent: Bent<S>,
+    /// `e`, `E` and the derivative of `E`.
+    stretch: [S::f64s; 3],
+    /// `1 / (1 + g / size^2)`, `G` and its derivative.
+    shear: [S::f64s; 3],
+    /// `C` and its derivative by `c`.
+    coupling: [S::f64s; 2],
+    /// Of compression.
+    slack: [S::f64s; 2],
+}
+
+impl<S: Simd> Strained<S> {
+    #[inline(always)]
+    fn new(simd: S, natural: &[f64; 10], sigma: Wide3<S>, kappa: Wide3<S>) -> Self {
+        let one = simd.splat_f64s(1.0);
+        let [x, y, k] = kappa;
+        let [t, slope] = bounded_twist(simd, k);
+        let [value, by_t] = jet(simd, natural, t);
+        let e = simd.negate_mul_add_e_f64s(k, value, sigma[2]);
+        let natural = simd.mul_add_e_f64s(simd.mul_f64s(k, slope), by_t, value);
+        let (a, g) = (squared(simd, kappa), squared(simd, sigma));
+        let c = simd.mul_add_e_f64s(x, sigma[0], simd.mul_f64s(y, sigma[1]));
+        let roots = Roots::new(simd, a, k);
+        let of_shear = denominator(simd, g, SHEAR);
+        // One quotient for four inverses.
+        let qs = simd.mul_f64s(roots.q, roots.s);
+        let others = simd.mul_f64s(of_shear, roots.slack);
+        let inverse = simd.div_f64s(one, simd.mul_f64s(qs, others));
+        let (of_others, of_qs) = (simd.mul_f64s(inverse, qs), simd.mul_f64s(inverse, others));
+        let fading = simd.mul_f64s(of_others, roots.slack);
+        let of_slack = simd.mul_f64s(of_others, of_shear);
+        let bent = Bent::new(simd, a, &roots, [of_qs, of_slack]);
+        let by_c = simd.mul_f64s(bent.fading, fading);
+        let (stretch, slack) = extended(simd, e, [g, roots.tight]);
+        Self {
+            twist: [t, slope],
+            natural,
+            bent,
+            stretch,
+            shear: [fading, simd.mul_f64s(g, fading), simd.mul_f64s(fading, fading)],
+            coupling: [simd.mul_f64s(c, by_c), by_c],
+            slack,
+        }
+    }
+}
+
+/// `e`, `E` with its derivative, and what compression gives.
+#[inline(always)]
+fn extended<S: Simd>(
+    simd: S,
+    e: S::f64s,
+    [g, tight]: [S::f64s; 2],
+) -> ([S::f64s; 3], [S::f64s; 2]) {
+    let [_, of_g, _] = TIGHT;
+    let x = simd.mul_add_e_f64s(g, simd.splat_f64s(of_g), simd.add_f64s(e, tight));
+    let root = slack(simd, x);
+    let q = simd.sqrt_f64s(denominator(simd, simd.mul_f64s(e, e), EXTENSION));
+    let inverse = simd.div_f64s(simd.splat_f64s(1.0), simd.mul_f64s(q, root));
+    let (of_q, of_root) = (simd.mul_f64s(inverse, root), simd.mul_f64s(inverse, q));
+    let slope = simd.mul_f64s(simd.mul_f64s(of_q, of_q), of_q);
+    let stretch = [e, simd.mul_f64s(e, of_q), slope];
+    (stretch, given_way(simd, [x, root], of_root))
+}
+
+/// Derivatives of the energy by what its terms are made of.
+struct Slopes<S: Simd> {
+    /// By `E`, `A`, `r`, `G` and `C`.
+    by: [S::f64s; 5],
+    /// By the bounded twist.
+    by_t: S::f64s,
+    /// By the extension of compression, with and without extension and shear.
+    pushed: [S::f64s; 2],
+}
+
+impl<S: Simd> Strained<S> {
+    /// Force and couple.
+    #[inline(always)]
+    fn loads(&self, simd: S, law: &Potential, sigma: Wide3<S>, kappa: Wide3<S>) -> [Wide3<S>; 2] {
+        let Slopes {
+            by: [by_stretch, by_bend, by_root, by_shear, by_coupling],
+            by_t,
+            pushed: [pushed, less],
+        } = self.slopes(simd, law);
+        let [of_a, of_g, of_k] = TIGHT.map(|each| simd.splat_f64s(each));
+        let more = simd.sub_f64s(pushed, less);
+        let coupled = simd.mul_f64s(by_coupling, self.coupling[0]);
+        let (a_size, g_size) = (simd.splat_f64s(-CURVATURE.powi(-2)), simd.splat_f64s(-SHEAR.powi(-2)));
+        let [e, _, stretch_slope] = self.stretch;
+        let mut by_e = simd.mul_add_e_f64s(by_stretch, stretch_slope, pushed);
+        by_e = simd.mul_add_e_f64s(simd.splat_f64s(2.0 * law.any_stretch[0]), e, by_e);
+        let mut by_a = simd.mul_f64s(by_root, self.bent.root[1]);
+        by_a = simd.mul_add_e_f64s(by_bend, self.bent.bend[1], by_a);
+        by_a = simd.mul_add_e_f64s(simd.mul_f64s(coupled, self.bent.fading), a_size, by_a);
+        by_a = twice(simd, simd.mul_add_e_f64s(of_a, more, by_a));
+        let [fading, _, shear_slope] = self.shear;
+        let any = simd.splat_f64s(law.any_shear[0]);
+        let mut by_g = simd.mul_add_e_f64s(by_shear, shear_slope, any);
+        by_g = simd.mul_add_e_f64s(simd.mul_f64s(coupled, fading), g_size, by_g);
+        by_g = twice(simd, simd.mul_add_e_f64s(of_g, pushed, by_g));
+        let by_c = simd.mul_f64s(by_coupling, self.coupling[1]);
+        let by_k = twice(simd, simd.mul_f64s(of_k, more));
+        let about = simd.mul_add_e_f64s(by_t, self.twist[1], simd.mul_f64s(by_k, kappa[2]));
+        let force = |k: usize| simd.mul_add_e_f64s(sigma[k], by_g, simd.mul_f64s(kappa[k], by_c));
+        let couple = |k: usize| simd.mul_add_e_f64s(kappa[k], by_a, simd.mul_f64s(sigma[k], by_c));
+        let about = simd.negate_mul_add_e_f64s(self.natural, by_e, about);
+        [[force(0), force(1), by_e], [couple(0), couple(1), about]]
+    }
+
+    #[inline(always)]
+    fn slopes(&self, simd: S, law: &Potential) -> Slopes<S> {
+        let [t, _] = self.twist;
+        let ([_, stretch, _], [_, shear, _]) = (self.stretch, self.shear);
+        let (bend, root, coupling) = (self.bent.bend[0], self.bent.root[0], self.coupling[0]);
+        let mut sums = Sums {
+            simd,
+            t,
+            by: [simd.splat_f64s(0.0); 5],
+            by_t: simd.splat_f64s(0.0),
+        };
+        sums.add_square(&law.stretch, (0, stretch));
+        sums.add_product(&law.stretch_root, [(0, stretch), (2, root)]);
+        sums.add_product(&law.stretch_bend, [(0, stretch), (1, bend)]);
+        sums.add(&law.shear, (3, shear));
+        sums.add_product(&law.stretch_shear, [(0, stretch), (3, shear)]);
+        sums.add(&law.coupling, (4, coupling));
+        sums.add_product(&law.stretch_coupling, [(0, stretch), (4, coupling)]);
+        sums.add_product(&law.root_shear, [(2, root), (3, shear)]);
+        sums.add_product(&law.root_coupling, [(2, root), (4, coupling)]);
+        sums.add_product(&law.shear_coupling, [(3, shear), (4, coupling)]);
+        sums.add_square(&law.shear_twice, (3, shear));
+        sums.add_triple(&law.stretch_root_shear, [(0, stretch), (2, root), (3, shear)]);
+        let [compression, slope] = jet(simd, &law.compression, t);
+        let more = simd.sub_f64s(self.slack[0], self.bent.slack[0]);
+        Slopes {
+            by: sums.by,
+            by_t: simd.mul_add_e_f64s(slope, more, sums.by_t),
+            pushed: [
+                simd.mul_f64s(compression, self.slack[1]),
+                simd.mul_f64s(compression, self.bent.slack[1]),
+            ],
+        }
+    }
+}
+
+/// Adds up terms' derivatives: by the parts that they are products of, each with its place, and by `t`.
+struct Sums<S: Simd> {
+    simd: S,
+    t: S::f64s,
+    by: [S::f64s; 5],
+    by_t: S::f64s,
+}
+
+impl<S: Simd> Sums<S> {
+    /// The polynomial; adds its slope times the term.
+    #[inline(always)]
+    fn value<const N: usize>(&mut self, coefficients: &[f64; N], term: S::f64s) -> S::f64s {
+        let [value, slope] = jet(self.simd, coefficients, self.t);
+        self.by_t = self.simd.mul_add_e_f64s(slope, term, self.by_t);
+        value
+    }
+
+    #[inline(always)]
+    fn add<const N: usize>(&mut self, coefficients: &[f64; N], (i, x): (usize, S::f64s)) {
+        let value = self.value(coefficients, x);
+        self.by[i] = self.simd.add_f64s(self.by[i], value);
+    }
+
+    #[inline(always)]
+    fn add_square<const N: usize>(&mut self, coefficients: &[f64; N], (i, x): (usize, S::f64s)) {
+        let value = self.value(coefficients, self.simd.mul_f64s(x, x));
+        let doubled = self.simd.add_f64s(value, value);
+        self.by[i] = self.simd.mul_add_e_f64s(doubled, x, self.by[i]);
+    }
+
+    #[inline(always)]
+    fn add_product<const N: usize>(
+        &mut self,
+        coefficients: &[f64; N],
+        [(i, x), (j, y)]: [(usize, S::f64s); 2],
+    ) {
+        let value = self.value(coefficients, self.simd.mul_f64s(x, y));
+        self.by[i] = self.simd.mul_add_e_f64s(value, y, self.by[i]);
+        self.by[j] = self.simd.mul_add_e_f64s(value, x, self.by[j]);
+    }
+
+    #[inline(always)]
+    fn add_triple<const N: usize>(
+        &mut self,
+        coefficients: &[f64; N],
+        [(i, x), (j, y), (k, z)]: [(usize, S::f64s); 3],
+    ) {
+        let simd = self.simd;
+        let (xy, yz, zx) = (simd.mul_f64s(x, y), simd.mul_f64s(y, z), simd.mul_f64s(z, x));
+        let value = self.value(coefficients, simd.mul_f64s(xy, z));
+        for (place, rest) in [(i, yz), (j, zx), (k, xy)] {
+            self.by[place] = simd.mul_add_e_f64s(value, rest, self.by[place]);
+        }
+    }
+}
