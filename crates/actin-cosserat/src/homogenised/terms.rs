@@ -32,8 +32,8 @@ pub enum Term {
     Twist,
     /// `E^2`: stretch.
     Stretch,
-    /// `min(x, 0)^2`, smooth, of `x = e + 20 a + 5 g + 20 kappa_3^2`: bonds that are pushed together give way,
-    /// unless bending, shear or twist has tightened them.
+    /// `y^3 / (y + 7e-5)` of `y = max(-x, 0)`, `x = e + 20 a + 5 g + 20 kappa_3^2`: bonds that are pushed together
+    /// give way, unless bending, shear or twist has tightened them.
     Compression,
     /// `A`: bending.
     Bend,
@@ -128,12 +128,17 @@ fn root(a: f64) -> Jet {
     of(outer, bent)
 }
 
-/// The square of `(x - sqrt(x^2 + w^2)) / 2`.
+/// `y^3 / (y + w)` for `y = -x` above zero: close to `x^2` beyond `w`, nothing in tension.
 fn compression(x: f64) -> Jet {
-    let r = x.hypot(SLACK);
-    let (v, d) = (0.5 * (x - r), 0.5 * (1.0 - x / r));
-    let bend = -0.5 * SLACK * SLACK / (r * r * r);
-    [v * v, 2.0 * v * d, 2.0 * (d * d + v * bend)]
+    let y = (-x).max(0.0);
+    let q = (y + SLACK).recip();
+    let (u, w) = (y * q, SLACK * q);
+    // u + w = 1.
+    [
+        y * y * u,
+        -y * u * (2.0 * u + 3.0 * w),
+        2.0 * u * (u * u + 3.0 * u * w + 3.0 * w * w),
+    ]
 }
 
 impl Term {

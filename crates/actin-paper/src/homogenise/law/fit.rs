@@ -32,7 +32,7 @@ const RIDGE: f64 = 1e-9;
 const LEAST: f64 = 3.0;
 const UNITS: [f64; 6] = [20.0, 20.0, 0.5, 1.0, 1.0, 1.0];
 /// Rounds in which new directions without stiffness are looked for, and steps to meet those that are known.
-const ROUNDS: usize = 14;
+const ROUNDS: usize = 20;
 const STEPS: usize = 12;
 
 /// The coefficients of some terms, one after the other.
@@ -243,7 +243,9 @@ struct Conditions {
     rows: Vec<DVector<f64>>,
 }
 
-/// What is aimed at in a direction that was too soft.
+/// Weight of a direction without stiffness, where an equation of the fit has 1; and what is aimed at in a direction that
+/// was too soft.
+const STRENGTH: f64 = 10.0;
 const MARGIN: f64 = 1.3;
 
 impl Conditions {
@@ -255,8 +257,8 @@ impl Conditions {
             let lacking = |row: &&DVector<f64>| row.dot(&found) < MARGIN;
             let (mut matrix, mut right) = (normal.matrix.clone(), normal.right.clone());
             for row in self.rows.iter().filter(lacking) {
-                matrix.ger(1.0, row, row, 1.0);
-                right.axpy(MARGIN, row, 1.0);
+                matrix.ger(STRENGTH, row, row, 1.0);
+                right.axpy(STRENGTH * MARGIN, row, 1.0);
             }
             let scaled = |i: usize, j: usize| {
                 matrix[(i, j)] / (scale[i] * scale[j]) + if i == j { RIDGE } else { 0.0 }
