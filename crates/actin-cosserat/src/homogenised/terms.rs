@@ -3,6 +3,9 @@
 /// Invariants of the strains: `e`, `a`, `g`, `c` and `k = kappa_3`, in this order.
 pub(super) type Invariants = [f64; 5];
 
+/// Place of the twist among them.
+pub(super) const TWIST: usize = 4;
+
 /// Sizes beyond which extension, curvature (rad/nm) and shear no longer add to a term.
 pub(crate) const EXTENSION: f64 = 0.02;
 pub(crate) const CURVATURE: f64 = 0.02;
@@ -219,24 +222,13 @@ impl Term {
         if self == Self::Compression {
             return compressed(invariants);
         }
-        let factors = self.factors(invariants);
-        // The product with the factors `i` and `j` differentiated.
-        let product = |orders: [usize; 5]| -> f64 {
-            let of_each = factors.iter().zip(orders);
-            of_each.map(|(jet, order)| jet[order]).product()
-        };
         let mut jet = InvariantJet {
-            value: product([0; 5]),
+            value: 1.0,
             ..InvariantJet::default()
         };
-        for i in 0..5 {
-            let mut orders = [0; 5];
-            orders[i] += 1;
-            jet.first[i] = product(orders);
-            for j in 0..5 {
-                let mut twice = orders;
-                twice[j] += 1;
-                jet.second[i][j] = product(twice);
+        for (variable, factor) in self.factors(invariants).into_iter().enumerate() {
+            if factor != ONE {
+                jet = jet.times(variable, factor);
             }
         }
         jet
@@ -249,7 +241,7 @@ fn compressed([e, a, g, _, k]: Invariants) -> InvariantJet {
     let [value, slope, bend] = compression(e + of_a * a + of_g * g + of_k * k * k);
     let by = [1.0, of_a, of_g, 0.0, 2.0 * of_k * k];
     let mut second = by.map(|x| by.map(|y| bend * x * y));
-    second[4][4] += 2.0 * of_k * slope;
+    second[TWIST][TWIST] += 2.0 * of_k * slope;
     InvariantJet {
         value,
         first: by.map(|x| slope * x),
@@ -258,20 +250,22 @@ fn compressed([e, a, g, _, k]: Invariants) -> InvariantJet {
 }
 
 impl InvariantJet {
-    /// Times a function of the twist.
-    pub(super) fn times(mut self, [p, slope, bend]: Jet) -> Self {
-        let by_twist = self.first[4];
-        let mixed = self.second[4];
-        self.second[4][4] = p * mixed[4] + 2.0 * slope * by_twist + bend * self.value;
-        for i in 0..4 {
-            let crossed = p * mixed[i] + slope * self.first[i];
-            (self.second[i][4], self.second[4][i]) = (crossed, crossed);
-            for j in 0..4 {
-                self.second[i][j] *= p;
+    /// Times a function of one of the invariants.
+    pub(super) fn times(mut self, variable: usize, [p, slope, bend]: Jet) -> Self {
+        let (value, first, by_it) = (self.value, self.first, self.second[variable]);
+        for row in &mut self.second {
+            for x in row {
+                *x *= p;
             }
-            self.first[i] *= p;
         }
-        self.first[4] = p * by_twist + slope * self.value;
+        for k in 0..5 {
+            self.first[k] *= p;
+            self.second[variable][k] = p * by_it[k] + slope * first[k];
+            self.second[k][variable] = self.second[variable][k];
+        }
+        self.second[variable][variable] =
+            p * by_it[variable] + 2.0 * slope * first[variable] + bend * value;
+        self.first[variable] += slope * value;
         self.value *= p;
         self
     }

@@ -18,7 +18,7 @@ const STRAIGHT: f64 = 0.1;
 /// diagonal count more.
 const TANGENT: f64 = 0.33;
 const BESIDE: f64 = 1.4;
-const SOFTEST: [f64; 6] = [5e3, 5e3, 300.0, 25.0, 25.0, 5e3];
+const SOFTEST: [f64; 6] = [5e3, 5e3, 300.0, 12.0, 12.0, 5e3];
 /// Cells with a diagonal entry below this, or an eigenvalue below that, are about to change their branch: their
 /// tangent says nothing of the others.
 const FIRM: [f64; 6] = [1e3, 1e3, -1.0, -1.0, -1.0, 1e3];
@@ -33,7 +33,9 @@ const LEAST: f64 = 3.0;
 const UNITS: [f64; 6] = [20.0, 20.0, 0.5, 1.0, 1.0, 1.0];
 /// Rounds in which new directions without stiffness are looked for, and steps to meet those that are known.
 const ROUNDS: usize = 20;
-const STEPS: usize = 12;
+const STEPS: usize = 30;
+/// A step is halved so often until it leads down.
+const HALVINGS: i32 = 12;
 
 /// The coefficients of some terms, one after the other.
 pub(super) fn columns(terms: &[Term]) -> Vec<(Term, usize)> {
@@ -59,10 +61,10 @@ pub(super) fn deviations(row: &Row) -> [f64; 7] {
     [energy + SHARE * row.energy, m, m, m3, n, n, n3]
 }
 
-/// Weight of a row and of its tangent: twist and tension alone count most, compression least, where the cell
-/// changes its branch and no smooth law follows it.
+/// Weight of a row and of its tangent: twist and tension alone and stiffness at rest count most, compression least,
+/// where the cell changes its branch and no smooth law follows it.
 fn weights(row: &Row) -> (f64, f64) {
-    let [curvature, _, shear, ..] = row.strain;
+    let [curvature, twist, shear, ..] = row.strain;
     let weight = match (curvature == 0.0, shear == 0.0) {
         _ if row.extension < -1e-3 => 0.15,
         _ if row.extension < -1e-4 => 0.4,
@@ -71,7 +73,13 @@ fn weights(row: &Row) -> (f64, f64) {
         _ => 1.5,
     };
     let is_small = curvature <= 1e-3 && shear <= 1e-3;
-    (weight, if is_small { 3.0 * weight } else { weight })
+    let is_rest = is_small && twist.abs() < 4e-3 && (-1e-4..1e-3).contains(&row.extension);
+    let of_tangent = match (is_small, is_rest) {
+        (_, true) => 8.0,
+        (true, _) => 3.0,
+        _ => 1.0,
+    };
+    (weight, of_tangent * weight)
 }
 
 /// Normal equations of all coefficients.
@@ -266,16 +274,32 @@ impl Conditions {
             let n = scale.len();
             let factor = DMatrix::from_fn(n, n, scaled).cholesky();
             let factor = factor.ok_or("the equations of the law are not independent")?;
-            let next = factor
+            let best = factor
                 .solve(&right.component_div(&scale))
                 .component_div(&scale);
-            let change = (&next - &found).component_mul(&scale).amax();
-            let size = next.component_mul(&scale).amax();
+            let step = best - &found;
+            let now = self.objective(normal, &found);
+            let shares = (0..HALVINGS).map(|k| 0.5_f64.powi(k));
+            let Some(next) = shares
+                .map(|share| &found + &step * share)
+                .find(|next| self.objective(normal, next) < now)
+            else {
+                break;
+            };
             found = next;
-            if change <= 1e-8 * size {
+            let size = |x: &DVector<f64>| x.component_mul(&scale).amax();
+            if size(&step) <= 1e-8 * size(&found) {
                 break;
             }
         }
         Ok(found)
+    }
+
+    /// What is made least, but for a constant.
+    fn objective(&self, normal: &Normal, found: &DVector<f64>) -> f64 {
+        let fit = found.dot(&(0.5 * (&normal.matrix * found) - &normal.right));
+        let lack = |row: &DVector<f64>| (MARGIN - row.dot(found)).max(0.0).powi(2);
+        let lacks: f64 = self.rows.iter().map(lack).sum();
+        fit + 0.5 * STRENGTH * lacks
     }
 }
