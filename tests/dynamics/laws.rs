@@ -9,7 +9,12 @@ use actin_integrate::{Drag, PEFRL, advance, largest_frequency, stable_step};
 use actin_mechanics::{State, System};
 
 /// The laws with an energy that are not constant, as a scene writes them.
-const LAWS: [&str; 4] = ["PublishedExtension", "CouplingEnergy", "Fitted", "Homogenised"];
+const LAWS: [&str; 4] = [
+    "PublishedExtension",
+    "CouplingEnergy",
+    "Fitted",
+    "Homogenised",
+];
 
 /// A filament under a law, and how it is deformed all along at the start.
 #[derive(Clone, Copy, Debug)]

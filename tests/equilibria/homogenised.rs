@@ -74,8 +74,12 @@ fn print_beams_and_straight_rods() {
                     let certificate = &outcome.equilibrium.as_ref().unwrap().certificate;
                     let last = assembly.points.len() - 1;
                     let state = assembly.system.state();
-                    let longer = state.points.position.get(last) - assembly.rest.points.position.get(last);
-                    println!("straight, {along} pN, {name}: {longer:?} nm, {} negative", certificate.negative);
+                    let longer =
+                        state.points.position.get(last) - assembly.rest.points.position.get(last);
+                    println!(
+                        "straight, {along} pN, {name}: {longer:?} nm, {} negative",
+                        certificate.negative
+                    );
                 }
                 Err(error) => println!("straight, {along} pN, {name}: {error}"),
             }

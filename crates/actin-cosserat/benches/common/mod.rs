@@ -1,9 +1,9 @@
 //! Rods to measure: 160 nm from a wall, well bent, under each law that has a loop of its own.
 
 use actin_cosserat::{
-    BendLaw, CubicShear, EnergyGradient, Homogenised, Rigidities, RodLayout, RodMaterial, RootedStretch,
-    SegmentCurvature, SegmentLaw, SidedTwist, Stiffening, StraightRod, StretchLaw, TanhTwist,
-    TwistLaw, TwistRise, TwistStretch, Walls,
+    BendLaw, CubicShear, EnergyGradient, Homogenised, Rigidities, RodLayout, RodMaterial,
+    RootedStretch, SegmentCurvature, SegmentLaw, SidedTwist, Stiffening, StraightRod, StretchLaw,
+    TanhTwist, TwistLaw, TwistRise, TwistStretch, Walls,
 };
 use actin_mechanics::State;
 use actin_mechanics::{Xorshift, perturb};
@@ -37,7 +37,11 @@ pub(crate) fn laws() -> [Law; 4] {
         ("constant", constant, None),
         ("published", published, Some(TwistStretch::published())),
         ("fitted", fitted, Some(rooted)),
-        ("homogenised", RodMaterial::homogenised(Homogenised::mean_filament()), None),
+        (
+            "homogenised",
+            RodMaterial::homogenised(Homogenised::mean_filament()),
+            None,
+        ),
     ]
 }
 

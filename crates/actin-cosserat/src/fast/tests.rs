@@ -5,8 +5,8 @@ mod collapsed;
 use super::*;
 use crate::{
     BendLaw, BendingElement, CubicShear, EnergyGradient, Homogenised, JoinedElement,
-    PolynomialStretch, Rigidities, RootedStretch, SegmentCurvature, SegmentLaw, SidedTwist, Stiffening, StraightRod,
-    StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, Walls,
+    PolynomialStretch, Rigidities, RootedStretch, SegmentCurvature, SegmentLaw, SidedTwist,
+    Stiffening, StraightRod, StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, Walls,
 };
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};

@@ -22,7 +22,7 @@ use nalgebra::{Matrix6, Vector6};
 use polynomial::{DEGREE, Polynomial, bounded_twist, polynomial};
 pub(crate) use segment::STRAIGHT;
 use segment::joined;
-use terms::{InvariantJet, Invariants, Jet, TWIST};
+use terms::{BY_TWIST, InvariantJet, Invariants, Jet};
 
 /// Strains: `kappa_1`, `kappa_2`, `kappa_3` (rad/nm), `sigma_1`, `sigma_2`, `sigma_3`; or couple (pN nm) and
 /// force (pN) in body axes.
@@ -141,7 +141,7 @@ impl HomogenisedForm {
         let jet = term.jet(self.invariants(strain));
         let mut power = [1.0, 0.0, 0.0];
         let units = (0..=term.degree()).map(|_| {
-            let unit = self.by_strain(strain, &jet.times(TWIST, power));
+            let unit = self.by_strain(strain, &jet.times(BY_TWIST, power));
             let [p, dp, ddp] = power;
             power = [
                 p * t,
@@ -258,7 +258,7 @@ impl Homogenised {
         let mut sum = InvariantJet::default();
         for (term, coefficients) in Term::ALL.into_iter().zip(&self.coefficients) {
             let coefficient = polynomial(&coefficients[..], t);
-            sum.add(&term.jet(invariants).times(TWIST, coefficient));
+            sum.add(&term.jet(invariants).times(BY_TWIST, coefficient));
         }
         sum
     }

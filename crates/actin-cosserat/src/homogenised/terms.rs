@@ -4,7 +4,7 @@
 pub(super) type Invariants = [f64; 5];
 
 /// Place of the twist among them.
-pub(super) const TWIST: usize = 4;
+pub(super) const BY_TWIST: usize = 4;
 
 /// Sizes beyond which extension, curvature (rad/nm) and shear no longer add to a term.
 pub(crate) const EXTENSION: f64 = 0.02;
@@ -241,7 +241,7 @@ fn compressed([e, a, g, _, k]: Invariants) -> InvariantJet {
     let [value, slope, bend] = compression(e + of_a * a + of_g * g + of_k * k * k);
     let by = [1.0, of_a, of_g, 0.0, 2.0 * of_k * k];
     let mut second = by.map(|x| by.map(|y| bend * x * y));
-    second[TWIST][TWIST] += 2.0 * of_k * slope;
+    second[BY_TWIST][BY_TWIST] += 2.0 * of_k * slope;
     InvariantJet {
         value,
         first: by.map(|x| slope * x),

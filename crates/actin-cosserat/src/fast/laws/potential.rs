@@ -100,7 +100,11 @@ fn squared<S: Simd>(simd: S, [x, y, _]: Wide3<S>) -> S::f64s {
 /// `1 + x / size^2`.
 #[inline(always)]
 fn denominator<S: Simd>(simd: S, x: S::f64s, size: f64) -> S::f64s {
-    simd.mul_add_e_f64s(x, simd.splat_f64s((size * size).recip()), simd.splat_f64s(1.0))
+    simd.mul_add_e_f64s(
+        x,
+        simd.splat_f64s((size * size).recip()),
+        simd.splat_f64s(1.0),
+    )
 }
 
 /// Roots that the terms of bending need, before they are divided by.
@@ -199,7 +203,10 @@ impl Law for Potential {
         let roots = Roots::new(simd, a, k);
         let qs = simd.mul_f64s(roots.q, roots.s);
         let inverse = simd.div_f64s(simd.splat_f64s(1.0), simd.mul_f64s(qs, roots.slack));
-        let inverses = [simd.mul_f64s(inverse, roots.slack), simd.mul_f64s(inverse, qs)];
+        let inverses = [
+            simd.mul_f64s(inverse, roots.slack),
+            simd.mul_f64s(inverse, qs),
+        ];
         let bent = Bent::new(simd, a, &roots, inverses);
         let [twist, twist_slope] = jet(simd, &self.twist, t);
         let [bend, bend_slope] = jet(simd, &self.bend, t);
@@ -271,7 +278,11 @@ impl<S: Simd> Strained<S> {
             natural,
             bent,
             stretch,
-            shear: [fading, simd.mul_f64s(g, fading), simd.mul_f64s(fading, fading)],
+            shear: [
+                fading,
+                simd.mul_f64s(g, fading),
+                simd.mul_f64s(fading, fading),
+            ],
             coupling: [simd.mul_f64s(c, by_c), by_c],
             slack,
         }
@@ -318,7 +329,10 @@ impl<S: Simd> Strained<S> {
         let [of_a, of_g, of_k] = TIGHT.map(|each| simd.splat_f64s(each));
         let more = simd.sub_f64s(pushed, less);
         let coupled = simd.mul_f64s(by_coupling, self.coupling[0]);
-        let (a_size, g_size) = (simd.splat_f64s(-CURVATURE.powi(-2)), simd.splat_f64s(-SHEAR.powi(-2)));
+        let (a_size, g_size) = (
+            simd.splat_f64s(-CURVATURE.powi(-2)),
+            simd.splat_f64s(-SHEAR.powi(-2)),
+        );
         let [e, _, stretch_slope] = self.stretch;
         let mut by_e = simd.mul_add_e_f64s(by_stretch, stretch_slope, pushed);
         by_e = simd.mul_add_e_f64s(simd.splat_f64s(2.0 * law.any_stretch[0]), e, by_e);
@@ -362,7 +376,10 @@ impl<S: Simd> Strained<S> {
         sums.add_product(&law.root_coupling, [(2, root), (4, coupling)]);
         sums.add_product(&law.shear_coupling, [(3, shear), (4, coupling)]);
         sums.add_square(&law.shear_twice, (3, shear));
-        sums.add_triple(&law.stretch_root_shear, [(0, stretch), (2, root), (3, shear)]);
+        sums.add_triple(
+            &law.stretch_root_shear,
+            [(0, stretch), (2, root), (3, shear)],
+        );
         let [compression, slope] = jet(simd, &law.compression, t);
         let more = simd.sub_f64s(self.slack[0], self.bent.slack[0]);
         Slopes {
@@ -424,7 +441,11 @@ impl<S: Simd> Sums<S> {
         [(i, x), (j, y), (k, z)]: [(usize, S::f64s); 3],
     ) {
         let simd = self.simd;
-        let (xy, yz, zx) = (simd.mul_f64s(x, y), simd.mul_f64s(y, z), simd.mul_f64s(z, x));
+        let (xy, yz, zx) = (
+            simd.mul_f64s(x, y),
+            simd.mul_f64s(y, z),
+            simd.mul_f64s(z, x),
+        );
         let value = self.value(coefficients, simd.mul_f64s(xy, z));
         for (place, rest) in [(i, yz), (j, zx), (k, xy)] {
             self.by[place] = simd.mul_add_e_f64s(value, rest, self.by[place]);

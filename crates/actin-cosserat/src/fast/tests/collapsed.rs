@@ -82,7 +82,11 @@ fn laws_of_collapsed_and_inverted_segments_are_the_scalar_ones() {
                 let error = (force - expected.0)
                     .norm()
                     .max((couple - expected.1).norm());
-                assert!(error < 2e-15 * cancels * scale, "{}, {sigma}: {error:e}", law.0);
+                assert!(
+                    error < 2e-15 * cancels * scale,
+                    "{}, {sigma}: {error:e}",
+                    law.0
+                );
                 assert!(force.iter().chain(&couple).all(|part| part.is_finite()));
             }
         }
