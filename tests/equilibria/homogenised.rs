@@ -1,6 +1,6 @@
 //! Rods under the potential of the mean filament: convergence, what the filament's monomers do, certificates.
 
-use crate::common::{build, run, solved};
+use crate::common::solved;
 use actin_sim::{Assembly, Outcome};
 
 /// A filament of `length` nm from a wall, its end held by `end`, under a force on it (pN).
@@ -42,7 +42,7 @@ fn combined_loads_converge_with_order_two() {
     }
 }
 
-/// Tips of 160 nm pulled across by 0.1 pN and along; monomers: mean filament, weighted bonds.
+/// Tips of 160 nm pulled across by 0.1 pN and along, within 4 % of monomers (the mean filament).
 #[test]
 fn tips_under_tension() {
     for (along, monomers) in [(1.0, 3.50), (5.0, 1.66), (10.0, 1.02), (40.0, 0.318)] {
@@ -52,38 +52,28 @@ fn tips_under_tension() {
             "{along} pN: {tip:.4} nm, {:+.1} %; longer by {longer:.4} nm",
             1e2 * error
         );
-        // The potential's own error grows where tension is small.
-        let bound = if along < 10.0 { 0.2 } else { 0.03 };
-        assert!(error.abs() < bound, "{along}: {error}");
+        assert!(error.abs() < 0.04, "{along}: {error}");
     }
 }
 
-/// Guided beams, whose ends do not turn, and straight rods.
+/// A beam whose ends do not turn is far softer than a rod of constant shear, and stiffens under tension: monomers
+/// move 3.90 and 2.39 nm per pN. Straight rods that may turn give way five times as much in compression.
 #[test]
-fn print_beams_and_straight_rods() {
+fn beams_and_straight_rods() {
     let freely = "Clamp(end: End, slides: Freely)";
-    for along in [0.0, 5.0, 10.0] {
+    let beams = [0.0, 5.0, 10.0].map(|along| {
         let [x, ..] = moved(&solved(&scene(&rod(90.0, 18), freely, [0.1, 0.0, along])));
         println!("guided, 90 nm, {along} pN: {:.3} nm per pN", x / 0.1);
-    }
-    for along in [-10.0, -5.0, -2.0, -1.0, 1.0, 2.0, 5.0, 10.0, 40.0] {
-        for (name, end) in [("turns", ""), ("does not turn", freely)] {
-            let mut assembly = build(&scene(&rod(160.0, 32), end, [0.0, 0.0, along]));
-            match run(&mut assembly) {
-                Ok((_, outcome)) => {
-                    let certificate = &outcome.equilibrium.as_ref().unwrap().certificate;
-                    let last = assembly.points.len() - 1;
-                    let state = assembly.system.state();
-                    let longer =
-                        state.points.position.get(last) - assembly.rest.points.position.get(last);
-                    println!(
-                        "straight, {along} pN, {name}: {longer:?} nm, {} negative",
-                        certificate.negative
-                    );
-                }
-                Err(error) => println!("straight, {along} pN, {name}: {error}"),
-            }
-        }
+        x / 0.1
+    });
+    assert!((beams[1] / 3.90 - 1.0).abs() < 0.2 && (beams[2] / 2.39 - 1.0).abs() < 0.1);
+    for along in [-2.0, -1.0, 1.0, 2.0, 5.0, 10.0, 40.0] {
+        let [turns, held] = ["", freely].map(|end| {
+            let [.., longer] = moved(&solved(&scene(&rod(160.0, 32), end, [0.0, 0.0, along])));
+            longer
+        });
+        println!("straight, {along} pN: {turns:.4} nm longer, {held:.4} without turning");
+        assert!(turns * along > held * along && held * along > 0.0);
     }
 }
 

@@ -14,7 +14,7 @@ mod twist_stability;
 pub use mean_filament::StrainRange;
 pub use terms::Term;
 
-pub(crate) use polynomial::TWIST;
+pub(crate) use polynomial::TWIST_SIZE;
 pub(crate) use terms::{BENT, CURVATURE, EXTENSION, SHEAR, SLACK, TIGHT};
 
 use crate::{RodKey, RodParameterError};

@@ -4,7 +4,7 @@
 use super::terms::{Jet, bounded, of};
 
 /// `k_0` (rad/nm).
-pub(crate) const TWIST: f64 = 0.02;
+pub(crate) const TWIST_SIZE: f64 = 0.02;
 
 /// Largest degree of a polynomial.
 pub(super) const DEGREE: usize = 9;
@@ -14,7 +14,7 @@ pub(super) type Polynomial = [f64; DEGREE + 1];
 
 /// `t` with its derivatives by the twist (rad/nm).
 pub(super) fn bounded_twist(twist: f64) -> Jet {
-    bounded(twist, TWIST).map(|x| x / TWIST)
+    bounded(twist, TWIST_SIZE).map(|x| x / TWIST_SIZE)
 }
 
 /// A polynomial with its derivatives by the twist, of which `t` is given.

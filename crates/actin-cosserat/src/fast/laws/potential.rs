@@ -1,15 +1,15 @@
 //! One potential for all strains.
 
 use super::Law;
-use crate::homogenised::{BENT, CURVATURE, EXTENSION, SHEAR, SLACK, TIGHT, TWIST};
+use crate::homogenised::{BENT, CURVATURE, EXTENSION, SHEAR, SLACK, TIGHT, TWIST_SIZE};
 use crate::{Homogenised, Term};
 use actin_mechanics::wide::{Simd, Wide3};
 
 /// The law of [`Homogenised`]: what terms are multiplied by, as constants or as polynomials in the bounded
 /// twist.
 ///
-/// Joints have the terms of curvature alone; in segments these cancel, so that polynomials of the others are all
-/// that is left of `W - U` but for compression, whose term is in both.
+/// Joints have the terms of curvature alone; in segments these cancel, so that the others are all that is left
+/// of `W - U`.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct Potential {
     natural: [f64; 10],
@@ -80,17 +80,6 @@ fn jet<S: Simd, const N: usize>(simd: S, coefficients: &[f64; N], t: S::f64s) ->
     [simd.mul_add_e_f64s(value, t, lowest), slope]
 }
 
-/// Bounded twist `t = k / sqrt(k^2 + k_0^2)` and its derivative `k_0^2 / (k^2 + k_0^2)^(3/2)`.
-#[inline(always)]
-fn bounded_twist<S: Simd>(simd: S, k: S::f64s) -> [S::f64s; 2] {
-    let size = simd.splat_f64s(TWIST);
-    let squared = simd.mul_add_e_f64s(k, k, simd.mul_f64s(size, size));
-    let inverse = simd.div_f64s(simd.splat_f64s(1.0), simd.sqrt_f64s(squared));
-    let ratio = simd.mul_f64s(size, inverse);
-    let slope = simd.mul_f64s(simd.mul_f64s(ratio, ratio), inverse);
-    [simd.mul_f64s(k, inverse), slope]
-}
-
 /// The sum of the squares of two numbers.
 #[inline(always)]
 fn squared<S: Simd>(simd: S, [x, y, _]: Wide3<S>) -> S::f64s {
@@ -107,16 +96,26 @@ fn denominator<S: Simd>(simd: S, x: S::f64s, size: f64) -> S::f64s {
     )
 }
 
-/// Roots that the terms of bending need, before they are divided by.
+/// Roots that the terms of twist and bending need, before they are divided by.
 struct Roots<S: Simd> {
+    /// `sqrt(k^2 + k_0^2)`.
+    twist: S::f64s,
     /// `q = 1 + a / size^2`.
     q: S::f64s,
     /// `s = sqrt((a + b^2 q) q)`, of which `s / q` is the root.
     s: S::f64s,
-    /// `20 a + 20 k^2`, to which an extension is added.
-    tight: S::f64s,
-    /// The root of the square of that and of the width of compression.
-    slack: S::f64s,
+}
+
+/// Functions of the curvature, with their derivatives.
+struct Bent<S: Simd> {
+    /// Bounded twist `t = k / sqrt(k^2 + k_0^2)` with `k_0^2 / (k^2 + k_0^2)^(3/2)`.
+    twist: [S::f64s; 2],
+    /// `1 / q`.
+    fading: S::f64s,
+    /// `A` and `1 / q^2`.
+    bend: [S::f64s; 2],
+    /// `r`.
+    root: [S::f64s; 2],
 }
 
 impl<S: Simd> Roots<S> {
@@ -124,65 +123,43 @@ impl<S: Simd> Roots<S> {
     fn new(simd: S, a: S::f64s, k: S::f64s) -> Self {
         let q = denominator(simd, a, CURVATURE);
         let p = simd.mul_add_e_f64s(q, simd.splat_f64s(BENT * BENT), a);
-        let [of_a, _, of_k] = TIGHT.map(|each| simd.splat_f64s(each));
-        let tight = simd.mul_f64s(simd.mul_f64s(k, k), of_k);
-        let tight = simd.mul_add_e_f64s(of_a, a, tight);
+        let twist = simd.mul_add_e_f64s(k, k, simd.splat_f64s(TWIST_SIZE * TWIST_SIZE));
         Self {
+            twist: simd.sqrt_f64s(twist),
             q,
             s: simd.sqrt_f64s(simd.mul_f64s(p, q)),
-            tight,
-            slack: slack(simd, tight),
         }
     }
-}
 
-/// `sqrt(x^2 + w^2)`.
-#[inline(always)]
-fn slack<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
-    simd.sqrt_f64s(simd.mul_add_e_f64s(x, x, simd.splat_f64s(SLACK * SLACK)))
-}
-
-/// Terms of bending and of compression without extension, with their derivatives by `a`.
-struct Bent<S: Simd> {
-    /// `1 / q`.
-    fading: S::f64s,
-    /// `A` and `1 / q^2`.
-    bend: [S::f64s; 2],
-    /// `r` with its derivative.
-    root: [S::f64s; 2],
-    /// Of compression, by the extension.
-    slack: [S::f64s; 2],
-}
-
-impl<S: Simd> Bent<S> {
-    /// From the inverse of `q s` and that of the root of compression.
+    /// `q s`.
     #[inline(always)]
-    fn new(simd: S, a: S::f64s, roots: &Roots<S>, [inverse, of_slack]: [S::f64s; 2]) -> Self {
-        let fading = simd.mul_f64s(inverse, roots.s);
+    fn product(&self, simd: S) -> S::f64s {
+        simd.mul_f64s(self.q, self.s)
+    }
+
+    /// From the inverse of the root of twist and of `q s`.
+    #[inline(always)]
+    fn bent(&self, simd: S, [a, k]: [S::f64s; 2], [of_twist, of_qs]: [S::f64s; 2]) -> Bent<S> {
+        let ratio = simd.mul_f64s(simd.splat_f64s(TWIST_SIZE), of_twist);
+        let fading = simd.mul_f64s(of_qs, self.s);
         let fading_twice = simd.mul_f64s(fading, fading);
-        let root = simd.mul_f64s(roots.s, fading);
+        let root = simd.mul_f64s(self.s, fading);
         // q / s, halved.
-        let over_root = simd.mul_f64s(simd.mul_f64s(inverse, roots.q), roots.q);
+        let over_root = simd.mul_f64s(simd.mul_f64s(of_qs, self.q), self.q);
         let half = simd.mul_f64s(over_root, simd.splat_f64s(0.5));
-        Self {
+        Bent {
+            twist: [
+                simd.mul_f64s(k, of_twist),
+                simd.mul_f64s(simd.mul_f64s(ratio, ratio), of_twist),
+            ],
             fading,
             bend: [simd.mul_f64s(a, fading), fading_twice],
             root: [
                 simd.sub_f64s(root, simd.splat_f64s(BENT)),
                 simd.mul_f64s(half, fading_twice),
             ],
-            slack: given_way(simd, [roots.tight, roots.slack], of_slack),
         }
     }
-}
-
-/// The square of `(x - root) / 2` and its derivative, `-(x - root)^2 / 2 root`.
-#[inline(always)]
-fn given_way<S: Simd>(simd: S, [x, root]: [S::f64s; 2], inverse: S::f64s) -> [S::f64s; 2] {
-    let half = simd.mul_f64s(simd.sub_f64s(x, root), simd.splat_f64s(0.5));
-    let value = simd.mul_f64s(half, half);
-    let twice = simd.mul_f64s(value, simd.splat_f64s(-2.0));
-    [value, simd.mul_f64s(twice, inverse)]
 }
 
 /// `2 x`, of which the derivative of a square is made.
@@ -198,31 +175,23 @@ impl Law for Potential {
     #[inline(always)]
     fn bending<S: Simd>(&self, simd: S, kappa: Wide3<S>) -> Wide3<S> {
         let [x, y, k] = kappa;
-        let [t, slope] = bounded_twist(simd, k);
         let a = squared(simd, kappa);
         let roots = Roots::new(simd, a, k);
-        let qs = simd.mul_f64s(roots.q, roots.s);
-        let inverse = simd.div_f64s(simd.splat_f64s(1.0), simd.mul_f64s(qs, roots.slack));
-        let inverses = [
-            simd.mul_f64s(inverse, roots.slack),
-            simd.mul_f64s(inverse, qs),
-        ];
-        let bent = Bent::new(simd, a, &roots, inverses);
+        let qs = roots.product(simd);
+        let inverse = simd.div_f64s(simd.splat_f64s(1.0), simd.mul_f64s(qs, roots.twist));
+        let inverses = [qs, roots.twist].map(|other| simd.mul_f64s(inverse, other));
+        let bent = roots.bent(simd, [a, k], inverses);
+        let [t, slope] = bent.twist;
         let [twist, twist_slope] = jet(simd, &self.twist, t);
         let [bend, bend_slope] = jet(simd, &self.bend, t);
         let [root, root_slope] = jet(simd, &self.root, t);
-        let [compression, compression_slope] = jet(simd, &self.compression, t);
-        let pushed = simd.mul_f64s(compression, bent.slack[1]);
-        let [of_a, _, of_k] = TIGHT.map(|each| simd.splat_f64s(each));
         let mut by_a = simd.mul_add_e_f64s(bend, bent.bend[1], simd.splat_f64s(self.any_bend[0]));
-        by_a = simd.mul_add_e_f64s(root, bent.root[1], by_a);
-        by_a = twice(simd, simd.mul_add_e_f64s(of_a, pushed, by_a));
+        by_a = twice(simd, simd.mul_add_e_f64s(root, bent.root[1], by_a));
         let mut by_t = simd.mul_f64s(twist_slope, simd.mul_f64s(k, k));
         by_t = simd.mul_add_e_f64s(bend_slope, bent.bend[0], by_t);
         by_t = simd.mul_add_e_f64s(root_slope, bent.root[0], by_t);
-        by_t = simd.mul_add_e_f64s(compression_slope, bent.slack[0], by_t);
-        let by_k = twice(simd, simd.mul_add_e_f64s(of_k, pushed, twist));
-        let about = simd.mul_add_e_f64s(by_k, k, simd.mul_f64s(by_t, slope));
+        let by_k = simd.mul_f64s(twice(simd, twist), k);
+        let about = simd.mul_add_e_f64s(by_t, slope, by_k);
         [simd.mul_f64s(x, by_a), simd.mul_f64s(y, by_a), about]
     }
 
@@ -235,48 +204,41 @@ impl Law for Potential {
 
 /// What the terms of a segment are made of.
 struct Strained<S: Simd> {
-    /// Bounded twist and its derivative.
-    twist: [S::f64s; 2],
+    bent: Bent<S>,
     /// Derivative of the natural length by the twist.
     natural: S::f64s,
-    bent: Bent<S>,
     /// `e`, `E` and the derivative of `E`.
     stretch: [S::f64s; 3],
     /// `1 / (1 + g / size^2)`, `G` and its derivative.
     shear: [S::f64s; 3],
     /// `C` and its derivative by `c`.
     coupling: [S::f64s; 2],
-    /// Of compression.
+    /// Of compression, with its derivative by the extension.
     slack: [S::f64s; 2],
 }
 
 impl<S: Simd> Strained<S> {
     #[inline(always)]
     fn new(simd: S, natural: &[f64; 10], sigma: Wide3<S>, kappa: Wide3<S>) -> Self {
-        let one = simd.splat_f64s(1.0);
         let [x, y, k] = kappa;
-        let [t, slope] = bounded_twist(simd, k);
-        let [value, by_t] = jet(simd, natural, t);
-        let e = simd.negate_mul_add_e_f64s(k, value, sigma[2]);
-        let natural = simd.mul_add_e_f64s(simd.mul_f64s(k, slope), by_t, value);
         let (a, g) = (squared(simd, kappa), squared(simd, sigma));
         let c = simd.mul_add_e_f64s(x, sigma[0], simd.mul_f64s(y, sigma[1]));
-        let roots = Roots::new(simd, a, k);
-        let of_shear = denominator(simd, g, SHEAR);
+        let (roots, of_shear) = (Roots::new(simd, a, k), denominator(simd, g, SHEAR));
         // One quotient for four inverses.
-        let qs = simd.mul_f64s(roots.q, roots.s);
-        let others = simd.mul_f64s(of_shear, roots.slack);
-        let inverse = simd.div_f64s(one, simd.mul_f64s(qs, others));
+        let (qs, others) = (roots.product(simd), simd.mul_f64s(of_shear, roots.twist));
+        let inverse = simd.div_f64s(simd.splat_f64s(1.0), simd.mul_f64s(qs, others));
         let (of_others, of_qs) = (simd.mul_f64s(inverse, qs), simd.mul_f64s(inverse, others));
-        let fading = simd.mul_f64s(of_others, roots.slack);
-        let of_slack = simd.mul_f64s(of_others, of_shear);
-        let bent = Bent::new(simd, a, &roots, [of_qs, of_slack]);
+        let of_twist = simd.mul_f64s(of_others, of_shear);
+        let fading = simd.mul_f64s(of_others, roots.twist);
+        let bent = roots.bent(simd, [a, k], [of_twist, of_qs]);
+        let [t, slope] = bent.twist;
+        let [value, by_t] = jet(simd, natural, t);
+        let e = simd.negate_mul_add_e_f64s(k, value, sigma[2]);
         let by_c = simd.mul_f64s(bent.fading, fading);
-        let (stretch, slack) = extended(simd, e, [g, roots.tight]);
+        let (stretch, slack) = extended(simd, e, [a, g, k]);
         Self {
-            twist: [t, slope],
-            natural,
             bent,
+            natural: simd.mul_add_e_f64s(simd.mul_f64s(k, slope), by_t, value),
             stretch,
             shear: [
                 fading,
@@ -289,22 +251,25 @@ impl<S: Simd> Strained<S> {
     }
 }
 
-/// `e`, `E` with its derivative, and what compression gives.
+/// `e`, `E` with its derivative, and what compression gives: `y^3 / (y + w)` with its derivative by the
+/// extension, of which `y` is the negative where bonds give way, else zero.
 #[inline(always)]
-fn extended<S: Simd>(
-    simd: S,
-    e: S::f64s,
-    [g, tight]: [S::f64s; 2],
-) -> ([S::f64s; 3], [S::f64s; 2]) {
-    let [_, of_g, _] = TIGHT;
-    let x = simd.mul_add_e_f64s(g, simd.splat_f64s(of_g), simd.add_f64s(e, tight));
-    let root = slack(simd, x);
+fn extended<S: Simd>(simd: S, e: S::f64s, [a, g, k]: [S::f64s; 3]) -> ([S::f64s; 3], [S::f64s; 2]) {
+    let [of_a, of_g, of_k] = TIGHT.map(|each| simd.splat_f64s(each));
+    let mut x = simd.mul_add_e_f64s(of_a, a, simd.mul_f64s(of_k, simd.mul_f64s(k, k)));
+    x = simd.add_f64s(e, simd.mul_add_e_f64s(of_g, g, x));
+    let y = simd.max_f64s(simd.neg_f64s(x), simd.splat_f64s(0.0));
+    let sum = simd.add_f64s(y, simd.splat_f64s(SLACK));
     let q = simd.sqrt_f64s(denominator(simd, simd.mul_f64s(e, e), EXTENSION));
-    let inverse = simd.div_f64s(simd.splat_f64s(1.0), simd.mul_f64s(q, root));
-    let (of_q, of_root) = (simd.mul_f64s(inverse, root), simd.mul_f64s(inverse, q));
+    let inverse = simd.div_f64s(simd.splat_f64s(1.0), simd.mul_f64s(q, sum));
+    let (of_q, of_sum) = (simd.mul_f64s(inverse, sum), simd.mul_f64s(inverse, q));
     let slope = simd.mul_f64s(simd.mul_f64s(of_q, of_q), of_q);
     let stretch = [e, simd.mul_f64s(e, of_q), slope];
-    (stretch, given_way(simd, [x, root], of_root))
+    let share = simd.mul_f64s(y, of_sum);
+    let product = simd.mul_f64s(y, share);
+    // -(3 - u) y u
+    let by_x = simd.mul_f64s(product, simd.sub_f64s(share, simd.splat_f64s(3.0)));
+    (stretch, [simd.mul_f64s(y, product), by_x])
 }
 
 /// Derivatives of the energy by what its terms are made of.
@@ -313,8 +278,8 @@ struct Slopes<S: Simd> {
     by: [S::f64s; 5],
     /// By the bounded twist.
     by_t: S::f64s,
-    /// By the extension of compression, with and without extension and shear.
-    pushed: [S::f64s; 2],
+    /// By the extension of compression.
+    pushed: S::f64s,
 }
 
 impl<S: Simd> Strained<S> {
@@ -324,10 +289,9 @@ impl<S: Simd> Strained<S> {
         let Slopes {
             by: [by_stretch, by_bend, by_root, by_shear, by_coupling],
             by_t,
-            pushed: [pushed, less],
+            pushed,
         } = self.slopes(simd, law);
         let [of_a, of_g, of_k] = TIGHT.map(|each| simd.splat_f64s(each));
-        let more = simd.sub_f64s(pushed, less);
         let coupled = simd.mul_f64s(by_coupling, self.coupling[0]);
         let (a_size, g_size) = (
             simd.splat_f64s(-CURVATURE.powi(-2)),
@@ -339,15 +303,15 @@ impl<S: Simd> Strained<S> {
         let mut by_a = simd.mul_f64s(by_root, self.bent.root[1]);
         by_a = simd.mul_add_e_f64s(by_bend, self.bent.bend[1], by_a);
         by_a = simd.mul_add_e_f64s(simd.mul_f64s(coupled, self.bent.fading), a_size, by_a);
-        by_a = twice(simd, simd.mul_add_e_f64s(of_a, more, by_a));
+        by_a = twice(simd, simd.mul_add_e_f64s(of_a, pushed, by_a));
         let [fading, _, shear_slope] = self.shear;
         let any = simd.splat_f64s(law.any_shear[0]);
         let mut by_g = simd.mul_add_e_f64s(by_shear, shear_slope, any);
         by_g = simd.mul_add_e_f64s(simd.mul_f64s(coupled, fading), g_size, by_g);
         by_g = twice(simd, simd.mul_add_e_f64s(of_g, pushed, by_g));
         let by_c = simd.mul_f64s(by_coupling, self.coupling[1]);
-        let by_k = twice(simd, simd.mul_f64s(of_k, more));
-        let about = simd.mul_add_e_f64s(by_t, self.twist[1], simd.mul_f64s(by_k, kappa[2]));
+        let by_k = twice(simd, simd.mul_f64s(of_k, pushed));
+        let about = simd.mul_add_e_f64s(by_t, self.bent.twist[1], simd.mul_f64s(by_k, kappa[2]));
         let force = |k: usize| simd.mul_add_e_f64s(sigma[k], by_g, simd.mul_f64s(kappa[k], by_c));
         let couple = |k: usize| simd.mul_add_e_f64s(kappa[k], by_a, simd.mul_f64s(sigma[k], by_c));
         let about = simd.negate_mul_add_e_f64s(self.natural, by_e, about);
@@ -356,7 +320,7 @@ impl<S: Simd> Strained<S> {
 
     #[inline(always)]
     fn slopes(&self, simd: S, law: &Potential) -> Slopes<S> {
-        let [t, _] = self.twist;
+        let [t, _] = self.bent.twist;
         let ([_, stretch, _], [_, shear, _]) = (self.stretch, self.shear);
         let (bend, root, coupling) = (self.bent.bend[0], self.bent.root[0], self.coupling[0]);
         let mut sums = Sums {
@@ -381,14 +345,10 @@ impl<S: Simd> Strained<S> {
             [(0, stretch), (2, root), (3, shear)],
         );
         let [compression, slope] = jet(simd, &law.compression, t);
-        let more = simd.sub_f64s(self.slack[0], self.bent.slack[0]);
         Slopes {
             by: sums.by,
-            by_t: simd.mul_add_e_f64s(slope, more, sums.by_t),
-            pushed: [
-                simd.mul_f64s(compression, self.slack[1]),
-                simd.mul_f64s(compression, self.bent.slack[1]),
-            ],
+            by_t: simd.mul_add_e_f64s(slope, self.slack[0], sums.by_t),
+            pushed: simd.mul_f64s(compression, self.slack[1]),
         }
     }
 }
