@@ -16,10 +16,6 @@ const LAWS: [&str; 4] = [
     "Homogenised",
 ];
 
-/// What is left of the deformations under `Homogenised`, whose tension gives way to compression over a strain
-/// of 7e-5: swings far beyond it are smooth only to far smaller steps.
-const SMALL: f64 = 0.02;
-
 /// A filament under a law, and how it is deformed all along at the start.
 #[derive(Clone, Copy, Debug)]
 struct Case {
@@ -47,12 +43,11 @@ impl Case {
         let mut all = Vec::new();
         for (filament, [x, y, twist], extension) in filaments {
             for law in LAWS {
-                let size = if law == "Homogenised" { SMALL } else { 1.0 };
                 all.extend([twist, -twist].map(|twist| Self {
                     filament,
                     law,
-                    kappa: [x, y, twist].map(|kappa| size * kappa),
-                    extension: size * extension,
+                    kappa: [x, y, twist],
+                    extension,
                 }));
             }
         }

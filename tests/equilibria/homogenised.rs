@@ -1,7 +1,9 @@
 //! Rods under the potential of the mean filament: convergence, what the filament's monomers do, certificates.
 
-use crate::common::solved;
-use actin_sim::{Assembly, Outcome};
+use crate::common::{build, solved};
+use actin_mechanics::testing::assert_is_balanced;
+use actin_mechanics::{Xorshift, perturb};
+use actin_sim::{Assembly, Outcome, Part};
 
 /// A filament of `length` nm from a wall, its end held by `end`, under a force on it (pN).
 fn scene(sections: &str, end: &str, [x, y, z]: [f64; 3]) -> String {
@@ -77,13 +79,27 @@ fn beams_and_straight_rods() {
     }
 }
 
+const MIXED: &str = "Rod(from_nm: 0.0, to_nm: 40.0), Ellipsoids(from_nm: 40.0, to_nm: 75.0),
+    Rod(from_nm: 75.0, to_nm: 115.0)";
+
 /// Monomers between two rods, bent, pulled and held.
 #[test]
 fn mixed_filaments_have_a_certificate() {
-    let sections = "Rod(from_nm: 0.0, to_nm: 40.0), Ellipsoids(from_nm: 40.0, to_nm: 75.0),
-        Rod(from_nm: 75.0, to_nm: 115.0)";
-    let tip = moved(&solved(&scene(sections, "", [0.3, 0.0, 5.0])));
+    let tip = moved(&solved(&scene(MIXED, "", [0.3, 0.0, 5.0])));
     let whole = moved(&solved(&scene(&rod(115.0, 12), "", [0.3, 0.0, 5.0])));
     println!("mixed {tip:.4?} nm, rod {whole:.4?} nm");
     assert!((tip[0] / whole[0] - 1.0).abs() < 0.1);
+}
+
+/// Loads of rods, junctions and monomers have no resultant, so that motion keeps both momenta.
+#[test]
+fn mixed_filaments_are_balanced() {
+    let assembly = build(&scene(MIXED, "", [0.3, 0.0, 5.0]));
+    let mut state = assembly.rest.clone();
+    perturb(&mut state, &mut Xorshift::new(3), 0.02, 0.02);
+    let named = assembly.terms.iter().zip(assembly.system.interactions());
+    for (term, interaction) in named.filter(|(term, _)| !matches!(term.part, Part::Load(_))) {
+        println!("{term:?}");
+        assert_is_balanced(&**interaction, &state, 1e-11);
+    }
 }

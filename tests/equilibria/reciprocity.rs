@@ -93,7 +93,6 @@ fn couple_against_shift_is_force_against_turn() {
         (ROD, "Homogenised"),
         (MIXED, "PublishedExtension"),
         (MIXED, "Fitted"),
-        (MIXED, "Homogenised"),
         (MONOMERS, "Constant"),
     ] {
         for turn_deg in [100.0, -80.0] {

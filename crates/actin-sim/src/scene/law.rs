@@ -18,7 +18,7 @@ pub enum RodLaw {
     CouplingEnergy,
     /// Laws fitted to filaments of monomers. The material must be left out.
     Fitted,
-    /// One potential of all six strains, from periodic cells of monomers. The material must be left out.
+    /// One potential of all strains. The material must be left out.
     Homogenised,
     /// Your own laws. Deformations without one keep the rigidity of the material.
     Laws(Box<RodLaws>),
