@@ -47,9 +47,9 @@ fn combined_loads_converge_with_order_two() {
 /// Tips of 160 nm pulled across by 0.1 pN and along, within 4 % of monomers (the mean filament).
 #[test]
 fn tips_under_tension() {
-    for (along, monomers) in [(1.0, 3.50), (5.0, 1.66), (10.0, 1.02), (40.0, 0.318)] {
+    for (along, monomers_pm) in [(1.0, 3500.0), (5.0, 1660.0), (10.0, 1020.0), (40.0, 318.0)] {
         let [tip, _, longer] = moved(&solved(&scene(&rod(160.0, 32), "", [0.1, 0.0, along])));
-        let error = tip / monomers - 1.0;
+        let error = 1e3 * tip / monomers_pm - 1.0;
         println!(
             "{along} pN: {tip:.4} nm, {:+.1} %; longer by {longer:.4} nm",
             1e2 * error

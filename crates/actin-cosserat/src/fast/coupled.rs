@@ -118,15 +118,7 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
             share_after,
         ] = self.bodies.get(simd, group);
         // Of the elements before: nothing of the segments is in it, so that it need not wait for them.
-        let own = self
-            .law
-            .bending(simd, wide::scale(simd, before, inverse_distance));
-        let own = if L::COVERS {
-            let [covers] = self.covers.get(simd, group);
-            wide::scale(simd, own, covers)
-        } else {
-            own
-        };
+        let own = self.own(simd, group, wide::scale(simd, before, inverse_distance));
         let [first, second] = &self.nodes;
         let l = wide::sub(simd, second.get(simd, group), first.get(simd, group));
         let segments = Segments::new(simd, q, l, [length, inverse_length]);
@@ -152,6 +144,17 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
             torque: wide::add(simd, on_frame, wide::sub(simd, odd, even)),
             before: self.torques.next(simd, wide::add(simd, even, odd)),
         }
+    }
+
+    /// Couples of the elements before a group's frames at this curvature.
+    #[inline(always)]
+    fn own(&self, simd: S, group: usize, kappa: Wide3<S>) -> Wide3<S> {
+        let own = self.law.bending(simd, kappa);
+        if !L::COVERS {
+            return own;
+        }
+        let [covers] = self.covers.get(simd, group);
+        wide::scale(simd, own, covers)
     }
 
     /// Angles of the elements after a group's frames, and their coefficients.

@@ -115,7 +115,12 @@ impl HomogenisedForm {
     /// What a unit of each coefficient of the natural length adds to it at this twist (rad/nm).
     pub fn natural_units(twist: f64) -> [f64; DEGREE + 1] {
         let [t, ..] = bounded_twist(twist);
-        std::array::from_fn(|power| twist * t.powi(power as i32))
+        let mut unit = twist;
+        std::array::from_fn(|_| {
+            let this = unit;
+            unit *= t;
+            this
+        })
     }
 
     /// Coefficients of the natural length, from the constant up.

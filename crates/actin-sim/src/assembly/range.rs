@@ -199,12 +199,13 @@ impl Assembly {
         };
         let bound = |value: f64| if value < 0.0 { lowest } else { highest };
         let is_further = |value: f64, than: f64| {
-            let (of_value, of_other) = (bound(value).abs(), bound(than).abs());
-            if of_value == of_other {
-                value.abs() > than.abs()
+            let is_even = lowest.to_bits() == (-highest).to_bits();
+            let [of_value, of_other] = if is_even {
+                [1.0; 2]
             } else {
-                value.abs() * of_other > than.abs() * of_value
-            }
+                [value, than].map(|each| bound(each).abs())
+            };
+            value.abs() * of_other > than.abs() * of_value
         };
         let (mut elements, mut beyond, mut largest) = (0, 0, (0.0, 0.0));
         for (s, value) in (quantity.of)(rod, state) {
