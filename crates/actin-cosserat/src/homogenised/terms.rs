@@ -178,8 +178,9 @@ impl Term {
             | Self::StretchCoupling
             | Self::ShearCoupling
             | Self::StretchRootShear => 4,
-            Self::Bend | Self::BendRoot | Self::StretchRoot | Self::RootShear => 5,
+            Self::RootShear => 5,
             Self::RootCoupling => 6,
+            Self::Bend | Self::BendRoot | Self::StretchRoot => 7,
             Self::Stretch | Self::StretchShear => 8,
             Self::Twist | Self::Shear | Self::Coupling => 9,
         }

@@ -8,6 +8,7 @@ mod checks;
 mod filament;
 mod grid;
 mod law;
+mod paths;
 mod pictures;
 mod rows;
 mod scatter;

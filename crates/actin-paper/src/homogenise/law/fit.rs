@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// What counts as a difference of 1: a share of the value, and energy (pN), bending couple, twisting couple
 /// (pN nm), shear force and tension (pN).
 const SHARE: f64 = 0.05;
-const FLOORS: [f64; 5] = [0.01, 2.0, 0.5, 0.06, 1.0];
+const FLOORS: [f64; 5] = [0.01, 0.5, 0.5, 0.1, 1.0];
 /// Floor of the twisting couple (pN nm) of the straight filament, which twists easily at rest.
 const STRAIGHT: f64 = 0.1;
 /// Of the tangent: a share of the roots of diagonal entries, and these at least (pN nm^2, pN). Entries beside the
@@ -36,6 +36,9 @@ const ROUNDS: usize = 20;
 const STEPS: usize = 30;
 /// A step is halved so often until it leads down.
 const HALVINGS: i32 = 12;
+
+/// The same on paths of cells that are free to shear.
+const ON_PATHS: (f64, f64) = (6.0, 20.0);
 
 /// The coefficients of some terms, one after the other.
 pub(super) fn columns(terms: &[Term]) -> Vec<(Term, usize)> {
@@ -75,7 +78,7 @@ fn weights(row: &Row) -> (f64, f64) {
     let is_small = curvature <= 1e-3 && shear <= 1e-3;
     let is_rest = is_small && twist.abs() < 4e-3 && (-1e-4..1e-3).contains(&row.extension);
     let of_tangent = match (is_small, is_rest) {
-        (_, true) => 8.0,
+        (_, true) => 20.0,
         (true, _) => 3.0,
         _ => 1.0,
     };
@@ -90,14 +93,17 @@ pub(super) struct Normal {
 
 impl Normal {
     /// Of all terms, in their order.
-    pub(super) fn new(form: &HomogenisedForm, rows: &[&Row]) -> Self {
+    pub(super) fn new(form: &HomogenisedForm, grid: &[&Row], paths: &[Row]) -> Self {
         let n = columns(&Term::ALL).len();
         let zero = || (DMatrix::zeros(n, n), DVector::zeros(n));
         // Chunks are added in their order, so that the result does not depend on the number of cores.
-        let chunk = |rows: &[&Row]| {
+        let of_grid = grid.iter().map(|row| (*row, weights(row)));
+        let of_paths = paths.iter().map(|row| (row, ON_PATHS));
+        let rows: Vec<(&Row, (f64, f64))> = of_grid.chain(of_paths).collect();
+        let chunk = |rows: &[(&Row, (f64, f64))]| {
             let (mut matrix, mut right) = zero();
-            for row in rows {
-                let (left, values) = equations(form, row, n);
+            for (row, weights) in rows {
+                let (left, values) = equations(form, row, *weights, n);
                 matrix.gemm_tr(1.0, &left, &left, 1.0);
                 right.gemv_tr(1.0, &left, &values, 1.0);
             }
@@ -129,9 +135,13 @@ impl Normal {
 }
 
 /// The weighted equations of a row: seven numbers, and the upper triangle of the tangent.
-fn equations(form: &HomogenisedForm, row: &Row, n: usize) -> (DMatrix<f64>, DVector<f64>) {
+fn equations(
+    form: &HomogenisedForm,
+    row: &Row,
+    (weight, of_tangent): (f64, f64),
+    n: usize,
+) -> (DMatrix<f64>, DVector<f64>) {
     let units: Vec<PotentialJet> = all_units(form, &row.six());
-    let (weight, of_tangent) = weights(row);
     let measured = PotentialJet {
         energy: row.energy,
         loads: row.loads,

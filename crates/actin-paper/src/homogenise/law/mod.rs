@@ -6,6 +6,7 @@ mod samples;
 
 use super::axes::Axes;
 use super::filament::{self, PERIOD, mean};
+use super::paths;
 use super::rows::Row;
 use crate::Tell;
 use actin_cosserat::{Homogenised, HomogenisedForm, Term};
@@ -63,9 +64,9 @@ const STEPS: [(&str, &[Term]); 9] = [
     ("stretch, bending and shear", &[Term::StretchRootShear]),
 ];
 
-/// Where the tangent is held positive, at how many strains: a little beyond the range, under compression, and beyond
-/// the range in twist and bending, in shear and tension.
-const POSITIVE: [(Region, u64); 4] = [
+/// Where the tangent is held positive, at how many strains: a little beyond the range, under compression, as short
+/// as bending makes rods, and beyond the range in twist and bending, in shear and tension.
+const POSITIVE: [(Region, u64); 5] = [
     (
         Region {
             curvature: 0.0125,
@@ -83,6 +84,15 @@ const POSITIVE: [(Region, u64); 4] = [
             extension: [-2.2e-3, 0.0],
         },
         6000,
+    ),
+    (
+        Region {
+            curvature: 0.011,
+            twist: 0.04,
+            shear: 4e-3,
+            extension: [-6e-3, 0.0],
+        },
+        1500,
     ),
     (
         Region {
@@ -115,7 +125,8 @@ pub(super) fn run(
     let cell = mean()?;
     let form = form(axes, grid)?;
     let (fitted, outside): (Vec<&Row>, Vec<&Row>) = grid.iter().partition(|row| is_in_range(row));
-    let normal = Normal::new(&form, &fitted);
+    let paths = paths::compute(out, |twist| form.natural_stretch(twist), tell)?;
+    let normal = Normal::new(&form, &fitted, &paths);
     let mut table = stepwise(&form, &normal, &fitted)?;
     let law = fit::positive(&form, &normal, &POSITIVE)?;
     let others = other_rows(&cell, axes, 1, OTHERS)?;
@@ -126,6 +137,7 @@ pub(super) fn run(
     }
     let cases = [
         ("with a positive tangent", fitted.clone()),
+        ("free to shear", paths.iter().collect()),
         ("other strains", others.iter().collect()),
         ("drawn bonds", drawn.iter().collect()),
         ("beyond the range", outside),
