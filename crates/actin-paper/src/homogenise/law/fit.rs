@@ -31,6 +31,12 @@ const RIDGE: f64 = 1e-9;
 /// 0.75 pN nm^2 of twist, 1200 of bending.
 const LEAST: f64 = 3.0;
 const UNITS: [f64; 6] = [20.0, 20.0, 0.5, 1.0, 1.0, 1.0];
+/// Least coefficients (pN, pN nm^2) of the terms that are not bounded.
+const UNBOUNDED: [(Term, f64); 3] = [
+    (Term::AnyStretch, 5e3),
+    (Term::AnyBend, 5e3),
+    (Term::AnyShear, 500.0),
+];
 /// Rounds in which new directions without stiffness are looked for, and steps to meet those that are known.
 const ROUNDS: usize = 20;
 const STEPS: usize = 30;
@@ -38,7 +44,7 @@ const STEPS: usize = 30;
 const HALVINGS: i32 = 12;
 
 /// The same on paths of cells that are free to shear.
-const ON_PATHS: (f64, f64) = (6.0, 20.0);
+const ON_PATHS: (f64, f64) = (6.0, 10.0);
 
 /// The coefficients of some terms, one after the other.
 pub(super) fn columns(terms: &[Term]) -> Vec<(Term, usize)> {
@@ -78,7 +84,7 @@ fn weights(row: &Row) -> (f64, f64) {
     let is_small = curvature <= 1e-3 && shear <= 1e-3;
     let is_rest = is_small && twist.abs() < 4e-3 && (-1e-4..1e-3).contains(&row.extension);
     let of_tangent = match (is_small, is_rest) {
-        (_, true) => 20.0,
+        (_, true) => 10.0,
         (true, _) => 3.0,
         _ => 1.0,
     };
@@ -219,7 +225,9 @@ pub(super) fn positive(
     let places = regions.iter();
     let places = places.flat_map(|(region, count)| region.strains(form, 0, *count));
     let places: Vec<SixVector> = places.collect();
-    let mut conditions = Conditions::default();
+    let mut conditions = Conditions {
+        rows: unbounded().collect(),
+    };
     let mut found = conditions.solve(normal, None)?;
     for _ in 0..ROUNDS {
         let law = law(form, &Term::ALL, &found)?;
@@ -232,6 +240,16 @@ pub(super) fn positive(
         found = conditions.solve(normal, Some(found))?;
     }
     law(form, &Term::ALL, &found)
+}
+
+/// Conditions that the terms which are not bounded stay positive at any strain.
+fn unbounded() -> impl Iterator<Item = DVector<f64>> {
+    let columns = columns(&Term::ALL);
+    let row = move |(term, least): (Term, f64)| {
+        let is_own = |(other, _): &(Term, usize)| f64::from(u8::from(*other == term)) / least;
+        DVector::from_iterator(columns.len(), columns.iter().map(is_own))
+    };
+    UNBOUNDED.into_iter().map(row)
 }
 
 /// The two softest directions at a strain, if they are too soft: what each coefficient brings there, over the least
