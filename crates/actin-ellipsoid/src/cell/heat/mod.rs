@@ -45,6 +45,8 @@ pub struct HeatResponse {
     pub strain_error: SixVector,
     /// Covariances of the free strains.
     pub covariance: SixMatrix,
+    /// Their errors.
+    pub covariance_error: SixMatrix,
     /// Mean couple (pN nm) and force (pN) in body axes: derivatives of the free energy per length. Those of free
     /// strains are the given ones.
     pub loads: SixVector,
@@ -165,6 +167,7 @@ impl Cell {
             strain: origin + mean.strain,
             strain_error: error.strain,
             covariance: mean.covariance,
+            covariance_error: error.covariance,
             loads,
             loads_error: error.slope * per_length,
             plain: mean.plain * per_length,

@@ -1,0 +1,204 @@
+//! Mean loads and tangent on a grid of strains, slice by slice, with standard errors.
+//!
+//! A slice is the file of one twist. One that is there, computed with the same parameters, temperature and axes, is
+//! not computed again.
+
+use super::super::filament::{self, strain};
+use super::super::rows::{self, Row};
+use super::heat;
+use super::natural::natural;
+use crate::Tell;
+use actin_sim::ellipsoid::{Cell, Control, EllipsoidParameters, HeatResponse};
+use rayon::prelude::*;
+use std::path::Path;
+
+/// Raised when results of the same parameters change.
+const VERSION: u32 = 1;
+/// Streams of a slice.
+const STREAMS: u64 = 1 << 20;
+
+/// Strains, and how many samples each has.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct HeatAxes {
+    /// `kappa_3` (rad/nm).
+    twist: Vec<f64>,
+    /// `sigma_3` beyond that of the free filament of the same twist at the temperature.
+    extension: Vec<f64>,
+    /// Curvature (rad/nm), shear, angle between them (deg).
+    bent: Vec<[f64; 3]>,
+    samples: usize,
+}
+
+/// A point with the standard errors of its loads.
+struct HeatRow {
+    row: Row,
+    errors: [f64; 6],
+}
+
+impl HeatAxes {
+    /// Those of the study, or fewer.
+    pub(super) fn new(quick: bool) -> Self {
+        if quick {
+            return Self {
+                twist: vec![-0.02, 0.0, 0.02],
+                extension: vec![0.0, 1.5e-3],
+                bent: vec![
+                    [0.0, 0.0, 0.0],
+                    [0.01, 0.0, 0.0],
+                    [0.0, 0.015, 0.0],
+                    [5e-3, 7.5e-3, 0.0],
+                ],
+                samples: 1000,
+            };
+        }
+        let half = [3e-3, 7e-3, 0.013, 0.021, 0.033, 0.048];
+        let negative = half.iter().rev().map(|x| -x);
+        Self {
+            twist: negative.chain([0.0]).chain(half).collect(),
+            extension: vec![-2e-3, 0.0, 1.5e-3, 3e-3],
+            bent: vec![
+                [0.0, 0.0, 0.0],
+                [5e-3, 0.0, 0.0],
+                [0.01, 0.0, 0.0],
+                [0.0, 7.5e-3, 0.0],
+                [0.0, 0.015, 0.0],
+                [5e-3, 7.5e-3, 0.0],
+                [5e-3, 7.5e-3, 90.0],
+                [5e-3, 7.5e-3, 180.0],
+                [0.01, 7.5e-3, 45.0],
+                [5e-3, 0.015, 135.0],
+                [0.01, 0.015, 0.0],
+                [0.01, 0.015, 180.0],
+            ],
+            samples: 4000,
+        }
+    }
+
+    fn points(&self) -> usize {
+        self.extension.len() * self.bent.len()
+    }
+}
+
+/// Computes what is missing and writes all rows.
+pub(super) fn compute(out: &Path, kt: f64, axes: &HeatAxes, tell: Tell<'_>) -> Result<(), String> {
+    let folder = out.join("heat");
+    std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let cell = filament::mean()?;
+    let parameters = EllipsoidParameters::default();
+    let slices = axes.twist.par_iter().enumerate().map(|(i, &twist)| {
+        let key = format!("version {VERSION}, {parameters:?}, kT {kt}, {axes:?}, {twist}");
+        let path = folder.join(format!("slice-{i:02}.csv"));
+        let kept = read(&path, &key).filter(|rows| rows.len() == axes.points());
+        if let Some(rows) = kept {
+            return Ok(rows);
+        }
+        let rows = slice(&cell, kt, axes, i, tell)?;
+        write(&path, &key, &rows)?;
+        Ok(rows)
+    });
+    let slices: Vec<Vec<HeatRow>> = slices.collect::<Result<_, String>>()?;
+    let all: Vec<HeatRow> = slices.into_iter().flatten().collect();
+    write(&out.join("heat.csv"), &format!("kT {kt} pN nm"), &all)?;
+    let largest = |k: usize| all.iter().map(|row| row.errors[k]).fold(0.0, f64::max);
+    tell(format_args!(
+        "heat: {} points, tangent positive at {}; largest standard errors {:.1?} (pN nm, pN)",
+        all.len(),
+        all.iter()
+            .filter(|row| row.row.least_stiffness() > 0.0)
+            .count(),
+        std::array::from_fn::<f64, 6, _>(largest)
+    ));
+    Ok(())
+}
+
+/// All points of one twist.
+fn slice(
+    cell: &Cell,
+    kt: f64,
+    axes: &HeatAxes,
+    number: usize,
+    tell: Tell<'_>,
+) -> Result<Vec<HeatRow>, String> {
+    let twist = axes.twist[number];
+    let first = STREAMS * (number as u64 + 1);
+    let natural = natural(cell, kt, Some(twist), first)?;
+    let places = axes
+        .extension
+        .iter()
+        .flat_map(|&extension| axes.bent.iter().map(move |&bent| (extension, bent)));
+    let places: Vec<(f64, [f64; 3])> = places.collect();
+    let streams = first + 100..;
+    let jobs: Vec<_> = places.into_iter().zip(streams).collect();
+    let rows = jobs
+        .into_par_iter()
+        .map(|((extension, [curvature, shear, angle]), stream)| {
+            let point = [curvature, twist, shear, natural.stretch + extension, angle];
+            let strain = strain([curvature, twist, shear, point[3], angle.to_radians()]);
+            // A relaxed state is nearer to the typical ones than that of the straight filament.
+            let relaxed = cell.relax(&strain, Some(&natural.displacements));
+            let start = relaxed
+                .as_ref()
+                .map_or(&natural.displacements, |r| &r.displacements);
+            let controls = std::array::from_fn(|k| Control::Strain(strain[k]));
+            let heat = heat(kt, axes.samples, stream);
+            let response = cell.sample(&controls, &heat, Some((&strain, start)));
+            let response = response.map_err(|e| e.to_string())?;
+            Ok(HeatRow::new(point, extension, &response))
+        });
+    let rows = rows.collect::<Result<Vec<HeatRow>, String>>()?;
+    tell(format_args!(
+        "twist {twist} /nm: free filament stretched by {:.5}, {} points",
+        natural.stretch,
+        rows.len()
+    ));
+    Ok(rows)
+}
+
+impl HeatRow {
+    fn new(point: [f64; 5], extension: f64, response: &HeatResponse) -> Self {
+        Self {
+            row: Row {
+                strain: point,
+                extension,
+                // Free energies need a path; loads say as much.
+                energy: f64::NAN,
+                loads: response.loads,
+                tangent: response.tangent,
+            },
+            errors: response.loads_error.into(),
+        }
+    }
+}
+
+/// Names of the columns: those of the grid of relaxed cells, then the standard errors of the loads.
+fn header() -> Vec<String> {
+    let mut names = rows::header();
+    let errors: Vec<String> = names[7..13]
+        .iter()
+        .map(|name| format!("{name}_error"))
+        .collect();
+    names.extend(errors);
+    names
+}
+
+fn write(path: &Path, key: &str, rows: &[HeatRow]) -> Result<(), String> {
+    let numbers = rows.iter().map(|one| {
+        let mut numbers = one.row.numbers();
+        numbers.extend(one.errors);
+        numbers
+    });
+    rows::write_numbers(path, key, &header(), numbers)
+}
+
+fn read(path: &Path, key: &str) -> Option<Vec<HeatRow>> {
+    let parse = |numbers: Vec<f64>| {
+        Some(HeatRow {
+            row: Row::read(&numbers)?,
+            errors: numbers.get(34..40)?.try_into().ok()?,
+        })
+    };
+    rows::read_numbers(path, key)?
+        .into_iter()
+        .map(parse)
+        .collect()
+}
