@@ -83,12 +83,12 @@ impl<'a> Chain<'a> {
         let mut momentum = DVector::from_fn(self.map.ncols(), |_, _| self.normal.next());
         let step = self.step * (0.8 + 0.4 * self.normal.uniform());
         let time = FRAC_PI_2 * (0.5 + self.normal.uniform());
-        let steps = (time / step).ceil();
+        let steps = count(time / step);
         let (mut place, mut gradient) = (self.place.clone(), self.gradient.clone());
         let before = self.energy / kt + 0.5 * momentum.norm_squared();
         let mut energy = self.energy;
         momentum.gemv_tr(-0.5 * step / kt, &self.map, &gradient, 1.0);
-        for k in (0..steps as usize).rev() {
+        for k in (0..steps).rev() {
             place.gemv(step, &self.map, &momentum, 1.0);
             energy = self.potential.slopes(&place, &mut gradient);
             let share = if k == 0 { 0.5 } else { 1.0 };
@@ -107,6 +107,16 @@ impl<'a> Chain<'a> {
         }
         accepted
     }
+}
+
+/// The next integer.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a positive number of a few, or the conversion saturates"
+)]
+fn count(number: f64) -> usize {
+    number.ceil() as usize
 }
 
 /// Directions scaled such that the Hessian along them is kT times 1, where it is stiff enough.

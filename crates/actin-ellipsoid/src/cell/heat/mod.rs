@@ -154,17 +154,33 @@ impl Cell {
                 }
             }
         }
-        let (mean, error) = with_errors(&blocks, heat.kt);
+        let place = &moves.origin;
+        HeatResponse {
+            acceptance: accepted / (BLOCKS * per_block) as f64,
+            step: chain.step,
+            displacements: chain.place.rows(0, self.coordinates()).into_owned(),
+            ..self.respond_to(potential, &blocks, place)
+        }
+    }
+
+    /// Means and errors; the rest as if nothing had moved from `origin`.
+    fn respond_to(
+        &self,
+        potential: &Potential<'_>,
+        blocks: &[Sums],
+        origin: &DVector<f64>,
+    ) -> HeatResponse {
+        let (mean, error) = with_errors(blocks, potential.kt);
         let coordinates = self.coordinates();
         let per_length = self.length().recip();
-        let origin: SixVector = moves.origin.fixed_rows::<STRAINS>(coordinates).into();
+        let strain: SixVector = origin.fixed_rows::<STRAINS>(coordinates).into();
         let mut loads = mean.slope * per_length;
         for &k in &potential.free {
             loads[k] = potential.loads[k];
         }
-        let unknowns = heat.kt * potential.directions().ncols() as f64;
+        let unknowns = potential.kt * potential.directions().ncols() as f64;
         HeatResponse {
-            strain: origin + mean.strain,
+            strain: strain + mean.strain,
             strain_error: error.strain,
             covariance: mean.covariance,
             covariance_error: error.covariance,
@@ -177,9 +193,9 @@ impl Cell {
             energy: mean.energy * per_length,
             equipartition: [mean.virial / unknowns, error.virial / unknowns],
             mean_square_turn: mean.turn,
-            acceptance: accepted / (BLOCKS * per_block) as f64,
-            step: chain.step,
-            displacements: chain.place.rows(0, coordinates).into_owned(),
+            acceptance: 0.0,
+            step: 0.0,
+            displacements: origin.rows(0, coordinates).into_owned(),
         }
     }
 

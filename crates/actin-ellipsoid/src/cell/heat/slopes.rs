@@ -14,6 +14,13 @@ struct Placed {
     jacobian: Matrix3,
 }
 
+impl Placed {
+    /// The derivative by the turn's components of an energy whose couple this is.
+    fn couple(&self, couple: Vector3) -> Vector3 {
+        self.jacobian.tr_mul(&couple)
+    }
+}
+
 /// What a pair adds to the gradient: force on the lower centre, couples on the lower and on the upper monomer, all
 /// in the frame of the lower one.
 struct PairLoads {
@@ -76,23 +83,15 @@ impl Cell {
                 let mut rows = gradient.fixed_rows_mut::<3>(row);
                 rows += value;
             };
-            add(pair.lower * PER_MONOMER, -force);
-            let of_lower = lower.turn * loads.lower;
-            add(
-                pair.lower * PER_MONOMER + 3,
-                -lower.jacobian.tr_mul(&of_lower),
-            );
-            add(pair.upper * PER_MONOMER, rotation.tr_mul(&force));
-            let of_upper = upper.jacobian.tr_mul(&rotation.tr_mul(&couple));
-            add(pair.upper * PER_MONOMER + 3, of_upper);
-            let of_turn = motion
-                .jacobian
-                .value
-                .tr_mul(&(couple + reach.cross(&force)));
-            let bend = bends[pair.steps - 1].tr_mul(&force);
-            add(coordinates, of_turn * motion.length + bend);
-            let shear = motion.jacobian.value.tr_mul(&force) * motion.length;
-            add(coordinates + 3, shear);
+            let (below, above) = (pair.lower * PER_MONOMER, pair.upper * PER_MONOMER);
+            add(below, -force);
+            add(below + 3, -lower.couple(lower.turn * loads.lower));
+            add(above, rotation.tr_mul(&force));
+            add(above + 3, upper.couple(rotation.tr_mul(&couple)));
+            let axial = motion.jacobian.value;
+            let of_turn = axial.tr_mul(&(couple + reach.cross(&force))) * motion.length;
+            add(coordinates, of_turn + bends[pair.steps - 1].tr_mul(&force));
+            add(coordinates + 3, axial.tr_mul(&force) * motion.length);
         }
         energy
     }
