@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 /// Displacement (nm) or turn (rad) to which a mode without stiffness is taken to move.
 const WIDEST: f64 = 0.2;
 /// Trajectories of each round before the first sample; after each the metric is that of its mean Hessian.
-const ROUNDS: [usize; 4] = [60, 150, 300, 300];
+const ROUNDS: [usize; 4] = [50, 100, 250, 200];
 /// Trajectories from one Hessian of the warm-up to the next.
 const APART: usize = 3;
 /// Longest step; the period of the modes is 2 pi.

@@ -19,7 +19,7 @@ use potential::Potential;
 /// Blocks of samples from whose scatter errors are taken.
 const BLOCKS: usize = 40;
 /// Samples from one Hessian to the next.
-const APART: usize = 4;
+const APART: usize = 6;
 
 /// How the motion of a cell is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,8 +12,8 @@ use std::path::Path;
 /// Streams of the runs of this table, one block for each cell.
 const STREAMS: u64 = 1000;
 
-/// A number with its standard error, where it has one.
-type Number = (f64, Option<f64>);
+/// A number with its standard error.
+type Number = (f64, f64);
 
 /// Names of the rows.
 const NAMES: [&str; 15] = [
@@ -37,7 +37,7 @@ const NAMES: [&str; 15] = [
 /// Prints and writes the table.
 pub(super) fn run(out: &Path, kt: f64, quick: bool, tell: Tell<'_>) -> Result<(), String> {
     let sizes = if quick { vec![1] } else { vec![1, 2] };
-    let samples = if quick { 4000 } else { 24_000 };
+    let samples = if quick { 4000 } else { 16_000 };
     let cells = sizes.par_iter().map(|&periods: &usize| {
         let cell = filament::of(
             EllipsoidParameters::default(),
@@ -47,32 +47,46 @@ pub(super) fn run(out: &Path, kt: f64, quick: bool, tell: Tell<'_>) -> Result<()
         numbers(&cell, kt, samples, STREAMS * periods as u64)
     });
     let cells: Vec<Vec<Number>> = cells.collect::<Result<_, String>>()?;
-    let relaxed = relaxed()?;
+    let (markdown, csv) = printed(&sizes, &relaxed()?, &cells);
+    tell(format_args!("{markdown}"));
+    for (file, text) in [("heat-table.md", markdown), ("heat-table.csv", csv)] {
+        let path = out.join(file);
+        std::fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
+    }
+    Ok(())
+}
+
+/// The table as Markdown and as CSV.
+fn printed(sizes: &[usize], relaxed: &[Option<f64>], cells: &[Vec<Number>]) -> (String, String) {
     let mut markdown = String::from("| quantity | relaxed |");
-    for periods in &sizes {
-        let _ = write!(markdown, " cell of {} |", periods * PERIOD);
+    let mut csv = String::from("quantity,relaxed");
+    for monomers in sizes.iter().map(|periods| periods * PERIOD) {
+        let _ = write!(markdown, " cell of {monomers} |");
+        let _ = write!(csv, ",cell_of_{monomers},error");
     }
     let _ = writeln!(
         markdown,
         "\n| --- | ---: |{}",
         " ---: |".repeat(sizes.len())
     );
+    csv.push('\n');
     for (k, name) in NAMES.iter().enumerate() {
         let _ = write!(markdown, "| {name} |");
-        let of_relaxed = relaxed[k].map(|value| (value, None));
-        let others = cells.iter().map(|cell| Some(cell[k]));
-        for number in [of_relaxed].into_iter().chain(others) {
-            let _ = match number {
-                None => write!(markdown, " |"),
-                Some((value, None)) => write!(markdown, " {value:.4e} |"),
-                Some((value, Some(error))) => write!(markdown, " {value:.4e} +- {error:.0e} |"),
-            };
+        let _ = write!(csv, "{}", name.replace(',', ";"));
+        let _ = match relaxed[k] {
+            None => write!(markdown, " |").and_then(|()| write!(csv, ",")),
+            Some(value) => {
+                write!(markdown, " {value:.4e} |").and_then(|()| write!(csv, ",{value:e}"))
+            }
+        };
+        for (value, error) in cells.iter().map(|cell| cell[k]) {
+            let _ = write!(markdown, " {value:.4e} +- {error:.0e} |");
+            let _ = write!(csv, ",{value:e},{error:e}");
         }
         markdown.push('\n');
+        csv.push('\n');
     }
-    tell(format_args!("{markdown}"));
-    let path = out.join("heat.md");
-    std::fs::write(&path, markdown).map_err(|e| format!("{}: {e}", path.display()))
+    (markdown, csv)
 }
 
 /// All numbers of one cell.
@@ -98,7 +112,7 @@ fn numbers(cell: &Cell, kt: f64, samples: usize, stream: u64) -> Result<Vec<Numb
             relative
         };
         let value = per_length / variance;
-        all.push((value, Some(value * relative)));
+        all.push((value, value * relative));
     }
     Ok(all)
 }
@@ -123,18 +137,20 @@ fn of_tangent(free: &Natural, held: &HeatResponse) -> Vec<Number> {
             1.0
         }
     };
-    let stiffness = |i: usize, j: usize| (mean(tangent, i, j), Some(mean(errors, i, j) * share(i)));
+    let stiffness = |i: usize, j: usize| (mean(tangent, i, j), mean(errors, i, j) * share(i));
     let effective = |k: usize| {
         let value = 1.0 / mean(&compliance, k, k);
         // d(1/c_kk) = (c_k t' c_k)/c_kk^2
         let column = compliance.column(k);
+        // Entries on both sides of the diagonal are the same.
         let squares = SixMatrix::from_fn(|i, j| (column[i] * column[j] * errors[(i, j)]).powi(2));
-        (value, Some(value * value * squares.sum().sqrt() * share(k)))
+        let square = 2.0 * squares.sum() - squares.diagonal().sum();
+        (value, value * value * square.sqrt() * share(k))
     };
     let strain = |k: usize, value: f64| {
         let squares = (0..6).map(|j| (compliance[(k, j)] * held.loads_error[j]).powi(2));
         let shift: f64 = (0..6).map(|j| compliance[(k, j)] * held.loads[j]).sum();
-        (value - shift, Some(squares.sum::<f64>().sqrt()))
+        (value - shift, squares.sum::<f64>().sqrt())
     };
     let mut all = vec![strain(2, free.twist), strain(5, free.stretch)];
     for k in [0, 2, 3, 5] {
