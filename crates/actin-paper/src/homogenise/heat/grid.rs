@@ -8,18 +8,19 @@ use super::super::rows::{self, Row};
 use super::heat;
 use super::natural::natural;
 use crate::Tell;
-use actin_sim::ellipsoid::{Cell, Control, EllipsoidParameters, HeatResponse};
+use actin_sim::ellipsoid::{Cell, Control, Displacements, EllipsoidParameters, Heat, HeatResponse};
 use rayon::prelude::*;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Raised when results of the same parameters change.
 const VERSION: u32 = 1;
-/// Streams of a slice.
+/// Streams of a slice, and slices of a set of axes at most.
 const STREAMS: u64 = 1 << 20;
+const SLICES: u64 = 1 << 10;
 
 /// Strains, and how many samples each has.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct HeatAxes {
+struct HeatAxes {
     /// `kappa_3` (rad/nm).
     twist: Vec<f64>,
     /// `sigma_3` beyond that of the free filament of the same twist at the temperature.
@@ -37,7 +38,7 @@ struct HeatRow {
 
 impl HeatAxes {
     /// Those of the study, or fewer.
-    pub(super) fn new(quick: bool) -> Self {
+    fn new(quick: bool) -> Self {
         if quick {
             return Self {
                 twist: vec![-0.02, 0.0, 0.02],
@@ -74,78 +75,109 @@ impl HeatAxes {
         }
     }
 
+    /// Strains that short segments of a rod reach by their thermal motion: shear varies by 0.02 in 10 nm, stretch by 5e-3.
+    fn wide(quick: bool) -> Self {
+        let half: &[f64] = if quick { &[] } else { &[7e-3, 0.021] };
+        let both = half.iter().flat_map(|x| [*x, -x]);
+        Self {
+            twist: [0.0].into_iter().chain(both).collect(),
+            extension: vec![-8e-3, 5e-4, 8e-3],
+            bent: vec![
+                [0.0, 0.0, 0.0],
+                [0.01, 0.0, 0.0],
+                [0.0, 0.015, 0.0],
+                [0.0, 0.03, 0.0],
+                [0.0, 0.05, 0.0],
+                [0.01, 0.03, 0.0],
+                [0.01, 0.03, 90.0],
+                [0.01, 0.03, 180.0],
+            ],
+            samples: if quick { 1000 } else { 2400 },
+        }
+    }
+
     fn points(&self) -> usize {
         self.extension.len() * self.bent.len()
     }
 }
 
 /// Computes what is missing and writes all rows.
-pub(super) fn compute(out: &Path, kt: f64, axes: &HeatAxes, tell: Tell<'_>) -> Result<(), String> {
+pub(super) fn compute(out: &Path, kt: f64, quick: bool, tell: Tell<'_>) -> Result<(), String> {
     let folder = out.join("heat");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let cell = filament::mean()?;
-    let parameters = EllipsoidParameters::default();
-    // One after another: the points of each are computed side by side.
-    let slices = axes.twist.iter().enumerate().map(|(i, &twist)| {
-        let key = format!("version {VERSION}, {parameters:?}, kT {kt}, {axes:?}, {twist}");
-        let path = folder.join(format!("slice-{i:02}.csv"));
-        let kept = read(&path, &key).filter(|rows| rows.len() == axes.points());
-        if let Some(rows) = kept {
-            return Ok(rows);
-        }
-        let rows = slice(&cell, kt, axes, i, tell)?;
-        write(&path, &key, &rows)?;
-        Ok(rows)
-    });
-    let slices: Vec<Vec<HeatRow>> = slices.collect::<Result<_, String>>()?;
-    let all: Vec<HeatRow> = slices.into_iter().flatten().collect();
+    let sets = [
+        ("slice", HeatAxes::new(quick)),
+        ("wide", HeatAxes::wide(quick)),
+    ];
+    let mut all = Vec::new();
+    for ((name, axes), set) in sets.iter().zip(0..) {
+        let path = |slice: usize| folder.join(format!("{name}-{slice:02}.csv"));
+        all.extend(slices(&cell, kt, axes, set, path, tell)?);
+    }
     write(&out.join("heat.csv"), &format!("kT {kt} pN nm"), &all)?;
     let largest = |k: usize| all.iter().map(|row| row.errors[k]).fold(0.0, f64::max);
+    let positive = all.iter().filter(|row| row.row.least_stiffness() > 0.0);
     tell(format_args!(
         "heat: {} points, tangent positive at {}; largest standard errors {:.1?} (pN nm, pN)",
         all.len(),
-        all.iter()
-            .filter(|row| row.row.least_stiffness() > 0.0)
-            .count(),
+        positive.count(),
         std::array::from_fn::<f64, 6, _>(largest)
     ));
     Ok(())
 }
 
-/// All points of one twist.
+/// All points of a set of axes.
+fn slices(
+    cell: &Cell,
+    kt: f64,
+    axes: &HeatAxes,
+    set: u64,
+    path: impl Fn(usize) -> PathBuf,
+    tell: Tell<'_>,
+) -> Result<Vec<HeatRow>, String> {
+    let parameters = EllipsoidParameters::default();
+    let mut all = Vec::new();
+    // One after another: the points of each are computed side by side.
+    for (i, twist) in axes.twist.iter().enumerate() {
+        let key = format!("version {VERSION}, {parameters:?}, kT {kt}, {axes:?}, {twist}");
+        let kept = read(&path(i), &key).filter(|rows| rows.len() == axes.points());
+        let rows = if let Some(rows) = kept {
+            rows
+        } else {
+            let first = STREAMS * (SLICES * set + i as u64 + 1);
+            let rows = slice(cell, kt, axes, i, first, tell)?;
+            write(&path(i), &key, &rows)?;
+            rows
+        };
+        all.extend(rows);
+    }
+    Ok(all)
+}
+
+/// All points of one twist; streams from `first` on are theirs.
 fn slice(
     cell: &Cell,
     kt: f64,
     axes: &HeatAxes,
     number: usize,
+    first: u64,
     tell: Tell<'_>,
 ) -> Result<Vec<HeatRow>, String> {
     let twist = axes.twist[number];
-    let first = STREAMS * (number as u64 + 1);
     let natural = natural(cell, kt, Some(twist), first)?;
-    let places = axes
-        .extension
-        .iter()
-        .flat_map(|&extension| axes.bent.iter().map(move |&bent| (extension, bent)));
-    let places: Vec<(f64, [f64; 3])> = places.collect();
-    let streams = first + 100..;
-    let jobs: Vec<_> = places.into_iter().zip(streams).collect();
-    let rows = jobs
-        .into_par_iter()
-        .map(|((extension, [curvature, shear, angle]), stream)| {
-            let point = [curvature, twist, shear, natural.stretch + extension, angle];
-            let strain = strain([curvature, twist, shear, point[3], angle.to_radians()]);
-            // A relaxed state is nearer to the typical ones than that of the straight filament.
-            let relaxed = cell.relax(&strain, Some(&natural.displacements));
-            let start = relaxed
-                .as_ref()
-                .map_or(&natural.displacements, |r| &r.displacements);
-            let controls = std::array::from_fn(|k| Control::Strain(strain[k]));
-            let heat = heat(kt, axes.samples, stream);
-            let response = cell.sample(&controls, &heat, Some((&strain, start)));
-            let response = response.map_err(|e| e.to_string())?;
-            Ok(HeatRow::new(point, extension, &response))
-        });
+    let places = axes.extension.iter().flat_map(|&extension| {
+        let with = move |&bent: &[f64; 3]| (extension, bent);
+        axes.bent.iter().map(with)
+    });
+    let jobs: Vec<(u64, (f64, [f64; 3]))> = (first + 100..).zip(places).collect();
+    let rows = jobs.into_par_iter().map(|(stream, (extension, bent))| {
+        let [curvature, shear, angle] = bent;
+        let point = [curvature, twist, shear, natural.stretch + extension, angle];
+        let heat = heat(kt, axes.samples, stream);
+        let response = sample(cell, point, &natural.displacements, &heat)?;
+        Ok(HeatRow::new(point, extension, &response))
+    });
     let rows = rows.collect::<Result<Vec<HeatRow>, String>>()?;
     tell(format_args!(
         "twist {twist} /nm: free filament stretched by {:.5}, {} points",
@@ -153,6 +185,23 @@ fn slice(
         rows.len()
     ));
     Ok(rows)
+}
+
+/// The response at a point.
+fn sample(
+    cell: &Cell,
+    point: [f64; 5],
+    straight: &Displacements,
+    heat: &Heat,
+) -> Result<HeatResponse, String> {
+    let [curvature, twist, shear, stretch, angle] = point;
+    let strain = strain([curvature, twist, shear, stretch, angle.to_radians()]);
+    // A relaxed state is nearer to the typical ones than that of the straight filament.
+    let relaxed = cell.relax(&strain, Some(straight));
+    let start = relaxed.as_ref().map_or(straight, |r| &r.displacements);
+    let controls = std::array::from_fn(|k| Control::Strain(strain[k]));
+    cell.sample(&controls, heat, Some((&strain, start)))
+        .map_err(|e| e.to_string())
 }
 
 impl HeatRow {
@@ -245,7 +294,7 @@ mod tests {
             let rows = pool
                 .build()
                 .unwrap()
-                .install(|| slice(&cell, 4.114, &axes, 1, &|_| ()));
+                .install(|| slice(&cell, 4.114, &axes, 1, 0, &|_| ()));
             rows.unwrap()
                 .into_iter()
                 .map(|row| row.row.loads)

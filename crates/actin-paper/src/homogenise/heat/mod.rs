@@ -29,7 +29,7 @@ pub(super) fn run(
     }
     let kt = BOLTZMANN_PN_NM_PER_K * temperature_k;
     table::run(out, kt, quick, tell)?;
-    grid::compute(out, kt, &grid::HeatAxes::new(quick), tell)
+    grid::compute(out, kt, quick, tell)
 }
 
 /// Sampling of one point.
