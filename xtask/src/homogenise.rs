@@ -19,6 +19,9 @@ pub(crate) struct Options {
     /// Samplings of drawn bonds.
     #[arg(long)]
     samplings: Option<u64>,
+    /// Temperature of the part `heat` (K).
+    #[arg(long, default_value_t = 298.0)]
+    temperature: f64,
 }
 
 /// A part of the study.
@@ -34,6 +37,8 @@ enum Part {
     Grid,
     /// A law of rods fitted to the grid.
     Law,
+    /// Mean loads of the filament at a temperature.
+    Heat,
 }
 
 impl From<Part> for homogenise::Part {
@@ -44,6 +49,7 @@ impl From<Part> for homogenise::Part {
             Part::Scatter => Self::Scatter,
             Part::Grid => Self::Grid,
             Part::Law => Self::Law,
+            Part::Heat => Self::Heat,
         }
     }
 }
@@ -54,6 +60,7 @@ pub(crate) fn run(options: Options) -> Result<()> {
         out: options.out,
         quick: options.quick,
         samplings: options.samplings,
+        temperature_k: options.temperature,
         parts: options.parts.into_iter().map(Into::into).collect(),
     };
     homogenise::run(&options, &|line| println!("{line}")).map_err(Error::msg)

@@ -33,7 +33,10 @@ mod stream;
 mod table;
 
 pub use bonds::{Bonds, Pair};
-pub use cell::{Cell, CellError, CellResponse, Control, Displacements, Hold, SixMatrix, SixVector};
+pub use cell::{
+    Cell, CellError, CellResponse, Control, Displacements, Heat, HeatResponse, Hold, SixMatrix,
+    SixVector,
+};
 pub use cubature::{Cubature, CubatureError, CubaturePoint, MomentCheck};
 pub use ellipsoid::Ellipsoid;
 pub use helix::{Helix, Neighbour};

@@ -36,6 +36,24 @@ fn slopes<const N: usize, const M: usize>(c: &[f64; N]) -> [f64; M] {
     std::array::from_fn(|n| 0.5 * (n as f64 * c[n + 2] - c[n + 1]))
 }
 
+/// The rotation by `w` and the left Jacobian at `w`, without derivatives.
+pub(super) fn turned(w: Vector3) -> (Matrix3, Matrix3) {
+    let c = stumpff(w.norm_squared());
+    let (cross, outer) = (w.cross_matrix(), w * w.transpose());
+    let sum = |n: usize| Matrix3::identity() * c[n] + cross * c[n + 1] + outer * c[n + 2];
+    (sum(0), sum(1))
+}
+
+/// `ln((sin(a/2)/(a/2))^2)` at `p = a^2` with its first and second derivatives by `p`: the density of the
+/// uniform measure of rotations by the components of their rotation vectors, of length `a`.
+pub(super) fn log_density(p: f64) -> [f64; 3] {
+    let c = stumpff(p);
+    let first: [f64; 6] = slopes(&c);
+    let second: [f64; 4] = slopes(&first);
+    let slope = first[2] / c[2];
+    [(2.0 * c[2]).ln(), slope, second[2] / c[2] - slope * slope]
+}
+
 /// A matrix that depends on a rotation vector `w` (rad), with its derivatives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MatrixJet {
@@ -113,6 +131,22 @@ mod tests {
             let inverse = rotation::right_jacobian_inverse(turn).transpose();
             let product = MatrixJet::left_jacobian(turn).value * inverse;
             assert!((product - Matrix3::identity()).norm() < 1e-13);
+        }
+    }
+
+    /// Rotation and Jacobian without derivatives are those with; the density is the square of a cardinal sine.
+    #[test]
+    fn functions_without_jets_are_the_same() {
+        for turn in TURNS.map(Vector3::from) {
+            let (rotation, jacobian) = turned(turn);
+            assert!((rotation - MatrixJet::rotation(turn).value).norm() < 1e-15);
+            assert!((jacobian - MatrixJet::left_jacobian(turn).value).norm() < 1e-15);
+            let half = (0.5 * turn.norm()).max(1e-12);
+            let [value, slope, second] = log_density(turn.norm_squared());
+            assert!((value - 2.0 * (half.sin() / half).ln()).abs() < 1e-14);
+            let at = |h: f64| log_density(turn.norm_squared() + h);
+            assert!((slope - derivative(0.02, |h| at(h)[0])).abs() < 1e-11);
+            assert!((second - derivative(0.02, |h| at(h)[1])).abs() < 1e-11);
         }
     }
 

@@ -1,9 +1,10 @@
 //! A periodic cell of monomers under uniform strain: what a filament stores per length.
 //!
 //! [`Cell::relax`] is what to call first. Pairs of monomers are in `pairs.rs`, the search for the
-//! minimum in `minimum.rs`, loads and tangent in `response.rs`.
+//! minimum in `minimum.rs`, loads and tangent in `response.rs`, the same at a temperature in `heat/`.
 
 mod error;
+mod heat;
 mod hold;
 mod jets;
 mod minimum;
@@ -11,6 +12,7 @@ mod pairs;
 mod response;
 
 pub use error::CellError;
+pub use heat::{Heat, HeatResponse};
 pub use hold::Hold;
 pub use response::{CellResponse, Control};
 

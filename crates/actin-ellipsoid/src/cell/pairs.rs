@@ -17,21 +17,21 @@ type Gradients = SMatrix<f64, 3, OF_PAIR>;
 /// Two neighbours in a cell.
 #[derive(Clone, Debug)]
 pub(super) struct CellPair {
-    lower: usize,
-    upper: usize,
+    pub(super) lower: usize,
+    pub(super) upper: usize,
     /// Lattice steps between them.
-    steps: usize,
-    bonds: Vec<CellBond>,
+    pub(super) steps: usize,
+    pub(super) bonds: Vec<CellBond>,
 }
 
 /// A bond, its ends relative to the centres and turned as the monomers are in the built filament.
 #[derive(Clone, Copy, Debug)]
-struct CellBond {
-    lower: Vector3,
-    upper: Vector3,
-    length: f64,
+pub(super) struct CellBond {
+    pub(super) lower: Vector3,
+    pub(super) upper: Vector3,
+    pub(super) length: f64,
     /// pN/nm.
-    stiffness: f64,
+    pub(super) stiffness: f64,
 }
 
 /// One monomer in the frame of its place.
@@ -41,12 +41,12 @@ struct Body {
 }
 
 /// The motion along the axis from the lower to the upper monomer, as a function of the strains.
-struct Motion {
+pub(super) struct Motion {
     /// Steps times rise (nm).
-    length: f64,
-    rotation: MatrixJet,
+    pub(super) length: f64,
+    pub(super) rotation: MatrixJet,
     /// The left Jacobian of the same turn.
-    jacobian: MatrixJet,
+    pub(super) jacobian: MatrixJet,
     /// `e3 + sigma`.
     direction: Vector3,
 }
@@ -156,7 +156,7 @@ impl Body {
 }
 
 impl Motion {
-    fn new(strain: &SixVector, length: f64) -> Self {
+    pub(super) fn new(strain: &SixVector, length: f64) -> Self {
         let turn = strain.fixed_rows::<3>(0) * length;
         Self {
             length,
@@ -167,12 +167,12 @@ impl Motion {
     }
 
     /// The translation.
-    fn shift(&self) -> Vector3 {
+    pub(super) fn shift(&self) -> Vector3 {
         self.jacobian.value * self.direction * self.length
     }
 
     /// Its derivatives by the curvature, one per column.
-    fn shift_by_curvature(&self) -> Matrix3 {
+    pub(super) fn shift_by_curvature(&self) -> Matrix3 {
         let square = self.length * self.length;
         let column = |a: usize| self.jacobian.first[a] * self.direction * square;
         Matrix3::from_columns(&[0, 1, 2].map(column))

@@ -7,6 +7,7 @@ mod axes;
 mod checks;
 mod filament;
 mod grid;
+mod heat;
 mod law;
 mod paths;
 mod pictures;
@@ -28,6 +29,8 @@ pub struct Options {
     pub quick: bool,
     /// Samplings of drawn bonds, at least two.
     pub samplings: Option<u64>,
+    /// Temperature of the part `Heat` (K).
+    pub temperature_k: f64,
     /// Parts to compute, all if none is named.
     pub parts: Vec<Part>,
 }
@@ -45,15 +48,18 @@ pub enum Part {
     Grid,
     /// A law of rods fitted to the grid, which is computed if it is not there.
     Law,
+    /// Loads at a temperature.
+    Heat,
 }
 
 impl Part {
-    const ALL: [Self; 5] = [
+    const ALL: [Self; 6] = [
         Self::Checks,
         Self::Variants,
         Self::Scatter,
         Self::Grid,
         Self::Law,
+        Self::Heat,
     ];
 }
 
@@ -84,6 +90,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
                 let grid = grid::compute(out, &axes, tell)?;
                 law::run(out, &axes, &grid, samplings, tell)?;
             }
+            Part::Heat => heat::run(out, options.temperature_k, options.quick, tell)?,
         }
         tell(format_args!(
             "{part:?}: {:.0} s\n",

@@ -71,14 +71,14 @@ impl Row {
         self.tangent.symmetric_eigenvalues().min()
     }
 
-    fn numbers(&self) -> Vec<f64> {
+    pub(super) fn numbers(&self) -> Vec<f64> {
         let first = self.strain.iter().chain([&self.extension, &self.energy]);
         let mut all: Vec<f64> = first.chain(self.loads.iter()).copied().collect();
         all.extend(upper().map(|place| self.tangent[place]));
         all
     }
 
-    fn read(numbers: &[f64]) -> Option<Self> {
+    pub(super) fn read(numbers: &[f64]) -> Option<Self> {
         let mut tangent = SixMatrix::zeros();
         for ((i, j), value) in upper().zip(numbers.get(13..34)?) {
             tangent[(i, j)] = *value;
@@ -96,9 +96,25 @@ impl Row {
 
 /// Writes rows below a line that says what they were computed with. The file gets its name when it is complete.
 pub(super) fn write(path: &Path, key: &str, rows: &[Row]) -> Result<(), String> {
-    let mut text = format!("# {key}\n{}\n", header().join(","));
+    write_numbers(path, key, &header(), rows.iter().map(Row::numbers))
+}
+
+/// The rows of a file that was written with the same key; `None` if there is none, or another.
+pub(super) fn read(path: &Path, key: &str) -> Option<Vec<Row>> {
+    let rows = read_numbers(path, key)?;
+    rows.iter().map(|numbers| Row::read(numbers)).collect()
+}
+
+/// [`write`] of any columns.
+pub(super) fn write_numbers(
+    path: &Path,
+    key: &str,
+    header: &[String],
+    rows: impl Iterator<Item = Vec<f64>>,
+) -> Result<(), String> {
+    let mut text = format!("# {key}\n{}\n", header.join(","));
     for row in rows {
-        let numbers: Vec<String> = row.numbers().iter().map(|x| format!("{x:e}")).collect();
+        let numbers: Vec<String> = row.iter().map(|x| format!("{x:e}")).collect();
         text.push_str(&numbers.join(","));
         text.push('\n');
     }
@@ -108,17 +124,14 @@ pub(super) fn write(path: &Path, key: &str, rows: &[Row]) -> Result<(), String> 
         .map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// The rows of a file that was written with the same key; `None` if there is none, or another.
-pub(super) fn read(path: &Path, key: &str) -> Option<Vec<Row>> {
+/// [`read`] of any columns.
+pub(super) fn read_numbers(path: &Path, key: &str) -> Option<Vec<Vec<f64>>> {
     let text = std::fs::read_to_string(path).ok()?;
     let (first, table) = text.split_once('\n')?;
     if first != format!("# {key}") {
         return None;
     }
-    let parse = |line: &str| {
-        let numbers: Option<Vec<f64>> = line.split(',').map(|x| x.parse().ok()).collect();
-        Row::read(&numbers?)
-    };
+    let parse = |line: &str| line.split(',').map(|x| x.parse().ok()).collect();
     table.lines().skip(1).map(parse).collect()
 }
 

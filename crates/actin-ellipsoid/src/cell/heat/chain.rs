@@ -1,0 +1,132 @@
+//! A Markov chain of states of a cell: hybrid Monte Carlo in coordinates in which it is nearly isotropic.
+
+use super::normal::Normal;
+use super::potential::Potential;
+use nalgebra::{DMatrix, DVector};
+use std::f64::consts::FRAC_PI_2;
+
+/// Displacement (nm) or turn (rad) to which a mode without stiffness is taken to move.
+const WIDEST: f64 = 0.2;
+/// Trajectories of each round before the first sample; after each the metric is that of its mean Hessian.
+const ROUNDS: [usize; 4] = [50, 100, 250, 200];
+/// Trajectories from one Hessian of the warm-up to the next.
+const APART: usize = 3;
+/// Longest step; the period of the modes is 2 pi.
+const LONGEST: f64 = 1.0;
+
+/// A chain, where it is, and how it moves.
+pub(super) struct Chain<'a> {
+    potential: &'a Potential<'a>,
+    normal: Normal,
+    /// Coordinates, then strains.
+    pub(super) place: DVector<f64>,
+    /// Derivatives of the potential.
+    pub(super) gradient: DVector<f64>,
+    energy: f64,
+    /// From coordinates in which the mean Hessian over kT is 1 to all.
+    map: DMatrix<f64>,
+    /// Time step, in units in which the frequency of every mode would be 1.
+    pub(super) step: f64,
+}
+
+impl<'a> Chain<'a> {
+    /// The chain at `place`.
+    pub(super) fn new(potential: &'a Potential<'a>, place: DVector<f64>, normal: Normal) -> Self {
+        let mut gradient = DVector::zeros(potential.size());
+        let energy = potential.slopes(&place, &mut gradient);
+        Self {
+            potential,
+            normal,
+            place,
+            gradient,
+            energy,
+            map: DMatrix::zeros(0, 0),
+            step: 0.3,
+        }
+    }
+
+    /// Moves to typical states and finds metric and step for this share of accepted trajectories; returns the mean
+    /// Hessian that the metric is from.
+    pub(super) fn warm_up(&mut self, acceptance: f64) -> DMatrix<f64> {
+        let directions = self.potential.directions();
+        let mut mean = self.potential.derivatives(&self.place).hessian;
+        for trajectories in ROUNDS {
+            self.map = metric(&directions, &mean, self.potential.kt);
+            let (mut sum, mut count) = (mean * 0.0, 0.0);
+            for k in 0..trajectories {
+                let accepted = self.advance();
+                let gain = 1.5 / (k as f64 + 10.0).powf(0.7);
+                self.step = (self.step * (gain * (accepted - acceptance)).exp()).min(LONGEST);
+                if 3 * k >= trajectories && k % APART == 0 {
+                    sum += self.potential.derivatives(&self.place).hessian;
+                    count += 1.0;
+                }
+            }
+            mean = sum / count;
+        }
+        self.map = metric(&directions, &mean, self.potential.kt);
+        mean
+    }
+
+    /// How all moves when all that is free follows a force, times kT: the inverse of the mean Hessian.
+    pub(super) fn mobility(&self, force: &DMatrix<f64>) -> DMatrix<f64> {
+        &self.map * self.map.tr_mul(force) / self.potential.kt
+    }
+
+    /// One trajectory; returns the probability with which it was accepted.
+    ///
+    /// Momenta are drawn afresh, the number of leapfrog steps and their length without regard to the state. So the
+    /// trajectory back is as likely, and the test of Metropolis makes the Boltzmann distribution stationary
+    /// whatever the step.
+    pub(super) fn advance(&mut self) -> f64 {
+        let kt = self.potential.kt;
+        let mut momentum = DVector::from_fn(self.map.ncols(), |_, _| self.normal.next());
+        let step = self.step * (0.8 + 0.4 * self.normal.uniform());
+        let time = FRAC_PI_2 * (0.5 + self.normal.uniform());
+        let steps = count(time / step);
+        let (mut place, mut gradient) = (self.place.clone(), self.gradient.clone());
+        let before = self.energy / kt + 0.5 * momentum.norm_squared();
+        let mut energy = self.energy;
+        momentum.gemv_tr(-0.5 * step / kt, &self.map, &gradient, 1.0);
+        for k in (0..steps).rev() {
+            place.gemv(step, &self.map, &momentum, 1.0);
+            energy = self.potential.slopes(&place, &mut gradient);
+            let share = if k == 0 { 0.5 } else { 1.0 };
+            momentum.gemv_tr(-share * step / kt, &self.map, &gradient, 1.0);
+        }
+        let after = energy / kt + 0.5 * momentum.norm_squared();
+        let gain = before - after;
+        // A trajectory that went to infinity has no number, and is refused.
+        let accepted = if gain.is_nan() {
+            0.0
+        } else {
+            gain.exp().min(1.0)
+        };
+        if self.normal.uniform() < accepted {
+            (self.place, self.gradient, self.energy) = (place, gradient, energy);
+        }
+        accepted
+    }
+}
+
+/// The next integer.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a positive number of a few, or the conversion saturates"
+)]
+fn count(number: f64) -> usize {
+    number.ceil() as usize
+}
+
+/// Directions scaled such that the Hessian along them is kT times 1, where it is stiff enough.
+fn metric(directions: &DMatrix<f64>, hessian: &DMatrix<f64>, kt: f64) -> DMatrix<f64> {
+    let reduced = directions.tr_mul(&(hessian * directions));
+    let eigen = reduced.symmetric_eigen();
+    let mut modes = directions * eigen.eigenvectors;
+    let least = kt / (WIDEST * WIDEST);
+    for (mut mode, stiffness) in modes.column_iter_mut().zip(&eigen.eigenvalues) {
+        mode *= (kt / stiffness.max(least)).sqrt();
+    }
+    modes
+}

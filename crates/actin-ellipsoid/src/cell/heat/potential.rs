@@ -1,0 +1,83 @@
+//! What is sampled: energy of the cell, work of the given loads, measure of rotations.
+
+use super::super::jets::log_density;
+use super::super::pairs::Derivatives;
+use super::super::{Cell, STRAINS, SixVector};
+use actin_mechanics::Matrix3;
+use nalgebra::{DMatrix, DVector};
+
+/// The potential whose Boltzmann factor is the density of displacements and turns in their components.
+#[derive(Debug)]
+pub(super) struct Potential<'a> {
+    pub(super) cell: &'a Cell,
+    /// Thermal energy (pN nm).
+    pub(super) kt: f64,
+    /// Strains that are free.
+    pub(super) free: Vec<usize>,
+    /// Loads: those of the free strains count.
+    pub(super) loads: SixVector,
+}
+
+impl Potential<'_> {
+    /// Number of coordinates and strains.
+    pub(super) fn size(&self) -> usize {
+        self.cell.coordinates() + STRAINS
+    }
+
+    /// Its value (pN nm) at `place`, coordinates then strains; its derivatives go to `gradient`.
+    pub(super) fn slopes(&self, place: &DVector<f64>, gradient: &mut DVector<f64>) -> f64 {
+        let mut energy = self.cell.slopes(place, gradient);
+        for (row, turn) in self.cell.turns(place) {
+            let [value, slope, _] = log_density(turn.norm_squared());
+            energy -= self.kt * value;
+            let mut rows = gradient.fixed_rows_mut::<3>(row);
+            rows -= turn * (2.0 * slope * self.kt);
+        }
+        for &k in &self.free {
+            let (row, force) = (self.cell.coordinates() + k, self.work_per_strain(k));
+            energy -= force * place[row];
+            gradient[row] -= force;
+        }
+        energy
+    }
+
+    /// The energy of the cell, with the second derivatives of the potential.
+    pub(super) fn derivatives(&self, place: &DVector<f64>) -> Derivatives {
+        let coordinates = self.cell.coordinates();
+        let strain: SixVector = place.fixed_rows::<STRAINS>(coordinates).into();
+        let displacements = place.rows(0, coordinates).into_owned();
+        let mut all = self.cell.derivatives(&displacements, &strain);
+        for (row, turn) in self.cell.turns(place) {
+            let [_, slope, second] = log_density(turn.norm_squared());
+            let outer = turn * turn.transpose();
+            let of_turn = Matrix3::identity() * (2.0 * slope) + outer * (4.0 * second);
+            let mut block = all.hessian.fixed_view_mut::<3, 3>(row, row);
+            block -= of_turn * self.kt;
+        }
+        all
+    }
+
+    /// Orthonormal directions of all that moves, one per column.
+    pub(super) fn directions(&self) -> DMatrix<f64> {
+        let (coordinates, held) = (self.cell.coordinates(), &self.cell.held);
+        let moving = coordinates - held.nrows();
+        let mut basis = DMatrix::zeros(self.size(), moving + self.free.len());
+        let projector = DMatrix::identity(coordinates, coordinates) - held.tr_mul(held);
+        // Eigenvalues are 0 and 1; those of 1 come where they come.
+        let eigen = projector.symmetric_eigen();
+        let columns = (0..coordinates).filter(|&k| eigen.eigenvalues[k] > 0.5);
+        for (column, k) in columns.enumerate() {
+            let mut rows = basis.view_mut((0, column), (coordinates, 1));
+            rows.copy_from(&eigen.eigenvectors.column(k));
+        }
+        for (column, &k) in (moving..).zip(&self.free) {
+            basis[(coordinates + k, column)] = 1.0;
+        }
+        basis
+    }
+
+    /// Work of the load of strain `k` per strain (pN nm).
+    fn work_per_strain(&self, k: usize) -> f64 {
+        self.cell.length() * self.loads[k]
+    }
+}
