@@ -13,7 +13,7 @@ mod figure7;
 mod figure9;
 mod html;
 mod kept;
-mod linked;
+pub(crate) mod linked;
 mod progress;
 mod schematics;
 mod settles;
