@@ -111,7 +111,9 @@ impl Set {
             .iter()
             .filter_map(|s| Some(s.as_ref().err()?.as_str()))
             .collect();
-        let note = [vec!["by nm of rod:".to_owned()], list].concat().join(" ");
+        let note = [vec![format!("{quantity} by nm of rod:")], list]
+            .concat()
+            .join(" ");
         Row {
             group: Group::Mixed,
             case: self.case.name.clone(),

@@ -69,7 +69,7 @@ pub(super) fn rows(name: &str, law: &RodLaw, quick: bool) -> Vec<Row> {
             scatter: None,
             bound: Group::Thermal.bound(quantity),
             note: rod.map_or(note.clone(), |(_, error)| {
-                format!("standard error of the rod {error:.2}, {replicas} replicas")
+                format!("standard error of {quantity}: {error:.2}, {replicas} replicas")
             }),
         }
     };
