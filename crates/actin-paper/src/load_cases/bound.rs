@@ -75,14 +75,15 @@ impl Group {
     pub(super) fn bound(self, quantity: &str) -> Bound {
         match (self, quantity) {
             (Self::Cantilever, _) => Bound::Relative(0.02),
-            (Self::PulledCantilever | Self::Buckled, _) => Bound::Relative(0.03),
-            (Self::Guided | Self::Stretched, _) => Bound::Relative(0.05),
             (Self::Linked, "shape") => Bound::Distance(1.5),
-            (Self::Linked, _) => Bound::Relative(0.05),
+            (Self::PulledCantilever | Self::Buckled, _) | (Self::Thermal, "persistence length") => {
+                Bound::Relative(0.03)
+            }
+            (Self::Guided | Self::Linked | Self::Stretched | Self::Thermal, _) => {
+                Bound::Relative(0.05)
+            }
             (Self::Twisted, _) => Bound::Scatter,
             (Self::Mixed, _) => Bound::Spread(0.02),
-            (Self::Thermal, "persistence length") => Bound::Relative(0.03),
-            (Self::Thermal, _) => Bound::Relative(0.05),
             (Self::Beside, _) => Bound::Open,
         }
     }

@@ -106,7 +106,7 @@ fn is_quick(case: &Case) -> bool {
         } => !as_written && *tension_pn < 10.0,
         Kind::Guided { rises, .. } => *rises == GUIDED[1],
         Kind::Linked { figure } => *figure == 5,
-        Kind::Buckled { turn_deg } => *turn_deg == 180.0,
+        Kind::Buckled { turn_deg } => (90.0..=180.0).contains(turn_deg),
         Kind::Twisted { .. } => true,
         Kind::Stretched { turn_deg, .. } => *turn_deg == 0.0,
     }

@@ -71,53 +71,44 @@ pub(super) fn run(out: &Path, laws: &[Law], tell: Tell<'_>) -> Result<(), String
 
 /// Cases by the kind of load that may have an end correction of its own.
 fn cases() -> Vec<(&'static str, Case)> {
-    let beside = |name: String, kind| Case {
-        group: Group::Beside,
-        name,
-        kind,
+    SPANS.into_iter().flat_map(cases_of).collect()
+}
+
+fn cases_of(rises: u32) -> Vec<(&'static str, Case)> {
+    let case = |load: &'static str, kind: Kind| {
+        let own = Case {
+            group: Group::Beside,
+            name: format!("{rises} rises, {load}"),
+            kind,
+        };
+        (load, own)
     };
-    let mut all = Vec::new();
-    for rises in SPANS {
-        for (kind, tension) in [
-            ("guided, no tension", 0.0),
-            ("guided, 5 pN", 5.0),
-            ("guided, 10 pN", 10.0),
-        ] {
-            all.push((kind, guided(Group::Beside, rises, tension)));
-        }
-        let twisted = Kind::Twisted {
-            rises,
-            turns_deg: vec![40.0, -40.0, 120.0, -120.0],
-        };
-        all.push((
-            "twisted",
-            beside(format!("{rises} rises, twisted"), twisted),
-        ));
-        for (kind, turn_deg, force) in [
-            ("pulled", 0.0, 10.0),
-            ("pulled, over-twisted", 80.0, 10.0),
-            ("pulled, under-twisted", -80.0, 10.0),
-            ("pushed", 0.0, -10.0),
-        ] {
-            let stretched = Kind::Stretched {
-                rises,
-                turn_deg,
-                forces_pn: vec![force],
-            };
-            all.push((kind, beside(format!("{rises} rises, {kind}"), stretched)));
-        }
-        let cantilever = Kind::Cantilever {
-            rises,
-            tension_pn: 0.0,
-            forces_pn: vec![0.5],
-            as_written: false,
-        };
-        all.push((
-            "cantilever",
-            beside(format!("{rises} rises, cantilever"), cantilever),
-        ));
-    }
-    all
+    let stretched = |turn_deg: f64, force: f64| Kind::Stretched {
+        rises,
+        turn_deg,
+        forces_pn: vec![force],
+    };
+    let twisted = Kind::Twisted {
+        rises,
+        turns_deg: vec![40.0, -40.0, 120.0, -120.0],
+    };
+    let cantilever = Kind::Cantilever {
+        rises,
+        tension_pn: 0.0,
+        forces_pn: vec![0.5],
+        as_written: false,
+    };
+    vec![
+        ("guided, no tension", guided(Group::Beside, rises, 0.0)),
+        ("guided, 5 pN", guided(Group::Beside, rises, 5.0)),
+        ("guided, 10 pN", guided(Group::Beside, rises, 10.0)),
+        case("twisted", twisted),
+        case("pulled", stretched(0.0, 10.0)),
+        case("pulled, over-twisted", stretched(80.0, 10.0)),
+        case("pulled, under-twisted", stretched(-80.0, 10.0)),
+        case("pushed", stretched(0.0, -10.0)),
+        case("cantilever", cantilever),
+    ]
 }
 
 fn span_nm(case: &Case) -> f64 {
@@ -141,7 +132,7 @@ fn lines(
     let azimuths = if is_across { AZIMUTHS } else { 1 };
     let mean = |k: u32| {
         let azimuth_deg = f64::from(k) * 360.0 / f64::from(azimuths);
-        store::kept(folder, case, &Made::Mean { azimuth_deg })?.0
+        store::kept(Some(folder), case, &Made::Mean { azimuth_deg })?.0
     };
     let monomers = (0..azimuths)
         .map(mean)
@@ -202,7 +193,7 @@ impl Line {
         let crossing = |pair: &[(f64, Option<f64>)]| {
             let ((x, a), (y, b)) = (pair[0], pair[1]);
             let (a, b) = (a?, b?);
-            (a * b <= 0.0 && a != b).then(|| x + (y - x) * a / (a - b))
+            (a * b <= 0.0 && (a - b).abs() > 0.0).then(|| x + (y - x) * a / (a - b))
         };
         let all = logarithms.windows(2).filter_map(crossing);
         all.min_by(|a, b| a.abs().total_cmp(&b.abs()))

@@ -99,9 +99,9 @@ impl Made {
             }]
         };
         match self {
-            Self::Mean { azimuth_deg } => with_monomers(all(), Monomers::default(), *azimuth_deg),
+            Self::Mean { azimuth_deg } => with_monomers(all(), &Monomers::default(), *azimuth_deg),
             Self::Drawn { seed, azimuth_deg } => {
-                with_monomers(all(), Monomers::drawn(DRAWN, *seed), *azimuth_deg)
+                with_monomers(all(), &Monomers::drawn(DRAWN, *seed), *azimuth_deg)
             }
             Self::Rod(rod) => Filament {
                 rod: rod.model(),
@@ -125,11 +125,11 @@ impl Made {
     }
 }
 
-fn with_monomers(sections: Vec<Section>, monomers: Monomers, azimuth_deg: f64) -> Filament {
+fn with_monomers(sections: Vec<Section>, monomers: &Monomers, azimuth_deg: f64) -> Filament {
     Filament {
         monomers: Monomers {
             azimuth_deg,
-            ..monomers
+            ..monomers.clone()
         },
         ..Filament::new(sections)
     }

@@ -22,53 +22,53 @@ struct Set {
     lengths_nm: Vec<f64>,
 }
 
+/// Every third length if `quick`, and not the under-twisted filament.
 fn sets(quick: bool) -> Vec<Set> {
     let chosen = |lengths: [f64; 7]| -> Vec<f64> {
-        let kept = |i: usize| !quick || i % 3 == 0;
-        let lengths = lengths.into_iter().enumerate();
-        lengths
-            .filter(|(i, _)| kept(*i))
-            .map(|(_, nm)| nm)
-            .collect()
+        let step = if quick { 3 } else { 1 };
+        lengths.into_iter().step_by(step).collect()
     };
-    let mixed = |name: &str, kind: Kind| Case {
-        group: Group::Mixed,
-        name: name.to_owned(),
-        kind,
-    };
-    let cantilever = Kind::Cantilever {
-        rises: 58,
-        tension_pn: 0.0,
-        forces_pn: vec![2.0],
-        as_written: true,
-    };
-    let mut all = vec![Set {
-        case: mixed("Figure 4, rod at the tip", cantilever),
+    let turns: &[f64] = if quick { &[180.0] } else { &[180.0, -180.0] };
+    let mut all = vec![at_tip(chosen(AT_TIP_NM))];
+    all.extend(turns.iter().map(|&turn| at_ends(turn, chosen(AT_ENDS_NM))));
+    all
+}
+
+fn at_tip(lengths_nm: Vec<f64>) -> Set {
+    Set {
+        case: Case {
+            group: Group::Mixed,
+            name: "Figure 4, rod at the tip".to_owned(),
+            kind: Kind::Cantilever {
+                rises: 58,
+                tension_pn: 0.0,
+                forces_pn: vec![2.0],
+                as_written: true,
+            },
+        },
         quantities: &["tip at 2 pN (nm)"],
         stretches: |nm| {
             let tip = 58.5 * RISE_NM;
             vec![[tip - nm, tip]]
         },
-        lengths_nm: chosen(AT_TIP_NM),
-    }];
-    for turn_deg in [180.0, -180.0] {
-        all.push(Set {
-            case: mixed(
-                &format!("Figures 8 and 10, {turn_deg:+} deg, rods at the ends"),
-                Kind::Buckled { turn_deg },
-            ),
-            quantities: &["height (nm)", "couple (pN nm)"],
-            stretches: |nm| {
-                let length = f64::from(BUCKLED) * RISE_NM;
-                vec![[0.0, 0.5 * nm], [length - 0.5 * nm, length]]
-            },
-            lengths_nm: chosen(AT_ENDS_NM),
-        });
+        lengths_nm,
     }
-    if quick {
-        all.truncate(2);
+}
+
+fn at_ends(turn_deg: f64, lengths_nm: Vec<f64>) -> Set {
+    Set {
+        case: Case {
+            group: Group::Mixed,
+            name: format!("Figures 8 and 10, {turn_deg:+} deg, rods at the ends"),
+            kind: Kind::Buckled { turn_deg },
+        },
+        quantities: &["height (nm)", "couple (pN nm)"],
+        stretches: |nm| {
+            let length = f64::from(BUCKLED) * RISE_NM;
+            vec![[0.0, 0.5 * nm], [length - 0.5 * nm, length]]
+        },
+        lengths_nm,
     }
-    all
 }
 
 /// All rows of a law.

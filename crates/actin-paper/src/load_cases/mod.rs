@@ -6,6 +6,7 @@
 
 mod bound;
 mod case;
+mod compared;
 mod ends;
 mod filament;
 mod mixed;
@@ -15,6 +16,8 @@ mod solve;
 mod store;
 mod thermal;
 mod write;
+
+pub(crate) use compared::{Compared, compared};
 
 use crate::Tell;
 use actin_sim::RodLaw;
@@ -88,7 +91,11 @@ fn measured(out: &Path, laws: &[Law], quick: bool, tell: Tell<'_>) -> Result<Vec
     fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let cases = case::all(quick);
     let clock = Instant::now();
-    let monomers = monomers(&folder, &cases, quick, tell)?;
+    let monomers = monomers(Some(&folder), &cases, quick, &|error| {
+        if let Some(error) = error {
+            tell(format_args!("{error}"));
+        }
+    })?;
     tell(format_args!(
         "monomers: {:.0} s",
         clock.elapsed().as_secs_f64()
@@ -126,12 +133,13 @@ fn of_rods(case: &Case, law: &RodLaw) -> Rods {
     [Rod::coarse(law), Rod::fine(law)].map(|rod| solve::solve(case, &Made::Rod(rod)))
 }
 
-/// Filaments of monomers under all cases, side by side; what is in the folder is not computed again.
+/// Filaments of monomers under all cases, side by side; what is in the folder is not computed again. `done` is
+/// told of each, and of new ones without an equilibrium why.
 fn monomers(
-    folder: &Path,
+    folder: Option<&Path>,
     cases: &[Case],
     quick: bool,
-    tell: Tell<'_>,
+    done: &(dyn Fn(Option<&str>) + Sync),
 ) -> Result<Vec<Monomers>, String> {
     let samplings = if quick { QUICK_SAMPLINGS } else { SAMPLINGS };
     let jobs = cases.iter().enumerate().flat_map(|(i, case)| {
@@ -141,9 +149,8 @@ fn monomers(
     let jobs: Vec<(usize, Made)> = jobs.collect();
     let solved = jobs.par_iter().map(|(i, made)| {
         let (outcome, was_there) = store::kept(folder, &cases[*i], made)?;
-        if let (Err(error), false) = (&outcome, was_there) {
-            tell(format_args!("{error}"));
-        }
+        let new_error = outcome.as_ref().err().filter(|_| !was_there);
+        done(new_error.map(String::as_str));
         Ok(outcome)
     });
     let solved = solved.collect::<Result<Vec<_>, String>>()?;

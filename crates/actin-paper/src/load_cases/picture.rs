@@ -9,27 +9,12 @@ use std::path::Path;
 /// Errors below this share of their bound are drawn as it.
 const LEAST: f64 = 1e-2;
 
-/// Draws `load-cases.svg`: the logarithm of each error against the mean filament over its bound, in the order of the table.
+/// Draws `load-cases.svg`: the logarithm of each error against the mean filament over its bound, in the order of
+/// the table.
 pub(super) fn draw(out: &Path, rows: &[Row]) -> Result<(), String> {
     let judged: Vec<&Row> = rows.iter().filter(|r| r.bound != Bound::Open).collect();
-    let mut places: Vec<(&str, &str)> = Vec::new();
-    let mut laws: Vec<&str> = Vec::new();
-    for row in &judged {
-        let place = (row.case.as_str(), row.quantity.as_str());
-        if !places.contains(&place) {
-            places.push(place);
-        }
-        if !laws.contains(&row.law.as_str()) {
-            laws.push(&row.law);
-        }
-    }
-    let point = |row: &&Row| {
-        let place = places
-            .iter()
-            .position(|p| *p == (&*row.case, &*row.quantity))?;
-        let share = row.shares_of_bound()[0].filter(|share| share.is_finite())?;
-        Some((place as f64 + 1.0, share.max(LEAST).log10()))
-    };
+    let places = distinct(judged.iter().map(|row| (&*row.case, &*row.quantity)));
+    let laws = distinct(judged.iter().map(|row| &*row.law));
     let mut series = vec![Series {
         label: Some("bound".to_owned()),
         colour: palette::GREY,
@@ -41,7 +26,7 @@ pub(super) fn draw(out: &Path, rows: &[Row]) -> Result<(), String> {
         series.push(Series {
             label: Some((*law).to_owned()),
             colour: palette::line(k),
-            points: own.filter_map(point).collect(),
+            points: own.filter_map(|row| point(row, &places)).collect(),
             dots: true,
         });
     }
@@ -53,4 +38,23 @@ pub(super) fn draw(out: &Path, rows: &[Row]) -> Result<(), String> {
         equal_axes: false,
     };
     chart.draw(&out.join("load-cases.svg"))
+}
+
+/// Each once, in the order in which they come.
+fn distinct<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
+    let mut kept = Vec::new();
+    for one in all {
+        if !kept.contains(&one) {
+            kept.push(one);
+        }
+    }
+    kept
+}
+
+/// Place in the table and logarithm; none where there is no error.
+fn point(row: &Row, places: &[(&str, &str)]) -> Option<(f64, f64)> {
+    let own = (&*row.case, &*row.quantity);
+    let place = places.iter().position(|place| *place == own)?;
+    let share = row.shares_of_bound()[0].filter(|share| share.is_finite())?;
+    Some((place as f64 + 1.0, share.max(LEAST).log10()))
 }

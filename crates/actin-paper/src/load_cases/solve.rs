@@ -99,10 +99,10 @@ fn turn(end: End, turn_deg: f64) -> Setting {
 /// steps of a hundredth it does not reach in thousands, which monomers with their soft directions may need.
 fn solver(made: &Made) -> Equilibrium {
     let default = Equilibrium::default();
-    let (iterations, smallest_step) = if made.is_monomers() {
-        (default.iterations, default.smallest_step)
-    } else {
+    let (iterations, smallest_step) = if matches!(made, Made::Rod(_)) {
         (ROD_ITERATIONS, ROD_STEP)
+    } else {
+        (default.iterations, default.smallest_step)
     };
     Equilibrium {
         iterations,
@@ -127,11 +127,6 @@ struct Course<'a> {
 }
 
 fn course<'a>(kind: &'a Kind, made: &Made) -> Course<'a> {
-    let tension = |tension_pn: f64| Setting::LoadFactor {
-        load: 0,
-        factor: tension_pn,
-    };
-    let pulled = |tension_pn: f64| (tension_pn != 0.0).then(|| tension(tension_pn));
     match kind {
         Kind::Cantilever {
             rises,
@@ -139,19 +134,12 @@ fn course<'a>(kind: &'a Kind, made: &Made) -> Course<'a> {
             forces_pn,
             as_written,
         } => {
-            let beyond = if made.is_monomers() && !as_written {
-                RISE_NM
-            } else {
-                0.0
-            };
+            let is_longer = made.is_monomers() && !as_written;
             Course {
-                before: pulled(*tension_pn).into_iter().collect(),
-                load: 1,
-                forces_pn,
                 far_end: None,
-                length_nm: length(*rises) + 0.5 * RISE_NM + beyond,
-                along: Vector3::x(),
+                length_nm: length(*rises) + if is_longer { 1.5 } else { 0.5 } * RISE_NM,
                 read: |force, moved, _| (format!("tip at {force} pN (nm)"), moved),
+                ..across(*tension_pn, forces_pn)
             }
         }
         Kind::Guided {
@@ -159,36 +147,46 @@ fn course<'a>(kind: &'a Kind, made: &Made) -> Course<'a> {
             tension_pn,
             forces_pn,
         } => Course {
-            before: pulled(*tension_pn).into_iter().collect(),
-            load: 1,
-            forces_pn,
-            far_end: Some(Slides::Freely),
             length_nm: length(*rises),
-            along: Vector3::x(),
-            read: |force, moved, _| (format!("nm/pN at {force} pN"), moved / force),
+            ..across(*tension_pn, forces_pn)
         },
         Kind::Stretched {
             rises,
             turn_deg,
             forces_pn,
-        } => {
-            let turned = turn_deg * length(*rises) / TURNED_NM;
-            Course {
-                before: (*turn_deg != 0.0)
-                    .then(|| turn(End::End, turned))
-                    .into_iter()
-                    .collect(),
-                load: 0,
-                forces_pn,
-                far_end: Some(Slides::AlongAxis),
-                length_nm: length(*rises),
-                along: Vector3::z(),
-                read: |force, moved, length| {
-                    (format!("S3 at {force} pN (pN)"), force * length / moved)
-                },
-            }
-        }
+        } => along(length(*rises), *turn_deg, forces_pn),
         _ => unreachable!("other cases have paths of their own"),
+    }
+}
+
+/// Pulled along, then pushed across at an end that slides; the length is the caller's.
+fn across(tension_pn: f64, forces_pn: &[f64]) -> Course<'_> {
+    let tension = Setting::LoadFactor {
+        load: 0,
+        factor: tension_pn,
+    };
+    Course {
+        before: (tension_pn != 0.0).then_some(tension).into_iter().collect(),
+        load: 1,
+        forces_pn,
+        far_end: Some(Slides::Freely),
+        length_nm: 0.0,
+        along: Vector3::x(),
+        read: |force, moved, _| (format!("nm/pN at {force} pN"), moved / force),
+    }
+}
+
+/// Turned by so much per length of Tables 3 and 5, then pulled along.
+fn along(length_nm: f64, turn_deg: f64, forces_pn: &[f64]) -> Course<'_> {
+    let turned = turn(End::End, turn_deg * length_nm / TURNED_NM);
+    Course {
+        before: (turn_deg != 0.0).then_some(turned).into_iter().collect(),
+        load: 0,
+        forces_pn,
+        far_end: Some(Slides::AlongAxis),
+        length_nm,
+        along: Vector3::z(),
+        read: |force, moved, length| (format!("S3 at {force} pN (pN)"), force * length / moved),
     }
 }
 
@@ -323,7 +321,7 @@ fn buckled(turn_deg: f64, made: &Made) -> Result<Found, String> {
     let mut scene = scenario("figure-8/rod-140.ron")?;
     let length_nm = length(BUCKLED);
     scene.filament = made.filament(length_nm);
-    if let (Task::Equilibrium(task), false) = (&mut scene.task, made.is_monomers()) {
+    if let (Task::Equilibrium(task), Made::Rod(_)) = (&mut scene.task, made) {
         (task.iterations, task.smallest_step) = (ROD_ITERATIONS, ROD_STEP);
     }
     for clamp in &mut scene.clamps {

@@ -19,15 +19,19 @@ struct Kept {
     outcome: Result<Found, String>,
 }
 
-/// What a filament of monomers does, from its file if that has the same key.
+/// What a filament of monomers does, from its file if that has the same key, and whether it came from there;
+/// without a folder it is computed.
 ///
 /// # Errors
 /// A file that cannot be written. A filament without an equilibrium is an outcome, which is kept too.
 pub(super) fn kept(
-    folder: &Path,
+    folder: Option<&Path>,
     case: &Case,
     made: &Made,
 ) -> Result<(Result<Found, String>, bool), String> {
+    let Some(folder) = folder else {
+        return Ok((solve(case, made), false));
+    };
     let monomers = Monomers::default();
     let key = format!("version {VERSION}, {case:?}, {made:?}, {monomers:?}");
     let path = folder.join(format!("{}-{}.json", case.file(), made.name()));
@@ -55,15 +59,15 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut case = case::guided(Group::Beside, 9, 5.0);
         let made = Made::Mean { azimuth_deg: 0.0 };
-        let (first, was_there) = kept(folder.path(), &case, &made).unwrap();
+        let (first, was_there) = kept(Some(folder.path()), &case, &made).unwrap();
         assert!(!was_there && first.as_ref().unwrap().values.len() == 2);
-        let (again, was_there) = kept(folder.path(), &case, &made).unwrap();
+        let (again, was_there) = kept(Some(folder.path()), &case, &made).unwrap();
         assert!(was_there);
         assert_eq!(again, first);
         if let case::Kind::Guided { forces_pn, .. } = &mut case.kind {
             forces_pn.truncate(1);
         }
-        let (other, was_there) = kept(folder.path(), &case, &made).unwrap();
+        let (other, was_there) = kept(Some(folder.path()), &case, &made).unwrap();
         assert!(!was_there);
         assert_eq!(other.unwrap().values, first.unwrap().values[..1]);
     }

@@ -19,7 +19,7 @@ const DRAG: f64 = 5.0;
 const WARM_UP_NS: f64 = 5.0;
 const APART_NS: f64 = 0.25;
 /// Samples of one replica.
-const SAMPLES: u64 = 400;
+const SAMPLES: u32 = 400;
 /// Replicas, which differ in noise.
 const REPLICAS: u64 = 96;
 const QUICK_REPLICAS: u64 = 8;
@@ -99,7 +99,7 @@ fn replica(law: &RodLaw, replica: u64) -> Result<Turns, String> {
     let mut turns = Turns::new(rest.frames.len());
     advance_in(&mut assembly.system, &PEFRL, step, warm_up, &bath, 0);
     for sample in 0..SAMPLES {
-        let first = warm_up + sample * apart;
+        let first = warm_up + u64::from(sample) * apart;
         advance_in(&mut assembly.system, &PEFRL, step, apart, &bath, first);
         turns.add(&rest, assembly.system.state(), SAMPLES as usize);
     }
