@@ -8,7 +8,7 @@ use std::path::PathBuf;
 /// What is computed, and how.
 #[derive(clap::Args, Clone, Debug)]
 pub(crate) struct Options {
-    /// Which: fig1 to fig10, table1 to table5. All by default.
+    /// Which: fig1 to fig10, table1 to table5, law. All by default.
     ids: Vec<String>,
     /// Where to write pictures, tables and reports.
     #[arg(long, default_value = "target/figures")]

@@ -14,6 +14,7 @@ mod extremes;
 mod figures;
 mod fit;
 mod homogenise;
+mod load_cases;
 mod tidy;
 mod tradeoff;
 mod trials;
@@ -45,6 +46,8 @@ enum Task {
     FitParameters(fit::Options),
     /// Measures what monomers store per length under all strains, on a grid.
     Homogenise(homogenise::Options),
+    /// Measures how far rods under a law are from filaments of monomers, load case by load case.
+    LoadCases(load_cases::Options),
     /// Computes figures and tables of the paper and compares them with it.
     ReproduceFigures(figures::Options),
     /// Checks or writes the generated pages of the book: keys of scenes, tables of results.
@@ -64,6 +67,7 @@ fn main() -> ExitCode {
         Task::Extremes(options) => extremes::run(options),
         Task::FitParameters(options) => fit::run(options),
         Task::Homogenise(options) => homogenise::run(options),
+        Task::LoadCases(options) => load_cases::run(options),
         Task::ReproduceFigures(options) => figures::run(options),
         Task::Docs(options) => docs::run(&options).map_err(anyhow::Error::msg),
         Task::Tradeoff(options) => tradeoff::run(options),

@@ -7,6 +7,7 @@
 //! - [`fit`]: laws of the rod fitted to measured rows.
 //! - [`bonds`]: which bonds monomers have, and what depends on it.
 //! - [`homogenise`]: what monomers store per length under all six strains.
+//! - [`load_cases`]: how far rods under a law are from monomers, load case by load case.
 //! - [`tradeoff`]: what each saving of time costs in accuracy.
 //! - [`extremes`]: every number of a scene, taken to where it breaks.
 //! - [`costs`]: what scenes cost, beside what was estimated.
@@ -27,6 +28,7 @@ pub mod extremes;
 pub mod figures;
 pub mod fit;
 pub mod homogenise;
+pub mod load_cases;
 pub mod measure;
 mod palette;
 mod published;

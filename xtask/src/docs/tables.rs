@@ -24,6 +24,9 @@ pub(super) fn files(rows: &[Row]) -> BTreeMap<String, String> {
 
 /// `fig4` is Figure 4.
 fn title(artefact: &str) -> String {
+    if artefact == "law" {
+        return "The law of the rod".to_owned();
+    }
     let (kind, number) = artefact.split_at(artefact.len() - digits_at_end(artefact));
     let kind = if kind == "fig" { "Figure" } else { "Table" };
     format!("{kind} {number}")
@@ -33,10 +36,14 @@ fn digits_at_end(text: &str) -> usize {
     text.chars().rev().take_while(char::is_ascii_digit).count()
 }
 
-/// Figures before tables, by number.
-fn order(artefact: &str) -> (bool, u32) {
+/// Figures before tables, by number, and before the law.
+fn order(artefact: &str) -> (u8, u32) {
     let number = &artefact[artefact.len() - digits_at_end(artefact)..];
-    (artefact.starts_with("table"), number.parse().unwrap_or(0))
+    let kinds = ["fig", "table"].into_iter();
+    let kind = (0..)
+        .zip(kinds)
+        .find(|(_, kind)| artefact.starts_with(kind));
+    (kind.map_or(2, |(k, _)| k), number.parse().unwrap_or(0))
 }
 
 /// Every row with a verdict, artefact by artefact.

@@ -13,7 +13,8 @@ mod figure7;
 mod figure9;
 mod html;
 mod kept;
-mod linked;
+mod law;
+pub(crate) mod linked;
 mod progress;
 mod schematics;
 mod settles;
@@ -33,7 +34,7 @@ use std::path::{Path, PathBuf};
 /// What is computed, and how.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Which: fig1 to fig10, table1 to table5; all if none is named.
+    /// Which: fig1 to fig10, table1 to table5, law; all if none is named.
     pub ids: Vec<String>,
     /// Where to write pictures, tables and reports.
     pub out: PathBuf,
@@ -69,7 +70,7 @@ struct Run<'a> {
 type Recipe = (&'static str, fn(Run<'_>) -> Result<Artefact, String>);
 
 /// The artefacts that exist.
-const RECIPES: [Recipe; 15] = [
+const RECIPES: [Recipe; 16] = [
     ("fig1", schematics::figure1),
     ("fig2", schematics::figure2),
     ("fig3", schematics::figure3),
@@ -85,6 +86,7 @@ const RECIPES: [Recipe; 15] = [
     ("table3", tables::table3),
     ("table4", tables::table4),
     ("table5", tables::table5),
+    ("law", law::reproduce),
 ];
 
 /// Computes the artefacts that are asked for, or takes them from an earlier run, and writes pictures,

@@ -38,23 +38,23 @@ impl Evidence {
 }
 
 /// The equilibrium at the end of a stage.
-pub(super) struct Stop {
-    pub(super) state: State,
-    pub(super) evidence: Evidence,
+pub(crate) struct Stop {
+    pub(crate) state: State,
+    pub(crate) evidence: Evidence,
 }
 
 /// The stops of a path, and why it ended early if it did.
-pub(super) struct Course {
-    pub(super) assembly: Assembly,
-    pub(super) stops: Vec<Stop>,
-    pub(super) ended: Option<Box<PathFailure>>,
+pub(crate) struct Course {
+    pub(crate) assembly: Assembly,
+    pub(crate) stops: Vec<Stop>,
+    pub(crate) ended: Option<Box<PathFailure>>,
 }
 
 /// Follows the path of `scene` from stage to stage.
 ///
 /// # Errors
 /// A scene or settings that are refused.
-pub(super) fn follow(scene: &Scene) -> Result<Course, MeasureError> {
+pub(crate) fn follow(scene: &Scene) -> Result<Course, MeasureError> {
     scene.validate()?;
     let assembly = Assembly::build(scene)?;
     let Task::Equilibrium(settings) = &scene.task else {

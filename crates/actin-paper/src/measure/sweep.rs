@@ -133,7 +133,7 @@ pub(super) fn across(azimuth_deg: f64) -> Vector3 {
 }
 
 /// Force and torque on the filament at a held end.
-pub(super) fn reaction(assembly: &Assembly, state: &State, end: End) -> Reaction {
+pub(crate) fn reaction(assembly: &Assembly, state: &State, end: End) -> Reaction {
     let mut loads = Loads::zeros(state);
     for interaction in assembly.system.interactions() {
         interaction.add_loads(state, &mut loads);
@@ -145,7 +145,7 @@ pub(super) fn reaction(assembly: &Assembly, state: &State, end: End) -> Reaction
 }
 
 /// How far the clamped point at the far end has moved since rest (nm, lab frame).
-pub(super) fn far_end_shift(assembly: &Assembly, state: &State) -> Vector3 {
+pub(crate) fn far_end_shift(assembly: &Assembly, state: &State) -> Vector3 {
     let clamp = assembly.clamps.iter().find(|clamp| clamp.end == End::End);
     let clamp = clamp.expect("protocols ask for ends that they hold");
     clamp.point_nm(state) - clamp.point_nm(&assembly.rest)

@@ -1,6 +1,8 @@
 //! Centre lines as functions of arc length, to be compared at equal s whatever resolves them.
 
-use actin_sim::{Assembly, Record};
+use actin_mechanics::State;
+use actin_sim::Assembly;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// A place or a direction (lab frame).
@@ -10,8 +12,8 @@ type Triple = [f64; 3];
 const SAMPLING_NM: f64 = 1.0;
 
 /// Points of a centre line in order of arc length.
-#[derive(Clone, Debug)]
-pub(super) struct CentreLine {
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub(crate) struct CentreLine {
     s: Vec<f64>,
     places: Vec<Triple>,
     /// Tangents `dr/ds` at nodes of rods; monomers have none.
@@ -19,11 +21,11 @@ pub(super) struct CentreLine {
 }
 
 impl CentreLine {
-    /// The centre line of a recorded state.
-    pub(super) fn of(assembly: &Assembly, record: &Record) -> Self {
+    /// The centre line of filament 0 in a state.
+    pub(crate) fn of(assembly: &Assembly, state: &State) -> Self {
         let n = assembly.points.len();
         let s: Vec<f64> = assembly.points.iter().map(|p| p.s_nm).collect();
-        let place = |i| assembly.centre_line_nm(&record.state, i).into();
+        let place = |i| assembly.centre_line_nm(state, i).into();
         let places: Vec<Triple> = (0..n).map(place).collect();
         let mut tangents = vec![None; n];
         for section in assembly.sections.iter().filter(|s| !s.is_ellipsoids()) {
@@ -75,7 +77,7 @@ impl CentreLine {
     }
 
     /// Largest distance to `other` at equal arc length (nm), and where that is (nm).
-    pub(super) fn farthest_from(&self, other: &Self) -> (f64, f64) {
+    pub(crate) fn farthest_from(&self, other: &Self) -> (f64, f64) {
         let ends = |line: &Self| (line.s[0], line.s[line.s.len() - 1]);
         let ((a, b), (c, d)) = (ends(self), ends(other));
         let (from, to) = (a.max(c), b.min(d));

@@ -5,7 +5,7 @@
 //! dynamics from the built state, whose anchors stand away from the sites at once.
 
 mod case;
-mod centre_line;
+pub(crate) mod centre_line;
 mod pictures;
 mod rows;
 mod solve;

@@ -154,7 +154,7 @@ fn describe(assembly: &Assembly, last: &Record, report: &actin_sim::Outcome) -> 
         lowest: known.and_then(|e| e.lowest_eigenvalue),
         iterations: known.map_or(0, |e| e.newton_iterations),
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
-        centre_line: CentreLine::of(assembly, last),
+        centre_line: CentreLine::of(assembly, &last.state),
         monomers: monomers
             .map(|i| last.state.points.position.get(i).into())
             .collect(),
@@ -180,7 +180,7 @@ fn motion(scene: &Scene) -> Result<Motion, String> {
         run_to_end(&mut assembly).map_err(|error| format!("dynamics: {error}"))?;
     let last = trajectory.records.last().ok_or("no record")?;
     let limit = balance(scene, &Start::State(last))?;
-    let end = CentreLine::of(&assembly, last);
+    let end = CentreLine::of(&assembly, &last.state);
     let energies = |record: &Record| {
         let potential = record.potential_pn_nm();
         [

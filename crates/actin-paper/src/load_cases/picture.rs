@@ -1,0 +1,60 @@
+//! Errors of all laws over their bounds, case by case.
+
+use super::bound::Bound;
+use super::row::Row;
+use crate::palette;
+use actin_draw::{Chart, Series};
+use std::path::Path;
+
+/// Errors below this share of their bound are drawn as it.
+const LEAST: f64 = 1e-2;
+
+/// Draws `load-cases.svg`: the logarithm of each error against the mean filament over its bound, in the order of
+/// the table.
+pub(super) fn draw(out: &Path, rows: &[Row]) -> Result<(), String> {
+    let judged: Vec<&Row> = rows.iter().filter(|r| r.bound != Bound::Open).collect();
+    let places = distinct(judged.iter().map(|row| (&*row.case, &*row.quantity)));
+    let laws = distinct(judged.iter().map(|row| &*row.law));
+    let mut series = vec![Series {
+        label: Some("bound".to_owned()),
+        colour: palette::GREY,
+        points: vec![(0.0, 0.0), (places.len() as f64 + 1.0, 0.0)],
+        dots: false,
+    }];
+    for (k, law) in laws.iter().enumerate() {
+        let own = judged.iter().filter(|row| row.law == *law);
+        series.push(Series {
+            label: Some((*law).to_owned()),
+            colour: palette::line(k),
+            points: own.filter_map(|row| point(row, &places)).collect(),
+            dots: true,
+        });
+    }
+    let chart = Chart {
+        title: "Errors of rods against the mean filament, over their bounds",
+        x_label: "quantity, in the order of the table",
+        y_label: "log10 of error over bound",
+        series,
+        equal_axes: false,
+    };
+    chart.draw(&out.join("load-cases.svg"))
+}
+
+/// Each once, in the order in which they come.
+fn distinct<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
+    let mut kept = Vec::new();
+    for one in all {
+        if !kept.contains(&one) {
+            kept.push(one);
+        }
+    }
+    kept
+}
+
+/// Place in the table and logarithm; none where there is no error.
+fn point(row: &Row, places: &[(&str, &str)]) -> Option<(f64, f64)> {
+    let own = (&*row.case, &*row.quantity);
+    let place = places.iter().position(|place| *place == own)?;
+    let share = row.shares_of_bound()[0].filter(|share| share.is_finite())?;
+    Some((place as f64 + 1.0, share.max(LEAST).log10()))
+}

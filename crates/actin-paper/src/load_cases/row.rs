@@ -1,0 +1,252 @@
+//! A rod under one law beside monomers, in one quantity of one case.
+
+use super::bound::{Bound, Group};
+use super::solve::Found;
+use crate::measure::Sampled;
+
+/// A row of the table.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Row {
+    pub group: Group,
+    pub case: String,
+    pub quantity: String,
+    pub law: String,
+    /// The mean filament, over azimuths.
+    pub mean: Option<Sampled>,
+    /// Filaments of drawn bonds, over samplings and azimuths.
+    pub drawn: Option<Sampled>,
+    /// The rod with segments of 10 nm, and of 2.5 nm.
+    pub rod: Option<f64>,
+    pub fine: Option<f64>,
+    /// Errors against the mean filament and the drawn ones, and that of the fine rod against the mean one:
+    /// relative, or the distance of centre lines (nm), or a spread over resolutions.
+    pub error_mean: Option<f64>,
+    pub error_drawn: Option<f64>,
+    pub error_fine: Option<f64>,
+    /// What single filaments of drawn bonds differ by, in the same measure.
+    pub scatter: Option<f64>,
+    pub bound: Bound,
+    /// What else to know.
+    pub note: String,
+}
+
+/// Filaments of monomers under a case.
+#[derive(Clone, Debug)]
+pub(super) struct Monomers {
+    /// The mean filament at some azimuths.
+    pub mean: Vec<Found>,
+    /// Filaments of drawn bonds.
+    pub drawn: Vec<Found>,
+    /// Filaments without an equilibrium.
+    pub failures: Vec<String>,
+}
+
+/// The rod under a case: with segments of 10 nm, and of 2.5 nm.
+pub(super) type Rods = [Result<Found, String>; 2];
+
+/// Writhe by which equilibria differ that count as two (turns).
+const OTHER_STATE: f64 = 0.1;
+
+impl Row {
+    /// Whether the rod is within the bound, against the mean filament and against drawn ones; none where
+    /// there is nothing to decide. A rod without an equilibrium is not.
+    pub(super) fn is_met(&self) -> [Option<bool>; 2] {
+        let against = |error: Option<f64>| {
+            let error = error.unwrap_or(f64::INFINITY);
+            self.bound.is_met(error, self.scatter)
+        };
+        let has_drawn = !matches!(self.bound, Bound::Spread(_));
+        [
+            against(self.error_mean),
+            has_drawn.then(|| against(self.error_drawn)).flatten(),
+        ]
+    }
+
+    /// Whether any verdict is bad.
+    pub(super) fn is_missed(&self) -> bool {
+        self.is_met().contains(&Some(false))
+    }
+
+    /// Errors against the mean filament and drawn ones over the bound.
+    pub(super) fn shares_of_bound(&self) -> [Option<f64>; 2] {
+        let bound = match self.bound {
+            Bound::Relative(bound) | Bound::Distance(bound) | Bound::Spread(bound) => Some(bound),
+            Bound::Scatter => self.scatter,
+            Bound::Open => None,
+        };
+        let share = |error: Option<f64>| Some(error?.abs() / bound?);
+        [self.error_mean, self.error_drawn].map(share)
+    }
+}
+
+/// All rows of a case under one law.
+pub(super) fn rows(
+    group: Group,
+    case: &str,
+    law: &str,
+    monomers: &Monomers,
+    rods: &Rods,
+) -> Vec<Row> {
+    let first = monomers.mean.first();
+    let names = first.map_or(&[][..], |found| &found.values).iter();
+    let row = |quantity: &str| Row {
+        group,
+        case: case.to_owned(),
+        quantity: quantity.to_owned(),
+        law: law.to_owned(),
+        mean: None,
+        drawn: None,
+        rod: None,
+        fine: None,
+        error_mean: None,
+        error_drawn: None,
+        error_fine: None,
+        scatter: None,
+        bound: group.bound(quantity),
+        note: note(monomers, rods),
+    };
+    let mut all: Vec<Row> = names
+        .map(|(name, _)| value_row(row(name), monomers, rods))
+        .collect();
+    if first.is_some_and(|found| found.line.is_some()) {
+        all.push(shape_row(row("shape"), monomers, rods));
+    }
+    all
+}
+
+fn value_row(row: Row, monomers: &Monomers, rods: &Rods) -> Row {
+    let sampled = |found: &[Found]| {
+        let values: Vec<f64> = found
+            .iter()
+            .filter_map(|f| f.value(&row.quantity))
+            .collect();
+        (!values.is_empty()).then(|| Sampled::of(values))
+    };
+    let [rod, fine] = rods
+        .each_ref()
+        .map(|rod| rod.as_ref().ok()?.value(&row.quantity));
+    let (mean, drawn) = (sampled(&monomers.mean), sampled(&monomers.drawn));
+    let error = |rod: Option<f64>, of: Option<Sampled>| {
+        rod.zip(of).map(|(rod, of)| (rod - of.mean) / of.mean.abs())
+    };
+    Row {
+        error_mean: error(rod, mean),
+        error_drawn: error(rod, drawn),
+        error_fine: error(fine, mean),
+        scatter: drawn
+            .map(|d| d.deviation / d.mean.abs())
+            .filter(|s| s.is_finite()),
+        mean,
+        drawn,
+        rod,
+        fine,
+        ..row
+    }
+}
+
+/// Mean distances of centre lines (nm).
+fn shape_row(row: Row, monomers: &Monomers, rods: &Rods) -> Row {
+    let mean_of = |distances: Vec<f64>| {
+        (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)
+    };
+    let between = |a: &Found, b: &Found| {
+        let lines = a.line.as_ref().zip(b.line.as_ref());
+        lines.map(|(a, b)| a.farthest_from(b).0)
+    };
+    let to = |rod: &Result<Found, String>, others: &[Found]| {
+        let rod = rod.as_ref().ok()?;
+        mean_of(
+            others
+                .iter()
+                .filter_map(|other| between(rod, other))
+                .collect(),
+        )
+    };
+    let drawn = &monomers.drawn;
+    let pairs = (0..drawn.len()).flat_map(|i| (0..i).map(move |k| (i, k)));
+    let apart = pairs.filter_map(|(i, k)| between(&drawn[i], &drawn[k]));
+    Row {
+        error_mean: to(&rods[0], &monomers.mean),
+        error_drawn: to(&rods[0], drawn),
+        error_fine: to(&rods[1], &monomers.mean),
+        scatter: mean_of(apart.collect()),
+        ..row
+    }
+}
+
+/// Where states differ, are doubtful, or are missing.
+fn note(monomers: &Monomers, rods: &Rods) -> String {
+    let mut all = Vec::new();
+    let filaments = || monomers.mean.iter().chain(&monomers.drawn);
+    let count = |what: fn(&Found) -> bool| filaments().filter(|found| what(found)).count();
+    let total = filaments().count();
+    for (number, what) in [
+        (count(|f| f.doubtful > 0), "not certified as minima"),
+        (count(|f| f.jumps > 0), "with jumps"),
+        (count(|f| !f.unreached.is_empty()), "with paths that ended"),
+    ] {
+        if number > 0 {
+            all.push(format!("{number} of {total} filaments of monomers {what}"));
+        }
+    }
+    if !monomers.failures.is_empty() {
+        let number = monomers.failures.len();
+        all.push(format!(
+            "{number} filaments of monomers without equilibrium"
+        ));
+    }
+    match &rods[0] {
+        Ok(rod) => {
+            let is_other = |found: &&Found| {
+                let both = found.writhe.zip(rod.writhe);
+                both.is_some_and(|(a, b)| (a - b).abs() > OTHER_STATE)
+            };
+            let others = filaments().filter(is_other).count();
+            if others > 0 {
+                all.push(format!(
+                    "{others} of {total} filaments of monomers in another state"
+                ));
+            }
+            all.extend((rod.doubtful > 0).then(|| "rod not certified".to_owned()));
+            all.extend(rod.unreached.iter().map(|why| format!("rod: {why}")));
+        }
+        Err(error) => all.push(format!("rod: {error}")),
+    }
+    all.join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(tip: f64) -> Found {
+        Found {
+            values: vec![("tip".to_owned(), tip)],
+            ..Found::default()
+        }
+    }
+
+    /// Against a mean of 10 a rod of 10.1 is 1 % off and within 2 %; of drawn ones that are softer it is not.
+    #[test]
+    fn errors_count_against_both() {
+        let monomers = |drawn: [f64; 2]| Monomers {
+            mean: vec![found(9.9), found(10.1)],
+            drawn: drawn.map(found).into(),
+            failures: Vec::new(),
+        };
+        let rods = || [Ok(found(10.1)), Ok(found(10.0))];
+        let row = |drawn| rows(Group::Cantilever, "c", "Law", &monomers(drawn), &rods()).remove(0);
+        let near = row([9.9, 10.1]);
+        assert!((near.error_mean.unwrap() - 0.01).abs() < 1e-12);
+        assert!(near.error_fine.unwrap().abs() < 1e-12);
+        assert_eq!(near.is_met(), [Some(true); 2]);
+        let far = row([10.5, 10.7]);
+        assert_eq!(far.is_met(), [Some(true), Some(false)]);
+        assert!(far.is_missed() && !near.is_missed());
+        assert!((far.shares_of_bound()[1].unwrap() - (0.5 / 10.6) / 0.02).abs() < 1e-9);
+        let lost: Rods = [Err("no".into()), Err("no".into())];
+        let rows = rows(Group::Cantilever, "c", "Law", &monomers([9.9, 10.1]), &lost);
+        assert_eq!(rows[0].is_met(), [Some(false); 2]);
+        assert_eq!(rows[0].note, "rod: no");
+    }
+}

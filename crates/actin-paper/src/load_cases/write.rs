@@ -1,0 +1,270 @@
+//! The table as CSV and as Markdown.
+
+use super::bound::{Bound, Group};
+use super::row::Row;
+use crate::Tell;
+use crate::measure::Sampled;
+use actin_draw::report::{save, write_csv};
+use std::fmt::Write as _;
+use std::path::Path;
+
+const HEADER: [&str; 22] = [
+    "group",
+    "case",
+    "quantity",
+    "law",
+    "mean_filament",
+    "mean_filament_sd",
+    "azimuths",
+    "drawn",
+    "drawn_sd",
+    "filaments",
+    "rod",
+    "rod_fine",
+    "error_mean",
+    "error_drawn",
+    "error_fine",
+    "scatter",
+    "bound",
+    "share_of_bound_mean",
+    "share_of_bound_drawn",
+    "met_mean",
+    "met_drawn",
+    "note",
+];
+
+/// Writes `load-cases.csv`.
+pub(super) fn csv(out: &Path, rows: &[Row]) -> Result<(), String> {
+    write_csv(out, "load-cases.csv", &HEADER, rows.iter().map(cells))
+}
+
+fn cells(row: &Row) -> Vec<String> {
+    let number = |value: Option<f64>| {
+        let finite = value.filter(|v| v.is_finite());
+        finite.map_or(String::new(), |v| format!("{v:.6e}"))
+    };
+    let sampled = |sampled: Option<Sampled>| {
+        let count = sampled.map_or(0, |s| s.count).to_string();
+        [
+            number(sampled.map(|s| s.mean)),
+            number(sampled.map(|s| s.deviation)),
+            count,
+        ]
+    };
+    let mut all = vec![
+        row.group.name().to_owned(),
+        row.case.clone(),
+        row.quantity.clone(),
+        row.law.clone(),
+    ];
+    all.extend(sampled(row.mean));
+    all.extend(sampled(row.drawn));
+    let others = [
+        row.rod,
+        row.fine,
+        row.error_mean,
+        row.error_drawn,
+        row.error_fine,
+        row.scatter,
+    ];
+    all.extend(others.map(number));
+    all.push(row.bound.text());
+    all.extend(row.shares_of_bound().map(number));
+    all.extend(row.is_met().map(|met| yes_or_no(met).to_owned()));
+    all.push(row.note.clone());
+    all
+}
+
+fn yes_or_no(met: Option<bool>) -> &'static str {
+    match met {
+        Some(true) => "yes",
+        Some(false) => "no",
+        None => "",
+    }
+}
+
+/// How many bounds are met, and the largest error over its bound, in words.
+fn score(rows: &[&Row], against: usize) -> [String; 2] {
+    let verdicts = || rows.iter().filter_map(|row| row.is_met()[against]);
+    let (judged, good) = (verdicts().count(), verdicts().filter(|met| *met).count());
+    let shares = rows.iter().filter_map(|row| row.shares_of_bound()[against]);
+    let worst = shares.reduce(f64::max);
+    if judged == 0 {
+        return [String::new(), String::new()];
+    }
+    [
+        format!("{good} of {judged}"),
+        worst.map_or(String::new(), |worst| format!("{worst:.2}")),
+    ]
+}
+
+/// The page of the book.
+pub(super) fn page(rows: &[Row]) -> String {
+    let mut text = "# Load cases\n\n\
+        Computed by `cargo xtask load-cases --write`: every case that a law of rods has to meet. Mean filament: \
+        weighted bonds, over azimuths. Drawn: filaments of 64 drawn bonds, over samplings and azimuths, ± the \
+        standard deviation of one. Errors of the rod (segments of 10 nm; fine: 2.5 nm, against the mean \
+        filament) are relative, those of a shape mean distances, those of mixed filaments spreads over \
+        resolutions. Worst: the largest error over its bound.\n"
+        .to_owned();
+    text += "\n| case | law | met, mean | worst | met, drawn | worst |\n\
+             | --- | --- | ---: | ---: | ---: | ---: |\n";
+    for (group, law) in pairs(rows) {
+        let own: Vec<&Row> = of_pair(rows, group, law);
+        let ([met, worst], [met_drawn, worst_drawn]) = (score(&own, 0), score(&own, 1));
+        let name = group.name();
+        _ = writeln!(
+            text,
+            "| {name} | {law} | {met} | {worst} | {met_drawn} | {worst_drawn} |"
+        );
+    }
+    for group in Group::ALL {
+        let own: Vec<&Row> = rows.iter().filter(|row| row.group == group).collect();
+        if !own.is_empty() {
+            text += &section(group, &own);
+        }
+    }
+    text
+}
+
+fn of_pair<'a>(rows: &'a [Row], group: Group, law: &str) -> Vec<&'a Row> {
+    let own = rows.iter();
+    own.filter(|row| row.group == group && row.law == law)
+        .collect()
+}
+
+/// Groups that have a bound, with each law.
+fn pairs(rows: &[Row]) -> Vec<(Group, &str)> {
+    let mut all: Vec<(Group, &str)> = Vec::new();
+    for row in rows.iter().filter(|row| row.bound != Bound::Open) {
+        let pair = (row.group, row.law.as_str());
+        if !all.contains(&pair) {
+            all.push(pair);
+        }
+    }
+    all
+}
+
+fn section(group: Group, rows: &[&Row]) -> String {
+    let mut text = format!(
+        "\n## {}\n\n| case | quantity | mean filament | drawn | law | rod | error, mean | error, drawn | fine | bound \
+         |\n| --- | --- | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: |\n",
+        group.name()
+    );
+    let mut notes: Vec<String> = Vec::new();
+    let mut before = None;
+    for row in rows {
+        let own = (&row.case, &row.quantity);
+        text += &line(row, before.replace(own) == Some(own));
+        let note = format!("- {}, {}: {}", row.case, row.law, row.note);
+        if !row.note.is_empty() && !notes.contains(&note) {
+            notes.push(note);
+        }
+    }
+    if !notes.is_empty() {
+        _ = write!(text, "\n{}\n", notes.join("\n"));
+    }
+    text
+}
+
+/// A line of the table; errors beyond their bound are bold. What the line before says is left out.
+fn line(row: &Row, is_same: bool) -> String {
+    let once = |text: String| if is_same { String::new() } else { text };
+    let error = |value: Option<f64>, met: Option<bool>| {
+        let text = value.map_or("–".to_owned(), |v| shown(row, v));
+        if met == Some(false) {
+            format!("**{text}**")
+        } else {
+            text
+        }
+    };
+    let [mean, drawn] = row.is_met();
+    let cells = [
+        once(row.case.clone()),
+        once(row.quantity.clone()),
+        once(row.mean.map_or(String::new(), |s| digits(s.mean))),
+        once(row.drawn.map_or(String::new(), with_sd)),
+        row.law.clone(),
+        row.rod.map_or(String::new(), digits),
+        error(row.error_mean, mean),
+        error(row.error_drawn, drawn),
+        error(row.error_fine, None),
+        row.bound.text(),
+    ];
+    format!("| {} |\n", cells.join(" | "))
+}
+
+fn shown(row: &Row, error: f64) -> String {
+    match row.bound {
+        Bound::Distance(_) => format!("{error:.2} nm"),
+        Bound::Spread(_) => format!("{:.1} %", 100.0 * error),
+        _ => format!("{:+.1} %", 100.0 * error),
+    }
+}
+
+fn with_sd(sampled: Sampled) -> String {
+    let sd = sampled.deviation;
+    if sd.is_finite() {
+        format!("{} ± {}", digits(sampled.mean), digits_of(sd, 2))
+    } else {
+        digits(sampled.mean)
+    }
+}
+
+fn digits(value: f64) -> String {
+    digits_of(value, 4)
+}
+
+/// A number with so many significant digits.
+fn digits_of(value: f64, significant: u8) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let magnitude = value.abs().log10().floor();
+    if !(-3.0..6.0).contains(&magnitude) {
+        return format!("{value:.*e}", usize::from(significant) - 1);
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "between -3 and 5")]
+    let decimals = i32::from(significant) - 1 - magnitude as i32;
+    format!("{value:.*}", usize::try_from(decimals).unwrap_or(0))
+}
+
+/// Writes `load-cases.md` into a folder.
+pub(super) fn page_into(folder: &Path, page: &str) -> Result<(), String> {
+    save(folder, "load-cases.md", page)
+}
+
+/// Prints, by law, how many bounds are met, and each that is missed.
+pub(super) fn tell_summary(rows: &[Row], tell: Tell<'_>) {
+    for (group, law) in pairs(rows) {
+        let own = of_pair(rows, group, law);
+        let [mean, drawn] = [0, 1].map(|against| score(&own, against)[0].clone());
+        let name = group.name();
+        tell(format_args!(
+            "{law:>14} {name:28} mean {mean:>9}, drawn {drawn:>9}"
+        ));
+    }
+    for row in rows.iter().filter(|row| row.is_missed()) {
+        let error = |value: Option<f64>| value.map_or("none".to_owned(), |v| shown(row, v));
+        tell(format_args!(
+            "missed: {:>12} {}: {}, {} (mean), {} (drawn), bound {}",
+            row.law,
+            row.case,
+            row.quantity,
+            error(row.error_mean),
+            error(row.error_drawn),
+            row.bound.text()
+        ));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_that_matter() {
+        let shown = [62.5312, -0.01234, 32950.4, 1.5e-5].map(digits);
+        assert_eq!(shown, ["62.53", "-0.01234", "32950", "1.500e-5"]);
+    }
+}

@@ -1,0 +1,37 @@
+//! `cargo xtask load-cases`: how far rods under a law are from filaments of monomers.
+
+use actin_paper::load_cases;
+use anyhow::{Error, Result};
+use std::path::PathBuf;
+
+/// What is measured, and where it goes.
+#[derive(clap::Args, Clone, Debug)]
+pub(crate) struct Options {
+    /// Laws by the names that scenes use.
+    #[arg(long, value_delimiter = ',', default_value = "Constant,Fitted")]
+    laws: Vec<String>,
+    /// Where to write tables and pictures; equilibria of monomers that are there are kept.
+    #[arg(long, default_value = "target/load-cases")]
+    out: PathBuf,
+    /// Fewer cases, azimuths and samplings.
+    #[arg(long)]
+    quick: bool,
+    /// Also into `docs/tables/load-cases.md`.
+    #[arg(long, conflicts_with = "quick")]
+    write: bool,
+    /// Instead, how much length is missing at the ends of short spans.
+    #[arg(long, conflicts_with = "write")]
+    ends: bool,
+}
+
+/// Measures, writes, draws and prints.
+pub(crate) fn run(options: Options) -> Result<()> {
+    let options = load_cases::Options {
+        out: options.out,
+        quick: options.quick,
+        laws: options.laws,
+        write: options.write,
+        ends: options.ends,
+    };
+    load_cases::run(&options, &|line| println!("{line}")).map_err(Error::msg)
+}
