@@ -44,7 +44,7 @@ const STEPS: usize = 30;
 const HALVINGS: i32 = 12;
 
 /// The same on paths of cells that are free to shear.
-const ON_PATHS: (f64, f64) = (6.0, 10.0);
+const ON_PATHS: (f64, f64) = (1.5, 1.5);
 
 /// The coefficients of some terms, one after the other.
 pub(super) fn columns(terms: &[Term]) -> Vec<(Term, usize)> {
@@ -84,7 +84,7 @@ fn weights(row: &Row) -> (f64, f64) {
     let is_small = curvature <= 1e-3 && shear <= 1e-3;
     let is_rest = is_small && twist.abs() < 4e-3 && (-1e-4..1e-3).contains(&row.extension);
     let of_tangent = match (is_small, is_rest) {
-        (_, true) => 10.0,
+        (_, true) => 8.0,
         (true, _) => 3.0,
         _ => 1.0,
     };
