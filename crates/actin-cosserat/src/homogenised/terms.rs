@@ -14,8 +14,8 @@ pub(crate) const SHEAR: f64 = 0.1;
 pub(crate) const BENT: f64 = 2.5e-3;
 /// Extension over which tension gives way to compression.
 pub(crate) const SLACK: f64 = 7e-5;
-/// What bending, shear and twist add to the extension at which bonds begin to give way (nm^2, 1, nm^2).
-pub(crate) const TIGHT: [f64; 3] = [20.0, 5.0, 20.0];
+/// What bending (nm), shear and twist (nm^2) add to the extension at which bonds begin to give way.
+pub(crate) const TIGHT: [f64; 3] = [0.35, 5.0, 20.0];
 
 /// One term: a function of the extension `e`, of `a = kappa_1^2 + kappa_2^2`, of `g = sigma_1^2 + sigma_2^2`, of
 /// `c = kappa_1 sigma_1 + kappa_2 sigma_2` and of the twist, times a polynomial of
@@ -35,7 +35,7 @@ pub enum Term {
     Twist,
     /// `E^2`: stretch.
     Stretch,
-    /// `y^3 / (y + 7e-5)` of `y = max(-x, 0)`, `x = e + 20 a + 5 g + 20 kappa_3^2`: bonds that are pushed together
+    /// `y^3 / (y + 7e-5)` of `y = max(-x, 0)`, `x = e + 0.35 r + 5 g + 20 kappa_3^2`: bonds that are pushed together
     /// give way, unless bending, shear or twist has tightened them.
     Compression,
     /// `A`: bending.
@@ -238,10 +238,12 @@ impl Term {
 
 /// [`Term::Compression`].
 fn compressed([e, a, g, _, k]: Invariants) -> InvariantJet {
-    let [of_a, of_g, of_k] = TIGHT;
-    let [value, slope, bend] = compression(e + of_a * a + of_g * g + of_k * k * k);
-    let by = [1.0, of_a, of_g, 0.0, 2.0 * of_k * k];
+    let [of_r, of_g, of_k] = TIGHT;
+    let r = root(a).map(|x| of_r * x);
+    let [value, slope, bend] = compression(e + r[0] + of_g * g + of_k * k * k);
+    let by = [1.0, r[1], of_g, 0.0, 2.0 * of_k * k];
     let mut second = by.map(|x| by.map(|y| bend * x * y));
+    second[1][1] += r[2] * slope;
     second[BY_TWIST][BY_TWIST] += 2.0 * of_k * slope;
     InvariantJet {
         value,

@@ -235,7 +235,7 @@ impl<S: Simd> Strained<S> {
         let [value, by_t] = jet(simd, natural, t);
         let e = simd.negate_mul_add_e_f64s(k, value, sigma[2]);
         let by_c = simd.mul_f64s(bent.fading, fading);
-        let (stretch, slack) = extended(simd, e, [a, g, k]);
+        let (stretch, slack) = extended(simd, e, [bent.root[0], g, k]);
         Self {
             bent,
             natural: simd.mul_add_e_f64s(simd.mul_f64s(k, slope), by_t, value),
@@ -254,9 +254,9 @@ impl<S: Simd> Strained<S> {
 /// `e`, `E` with its derivative, and what compression gives: `y^3 / (y + w)` with its derivative by the
 /// extension, of which `y` is the negative where bonds give way, else zero.
 #[inline(always)]
-fn extended<S: Simd>(simd: S, e: S::f64s, [a, g, k]: [S::f64s; 3]) -> ([S::f64s; 3], [S::f64s; 2]) {
-    let [of_a, of_g, of_k] = TIGHT.map(|each| simd.splat_f64s(each));
-    let mut x = simd.mul_add_e_f64s(of_a, a, simd.mul_f64s(of_k, simd.mul_f64s(k, k)));
+fn extended<S: Simd>(simd: S, e: S::f64s, [r, g, k]: [S::f64s; 3]) -> ([S::f64s; 3], [S::f64s; 2]) {
+    let [of_r, of_g, of_k] = TIGHT.map(|each| simd.splat_f64s(each));
+    let mut x = simd.mul_add_e_f64s(of_r, r, simd.mul_f64s(of_k, simd.mul_f64s(k, k)));
     x = simd.add_f64s(e, simd.mul_add_e_f64s(of_g, g, x));
     let y = simd.max_f64s(simd.neg_f64s(x), simd.splat_f64s(0.0));
     let sum = simd.add_f64s(y, simd.splat_f64s(SLACK));
@@ -291,7 +291,7 @@ impl<S: Simd> Strained<S> {
             by_t,
             pushed,
         } = self.slopes(simd, law);
-        let [of_a, of_g, of_k] = TIGHT.map(|each| simd.splat_f64s(each));
+        let [of_r, of_g, of_k] = TIGHT.map(|each| simd.splat_f64s(each));
         let coupled = simd.mul_f64s(by_coupling, self.coupling[0]);
         let (a_size, g_size) = (
             simd.splat_f64s(-CURVATURE.powi(-2)),
@@ -300,10 +300,11 @@ impl<S: Simd> Strained<S> {
         let [e, _, stretch_slope] = self.stretch;
         let mut by_e = simd.mul_add_e_f64s(by_stretch, stretch_slope, pushed);
         by_e = simd.mul_add_e_f64s(simd.splat_f64s(2.0 * law.any_stretch[0]), e, by_e);
+        let by_root = simd.mul_add_e_f64s(of_r, pushed, by_root);
         let mut by_a = simd.mul_f64s(by_root, self.bent.root[1]);
         by_a = simd.mul_add_e_f64s(by_bend, self.bent.bend[1], by_a);
         by_a = simd.mul_add_e_f64s(simd.mul_f64s(coupled, self.bent.fading), a_size, by_a);
-        by_a = twice(simd, simd.mul_add_e_f64s(of_a, pushed, by_a));
+        by_a = twice(simd, by_a);
         let [fading, _, shear_slope] = self.shear;
         let any = simd.splat_f64s(law.any_shear[0]);
         let mut by_g = simd.mul_add_e_f64s(by_shear, shear_slope, any);

@@ -44,7 +44,7 @@ const STEPS: usize = 30;
 const HALVINGS: i32 = 12;
 
 /// The same on paths of cells that are free to shear.
-const ON_PATHS: (f64, f64) = (1.5, 1.5);
+const ON_PATHS: (f64, f64) = (3.0, 3.0);
 
 /// The coefficients of some terms, one after the other.
 pub(super) fn columns(terms: &[Term]) -> Vec<(Term, usize)> {
