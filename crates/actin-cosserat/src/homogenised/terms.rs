@@ -15,7 +15,7 @@ pub(crate) const BENT: f64 = 2.5e-3;
 /// Extension over which tension gives way to compression.
 pub(crate) const SLACK: f64 = 7e-5;
 /// What bending (nm), shear and twist (nm^2) add to the extension at which bonds begin to give way.
-pub(crate) const TIGHT: [f64; 3] = [0.35, 5.0, 20.0];
+pub(crate) const TIGHT: [f64; 3] = [0.5, 5.0, 20.0];
 
 /// One term: a function of the extension `e`, of `a = kappa_1^2 + kappa_2^2`, of `g = sigma_1^2 + sigma_2^2`, of
 /// `c = kappa_1 sigma_1 + kappa_2 sigma_2` and of the twist, times a polynomial of
@@ -35,7 +35,7 @@ pub enum Term {
     Twist,
     /// `E^2`: stretch.
     Stretch,
-    /// `y^3 / (y + 7e-5)` of `y = max(-x, 0)`, `x = e + 0.35 r + 5 g + 20 kappa_3^2`: bonds that are pushed together
+    /// `y^3 / (y + 7e-5)` of `y = max(-x, 0)`, `x = e + 0.5 r + 5 g + 20 kappa_3^2`: bonds that are pushed together
     /// give way, unless bending, shear or twist has tightened them.
     Compression,
     /// `A`: bending.
@@ -64,6 +64,8 @@ pub enum Term {
     ShearTwice,
     /// `E r G`.
     StretchRootShear,
+    /// `E^2 r`: bent rods stretch more easily.
+    StretchTwiceRoot,
 }
 
 /// A function of one variable with its first and second derivative.
@@ -146,7 +148,7 @@ fn compression(x: f64) -> Jet {
 
 impl Term {
     /// All terms, in the order of the coefficients of a law.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::AnyStretch,
         Self::AnyBend,
         Self::AnyShear,
@@ -166,6 +168,7 @@ impl Term {
         Self::ShearCoupling,
         Self::ShearTwice,
         Self::StretchRootShear,
+        Self::StretchTwiceRoot,
     ];
 
     /// Degree of the polynomial in the twist.
@@ -174,6 +177,7 @@ impl Term {
             Self::AnyStretch | Self::AnyBend | Self::AnyShear => 0,
             Self::ShearTwice => 1,
             Self::Compression => 2,
+            Self::StretchTwiceRoot => 3,
             Self::StretchBend
             | Self::StretchCoupling
             | Self::ShearCoupling
@@ -215,6 +219,7 @@ impl Term {
             Self::ShearCoupling => coupled(ONE, ONE, shear),
             Self::ShearTwice => [ONE, ONE, times(shear, shear), ONE, ONE],
             Self::StretchRootShear => [stretch, r, shear, ONE, ONE],
+            Self::StretchTwiceRoot => [times(stretch, stretch), r, ONE, ONE, ONE],
         }
     }
 

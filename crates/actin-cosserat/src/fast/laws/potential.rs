@@ -32,6 +32,7 @@ pub(in crate::fast) struct Potential {
     shear_coupling: [f64; 5],
     shear_twice: [f64; 2],
     stretch_root_shear: [f64; 5],
+    stretch_twice_root: [f64; 4],
 }
 
 impl Potential {
@@ -58,6 +59,7 @@ impl Potential {
             shear_coupling: of(law, Term::ShearCoupling)?,
             shear_twice: of(law, Term::ShearTwice)?,
             stretch_root_shear: of(law, Term::StretchRootShear)?,
+            stretch_twice_root: of(law, Term::StretchTwiceRoot)?,
         })
     }
 }
@@ -345,6 +347,8 @@ impl<S: Simd> Strained<S> {
             &law.stretch_root_shear,
             [(0, stretch), (2, root), (3, shear)],
         );
+        let twice = [(0, stretch), (0, stretch), (2, root)];
+        sums.add_triple(&law.stretch_twice_root, twice);
         let [compression, slope] = jet(simd, &law.compression, t);
         Slopes {
             by: sums.by,

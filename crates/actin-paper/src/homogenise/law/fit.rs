@@ -77,7 +77,7 @@ fn weights(row: &Row) -> (f64, f64) {
     let weight = match (curvature == 0.0, shear == 0.0) {
         _ if row.extension < -1e-3 => 0.15,
         _ if row.extension < -1e-4 => 0.4,
-        (true, true) => 6.0,
+        (true, true) => 12.0,
         (false, false) => 1.0,
         _ => 1.5,
     };

@@ -61,7 +61,10 @@ const STEPS: [(&str, &[Term]); 9] = [
         ],
     ),
     ("shear twice", &[Term::ShearTwice]),
-    ("stretch, bending and shear", &[Term::StretchRootShear]),
+    (
+        "stretch, bending and shear",
+        &[Term::StretchRootShear, Term::StretchTwiceRoot],
+    ),
 ];
 
 /// Where the tangent is held positive, at how many strains: a little beyond the range, under compression, as short
