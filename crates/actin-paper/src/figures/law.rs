@@ -8,7 +8,7 @@ use std::time::Instant;
 /// The artefact.
 const ID: &str = "law";
 /// The law that is judged.
-const LAW: &str = "Fitted";
+const LAW: &str = "Homogenised";
 
 /// All load cases under the law.
 pub(super) fn reproduce(run: Run<'_>) -> Result<Artefact, String> {
