@@ -351,7 +351,7 @@ const REASONS: [Reason; 23] = [
         artefact: "law",
         quantities: &[
             "turned-+180-deg/",
-            "turned-180-deg/",
+            "Figures-8-and-10--180-deg-rods-at-the-ends/",
             "turned--180-deg/",
             "turned-+270-deg/",
             "turned--270-deg/",
