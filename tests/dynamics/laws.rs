@@ -99,9 +99,13 @@ fn steps_of_one_radian(case: Case) -> u32 {
 
 /// Fourth order in places, velocities, turns and angular momenta alike. A load that jumps, or one
 /// that is taken at curvatures of another moment than its strain, would measure 1 to 2.
+///
+/// Not under `Homogenised`: it gives way to compression within a stretch of 7e-5, which these swings cross, and
+/// measures orders of 2 to 3.2 at these steps.
 #[test]
 fn every_law_moves_with_order_four() {
-    for case in Case::all() {
+    let is_smooth = |case: &Case| case.law != "Homogenised";
+    for case in Case::all().into_iter().filter(is_smooth) {
         let steps = steps_of_one_radian(case);
         let reference = state_after(case, 64 * steps);
         let error = |n: u32| distances(&state_after(case, n * steps), &reference);
@@ -151,7 +155,8 @@ fn every_law_keeps_its_energy() {
         assert!(ratio > 3.0, "{name}: {ratio}");
         // (omega h)^4 of the fastest modes as far as they take part: measured up to 2.5e-6.
         assert!(coarse.wander() < 2e-5, "{name}");
-        if case.filament == ROD && case.law != "Fitted" {
+        let resists_shear = !["Fitted", "Homogenised"].contains(&case.law);
+        if case.filament == ROD && resists_shear {
             assert!(coarse.trend().abs() < 0.1 * coarse.early(), "{name}");
         }
     }

@@ -117,7 +117,9 @@ fn law_in_bath(rod: &RodModel) -> Option<String> {
     }
     if rod.law == RodLaw::Homogenised {
         let note = "rods under the law Homogenised in a heat bath: its energy is one at zero temperature, \
-                    not a free energy, and how such rods fluctuate has not been measured";
+                    not a free energy. At 298 K free rods of 110 nm in segments of 10 nm have a persistence \
+                    length of 11.0 um and a twisting rigidity of 7.8e3 pN nm^2, monomers 11.7 um and 7.6e3 \
+                    pN nm^2 (cargo xtask load-cases)";
         return Some(note.to_owned());
     }
     let Some((name, (persistence, twist))) = fitted_without_heat(&rod.law) else {

@@ -344,7 +344,7 @@ const REASONS: [Reason; 23] = [
         quantities: &["Figure-5/", "Figure-6/"],
         cause: Cause::Elsewhere,
         title: "Strong bending is at the end of the data",
-        text: "Between linkers the curvature reaches the 0.01 /nm of the cells and shortens the rod beyond the \
+        text: "Between linkers the curvature reaches the 0.01 per nm of the cells and shortens the rod beyond the \
                stretches that were fitted.",
     },
     Reason {
@@ -374,7 +374,7 @@ const REASONS: [Reason; 23] = [
         ],
         cause: Cause::Elsewhere,
         title: "Small twist and the first compression change within a few pN",
-        text: "Polynomials of the twist smooth what cells do within 0.003 rad/nm of rest; compression halves the \
+        text: "Polynomials of the twist smooth what cells do within 0.003 rad per nm of rest; compression halves the \
                stiffness at once. At temperature the rod's own fluctuations do part of what those of monomers do.",
     },
 ];
