@@ -8,7 +8,11 @@ use std::path::PathBuf;
 #[derive(clap::Args, Clone, Debug)]
 pub(crate) struct Options {
     /// Laws by the names that scenes use.
-    #[arg(long, value_delimiter = ',', default_value = "Constant,Fitted")]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "Constant,Fitted,Homogenised"
+    )]
     laws: Vec<String>,
     /// Where to write tables and pictures; equilibria of monomers that are there are kept.
     #[arg(long, default_value = "target/load-cases")]

@@ -48,8 +48,8 @@ fn rods(segments: usize, noise: &mut Xorshift) -> Vec<(State, EnergyGradient)> {
     each.collect()
 }
 
-/// A share of a mean left out, or a joint's energy counted twice, is off by percents. Third derivatives jump at
-/// the nodes of the coefficients, over steps of 1e-5 rad/nm here.
+/// A share of a mean left out, or a joint's energy counted twice, is off by percents. The third
+/// derivative jumps where compression sets in, over steps of 1e-4 here.
 #[test]
 fn loads_are_the_gradient() {
     let mut noise = Xorshift::new(41);

@@ -1,5 +1,5 @@
 //! What the joints of a rod take of the potential: `U(kappa)`, its value where a rod of this curvature is free
-//! of shear and has its natural length.
+//! of shear and as long as the straight rod of this twist without force.
 //!
 //! Joints see each turn between neighbouring segments, segments the mean of those around them
 //! (`segment.rs`). `U` at the joints resists turns that alternate from joint to joint, which no mean sees.

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 /// those of each term, from the constant up.
 const NUMBERS: &str = include_str!("mean_filament.csv");
 
-/// Strains of the cells behind these numbers.
+/// Strains of the grid behind these numbers; bent cells that are free to shear are shorter.
 const RANGE: StrainRange = StrainRange {
     twist: 0.048,
     curvature: 0.01,

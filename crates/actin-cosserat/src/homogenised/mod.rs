@@ -36,8 +36,8 @@ type SixVector = Vector6<f64>;
 ///
 /// `e`, `a = kappa_1^2 + kappa_2^2`, `g = sigma_1^2 + sigma_2^2`, `c = kappa_1 sigma_1 + kappa_2 sigma_2`
 ///
-/// say. (`kappa_1 sigma_2 - kappa_2 sigma_1` changes its sign when the rod is turned end for end.) `c` has none
-/// where left and right are the same.
+/// say. (`kappa_1 sigma_2 - kappa_2 sigma_1` changes its sign when the rod is turned end for end.) A mirror
+/// changes the signs of `c` and `kappa_3`: where left and right are the same, the coefficient of `c` is odd in the twist.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HomogenisedForm {
     natural: Polynomial,
@@ -92,7 +92,7 @@ fn padded(coefficients: &[f64], most: usize) -> Result<Polynomial, RodParameterE
     };
     if coefficients.len() > most {
         let count = coefficients.len() as f64;
-        return Err(refused(count, "no more than the degree of the term has"));
+        return Err(refused(count, "at most one more than the degree"));
     }
     if let Some(value) = coefficients.iter().find(|value| !value.is_finite()) {
         return Err(refused(*value, "finite"));

@@ -10,7 +10,7 @@ pub(super) const BY_TWIST: usize = 4;
 pub(crate) const EXTENSION: f64 = 0.02;
 pub(crate) const CURVATURE: f64 = 0.02;
 pub(crate) const SHEAR: f64 = 0.1;
-/// Curvature (rad/nm) at which bending begins to pull: below it the shift of the neutral axis grows.
+/// Curvature (rad/nm) about which the shift of the neutral axis becomes constant.
 pub(crate) const BENT: f64 = 2.5e-3;
 /// Extension over which tension gives way to compression.
 pub(crate) const SLACK: f64 = 7e-5;
@@ -42,7 +42,7 @@ pub enum Term {
     Bend,
     /// `r`: bending that tends to a constant couple.
     BendRoot,
-    /// `E r`: bending lengthens, as the compressed side gives way more.
+    /// `E r`: bending shortens at small twist, as the compressed side gives way more.
     StretchRoot,
     /// `E A`.
     StretchBend,
@@ -50,7 +50,7 @@ pub enum Term {
     Shear,
     /// `E G`: shear shortens, and tension resists it.
     StretchShear,
-    /// `C`: bending turns into shear along its axis, which is chiral.
+    /// `C`: bending turns into shear along its axis.
     Coupling,
     /// `E C`.
     StretchCoupling,

@@ -24,12 +24,28 @@ impl Homogenised {
         [self.loads(&strain)[5], at_force]
     }
 
+    /// The stretch without force along the segment, at this shear and bending: a bent rod is shorter.
+    fn free_stretch(&self, sigma: Vector3, kappa: Vector3) -> f64 {
+        let natural = self.form.natural_stretch(kappa.z);
+        let [mut least, mut most] = [natural - REACH.0, natural + REACH.0];
+        for _ in 0..2 * HALVINGS {
+            let middle = 0.5 * (least + most);
+            let strain = joined(Vector3::new(sigma.x, sigma.y, middle), kappa);
+            if self.loads(&strain)[5] > 0.0 {
+                most = middle;
+            } else {
+                least = middle;
+            }
+        }
+        0.5 * (least + most)
+    }
+
     /// The force (pN) nearest to none at which that derivative vanishes, if there is one within
     /// [`REACH`].
     pub(crate) fn critical_tension(&self, sigma: Vector3, kappa: Vector3) -> Option<f64> {
-        let natural = self.form.natural_stretch(kappa.z);
+        let free = self.free_stretch(sigma, kappa);
         let at = |e: f64| {
-            let sigma = Vector3::new(sigma.x, sigma.y, natural + e);
+            let sigma = Vector3::new(sigma.x, sigma.y, free + e);
             self.tension_and_twist_tangent(sigma, kappa)
         };
         let is_stable = |e: f64| at(e)[1] > 0.0;
@@ -53,8 +69,7 @@ impl Homogenised {
     /// The compression (pN) beyond which twist is unstable: zero where it is without any, none where
     /// compression does not soften it.
     pub(crate) fn critical_compression(&self, sigma: Vector3, kappa: Vector3) -> Option<f64> {
-        let natural = self.form.natural_stretch(kappa.z);
-        let free = Vector3::new(sigma.x, sigma.y, natural);
+        let free = Vector3::new(sigma.x, sigma.y, self.free_stretch(sigma, kappa));
         if self.tension_and_twist_tangent(free, kappa)[1] <= 0.0 {
             return Some(0.0);
         }

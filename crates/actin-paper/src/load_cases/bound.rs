@@ -30,7 +30,7 @@ pub(super) enum Group {
 pub(super) enum Bound {
     /// Relative difference.
     Relative(f64),
-    /// Mean distance of centre lines (nm).
+    /// Largest distance of centre lines (nm), averaged over filaments.
     Distance(f64),
     /// One standard deviation of single filaments of drawn bonds.
     Scatter,

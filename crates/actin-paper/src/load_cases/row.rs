@@ -144,7 +144,7 @@ fn value_row(row: Row, monomers: &Monomers, rods: &Rods) -> Row {
     }
 }
 
-/// Mean distances of centre lines (nm).
+/// Largest distances of centre lines (nm), averaged over filaments.
 fn shape_row(row: Row, monomers: &Monomers, rods: &Rods) -> Row {
     let mean_of = |distances: Vec<f64>| {
         (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)

@@ -104,7 +104,7 @@ pub(super) fn page(rows: &[Row]) -> String {
         Computed by `cargo xtask load-cases --write`: every case that a law of rods has to meet. Mean filament: \
         weighted bonds, over azimuths. Drawn: filaments of 64 drawn bonds, over samplings and azimuths, ± the \
         standard deviation of one. Errors of the rod (segments of 10 nm; fine: 2.5 nm, against the mean \
-        filament) are relative, those of a shape mean distances, those of mixed filaments spreads over \
+        filament) are relative, those of a shape largest distances, those of mixed filaments spreads over \
         resolutions. Worst: the largest error over its bound.\n"
         .to_owned();
     text += "\n| case | law | met, mean | worst | met, drawn | worst |\n\

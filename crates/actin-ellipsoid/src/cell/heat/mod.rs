@@ -26,7 +26,7 @@ const APART: usize = 6;
 pub struct Heat {
     /// Thermal energy (pN nm).
     pub kt: f64,
-    /// Trajectories, about one independent state each: 40 at least.
+    /// Trajectories, about one independent state each; rounded up to a multiple of 40, 240 at least.
     pub samples: usize,
     /// Share of trajectories that are accepted: the more, the shorter the steps. No mean depends on it.
     pub acceptance: f64,

@@ -318,7 +318,7 @@ const REASONS: [Reason; 23] = [
         cause: Cause::Elsewhere,
         title: "A smooth law is too stiff near rest",
         text: "At rest the filament resists neither twist nor shear, and bends by using both: the energy has no \
-               smooth tangent there. The law keeps some stiffness (12 pN of shear where cells have none), \
+               smooth tangent there. The law keeps some stiffness (5 pN of shear where cells have 1), \
                which costs 3 to 5 % of a tip.",
     },
     Reason {
@@ -345,7 +345,7 @@ const REASONS: [Reason; 23] = [
         cause: Cause::Elsewhere,
         title: "Strong bending is at the end of the data",
         text: "Between linkers the curvature reaches the 0.01 per nm of the cells and shortens the rod beyond the \
-               stretches that were fitted.",
+               stretches of the grid.",
     },
     Reason {
         artefact: "law",
@@ -357,7 +357,7 @@ const REASONS: [Reason; 23] = [
             "turned--270-deg/",
         ],
         cause: Cause::Elsewhere,
-        title: "Thrusts of buckled filaments are 6 to 10 % too high",
+        title: "Thrusts of buckled filaments are 8 to 10 % too high",
         text: "Heights and couples of most are met. Bent states free to shear, which decide the thrust, compete \
                in the fit with the straight ones.",
     },
@@ -369,7 +369,6 @@ const REASONS: [Reason; 23] = [
             "74-nm-turned-+80-deg-pushed/",
             "74-nm-turned--80-deg-pushed/",
             "Figure-4-rod-at-the-tip/",
-            "Figure-4-rod-at-the-wall/",
             "110-nm-298-K/",
         ],
         cause: Cause::Elsewhere,

@@ -1,5 +1,5 @@
-//! Coefficients of a law from cells: least squares on energy, loads and tangent, under the condition that the law's
-//! own tangent is positive.
+//! Coefficients of a law from cells: least squares on energy, loads and tangent, with a penalty where the law's own
+//! tangent is not positive.
 
 use super::super::rows::Row;
 use super::samples::Region;
@@ -27,7 +27,7 @@ const BRANCH: f64 = -50.0;
 const ROWS: f64 = 1000.0;
 /// Added to the scaled matrix: powers of a bounded variable are nearly dependent.
 const RIDGE: f64 = 1e-9;
-/// Eigenvalues of the law's tangent are held above this, with curvatures in these units (1/nm): 3 pN of shear,
+/// Eigenvalues of the law's tangent are held above this, with curvatures times these lengths (nm): 3 pN of shear,
 /// 0.75 pN nm^2 of twist, 1200 of bending.
 const LEAST: f64 = 3.0;
 const UNITS: [f64; 6] = [20.0, 20.0, 0.5, 1.0, 1.0, 1.0];
@@ -39,11 +39,11 @@ const UNBOUNDED: [(Term, f64); 3] = [
 ];
 /// Rounds in which new directions without stiffness are looked for, and steps to meet those that are known.
 const ROUNDS: usize = 20;
-const STEPS: usize = 30;
+const NEWTON_STEPS: usize = 30;
 /// A step is halved so often until it leads down.
 const HALVINGS: i32 = 12;
 
-/// The same on paths of cells that are free to shear.
+/// Weight of a row and of its tangent on paths of cells that are free to shear; of the grid: [`weights`].
 const ON_PATHS: (f64, f64) = (3.0, 3.0);
 
 /// The coefficients of some terms, one after the other.
@@ -289,7 +289,7 @@ impl Conditions {
     fn solve(&self, normal: &Normal, start: Option<DVector<f64>>) -> Result<DVector<f64>, String> {
         let scale = normal.matrix.diagonal().map(|x| x.sqrt().max(1e-300));
         let mut found = start.unwrap_or_else(|| DVector::zeros(scale.len()));
-        for _ in 0..STEPS {
+        for _ in 0..NEWTON_STEPS {
             let lacking = |row: &&DVector<f64>| row.dot(&found) < MARGIN;
             let (mut matrix, mut right) = (normal.matrix.clone(), normal.right.clone());
             for row in self.rows.iter().filter(lacking) {

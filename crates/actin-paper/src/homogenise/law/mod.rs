@@ -260,7 +260,7 @@ impl Residuals {
                 sums[q] += ((law_numbers[q] - ours[q]) / size).powi(2);
             }
             let tangent = jet.tangent;
-            let is_firm = (0..6).all(|k| row.tangent[(k, k)] > FIRM[k]);
+            let is_firm = (0..6).all(|k| row.tangent[(k, k)] > COMPARED[k]);
             for (i, j) in (0..6)
                 .flat_map(|i| (0..6).map(move |j| (i, j)))
                 .filter(|_| is_firm)
@@ -294,7 +294,7 @@ impl Residuals {
 
 /// Diagonal entries of the tangent (pN nm^2, pN) below which a state counts as one of no stiffness, where
 /// relative differences say nothing.
-const FIRM: [f64; 6] = [1e3, 1e3, 500.0, 30.0, 30.0, 1e3];
+const COMPARED: [f64; 6] = [1e3, 1e3, 500.0, 30.0, 30.0, 1e3];
 
 /// Energy, couple and force of a cell.
 fn row_numbers(row: &Row) -> [f64; 7] {

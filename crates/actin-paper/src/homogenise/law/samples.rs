@@ -25,7 +25,7 @@ pub(super) fn evenly<const N: usize>(k: u64) -> [f64; N] {
     })
 }
 
-/// Strains within the range that are no points of the grid, others for each `seed`.
+/// Strains within the range, stretched by up to 3e-3, that are no points of the grid, others for each `seed`.
 pub(super) fn other_rows(
     cell: &Cell,
     axes: &Axes,
