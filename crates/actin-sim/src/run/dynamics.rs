@@ -89,9 +89,8 @@ pub(crate) fn estimate_at(
     let scheme = dynamics.integrator.composition();
     let limit =
         actin_integrate::stable_step(scheme, frequency, 1.0).map_err(|error| no_step(&error))?;
-    let wanted = dynamics
-        .time_step_ns
-        .unwrap_or(limit * dynamics.step_safety);
+    let share = dynamics.step_safety * share_of_laws(assembly);
+    let wanted = dynamics.time_step_ns.unwrap_or(limit * share);
     if wanted > limit && !dynamics.allow_unstable_step {
         return Err(unstable(scheme, wanted, limit, frequency));
     }
@@ -106,6 +105,19 @@ pub(crate) fn estimate_at(
         record_every_ns: steps.record_every_ns,
         force_evaluations: steps.count * scheme.force_evaluations_per_step() as u64,
     })
+}
+
+/// What is left of the default step under the laws of the rods: `Homogenised` gives way to compression at once, and
+/// an undamped motion across that gains energy at half the limit of the others (all of it in 200 ns), while at a
+/// quarter a rod of 160 nm gains 0.4 % in 600 ns.
+fn share_of_laws(assembly: &Assembly) -> f64 {
+    let filaments = assembly.scene.filaments().enumerate();
+    let mut laws = filaments.filter(|(i, _)| assembly.counts_of(*i).segments > 0);
+    if laws.any(|(_, filament)| filament.rod.law == RodLaw::Homogenised) {
+        0.5
+    } else {
+        1.0
+    }
 }
 
 /// A time step (ns) above the limit (ns) at a frequency (rad/ns).
