@@ -9,7 +9,7 @@ use super::bound::Group;
 use super::case::{Case, Kind, guided};
 use super::filament::{Made, RISE_NM, Rod};
 use super::solve::{Found, solve};
-use super::{Law, store};
+use super::{Law, junctions, store};
 use crate::Tell;
 use actin_draw::report::{save, write_csv};
 use actin_sim::RodLaw;
@@ -24,7 +24,7 @@ const FROM: f64 = -4.0;
 const STEP: f64 = 1.0;
 const TRIED: usize = 15;
 /// Azimuths of the lattice over which the mean filament is averaged.
-const AZIMUTHS: u32 = 4;
+const AZIMUTHS: u32 = 8;
 
 /// One quantity of one span: of monomers, and of rods by what they are shortened.
 #[derive(Clone, Debug)]
@@ -33,6 +33,8 @@ struct Line {
     span_nm: f64,
     quantity: String,
     monomers: f64,
+    /// Half the difference of the largest and the smallest value over azimuths, over the mean.
+    scatter: f64,
     /// By length left out; none where there is no equilibrium.
     rods: Vec<Option<f64>>,
 }
@@ -53,6 +55,7 @@ pub(super) fn run(out: &Path, laws: &[Law], tell: Tell<'_>) -> Result<(), String
         let lines = lines.collect::<Result<Vec<_>, String>>()?.concat();
         table.extend(lines.iter().map(|line| line.cells(name)));
         text += &page(name, &lines);
+        text += &junctions::page(&folder, &(name.clone(), law.clone()), AZIMUTHS)?;
     }
     tell(format_args!("{text}"));
     save(out, "ends.md", &text)?;
@@ -121,6 +124,19 @@ fn span_nm(case: &Case) -> f64 {
     }
 }
 
+/// What the mean filament does at each azimuth.
+pub(super) fn of_mean_filament(
+    folder: &Path,
+    case: &Case,
+    azimuths: u32,
+) -> Result<Vec<Found>, String> {
+    let mean = |k: u32| {
+        let azimuth_deg = f64::from(k) * 360.0 / f64::from(azimuths);
+        store::kept(Some(folder), case, &Made::Mean { azimuth_deg })?.0
+    };
+    (0..azimuths).map(mean).collect()
+}
+
 /// All quantities of a case.
 fn lines(
     folder: &Path,
@@ -130,13 +146,7 @@ fn lines(
 ) -> Result<Vec<Line>, String> {
     let is_across = matches!(case.kind, Kind::Guided { .. } | Kind::Cantilever { .. });
     let azimuths = if is_across { AZIMUTHS } else { 1 };
-    let mean = |k: u32| {
-        let azimuth_deg = f64::from(k) * 360.0 / f64::from(azimuths);
-        store::kept(Some(folder), case, &Made::Mean { azimuth_deg })?.0
-    };
-    let monomers = (0..azimuths)
-        .map(mean)
-        .collect::<Result<Vec<Found>, String>>()?;
+    let monomers = of_mean_filament(folder, case, azimuths)?;
     let rod = |k: usize| {
         let made = Rod {
             shorter_nm: FROM + k as f64 * STEP,
@@ -152,6 +162,8 @@ fn lines(
     let names = names.filter(|name| !name.starts_with("dL/L"));
     let line = |name: &String| {
         let of_monomers = monomers.iter().filter_map(|found| found.value(name));
+        let of_monomers: Vec<f64> = of_monomers.collect();
+        let mean = of_monomers.iter().sum::<f64>() / of_monomers.len() as f64;
         let of_rod = |(k, found): (usize, &Option<Found>)| {
             let length = span_nm - (FROM + k as f64 * STEP);
             let scale = if is_rigidity { span_nm / length } else { 1.0 };
@@ -161,7 +173,8 @@ fn lines(
             kind,
             span_nm,
             quantity: name.clone(),
-            monomers: of_monomers.sum::<f64>() / monomers.len() as f64,
+            monomers: mean,
+            scatter: 0.5 * super::mixed::spread(&of_monomers).unwrap_or_default(),
             rods: rods.iter().enumerate().map(of_rod).collect(),
         }
     };
@@ -216,8 +229,10 @@ impl Line {
 
 /// Errors and missing lengths by span, and what one length for all spans leaves.
 fn page(law: &str, lines: &[Line]) -> String {
-    let mut text =
-        format!("\n## {law}\n\nError of the rod, and in brackets the length missing (nm).\n\n");
+    let mut text = format!(
+        "\n## {law}\n\nError of the rod, ± half the range of monomers over \
+         azimuths, and in brackets the length missing (nm).\n\n"
+    );
     let spans: Vec<f64> = SPANS.iter().map(|&n| f64::from(n) * RISE_NM).collect();
     let names: Vec<String> = spans.iter().map(|nm| format!("{nm:.0} nm")).collect();
     _ = writeln!(
@@ -256,7 +271,8 @@ fn cell(line: &Line) -> String {
     let error = error.map_or("none".to_owned(), |e| format!("{e:+.1} %"));
     let missing = line.missing_nm();
     let missing = missing.map_or("none".to_owned(), |x| format!("{x:+.1}"));
-    format!("{error} ({missing})")
+    let scatter = (line.scatter > 0.0).then(|| format!(" ± {:.0}", 100.0 * line.scatter));
+    format!("{error}{} ({missing})", scatter.unwrap_or_default())
 }
 
 /// The length (nm) with the least root mean square of logarithms over the spans that have one, what is left
@@ -289,6 +305,7 @@ mod tests {
             span_nm,
             quantity: "nm/pN".to_owned(),
             monomers: (span_nm - 3.0).powi(3),
+            scatter: 0.0,
             rods: (0..TRIED)
                 .map(|k| Some((span_nm - FROM - k as f64 * STEP).powi(3)))
                 .collect(),

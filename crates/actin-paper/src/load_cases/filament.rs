@@ -30,6 +30,8 @@ pub(super) enum Made {
         rod: Rod,
         /// Arc lengths of its stretches (nm).
         stretches: Vec<[f64; 2]>,
+        /// Azimuth of the lattice (deg).
+        azimuth_deg: f64,
     },
 }
 
@@ -107,10 +109,17 @@ impl Made {
                 rod: rod.model(),
                 ..Filament::new(vec![rod.section([0.0, length_nm - rod.shorter_nm])])
             },
-            Self::Mixed { rod, stretches } => Filament {
-                rod: rod.model(),
-                ..Filament::new(mixed(rod, stretches, length_nm))
-            },
+            Self::Mixed {
+                rod,
+                stretches,
+                azimuth_deg,
+            } => {
+                let sections = mixed(rod, stretches, length_nm);
+                Filament {
+                    rod: rod.model(),
+                    ..with_monomers(sections, &Monomers::default(), *azimuth_deg)
+                }
+            }
         }
     }
 
@@ -182,6 +191,7 @@ mod tests {
         let made = Made::Mixed {
             rod: rod.clone(),
             stretches: vec![[0.0, 20.0], [80.0, 100.0]],
+            azimuth_deg: 0.0,
         };
         let spans = |made: &Made| -> Vec<(f64, f64)> {
             let sections = made.filament(100.0).sections;

@@ -82,6 +82,7 @@ impl Set {
         let made = |&nm: &f64| Made::Mixed {
             rod: Rod::coarse(law),
             stretches: (self.stretches)(nm),
+            azimuth_deg: 0.0,
         };
         let solved = self
             .lengths_nm
@@ -138,7 +139,7 @@ impl Set {
 }
 
 /// Largest minus smallest value over the size of their mean; none of none.
-fn spread(values: &[f64]) -> Option<f64> {
+pub(super) fn spread(values: &[f64]) -> Option<f64> {
     let largest = values.iter().copied().reduce(f64::max)?;
     let smallest = values.iter().copied().reduce(f64::min)?;
     let mean = values.iter().sum::<f64>() / values.len() as f64;

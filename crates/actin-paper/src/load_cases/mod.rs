@@ -9,6 +9,7 @@ mod case;
 mod compared;
 mod ends;
 mod filament;
+mod junctions;
 mod mixed;
 mod picture;
 mod row;
