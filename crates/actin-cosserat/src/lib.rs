@@ -46,7 +46,9 @@ pub use cross_section::CrossSection;
 pub use elements::{RodElements, RodJoint, RodSegment};
 pub use energy_gradient::EnergyGradient;
 pub use error::{RodError, RodParameterError};
-pub use extended::{JoinedElement, SegmentCurvature, SegmentLaw, TwistStability};
+pub use extended::{
+    END_SHEAR_NM, EndShear, JoinedElement, SegmentCurvature, SegmentLaw, TwistStability,
+};
 pub use homogenised::{Homogenised, HomogenisedForm, PotentialJet, StrainRange, Term};
 pub use key::RodKey;
 pub use law::{

@@ -3,7 +3,7 @@
 mod common;
 
 use actin_cosserat::{
-    BendingElement, EnergyGradient, Homogenised, JoinedElement, PaperBalance, Rigidities,
+    BendingElement, EndShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance, Rigidities,
     RodElements, RodError, RodKey, RodLayout, RodMaterial, SegmentCurvature, SegmentLaw,
     StraightRod, TwistLaw, Walls,
 };
@@ -24,7 +24,7 @@ fn strained(segments: usize, walls: Walls, noise: &mut Xorshift) -> (State, RodL
     (state, layout)
 }
 
-/// The rod, joined at both ends to a frame of the neighbouring rods.
+/// The rod, joined at both ends to a frame of the neighbouring rods; the start blocks shear, the end is loose.
 fn joined(layout: RodLayout) -> EnergyGradient {
     let element = |frames, rest_distance| JoinedElement {
         frames,
@@ -33,7 +33,8 @@ fn joined(layout: RodLayout) -> EnergyGradient {
     let frames = layout.frames();
     let start = element([0, frames.start], 6.0);
     let end = element([frames.end - 1, layout.bending_chain().end], 8.0);
-    let curvature = SegmentCurvature::new(&layout, &[start], &[end]);
+    let curvature = SegmentCurvature::new(&layout, &[start], &[end])
+        .with_end_shear(&layout, [EndShear::Blocked, EndShear::Loose]);
     let law = SegmentLaw::of(&material(), None).unwrap();
     EnergyGradient::new(layout, material()).with_extension(law, curvature)
 }

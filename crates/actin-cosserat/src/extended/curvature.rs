@@ -1,5 +1,6 @@
 //! The mean curvature around each segment.
 
+use super::end_shear::{EndShear, factors};
 use crate::{BendingElement, RodLayout};
 use actin_mechanics::{State, Vector3};
 
@@ -27,6 +28,8 @@ pub struct SegmentCurvature {
     around: Vec<Around>,
     /// Share of each segment's length that elements stand for: half for each side that has any.
     covered: Vec<f64>,
+    /// Factor of each segment's shear.
+    shear: Vec<f64>,
 }
 
 /// One of the elements around a segment.
@@ -69,6 +72,7 @@ impl SegmentCurvature {
             offsets: Vec::with_capacity(segments + 1),
             around: Vec::with_capacity(2 * segments + start.len() + end.len()),
             covered: Vec::with_capacity(segments),
+            shear: vec![1.0; segments],
         };
         curvature.offsets.push(0);
         for (k, frame) in layout.frames().enumerate() {
@@ -78,6 +82,22 @@ impl SegmentCurvature {
             curvature.push_segment([(previous, before), (own(frame), behind)]);
         }
         curvature
+    }
+
+    /// The same where the start and the end of the rod `layout` hold back the shear of the segments beside them, or
+    /// let them shear more. Meant for a potential.
+    #[must_use]
+    pub fn with_end_shear(self, layout: &RodLayout, ends: [EndShear; 2]) -> Self {
+        Self {
+            shear: factors(layout.segment_lengths(), ends),
+            ..self
+        }
+    }
+
+    /// Factor by which `segment` counts its strains across: 1 but near ends.
+    #[inline]
+    pub fn shear_factor(&self, segment: usize) -> f64 {
+        self.shear[segment]
     }
 
     /// Appends a segment with what stands on its two sides: an element of the rod, and others.

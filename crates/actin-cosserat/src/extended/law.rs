@@ -51,6 +51,22 @@ pub(crate) struct SegmentJet {
     pub(crate) by_curvature: Matrix3,
 }
 
+impl SegmentJet {
+    /// By the strain whose components times `factors` are those of the law.
+    pub(super) fn of_scaled(self, factors: Vector3) -> Self {
+        Self {
+            force: self.force.component_mul(&factors),
+            by_strain: self
+                .by_strain
+                .component_mul(&(factors * factors.transpose())),
+            mixed: self
+                .mixed
+                .component_mul(&Matrix3::from_columns(&[factors; 3])),
+            ..self
+        }
+    }
+}
+
 impl SegmentLaw {
     /// What a material and a law of twist and stretch need; `None` where nothing couples. A potential
     /// has its own length, and no use for `twist_stretch`.

@@ -2,16 +2,18 @@
 //!
 //! The strain of a segment is its own, the curvature belongs to the nodes: what couples the two
 //! takes the mean curvature of the bending elements around a segment, those of walls and
-//! junctions included. `curvature.rs` finds these, `law.rs` says what couples, `segments.rs`
+//! junctions included. `curvature.rs` finds these, `end_shear.rs` says how much of its strain counts near ends, `law.rs` what couples, `segments.rs`
 //! makes loads and stiffness of it, and `twist_stability.rs` says under which forces twist is
 //! stable.
 
 mod curvature;
+mod end_shear;
 mod law;
 mod segments;
 mod twist_stability;
 
 pub use curvature::{JoinedElement, SegmentCurvature};
+pub use end_shear::{END_SHEAR_NM, EndShear};
 pub use law::SegmentLaw;
 pub(crate) use law::{MeanCurvature, SegmentJet};
 pub(crate) use segments::ExtendedSegments;

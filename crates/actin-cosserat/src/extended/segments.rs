@@ -26,11 +26,15 @@ struct Segment<'a> {
     l: Vector3,
     curvature: MeanCurvature,
     around: &'a [Around],
+    /// Factors of the strains.
+    factors: Vector3,
 }
 
 impl Segment<'_> {
+    /// The strain that the law sees.
     fn strain(&self) -> Vector3 {
-        self.element.strain(self.q, self.l)
+        let strain = self.element.strain(self.q, self.l);
+        strain.component_mul(&self.factors)
     }
 
     /// Couple per length of a bending element that stands for the `couple` (pN nm) of the mean.
@@ -44,6 +48,7 @@ impl ExtendedSegments {
     fn segment(&self, k: usize, layout: &RodLayout, state: &State) -> Segment<'_> {
         let (i, frame) = (layout.points().start + k, layout.frames().start + k);
         let x = &state.points.position;
+        let across = self.curvature.shear_factor(k);
         Segment {
             element: ShearElement::segment(layout.segment_lengths()[k]),
             points: [i, i + 1],
@@ -55,6 +60,7 @@ impl ExtendedSegments {
                 covered: self.curvature.covered(k),
             },
             around: self.curvature.around(k),
+            factors: Vector3::new(across, across, 1.0),
         }
     }
 
@@ -85,6 +91,7 @@ impl ExtendedSegments {
             let (n, couple) = self
                 .law
                 .loads(material, segment.strain(), segment.curvature);
+            let n = n.component_mul(&segment.factors);
             let axes = segment.q.to_rotation_matrix().into_inner();
             let shear = ShearLoads::of_force(n, axes, axes.tr_mul(&segment.l));
             loads.force.add(segment.points[0], shear.force);
@@ -109,6 +116,7 @@ impl ExtendedSegments {
         for k in 0..layout.segments() {
             let segment = self.segment(k, layout, state);
             let jet = self.law.jet(material, segment.strain(), segment.curvature);
+            let jet = jet.of_scaled(segment.factors);
             let own =
                 (segment.element).stiffness_of(jet.force, jet.by_strain, (segment.q, segment.l));
             own.push(segment.points, segment.frame, stiffness);

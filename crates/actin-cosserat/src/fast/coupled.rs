@@ -58,8 +58,8 @@ struct Chain<'a, S: Simd, L> {
     nodes: [Columns<'a, S, 3>; 2],
     frames: [Columns<'a, S, 4>; 2],
     bodies: Columns<'a, S, 5>,
-    /// What elements before stand for, over their rest distance.
-    covers: Columns<'a, S, 1>,
+    /// What elements before stand for, over their rest distance; factors of the shear of segments.
+    of_ends: Columns<'a, S, 2>,
     /// Angles from the next group's frames to those after, and their coefficients: they are found a
     /// group ahead, because all else in a group waits for them.
     ahead: [S::f64s; 4],
@@ -91,7 +91,7 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
                 quaternions(q, frames.start + 1..frames.end),
             ],
             bodies: Columns::new([length, inverse, &bodies.inverse_distances, before, after]),
-            covers: Columns::new([&bodies.covers]),
+            of_ends: Columns::new([&bodies.covers, &bodies.shear]),
             ahead: [simd.splat_f64s(0.0); 4],
             angles: ShiftedUp::after(simd, angle_at_wall(layout, state)),
             reactions: ShiftedUp::new(simd),
@@ -109,7 +109,6 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         let now = std::mem::replace(&mut self.ahead, ahead);
         let ([x, y, z, _], [u, v, w, coefficient]) = (now, self.angles.next(simd, now));
         let (after, before) = ([x, y, z], [u, v, w]);
-        let q = self.frames[0].get(simd, group);
         let [
             length,
             inverse_length,
@@ -118,10 +117,9 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
             share_after,
         ] = self.bodies.get(simd, group);
         // Of the elements before: nothing of the segments is in it, so that it need not wait for them.
-        let own = self.own(simd, group, wide::scale(simd, before, inverse_distance));
-        let [first, second] = &self.nodes;
-        let l = wide::sub(simd, second.get(simd, group), first.get(simd, group));
-        let segments = Segments::new(simd, q, l, [length, inverse_length]);
+        let [covers, shear] = self.of_ends(simd, group);
+        let own = self.own(simd, covers, wide::scale(simd, before, inverse_distance));
+        let segments = self.segments(simd, group, [length, inverse_length, shear]);
         let mut kappa = wide::scale(simd, before, share_before);
         kappa = wide::scale_add(simd, after, share_after, kappa);
         if ends.are_in(group) {
@@ -146,14 +144,37 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         }
     }
 
+    /// The segments of a group, with their lengths, their inverse and the factors of their shear.
+    #[inline(always)]
+    fn segments(&self, simd: S, group: usize, numbers: [S::f64s; 3]) -> Segments<S> {
+        let [length, inverse_length, shear] = numbers;
+        let [first, second] = &self.nodes;
+        let l = wide::sub(simd, second.get(simd, group), first.get(simd, group));
+        let q = self.frames[0].get(simd, group);
+        let mut segments = Segments::new(simd, q, l, [length, inverse_length]);
+        if L::COVERS {
+            segments.count_shear(simd, shear);
+        }
+        segments
+    }
+
+    /// Numbers that are 1 but near ends; not read where the law has no use for them.
+    #[inline(always)]
+    fn of_ends(&self, simd: S, group: usize) -> [S::f64s; 2] {
+        if L::COVERS {
+            self.of_ends.get(simd, group)
+        } else {
+            [simd.splat_f64s(1.0); 2]
+        }
+    }
+
     /// Couples of the elements before a group's frames at this curvature.
     #[inline(always)]
-    fn own(&self, simd: S, group: usize, kappa: Wide3<S>) -> Wide3<S> {
+    fn own(&self, simd: S, covers: S::f64s, kappa: Wide3<S>) -> Wide3<S> {
         let own = self.law.bending(simd, kappa);
         if !L::COVERS {
             return own;
         }
-        let [covers] = self.covers.get(simd, group);
         wide::scale(simd, own, covers)
     }
 

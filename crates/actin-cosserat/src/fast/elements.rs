@@ -20,6 +20,8 @@ pub(super) struct Segments<S: Simd> {
     sigma: Wide3<S>,
     /// Inverse of their rest lengths (1/nm).
     inverse: S::f64s,
+    /// Factor of their strains across, where the law has one.
+    across: S::f64s,
 }
 
 impl<S: Simd> Segments<S> {
@@ -41,7 +43,16 @@ impl<S: Simd> Segments<S> {
             body,
             sigma,
             inverse,
+            across: simd.splat_f64s(1.0),
         }
+    }
+
+    /// Multiplies strains across.
+    #[inline(always)]
+    pub(super) fn count_shear(&mut self, simd: S, factor: S::f64s) {
+        let [x, y, z] = self.sigma;
+        self.sigma = [simd.mul_f64s(x, factor), simd.mul_f64s(y, factor), z];
+        self.across = factor;
     }
 
     /// Forces on first nodes (pN), torques (pN nm), and couples (pN nm) at mean curvature `kappa`.
@@ -53,8 +64,23 @@ impl<S: Simd> Segments<S> {
         } else {
             n
         };
+        let n = if L::COVERS {
+            self.answering(simd, n)
+        } else {
+            n
+        };
         let force = wide::mul(simd, &self.axes, n);
         [force, wide::cross(simd, self.body, n), couple]
+    }
+
+    /// Forces across, by the strains without their factor.
+    #[inline(always)]
+    fn answering(&self, simd: S, [x, y, z]: Wide3<S>) -> Wide3<S> {
+        [
+            simd.mul_f64s(x, self.across),
+            simd.mul_f64s(y, self.across),
+            z,
+        ]
     }
 
     /// Zero where there is no segment: a natural length that is not the rest length pulls at no strain.

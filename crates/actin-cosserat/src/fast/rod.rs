@@ -29,6 +29,8 @@ pub(super) struct Bodies {
     /// What the element before each segment stands for over its rest distance: 1, and beside a free end more
     /// by the half segment there.
     pub(super) covers: Vec<f64>,
+    /// Factors of the segments' shear.
+    pub(super) shear: Vec<f64>,
 }
 
 impl Bodies {
@@ -53,6 +55,7 @@ impl Bodies {
         Self {
             lengths,
             covers: covers.collect(),
+            shear: vec![1.0; segments + 1],
             inverse_distances,
             shares: [zeros(), zeros()],
         }
@@ -94,8 +97,12 @@ impl<L: Law> Rod<L> {
                 let share = around.share / around.element.rest_distance;
                 rod.add_around(k, layout, around.frames, share)?;
             }
+            let shear = extended.map_or(1.0, |segments| segments.curvature.shear_factor(k));
             if L::COVERS {
                 rod.cover(k, layout, &extended?.curvature)?;
+                rod.bodies.shear[k] = shear;
+            } else if shear.to_bits() != 1.0_f64.to_bits() {
+                return None;
             }
         }
         (rod.joined.len() <= MOST_JOINED).then_some(rod)

@@ -4,7 +4,7 @@ mod collapsed;
 
 use super::*;
 use crate::{
-    BendLaw, BendingElement, CubicShear, EnergyGradient, Homogenised, JoinedElement,
+    BendLaw, BendingElement, CubicShear, EndShear, EnergyGradient, Homogenised, JoinedElement,
     PolynomialStretch, Rigidities, RootedStretch, SegmentCurvature, SegmentLaw, SidedTwist,
     Stiffening, StraightRod, StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, Walls,
 };
@@ -144,7 +144,10 @@ fn joined(layout: &RodLayout, any: bool) -> [Vec<JoinedElement>; 2] {
 /// What couples the segments of a rod.
 fn extended(layout: &RodLayout, law: &Named, is_joined: bool) -> Option<ExtendedSegments> {
     let [start, end] = joined(layout, is_joined);
-    let curvature = SegmentCurvature::new(layout, &start, &end);
+    let mut curvature = SegmentCurvature::new(layout, &start, &end);
+    if law.1.potential().is_some() {
+        curvature = curvature.with_end_shear(layout, [EndShear::Loose, EndShear::Blocked]);
+    }
     SegmentLaw::of(&law.1, law.2).map(|law| ExtendedSegments { law, curvature })
 }
 

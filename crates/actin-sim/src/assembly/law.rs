@@ -3,12 +3,21 @@
 use super::{Ranges, TwistWatch};
 use crate::scene::{self, ForceLaw, Material, RodLaw, RodLaws, RodModel, SceneProblem, fitted};
 use actin_cosserat::{
-    BendLaw, CubicShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance,
+    BendLaw, CubicShear, EndShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance,
     PolynomialStretch, RodKey, RodLayout, RodMaterial, RodParameterError, RootedStretch,
     SegmentCurvature, SegmentLaw, SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistLaw,
     TwistRise, TwistStretch, constants,
 };
 use actin_mechanics::Interaction;
+
+/// What is around the ends of a rod.
+#[derive(Debug)]
+pub(super) struct Around {
+    /// Elements that join its start and its end to monomers.
+    pub(super) joined: [Vec<JoinedElement>; 2],
+    /// What its start and its end let sections beside them do.
+    pub(super) ends: [EndShear; 2],
+}
 
 /// The constitutive law of the rods of a scene.
 pub(super) struct Law {
@@ -62,11 +71,7 @@ impl Law {
 
     /// What the twist of such a rod is watched with; nothing where no force along it can make it
     /// unstable, or where its loads have no energy.
-    pub(super) fn twist_watch(
-        &self,
-        layout: &RodLayout,
-        [start, end]: &[Vec<JoinedElement>; 2],
-    ) -> Option<TwistWatch> {
+    pub(super) fn twist_watch(&self, layout: &RodLayout, around: &Around) -> Option<TwistWatch> {
         if self.balance != ForceLaw::EnergyGradient {
             return None;
         }
@@ -77,17 +82,23 @@ impl Law {
         Some(TwistWatch {
             law,
             material: self.material,
-            curvature: SegmentCurvature::new(layout, start, end),
+            curvature: self.curvature(layout, around),
         })
     }
 
-    /// The interaction of a rod whose start and end the given elements join to others.
-    pub(super) fn interaction(
-        &self,
-        layout: &RodLayout,
-        [start, end]: &[Vec<JoinedElement>; 2],
-    ) -> Box<dyn Interaction> {
-        let curvature = || SegmentCurvature::new(layout, start, end);
+    /// The mean curvatures around segments and, of a potential, what the ends do to their shear.
+    fn curvature(&self, layout: &RodLayout, around: &Around) -> SegmentCurvature {
+        let [start, end] = &around.joined;
+        let curvature = SegmentCurvature::new(layout, start, end);
+        if self.material.potential().is_none() {
+            return curvature;
+        }
+        curvature.with_end_shear(layout, around.ends)
+    }
+
+    /// The interaction of a rod.
+    pub(super) fn interaction(&self, layout: &RodLayout, around: &Around) -> Box<dyn Interaction> {
+        let curvature = || self.curvature(layout, around);
         let (own, material) = (layout.clone(), self.material);
         match self.balance {
             ForceLaw::EnergyGradient => {

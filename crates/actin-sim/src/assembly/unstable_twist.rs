@@ -142,13 +142,15 @@ impl<'a> TwistRecords<'a> {
 }
 
 impl TwistWatch {
-    /// Strain of segment `k`, and mean curvature around it (rad/nm).
+    /// Strain of segment `k` as its law sees it, and mean curvature around it (rad/nm).
     pub(super) fn strains(&self, rod: &Rod, k: usize, state: &State) -> (Vector3, Vector3) {
         let layout = &rod.layout;
         let (i, frame) = (layout.points().start + k, layout.frames().start + k);
         let x = &state.points.position;
         let element = ShearElement::segment(layout.segment_lengths()[k]);
         let sigma = element.strain(state.frames.orientation.get(frame), x.get(i + 1) - x.get(i));
+        let across = self.curvature.shear_factor(k);
+        let sigma = sigma.component_mul(&Vector3::new(across, across, 1.0));
         (sigma, self.curvature.mean(k, state))
     }
 

@@ -25,7 +25,8 @@ pub(super) trait Law: Copy + Debug {
     /// Whether the curvature around a segment has to do with its strain.
     const COUPLES: bool;
 
-    /// Whether joints beside free ends stand for the half segments there.
+    /// Whether joints beside free ends stand for the half segments there, and segments near ends have factors of
+    /// their shear.
     const COVERS: bool = false;
 
     /// Couple of bending elements (pN nm) at curvature `kappa` (rad/nm). The reference is

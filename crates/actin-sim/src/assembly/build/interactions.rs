@@ -2,9 +2,10 @@
 
 use super::Stock;
 use super::strand::{Body, Strand, junction_problem};
+use crate::assembly::law::Around;
 use crate::assembly::{Part, Resolution, Rod, models};
 use crate::scene::SceneProblem;
-use actin_cosserat::{JoinedElement, RodLayout};
+use actin_cosserat::RodLayout;
 use actin_coupling::{AttachedMonomer, Junction, JunctionParts, JunctionSide};
 use actin_ellipsoid::Monomers;
 use actin_mechanics::Interaction;
@@ -19,7 +20,10 @@ impl Strand<'_> {
             |junction: Option<&Junction>| junction.map_or_else(Vec::new, Junction::joined_elements);
         for i in 0..self.bodies.len() {
             let before = i.checked_sub(1).map(|k| &junctions[k]);
-            let around = [joined(before), joined(junctions.get(i))];
+            let around = Around {
+                joined: [joined(before), joined(junctions.get(i))],
+                ends: self.end_shear(i),
+            };
             if let Some(junction) = before {
                 let part = Part::Junction(self.first_section + i - 1);
                 stock.push_term(Box::new(junction.clone()), part);
@@ -30,11 +34,11 @@ impl Strand<'_> {
         Ok(())
     }
 
-    /// The interaction of section `i`, whose start and end the elements `around` join to others.
+    /// The interaction of section `i`.
     fn interaction_of(
         &self,
         i: usize,
-        around: &[Vec<JoinedElement>; 2],
+        around: &Around,
         stock: &mut Stock,
     ) -> Result<Box<dyn Interaction>, SceneProblem> {
         Ok(match &self.bodies[i] {
@@ -58,12 +62,12 @@ impl Strand<'_> {
     }
 
     /// The rod of section `i`, with how far the data behind its law reach.
-    fn rod(&self, i: usize, layout: &RodLayout, around: &[Vec<JoinedElement>; 2]) -> Rod {
+    fn rod(&self, i: usize, layout: &RodLayout, around: &Around) -> Rod {
         Rod {
             section: self.first_section + i,
             layout: layout.clone(),
             ranges: self.law.ranges(),
-            joined: around.clone(),
+            joined: around.joined.clone(),
             twist_watch: self.law.twist_watch(layout, around),
         }
     }

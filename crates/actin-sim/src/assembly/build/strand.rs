@@ -5,7 +5,7 @@ use crate::assembly::lattice::{Lattice, Resolved, resolve};
 use crate::assembly::{BodyKind, FilamentSpan, FrameInfo, PointInfo, Resolution, SectionSpan};
 use crate::assembly::{law, models};
 use crate::scene::{End, Filament, Hold, MOST_COUNTED, SceneProblem, Section};
-use actin_cosserat::{CrossSection, RodLayout, StraightRod, Walls};
+use actin_cosserat::{CrossSection, EndShear, RodLayout, StraightRod, Walls};
 use actin_coupling::push_junction_frames;
 use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
 use actin_mechanics::Vector3;
@@ -176,6 +176,19 @@ impl<'a> Strand<'a> {
         self.describe_rod(i, &layout, length, stock);
         self.bodies.push(Body::Rod(layout));
         Ok(())
+    }
+
+    /// What the ends of section `i` let it do. A junction holds its monomers beside each other as a wall does,
+    /// so that they lack shear, which the rod makes good.
+    pub(super) fn end_shear(&self, i: usize) -> [EndShear; 2] {
+        [End::Start, End::End].map(|end| {
+            let is_held = self.holds[end as usize].is_some();
+            if i == self.filament.end_index(end) && is_held {
+                EndShear::Blocked
+            } else {
+                EndShear::Loose
+            }
+        })
     }
 
     /// Number of segments of rod section `i`: as written, or as near to the default length as fits.
