@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The crates that can be used alone.
-const LIBRARIES: [&str; 8] = [
+const LIBRARIES: [&str; 9] = [
     "actin-mechanics",
     "actin-ellipsoid",
     "actin-cosserat",
@@ -15,6 +15,7 @@ const LIBRARIES: [&str; 8] = [
     "actin-equilibrium",
     "actin-fit",
     "actin-sim",
+    "actin-sweep",
 ];
 
 /// Programs among the examples that measure something for the documents.

@@ -1,14 +1,14 @@
 //! `actin check`: what a scene resolves to and what it would cost.
 
+use crate::SceneArguments;
 use crate::failure::{Failure, Opened};
 use actin_sim::{Assembly, Estimate, Resolution, SectionSpan, Task};
-use std::path::Path;
 
-/// Validates the scene at `path` and prints it with every default, its counts and its cost.
+/// Validates a scene and prints it with every default, its counts and its cost.
 ///
 /// What is not part of the scene is printed as comments, so that the whole is a scene again.
-pub(crate) fn check(path: &Path) -> Result<(), Failure> {
-    let opened = Opened::open(path)?;
+pub(crate) fn check(source: &SceneArguments) -> Result<(), Failure> {
+    let opened = Opened::open(source)?;
     let plan = opened.plan()?;
     let assembly = plan.assembly();
     println!("{}", plan.scene().to_ron());

@@ -1,8 +1,11 @@
 //! Why the program ends without a result.
 
-use actin_sim::{Assembly, CheckpointError, Plan, RunDirectoryError, Scene, SceneError};
+use crate::SceneArguments;
+use actin_sim::{
+    Assembly, CheckpointError, Drawn, Plan, RunDirectoryError, Scene, SceneError, SceneText,
+};
 use std::fmt;
-use std::path::Path;
+use std::io::Read;
 use std::process::ExitCode;
 
 /// A failure and the exit code that goes with it.
@@ -57,27 +60,45 @@ impl fmt::Display for Failure {
     }
 }
 
-/// A scene file, read and built, with its text to place later problems in.
+/// A scene, read and built, with its text to place later problems in.
 pub(crate) struct Opened {
     pub(crate) assembly: Assembly,
-    pub(crate) text: String,
-    path: String,
+    pub(crate) text: SceneText,
+    name: String,
 }
 
 impl Opened {
-    /// Reads and builds the scene at `path`.
-    pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
-        let name = path.display().to_string();
-        let bytes =
-            std::fs::read(path).map_err(|error| Failure::Input(format!("{name}: {error}")))?;
+    /// Reads the scene, sets what the arguments set, and builds it.
+    pub(crate) fn open(source: &SceneArguments) -> Result<Self, Failure> {
+        let name = source.scene.display().to_string();
+        let bytes = if source.is_standard_input() {
+            let mut bytes = Vec::new();
+            std::io::stdin().read_to_end(&mut bytes).map(|_| bytes)
+        } else {
+            std::fs::read(&source.scene)
+        };
+        let bytes = bytes.map_err(|error| Failure::Input(format!("{name}: {error}")))?;
         let text = Scene::text(bytes).map_err(|error| input(&name, &error))?;
-        let scene = Scene::from_ron(&text).map_err(|error| input(&name, &error))?;
-        let assembly = Assembly::build(&scene)
-            .map_err(|problem| input(&name, &SceneError::locate(&problem, &text)))?;
+        let mut text = SceneText::new(&text);
+        for one in &source.set {
+            text.set(one.clone())
+                .map_err(|error| input(&name, &error))?;
+        }
+        let mut scene = text.scene().map_err(|error| input(&name, &error))?;
+        if let Some(seed) = source.seed {
+            let reseeded = Drawn::ALL.map(|what| scene.reseed(what, seed));
+            if reseeded.iter().sum::<usize>() == 0 {
+                return Err(Failure::Input(format!(
+                    "--seed {seed}: {name} draws nothing: no bonds, thermal noise or imperfections"
+                )));
+            }
+        }
+        let assembly =
+            Assembly::build(&scene).map_err(|problem| input(&name, &text.locate(&problem)))?;
         Ok(Self {
             assembly,
             text,
-            path: name,
+            name,
         })
     }
 
@@ -91,12 +112,19 @@ impl Opened {
         Failure::Input(self.locate(problem))
     }
 
-    /// A problem with its place in the file.
+    /// A problem with its place in the file, or the override that it comes from.
     pub(crate) fn locate(&self, problem: &actin_sim::SceneProblem) -> String {
-        format!("{}:{}", self.path, SceneError::locate(problem, &self.text))
+        placed(&self.name, &self.text.locate(problem))
     }
 }
 
 fn input(name: &str, error: &SceneError) -> Failure {
-    Failure::Input(format!("{name}:{error}"))
+    Failure::Input(placed(name, error))
+}
+
+fn placed(name: &str, error: &SceneError) -> String {
+    match error.set {
+        None => format!("{name}:{error}"),
+        Some(_) => format!("--set {error}"),
+    }
 }

@@ -1,4 +1,4 @@
-//! The `actin` program: runs and checks scenes.
+//! The `actin` program: runs and checks scenes, and sweeps over them.
 //!
 //! Exit codes: 0 done, 2 bad input, 3 numerical failure, 74 output that could not be written, 130
 //! interrupted with a checkpoint written. A closed pipe on standard output changes nothing.
@@ -11,7 +11,9 @@ mod failure;
 mod progress;
 mod run;
 mod signals;
+mod sweep;
 
+use actin_sim::Override;
 use clap::{Args, Parser, Subcommand};
 use failure::Failure;
 use std::path::PathBuf;
@@ -43,25 +45,52 @@ enum Command {
     /// Runs a scene and writes a run directory.
     #[command(after_help = EXIT_CODES)]
     Run(RunArguments),
+    /// Runs a scene for many values of its keys and many seeds, on all cores, into one table.
+    #[command(after_help = sweep::EXIT_CODES)]
+    Sweep(sweep::SweepArguments),
     /// Validates a scene; prints every default, what it resolves to, its time step and cost. Runs nothing.
     Check {
-        /// The scene.
-        scene: PathBuf,
+        #[command(flatten)]
+        source: SceneArguments,
     },
 }
 
 #[derive(Debug, Args)]
-struct RunArguments {
-    /// The scene.
+struct SceneArguments {
+    /// The scene; `-` reads it from standard input.
     scene: PathBuf,
-    /// Run directory; by default `runs/` and the name of the scene.
+    /// Sets a key of the scene, whether it is written there or not: a path of keys, with indices of lists
+    /// and vectors in brackets, and a value in RON, as in loads[0].force_pn[2]=-4.0.
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<Override>,
+    /// Sets the seed of everything that the scene draws: bonds, thermal noise, imperfections.
+    #[arg(long)]
+    seed: Option<u64>,
+}
+
+impl SceneArguments {
+    fn is_standard_input(&self) -> bool {
+        self.scene.as_os_str() == "-"
+    }
+
+    /// Whether the file alone is the scene.
+    fn is_as_written(&self) -> bool {
+        !self.is_standard_input() && self.set.is_empty() && self.seed.is_none()
+    }
+}
+
+#[derive(Debug, Args)]
+struct RunArguments {
+    #[command(flatten)]
+    source: SceneArguments,
+    /// Run directory; by default `runs/` and the name of the scene, `stdin` for standard input.
     #[arg(long)]
     out: Option<PathBuf>,
     /// Replace an earlier run in that directory: only the files that its actin-run.json lists.
     #[arg(long)]
     overwrite: bool,
     /// Continue from the checkpoint in that directory: the results are those of an uninterrupted run,
-    /// bit for bit.
+    /// bit for bit. Without a checkpoint the run begins.
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
     /// Time between checkpoints.
@@ -90,7 +119,8 @@ fn carry_out(command: Command) -> Result<(), Failure> {
         .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
     match command {
         Command::Run(arguments) => run::run(&arguments)?,
-        Command::Check { scene } => check::check(&scene)?,
+        Command::Sweep(arguments) => sweep::sweep(&arguments)?,
+        Command::Check { source } => check::check(&source)?,
     }
     streams::ending().map_err(Failure::Unwritten)
 }

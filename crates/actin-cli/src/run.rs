@@ -1,27 +1,26 @@
 //! `actin run`: a scene to its end, and everything it gave into a run directory.
 
-use crate::RunArguments;
 use crate::failure::{Failure, Opened};
 use crate::progress::Progress;
 use crate::signals;
+use crate::{RunArguments, SceneArguments};
 use actin_sim::{
     Checkpoints, FailedRun, Failure as Broken, Outcome, Plan, Record, Records, RunDirectory,
     RunDirectoryError, RunError, RunLock, RunPosition, Saved, Sink, StabilitySummary, Status,
     Summary, UnstableTwist,
 };
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Runs a scene, or what is left of it, into its directory.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    let path = &arguments.scene;
-    let opened = Opened::open(path)?;
+    let opened = Opened::open(&arguments.source)?;
     let plan = opened.plan()?;
     for note in plan.notes() {
         println!("note: {note}");
     }
-    let by_default = || Path::new("runs").join(path.file_stem().unwrap_or_default());
-    let out = arguments.out.clone().unwrap_or_else(by_default);
+    let out = arguments.out.clone();
+    let out = out.unwrap_or_else(|| by_default(&arguments.source));
     let directory = RunDirectory::existing(&out);
     let mut checkpoints = checkpoints(arguments, &plan, &directory)?;
     // Before the lock: where nothing will be written, none is needed.
@@ -52,10 +51,19 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     Ok(())
 }
 
+/// The run directory of a scene for which none is named.
+fn by_default(source: &SceneArguments) -> PathBuf {
+    let name = match source.scene.file_stem() {
+        Some(name) if !source.is_standard_input() => name,
+        _ => "stdin".as_ref(),
+    };
+    Path::new("runs").join(name)
+}
+
 /// Makes or opens the run directory; what keeps other runs out of it.
 fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failure> {
-    if arguments.overwrite && RunDirectory::existing(out).holds(&arguments.scene) {
-        let (scene, out) = (arguments.scene.display(), out.display());
+    if arguments.overwrite && RunDirectory::existing(out).holds(&arguments.source.scene) {
+        let (scene, out) = (arguments.source.scene.display(), out.display());
         return Err(Failure::Input(format!(
             "{scene} lies in {out}, which is to be overwritten: copy the scene to another place first"
         )));
@@ -68,8 +76,11 @@ fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failur
     if RunDirectory::existing(out).has_checkpoint() {
         return Ok(Some(RunLock::take(out)?));
     }
-    // There is nothing to resume, unless another run is about to leave it.
-    Ok(RunLock::take_if_there(out)?)
+    // There is nothing to resume: the run begins, in the place of one that was killed before it had a
+    // checkpoint or results.
+    let is_left = RunDirectory::existing(out).is_unfinished();
+    let (_, lock) = RunDirectory::create_locked(out, is_left)?;
+    Ok(Some(lock))
 }
 
 /// What there is to begin with.
@@ -95,6 +106,10 @@ fn begin(
     // Again, now that no other process writes.
     if is_finished(plan, directory)? {
         return Ok(Beginning::Finished);
+    }
+    if !directory.has_checkpoint() {
+        directory.write_scene(plan.scene())?;
+        return Ok(Beginning::New);
     }
     let saved = checkpoints.resume(plan)?;
     directory.reopen()?;
@@ -177,7 +192,12 @@ fn unwritten(
 
 /// The command that goes on with a run.
 fn go_on(arguments: &RunArguments, directory: &RunDirectory) -> String {
-    let (scene, place) = (arguments.scene.display(), directory.path().display());
+    let place = directory.path().display();
+    if !arguments.source.is_as_written() {
+        // The scene as it runs, which says the same.
+        return format!("actin run {place}/scene.ron --out {place} --resume");
+    }
+    let scene = arguments.source.scene.display();
     format!("actin run {scene} --out {place} --resume")
 }
 

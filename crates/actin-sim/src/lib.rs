@@ -50,12 +50,13 @@ pub use run::{
     SaddlePush, Saved, Sink, Slip, Status, Trajectory, solver,
 };
 pub use scene::fitted::laws as fitted_laws;
+pub use scene::read_ron;
 #[cfg(feature = "schema")]
 pub use scene::schema;
 pub use scene::{
-    Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, DragRates, Dynamics, End, Equilibrium,
+    Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, DragRates, Drawn, Dynamics, End, Equilibrium,
     Filament, ForceLaw, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Linker,
-    LinkerSite, Load, Material, Monomers, RodLaw, RodLaws, RodModel, Scene, SceneError,
-    SceneProblem, Section, Setting, ShearLaw, Slides, Stage, StopTolerances, StretchLaw, Task,
-    Thermal, TwistLaw, TwistRise, TwistStretchLaw,
+    LinkerSite, Load, Material, Monomers, Override, RodLaw, RodLaws, RodModel, Scene, SceneError,
+    SceneProblem, SceneText, Section, Setting, ShearLaw, Slides, Stage, StopTolerances, StretchLaw,
+    Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
 };

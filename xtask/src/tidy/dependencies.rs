@@ -4,7 +4,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::path::Path;
 
 /// Each crate and the crates of ours that it may depend on.
-const ALLOWED: [(&str, &[&str]); 12] = [
+const ALLOWED: [(&str, &[&str]); 13] = [
     ("actin-mechanics", &[]),
     ("actin-ellipsoid", &["actin-mechanics"]),
     ("actin-cosserat", &["actin-mechanics"]),
@@ -36,7 +36,8 @@ const ALLOWED: [(&str, &[&str]); 12] = [
             "actin-draw",
         ],
     ),
-    ("actin-cli", &["actin-sim"]),
+    ("actin-sweep", &["actin-sim"]),
+    ("actin-cli", &["actin-sim", "actin-sweep"]),
     // Scenes for the reference of their keys.
     ("xtask", &["actin-draw", "actin-paper", "actin-sim"]),
 ];

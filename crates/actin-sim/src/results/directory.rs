@@ -5,7 +5,7 @@ use super::RunDirectoryError;
 use super::atomic::UNFINISHED;
 use super::lock::{LOCK, RunLock, refuse_in_use};
 use super::manifest::Manifest;
-use super::names::{BEFORE_RESULTS, MANIFEST};
+use super::names::{BEFORE_RESULTS, CHECKPOINT, MANIFEST, SUMMARY};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -71,6 +71,12 @@ impl RunDirectory {
     /// Where the directory is.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Whether a run was here that has neither results nor a checkpoint: it was killed early.
+    pub fn is_unfinished(&self) -> bool {
+        let is_there = |name| self.path.join(name).exists();
+        is_there(MANIFEST) && !is_there(SUMMARY) && !is_there(CHECKPOINT)
     }
 
     /// Whether `file` lies in the directory, at any depth; links are followed to find out.

@@ -62,16 +62,6 @@ impl RunLock {
         sign(&file);
         Ok(Self { file })
     }
-
-    /// The same where a run has been, whose lock is there; elsewhere nothing is made.
-    ///
-    /// # Errors
-    /// As [`take`](Self::take).
-    pub fn take_if_there(directory: impl AsRef<Path>) -> Result<Option<Self>, RunDirectoryError> {
-        let directory = directory.as_ref();
-        let is_there = fs::symlink_metadata(directory.join(LOCK)).is_ok();
-        is_there.then(|| Self::take(directory)).transpose()
-    }
 }
 
 impl Drop for RunLock {

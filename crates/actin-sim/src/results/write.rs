@@ -11,7 +11,7 @@ use super::states::States;
 use super::vtk::{Drawing, write_collection};
 use super::{RunDirectoryError, Summary, ThermalSummary, profile};
 use crate::shape::{self, ProfilePoint};
-use crate::{Assembly, Outcome, Plan, Records, Scene};
+use crate::{Assembly, Outcome, Plan, Records, Scene, Status};
 use std::fs;
 use std::io::{self, Write};
 
@@ -55,6 +55,25 @@ impl RunDirectory {
         results.stage(&mut staged)?;
         staged.publish()?;
         Ok(results.summary)
+    }
+
+    /// Writes the summary of a run that failed before it had a record: title of the scene, status and why.
+    ///
+    /// # Errors
+    /// Something in the place of the summary that the run has not written, or a refusal of the file system.
+    pub fn write_failure(&self, title: &str, why: &str) -> Result<(), RunDirectoryError> {
+        let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
+        manifest.ensure_own(&self.path)?;
+        manifest.add([SUMMARY]);
+        manifest.write(&self.path)?;
+        let path = self.path.join(SUMMARY);
+        let summary =
+            serde_json::json!({ "scene": title, "status": Status::Failed, "failure": why });
+        let written = atomic::replace_durably(&path, |out| {
+            serde_json::to_writer_pretty(&mut *out, &summary)?;
+            writeln!(out)
+        });
+        written.map_err(RunDirectoryError::io(&path))
     }
 
     /// Reads back the summary that a run has written here.

@@ -81,6 +81,7 @@ impl Plan<'_> {
             None => Ok(outcome),
             Some(failure) => {
                 outcome.status = Status::Failed;
+                outcome.failure = failure.to_string();
                 Err(RunError::Failed(Box::new(FailedRun { failure, outcome })))
             }
         }

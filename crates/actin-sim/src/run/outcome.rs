@@ -50,6 +50,8 @@ pub struct Outcome {
     pub jumps: usize,
     /// Where the model does not apply to its states, the worst of all records; a run with any has failed.
     pub beyond_use: Vec<BeyondUse>,
+    /// Why it failed, in words; empty unless it did.
+    pub failure: String,
     /// Time that the run took (s).
     pub wall_s: f64,
 }
@@ -69,6 +71,7 @@ impl Outcome {
             pushes: Vec::new(),
             jumps: 0,
             beyond_use: Vec::new(),
+            failure: String::new(),
             wall_s,
         }
     }

@@ -11,6 +11,7 @@ mod load;
 mod locate;
 mod magnitude;
 mod model;
+mod outline;
 pub(crate) mod path;
 mod place;
 mod problem;
@@ -19,8 +20,10 @@ mod rules;
 mod saddles;
 #[cfg(feature = "schema")]
 mod schema;
+mod seeds;
 mod stage;
 mod support;
+mod text;
 mod thermal;
 mod types;
 mod validate;
@@ -35,9 +38,12 @@ pub use load::Load;
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
 pub(crate) use place::HeldEnds;
 pub use problem::{SceneError, SceneProblem};
+pub use read::read_ron;
 #[cfg(feature = "schema")]
 pub use schema::schema;
+pub use seeds::Drawn;
 pub(crate) use support::is_across;
+pub use text::{Override, SceneText};
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
 pub use types::{
     Clamp, DragRates, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Scene, Section,

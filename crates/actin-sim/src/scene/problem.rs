@@ -56,6 +56,8 @@ pub struct SceneError {
     pub line: usize,
     /// Column in characters, counted from 1.
     pub column: usize,
+    /// The override that is to blame, as `key=value`; none where the text is.
+    pub set: Option<String>,
     /// What is wrong.
     pub message: String,
 }
@@ -79,6 +81,7 @@ impl SceneError {
         Self {
             line,
             column,
+            set: None,
             message: cut(&message, LONGEST_MESSAGE).into_owned(),
         }
     }
@@ -112,7 +115,10 @@ fn cut(text: &str, most: usize) -> Cow<'_, str> {
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}: {}", self.line, self.column, self.message)
+        match &self.set {
+            None => write!(f, "{}:{}: {}", self.line, self.column, self.message),
+            Some(set) => write!(f, "{set}: {}", self.message),
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use super::{validate::validate, written::Written};
 use ron::error::{Error as RonError, SpannedError};
 use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
+use serde::de::DeserializeOwned;
 
 /// Suffixes that keys carry for their units; a suffix stands before those that it ends with.
 const UNIT_SUFFIXES: [&str; 8] = [
@@ -56,21 +57,16 @@ impl Scene {
     /// Text that is no RON, an unknown or missing key, or a value against the rules, each with
     /// line and column.
     pub fn from_ron(text: &str) -> Result<Self, SceneError> {
-        let text = locate::without_mark(text);
-        let is_nothing = |line: &str| line.trim().is_empty() || line.trim().starts_with("//");
-        if text.lines().all(is_nothing) {
-            let message = "the scene is empty: it must begin with Scene(";
-            return Err(SceneError::new((1, 1), message));
-        }
-        let written: Written = options()
-            .from_str(text)
-            .map_err(|error| explain(&error, text))?;
-        let read = || {
-            let scene = Self::try_from(written)?;
-            validate(&scene)?;
-            Ok(scene)
-        };
-        read().map_err(|problem: SceneProblem| SceneError::locate(&problem, text))
+        let (scene, problem) = Self::read(text)?;
+        problem.map_or(Ok(scene), |problem| Err(SceneError::locate(&problem, text)))
+    }
+
+    /// Reads a scene, which its rules may refuse.
+    pub(super) fn read(text: &str) -> Result<(Self, Option<SceneProblem>), SceneError> {
+        let written: Written = read_ron(text, "Scene")?;
+        let scene = Self::try_from(written).map_err(|p| SceneError::locate(&p, text))?;
+        let problem = validate(&scene).err();
+        Ok((scene, problem))
     }
 
     /// The scene as RON with every default written out.
@@ -88,6 +84,23 @@ impl Scene {
     }
 }
 
+/// Reads what a RON text describes, strictly, as scenes are read; `name` is that of the outermost
+/// structure. A byte-order mark is skipped.
+///
+/// # Errors
+/// Text that is no RON, an unknown or missing key, a value of another type, each with line and column.
+pub fn read_ron<T: DeserializeOwned>(text: &str, name: &str) -> Result<T, SceneError> {
+    let text = locate::without_mark(text);
+    let is_nothing = |line: &str| line.trim().is_empty() || line.trim().starts_with("//");
+    if text.lines().all(is_nothing) {
+        let file = name.to_lowercase();
+        let message = format!("the {file} is empty: it must begin with {name}(");
+        return Err(SceneError::new((1, 1), &message));
+    }
+    let read = options().from_str(text);
+    read.map_err(|error| explain(&error, text, name))
+}
+
 fn options() -> ron::Options {
     ron::Options::default()
         .with_default_extension(Extensions::IMPLICIT_SOME)
@@ -95,12 +108,12 @@ fn options() -> ron::Options {
 }
 
 /// RON's error with its place, in the words of a scene.
-fn explain(error: &SpannedError, text: &str) -> SceneError {
+fn explain(error: &SpannedError, text: &str, name: &str) -> SceneError {
     let (mut line, mut column) = (error.span.start.line, error.span.start.col);
     if error.code == RonError::TrailingCharacters {
         (line, column) = next_character(text, (line, column));
     }
-    let message = in_words(&error.code).unwrap_or_else(|| {
+    let message = in_words(&error.code, &name.to_lowercase()).unwrap_or_else(|| {
         let path = locate::path_at(text, (line, column));
         let colon = if path.is_empty() { "" } else { ": " };
         format!("{path}{colon}{}", error.code)
@@ -124,7 +137,7 @@ fn next_character(text: &str, (line, column): (usize, usize)) -> (usize, usize) 
 }
 
 /// Errors that name what they are about; none for those that do not.
-fn in_words(error: &RonError) -> Option<String> {
+fn in_words(error: &RonError, file: &str) -> Option<String> {
     let of = |outer: &Option<String>| outer.as_ref().map_or(String::new(), |o| format!(" in {o}"));
     Some(match error {
         RonError::NoSuchStructField {
@@ -150,8 +163,10 @@ fn in_words(error: &RonError) -> Option<String> {
             let kind = outer.as_deref().unwrap_or("choice");
             format!("unknown {kind} {found}: known are {}", expected.join(", "))
         }
-        RonError::TrailingCharacters => "unexpected text after the scene".into(),
-        RonError::Eof => "the text ends before the scene does: a bracket is not closed".into(),
+        RonError::TrailingCharacters => format!("unexpected text after the {file}"),
+        RonError::Eof => {
+            format!("the text ends before the {file} does: a bracket is not closed")
+        }
         _ => return None,
     })
 }

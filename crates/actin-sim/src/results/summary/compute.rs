@@ -4,11 +4,28 @@ use super::{
     EndReactions, EnergySummary, FilamentSummary, LateKinetic, LinkerSummary, ResidualSummary,
     ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
 };
-use crate::{Assembly, End, Outcome, Record, shape};
+use crate::{Assembly, At, End, Outcome, Record, Status, Task, shape};
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, Residual};
 
 impl Summary {
+    /// The summary of an assembly as built, before anything is computed: which keys that of its run has.
+    pub fn as_built(assembly: &Assembly) -> Self {
+        let at = match assembly.scene.task {
+            Task::Dynamics(_) => At::Time(0.0),
+            Task::Equilibrium(_) => At::Path(0.0),
+        };
+        let record = Record {
+            at,
+            state: assembly.rest.clone(),
+            energies_pn_nm: vec![0.0; assembly.terms.len()],
+            kinetic_pn_nm: 0.0,
+            residual_force_pn: 0.0,
+            residual_torque_pn_nm: 0.0,
+        };
+        Self::new(assembly, &record, &Outcome::new(Status::Interrupted, 0.0))
+    }
+
     /// The summary of a run of `assembly` that ended with the record `last`.
     pub fn new(assembly: &Assembly, last: &Record, outcome: &Outcome) -> Self {
         let equilibrium = outcome.equilibrium.as_ref();
@@ -19,6 +36,7 @@ impl Summary {
         Self {
             scene: assembly.scene.title.clone(),
             status: outcome.status,
+            failure: outcome.failure.clone(),
             counts: assembly.counts(),
             time_ns: last.at.time_ns(),
             path: last.at.path(),

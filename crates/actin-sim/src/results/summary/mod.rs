@@ -28,6 +28,9 @@ pub struct Summary {
     pub scene: String,
     /// How the run ended.
     pub status: Status,
+    /// Why the run failed, in words; no key unless it did.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub failure: String,
     /// Number of bodies and elements.
     #[serde(with = "CountKeys")]
     pub counts: Counts,

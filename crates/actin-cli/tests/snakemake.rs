@@ -1,0 +1,115 @@
+//! A sweep as a workflow for Snakemake, killed half way and run again.
+#![cfg(unix)]
+
+mod workplace;
+
+use std::fs;
+use std::os::unix::process::CommandExt;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+use workplace::{Workplace, code, stderr, stdout};
+
+const SCENE: &str = "Scene(
+    filament: Filament(
+        sections: [Ellipsoids(from_nm: 0.0, to_nm: 10.0), Rod(from_nm: 10.0, to_nm: 30.0)],
+        monomers: Monomers(anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8),
+    ),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+    task: Dynamics(duration_ns: 60.0, record_every_ns: 1.0),
+)";
+
+const SWEEP: &str = "Sweep(
+    scene: \"scene.ron\",
+    vary: [List(key: \"loads[0].force_pn[2]\", values: [0.0, -1.5, inf])],
+    samples: Samples(number: 4),
+    results: [\"tip_displacement_nm[0]\", \"energy_pn_nm.total\"],
+)";
+
+/// The command of Snakemake, in which `actin` is the program that was built; none where there is none.
+fn snakemake(folder: &Path) -> Option<Command> {
+    let program = std::env::var("SNAKEMAKE").unwrap_or_else(|_| "snakemake".into());
+    let is_there = Command::new(&program).arg("--version").output();
+    if !is_there.is_ok_and(|output| output.status.success()) {
+        let required = std::env::var_os("ACTIN_REQUIRE_SNAKEMAKE").is_some();
+        assert!(
+            !required,
+            "there is no snakemake (SNAKEMAKE or on the path)"
+        );
+        println!("SKIPPED: there is no snakemake");
+        return None;
+    }
+    let actin = Path::new(env!("CARGO_BIN_EXE_actin")).parent().unwrap();
+    let path = std::env::var("PATH").unwrap();
+    let mut command = Command::new(program);
+    command
+        .args(["--cores", "2", "--quiet", "all"])
+        .env("PATH", format!("{}:{path}", actin.display()))
+        .env("XDG_CACHE_HOME", folder.join("cache"))
+        .current_dir(folder.join("workflow"))
+        .stdout(Stdio::null());
+    Some(command)
+}
+
+/// Killed with all its jobs as soon as one has a checkpoint and another has ended, and run again: the run
+/// goes on from its checkpoint, and the tables are those of `actin sweep`, to the byte. Runs that fail are
+/// rows.
+#[test]
+fn a_workflow_that_is_killed_ends_with_the_same_table() {
+    let place = Workplace::with(SCENE);
+    let folder = place.path("");
+    fs::write(place.path("sweep.ron"), SWEEP).unwrap();
+    let emit = [
+        "sweep",
+        "sweep.ron",
+        "--out",
+        "workflow",
+        "--emit",
+        "snakemake",
+    ];
+    let output = place.actin(&emit);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stdout(&output).ends_with("cd workflow && snakemake --cores all\n"));
+    // Checkpoints come so quickly that one is there when it is killed.
+    let workflow = fs::read_to_string(place.path("workflow/Snakefile")).unwrap();
+    let quick = workflow.replace("--only", "--checkpoint-every 0.01 --only");
+    fs::write(place.path("workflow/Snakefile"), quick).unwrap();
+    let Some(mut command) = snakemake(&folder) else {
+        return;
+    };
+    let has = |name: &str| {
+        let runs = fs::read_dir(place.path("workflow/runs"));
+        let mut runs = runs.into_iter().flatten();
+        runs.any(|run| run.unwrap().path().join(name).exists())
+    };
+    let mut child = command.process_group(0).spawn().unwrap();
+    let patience = Instant::now();
+    while !(has("checkpoint.bin") && has("summary.json")) {
+        assert!(patience.elapsed() < Duration::from_mins(2), "no run begins");
+        assert!(
+            child.try_wait().unwrap().is_none(),
+            "done before it was killed"
+        );
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let group = format!("-{}", child.id());
+    let killed = Command::new("kill")
+        .args(["-9", "--", &group])
+        .status()
+        .unwrap();
+    assert!(killed.success());
+    child.wait().unwrap();
+    assert!(!place.path("workflow/table.csv").exists());
+    assert!(has("checkpoint.bin"), "Snakemake leaves checkpoints alone");
+    let again = snakemake(&folder).unwrap().status().unwrap();
+    assert!(again.success());
+    let whole = place.actin(&["sweep", "sweep.ron", "--out", "whole"]);
+    assert_eq!(code(&whole), 0, "{}", stderr(&whole));
+    for name in ["table.csv", "runs.csv"] {
+        let [one, other] =
+            ["workflow", "whole"].map(|out| fs::read(place.path(out).join(name)).unwrap());
+        assert!(one == other, "{name} differs");
+    }
+    assert!(!has("checkpoint.bin"));
+}

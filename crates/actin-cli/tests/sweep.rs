@@ -1,0 +1,317 @@
+//! `actin sweep`: from a sweep and a scene to one table, however it is interrupted.
+
+mod workplace;
+
+use std::fs;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+use workplace::{Workplace, code, stderr, stdout};
+
+/// Monomers with drawn bonds under a force, in time; a hundredth of a second or so.
+const SCENE: &str = "Scene(
+    title: \"swept\",
+    filament: Filament(
+        sections: [Ellipsoids(from_nm: 0.0, to_nm: 10.0), Rod(from_nm: 10.0, to_nm: 30.0)],
+        monomers: Monomers(anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8),
+    ),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+    task: Dynamics(duration_ns: 2.0, record_every_ns: 1.0),
+)";
+
+/// Two forces, one of which no scene takes with this tolerance, and two lengths; three samples.
+const SWEEP: &str = "Sweep(
+    scene: \"scene.ron\",
+    set: [Set(key: \"filament.rod.law\", value: Fitted)],
+    vary: [
+        List(key: \"loads[0].force_pn[2]\", values: [0.0, -1.5, inf]),
+        Rows(keys: [\"filament.sections[1].to_nm\"], rows: [[30.0], [35.5]]),
+    ],
+    samples: Samples(number: 3, of: [Bonds]),
+    results: [\"tip_displacement_nm[0]\", \"energy_pn_nm.total\", \"counts.segments\"],
+)";
+
+fn place(sweep: &str) -> Workplace {
+    let place = Workplace::with(SCENE);
+    fs::write(place.path("sweep.ron"), sweep).unwrap();
+    place
+}
+
+fn read(place: &Workplace, name: &str) -> String {
+    fs::read_to_string(place.path(name)).unwrap()
+}
+
+fn assert_done(output: &Output) {
+    assert_eq!(code(output), 0, "{}{}", stdout(output), stderr(output));
+}
+
+/// 18 runs, 6 of which fail as rows. Means and errors are those of the runs; a run of the sweep is the
+/// run that `actin run` makes of the same scene.
+#[test]
+fn a_sweep_becomes_a_table() {
+    let place = place(SWEEP);
+    let output = place.actin(&["sweep", "sweep.ron", "--out", "a"]);
+    assert_done(&output);
+    assert_eq!(
+        stdout(&output),
+        "18 run(s), 6 failed, runs.csv says why; written to a/table.csv\n"
+    );
+    let runs: Vec<String> = read(&place, "a/runs.csv")
+        .lines()
+        .map(str::to_owned)
+        .collect();
+    assert_eq!(
+        runs[0],
+        "run,point,loads[0].force_pn[2],filament.sections[1].to_nm,seed,status,tip_displacement_nm[0],\
+         energy_pn_nm.total,counts.segments,failure"
+    );
+    assert!(
+        runs[8].starts_with("7,2,-1.5,30.0,2,completed,-"),
+        "{}",
+        runs[8]
+    );
+    assert!(
+        runs[13].starts_with("12,4,inf,30.0,1,failed,,,,\"loads[0].force_pn[2]=inf: "),
+        "{}",
+        runs[13]
+    );
+    let table: Vec<Vec<String>> = read(&place, "a/table.csv")
+        .lines()
+        .map(|line| line.split(',').map(str::to_owned).collect())
+        .collect();
+    assert_eq!(table.len(), 7);
+    let tips: Vec<f64> = runs[7..10]
+        .iter()
+        .map(|r| r.split(',').nth(6).unwrap().parse().unwrap())
+        .collect();
+    let mean = tips.iter().sum::<f64>() / 3.0;
+    let variance = tips.iter().map(|t| (t - mean).powi(2)).sum::<f64>() / 2.0;
+    assert!(variance > 0.0, "samples differ");
+    let [found, error] = [5, 6].map(|column| table[3][column].parse::<f64>().unwrap());
+    assert!(
+        (found / mean - 1.0).abs() < 1e-14 && (error / (variance / 3.0).sqrt() - 1.0).abs() < 1e-12
+    );
+    assert_eq!(table[5][3..7], ["3", "3", "", ""].map(str::to_owned));
+    let alone = [
+        "run",
+        "scene.ron",
+        "--set",
+        "filament.rod.law=Fitted",
+        "--set",
+        "loads[0].force_pn[2]=-1.5",
+        "--seed",
+        "2",
+        "--out",
+        "alone",
+    ];
+    assert_done(&place.actin(&alone));
+    for name in ["scene.ron", "energies.csv", "profile.csv"] {
+        assert_eq!(
+            read(&place, &format!("alone/{name}")),
+            read(&place, &format!("a/runs/7/{name}"))
+        );
+    }
+}
+
+/// One core and two, in pieces, in any order, resumed and run again from its own directory: the same bytes.
+#[test]
+fn tables_do_not_depend_on_how_they_were_made() {
+    let place = place(SWEEP);
+    assert_done(&place.actin(&["sweep", "sweep.ron", "--jobs", "1"]));
+    assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "b", "--jobs", "2"]));
+    for runs in ["12-17,3", "0-2,3"] {
+        assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "c", "--only", runs]));
+        assert!(!place.path("c/table.csv").exists());
+    }
+    assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "c", "--resume"]));
+    assert_done(&place.actin(&["sweep", "c/sweep.ron", "--out", "d", "--resume"]));
+    for name in ["table.csv", "runs.csv", "parameters.csv", "sweep.ron"] {
+        let expected = read(&place, &format!("sweeps/sweep/{name}"));
+        for out in ["b", "c", "d"] {
+            assert_eq!(
+                read(&place, &format!("{out}/{name}")),
+                expected,
+                "{name} of {out}"
+            );
+        }
+    }
+    // Another column needs no run.
+    fs::remove_file(place.path("d/runs/4/energies.csv")).unwrap();
+    let more = SWEEP.replace("\"energy_pn_nm.total\"", "\"work.steps\"");
+    fs::write(place.path("more.ron"), more).unwrap();
+    assert_done(&place.actin(&["sweep", "more.ron", "--out", "d", "--resume"]));
+    assert!(read(&place, "d/table.csv").contains("work.steps error"));
+    assert!(!place.path("d/runs/4/energies.csv").exists());
+}
+
+fn begin(place: &Workplace, out: &str) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_actin"))
+        .args([
+            "sweep",
+            "sweep.ron",
+            "--out",
+            out,
+            "--resume",
+            "--checkpoint-every",
+            "0.02",
+        ])
+        .current_dir(place.path("sweep.ron").parent().unwrap())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+/// Killed every now and then until it is done: the tables of a sweep that was not, to the byte. Patience
+/// grows, so that it ends on any machine.
+#[test]
+fn a_sweep_that_is_killed_goes_on_to_the_same_tables() {
+    let sweep = SWEEP.replace("-1.5, inf", "-1.5");
+    let place = place(&sweep);
+    let longer = SCENE.replace("duration_ns: 2.0", "duration_ns: 40.0");
+    fs::write(place.path("scene.ron"), longer).unwrap();
+    assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "whole"]));
+    let mut kills = 0;
+    loop {
+        let mut child = begin(&place, "parts");
+        let patience = Duration::from_millis(60 + 20 * kills);
+        let started = Instant::now();
+        while child.try_wait().unwrap().is_none() && started.elapsed() < patience {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        if child.try_wait().unwrap().is_some() {
+            assert_done(&child.wait_with_output().unwrap());
+            break;
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        kills += 1;
+        assert!(kills < 500, "it never ends");
+    }
+    println!("{kills} kills");
+    assert!(kills > 1, "it was never interrupted");
+    for name in ["table.csv", "runs.csv"] {
+        assert_eq!(
+            read(&place, &format!("parts/{name}")),
+            read(&place, &format!("whole/{name}"))
+        );
+    }
+}
+
+/// What a signal interrupts has exit code 130, and says how to go on.
+#[cfg(unix)]
+#[test]
+fn a_signal_leaves_checkpoints() {
+    let place = place(&SWEEP.replace("-1.5, inf", "-1.5"));
+    let longer = SCENE.replace("duration_ns: 2.0", "duration_ns: 4000.0");
+    fs::write(place.path("scene.ron"), longer).unwrap();
+    let child = begin(&place, "a");
+    while !place.path("a/runs/0/checkpoint.bin").exists() {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let id = child.id().to_string();
+    Command::new("kill").args(["-INT", &id]).status().unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(code(&output), 130, "{}", stderr(&output));
+    let message = "interrupted: 0 of 12 runs have ended, the others that had begun have checkpoints; to \
+                   continue: actin sweep sweep.ron --out a --resume\n";
+    assert_eq!(stderr(&output), message);
+}
+
+/// Exit code 2, the file, line and column, the value and the rule; nothing is written.
+#[test]
+fn mistakes_of_a_sweep_have_their_place() {
+    for (from, to, message) in [
+        (
+            "vary:",
+            "varies:",
+            "sweep.ron:4:5: unknown key varies in Sweep: known are title, scene, results",
+        ),
+        (
+            "[1].to_nm",
+            "[1].to_um",
+            "sweep.ron:6:60: vary[1].rows[0][0] = 30.0: filament.sections[1].to_um=30.0: unknown key",
+        ),
+        (
+            "sections[1]",
+            "sections[3]",
+            "sweep.ron:6:60: vary[1].rows[0][0] = 30.0: filament.sections[3].to_nm=30.0: filament.sections has 2",
+        ),
+        (
+            "-1.5, inf",
+            "-1.5, high",
+            "sweep.ron:5:63: vary[0].values[2] = high: loads[0].force_pn[2]=high: ",
+        ),
+        (
+            "[35.5]",
+            "[35.5, 1]",
+            "sweep.ron:6:67: vary[1].rows[1] = 2 values: a row has a value for each of the 1 keys",
+        ),
+        (
+            "counts.segments",
+            "counts.segment",
+            "sweep.ron:9:63: results[2] = counts.segment: summary.json has no segment there: known are",
+        ),
+        (
+            "number: 3",
+            "number: 0",
+            "sweep.ron:8:22: samples.number = 0: must be at least 1",
+        ),
+        (
+            "of: [Bonds]",
+            "of: [Noise]",
+            "sweep.ron:8:5: samples: the scene draws nothing",
+        ),
+        (
+            "filament.sections[1].to_nm",
+            "loads[0].force_pn",
+            "sweep.ron:6:9: vary[1] = loads[0].force_pn: is varied already, as loads[0].force_pn[2]",
+        ),
+        ("scene.ron", "absent.ron", "absent.ron: "),
+    ] {
+        let place = place(&SWEEP.replacen(from, to, 1));
+        for flag in ["--check", "--resume"] {
+            let output = place.actin(&["sweep", "sweep.ron", flag]);
+            let found = stderr(&output);
+            assert_eq!(code(&output), 2, "{found}");
+            assert!(found.starts_with(&format!("error: {message}")), "{found}");
+        }
+        assert!(!place.path("sweeps").exists());
+    }
+}
+
+/// A directory of another sweep, of the same one without `--resume`, and of somebody: left alone.
+#[test]
+fn other_directories_are_left_alone() {
+    let place = place(SWEEP);
+    let refused = |arguments: &[&str]| {
+        let output = place.actin(&[&["sweep"], arguments].concat());
+        assert_eq!(code(&output), 2, "{}", stdout(&output));
+        stderr(&output).to_owned()
+    };
+    assert!(refused(&["sweep.ron", "--out", "."]).contains("is not empty and holds no sweep"));
+    assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "a", "--only", "12"]));
+    assert!(refused(&["sweep.ron", "--out", "a"]).contains("--resume continues it"));
+    fs::write(place.path("other.ron"), SWEEP.replace("35.5", "36.5")).unwrap();
+    let message = refused(&["other.ron", "--out", "a", "--resume"]);
+    assert!(message.contains("line 5 of parameters.csv is"), "{message}");
+    assert!(refused(&["sweep.ron", "--out", "a", "--only", "18"]).contains("there is no run 18"));
+}
+
+/// How many runs there are, what they cost, and which points the rules refuse.
+#[test]
+fn a_sweep_can_be_checked() {
+    let place = place(SWEEP);
+    let output = place.actin(&["sweep", "sweep.ron", "--check"]);
+    assert_done(&output);
+    let said = stdout(&output);
+    for part in [
+        "18 runs: 6 point(s), 3 run(s) of each\n  loads[0].force_pn[2]: 0.0, -1.5, inf\n",
+        "  seeds 1 to 3\n",
+        "s on one core of the reference machine",
+        "2 point(s) will fail:\n  point 4: loads[0].force_pn[2]=inf: loads[0].force_pn = [-2.0, 0.0, inf]",
+    ] {
+        assert!(said.contains(part), "{part} in {said}");
+    }
+    assert!(!place.path("sweeps").exists());
+}

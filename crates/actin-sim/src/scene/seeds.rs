@@ -1,0 +1,84 @@
+//! The seeds of a scene: what it draws at random.
+
+use super::{Anchors, Scene, Section, Task};
+use serde::{Deserialize, Serialize};
+
+/// What a scene may draw at random.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum Drawn {
+    /// Bonds of monomers (`monomers.seed`), where `anchors` are drawn.
+    Bonds,
+    /// Thermal noise (`task.thermal.seed`).
+    Noise,
+    /// The shapes of imperfections (`imperfection.seed`).
+    Imperfections,
+}
+
+impl Drawn {
+    /// Everything that can be drawn.
+    pub const ALL: [Self; 3] = [Self::Bonds, Self::Noise, Self::Imperfections];
+}
+
+impl Scene {
+    /// Gives a seed to all of one kind that the scene draws; returns how many draw from it now. What the
+    /// scene does not draw stays as it is.
+    pub fn reseed(&mut self, what: Drawn, seed: u64) -> usize {
+        match what {
+            Drawn::Bonds => {
+                let drawing = self.filaments_mut().filter(|filament| {
+                    let is_monomers = |s: &Section| matches!(s, Section::Ellipsoids { .. });
+                    filament.monomers.anchors != Anchors::Cubature
+                        && filament.sections.iter().any(is_monomers)
+                });
+                drawing.map(|f| f.monomers.seed = seed).count()
+            }
+            Drawn::Noise => match &mut self.task {
+                Task::Dynamics(dynamics) => {
+                    let thermal = dynamics.thermal.iter_mut();
+                    thermal.map(|thermal| thermal.seed = seed).count()
+                }
+                Task::Equilibrium(_) => 0,
+            },
+            Drawn::Imperfections => {
+                let imperfect = self.filaments_mut().filter_map(|f| f.imperfection.as_mut());
+                imperfect
+                    .map(|imperfection| imperfection.seed = seed)
+                    .count()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Only what is drawn takes a seed, and the scene stays valid.
+    #[test]
+    fn what_is_drawn_takes_the_seed() {
+        let text = "Scene(
+            filaments: [
+                Filament(
+                    sections: [Ellipsoids(from_nm: 0.0, to_nm: 30.0)],
+                    monomers: Monomers(anchors: Independent),
+                ),
+                Filament(
+                    sections: [Ellipsoids(from_nm: 0.0, to_nm: 30.0)],
+                    imperfection: (amplitude_nm: 0.1, seed: 1),
+                ),
+                Filament(
+                    sections: [Rod(from_nm: 0.0, to_nm: 30.0)],
+                    monomers: Monomers(anchors: Independent),
+                ),
+            ],
+            task: Dynamics(duration_ns: 1.0),
+        )";
+        let mut scene = Scene::from_ron(text).unwrap();
+        assert_eq!(Drawn::ALL.map(|what| scene.reseed(what, 7)), [1, 0, 1]);
+        assert_eq!(scene.filament.monomers.seed, 7);
+        assert_eq!(scene.further[0].monomers.seed, 0);
+        assert_eq!(scene.further[0].imperfection.unwrap().seed, 7);
+        assert!(scene.validate().is_ok());
+    }
+}

@@ -1,0 +1,43 @@
+//! Five filaments at each of two forces, on all cores, into one table.
+
+use actin_sweep::sim::SimError;
+use actin_sweep::{Opened, Settings, Sweep, SweepDirectory};
+
+/// A filament of monomers, whose bonds are drawn, under a force across its tip.
+const SCENE: &str = "Scene(
+    filament: Filament(
+        sections: [Ellipsoids(from_nm: 0.0, to_nm: 40.0)],
+        monomers: Monomers(anchors: Independent),
+    ),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (1.0, 0.0, 0.0))],
+    task: Equilibrium(),
+)";
+
+/// Five filaments at each of two forces.
+const SWEEP: &str = "Sweep(
+    scene: \"scene.ron\",
+    vary: [List(key: \"loads[0].force_pn[0]\", values: [1.0, 2.0])],
+    samples: Samples(number: 5),
+    results: [\"tip_displacement_nm[0]\"],
+)";
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let sweep = Sweep::from_ron(SWEEP).map_err(SimError::from)?;
+    let opened = Opened::new(sweep, SCENE.into())?;
+    let folder = std::env::temp_dir().join(format!("actin-sweep-{}", std::process::id()));
+    let directory = SweepDirectory::create(&folder, &opened, false)?;
+    let ended = directory.carry_out(&opened, &Settings::default(), &|_| ())?;
+    assert_eq!((ended.ended, ended.failed), (10, 0));
+    let table = std::fs::read_to_string(folder.join("table.csv"))?;
+    println!("{table}");
+    let tip = |row: usize| -> f64 {
+        let line = table.lines().nth(row).expect("a row for each point");
+        let cell = line.split(',').nth(4).expect("the mean");
+        cell.parse().expect("a number")
+    };
+    // Twice the force moves the tip nearly twice as far.
+    assert!((tip(2) / tip(1) - 2.0).abs() < 0.1);
+    std::fs::remove_dir_all(folder)?;
+    Ok(())
+}

@@ -1,0 +1,49 @@
+//! Names of the files of a sweep directory, and how they are written: whole or not at all.
+
+use crate::SweepError;
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::Path;
+
+pub(crate) const SWEEP: &str = "sweep.ron";
+pub(crate) const SCENE: &str = "scene.ron";
+pub(crate) const PARAMETERS: &str = "parameters.csv";
+pub(crate) const MANIFEST: &str = "actin-sweep.json";
+pub(crate) const RUNS: &str = "runs.csv";
+pub(crate) const TABLE: &str = "table.csv";
+pub(crate) const SNAKEFILE: &str = "Snakefile";
+pub(crate) const PROFILE: &str = "profiles/default/config.yaml";
+
+/// Puts a whole file on the disk in the place of another, or leaves what was there.
+pub(crate) fn replace(folder: &Path, name: &str, contents: &[u8]) -> Result<(), SweepError> {
+    let path = folder.join(name);
+    let part = format!(".{}.{}.part", name.replace('/', "-"), std::process::id());
+    let part = folder.join(part);
+    let write = || {
+        path.parent().map_or(Ok(()), fs::create_dir_all)?;
+        let mut file = File::create(&part)?;
+        file.write_all(contents)?;
+        file.sync_all()?;
+        fs::rename(&part, &path)
+    };
+    write().map_err(|error| {
+        let _ = fs::remove_file(&part);
+        SweepError::io(&path)(error)
+    })
+}
+
+/// Rows of texts as CSV.
+pub(crate) fn csv<R, C>(rows: R) -> Vec<u8>
+where
+    R: IntoIterator<Item = C>,
+    C: IntoIterator<Item = String>,
+{
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        let row: Vec<String> = row.into_iter().collect();
+        writer
+            .write_record(&row)
+            .expect("memory takes rows of one length");
+    }
+    writer.into_inner().expect("memory takes every row")
+}

@@ -1,0 +1,224 @@
+//! A sweep with its scene: read, checked together, and priced.
+
+use crate::design::Run;
+use crate::sweep::Axis;
+use crate::{Design, Sweep, SweepError, chosen, rules};
+use actin_sim::{Assembly, Override, Plan, Scene, SceneError, SceneProblem, SceneText, Summary};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// A sweep whose rules hold, with the text of its scene and all its runs.
+#[derive(Clone, Debug)]
+pub struct Opened {
+    /// The sweep.
+    pub sweep: Sweep,
+    /// Its runs.
+    pub design: Design,
+    /// The text of the scene as its file has it.
+    pub(crate) scene: String,
+    /// The same with what all runs set.
+    base: SceneText,
+}
+
+/// What a sweep costs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Priced {
+    /// Time of all runs that can be made, one after the other on the reference machine (s).
+    pub seconds: f64,
+    /// The longest run (s).
+    pub longest_s: f64,
+    /// Most memory of one run (bytes).
+    pub bytes: f64,
+    /// Points that the rules of a scene refuse, and why.
+    pub refused: Vec<(usize, String)>,
+}
+
+impl Opened {
+    /// Reads a sweep and its scene from their files.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or as [`new`](Self::new).
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, SweepError> {
+        let path = path.as_ref();
+        let text = read(path)?;
+        let refused = |error| SweepError::Refused {
+            file: path.to_owned(),
+            error,
+        };
+        let sweep = Sweep::from_ron(&text).map_err(refused)?;
+        let scene_path = path.parent().unwrap_or(Path::new("")).join(&sweep.scene);
+        let scene = read(&scene_path)?;
+        // First the scene alone: what is wrong with it is not the fault of the sweep.
+        SceneText::new(&scene)
+            .read()
+            .map_err(|error| SweepError::Refused {
+                file: scene_path,
+                error,
+            })?;
+        Self::new(sweep, scene).map_err(|problem| refused(SceneError::locate(&problem, &text)))
+    }
+
+    /// Checks a sweep with the text of its scene.
+    ///
+    /// # Errors
+    /// A rule that is broken: by the sweep's own numbers, a key or value that the scene does not take, a
+    /// result that runs do not have, samples of what the scene does not draw. Values that only the rules of a
+    /// scene refuse are no error: their runs fail.
+    pub fn new(sweep: Sweep, scene: String) -> Result<Self, SceneProblem> {
+        rules::check(&sweep)?;
+        let mut base = SceneText::new(&scene);
+        for (i, value) in sweep.set.iter().enumerate() {
+            let key = format!("set[{i}].value");
+            set(&mut base, &value.key, &value.value.0, &key)?;
+        }
+        let design = Design::new(&sweep);
+        let opened = Self {
+            sweep,
+            design,
+            scene,
+            base,
+        };
+        opened.check_values()?;
+        opened.check_samples()?;
+        opened.check_results()?;
+        Ok(opened)
+    }
+
+    /// The text of the scene of a point.
+    fn text(&self, point: usize) -> Result<SceneText, SceneError> {
+        let mut text = self.base.clone();
+        for one in self.design.overrides(point) {
+            text.set(one)?;
+        }
+        Ok(text)
+    }
+
+    /// The scene of a run, and its text to place what is wrong with it.
+    ///
+    /// # Errors
+    /// Why the rules of scenes refuse it.
+    pub fn scene_of(&self, run: Run) -> Result<(Scene, SceneText), SceneError> {
+        let text = self.text(run.point)?;
+        let mut scene = text.scene()?;
+        if let (Some(seed), Some(samples)) = (run.seed, &self.sweep.samples) {
+            for &what in &samples.of {
+                scene.reseed(what, seed);
+            }
+        }
+        Ok((scene, text))
+    }
+
+    /// Every value that an axis writes is one that its key may have, for one point after another.
+    fn check_values(&self) -> Result<(), SceneProblem> {
+        let mut first = 0;
+        for (i, axis) in self.sweep.vary.iter().enumerate() {
+            let keys = axis.keys();
+            let mut text = self.base.clone();
+            let before = self.design.overrides(0).take(first);
+            before.for_each(|one| drop(text.set(one)));
+            let mut seen = BTreeSet::new();
+            for (k, row) in axis.rows().iter().enumerate() {
+                if !seen.insert(row.clone()) {
+                    continue;
+                }
+                let mut text = text.clone();
+                for (j, (key, value)) in keys.iter().zip(row).enumerate() {
+                    set(&mut text, key, value, &place(i, axis, k, j))?;
+                }
+            }
+            first += keys.len();
+        }
+        Ok(())
+    }
+
+    /// The scene of the first point that the rules accept.
+    fn example(&self) -> Option<Scene> {
+        let points = 0..self.design.points.len();
+        points
+            .into_iter()
+            .find_map(|point| self.text(point).ok()?.scene().ok())
+    }
+
+    fn check_samples(&self) -> Result<(), SceneProblem> {
+        let (Some(samples), Some(mut scene)) = (&self.sweep.samples, self.example()) else {
+            return Ok(());
+        };
+        let drawn: usize = samples.of.iter().map(|&what| scene.reseed(what, 1)).sum();
+        if drawn > 0 || samples.number == 1 {
+            return Ok(());
+        }
+        let rule = "the scene draws nothing that takes a seed (bonds with anchors: Independent, thermal noise, \
+                    imperfections): all samples would be the same";
+        Err(SceneProblem::new("samples", "", rule))
+    }
+
+    /// Results are in the summary of the first point that can be built.
+    fn check_results(&self) -> Result<(), SceneProblem> {
+        let assembly = self.example().map(|scene| Assembly::build(&scene));
+        let Some(Ok(assembly)) = assembly else {
+            return Ok(());
+        };
+        let summary = serde_json::to_value(Summary::as_built(&assembly));
+        let summary = summary.expect("a summary is JSON");
+        let names = self.sweep.results.iter().enumerate();
+        for (i, name) in names {
+            if let Some(why) = chosen::refusal(&summary, name) {
+                return Err(SceneProblem::new(format!("results[{i}]"), name, why));
+            }
+        }
+        Ok(())
+    }
+
+    /// What all runs cost: the first of each point is built, none is run.
+    pub fn price(&self) -> Priced {
+        let mut all = Priced::default();
+        for point in 0..self.design.points.len() {
+            match self.price_point(point) {
+                Err(why) => all.refused.push((point, why)),
+                Ok((seconds, bytes)) => {
+                    all.seconds += seconds * self.design.runs_of_point() as f64;
+                    all.longest_s = all.longest_s.max(seconds);
+                    all.bytes = all.bytes.max(bytes);
+                }
+            }
+        }
+        all
+    }
+
+    fn price_point(&self, point: usize) -> Result<(f64, f64), String> {
+        let run = self.design.run(point * self.design.runs_of_point());
+        let (scene, text) = self.scene_of(run).map_err(|error| error.to_string())?;
+        let in_words = |problem: SceneProblem| text.locate(&problem).to_string();
+        let assembly = Assembly::build(&scene).map_err(in_words)?;
+        let cost = Plan::new(&assembly).map_err(in_words)?.cost();
+        Ok((cost.seconds.total(), cost.bytes))
+    }
+}
+
+/// Where a value of an axis is written.
+fn place(i: usize, axis: &Axis, row: usize, column: usize) -> String {
+    match axis {
+        Axis::List { .. } => format!("vary[{i}].values[{row}]"),
+        Axis::Grid { .. } => format!("vary[{i}].key"),
+        Axis::Rows { .. } => format!("vary[{i}].rows[{row}][{column}]"),
+        Axis::Random { .. } => format!("vary[{i}].over[{column}]"),
+    }
+}
+
+/// Sets a key that the sweep writes at `place`; the value must be one that the key may have.
+fn set(text: &mut SceneText, key: &str, value: &str, place: &str) -> Result<(), SceneProblem> {
+    let one = Override {
+        key: key.to_owned(),
+        value: value.to_owned(),
+    };
+    let outcome = text.set(one).and_then(|()| text.read().map(drop));
+    outcome.map_err(|error| SceneProblem::new(place, value, error.to_string()))
+}
+
+fn read(path: &Path) -> Result<String, SweepError> {
+    let bytes = std::fs::read(path).map_err(SweepError::io(path))?;
+    Scene::text(bytes).map_err(|error| SweepError::Refused {
+        file: path.to_owned(),
+        error,
+    })
+}

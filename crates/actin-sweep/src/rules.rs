@@ -1,0 +1,168 @@
+//! The rules of a sweep's own numbers and names.
+
+use crate::sweep::{Axis, Scale, Span, Sweep};
+use actin_sim::{Override, SceneProblem};
+
+/// Most runs of a sweep: each has a directory.
+const MOST_RUNS: f64 = 1e6;
+
+type Checked = Result<(), SceneProblem>;
+
+/// Checks every rule that does not need the scene.
+pub(crate) fn check(sweep: &Sweep) -> Checked {
+    for (i, value) in sweep.set.iter().enumerate() {
+        check_path(&format!("set[{i}].key"), &value.key)?;
+    }
+    for (i, axis) in sweep.vary.iter().enumerate() {
+        check_axis(&format!("vary[{i}]"), axis)?;
+    }
+    check_twice(sweep)?;
+    check_results(sweep)?;
+    let samples = sweep.samples.as_ref();
+    if samples.is_some_and(|samples| samples.number == 0) {
+        return Err(SceneProblem::new("samples.number", 0, "must be at least 1"));
+    }
+    if samples.is_some_and(|samples| samples.of.is_empty()) {
+        let rule = "must name something that is drawn: Bonds, Noise or Imperfections";
+        return Err(SceneProblem::new("samples.of", "[]", rule));
+    }
+    let runs = sweep
+        .vary
+        .iter()
+        .map(|axis| axis.len() as f64)
+        .product::<f64>()
+        * samples.map_or(1.0, |samples| samples.number as f64);
+    if runs > MOST_RUNS {
+        let rule = format!("a sweep has at most {MOST_RUNS:e} runs, these are {runs:e}");
+        return Err(SceneProblem::new("vary", "", rule));
+    }
+    Ok(())
+}
+
+fn check_axis(key: &str, axis: &Axis) -> Checked {
+    let at = |name: &str| format!("{key}.{name}");
+    match axis {
+        Axis::List { key, values } => {
+            check_path(&at("key"), key)?;
+            some(&at("values"), values.len(), "value")
+        }
+        Axis::Grid {
+            key,
+            from,
+            to,
+            number,
+            scale,
+        } => {
+            check_path(&at("key"), key)?;
+            check_ends(&at(""), (*from, *to), *scale)?;
+            let rule = "a grid has at least its two ends";
+            let few = || SceneProblem::new(at("number"), number, rule);
+            (*number >= 2).then_some(()).ok_or_else(few)
+        }
+        Axis::Rows { keys, rows } => {
+            some(&at("keys"), keys.len(), "key")?;
+            for (i, one) in keys.iter().enumerate() {
+                check_path(&at(&format!("keys[{i}]")), one)?;
+            }
+            some(&at("rows"), rows.len(), "row")?;
+            for (i, row) in rows
+                .iter()
+                .enumerate()
+                .filter(|(_, r)| r.len() != keys.len())
+            {
+                let rule = format!("a row has a value for each of the {} keys", keys.len());
+                let count = format!("{} values", row.len());
+                return Err(SceneProblem::new(at(&format!("rows[{i}]")), count, rule));
+            }
+            Ok(())
+        }
+        Axis::Random { number, over, .. } => {
+            some(&at("number"), *number, "point")?;
+            some(&at("over"), over.len(), "key")?;
+            let spans = over.iter().enumerate();
+            spans
+                .into_iter()
+                .try_for_each(|(i, span)| check_span(&at(&format!("over[{i}]")), span))
+        }
+    }
+}
+
+fn check_span(key: &str, span: &Span) -> Checked {
+    check_path(&format!("{key}.key"), &span.key)?;
+    check_ends(&format!("{key}."), (span.from, span.to), span.scale)?;
+    if span.to <= span.from {
+        let rule = format!("must be greater than from = {:?}", span.from);
+        let value = format!("{:?}", span.to);
+        return Err(SceneProblem::new(format!("{key}.to"), value, rule));
+    }
+    Ok(())
+}
+
+fn check_ends(prefix: &str, (from, to): (f64, f64), scale: Scale) -> Checked {
+    for (name, value) in [("from", from), ("to", to)] {
+        let rule = match scale {
+            _ if !value.is_finite() => "must be finite",
+            Scale::Logarithmic if value <= 0.0 => "must be positive on a logarithmic scale",
+            _ => continue,
+        };
+        let value = format!("{value:?}");
+        return Err(SceneProblem::new(format!("{prefix}{name}"), value, rule));
+    }
+    Ok(())
+}
+
+/// At least one of something.
+fn some(key: &str, count: usize, what: &str) -> Checked {
+    let rule = || format!("must have at least one {what}");
+    let none = || SceneProblem::new(key, count, rule());
+    (count > 0).then_some(()).ok_or_else(none)
+}
+
+fn check_path(at: &str, key: &str) -> Checked {
+    let parsed = format!("{key}=0").parse::<Override>();
+    let rule = "must be the path of a key, such as loads[0].force_pn[2]";
+    match parsed {
+        Ok(one) if one.key == key => Ok(()),
+        _ => Err(SceneProblem::new(at, format!("{key:?}"), rule)),
+    }
+}
+
+/// A key is varied once, and nothing above or below it.
+fn check_twice(sweep: &Sweep) -> Checked {
+    let mut seen: Vec<&str> = Vec::new();
+    for (i, axis) in sweep.vary.iter().enumerate() {
+        for key in axis.keys() {
+            let other = seen.iter().find(|other| overlap(key, other));
+            if let Some(other) = other {
+                let rule = format!("is varied already, as {other}");
+                return Err(SceneProblem::new(format!("vary[{i}]"), key, rule));
+            }
+            seen.push(key);
+        }
+    }
+    Ok(())
+}
+
+/// Whether one of two keys is the other or lies below it.
+fn overlap(one: &str, other: &str) -> bool {
+    let is_within = |key: &str, above: &str| {
+        let rest = key.strip_prefix(above);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+    };
+    is_within(one, other) || is_within(other, one)
+}
+
+fn check_results(sweep: &Sweep) -> Checked {
+    some("results", sweep.results.len(), "result")?;
+    for (i, name) in sweep.results.iter().enumerate() {
+        let rule = if name == "wall_s" {
+            "differs from run to run: the table holds what does not"
+        } else if sweep.results[..i].contains(name) {
+            "is in the list already"
+        } else {
+            continue;
+        };
+        return Err(SceneProblem::new(format!("results[{i}]"), name, rule));
+    }
+    Ok(())
+}

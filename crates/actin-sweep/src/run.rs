@@ -1,0 +1,132 @@
+//! One run of a sweep in its directory: begun, resumed or left alone, and never twice.
+
+use crate::design::Run;
+use crate::{Opened, Settings, SweepDirectory, SweepError};
+use actin_sim::{
+    Assembly, CheckpointError, Checkpoints, Outcome, Plan, RunDirectory, RunDirectoryError,
+    RunError, RunLock, Saved, Status,
+};
+use serde_json::Value;
+use std::path::Path;
+use std::sync::Arc;
+
+/// How a run of a sweep stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum State {
+    /// Its summary is there, of a run that has ended in some way.
+    Ended,
+    /// It was interrupted, with a checkpoint if it had begun.
+    Interrupted,
+}
+
+/// The summary of a run that has ended; none of any other.
+pub(crate) fn summary(directory: &Path) -> Option<Value> {
+    let text = std::fs::read_to_string(directory.join("summary.json")).ok()?;
+    let summary: Value = serde_json::from_str(&text).ok()?;
+    (summary["status"] != "interrupted").then_some(summary)
+}
+
+/// Makes a run, unless it has ended already.
+///
+/// # Errors
+/// Results that cannot be written, and files in its directory that no run has written. All that is wrong with
+/// the run itself is in its summary.
+pub(crate) fn make(
+    opened: &Opened,
+    directory: &SweepDirectory,
+    run: Run,
+    settings: &Settings,
+) -> Result<State, SweepError> {
+    let path = directory.run(run.index);
+    if summary(&path).is_some() {
+        return Ok(State::Ended);
+    }
+    let title = &opened.sweep.title;
+    let (scene, text) = match opened.scene_of(run) {
+        Ok(found) => found,
+        Err(error) => return fail(&path, title, &error.to_string()),
+    };
+    let refused = |problem: &_| fail(&path, &scene.title, &text.locate(problem).to_string());
+    let assembly = match Assembly::build(&scene) {
+        Ok(assembly) => assembly,
+        Err(problem) => return refused(&problem),
+    };
+    let plan = match Plan::new(&assembly) {
+        Ok(plan) => plan,
+        Err(problem) => return refused(&problem),
+    };
+    let kept = RunDirectory::existing(&path);
+    let mut checkpoints = Checkpoints::new(
+        &kept,
+        &plan,
+        settings.checkpoint_every,
+        Arc::clone(&settings.interrupted),
+        settings.warn,
+    );
+    let (saved, _lock) = begin(&kept, &plan, &mut checkpoints, settings.warn)?;
+    let outcome = match saved {
+        None => plan.run_into(&mut checkpoints),
+        Some(saved) => plan.resume_into(saved, &mut checkpoints),
+    };
+    match outcome {
+        Ok(outcome) if outcome.status == Status::Interrupted => Ok(State::Interrupted),
+        Ok(outcome) => write(&kept, &plan, &checkpoints, &outcome),
+        Err(RunError::Refused(problem)) => {
+            let why = text.locate(&problem).to_string();
+            kept.write_failure(&scene.title, &why)?;
+            kept.remove_checkpoint()?;
+            Ok(State::Ended)
+        }
+        Err(RunError::Failed(failed)) => write(&kept, &plan, &checkpoints, &failed.outcome),
+    }
+}
+
+/// Opens the directory of a run: what it goes on from, and what keeps others out.
+fn begin(
+    kept: &RunDirectory,
+    plan: &Plan<'_>,
+    checkpoints: &mut Checkpoints,
+    warn: fn(&CheckpointError),
+) -> Result<(Option<Saved>, RunLock), SweepError> {
+    if kept.has_checkpoint() {
+        let lock = RunLock::take(kept.path())?;
+        match checkpoints.resume(plan) {
+            Ok(saved) => {
+                kept.reopen()?;
+                return Ok((Some(saved), lock));
+            }
+            Err(error) => warn(&error),
+        }
+    }
+    let (_, lock) = RunDirectory::create_locked(kept.path(), true)?;
+    kept.write_scene(plan.scene())?;
+    Ok((None, lock))
+}
+
+/// Writes what a run gave; a number that cannot be written is a failure of the run.
+fn write(
+    kept: &RunDirectory,
+    plan: &Plan<'_>,
+    checkpoints: &Checkpoints,
+    outcome: &Outcome,
+) -> Result<State, SweepError> {
+    match kept.write(plan, checkpoints, outcome) {
+        Ok(_) => {}
+        Err(RunDirectoryError::NoRecord) => {
+            kept.write_failure(&plan.scene().title, &outcome.failure)?;
+        }
+        Err(error @ RunDirectoryError::NotFinite { .. }) => {
+            kept.write_failure(&plan.scene().title, &error.to_string())?;
+        }
+        Err(error) => return Err(error.into()),
+    }
+    kept.remove_checkpoint()?;
+    Ok(State::Ended)
+}
+
+/// Notes why there is no run.
+fn fail(path: &Path, title: &str, why: &str) -> Result<State, SweepError> {
+    let (directory, _lock) = RunDirectory::create_locked(path, true)?;
+    directory.write_failure(title, why)?;
+    Ok(State::Ended)
+}

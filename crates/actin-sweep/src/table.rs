@@ -1,0 +1,148 @@
+//! The tables of a sweep: a row for each run, and a row for each point with means and errors.
+
+use crate::files::{self, RUNS, TABLE};
+use crate::run::summary;
+use crate::{Opened, SweepDirectory, SweepError, chosen};
+use serde_json::Value;
+use std::io;
+
+/// The rows of all runs, in order.
+#[derive(Debug)]
+pub(crate) struct Table<'a> {
+    opened: &'a Opened,
+    rows: Vec<Row>,
+}
+
+#[derive(Debug)]
+struct Row {
+    status: String,
+    failure: String,
+    /// Results as the summary has them; none of a run that failed.
+    results: Vec<Option<Value>>,
+}
+
+impl<'a> Table<'a> {
+    /// Reads the summaries of all runs.
+    pub(crate) fn new(opened: &'a Opened, directory: &SweepDirectory) -> Result<Self, SweepError> {
+        let results = &opened.sweep.results;
+        let row = |run| {
+            let path = directory.run(run);
+            let missing = || SweepError::io(&path)(io::ErrorKind::NotFound.into());
+            let summary = summary(&path).ok_or_else(missing)?;
+            let text = |key: &str| summary[key].as_str().unwrap_or_default().to_owned();
+            let status = text("status");
+            let counts = status != "failed";
+            let found = |name: &String| chosen::find(&summary, name).filter(|_| counts).cloned();
+            Ok(Row {
+                status,
+                failure: text("failure"),
+                results: results.iter().map(found).collect(),
+            })
+        };
+        let rows: Result<_, SweepError> = (0..opened.design.len()).map(row).collect();
+        Ok(Self {
+            opened,
+            rows: rows?,
+        })
+    }
+
+    pub(crate) fn write(&self, directory: &SweepDirectory) -> Result<(), SweepError> {
+        files::replace(directory.path(), RUNS, &self.runs())?;
+        files::replace(directory.path(), TABLE, &self.points())
+    }
+
+    /// Run by run.
+    fn runs(&self) -> Vec<u8> {
+        let (design, sweep) = (&self.opened.design, &self.opened.sweep);
+        let head = words(&["run", "point"])
+            .chain(design.keys.iter().cloned())
+            .chain(words(&["seed", "status"]))
+            .chain(sweep.results.iter().cloned())
+            .chain(words(&["failure"]));
+        let rows = self.rows.iter().enumerate().map(|(index, row)| {
+            let run = design.run(index);
+            let seed = run.seed.map_or_else(String::new, |seed| seed.to_string());
+            let cell = |value: &Option<Value>| match value {
+                None | Some(Value::Null) => String::new(),
+                Some(value) => value.to_string(),
+            };
+            let numbers = [run.index, run.point].map(|n| n.to_string()).into_iter();
+            numbers
+                .chain(design.points[run.point].iter().cloned())
+                .chain([seed, row.status.clone()])
+                .chain(row.results.iter().map(cell))
+                .chain([row.failure.clone()])
+                .collect::<Vec<_>>()
+        });
+        files::csv(std::iter::once(head.collect()).chain(rows))
+    }
+
+    /// Point by point: means over the runs that did not fail, and their standard errors.
+    fn points(&self) -> Vec<u8> {
+        let (design, sweep) = (&self.opened.design, &self.opened.sweep);
+        let both = |name: &String| [name.clone(), format!("{name} error")];
+        let head = words(&["point"])
+            .chain(design.keys.iter().cloned())
+            .chain(words(&["runs", "failed"]))
+            .chain(sweep.results.iter().flat_map(both))
+            .chain(words(&["failure"]));
+        let chunks = self.rows.chunks(design.runs_of_point()).enumerate();
+        let rows = chunks.map(|(point, rows)| {
+            let failed = rows.iter().filter(|row| row.status == "failed");
+            let first = failed.clone().next().map(|row| row.failure.clone());
+            let counts = [rows.len(), failed.count()].map(|n| n.to_string());
+            let results = (0..sweep.results.len()).flat_map(|k| {
+                let numbers = rows
+                    .iter()
+                    .filter_map(|row| chosen::number(row.results[k].as_ref()?));
+                mean_and_error(&numbers.collect::<Vec<_>>())
+            });
+            std::iter::once(point.to_string())
+                .chain(design.points[point].iter().cloned())
+                .chain(counts)
+                .chain(results)
+                .chain([first.unwrap_or_default()])
+                .collect::<Vec<_>>()
+        });
+        files::csv(std::iter::once(head.collect()).chain(rows))
+    }
+}
+
+fn words(names: &[&str]) -> impl Iterator<Item = String> {
+    names
+        .iter()
+        .map(ToString::to_string)
+        .collect::<Vec<_>>()
+        .into_iter()
+}
+
+/// Mean of numbers and its standard error; nothing where there are too few.
+fn mean_and_error(numbers: &[f64]) -> [String; 2] {
+    let count = numbers.len() as f64;
+    let mean = numbers.iter().sum::<f64>() / count;
+    let squares: f64 = numbers.iter().map(|x| (x - mean).powi(2)).sum();
+    let error = (squares / (count - 1.0) / count).sqrt();
+    [mean, error].map(|value| {
+        if value.is_finite() {
+            format!("{value:?}")
+        } else {
+            String::new()
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1, 2, 3: mean 2, variance 1, error 1/sqrt(3).
+    #[test]
+    fn means_have_standard_errors() {
+        let [mean, error] = mean_and_error(&[1.0, 2.0, 3.0]);
+        assert_eq!(mean, "2.0");
+        let error: f64 = error.parse().unwrap();
+        assert!((error - 1.0 / 3.0_f64.sqrt()).abs() < 1e-15);
+        assert_eq!(mean_and_error(&[5.0]), ["5.0".to_owned(), String::new()]);
+        assert_eq!(mean_and_error(&[]), [String::new(), String::new()]);
+    }
+}
