@@ -1,6 +1,6 @@
 //! Why the program ends without a result.
 
-use crate::SceneArguments;
+use crate::{SceneArguments, excerpt};
 use actin_sim::{
     Assembly, CheckpointError, Drawn, Plan, RunDirectoryError, Scene, SceneError, SceneText,
 };
@@ -84,7 +84,7 @@ impl Opened {
             text.set(one.clone())
                 .map_err(|error| input(&name, &error))?;
         }
-        let mut scene = text.scene().map_err(|error| input(&name, &error))?;
+        let mut scene = text.scene().map_err(|first| all(&name, &text, first))?;
         if let Some(seed) = source.seed {
             let reseeded = Drawn::ALL.map(|what| scene.reseed(what, seed));
             if reseeded.iter().sum::<usize>() == 0 {
@@ -94,7 +94,7 @@ impl Opened {
             }
         }
         let assembly =
-            Assembly::build(&scene).map_err(|problem| input(&name, &text.locate(&problem)))?;
+            Assembly::build(&scene).map_err(|problem| all(&name, &text, text.locate(&problem)))?;
         Ok(Self {
             assembly,
             text,
@@ -109,17 +109,37 @@ impl Opened {
 
     /// A problem that showed only when the scene was to run.
     pub(crate) fn refuse(&self, problem: &actin_sim::SceneProblem) -> Failure {
-        Failure::Input(self.locate(problem))
+        Failure::Input(self.show(problem))
     }
 
     /// A problem with its place in the file, or the override that it comes from.
     pub(crate) fn locate(&self, problem: &actin_sim::SceneProblem) -> String {
         placed(&self.name, &self.text.locate(problem))
     }
+
+    /// The same with the line that is to blame.
+    fn show(&self, problem: &actin_sim::SceneProblem) -> String {
+        let error = self.text.locate(problem);
+        let told = placed(&self.name, &error);
+        format!("{told}{}", excerpt::of(&self.text, &error))
+    }
 }
 
 fn input(name: &str, error: &SceneError) -> Failure {
     Failure::Input(placed(name, error))
+}
+
+/// Every mistake of a text, of which one is known.
+fn all(name: &str, text: &SceneText, first: SceneError) -> Failure {
+    let mut mistakes = text.mistakes();
+    if mistakes.is_empty() {
+        mistakes.push(first);
+    }
+    let shown = mistakes.iter().map(|mistake| {
+        let told = placed(name, mistake);
+        format!("{told}{}", excerpt::of(text, mistake))
+    });
+    Failure::Input(shown.collect::<Vec<_>>().join("\nerror: "))
 }
 
 fn placed(name: &str, error: &SceneError) -> String {

@@ -7,6 +7,7 @@
 mod streams;
 
 mod check;
+mod excerpt;
 mod failure;
 mod progress;
 mod run;

@@ -90,7 +90,10 @@ fn a_bad_scene_is_refused_with_file_line_and_column() {
         assert_eq!(
             stderr(&output),
             "error: scene.ron:6:32: filament.sections[1].to_nm = 5.0: a section's length is \
-             positive: must be greater than from_nm = 10.0\n"
+             positive: must be greater than from_nm = 10.0\n  \
+             |\n\
+             6 |             Rod(from_nm: 10.0, to_nm: 5.0),\n  \
+             |                                ^^^^^^^^^^\n"
         );
     }
     assert!(!place.path("runs").exists(), "nothing is left behind");

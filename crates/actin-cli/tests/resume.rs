@@ -172,10 +172,9 @@ fn a_full_disk_loses_no_checkpoint() {
     assert_same_files(&place.path("whole"), &place.path("a"));
 }
 
-/// Another scene, a damaged file, arguments without meaning: exit code 2 and the reason. A run that is
-/// finished says so and is left alone. Where there is nothing to go on from, a run begins.
+/// Where there is nothing to go on from, a run begins.
 #[test]
-fn what_cannot_be_resumed_is_refused() {
+fn what_has_not_begun_begins() {
     let place = Workplace::with(
         &MOTION
             .replace("150.0", "1.0")
@@ -192,6 +191,19 @@ fn what_cannot_be_resumed_is_refused() {
     }
     assert_eq!(code(&place.actin(&["--out", "b", "--resume"])), 0);
     assert_same_files(&place.path("a"), &place.path("b"));
+}
+
+/// Another scene, a damaged file, arguments without meaning: exit code 2 and the reason. A run that is
+/// finished says so and is left alone.
+#[test]
+fn what_cannot_be_resumed_is_refused() {
+    let place = Workplace::with(
+        &MOTION
+            .replace("150.0", "1.0")
+            .replace("50.0", "0.5")
+            .replace("1.5", "0.5"),
+    );
+    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
     assert!(!place.path("a/checkpoint.bin").exists());
     let before = files(&place.path("a"));
     let finished = place.actin(&["--out", "a", "--resume"]);

@@ -52,40 +52,18 @@ fn snakemake(folder: &Path) -> Option<Command> {
     Some(command)
 }
 
-/// Killed with all its jobs as soon as one has a checkpoint and another has ended, and run again: the run
-/// goes on from its checkpoint, and the tables are those of `actin sweep`, to the byte. Runs that fail are
-/// rows.
-#[test]
-fn a_workflow_that_is_killed_ends_with_the_same_table() {
-    let place = Workplace::with(SCENE);
-    let folder = place.path("");
-    fs::write(place.path("sweep.ron"), SWEEP).unwrap();
-    let emit = [
-        "sweep",
-        "sweep.ron",
-        "--out",
-        "workflow",
-        "--emit",
-        "snakemake",
-    ];
-    let output = place.actin(&emit);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    assert!(stdout(&output).ends_with("cd workflow && snakemake --cores all\n"));
-    // Checkpoints come so quickly that one is there when it is killed.
-    let workflow = fs::read_to_string(place.path("workflow/Snakefile")).unwrap();
-    let quick = workflow.replace("--only", "--checkpoint-every 0.01 --only");
-    fs::write(place.path("workflow/Snakefile"), quick).unwrap();
-    let Some(mut command) = snakemake(&folder) else {
-        return;
-    };
-    let has = |name: &str| {
-        let runs = fs::read_dir(place.path("workflow/runs"));
-        let mut runs = runs.into_iter().flatten();
-        runs.any(|run| run.unwrap().path().join(name).exists())
-    };
+/// Whether the directory of some run holds a file.
+fn has(place: &Workplace, name: &str) -> bool {
+    let runs = fs::read_dir(place.path("workflow/runs"));
+    let mut runs = runs.into_iter().flatten();
+    runs.any(|run| run.unwrap().path().join(name).exists())
+}
+
+/// Kills Snakemake with all its jobs as soon as one has a checkpoint and another has ended.
+fn kill_half_way(place: &Workplace, command: &mut Command) {
     let mut child = command.process_group(0).spawn().unwrap();
     let patience = Instant::now();
-    while !(has("checkpoint.bin") && has("summary.json")) {
+    while !(has(place, "checkpoint.bin") && has(place, "summary.json")) {
         assert!(patience.elapsed() < Duration::from_mins(2), "no run begins");
         assert!(
             child.try_wait().unwrap().is_none(),
@@ -101,7 +79,32 @@ fn a_workflow_that_is_killed_ends_with_the_same_table() {
     assert!(killed.success());
     child.wait().unwrap();
     assert!(!place.path("workflow/table.csv").exists());
-    assert!(has("checkpoint.bin"), "Snakemake leaves checkpoints alone");
+    assert!(
+        has(place, "checkpoint.bin"),
+        "Snakemake leaves checkpoints alone"
+    );
+}
+
+/// Killed half way and run again: the run that was cut off goes on from its checkpoint, and the tables are those of `actin sweep`, to the byte. Runs that fail are
+/// rows.
+#[test]
+fn a_workflow_that_is_killed_ends_with_the_same_table() {
+    let place = Workplace::with(SCENE);
+    let folder = place.path("");
+    fs::write(place.path("sweep.ron"), SWEEP).unwrap();
+    let emit = "sweep sweep.ron --out workflow --emit snakemake";
+    let emit: Vec<&str> = emit.split(' ').collect();
+    let output = place.actin(&emit);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stdout(&output).ends_with("cd workflow && snakemake --cores all\n"));
+    // Checkpoints come so quickly that one is there when it is killed.
+    let workflow = fs::read_to_string(place.path("workflow/Snakefile")).unwrap();
+    let quick = workflow.replace("--only", "--checkpoint-every 0.01 --only");
+    fs::write(place.path("workflow/Snakefile"), quick).unwrap();
+    let Some(mut command) = snakemake(&folder) else {
+        return;
+    };
+    kill_half_way(&place, &mut command);
     let again = snakemake(&folder).unwrap().status().unwrap();
     assert!(again.success());
     let whole = place.actin(&["sweep", "sweep.ron", "--out", "whole"]);
@@ -111,5 +114,5 @@ fn a_workflow_that_is_killed_ends_with_the_same_table() {
             ["workflow", "whole"].map(|out| fs::read(place.path(out).join(name)).unwrap());
         assert!(one == other, "{name} differs");
     }
-    assert!(!has("checkpoint.bin"));
+    assert!(!has(&place, "checkpoint.bin"));
 }

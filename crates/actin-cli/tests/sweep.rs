@@ -45,8 +45,7 @@ fn assert_done(output: &Output) {
     assert_eq!(code(output), 0, "{}{}", stdout(output), stderr(output));
 }
 
-/// 18 runs, 6 of which fail as rows. Means and errors are those of the runs; a run of the sweep is the
-/// run that `actin run` makes of the same scene.
+/// 18 runs, 6 of which fail as rows. Means and errors are those of the runs.
 #[test]
 fn a_sweep_becomes_a_table() {
     let place = place(SWEEP);
@@ -65,16 +64,9 @@ fn a_sweep_becomes_a_table() {
         "run,point,loads[0].force_pn[2],filament.sections[1].to_nm,seed,status,tip_displacement_nm[0],\
          energy_pn_nm.total,counts.segments,failure"
     );
-    assert!(
-        runs[8].starts_with("7,2,-1.5,30.0,2,completed,-"),
-        "{}",
-        runs[8]
-    );
-    assert!(
-        runs[13].starts_with("12,4,inf,30.0,1,failed,,,,\"loads[0].force_pn[2]=inf: "),
-        "{}",
-        runs[13]
-    );
+    let begins = |row: usize, start: &str| assert!(runs[row].starts_with(start), "{}", runs[row]);
+    begins(8, "7,2,-1.5,30.0,2,completed,-");
+    begins(13, "12,4,inf,30.0,1,failed,,,,\"loads[0].force_pn[2]=inf: ");
     let table: Vec<Vec<String>> = read(&place, "a/table.csv")
         .lines()
         .map(|line| line.split(',').map(str::to_owned).collect())
@@ -92,6 +84,13 @@ fn a_sweep_becomes_a_table() {
         (found / mean - 1.0).abs() < 1e-14 && (error / (variance / 3.0).sqrt() - 1.0).abs() < 1e-12
     );
     assert_eq!(table[5][3..7], ["3", "3", "", ""].map(str::to_owned));
+}
+
+/// A run of a sweep is the run that `actin run` makes of the same scene.
+#[test]
+fn a_run_of_a_sweep_is_a_run() {
+    let place = place(SWEEP);
+    assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "a", "--only", "7"]));
     let alone = [
         "run",
         "scene.ron",
@@ -218,57 +217,60 @@ fn a_signal_leaves_checkpoints() {
     assert_eq!(stderr(&output), message);
 }
 
+/// What is written in place of what, and what it prints.
+const MISTAKES: &[(&str, &str, &str)] = &[
+    (
+        "vary:",
+        "varies:",
+        "sweep.ron:4:5: unknown key varies in Sweep: known are title, scene, results",
+    ),
+    (
+        "[1].to_nm",
+        "[1].to_um",
+        "sweep.ron:6:60: vary[1].rows[0][0] = 30.0: filament.sections[1].to_um=30.0: unknown key",
+    ),
+    (
+        "sections[1]",
+        "sections[3]",
+        "sweep.ron:6:60: vary[1].rows[0][0] = 30.0: filament.sections[3].to_nm=30.0: filament.sections has 2",
+    ),
+    (
+        "-1.5, inf",
+        "-1.5, high",
+        "sweep.ron:5:63: vary[0].values[2] = high: loads[0].force_pn[2]=high: ",
+    ),
+    (
+        "[35.5]",
+        "[35.5, 1]",
+        "sweep.ron:6:67: vary[1].rows[1] = 2 values: a row has a value for each of the 1 keys",
+    ),
+    (
+        "counts.segments",
+        "counts.segment",
+        "sweep.ron:9:63: results[2] = counts.segment: summary.json has no segment there: known are",
+    ),
+    (
+        "number: 3",
+        "number: 0",
+        "sweep.ron:8:22: samples.number = 0: must be at least 1",
+    ),
+    (
+        "of: [Bonds]",
+        "of: [Noise]",
+        "sweep.ron:8:5: samples: the scene draws nothing",
+    ),
+    (
+        "filament.sections[1].to_nm",
+        "loads[0].force_pn",
+        "sweep.ron:6:9: vary[1] = loads[0].force_pn: is varied already, as loads[0].force_pn[2]",
+    ),
+    ("scene.ron", "absent.ron", "absent.ron: "),
+];
+
 /// Exit code 2, the file, line and column, the value and the rule; nothing is written.
 #[test]
 fn mistakes_of_a_sweep_have_their_place() {
-    for (from, to, message) in [
-        (
-            "vary:",
-            "varies:",
-            "sweep.ron:4:5: unknown key varies in Sweep: known are title, scene, results",
-        ),
-        (
-            "[1].to_nm",
-            "[1].to_um",
-            "sweep.ron:6:60: vary[1].rows[0][0] = 30.0: filament.sections[1].to_um=30.0: unknown key",
-        ),
-        (
-            "sections[1]",
-            "sections[3]",
-            "sweep.ron:6:60: vary[1].rows[0][0] = 30.0: filament.sections[3].to_nm=30.0: filament.sections has 2",
-        ),
-        (
-            "-1.5, inf",
-            "-1.5, high",
-            "sweep.ron:5:63: vary[0].values[2] = high: loads[0].force_pn[2]=high: ",
-        ),
-        (
-            "[35.5]",
-            "[35.5, 1]",
-            "sweep.ron:6:67: vary[1].rows[1] = 2 values: a row has a value for each of the 1 keys",
-        ),
-        (
-            "counts.segments",
-            "counts.segment",
-            "sweep.ron:9:63: results[2] = counts.segment: summary.json has no segment there: known are",
-        ),
-        (
-            "number: 3",
-            "number: 0",
-            "sweep.ron:8:22: samples.number = 0: must be at least 1",
-        ),
-        (
-            "of: [Bonds]",
-            "of: [Noise]",
-            "sweep.ron:8:5: samples: the scene draws nothing",
-        ),
-        (
-            "filament.sections[1].to_nm",
-            "loads[0].force_pn",
-            "sweep.ron:6:9: vary[1] = loads[0].force_pn: is varied already, as loads[0].force_pn[2]",
-        ),
-        ("scene.ron", "absent.ron", "absent.ron: "),
-    ] {
+    for (from, to, message) in MISTAKES {
         let place = place(&SWEEP.replacen(from, to, 1));
         for flag in ["--check", "--resume"] {
             let output = place.actin(&["sweep", "sweep.ron", flag]);

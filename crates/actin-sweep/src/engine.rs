@@ -3,7 +3,7 @@
 use crate::run::{State, make, summary};
 use crate::table::Table;
 use crate::{Opened, SweepDirectory, SweepError};
-use actin_sim::CheckpointError;
+use actin_sim::{CheckpointError, RunDirectory};
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -104,6 +104,11 @@ impl SweepDirectory {
         }
         let is_left = |run: &usize| summary(&self.run(*run)).is_none();
         let left: Vec<usize> = runs.iter().copied().filter(is_left).collect();
+        self.remove_checkpoints(runs, &left)?;
+        let before = runs.len() - left.len();
+        let of = runs.len();
+        let report = |ended| progress(Progress { ended, before, of });
+        report(before);
         let crew = Crew {
             opened,
             directory: self,
@@ -111,35 +116,32 @@ impl SweepDirectory {
             settings,
             next: AtomicUsize::new(0),
             error: Mutex::default(),
-            ended: AtomicUsize::new(runs.len() - left.len()),
+            ended: AtomicUsize::new(before),
         };
-        let before = runs.len() - left.len();
-        let report = |ended| {
-            progress(Progress {
-                ended,
-                before,
-                of: runs.len(),
-            });
-        };
-        report(before);
-        std::thread::scope(|scope| {
-            for _ in 0..threads(settings).min(left.len()) {
-                scope.spawn(|| crew.work(&report));
-            }
-        });
-        let error = crew
-            .error
-            .into_inner()
-            .unwrap_or_else(PoisonError::into_inner);
-        error.map_or(Ok(()), Err)?;
+        let ended = crew.make_all(&report)?;
         let has_failed = |run: &&usize| {
             summary(&self.run(**run)).is_some_and(|summary| summary["status"] == "failed")
         };
-        Ok(Ended {
-            ended: crew.ended.into_inner(),
-            failed: runs.iter().filter(has_failed).count(),
-            of: runs.len(),
-        })
+        let failed = runs.iter().filter(has_failed).count();
+        Ok(Ended { ended, failed, of })
+    }
+}
+
+impl SweepDirectory {
+    /// Removes what is left of checkpoints of runs that were killed when their results were on the disk.
+    fn remove_checkpoints(&self, runs: &[usize], left: &[usize]) -> Result<(), SweepError> {
+        // Both in the same order.
+        let mut left = left.iter().peekable();
+        for run in runs {
+            if left.next_if_eq(&run).is_some() {
+                continue;
+            }
+            let directory = RunDirectory::existing(self.run(*run));
+            if directory.has_checkpoint() {
+                directory.remove_checkpoint()?;
+            }
+        }
+        Ok(())
     }
 }
 
@@ -160,6 +162,20 @@ struct Crew<'a> {
 }
 
 impl Crew<'_> {
+    /// Makes all runs that are left; returns how many have ended.
+    fn make_all(self, report: &(impl Fn(usize) + Sync)) -> Result<usize, SweepError> {
+        std::thread::scope(|scope| {
+            for _ in 0..threads(self.settings).min(self.left.len()) {
+                scope.spawn(|| self.work(report));
+            }
+        });
+        let error = self.error.into_inner();
+        match error.unwrap_or_else(PoisonError::into_inner) {
+            None => Ok(self.ended.into_inner()),
+            Some(error) => Err(error),
+        }
+    }
+
     /// Makes one run after the other until none is left, or all are to end.
     fn work(&self, report: &(impl Fn(usize) + Sync)) {
         let interrupted = &self.settings.interrupted;

@@ -1,6 +1,6 @@
 //! The rules of a sweep's own numbers and names.
 
-use crate::sweep::{Axis, Scale, Span, Sweep};
+use crate::sweep::{Axis, Ron, Scale, Span, Sweep};
 use actin_sim::{Override, SceneProblem};
 
 /// Most runs of a sweep: each has a directory.
@@ -59,23 +59,7 @@ fn check_axis(key: &str, axis: &Axis) -> Checked {
             let few = || SceneProblem::new(at("number"), number, rule);
             (*number >= 2).then_some(()).ok_or_else(few)
         }
-        Axis::Rows { keys, rows } => {
-            some(&at("keys"), keys.len(), "key")?;
-            for (i, one) in keys.iter().enumerate() {
-                check_path(&at(&format!("keys[{i}]")), one)?;
-            }
-            some(&at("rows"), rows.len(), "row")?;
-            for (i, row) in rows
-                .iter()
-                .enumerate()
-                .filter(|(_, r)| r.len() != keys.len())
-            {
-                let rule = format!("a row has a value for each of the {} keys", keys.len());
-                let count = format!("{} values", row.len());
-                return Err(SceneProblem::new(at(&format!("rows[{i}]")), count, rule));
-            }
-            Ok(())
-        }
+        Axis::Rows { keys, rows } => check_rows(key, keys, rows),
         Axis::Random { number, over, .. } => {
             some(&at("number"), *number, "point")?;
             some(&at("over"), over.len(), "key")?;
@@ -85,6 +69,19 @@ fn check_axis(key: &str, axis: &Axis) -> Checked {
                 .try_for_each(|(i, span)| check_span(&at(&format!("over[{i}]")), span))
         }
     }
+}
+
+fn check_rows(key: &str, keys: &[String], rows: &[Vec<Ron>]) -> Checked {
+    some(&format!("{key}.keys"), keys.len(), "key")?;
+    for (i, one) in keys.iter().enumerate() {
+        check_path(&format!("{key}.keys[{i}]"), one)?;
+    }
+    some(&format!("{key}.rows"), rows.len(), "row")?;
+    let wrong = rows.iter().position(|row| row.len() != keys.len());
+    let Some(i) = wrong else { return Ok(()) };
+    let rule = format!("a row has a value for each of the {} keys", keys.len());
+    let count = format!("{} values", rows[i].len());
+    Err(SceneProblem::new(format!("{key}.rows[{i}]"), count, rule))
 }
 
 fn check_span(key: &str, span: &Span) -> Checked {

@@ -4,7 +4,7 @@ use crate::design::Run;
 use crate::{Opened, Settings, SweepDirectory, SweepError};
 use actin_sim::{
     Assembly, CheckpointError, Checkpoints, Outcome, Plan, RunDirectory, RunDirectoryError,
-    RunError, RunLock, Saved, Status,
+    RunError, RunLock, Saved, SceneText, Status,
 };
 use serde_json::Value;
 use std::path::Path;
@@ -51,33 +51,42 @@ pub(crate) fn make(
         Ok(assembly) => assembly,
         Err(problem) => return refused(&problem),
     };
-    let plan = match Plan::new(&assembly) {
-        Ok(plan) => plan,
-        Err(problem) => return refused(&problem),
-    };
-    let kept = RunDirectory::existing(&path);
+    match Plan::new(&assembly) {
+        Ok(plan) => make_planned(&path, &plan, &text, settings),
+        Err(problem) => refused(&problem),
+    }
+}
+
+/// Makes a run of which all is known before.
+fn make_planned(
+    path: &Path,
+    plan: &Plan<'_>,
+    text: &SceneText,
+    settings: &Settings,
+) -> Result<State, SweepError> {
+    let kept = RunDirectory::existing(path);
     let mut checkpoints = Checkpoints::new(
         &kept,
-        &plan,
+        plan,
         settings.checkpoint_every,
         Arc::clone(&settings.interrupted),
         settings.warn,
     );
-    let (saved, _lock) = begin(&kept, &plan, &mut checkpoints, settings.warn)?;
+    let (saved, _lock) = begin(&kept, plan, &mut checkpoints, settings.warn)?;
     let outcome = match saved {
         None => plan.run_into(&mut checkpoints),
         Some(saved) => plan.resume_into(saved, &mut checkpoints),
     };
     match outcome {
         Ok(outcome) if outcome.status == Status::Interrupted => Ok(State::Interrupted),
-        Ok(outcome) => write(&kept, &plan, &checkpoints, &outcome),
+        Ok(outcome) => write(&kept, plan, &checkpoints, &outcome),
         Err(RunError::Refused(problem)) => {
             let why = text.locate(&problem).to_string();
-            kept.write_failure(&scene.title, &why)?;
+            kept.write_failure(&plan.scene().title, &why)?;
             kept.remove_checkpoint()?;
             Ok(State::Ended)
         }
-        Err(RunError::Failed(failed)) => write(&kept, &plan, &checkpoints, &failed.outcome),
+        Err(RunError::Failed(failed)) => write(&kept, plan, &checkpoints, &failed.outcome),
     }
 }
 

@@ -39,7 +39,10 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("actin-sweep", &["actin-sim"]),
     ("actin-cli", &["actin-sim", "actin-sweep"]),
     // Scenes for the reference of their keys.
-    ("xtask", &["actin-draw", "actin-paper", "actin-sim"]),
+    (
+        "xtask",
+        &["actin-draw", "actin-paper", "actin-sim", "actin-sweep"],
+    ),
 ];
 
 /// Dependencies that point the wrong way, and crates that no rule speaks of.

@@ -3,6 +3,7 @@
 //! Reading happens in two steps. RON gives the types below and refuses unknown or missing keys;
 //! [`validate`] then checks what numbers may be. Both report line and column.
 
+mod brackets;
 pub(crate) mod fitted;
 mod imperfection;
 mod law;
@@ -10,6 +11,7 @@ mod linker;
 mod load;
 mod locate;
 mod magnitude;
+mod mistakes;
 mod model;
 mod outline;
 pub(crate) mod path;

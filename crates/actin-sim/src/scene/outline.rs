@@ -304,25 +304,40 @@ impl Reader<'_> {
         self.levels.push((node, 0));
     }
 
-    /// Closes the last bracket, which is meant where kinds differ too.
+    /// Closes the last bracket of this kind, and leaves those within it unclosed; the last of all where there
+    /// is none of this kind.
     fn close(&mut self, kind: char) {
         let at = self.at;
         self.end(at);
         self.at += 1;
-        let last = self.levels.pop().map(|(node, _)| node);
-        let opened = last.and_then(|node| self.nodes[node].open);
-        let fits = matches!(
-            (opened.map(|o| o.0), kind),
-            (Some('('), ')') | (Some('['), ']') | (Some('{'), '}')
-        );
-        if !fits {
+        let opening = match kind {
+            ')' => '(',
+            ']' => '[',
+            _ => '{',
+        };
+        let last = self.levels.last().map(|level| level.0);
+        let is_meant = |level: &(usize, usize)| {
+            self.nodes[level.0]
+                .open
+                .is_some_and(|open| open.0 == opening)
+        };
+        let meant = self.levels.iter().rposition(is_meant);
+        if meant.is_none_or(|meant| meant + 1 < self.levels.len()) {
             self.misfit.get_or_insert(Misfit { at, open: last });
         }
-        if let Some(node) = last {
-            self.nodes[node].close = Some(at);
-            self.nodes[node].value.end = self.at;
+        let closed = meant.or(self.levels.len().checked_sub(1));
+        let Some(closed) = closed else {
+            return;
+        };
+        let levels = self.levels.split_off(closed);
+        for &(node, _) in &levels[1..] {
+            self.nodes[node].value.end = at;
+            self.nodes[node].until = at;
         }
-        self.current = last;
+        let node = levels[0].0;
+        self.nodes[node].close = Some(at);
+        self.nodes[node].value.end = self.at;
+        self.current = Some(node);
     }
 
     /// Skips the next `mark` and everything before it.

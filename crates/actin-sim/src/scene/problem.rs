@@ -58,6 +58,8 @@ pub struct SceneError {
     pub column: usize,
     /// The override that is to blame, as `key=value`; none where the text is.
     pub set: Option<String>,
+    /// The key or choice that was probably meant, where one is close.
+    pub meant: Option<String>,
     /// What is wrong.
     pub message: String,
 }
@@ -82,6 +84,7 @@ impl SceneError {
             line,
             column,
             set: None,
+            meant: None,
             message: cut(&message, LONGEST_MESSAGE).into_owned(),
         }
     }

@@ -1,6 +1,6 @@
 //! Reading and writing scenes as RON.
 
-use super::{RodLaw, RodLaws, Scene, SceneError, SceneProblem, locate};
+use super::{RodLaw, RodLaws, Scene, SceneError, SceneProblem, brackets, locate};
 use super::{validate::validate, written::Written};
 use ron::error::{Error as RonError, SpannedError};
 use ron::extensions::Extensions;
@@ -11,6 +11,9 @@ use serde::de::DeserializeOwned;
 const UNIT_SUFFIXES: [&str; 8] = [
     "_per_ns", "_per_nm", "_nm", "_nm2", "_pn", "_ns", "_deg", "_ag",
 ];
+
+/// Longest word that is compared with those that are known.
+const LONGEST_KEY: usize = 100;
 
 impl RodLaws {
     /// The laws as a scene writes them after `law:`.
@@ -91,14 +94,55 @@ impl Scene {
 /// Text that is no RON, an unknown or missing key, a value of another type, each with line and column.
 pub fn read_ron<T: DeserializeOwned>(text: &str, name: &str) -> Result<T, SceneError> {
     let text = locate::without_mark(text);
+    read_refusing(text, text, name).map_err(|refusal| refusal.error)
+}
+
+/// What RON does not take.
+pub(super) struct Refusal {
+    pub(super) error: SceneError,
+    /// The key that is missing, if one is.
+    pub(super) missing: Option<String>,
+    /// Whether there is no text or a bracket is missing, so that nothing behind it can be judged.
+    pub(super) is_of_brackets: bool,
+    /// Whether it is a key without which the text means what it should.
+    pub(super) is_needless: bool,
+}
+
+/// Reads `left`, which has everything where `text` has it.
+pub(super) fn read_refusing<T: DeserializeOwned>(
+    left: &str,
+    text: &str,
+    name: &str,
+) -> Result<T, Refusal> {
     let is_nothing = |line: &str| line.trim().is_empty() || line.trim().starts_with("//");
     if text.lines().all(is_nothing) {
         let file = name.to_lowercase();
         let message = format!("the {file} is empty: it must begin with {name}(");
-        return Err(SceneError::new((1, 1), &message));
+        return Err(Refusal {
+            error: SceneError::new((1, 1), &message),
+            missing: None,
+            is_of_brackets: true,
+            is_needless: false,
+        });
     }
-    let read = options().from_str(text);
-    read.map_err(|error| explain(&error, text, name))
+    options().from_str(left).map_err(|error| {
+        let brackets = brackets::mistake(text);
+        let missing = match &error.code {
+            RonError::MissingStructField { field, .. } => Some((*field).to_owned()),
+            _ => None,
+        };
+        let is_needless = matches!(
+            error.code,
+            RonError::NoSuchStructField { .. } | RonError::DuplicateStructField { .. }
+        );
+        Refusal {
+            missing,
+            is_of_brackets: brackets.is_some()
+                || matches!(error.code, RonError::Eof | RonError::TrailingCharacters),
+            is_needless,
+            error: brackets.unwrap_or_else(|| explain(&error, text, name)),
+        }
+    })
 }
 
 fn options() -> ron::Options {
@@ -118,7 +162,37 @@ fn explain(error: &SpannedError, text: &str, name: &str) -> SceneError {
         let colon = if path.is_empty() { "" } else { ": " };
         format!("{path}{colon}{}", error.code)
     });
-    SceneError::new((line, column), &message)
+    SceneError {
+        meant: meant(&error.code),
+        ..SceneError::new((line, column), &message)
+    }
+}
+
+/// The key or choice that is close to one which is not known.
+fn meant(error: &RonError) -> Option<String> {
+    let (expected, found) = match error {
+        RonError::NoSuchStructField {
+            expected, found, ..
+        }
+        | RonError::NoSuchEnumVariant {
+            expected, found, ..
+        } => (expected, found),
+        _ => return None,
+    };
+    if found.len() > LONGEST_KEY {
+        return None;
+    }
+    if let Some(key) = key_of_unit(expected, found) {
+        return Some(key.to_owned());
+    }
+    // One slip for every three letters.
+    let most = (found.chars().count() / 3).max(1);
+    let near = expected.iter().map(|&key| {
+        let distance = strsim::damerau_levenshtein(&key.to_lowercase(), &found.to_lowercase());
+        (distance, key)
+    });
+    let (distance, key) = near.min_by_key(|(distance, _)| *distance)?;
+    (distance <= most).then(|| key.to_owned())
 }
 
 /// The first place from here on that is not white.
@@ -173,13 +247,19 @@ fn in_words(error: &RonError, file: &str) -> Option<String> {
 
 /// Where `found` is an expected key with another unit or none, says which unit the key has.
 fn unit_hint(expected: &[&'static str], found: &str) -> Option<String> {
+    let key = key_of_unit(expected, found);
+    key.map(|key| format!("the unit is part of the key, write {key}"))
+}
+
+/// The key that is `found` with another unit or none.
+fn key_of_unit(expected: &[&'static str], found: &str) -> Option<&'static str> {
     let is_meant = |key: &&&str| {
         let stem = stem(key);
         let rest = found.strip_prefix(stem);
         stem != **key && rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
     };
-    let key = expected.iter().filter(is_meant).max_by_key(|key| key.len());
-    key.map(|key| format!("the unit is part of the key, write {key}"))
+    let meant = expected.iter().filter(is_meant);
+    meant.max_by_key(|key| key.len()).copied()
 }
 
 /// A key without its unit.

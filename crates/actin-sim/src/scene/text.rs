@@ -2,7 +2,7 @@
 
 use super::locate::without_mark;
 use super::outline::{Outline, Step, line_and_column, place, steps};
-use super::{Scene, SceneError, SceneProblem};
+use super::{Scene, SceneError, SceneProblem, mistakes};
 use ron::value::RawValue;
 use std::fmt;
 use std::ops::Range;
@@ -159,6 +159,34 @@ impl SceneText {
         read.map(|(scene, problem)| (scene, problem.map(|problem| self.locate(&problem))))
     }
 
+    /// Every mistake of the text, as far as one does not hide another; none of a scene that is read.
+    ///
+    /// The first is that of [`scene`](Self::scene), or stands before it in the text.
+    pub fn mistakes(&self) -> Vec<SceneError> {
+        let (errors, problems) = mistakes::all(&self.text);
+        let errors = errors.into_iter().map(|error| self.placed(error));
+        let problems = problems.iter().map(|problem| self.locate(problem));
+        let mut all: Vec<_> = errors.chain(problems).collect();
+        all.sort_by_key(|error| (error.line, error.column));
+        all.dedup();
+        all
+    }
+
+    /// What to underline of a mistake, in bytes of the text as written: the key with its value, the value, or
+    /// a character; on one line.
+    pub fn span(&self, error: &SceneError) -> Range<usize> {
+        let text = &self.written;
+        let at = place(text, (error.line, error.column));
+        let outline = Outline::of(text);
+        let node = outline.at(at).map(|node| &outline.nodes[node]);
+        let end = match node {
+            Some(node) if at < node.value.end => node.value.end,
+            _ => at + text[at..].chars().next().map_or(0, char::len_utf8),
+        };
+        let line_end = text[at..].find('\n').map_or(text.len(), |line| at + line);
+        at..end.min(line_end)
+    }
+
     /// Places a problem: in an override that sets its key, or something above or below it, or in the text.
     pub fn locate(&self, problem: &SceneProblem) -> SceneError {
         let key = self.resolved(&problem.key);
@@ -233,7 +261,7 @@ impl SceneText {
         let host = node.or_else(|| outline.children(None).next());
         let host = host.ok_or("the text has no scene")?;
         let host = outline.innermost(host);
-        let inserted = entry(&path[taken..], &one.value)?;
+        let inserted = || entry(&path[taken..], &one.value);
         let value = &self.text[nodes[host].value.clone()];
         let name = match outline.path(host) {
             path if path.is_empty() => "the scene".to_owned(),
@@ -242,7 +270,7 @@ impl SceneText {
         let elements: Vec<_> = outline.children(Some(host)).collect();
         match (nodes[host].open.map(|open| open.0), &path[taken]) {
             (None, Step::Key(_)) if value == "None" => {
-                return Ok((nodes[host].value.clone(), format!("({inserted})")));
+                return Ok((nodes[host].value.clone(), format!("({})", inserted()?)));
             }
             (None, _) => return Err(format!("{name} is {value}, which has no keys")),
             (Some('['), Step::Key(_)) => {
@@ -259,7 +287,7 @@ impl SceneText {
             (Some(&last), _) => (nodes[last].value.end, ", "),
             (None, open) => (open.map_or(nodes[host].start, |(_, at)| at + 1), ""),
         };
-        Ok((at..at, format!("{comma}{inserted}")))
+        Ok((at..at, format!("{comma}{}", inserted()?)))
     }
 }
 
@@ -306,64 +334,78 @@ mod tests {
         text.scene()
     }
 
+    const LISTED: &str = "Scene(
+    filaments: [Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)])],
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (1.0, 2.0, 3.0)),],
+    task: Equilibrium(),
+)";
+
+    const LAW: &str = "filament: Filament(rod: (law: Fitted), ";
+
+    type Same = (
+        &'static str,
+        &'static [&'static str],
+        (&'static str, &'static str),
+    );
+
+    /// A text, overrides, and what is written in place of what by a text that says the same.
+    const SAME: &[Same] = &[
+        (
+            SCENE,
+            &["filament.sections[0].to_nm=40.0"],
+            ("30.0", "40.0"),
+        ),
+        (
+            SCENE,
+            &["filament.rod.law=Fitted"],
+            ("filament: Filament(", LAW),
+        ),
+        (
+            SCENE,
+            &["filaments[0].rod.law=Fitted"],
+            ("filament: Filament(", LAW),
+        ),
+        (
+            LISTED,
+            &["filament.rod.law=Fitted"],
+            ("filament: Filament(", LAW),
+        ),
+        (
+            SCENE,
+            &["task.force_pn=1e-8"],
+            ("Equilibrium()", "Equilibrium(force_pn: 1e-8)"),
+        ),
+        (SCENE, &["loads[0].force_pn[1]=7.0"], ("2.0", "7.0")),
+        (
+            SCENE,
+            &["loads[1]=EndForce(end: End, force_pn: (0.0, 0.0, 1.0))"],
+            (
+                "3.0)),]",
+                "3.0)), EndForce(end: End, force_pn: (0.0, 0.0, 1.0))]",
+            ),
+        ),
+        (
+            SCENE,
+            &["path[0].set[0]=Shift(end: Start, shift_nm: (1.0, 0.0, 0.0))"],
+            (
+                "task:",
+                "path: [Stage(set: [Shift(end: Start, shift_nm: (1.0, 0.0, 0.0))])], task:",
+            ),
+        ),
+        (
+            SCENE,
+            &["filament.rod.law=Constant", "filament.rod.law=Fitted"],
+            ("filament: Filament(", LAW),
+        ),
+    ];
+
     /// Overrides give the scene whose text says the same: values in place, new keys at any depth, in an
     /// empty bracket, components of vectors, new elements, filament 0 in a list and alone, a later
     /// override of what an earlier one has written.
     #[test]
     fn overrides_say_what_the_text_would() {
-        let law = "filament: Filament(rod: (law: Fitted), ";
-        let listed = SCENE.replace("filament: Filament", "filaments: [Filament");
-        let listed = listed.replace(")]), // one", ")])], // one");
-        let cases: [(&str, &[&str], (&str, &str)); 9] = [
-            (
-                SCENE,
-                &["filament.sections[0].to_nm=40.0"],
-                ("30.0", "40.0"),
-            ),
-            (
-                SCENE,
-                &["filament.rod.law=Fitted"],
-                ("filament: Filament(", law),
-            ),
-            (
-                SCENE,
-                &["filaments[0].rod.law=Fitted"],
-                ("filament: Filament(", law),
-            ),
-            (
-                &listed,
-                &["filament.rod.law=Fitted"],
-                ("filament: Filament(", law),
-            ),
-            (
-                SCENE,
-                &["task.force_pn=1e-8"],
-                ("Equilibrium()", "Equilibrium(force_pn: 1e-8)"),
-            ),
-            (SCENE, &["loads[0].force_pn[1]=7.0"], ("2.0", "7.0")),
-            (
-                SCENE,
-                &["loads[1]=EndForce(end: End, force_pn: (0.0, 0.0, 1.0))"],
-                (
-                    "3.0)),]",
-                    "3.0)), EndForce(end: End, force_pn: (0.0, 0.0, 1.0))]",
-                ),
-            ),
-            (
-                SCENE,
-                &["path[0].set[0]=Shift(end: Start, shift_nm: (1.0, 0.0, 0.0))"],
-                (
-                    "task:",
-                    "path: [Stage(set: [Shift(end: Start, shift_nm: (1.0, 0.0, 0.0))])], task:",
-                ),
-            ),
-            (
-                SCENE,
-                &["filament.rod.law=Constant", "filament.rod.law=Fitted"],
-                ("filament: Filament(", law),
-            ),
-        ];
-        for (text, overrides, (from, to)) in cases {
+        for &(text, overrides, (from, to)) in SAME {
             let expected = Scene::from_ron(&SCENE.replacen(from, to, 1)).unwrap();
             assert_eq!(with(text, overrides).unwrap(), expected, "{overrides:?}");
         }
@@ -411,10 +453,10 @@ mod tests {
         ] {
             assert!(text.parse::<Override>().is_err(), "{text}");
         }
-        let one: Override = "a.b[0][1].c = Some(x: \"=\")".parse().unwrap();
+        let one: Override = "a.b[0][1].c = Some((x: \"=\"))".parse().unwrap();
         assert_eq!(
             (one.key.as_str(), one.value.as_str()),
-            ("a.b[0][1].c", "Some(x: \"=\")")
+            ("a.b[0][1].c", "Some((x: \"=\"))")
         );
     }
 }

@@ -25,31 +25,59 @@ const MOST_BONDS_PER_INTERFACE: usize = 10_000;
 /// # Errors
 /// The first rule that is broken.
 pub(crate) fn validate(scene: &Scene) -> Result<(), SceneProblem> {
-    magnitude::check(scene)?;
+    problems(scene).into_iter().next().map_or(Ok(()), Err)
+}
+
+/// Every broken rule, one for each key: those of numbers and names, or, where they break none, those of the
+/// whole scene.
+pub(super) fn problems(scene: &Scene) -> Vec<SceneProblem> {
+    let mut found = Vec::new();
+    let held = HeldEnds::of(scene);
+    let mut note = |checked: Result<(), SceneProblem>| {
+        let problem = checked.err();
+        let is_new = |p: &SceneProblem| found.iter().all(|f: &SceneProblem| f.key != p.key);
+        let new = problem.filter(is_new);
+        found.extend(new);
+    };
+    note(magnitude::check(scene));
     for (i, one) in scene.filaments().enumerate() {
         let named = |problem: SceneProblem| problem.with_filament(&scene.filament_key(i));
-        filament(one).map_err(named)?;
-        check_place(one).map_err(named)?;
-        imperfection::check(one).map_err(named)?;
+        sections(one, &mut |checked| note(checked.map_err(named)));
+        for check in [check_model, check_place, imperfection::check] {
+            note(check(one).map_err(named));
+        }
     }
-    let held = HeldEnds::of(scene);
+    if scene.filaments().any(|one| one.sections.is_empty()) {
+        return found;
+    }
     for (i, clamp) in scene.clamps.iter().enumerate() {
-        check_clamp(scene, &held, (i, clamp))?;
+        note(check_clamp(scene, &held, (i, clamp)));
     }
     for (i, load) in scene.loads.iter().enumerate() {
-        load.check(i, (scene, &held))?;
+        note(load.check(i, (scene, &held)));
     }
     for (i, linker) in scene.linkers.iter().enumerate() {
-        linker::check(scene, i, linker)?;
+        note(linker::check(scene, i, linker));
     }
     for (i, stage) in scene.path.iter().enumerate() {
-        stage::check(scene, &held, (i, stage))?;
+        note(stage::check(scene, &held, (i, stage)));
     }
+    note(match &scene.task {
+        Task::Dynamics(dynamics) => check_dynamics(dynamics),
+        Task::Equilibrium(equilibrium) => check_equilibrium(equilibrium),
+    });
+    if found.is_empty() {
+        found.extend(check_whole(scene, &held).err());
+    }
+    found
+}
+
+/// The rules between parts of a scene that are sound each.
+fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
     match &scene.task {
         Task::Dynamics(dynamics) => {
             stage::check_durations(scene, dynamics.duration_ns)?;
-            check_swings(scene, &held)?;
-            check_dynamics(dynamics)?;
+            check_swings(scene, held)?;
             saddles::check(scene, dynamics)?;
             let stop = dynamics.stop.as_ref();
             stop.map_or(Ok(()), |s| check_tolerance(scene, "task.stop", s.force_pn))
@@ -59,27 +87,22 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), SceneProblem> {
                 check_potential(one).map_err(|p| p.with_filament(&scene.filament_key(i)))?;
             }
             check_support(scene)?;
-            check_equilibrium(equilibrium)?;
             check_tolerance(scene, "task", equilibrium.force_pn)
         }
     }
 }
 
-fn filament(filament: &Filament) -> Result<(), SceneProblem> {
+/// Checks the sections of a filament, each of which may break a rule.
+fn sections(filament: &Filament, note: &mut impl FnMut(Result<(), SceneProblem>)) {
     let sections = &filament.sections;
     if sections.is_empty() {
-        return Err(SceneProblem::new(
-            "filament.sections",
-            "[]",
-            "a filament has at least one section",
-        ));
+        let rule = "a filament has at least one section";
+        note(Err(SceneProblem::new("filament.sections", "[]", rule)));
     }
     for (i, section) in sections.iter().enumerate() {
-        check_span(i, section)?;
         let previous = i.checked_sub(1).map(|p| &sections[p]);
-        check_boundary(i, section, previous)?;
+        note(check_span(i, section).and_then(|()| check_boundary(i, section, previous)));
     }
-    check_model(filament)
 }
 
 fn check_place(filament: &Filament) -> Result<(), SceneProblem> {

@@ -1,0 +1,56 @@
+//! What deliberate mistakes print, line by line: `scenarios/bad/printed.txt`.
+
+mod workplace;
+
+use std::fs;
+use std::path::Path;
+use workplace::{Workplace, code, stderr, stdout};
+
+/// Scenes of `scenarios/bad`, with a mistake of each kind.
+const MISTAKES: [&str; 24] = [
+    "several-mistakes",
+    "several-broken-rules",
+    "filament-without-its-bracket",
+    "section-without-its-bracket",
+    "not-ron",
+    "unclosed-scene",
+    "text-behind-the-scene",
+    "empty",
+    "unknown-key",
+    "unknown-unit-suffix",
+    "missing-unit",
+    "missing-key",
+    "duplicate-key",
+    "misspelled-structure",
+    "unknown-law",
+    "unknown-integrator",
+    "wrong-type",
+    "fractional-segments",
+    "two-components",
+    "negative-seed",
+    "gap-between-sections",
+    "clamp-twice",
+    "non-finite-number",
+    "linker-outside-the-filament",
+];
+
+/// Exit code 2, nothing on standard output, and every mistake with its line.
+#[test]
+fn mistakes_print_what_they_should() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/bad");
+    let place = Workplace::with("");
+    let mut printed = String::new();
+    for name in MISTAKES {
+        let file = format!("{name}.ron");
+        fs::copy(folder.join(&file), place.path(&file)).unwrap();
+        let output = place.actin(&["check", &file]);
+        assert_eq!((code(&output), stdout(&output)), (2, ""), "{name}");
+        printed += stderr(&output);
+        printed += "\n";
+    }
+    let expected = fs::read_to_string(folder.join("printed.txt")).unwrap_or_default();
+    assert!(
+        printed == expected,
+        "scenarios/bad/printed.txt is to hold:\n{printed}"
+    );
+}
