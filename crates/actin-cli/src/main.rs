@@ -61,7 +61,7 @@ struct SceneArguments {
     /// The scene; `-` reads it from standard input.
     scene: PathBuf,
     /// Sets a key of the scene, whether it is written there or not: a path of keys, with indices of lists
-    /// and vectors in brackets, and a value in RON, as in loads[0].force_pn[2]=-4.0.
+    /// and vectors in brackets, and a value in RON, as in `loads[0].force_pn[2]=-4.0`.
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<Override>,
     /// Sets the seed of everything that the scene draws: bonds, thermal noise, imperfections.

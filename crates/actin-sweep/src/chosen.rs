@@ -59,9 +59,8 @@ fn unknown<'a>(step: &str, known: impl Iterator<Item = &'a String>) -> String {
 
 fn pointer(name: &str) -> String {
     let steps = name.split(['.', '[']);
-    steps
-        .map(|step| format!("/{}", step.trim_end_matches(']')))
-        .collect()
+    let steps = steps.map(|step| step.trim_end_matches(']'));
+    steps.flat_map(|step| ["/", step]).collect()
 }
 
 #[cfg(test)]

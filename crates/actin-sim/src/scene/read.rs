@@ -170,14 +170,14 @@ fn explain(error: &SpannedError, text: &str, name: &str) -> SceneError {
 
 /// The key or choice that is close to one which is not known.
 fn meant(error: &RonError) -> Option<String> {
-    let (expected, found) = match error {
-        RonError::NoSuchStructField {
-            expected, found, ..
-        }
-        | RonError::NoSuchEnumVariant {
-            expected, found, ..
-        } => (expected, found),
-        _ => return None,
+    let (RonError::NoSuchStructField {
+        expected, found, ..
+    }
+    | RonError::NoSuchEnumVariant {
+        expected, found, ..
+    }) = error
+    else {
+        return None;
     };
     if found.len() > LONGEST_KEY {
         return None;
