@@ -65,6 +65,8 @@ pub(crate) fn of_segments(count: f64, rod: &RodModel, task: &Task) -> f64 {
         | RodLaw::CouplingEnergy
         | RodLaw::Fitted
         | RodLaw::Homogenised
+        | RodLaw::HomogenisedAthermal
+        | RodLaw::HomogenisedAt298K
         | RodLaw::Laws(_) => LAW_SEGMENT,
     };
     let trials = match (rod.force_law, task) {

@@ -7,6 +7,7 @@
 use crate::assembly::Rod;
 use crate::scene::{Anchors, Material, Monomers, RodLaw, RodModel, Task};
 use crate::{Assembly, Outcome, Record, shape};
+use actin_cosserat::Homogenised;
 use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
 
 /// Persistence length (um) and twisting rigidity (pN nm^2) of free filaments of 110 nm at 298 K, from
@@ -27,7 +28,10 @@ fn fitted_without_heat(law: &RodLaw) -> Option<(&'static str, InBath)> {
         RodLaw::PublishedExtension => Some(("PublishedExtension", (9.5, 4.8e3))),
         RodLaw::CouplingEnergy => Some(("CouplingEnergy", (9.5, 4.8e3))),
         RodLaw::Fitted => Some(("Fitted", (9.7, 4.6e3))),
-        RodLaw::Homogenised | RodLaw::Laws(_) => None,
+        RodLaw::Homogenised
+        | RodLaw::HomogenisedAthermal
+        | RodLaw::HomogenisedAt298K
+        | RodLaw::Laws(_) => None,
     }
 }
 
@@ -55,10 +59,11 @@ impl Assembly {
             }
         }
         notes.extend(self.short_rods());
-        if self.scene.thermal().is_some() {
+        if let Some(thermal) = self.scene.thermal() {
             for (i, filament) in self.scene.filaments().enumerate() {
                 let has_rod = self.counts_of(i).segments > 0;
-                let note = has_rod.then(|| law_in_bath(&filament.rod)).flatten();
+                let note = has_rod.then(|| law_in_bath(&filament.rod, thermal.temperature_k));
+                let note = note.flatten();
                 notes.extend(note.filter(|note| !notes.contains(note)));
             }
         }
@@ -140,18 +145,35 @@ fn few_bonds(monomers: &Monomers, kind: InterfaceKind) -> Option<String> {
     })
 }
 
+/// How far (K) from that of the free energy the temperature of a bath may be.
+const NEAR_K: f64 = 10.0;
+
+/// The note on the free energy at another temperature than the bath's.
+fn far_from(temperature_k: f64) -> Option<String> {
+    let own = Homogenised::HEATED_K;
+    ((temperature_k - own).abs() > NEAR_K).then(|| {
+        format!(
+            "rods under the law Homogenised in a heat bath of {temperature_k} K: their free energy is that of \
+             {own} K (cargo xtask homogenise heat --temperature {temperature_k} measures another)"
+        )
+    })
+}
+
+/// The note on the energy without heat in a heat bath.
+const ATHERMAL: &str = "rods under the law HomogenisedAthermal in a heat bath: its energy is one at zero \
+    temperature, not a free energy. At 298 K free rods of 110 nm in segments of 10 nm have a persistence length of \
+    11.0 um and a twisting rigidity of 7.8e3 pN nm^2, monomers 11.7 um and 7.6e3 pN nm^2 (cargo xtask load-cases)";
+
 /// The note on a rod's law in a heat bath. None for constant rigidities that are not the published
 /// ones: they may be those at a temperature.
-fn law_in_bath(rod: &RodModel) -> Option<String> {
+fn law_in_bath(rod: &RodModel, temperature_k: f64) -> Option<String> {
     if rod.law == RodLaw::Constant && rod.material != Material::Table4 {
         return None;
     }
-    if rod.law == RodLaw::Homogenised {
-        let note = "rods under the law Homogenised in a heat bath: its energy is one at zero temperature, \
-                    not a free energy. At 298 K free rods of 110 nm in segments of 10 nm have a persistence \
-                    length of 11.0 um and a twisting rigidity of 7.8e3 pN nm^2, monomers 11.7 um and 7.6e3 \
-                    pN nm^2 (cargo xtask load-cases)";
-        return Some(note.to_owned());
+    match rod.law {
+        RodLaw::Homogenised | RodLaw::HomogenisedAt298K => return far_from(temperature_k),
+        RodLaw::HomogenisedAthermal => return Some(ATHERMAL.to_owned()),
+        _ => {}
     }
     let Some((name, (persistence, twist))) = fitted_without_heat(&rod.law) else {
         let note = "rods under Laws in a heat bath: laws fitted to equilibria at zero temperature are not \
@@ -226,7 +248,7 @@ mod tests {
                 60.0,
             ),
             rod("material: PrecedingPaper", 80.0),
-            rod("law: Homogenised", 120.0),
+            rod("law: HomogenisedAthermal", 120.0),
             "Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0)],
                 rod: RodModel(law: CouplingEnergy), at_nm: (100.0, 0.0, 0.0))"
                 .to_owned(),
@@ -244,7 +266,7 @@ mod tests {
                 "rods under the law Fitted in a heat bath",
                 "rods under the law Constant in a heat bath",
                 "rods under Laws in a heat bath",
-                "rods under the law Homogenised in a heat bath",
+                "rods under the law HomogenisedAthermal in a heat bath",
             ]
         );
         assert_eq!(notes(&filaments, "").len(), 1);

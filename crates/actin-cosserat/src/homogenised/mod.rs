@@ -40,6 +40,7 @@ type SixVector = Vector6<f64>;
 /// changes the signs of `c` and `kappa_3`: where left and right are the same, the coefficient of `c` is odd in the twist.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HomogenisedForm {
+    rest: f64,
     natural: Polynomial,
 }
 
@@ -109,7 +110,27 @@ impl HomogenisedForm {
     /// More than ten coefficients, or one that is not finite.
     pub fn new(natural: &[f64]) -> Result<Self, RodParameterError> {
         let natural = padded(natural, DEGREE + 1)?;
-        Ok(Self { natural })
+        Ok(Self { rest: 0.0, natural })
+    }
+
+    /// The form of a filament that is stretched by so much where it has neither twist nor force: heat shortens it.
+    ///
+    /// # Errors
+    /// A stretch that is not finite, or not above -1.
+    pub fn with_rest(self, rest: f64) -> Result<Self, RodParameterError> {
+        if !(rest.is_finite() && rest > -1.0) {
+            return Err(RodParameterError {
+                key: RodKey::Coefficient,
+                value: rest,
+                rule: "finite and above -1",
+            });
+        }
+        Ok(Self { rest, ..self })
+    }
+
+    /// Stretch of the straight rod without twist and force.
+    pub fn rest(&self) -> f64 {
+        self.rest
     }
 
     /// What a unit of each coefficient of the natural length adds to it at this twist (rad/nm).
@@ -136,7 +157,8 @@ impl HomogenisedForm {
     /// With two derivatives.
     fn natural_jet(&self, twist: f64) -> Jet {
         let [p, slope, bend] = polynomial(&self.natural, bounded_twist(twist));
-        [twist * p, p + twist * slope, 2.0 * slope + twist * bend]
+        let value = self.rest + twist * p;
+        [value, p + twist * slope, 2.0 * slope + twist * bend]
     }
 
     /// What a unit of each coefficient of `term` adds at these strains, from the constant up. The law is linear in

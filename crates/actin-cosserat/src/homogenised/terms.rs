@@ -33,8 +33,12 @@ pub enum Term {
     AnyShear,
     /// `kappa_3^2`: what twist alone stores.
     Twist,
+    /// `kappa_3`: a twist of the free filament, which heat gives.
+    Turn,
     /// `E^2`: stretch.
     Stretch,
+    /// `E^3`: tension stiffens, compression softens.
+    StretchThrice,
     /// `y^3 / (y + 7e-5)` of `y = max(-x, 0)`, `x = e + 0.5 r + 5 g + 20 kappa_3^2`: bonds that are pushed together
     /// give way, unless bending, shear or twist has tightened them.
     Compression,
@@ -148,12 +152,14 @@ fn compression(x: f64) -> Jet {
 
 impl Term {
     /// All terms, in the order of the coefficients of a law.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 22] = [
         Self::AnyStretch,
         Self::AnyBend,
         Self::AnyShear,
         Self::Twist,
+        Self::Turn,
         Self::Stretch,
+        Self::StretchThrice,
         Self::Compression,
         Self::Bend,
         Self::BendRoot,
@@ -174,9 +180,9 @@ impl Term {
     /// Degree of the polynomial in the twist.
     pub const fn degree(self) -> usize {
         match self {
-            Self::AnyStretch | Self::AnyBend | Self::AnyShear => 0,
+            Self::AnyStretch | Self::AnyBend | Self::AnyShear | Self::Turn => 0,
             Self::ShearTwice => 1,
-            Self::Compression => 2,
+            Self::Compression | Self::StretchThrice => 2,
             Self::StretchTwiceRoot => 3,
             Self::StretchBend
             | Self::StretchCoupling
@@ -204,7 +210,9 @@ impl Term {
             Self::AnyBend => [ONE, linear(a), ONE, ONE, ONE],
             Self::AnyShear => [ONE, ONE, linear(g), ONE, ONE],
             Self::Twist => [ONE, ONE, ONE, ONE, square(k)],
+            Self::Turn => [ONE, ONE, ONE, ONE, linear(k)],
             Self::Stretch => [times(stretch, stretch), ONE, ONE, ONE, ONE],
+            Self::StretchThrice => [times(stretch, times(stretch, stretch)), ONE, ONE, ONE, ONE],
             Self::Compression => [ONE; 5],
             Self::Bend => [ONE, bend, ONE, ONE, ONE],
             Self::BendRoot => [ONE, r, ONE, ONE, ONE],

@@ -6,11 +6,13 @@
 mod axes;
 mod checks;
 mod filament;
+mod fit;
 mod grid;
 mod heat;
 mod law;
 mod paths;
 mod pictures;
+mod region;
 mod rows;
 mod scatter;
 mod variants;

@@ -78,6 +78,11 @@ pub(super) fn rows(name: &str, law: &RodLaw, quick: bool) -> Vec<Row> {
 
 /// How one free rod turns in the bath.
 fn replica(law: &RodLaw, replica: u64) -> Result<Turns, String> {
+    // As a scene with a heat bath takes it.
+    let law = match law {
+        RodLaw::Homogenised => &RodLaw::HomogenisedAt298K,
+        law => law,
+    };
     let scene = Scene {
         title: "Rod in a heat bath".to_owned(),
         filament: Made::Rod(Rod::coarse(law)).filament(LENGTH_NM),

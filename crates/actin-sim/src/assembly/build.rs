@@ -76,6 +76,7 @@ struct Builder<'a> {
 impl<'a> Builder<'a> {
     fn new(scene: &'a Scene) -> Result<Self, SceneProblem> {
         let held = HeldEnds::of(scene);
+        let in_bath = scene.thermal().is_some();
         let mut first_section = 0;
         let mut strands = Vec::new();
         for (i, filament) in scene.filaments().enumerate() {
@@ -83,7 +84,7 @@ impl<'a> Builder<'a> {
                 let clamp = held.clamp_at(i, end)?;
                 Some(scene.clamps[clamp].hold)
             });
-            let strand = Strand::new((i, filament), holds, first_section);
+            let strand = Strand::new((i, filament), holds, first_section, in_bath);
             strands.push(strand.map_err(|p| p.with_filament(&scene.filament_key(i)))?);
             first_section += filament.sections.len();
         }

@@ -27,8 +27,8 @@ pub(super) struct Law {
 }
 
 impl Law {
-    /// The law that a scene names.
-    pub(super) fn new(rod: &RodModel) -> Result<Self, SceneProblem> {
+    /// The law that a scene names, in a heat bath or not.
+    pub(super) fn new(rod: &RodModel, in_bath: bool) -> Result<Self, SceneProblem> {
         let extends = !matches!(rod.law, RodLaw::Constant | RodLaw::PublishedExtension);
         if rod.force_law == ForceLaw::PaperBalance && extends {
             return Err(SceneProblem::new(
@@ -54,7 +54,11 @@ impl Law {
                 published(material, law)?
             }
             RodLaw::Fitted => with_laws(material, &fitted::laws())?,
-            RodLaw::Homogenised => (RodMaterial::homogenised(Homogenised::mean_filament()), None),
+            RodLaw::Homogenised if in_bath => heated(),
+            RodLaw::Homogenised | RodLaw::HomogenisedAthermal => {
+                (RodMaterial::homogenised(Homogenised::mean_filament()), None)
+            }
+            RodLaw::HomogenisedAt298K => heated(),
             RodLaw::Laws(laws) => with_laws(material, laws)?,
         };
         Ok(Self {
@@ -125,6 +129,8 @@ fn whole(law: &RodLaw) -> Option<&'static str> {
     match law {
         RodLaw::Fitted => Some("Fitted"),
         RodLaw::Homogenised => Some("Homogenised"),
+        RodLaw::HomogenisedAthermal => Some("HomogenisedAthermal"),
+        RodLaw::HomogenisedAt298K => Some("HomogenisedAt298K"),
         RodLaw::Constant
         | RodLaw::PublishedExtension
         | RodLaw::CouplingEnergy
@@ -177,6 +183,12 @@ fn written(parameter: RodKey) -> &'static str {
 
 /// A material with or without a law of length against twist.
 type Parts = (RodMaterial, Option<TwistStretch>);
+
+/// The law of filaments at 298 K.
+fn heated() -> Parts {
+    let law = Homogenised::mean_filament_at_298_k();
+    (RodMaterial::homogenised(law), None)
+}
 
 fn published(material: RodMaterial, law: TwistStretch) -> Result<Parts, SceneProblem> {
     let twist = TwistLaw::Tanh(TanhTwist::published());

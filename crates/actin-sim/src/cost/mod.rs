@@ -208,6 +208,8 @@ impl Elements {
                 | RodLaw::CouplingEnergy
                 | RodLaw::Fitted
                 | RodLaw::Homogenised
+                | RodLaw::HomogenisedAthermal
+                | RodLaw::HomogenisedAt298K
                 | RodLaw::Laws(_) => &mut all.following,
             };
             *elements += one.elements as f64;

@@ -88,7 +88,11 @@ fn kind(assembly: &Assembly) -> Kind {
             RodLaw::Constant | RodLaw::PublishedExtension | RodLaw::CouplingEnergy => {
                 Kind::Constant
             }
-            RodLaw::Fitted | RodLaw::Homogenised | RodLaw::Laws(_) => Kind::Law,
+            RodLaw::Fitted
+            | RodLaw::Homogenised
+            | RodLaw::HomogenisedAthermal
+            | RodLaw::HomogenisedAt298K
+            | RodLaw::Laws(_) => Kind::Law,
         }
     });
     each.max().unwrap_or(Kind::Constant)
@@ -108,7 +112,11 @@ fn from_rest(assembly: &Assembly, kind: Kind) -> f64 {
     let rows = longest.unwrap_or(0) as f64 / SHORT;
     let laws = assembly.scene.filaments().map(|one| &one.rod.law);
     let has_law = laws.into_iter().any(|law| match law {
-        RodLaw::Fitted | RodLaw::Homogenised | RodLaw::Laws(_) => true,
+        RodLaw::Fitted
+        | RodLaw::Homogenised
+        | RodLaw::HomogenisedAthermal
+        | RodLaw::HomogenisedAt298K
+        | RodLaw::Laws(_) => true,
         RodLaw::Constant | RodLaw::PublishedExtension | RodLaw::CouplingEnergy => false,
     });
     let of_rods = match kind {

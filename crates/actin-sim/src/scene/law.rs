@@ -18,8 +18,13 @@ pub enum RodLaw {
     CouplingEnergy,
     /// Laws fitted to filaments of monomers. The material must be left out.
     Fitted,
-    /// One potential of all strains. The material must be left out.
+    /// One potential of all strains: the energy of cells of monomers, in a heat bath (`thermal`) their free energy at
+    /// 298 K. The material must be left out.
     Homogenised,
+    /// That without heat, in a heat bath too.
+    HomogenisedAthermal,
+    /// That at 298 K, without a heat bath too.
+    HomogenisedAt298K,
     /// Your own laws. Deformations without one keep the rigidity of the material.
     Laws(Box<RodLaws>),
 }

@@ -12,12 +12,15 @@ use actin_mechanics::wide::{Simd, Wide3};
 /// of `W - U`.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct Potential {
+    rest: f64,
     natural: [f64; 10],
     any_stretch: [f64; 1],
     any_bend: [f64; 1],
     any_shear: [f64; 1],
     twist: [f64; 10],
+    turn: [f64; 1],
     stretch: [f64; 9],
+    stretch_thrice: [f64; 3],
     compression: [f64; 3],
     bend: [f64; 8],
     root: [f64; 8],
@@ -39,12 +42,15 @@ impl Potential {
     /// The law, where its polynomials have the degrees that the loop was written for.
     pub(in crate::fast) fn of(law: &Homogenised) -> Option<Self> {
         Some(Self {
+            rest: law.form().rest(),
             natural: law.form().natural().try_into().ok()?,
             any_stretch: of(law, Term::AnyStretch)?,
             any_bend: of(law, Term::AnyBend)?,
             any_shear: of(law, Term::AnyShear)?,
             twist: of(law, Term::Twist)?,
+            turn: of(law, Term::Turn)?,
             stretch: of(law, Term::Stretch)?,
+            stretch_thrice: of(law, Term::StretchThrice)?,
             compression: of(law, Term::Compression)?,
             bend: of(law, Term::Bend)?,
             root: of(law, Term::BendRoot)?,
@@ -192,14 +198,14 @@ impl Law for Potential {
         let mut by_t = simd.mul_f64s(twist_slope, simd.mul_f64s(k, k));
         by_t = simd.mul_add_e_f64s(bend_slope, bent.bend[0], by_t);
         by_t = simd.mul_add_e_f64s(root_slope, bent.root[0], by_t);
-        let by_k = simd.mul_f64s(twice(simd, twist), k);
+        let by_k = simd.mul_add_e_f64s(twice(simd, twist), k, simd.splat_f64s(self.turn[0]));
         let about = simd.mul_add_e_f64s(by_t, slope, by_k);
         [simd.mul_f64s(x, by_a), simd.mul_f64s(y, by_a), about]
     }
 
     #[inline(always)]
     fn segment<S: Simd>(&self, simd: S, sigma: Wide3<S>, kappa: Wide3<S>) -> [Wide3<S>; 2] {
-        let strained = Strained::new(simd, &self.natural, sigma, kappa);
+        let strained = Strained::new(simd, self, sigma, kappa);
         strained.loads(simd, self, sigma, kappa)
     }
 }
@@ -221,7 +227,7 @@ struct Strained<S: Simd> {
 
 impl<S: Simd> Strained<S> {
     #[inline(always)]
-    fn new(simd: S, natural: &[f64; 10], sigma: Wide3<S>, kappa: Wide3<S>) -> Self {
+    fn new(simd: S, law: &Potential, sigma: Wide3<S>, kappa: Wide3<S>) -> Self {
         let [x, y, k] = kappa;
         let (a, g) = (squared(simd, kappa), squared(simd, sigma));
         let c = simd.mul_add_e_f64s(x, sigma[0], simd.mul_f64s(y, sigma[1]));
@@ -234,8 +240,9 @@ impl<S: Simd> Strained<S> {
         let fading = simd.mul_f64s(of_others, roots.twist);
         let bent = roots.bent(simd, [a, k], [of_twist, of_qs]);
         let [t, slope] = bent.twist;
-        let [value, by_t] = jet(simd, natural, t);
-        let e = simd.negate_mul_add_e_f64s(k, value, sigma[2]);
+        let [value, by_t] = jet(simd, &law.natural, t);
+        let beyond = simd.sub_f64s(sigma[2], simd.splat_f64s(law.rest));
+        let e = simd.negate_mul_add_e_f64s(k, value, beyond);
         let by_c = simd.mul_f64s(bent.fading, fading);
         let (stretch, slack) = extended(simd, e, [bent.root[0], g, k]);
         Self {
@@ -349,6 +356,7 @@ impl<S: Simd> Strained<S> {
         );
         let twice = [(0, stretch), (0, stretch), (2, root)];
         sums.add_triple(&law.stretch_twice_root, twice);
+        sums.add_cube(&law.stretch_thrice, (0, stretch));
         let [compression, slope] = jet(simd, &law.compression, t);
         Slopes {
             by: sums.by,
@@ -386,6 +394,14 @@ impl<S: Simd> Sums<S> {
         let value = self.value(coefficients, self.simd.mul_f64s(x, x));
         let doubled = self.simd.add_f64s(value, value);
         self.by[i] = self.simd.mul_add_e_f64s(doubled, x, self.by[i]);
+    }
+
+    #[inline(always)]
+    fn add_cube<const N: usize>(&mut self, coefficients: &[f64; N], (i, x): (usize, S::f64s)) {
+        let square = self.simd.mul_f64s(x, x);
+        let value = self.value(coefficients, self.simd.mul_f64s(square, x));
+        let tripled = self.simd.mul_f64s(self.simd.splat_f64s(3.0), value);
+        self.by[i] = self.simd.mul_add_e_f64s(tripled, square, self.by[i]);
     }
 
     #[inline(always)]

@@ -31,9 +31,9 @@ struct HeatAxes {
 }
 
 /// A point with the standard errors of its loads.
-struct HeatRow {
-    row: Row,
-    errors: [f64; 6],
+pub(super) struct HeatRow {
+    pub(super) row: Row,
+    pub(super) errors: [f64; 6],
 }
 
 impl HeatAxes {
@@ -101,8 +101,13 @@ impl HeatAxes {
     }
 }
 
-/// Computes what is missing and writes all rows.
-pub(super) fn compute(out: &Path, kt: f64, quick: bool, tell: Tell<'_>) -> Result<(), String> {
+/// Computes what is missing, and writes and returns all rows.
+pub(super) fn compute(
+    out: &Path,
+    kt: f64,
+    quick: bool,
+    tell: Tell<'_>,
+) -> Result<Vec<HeatRow>, String> {
     let folder = out.join("heat");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let cell = filament::mean()?;
@@ -124,7 +129,7 @@ pub(super) fn compute(out: &Path, kt: f64, quick: bool, tell: Tell<'_>) -> Resul
         positive.count(),
         std::array::from_fn::<f64, 6, _>(largest)
     ));
-    Ok(())
+    Ok(all)
 }
 
 /// All points of a set of axes.

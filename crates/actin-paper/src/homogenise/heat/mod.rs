@@ -1,9 +1,10 @@
 //! The mean filament at a temperature: mean loads of its cells under held strain, beside relaxed cells and the
 //! thermal motion of filaments.
 //!
-//! Numbers of the free filament are in `table.rs`, loads for fits in `grid.rs`.
+//! Numbers of the free filament are in `table.rs`, loads for fits in `grid.rs`, the law in `law.rs`.
 
 mod grid;
+mod law;
 mod natural;
 mod table;
 
@@ -28,8 +29,12 @@ pub(super) fn run(
         return Err(format!("temperature {temperature_k} K: must be above 0"));
     }
     let kt = BOLTZMANN_PN_NM_PER_K * temperature_k;
-    table::run(out, kt, quick, tell)?;
-    grid::compute(out, kt, quick, tell)
+    let rows = grid::compute(out, kt, quick, tell)?;
+    // A quick run has too few for a law.
+    if !quick {
+        law::run(out, &rows, tell)?;
+    }
+    table::run(out, kt, quick, tell)
 }
 
 /// Sampling of one point.

@@ -1,21 +1,23 @@
 //! The law `Homogenised` of rods fitted to the grid: what each term brings, and how it does on strains and
 //! bonds that entered nothing.
 
-mod fit;
 mod samples;
+mod weights;
 
 use super::axes::Axes;
 use super::filament::{self, PERIOD, mean};
+use super::fit::{Normal, coefficients, numbers};
 use super::paths;
+use super::region::Region;
 use super::rows::Row;
 use crate::Tell;
 use actin_cosserat::{Homogenised, HomogenisedForm, Term};
 use actin_fit::{Mat, Observations, fit_linear};
 use actin_sim::ellipsoid::SixVector;
-use fit::{Normal, deviations, numbers};
-use samples::{Region, other_rows};
+use samples::other_rows;
 use std::fmt::Write as _;
 use std::path::Path;
+use weights::{deviations, weighted};
 
 /// What is fitted, and where the tangent is held positive.
 const RANGE: Region = Region {
@@ -117,6 +119,18 @@ const POSITIVE: [(Region, u64); 5] = [
     ),
 ];
 
+/// The terms that are fitted.
+fn terms() -> Vec<Term> {
+    let steps = STEPS.iter().flat_map(|(_, more)| more.iter().copied());
+    in_order(&steps.collect::<Vec<_>>())
+}
+
+/// Terms in the order of the equations.
+fn in_order(terms: &[Term]) -> Vec<Term> {
+    let chosen = Term::ALL.into_iter();
+    chosen.filter(|term| terms.contains(term)).collect()
+}
+
 /// Fits, prints and writes.
 pub(super) fn run(
     out: &Path,
@@ -129,9 +143,9 @@ pub(super) fn run(
     let form = form(axes, grid)?;
     let (fitted, outside): (Vec<&Row>, Vec<&Row>) = grid.iter().partition(|row| is_in_range(row));
     let paths = paths::compute(out, |twist| form.natural_stretch(twist), tell)?;
-    let normal = Normal::new(&form, &fitted, &paths);
-    let mut table = stepwise(&form, &normal, &fitted)?;
-    let law = fit::positive(&form, &normal, &POSITIVE)?;
+    let normal = Normal::new(&form, &terms(), &weighted(&fitted, &paths));
+    let mut table = stepwise(&normal, &fitted)?;
+    let law = normal.positive(&POSITIVE)?;
     let others = other_rows(&cell, axes, 1, OTHERS)?;
     let mut drawn = Vec::new();
     for seed in 1..=samplings {
@@ -161,7 +175,7 @@ pub(super) fn run(
 }
 
 /// A table of what each step brings.
-fn stepwise(form: &HomogenisedForm, normal: &Normal, rows: &[&Row]) -> Result<String, String> {
+fn stepwise(normal: &Normal<'_>, rows: &[&Row]) -> Result<String, String> {
     let mut table = String::from(
         "| terms | energy | couple | twisting couple | shear force | tension | tangent | positive |\n",
     );
@@ -169,9 +183,7 @@ fn stepwise(form: &HomogenisedForm, normal: &Normal, rows: &[&Row]) -> Result<St
     let mut terms: Vec<Term> = Vec::new();
     for (name, more) in STEPS {
         terms.extend(more);
-        // In the order of the equations.
-        let chosen = Term::ALL.into_iter().filter(|term| terms.contains(term));
-        let found = fit::best(form, normal, &chosen.collect::<Vec<_>>())?;
+        let found = normal.best(&in_order(&terms))?;
         let residuals = Residuals::of(&found, rows.iter().copied());
         let _ = writeln!(table, "| + {name} | {}", residuals.printed());
     }
@@ -326,14 +338,4 @@ fn by_twist(law: &Homogenised, axes: &Axes, rows: &[&Row]) -> String {
         );
     }
     table
-}
-
-/// The law as a table: a line for the natural length and one for each term, coefficients from the constant up.
-fn coefficients(law: &Homogenised) -> String {
-    let line = |name: String, numbers: &[f64]| {
-        let numbers: Vec<String> = numbers.iter().map(|x| format!("{x:.10e}")).collect();
-        format!("{name},{}\n", numbers.join(","))
-    };
-    let terms = Term::ALL.map(|term| line(format!("{term:?}"), law.coefficients(term)));
-    line("natural".to_owned(), law.form().natural()) + &terms.concat()
 }

@@ -41,11 +41,12 @@ pub(super) struct Strand<'a> {
 
 impl<'a> Strand<'a> {
     /// Filament `index` of a scene, with what is held at its ends, whose sections stand behind
-    /// `first_section` others.
+    /// `first_section` others, in a heat bath or not.
     pub(super) fn new(
         (index, filament): (usize, &'a Filament),
         holds: [Option<Hold>; 2],
         first_section: usize,
+        in_bath: bool,
     ) -> Result<Self, SceneProblem> {
         let monomers = &filament.monomers;
         let density = monomers.mass_ag / monomers.rise_nm;
@@ -62,7 +63,7 @@ impl<'a> Strand<'a> {
             resolved: resolve(filament, is_held)?,
             lattice: Lattice::of(filament, is_held),
             model: models::ellipsoids(monomers, index)?,
-            law: law::Law::new(&filament.rod)?,
+            law: law::Law::new(&filament.rod, in_bath)?,
             cross_section: CrossSection::new(density, area).map_err(|error| {
                 let rule = format!("the mass per length that follows must be {}", error.rule);
                 SceneProblem::new("filament.monomers.mass_ag", error.value, rule)
