@@ -111,6 +111,38 @@ fn the_mean_filament_is_stable_but_for_compression() {
     let law = Homogenised::mean_filament();
     let rest = law.loads(&SixVector::zeros());
     assert!(rest.amax() < 0.1, "{rest}");
+    let [_, most] = law.range().stretch;
+    assert_stable(law, [-5e-4, most]);
+}
+
+/// That at 298 K is stable in all of its range.
+#[test]
+fn the_heated_filament_is_stable() {
+    let law = Homogenised::mean_filament_at_298_k();
+    assert_stable(law, law.range().stretch);
+}
+
+/// Free, it is what cells of 13 monomers are at 298 K (`cargo xtask homogenise heat`, standard errors 1 %): their twist,
+/// stretch, and B, C, S1, S3 with all other loads zero.
+#[test]
+fn the_heated_filament_is_that_of_the_cells() {
+    let law = Homogenised::mean_filament_at_298_k();
+    let mut strain = SixVector::zeros();
+    for _ in 0..20 {
+        let jet = law.jet(&strain);
+        strain -= jet.tangent.try_inverse().unwrap() * jet.loads;
+    }
+    assert!((strain[2] + 5.5e-4).abs() < 1e-4, "{strain}");
+    assert!((strain[5] + 4.66e-3).abs() < 1e-4, "{strain}");
+    let compliance = law.tangent(&strain).try_inverse().unwrap();
+    for (place, measured) in [(0, 4.74e4), (2, 7.5e3), (3, 975.0), (5, 2.0e4)] {
+        let ours = 1.0 / compliance[(place, place)];
+        assert!((ours / measured - 1.0).abs() < 0.06, "{place}: {ours}");
+    }
+}
+
+/// That the tangent is positive within the range, at these stretches beyond the natural one.
+fn assert_stable(law: &Homogenised, [shortest, longest]: [f64; 2]) {
     let range = *law.range();
     // Places that fill the ranges evenly: multiples of the roots of 2, 3, 5, 7, 11.
     for n in 1..4000 {
@@ -119,8 +151,7 @@ fn the_mean_filament_is_stable_but_for_compression() {
         let twist = range.twist * (2.0 * t - 1.0).powi(3);
         let (sin, cos) = (std::f64::consts::TAU * angle).sin_cos();
         let (bend, shear) = (range.curvature * b, range.shear * g);
-        let [least, most] = [-5e-4, range.stretch[1]];
-        let stretch = law.form().natural_stretch(twist) + least + (most - least) * e;
+        let stretch = law.form().natural_stretch(twist) + shortest + (longest - shortest) * e;
         let strain = SixVector::new(bend * cos, bend * sin, twist, shear, 0.0, stretch);
         let least = law.tangent(&strain).symmetric_eigenvalues().min();
         assert!(least > 0.0, "{least} at {strain}");

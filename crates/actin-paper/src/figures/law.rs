@@ -1,6 +1,7 @@
 //! The rod's law against filaments of monomers: what `cargo xtask load-cases` measures, as rows with verdicts.
 
 use super::Run;
+use crate::homogenise::surface;
 use crate::load_cases::{self, Compared};
 use actin_draw::report::{Artefact, Origin, Picture, Row, write_csv};
 use std::time::Instant;
@@ -30,6 +31,11 @@ pub(super) fn reproduce(run: Run<'_>) -> Result<Artefact, String> {
         ]
     });
     write_csv(run.out, "law.csv", &columns, cells)?;
+    let mut pictures = vec![Picture {
+        file: "load-cases.svg".to_owned(),
+        caption: "Errors of the rod against the mean filament, over their bounds.".to_owned(),
+    }];
+    pictures.extend(surface::draw(run.out)?);
     Ok(Artefact {
         id: ID,
         title: "The law of the rod in load cases that entered nothing",
@@ -38,10 +44,7 @@ pub(super) fn reproduce(run: Run<'_>) -> Result<Artefact, String> {
              equilibria at the end of the same path; bounds as in docs/tables/load-cases.md"
         ),
         rows: compared.iter().map(row).collect(),
-        pictures: vec![Picture {
-            file: "load-cases.svg".to_owned(),
-            caption: "Errors of the rod against the mean filament, over their bounds.".to_owned(),
-        }],
+        pictures,
         views: Vec::new(),
         wall_s: started.elapsed().as_secs_f64(),
     })

@@ -15,6 +15,7 @@ mod pictures;
 mod region;
 mod rows;
 mod scatter;
+pub(crate) mod surface;
 mod variants;
 
 use crate::Tell;

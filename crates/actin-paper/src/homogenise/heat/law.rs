@@ -18,6 +18,11 @@ const FLOORS: [f64; 4] = [1.0, 0.5, 0.3, 1.0];
 /// Of the tangent, which scatters more: a share of the roots of diagonal entries.
 const TANGENT: f64 = 0.33;
 
+/// Strains (curvature, twist, shear, extension) that thermal motion of long filaments stays within, and what these
+/// samples weigh: the rigidities at rest are theirs.
+const REST: [f64; 4] = [5e-3, 0.013, 7.5e-3, 3e-3];
+const AT_REST: f64 = 3.0;
+
 /// Heat smooths what happens at rest and where compression sets in: these terms need no more than low powers of the twist.
 const TERMS: [Term; 17] = [
     Term::AnyStretch,
@@ -65,7 +70,12 @@ const POSITIVE: [(Region, u64); 2] = [
 const LOOKS: u64 = 20_000;
 
 /// Fits, prints and writes.
-pub(super) fn run(out: &Path, rows: &[HeatRow], tell: Tell<'_>) -> Result<(), String> {
+pub(super) fn run(
+    out: &Path,
+    temperature_k: f64,
+    rows: &[HeatRow],
+    tell: Tell<'_>,
+) -> Result<(), String> {
     let form = form(rows)?;
     let weighted: Vec<Weighted<'_>> = rows.iter().map(HeatRow::weighted).collect();
     let law = Normal::new(&form, &TERMS, &weighted).positive(&POSITIVE)?;
@@ -85,7 +95,10 @@ pub(super) fn run(out: &Path, rows: &[HeatRow], tell: Tell<'_>) -> Result<(), St
         std::fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))
     };
     write("heat-law.md", table)?;
-    write("mean_filament_heated.csv", coefficients(&law))
+    write(
+        &format!("mean_filament_{temperature_k}_k.csv"),
+        coefficients(&law),
+    )
 }
 
 impl HeatRow {
@@ -104,15 +117,24 @@ impl HeatRow {
         sizes
     }
 
+    fn is_at_rest(&self) -> bool {
+        let [curvature, twist, shear, ..] = self.row.strain;
+        let strains = [curvature, twist.abs(), shear, self.row.extension.abs()];
+        strains.iter().zip(REST).all(|(x, size)| *x < 1.01 * size)
+    }
+
     fn weighted(&self) -> Weighted<'_> {
-        let [a, b, c, d, e, f] = self.deviations().map(f64::recip);
+        let weight = if self.is_at_rest() { AT_REST } else { 1.0 };
+        let [a, b, c, d, e, f] = self.deviations().map(|size| weight / size);
         let diagonal = self.row.tangent.diagonal();
         let size = |(i, j): (usize, usize)| (diagonal[i] * diagonal[j]).abs().sqrt();
         Weighted {
             row: &self.row,
             // The free energy itself is not known.
             numbers: [0.0, a, b, c, d, e, f],
-            tangent: upper().map(|at| (at, 1.0 / (TANGENT * size(at)))).collect(),
+            tangent: upper()
+                .map(|at| (at, weight / (TANGENT * size(at))))
+                .collect(),
         }
     }
 }

@@ -32,7 +32,7 @@ pub(super) fn run(
     let rows = grid::compute(out, kt, quick, tell)?;
     // A quick run has too few for a law.
     if !quick {
-        law::run(out, &rows, tell)?;
+        law::run(out, temperature_k, &rows, tell)?;
     }
     table::run(out, kt, quick, tell)
 }
