@@ -202,7 +202,7 @@ mod tests {
     use super::*;
     use crate::Xorshift;
     use crate::rotation;
-    use crate::wide::Arch;
+    use crate::testing::architectures;
 
     /// The flow over all frames is the reference flow of each, whichever axis it has, for numbers
     /// of frames that fill the lanes and that do not, with one lane and with as many as there are,
@@ -213,7 +213,7 @@ mod tests {
             .map(|moments| Inertia::from_moments(moments).unwrap());
         for count in [1, 2, 4, 7, 13] {
             for h in [0.0, 1e-9, 0.01, -0.3, 0.7, 100.0] {
-                for arch in [Arch::Scalar, Arch::new()] {
+                for arch in architectures() {
                     let (before, mut frames) = spinning(&tops, count);
                     let all = &mut frames;
                     arch.dispatch(Drift { frames: all, h });

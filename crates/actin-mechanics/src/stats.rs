@@ -115,7 +115,7 @@ fn frames<S: Simd>(simd: S, frames: &Frames) -> (S::f64s, S::f64s) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wide::Arch;
+    use crate::testing::architectures;
     use crate::{Frame, Inertia, Point, Slider, UnitQuaternion, Vector3};
     use crate::{Xorshift, perturb, randomise_velocities};
 
@@ -174,7 +174,7 @@ mod tests {
             let spins = (0..bodies).map(|i| spin_squared(&state, i));
             let (spin, kinetic) = (spins.fold(0.0, f64::max), state.kinetic_energy());
             let sliding: f64 = state.sliders.iter().map(|s| s.kinetic_energy(&state)).sum();
-            for arch in [Arch::Scalar, Arch::new()] {
+            for arch in architectures() {
                 let survey = arch.dispatch(Pass(&state));
                 // Rounding of a sum of positive terms.
                 let tolerance = 1e-15 * (4.0 + bodies as f64);
@@ -209,7 +209,7 @@ mod tests {
                 for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                     let mut state = moving(bodies);
                     columns(&mut state)[column][i] = bad;
-                    for arch in [Arch::Scalar, Arch::new()] {
+                    for arch in architectures() {
                         let kinetic = arch.dispatch(Pass(&state)).kinetic_energy;
                         assert!(!kinetic.is_finite(), "column {column}, body {i}, {bad}");
                     }

@@ -6,8 +6,18 @@ mod second_order;
 
 pub use second_order::{assert_is_stiffness, stiffness_matrix};
 
+use crate::wide::Arch;
 use crate::{Interaction, Loads, State, Vector3, rotation};
 use std::ops::{Add, Mul, Sub};
+
+/// The kinds of processors that this one can be, from one lane to as many as it has: vector code is tested on each.
+pub fn architectures() -> Vec<Arch> {
+    let mut all = vec![Arch::Scalar];
+    #[cfg(target_arch = "x86_64")]
+    all.extend(pulp::x86::V3::try_new().map(Arch::V3));
+    all.push(Arch::new());
+    all
+}
 
 /// Moves the whole state rigidly: first turned about the origin by `turn`, then shifted.
 pub fn move_rigidly(state: &mut State, turn: Vector3, shift: Vector3) {

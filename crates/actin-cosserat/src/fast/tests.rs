@@ -8,6 +8,7 @@ use crate::{
     PolynomialStretch, Rigidities, RootedStretch, SegmentCurvature, SegmentLaw, SidedTwist,
     Stiffening, StraightRod, StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, Walls,
 };
+use actin_mechanics::testing::architectures;
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
 
@@ -212,7 +213,7 @@ fn assert_paths_agree(
     let start = expected.clone();
     add_reference((layout, law), extended.as_ref(), state, &mut expected);
     let rod = fast(layout, law, extended.as_ref());
-    for arch in [Arch::Scalar, Arch::new()] {
+    for arch in architectures() {
         let mut loads = start.clone();
         rod.add_loads_on(arch, layout, state, &mut loads);
         let (difference, largest) = compare(&loads, &expected);

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::Xorshift;
+use crate::testing::architectures;
 use crate::{UnitQuaternion, Vector3, rotation};
 use nalgebra::Unit;
 use std::f64::consts::PI;
@@ -176,10 +177,6 @@ impl WithSimd for Shift {
         assert!(numbers == y && numbers == z);
         numbers
     }
-}
-
-fn architectures() -> [Arch; 2] {
-    [Arch::Scalar, Arch::new()]
 }
 
 /// Random axes with all angles, both quaternions of each rotation.

@@ -53,7 +53,7 @@ pub fn scenes(quick: bool) -> Vec<(String, String)> {
             all.push((name.clone(), scene.to_ron()));
             if matches!(
                 factor,
-                study::Factor::Reference | study::Factor::ShareFitted
+                study::Factor::Reference | study::Factor::ShareHomogenised
             ) {
                 let motion = solve::motion(SHORT_NS, Integrator::default(), None);
                 scene.path.clear();

@@ -34,6 +34,7 @@ pub(super) fn print(tell: Tell<'_>) -> Result<(), String> {
         ("bonds", monomers),
         ("elements, Constant", rod(RodLaw::Constant)),
         ("elements, Fitted", rod(RodLaw::Fitted)),
+        ("elements, Homogenised", rod(RodLaw::Homogenised)),
     ] {
         let motion = Task::Dynamics(solve::motion(MOTION_NS, Integrator::PositionVerlet, None));
         let newton = Task::Equilibrium(Equilibrium::default());

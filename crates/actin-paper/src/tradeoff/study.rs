@@ -1,6 +1,6 @@
 //! What is asked of each scene, and which settings it is resolved with.
 
-use actin_sim::advice::{FilamentSetting, scenes, table};
+use actin_sim::advice::{FilamentSetting, scenes};
 use actin_sim::{JunctionWeight, RodLaw, Scene};
 
 /// What is varied; each has a colour of its own.
@@ -8,6 +8,8 @@ use actin_sim::{JunctionWeight, RodLaw, Scene};
 pub(super) enum Factor {
     /// Every monomer resolved.
     Reference,
+    /// How much is resolved, law Homogenised.
+    ShareHomogenised,
     /// How much is resolved, law Fitted.
     ShareFitted,
     /// How much is resolved, law Constant.
@@ -28,8 +30,9 @@ pub(super) enum Factor {
 
 impl Factor {
     /// All, in the order of legends.
-    pub(super) const ALL: [Self; 9] = [
+    pub(super) const ALL: [Self; 10] = [
         Self::Reference,
+        Self::ShareHomogenised,
         Self::ShareFitted,
         Self::ShareConstant,
         Self::Place,
@@ -44,6 +47,7 @@ impl Factor {
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Reference => "reference",
+            Self::ShareHomogenised => "share, Homogenised",
             Self::ShareFitted => "share, Fitted",
             Self::ShareConstant => "share, Constant",
             Self::Place => "place",
@@ -350,11 +354,12 @@ impl Question {
         }
     }
 
-    /// The reference, shares under both laws, then one change of the default at a time.
+    /// The reference, shares under three laws, then one change of the default at a time.
     fn settings(&self, length: f64, quick: bool) -> Vec<Varied> {
         let whole = FilamentSetting::of(vec![[0.0, length]], RodLaw::Constant);
         let mut all = vec![(Factor::Reference, "all monomers".into(), whole.clone())];
         for (law, factor) in [
+            (RodLaw::Homogenised, Factor::ShareHomogenised),
             (RodLaw::Fitted, Factor::ShareFitted),
             (RodLaw::Constant, Factor::ShareConstant),
         ] {
@@ -379,7 +384,7 @@ impl Question {
     /// The default with one thing changed, and as much resolved elsewhere.
     fn single_changes(&self) -> Vec<Varied> {
         let (name, monomers) = &self.shares[self.default];
-        let default = || FilamentSetting::of(monomers.clone(), RodLaw::Fitted);
+        let default = || FilamentSetting::of(monomers.clone(), RodLaw::Homogenised);
         let mut changes: Vec<Varied> = Vec::new();
         for segment_nm in SEGMENTS_NM {
             let (mut to, what) = (default(), format!("segments-{segment_nm}"));
@@ -387,11 +392,9 @@ impl Question {
             changes.push((Factor::Segment, what, to));
         }
         changes.extend(fewer_bonds(&default()));
-        for law in [RodLaw::PublishedExtension, table::constant_shear()] {
-            let (mut to, what) = (default(), table::law_name(&law).to_owned());
-            to.law = law;
-            changes.push((Factor::Law, what, to));
-        }
+        let (mut published, what) = (default(), "PublishedExtension".to_owned());
+        published.law = RodLaw::PublishedExtension;
+        changes.push((Factor::Law, what, published));
         let mut full = default();
         full.weight = JunctionWeight::Full;
         changes.push((Factor::Junction, "Full".into(), full));
@@ -400,8 +403,8 @@ impl Question {
         changes.push((Factor::Junction, "one-attached".into(), one));
         let mut all = named_after(name, changes);
         all.extend(self.places.iter().map(|(name, monomers)| {
-            let setting = FilamentSetting::of(monomers.clone(), RodLaw::Fitted);
-            (Factor::Place, format!("{name}/Fitted"), setting)
+            let setting = FilamentSetting::of(monomers.clone(), RodLaw::Homogenised);
+            (Factor::Place, format!("{name}/Homogenised"), setting)
         }));
         all
     }
@@ -409,7 +412,7 @@ impl Question {
     /// Several changes at once, pure rods, and fewer bonds where all is resolved.
     fn combinations(&self, whole: &FilamentSetting) -> Vec<Varied> {
         let (name, monomers) = &self.shares[self.default - 1];
-        let less = || FilamentSetting::of(monomers.clone(), RodLaw::Fitted);
+        let less = || FilamentSetting::of(monomers.clone(), RodLaw::Homogenised);
         let (mut cheap, mut coarse) = (less(), less());
         (cheap.segment_nm, cheap.bonds) = (5.0, 8);
         (coarse.segment_nm, coarse.attached) = (20.0, 1);
@@ -418,13 +421,9 @@ impl Question {
             (combined, "segments-5+bonds-8".into(), cheap),
             (combined, "segments-20+one-attached".into(), coarse),
         ];
-        let mut fine = FilamentSetting::of(Vec::new(), RodLaw::Fitted);
+        let mut fine = FilamentSetting::of(Vec::new(), RodLaw::Homogenised);
         fine.segment_nm = 5.0;
-        let constant_shear = FilamentSetting::of(Vec::new(), table::constant_shear());
-        let rods = vec![
-            (Factor::Law, "FittedConstantShear".into(), constant_shear),
-            (combined, "Fitted+segments-5".into(), fine),
-        ];
+        let rods = vec![(combined, "Homogenised+segments-5".into(), fine)];
         let mut all = named_after(name, mixed);
         all.extend(named_after("none", rods));
         all.extend(named_after("all monomers", fewer_bonds(whole)));

@@ -103,8 +103,11 @@ fn resolved(scene: &Scene, row: &Measured, scale: f64) -> Option<Candidate> {
         } else {
             stretches(&gone)
         };
-        let law = in_words(&row.law);
-        format!("replace {from} by a rod{} with law {law}", segments(row))
+        format!(
+            "replace {from} by a rod{} with law {}",
+            segments(row),
+            row.law
+        )
     } else if same_model && gone.is_empty() && to.bonds < from.bonds && same_rods(scene, &from, &to)
     {
         format!("take {} bonds per interface", to.bonds)
@@ -113,14 +116,6 @@ fn resolved(scene: &Scene, row: &Measured, scale: f64) -> Option<Candidate> {
     };
     let expected = Expected::Errors(Box::new(row.clone()));
     Some((what, to.apply(scene), expected))
-}
-
-/// A law as the advice names it.
-fn in_words(law: &str) -> &str {
-    match law {
-        "FittedConstantShear" => "Fitted but for its shear",
-        law => law,
-    }
 }
 
 /// The length of segments, where it is not that of a scene that leaves it out.

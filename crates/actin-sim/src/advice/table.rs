@@ -4,7 +4,7 @@
 //! azimuths of the lattice, against the same filament with every monomer resolved.
 
 use super::FilamentSetting;
-use crate::scene::{JunctionWeight, RodLaw, RodLaws};
+use crate::scene::{JunctionWeight, RodLaw};
 use serde::{Deserialize, Serialize};
 
 /// The table, as committed.
@@ -17,8 +17,7 @@ pub struct Measured {
     pub scene: String,
     /// Stretches of monomers (nm), such as `0-40+120-160.2`; empty for a pure rod.
     pub monomers_nm: String,
-    /// The rod's law: `Constant`, `PublishedExtension`, `Fitted`, `FittedConstantShear`, which is `Fitted`
-    /// without its law of shear, or `Homogenised`.
+    /// The rod's law: `Constant`, `PublishedExtension`, `Fitted` or `Homogenised`.
     pub law: String,
     /// Length of segments (nm).
     pub segment_nm: f64,
@@ -77,21 +76,12 @@ fn law(name: &str) -> Option<RodLaw> {
 /// A law and its name.
 type NamedLaw = (&'static str, fn() -> RodLaw);
 
-const LAWS: [NamedLaw; 5] = [
+const LAWS: [NamedLaw; 4] = [
     ("Constant", || RodLaw::Constant),
     ("PublishedExtension", || RodLaw::PublishedExtension),
     ("Fitted", || RodLaw::Fitted),
-    ("FittedConstantShear", constant_shear),
     ("Homogenised", || RodLaw::Homogenised),
 ];
-
-/// The law `Fitted` with the constant shearing rigidity, for short spans.
-pub fn constant_shear() -> RodLaw {
-    RodLaw::Laws(Box::new(RodLaws {
-        shear: None,
-        ..crate::fitted_laws()
-    }))
-}
 
 /// The name of a law in the table.
 pub fn law_name(law: &RodLaw) -> &'static str {

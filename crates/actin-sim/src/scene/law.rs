@@ -11,10 +11,10 @@ pub enum RodLaw {
     #[default]
     Constant,
     /// The paper's twisting rigidity B3(kappa) and extension xi(kappa), all parameters as published,
-    /// `p_0` included.
+    /// `p_0` included: to reproduce the paper.
     PublishedExtension,
     /// The paper's B3(kappa) and an energy `C3 sigma_3 kappa_3` per length that couples stretch
-    /// and twist.
+    /// and twist: to reproduce the paper.
     CouplingEnergy,
     /// Laws fitted to filaments of monomers. The material must be left out.
     Fitted,

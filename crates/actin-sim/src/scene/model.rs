@@ -87,7 +87,7 @@ pub struct RodModel {
     pub force_law: ForceLaw,
     /// Rigidities.
     pub material: Material,
-    /// Constitutive law. `Fitted` and `Homogenised` need the default material.
+    /// Constitutive law. `Fitted` and the laws `Homogenised` need the default material.
     pub law: RodLaw,
 }
 

@@ -70,7 +70,7 @@ fn laws_of_collapsed_and_inverted_segments_are_the_scalar_ones() {
         let extended = extended(&layout, law, false);
         let rod = fast(&layout, law, extended.as_ref());
         let scalar = extended.map_or_else(SegmentLaw::default, |segments| segments.law);
-        for arch in [Arch::Scalar, Arch::new()] {
+        for arch in architectures() {
             let found = of_segments(arch, &rod, &states);
             for ([sigma, kappa], [force, couple]) in states.iter().zip(found) {
                 let expected = scalar.loads(&law.1, *sigma, MeanCurvature::inside(*kappa));
