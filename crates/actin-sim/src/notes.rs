@@ -75,9 +75,7 @@ impl Assembly {
         let under_law = |rod: &&Rod| {
             let filament = self.filament_of_section(rod.section);
             let mut filaments = self.scene.filaments().skip(filament);
-            filaments
-                .next()
-                .is_some_and(|f| f.rod.law == RodLaw::Homogenised)
+            filaments.next().is_some_and(|f| f.rod.law.is_homogenised())
         };
         let lengths = self.rods.iter().filter(under_law);
         let shortest = lengths

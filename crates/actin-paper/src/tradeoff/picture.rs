@@ -63,8 +63,9 @@ fn points(picture: &Picture<'_>) -> Vec<ScatterPoint> {
 
 /// The colour of a factor; integrators follow the same order.
 fn colour(factor: &str) -> Colour {
-    const COLOURS: [Colour; 9] = [
+    const COLOURS: [Colour; Factor::ALL.len()] = [
         Colour([60, 60, 60]),
+        Colour([0, 60, 100]),
         Colour([30, 90, 180]),
         Colour([200, 40, 40]),
         Colour([20, 140, 70]),

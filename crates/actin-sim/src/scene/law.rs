@@ -29,6 +29,16 @@ pub enum RodLaw {
     Laws(Box<RodLaws>),
 }
 
+impl RodLaw {
+    /// Whether it is one potential of all strains, with heat or without.
+    pub(crate) fn is_homogenised(&self) -> bool {
+        matches!(
+            self,
+            Self::Homogenised | Self::HomogenisedAthermal | Self::HomogenisedAt298K
+        )
+    }
+}
+
 /// A law for each deformation that has one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

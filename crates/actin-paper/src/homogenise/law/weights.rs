@@ -38,7 +38,6 @@ pub(super) fn deviations(row: &Row) -> [f64; 7] {
 fn weights(row: &Row) -> (f64, f64) {
     let [curvature, twist, shear, ..] = row.strain;
     let weight = match (curvature == 0.0, shear == 0.0) {
-        (true, true) if row.extension < 0.0 => 6.0,
         _ if row.extension < -1e-3 => 0.15,
         _ if row.extension < -1e-4 => 0.4,
         (true, true) => 12.0,
