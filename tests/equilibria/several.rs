@@ -158,7 +158,10 @@ fn where_a_scene_lies_does_not_matter() {
         moved
             .filaments_mut()
             .for_each(|f| move_filament(f, turn, shift));
-        for Load::EndForce { force_pn, .. } in &mut moved.loads {
+        for load in &mut moved.loads {
+            let Load::EndForce { force_pn, .. } = load else {
+                panic!("only ends are loaded");
+            };
             *force_pn = (turn * Vector3::from(*force_pn)).into();
         }
         for place in moved

@@ -53,9 +53,10 @@ pub use scene::fitted::laws as fitted_laws;
 #[cfg(feature = "schema")]
 pub use scene::schema;
 pub use scene::{
-    Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, DragRates, Dynamics, End, Equilibrium,
-    Filament, ForceLaw, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Linker,
-    LinkerSite, Load, Material, Monomers, RodLaw, RodLaws, RodModel, Scene, SceneError,
-    SceneProblem, Section, Setting, ShearLaw, Slides, Stage, StopTolerances, StretchLaw, Task,
-    Thermal, TwistLaw, TwistRise, TwistStretchLaw,
+    Acceleration, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, Couple, CouplePerLength,
+    DragRates, Dynamics, End, Equilibrium, Factor, Filament, Force, ForceLaw, ForcePerLength, Hold,
+    Imperfection, Integrator, JunctionModel, JunctionWeight, Linker, LinkerSite, Load, Material,
+    Monomers, RodLaw, RodLaws, RodModel, Scene, SceneError, SceneProblem, Section, Setting,
+    ShearLaw, Slides, Stage, StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise,
+    TwistStretchLaw,
 };

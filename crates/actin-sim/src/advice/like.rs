@@ -124,6 +124,7 @@ fn has_default_models(scene: &Scene) -> bool {
 mod tests {
     use super::super::scenes;
     use super::*;
+    use crate::scene::End;
 
     /// Each scene is like itself and like no other: cantilevers differ in length, buckling in sign.
     #[test]
@@ -142,8 +143,11 @@ mod tests {
         let cantilever = &all[0].1;
         let with = |force_pn: [f64; 3]| {
             let mut scene = cantilever.clone();
-            let Load::EndForce { force_pn: f, .. } = &mut scene.loads[0];
-            *f = force_pn;
+            scene.loads[0] = Load::EndForce {
+                filament: 0,
+                end: End::End,
+                force_pn,
+            };
             is_like(&scene, cantilever)
         };
         // Another direction across, twice the force; not along the filament, nor ten times as much.

@@ -1,7 +1,8 @@
-//! The path of a scene in time: smooth ramps from stage to stage.
+//! The path of a scene in time, smooth ramps from stage to stage, and the factors of its loads.
 
 use super::{Assembly, Drive};
-use actin_mechanics::State;
+use crate::scene::{Factor, smooth};
+use actin_mechanics::{ControlId, State};
 
 /// A [`Drive`] whose stages take their durations one after the other; behind the last, controls
 /// stay where they are.
@@ -12,22 +13,34 @@ use actin_mechanics::State;
 pub(crate) struct Ramp {
     drive: Drive,
     times: StageTimes,
+    /// Loads that change in time, and whether the path sets their factor too.
+    factors: Vec<(ControlId, Factor, bool)>,
 }
 
 impl Ramp {
-    /// The ramps of an assembly's path; none where there is no path.
+    /// What moves in an assembly as time goes; none where nothing does.
     pub(crate) fn of(assembly: &Assembly) -> Option<Self> {
-        if assembly.drive.is_still() {
-            return None;
-        }
         let drive = assembly.drive.clone();
+        let loads = assembly.scene.loads.iter().zip(&assembly.loads);
+        let factors: Vec<_> = loads
+            .filter(|(load, _)| !load.factor().is_constant())
+            .map(|(load, &control)| (control, load.factor().clone(), drive.sets(control)))
+            .collect();
         let times = StageTimes::of(assembly);
-        Some(Self { drive, times })
+        (!drive.is_still() || !factors.is_empty()).then_some(Self {
+            drive,
+            times,
+            factors,
+        })
     }
 
-    /// Time that all stages take (ns).
+    /// From when on everything stays where it is (ns).
     pub(crate) fn duration(&self) -> f64 {
-        self.times.end
+        let settled = self
+            .factors
+            .iter()
+            .map(|(_, factor, _)| factor.settles_at());
+        settled.fold(self.times.end, f64::max)
     }
 }
 
@@ -66,9 +79,8 @@ impl StageTimes {
             return (stage as f64, 0.0);
         };
         let x = ((time - begin) / duration).max(0.0);
-        let smooth = x.powi(3) * (10.0 + x * (6.0 * x - 15.0));
         let rate = 30.0 * (x * (1.0 - x)).powi(2) / duration;
-        (stage as f64 + smooth, rate)
+        (stage as f64 + smooth(x), rate)
     }
 }
 
@@ -76,6 +88,14 @@ impl actin_mechanics::Drive for Ramp {
     fn place(&self, state: &mut State, time: f64) {
         let (u, rate) = self.times.parameter(time);
         self.drive.place_moving(state, u, rate);
+        for (control, factor, is_set) in &self.factors {
+            let of_path = if *is_set {
+                state.controls[*control]
+            } else {
+                1.0
+            };
+            state.controls[*control] = of_path * factor.at(time);
+        }
     }
 }
 

@@ -3,11 +3,13 @@
 //! Reading happens in two steps. RON gives the types below and refuses unknown or missing keys;
 //! [`validate`] then checks what numbers may be. Both report line and column.
 
+mod factor;
 pub(crate) mod fitted;
 mod imperfection;
 mod law;
 mod linker;
 mod load;
+mod load_rules;
 mod locate;
 mod magnitude;
 mod model;
@@ -26,12 +28,15 @@ mod types;
 mod validate;
 mod written;
 
+pub use factor::Factor;
+pub(crate) use factor::smooth;
 pub use imperfection::Imperfection;
 pub use law::{
     BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw,
 };
 pub use linker::{Linker, LinkerSite};
-pub use load::Load;
+pub(crate) use load::Resultant;
+pub use load::{Acceleration, Couple, CouplePerLength, Force, ForcePerLength, Load};
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
 pub(crate) use place::HeldEnds;
 pub use problem::{SceneError, SceneProblem};

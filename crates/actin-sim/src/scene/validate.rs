@@ -5,8 +5,9 @@ use super::rules::{
 };
 use super::support::{check_support, check_swings};
 use super::{
-    Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Scene, SceneProblem,
-    Section, StopTolerances, Task, imperfection, linker, magnitude, saddles, stage, thermal,
+    Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Resultant, Scene,
+    SceneProblem, Section, StopTolerances, Task, imperfection, linker, load_rules, magnitude,
+    saddles, stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 
@@ -45,22 +46,32 @@ pub(crate) fn validate(scene: &Scene) -> Result<(), SceneProblem> {
     for (i, stage) in scene.path.iter().enumerate() {
         stage::check(scene, &held, (i, stage))?;
     }
+    check_task(scene, &held)
+}
+
+/// What the task asks of itself and of the rest of the scene.
+fn check_task(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
     match &scene.task {
         Task::Dynamics(dynamics) => {
             stage::check_durations(scene, dynamics.duration_ns)?;
-            check_swings(scene, &held)?;
+            check_swings(scene, held)?;
             check_dynamics(dynamics)?;
             saddles::check(scene, dynamics)?;
+            load_rules::check_stop(scene, dynamics)?;
             let stop = dynamics.stop.as_ref();
-            stop.map_or(Ok(()), |s| check_tolerance(scene, "task.stop", s.force_pn))
+            stop.map_or(Ok(()), |s| {
+                check_tolerance(scene, "task.stop", (s.force_pn, s.torque_pn_nm))
+            })
         }
         Task::Equilibrium(equilibrium) => {
             for (i, one) in scene.filaments().enumerate() {
                 check_potential(one).map_err(|p| p.with_filament(&scene.filament_key(i)))?;
             }
+            load_rules::check_statics(scene)?;
             check_support(scene)?;
             check_equilibrium(equilibrium)?;
-            check_tolerance(scene, "task", equilibrium.force_pn)
+            let tolerances = (equilibrium.force_pn, equilibrium.torque_pn_nm);
+            check_tolerance(scene, "task", tolerances)
         }
     }
 }
@@ -306,18 +317,30 @@ fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), SceneProblem> {
 
 /// A tolerance that a load does not exceed is met before the filament has moved. Monomers bear
 /// half the force each.
-fn check_tolerance(scene: &Scene, key: &str, force_pn: f64) -> Result<(), SceneProblem> {
+fn check_tolerance(
+    scene: &Scene,
+    key: &str,
+    (force_pn, torque_pn_nm): (f64, f64),
+) -> Result<(), SceneProblem> {
     for (i, load) in scene.loads.iter().enumerate() {
-        let size = load.force_pn().norm();
-        if size > 0.0 && size <= 2.0 * force_pn {
-            let rule = format!(
-                "must be below half of loads[{i}] ({size:e} pN): otherwise the filament counts as \
-                 at rest before it has moved"
-            );
+        let (name, unit, tolerance, least) = match load.least(scene) {
+            Resultant::Force(force) => ("force_pn", "pN", force_pn, force.norm()),
+            Resultant::Couple(couple) => ("torque_pn_nm", "pN nm", torque_pn_nm, couple.norm()),
+        };
+        if least > 0.0 && least <= tolerance {
+            let rule = match load.interval(scene) {
+                None => format!(
+                    "must be below half of loads[{i}] ({:e} {unit})",
+                    2.0 * least
+                ),
+                Some(_) => {
+                    format!("must be below what loads[{i}] puts on a nanometre ({least:e} {unit})")
+                }
+            };
             return Err(SceneProblem::new(
-                format!("{key}.force_pn"),
-                show(force_pn),
-                rule,
+                format!("{key}.{name}"),
+                show(tolerance),
+                format!("{rule}: otherwise the filament counts as at rest before it has moved"),
             ));
         }
     }

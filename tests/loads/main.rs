@@ -1,0 +1,8 @@
+//! Loads of scenes against theory: where they act, how they change in time, which of them have an energy.
+//!
+//! Bounds were set before results were seen; orders and limits are printed with `--nocapture`.
+
+mod common;
+mod motion;
+mod refused;
+mod statics;
