@@ -233,6 +233,7 @@ fn a_path_moves_the_end_of_the_filament_that_it_names() {
     scene.path = vec![Stage {
         set: moving(turn, shift, further),
         duration_ns: None,
+        pace: actin_sim::Pace::Smooth,
     }];
     let moved = solve(&scene);
     let distance = apart((&moved, 0), (&built, 0), moved.points.len(), |x| x);

@@ -3,6 +3,7 @@
 //! Bounds were set before results were seen; orders and limits are printed with `--nocapture`.
 
 mod common;
+mod ends;
 mod motion;
 mod refused;
 mod statics;

@@ -54,9 +54,9 @@ pub use scene::fitted::laws as fitted_laws;
 pub use scene::schema;
 pub use scene::{
     Acceleration, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, Couple, CouplePerLength,
-    DragRates, Dynamics, End, Equilibrium, Factor, Filament, Force, ForceLaw, ForcePerLength, Hold,
-    Imperfection, Integrator, JunctionModel, JunctionWeight, Linker, LinkerSite, Load, Material,
-    Monomers, RodLaw, RodLaws, RodModel, Scene, SceneError, SceneProblem, Section, Setting,
-    ShearLaw, Slides, Stage, StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise,
-    TwistStretchLaw,
+    DragRates, Dynamics, End, Equilibrium, Factor, Filament, Force, ForceLaw, ForcePerLength,
+    Hinge, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Linker, LinkerSite, Load,
+    Material, Monomers, Pace, RodLaw, RodLaws, RodModel, Scene, SceneError, SceneProblem, Section,
+    Setting, ShearLaw, Slides, Stage, StopTolerances, StretchLaw, Task, Thermal, TwistLaw,
+    TwistRise, TwistStretchLaw,
 };

@@ -75,6 +75,7 @@ fn clamp(end: End, slides: Slides) -> Clamp {
         filament: 0,
         end,
         hold: Hold::Wall,
+        hinge: None,
         slides,
     }
 }
@@ -229,6 +230,7 @@ impl Course<'_> {
         let stage = |setting: Setting| Stage {
             set: vec![setting],
             duration_ns: None,
+            pace: actin_sim::Pace::Smooth,
         };
         let at = |&factor: &f64| Setting::LoadFactor {
             load: self.load,
@@ -338,6 +340,7 @@ fn buckled(turn_deg: f64, made: &Made) -> Result<Found, String> {
     let stage = |set: [Setting; 2]| Stage {
         set: set.into(),
         duration_ns: None,
+        pace: actin_sim::Pace::Smooth,
     };
     let stages = [
         stage([turn(End::Start, -turn_deg), turn(End::End, turn_deg)]),

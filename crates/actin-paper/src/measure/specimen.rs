@@ -95,6 +95,7 @@ impl Specimen {
             filament: 0,
             end,
             hold,
+            hinge: None,
             slides,
         }
     }

@@ -161,6 +161,7 @@ fn pulling_and_turning_are_reciprocal() {
                 },
             ],
             duration_ns: None,
+            pace: actin_sim::Pace::Smooth,
         }];
         let unit = Load::EndForce {
             filament: 0,

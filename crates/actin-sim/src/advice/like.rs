@@ -60,7 +60,7 @@ fn near_vector(a: [f64; 3], b: [f64; 3]) -> bool {
 }
 
 fn same_clamp(a: &Clamp, b: &Clamp) -> bool {
-    (a.end, a.slides, a.hold) == (b.end, b.slides, b.hold)
+    (a.end, a.slides, a.hold, a.hinge) == (b.end, b.slides, b.hold, b.hinge)
 }
 
 fn same_linker(a: &Linker, b: &Linker) -> bool {

@@ -80,11 +80,11 @@ impl<'a> Builder<'a> {
         let mut first_section = 0;
         let mut strands = Vec::new();
         for (i, filament) in scene.filaments().enumerate() {
-            let holds = [End::Start, End::End].map(|end| {
+            let clamps = [End::Start, End::End].map(|end| {
                 let clamp = held.clamp_at(i, end)?;
-                Some(scene.clamps[clamp].hold)
+                Some(&scene.clamps[clamp])
             });
-            let strand = Strand::new((i, filament), holds, first_section);
+            let strand = Strand::new((i, filament), clamps, first_section);
             strands.push(strand.map_err(|p| p.with_filament(&scene.filament_key(i)))?);
             first_section += filament.sections.len();
         }

@@ -9,6 +9,7 @@ mod bonded;
 mod build;
 mod describe;
 mod drive;
+mod hinge;
 mod imperfection;
 mod lattice;
 mod law;

@@ -1,13 +1,13 @@
 //! The path of a scene in time, smooth ramps from stage to stage, and the factors of its loads.
 
 use super::{Assembly, Drive};
-use crate::scene::{Factor, smooth};
+use crate::scene::{Factor, Pace, smooth};
 use actin_mechanics::{ControlId, State};
 
 /// A [`Drive`] whose stages take their durations one after the other; behind the last, controls
 /// stay where they are.
 ///
-/// Within a stage the path parameter grows by `r(x) = x^3 (10 - 15 x + 6 x^2)`, x the share of its
+/// Within a smooth stage the path parameter grows by `r(x) = x^3 (10 - 15 x + 6 x^2)`, x the share of its
 /// time: velocity and acceleration of what is driven are zero at both ends.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ramp {
@@ -47,19 +47,19 @@ impl Ramp {
 /// When the stages of a path begin, and how long they take.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct StageTimes {
-    /// Begin and duration of each stage (ns).
-    stages: Vec<(f64, f64)>,
+    /// Begin and duration of each stage (ns), and how controls move in it.
+    stages: Vec<(f64, f64, Pace)>,
     /// When the last one ends (ns).
     end: f64,
 }
 
 impl StageTimes {
-    fn new(durations: impl IntoIterator<Item = f64>) -> Self {
+    fn new(durations: impl IntoIterator<Item = (f64, Pace)>) -> Self {
         let mut end = 0.0;
-        let stages = durations.into_iter().map(|duration| {
+        let stages = durations.into_iter().map(|(duration, pace)| {
             let begin = end;
             end += duration;
-            (begin, duration)
+            (begin, duration, pace)
         });
         let stages = stages.collect();
         Self { stages, end }
@@ -68,19 +68,22 @@ impl StageTimes {
     /// Those of an assembly's path.
     pub(crate) fn of(assembly: &Assembly) -> Self {
         let stages = assembly.scene.path.iter();
-        Self::new(stages.filter_map(|stage| stage.duration_ns))
+        Self::new(stages.filter_map(|stage| Some((stage.duration_ns?, stage.pace))))
     }
 
     /// Path parameter at `time` (ns) and its rate (1/ns).
     pub(crate) fn parameter(&self, time: f64) -> (f64, f64) {
-        let past = |&(begin, duration): &(f64, f64)| (time - begin) / duration >= 1.0;
+        let past = |&(begin, duration, _): &(f64, f64, Pace)| (time - begin) / duration >= 1.0;
         let stage = self.stages.partition_point(past);
-        let Some(&(begin, duration)) = self.stages.get(stage) else {
+        let Some(&(begin, duration, pace)) = self.stages.get(stage) else {
             return (stage as f64, 0.0);
         };
         let x = ((time - begin) / duration).max(0.0);
-        let rate = 30.0 * (x * (1.0 - x)).powi(2) / duration;
-        (stage as f64 + smooth(x), rate)
+        let (share, rate) = match pace {
+            Pace::Smooth => (smooth(x), 30.0 * (x * (1.0 - x)).powi(2) / duration),
+            Pace::Steady => (x, 1.0 / duration),
+        };
+        (stage as f64 + share, rate)
     }
 }
 
@@ -106,7 +109,7 @@ mod tests {
     /// The rate is the derivative of the parameter, and nothing jumps between stages.
     #[test]
     fn ramps_are_smooth() {
-        let ramp = StageTimes::new([2.0, 0.5]);
+        let ramp = StageTimes::new([2.0, 0.5].map(|duration| (duration, Pace::Smooth)));
         assert_eq!(ramp.parameter(-1.0), (0.0, 0.0));
         assert!((ramp.parameter(1.0).0 - 0.5).abs() < 1e-15);
         assert_eq!(ramp.parameter(3.0), (2.0, 0.0));

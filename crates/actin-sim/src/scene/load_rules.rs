@@ -1,7 +1,9 @@
 //! The rules of loads: where they may act, how large they are, and what a task asks of them.
 
 use super::rules::{all_finite, check_exactly_one, show};
-use super::{Couple, Dynamics, Force, HeldEnds, Load, Resultant, Scene, SceneProblem, Slides};
+use super::{
+    Couple, Dynamics, Force, HeldEnds, Hold, Load, Resultant, Scene, SceneProblem, Slides,
+};
 
 impl Load {
     /// Refuses load `i` of a scene where it makes no sense.
@@ -76,7 +78,9 @@ impl Load {
             return Ok(());
         };
         let is_couple = matches!(self, Self::Couple(_));
-        let rule = if is_couple {
+        let rule = if is_couple && clamp.hold == Hold::Pin {
+            return Ok(());
+        } else if is_couple {
             "this end is clamped: a couple on it turns nothing"
         } else if clamp.slides == Slides::Nowhere {
             "this end is clamped: a force on it moves nothing"

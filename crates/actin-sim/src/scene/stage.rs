@@ -1,7 +1,7 @@
 //! The rules of a path: what its stages may set, and how long they take.
 
 use super::rules::{all_finite, finite, positive, show};
-use super::{End, HeldEnds, Scene, SceneProblem, Setting, Stage};
+use super::{End, HeldEnds, Hold, Scene, SceneProblem, Setting, Stage};
 
 /// Checks that what stage `i` sets exists and may be set.
 pub(super) fn check(
@@ -45,6 +45,11 @@ pub(super) fn check(
             } => {
                 all_finite(&key("turn_deg"), turn_deg)?;
                 check_held(&key(""), filament, end)?;
+                let clamp = held.clamp_at(filament, end).map(|c| &scene.clamps[c]);
+                if clamp.is_some_and(|c| c.hold == Hold::Pin && c.hinge.is_none()) {
+                    let rule = "this end is pinned: it turns by itself";
+                    return Err(SceneProblem::new(key("end"), show(end), rule));
+                }
             }
         }
     }

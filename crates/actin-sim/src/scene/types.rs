@@ -40,10 +40,24 @@ pub struct Scene {
 pub struct Stage {
     /// What is set. Of several settings of one control the last counts.
     pub set: Vec<Setting>,
-    /// Time that the stage takes in `Dynamics`, where controls move by a smooth ramp: required there,
+    /// Time that the stage takes in `Dynamics`: required there,
     /// positive, all stages together at most `duration_ns` of the task. `Equilibrium` ignores it.
     #[serde(default)]
     pub duration_ns: Option<f64>,
+    /// How controls move during that time. `Equilibrium` ignores it.
+    #[serde(default)]
+    pub pace: Pace,
+}
+
+/// How the controls of a stage move in time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum Pace {
+    /// By a ramp whose velocity and acceleration are zero at both ends.
+    #[default]
+    Smooth,
+    /// At constant velocity, which held ends have at once and lose at once.
+    Steady,
 }
 
 /// The value of a control at the end of a stage.
@@ -186,12 +200,29 @@ pub struct Clamp {
     /// What is held there. Monomers take `Wall` only.
     #[serde(default)]
     pub hold: Hold,
+    /// A spring against turns of a pinned end; only with `hold: Pin`.
+    #[serde(default)]
+    pub hinge: Option<Hinge>,
     /// Along which directions the end is free to slide as one rigid body.
     #[serde(default)]
     pub slides: Slides,
 }
 
-/// Directions along which a clamped end slides as one rigid body; it never turns by itself.
+/// A spring between the cross-section at a pinned end and a frame that a path may turn: energy
+/// `(k_b (theta_1^2 + theta_2^2) + k_t theta_3^2) / 2` of the rotation vector `theta` from one to the other, its third
+/// component along the filament.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Hinge {
+    /// Stiffness against bending aside; positive.
+    pub bend_pn_nm_per_rad: f64,
+    /// Stiffness against turns about the filament; positive.
+    pub twist_pn_nm_per_rad: f64,
+}
+
+/// Directions along which a clamped end slides as one rigid body; it turns by itself only where it is
+/// pinned. A force on an end that slides holds it at constant force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Slides {
@@ -216,6 +247,10 @@ pub enum Hold {
     NodeAndFrame,
     /// Rod only: the last two nodes and the last segment's frame.
     TwoNodesAndFrame,
+    /// Rod only: the last node, about which the end turns freely, or against the spring of a `hinge`. It
+    /// slides nowhere or along the axis. (A linker of no length from a site on the axis to an anchor
+    /// pins monomers.)
+    Pin,
 }
 
 /// What is computed.

@@ -6,8 +6,8 @@ use super::rules::{
 use super::support::{check_support, check_swings};
 use super::{
     Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Resultant, Scene,
-    SceneProblem, Section, StopTolerances, Task, imperfection, linker, load_rules, magnitude,
-    saddles, stage, thermal,
+    SceneProblem, Section, Slides, StopTolerances, Task, imperfection, linker, load_rules,
+    magnitude, saddles, stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 
@@ -290,7 +290,28 @@ fn check_clamp(
             "monomers end the filament here: they take Wall only, which holds the last two",
         ));
     }
-    Ok(())
+    check_pin(&key, clamp)
+}
+
+/// A pinned end that slides freely is a free one, and only a pinned end turns against a spring.
+fn check_pin(key: &str, clamp: &Clamp) -> Result<(), SceneProblem> {
+    let is_pinned = clamp.hold == Hold::Pin;
+    if is_pinned && clamp.slides == Slides::Freely {
+        let rule = "a pinned end that slides freely is a free end: leave the clamp out";
+        return Err(SceneProblem::new(format!("{key}.slides"), "Freely", rule));
+    }
+    let Some(hinge) = clamp.hinge else {
+        return Ok(());
+    };
+    let key = format!("{key}.hinge");
+    if !is_pinned {
+        let rule =
+            "only a pinned end turns against a spring: write hold: Pin, or leave the hinge out";
+        return Err(SceneProblem::new(key, "", rule));
+    }
+    let (bend, twist) = (hinge.bend_pn_nm_per_rad, hinge.twist_pn_nm_per_rad);
+    positive(&format!("{key}.bend_pn_nm_per_rad"), bend)?;
+    positive(&format!("{key}.twist_pn_nm_per_rad"), twist)
 }
 
 fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), SceneProblem> {

@@ -200,7 +200,7 @@ fn held_frame(
     state: &State,
     end: End,
 ) -> Option<(f64, UnitQuaternion)> {
-    let clamp = assembly.clamp_at(filament, end)?;
+    let clamp = &assembly.clamps[assembly.held.fixed_at(filament, end)?];
     let frame = match end {
         End::Start => *clamp.frames.first()?,
         End::End => *clamp.frames.last()?,

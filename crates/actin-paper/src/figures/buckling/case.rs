@@ -173,7 +173,11 @@ impl Case {
             Order::Together => {
                 let duration_ns = stages.iter().map(|stage| stage.duration_ns).sum();
                 let set = stages.into_iter().flat_map(|stage| stage.set).collect();
-                vec![Stage { set, duration_ns }]
+                vec![Stage {
+                    set,
+                    duration_ns,
+                    pace: actin_sim::Pace::Smooth,
+                }]
             }
         }
     }

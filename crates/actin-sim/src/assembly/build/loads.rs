@@ -222,7 +222,11 @@ impl Builder<'_> {
     /// couple inside the filament changes by as much as acts before that place.
     fn frames_about(&self, filament: usize, s_nm: f64) -> Shares {
         let frames = self.filaments[filament].frames.clone();
-        let is_of_filament = |f: &usize| self.stock.frames[*f].kind != BodyKind::Junction;
+        let behind_hinges = self.strands[filament].hinge_frames;
+        let is_of_filament = |f: &usize| {
+            let kind = self.stock.frames[*f].kind;
+            kind != BodyKind::Junction && !behind_hinges.contains(&Some(*f))
+        };
         let all: Vec<(usize, f64)> = frames
             .filter(is_of_filament)
             .map(|f| (f, self.stock.frames[f].s_nm))

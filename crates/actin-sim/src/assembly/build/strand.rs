@@ -4,11 +4,11 @@ use super::Stock;
 use crate::assembly::lattice::{Lattice, Resolved, resolve};
 use crate::assembly::{BodyKind, FilamentSpan, FrameInfo, PointInfo, Resolution, SectionSpan};
 use crate::assembly::{law, models};
-use crate::scene::{End, Filament, Hold, MOST_COUNTED, SceneProblem, Section};
+use crate::scene::{Clamp, End, Filament, Hinge, Hold, MOST_COUNTED, SceneProblem, Section};
 use actin_cosserat::{CrossSection, EndShear, RodLayout, StraightRod, Walls};
 use actin_coupling::push_junction_frames;
 use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
-use actin_mechanics::Vector3;
+use actin_mechanics::{Frame, Vector3};
 use std::ops::Range;
 
 /// Length of a rod's segments where the scene does not say how many there are (nm).
@@ -25,6 +25,10 @@ pub(super) struct Strand<'a> {
     pub(super) filament: &'a Filament,
     /// What is held at start and end; nothing at a free one.
     holds: [Option<Hold>; 2],
+    /// The springs of those ends that are hinged.
+    pub(super) hinges: [Option<Hinge>; 2],
+    /// The held frames behind these springs.
+    pub(super) hinge_frames: [Option<usize>; 2],
     /// Index of its first section among those of all filaments.
     pub(super) first_section: usize,
     /// Where arc length begins, and the turn from a filament along lab +z.
@@ -44,16 +48,19 @@ impl<'a> Strand<'a> {
     /// `first_section` others.
     pub(super) fn new(
         (index, filament): (usize, &'a Filament),
-        holds: [Option<Hold>; 2],
+        clamps: [Option<&Clamp>; 2],
         first_section: usize,
     ) -> Result<Self, SceneProblem> {
         let monomers = &filament.monomers;
         let density = monomers.mass_ag / monomers.rise_nm;
         let area = actin_cosserat::constants::CROSS_SECTION_AREA;
+        let holds = clamps.map(|clamp| clamp.map(|c| c.hold));
         let is_held = holds.map(|hold| hold.is_some());
         Ok(Self {
             filament,
             holds,
+            hinges: clamps.map(|clamp| clamp.and_then(|c| c.hinge)),
+            hinge_frames: [None; 2],
             first_section,
             placement: Placement {
                 rotation: filament.rotation(),
@@ -157,7 +164,8 @@ impl<'a> Strand<'a> {
         let length = (to_nm - from_nm) / segments as f64;
         let wall = |end| {
             let at_this_end = i == self.filament.end_index(end);
-            at_this_end && self.holds[end as usize] == Some(Hold::Wall)
+            let hold = self.holds[end as usize];
+            at_this_end && (hold == Some(Hold::Wall) || self.hinges[end as usize].is_some())
         };
         let rod = StraightRod {
             start: self.axis_at(from_nm),
@@ -169,11 +177,13 @@ impl<'a> Strand<'a> {
                 end: wall(End::End),
             },
         };
+        self.push_hinge_frame(i, End::Start, (from_nm, length), stock);
         let layout = rod.push(&mut stock.state).map_err(|error| {
             let key = format!("filament.sections[{i}].segments");
             SceneProblem::new(key, segments, error.to_string())
         })?;
         self.describe_rod(i, &layout, length, stock);
+        self.push_hinge_frame(i, End::End, (to_nm, length), stock);
         self.bodies.push(Body::Rod(layout));
         Ok(())
     }
@@ -182,13 +192,36 @@ impl<'a> Strand<'a> {
     /// so that they lack shear, which the rod makes good.
     pub(super) fn end_shear(&self, i: usize) -> [EndShear; 2] {
         [End::Start, End::End].map(|end| {
-            let is_held = self.holds[end as usize].is_some();
+            // A pin lets the end turn, as a free one does.
+            let is_held = self.holds[end as usize].is_some_and(|hold| hold != Hold::Pin);
             if i == self.filament.end_index(end) && is_held {
                 EndShear::Blocked
             } else {
                 EndShear::Loose
             }
         })
+    }
+
+    /// Pushes the held frame behind the spring of a hinge, if section `i` has one at an end, at arc length
+    /// `s_nm` beside segments of a length (nm).
+    fn push_hinge_frame(
+        &mut self,
+        i: usize,
+        end: End,
+        (s_nm, length): (f64, f64),
+        stock: &mut Stock,
+    ) {
+        if i != self.filament.end_index(end) || self.hinges[end as usize].is_none() {
+            return;
+        }
+        let frame = stock.state.frames.push(Frame {
+            orientation: self.placement.rotation,
+            inertia: self.cross_section.segment_inertia(length),
+        });
+        stock.state.frames.hold(frame);
+        let kind = BodyKind::Wall;
+        stock.frames.push(FrameInfo { kind, s_nm });
+        self.hinge_frames[end as usize] = Some(frame);
     }
 
     /// Number of segments of rod section `i`: as written, or as near to the default length as fits.
