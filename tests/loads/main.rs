@@ -1,4 +1,5 @@
-//! Loads of scenes against theory: where they act, how they change in time, which of them have an energy.
+//! Loads, ends and sections of scenes against theory: where loads act, how they change in time, which of them
+//! have an energy.
 //!
 //! Bounds were set before results were seen; orders and limits are printed with `--nocapture`.
 
@@ -6,4 +7,5 @@ mod common;
 mod ends;
 mod motion;
 mod refused;
+mod sections;
 mod statics;

@@ -53,7 +53,7 @@ pub use scene::fitted::laws as fitted_laws;
 #[cfg(feature = "schema")]
 pub use scene::schema;
 pub use scene::{
-    Acceleration, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, Couple, CouplePerLength,
+    Acceleration, Altered, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, Couple, CouplePerLength,
     DragRates, Dynamics, End, Equilibrium, Factor, Filament, Force, ForceLaw, ForcePerLength,
     Hinge, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Linker, LinkerSite, Load,
     Material, Monomers, Pace, RodLaw, RodLaws, RodModel, Scene, SceneError, SceneProblem, Section,

@@ -164,6 +164,7 @@ fn on_linkers(
     scene.filament.sections = vec![Section::Ellipsoids {
         from_nm: 0.0,
         to_nm: length_nm,
+        altered: None,
     }];
     scene.task = Task::Equilibrium(Equilibrium::default());
     let mut found = Vec::new();
@@ -186,6 +187,7 @@ fn all_monomers(variant: &Variant, seed: u64) -> Result<Scene, String> {
     scene.filament.sections = vec![Section::Ellipsoids {
         from_nm: 0.0,
         to_nm: BUCKLED_NM,
+        altered: None,
     }];
     for clamp in &mut scene.clamps {
         clamp.hold = Hold::Wall;

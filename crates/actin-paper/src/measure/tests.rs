@@ -194,6 +194,7 @@ fn mixed_filaments_are_measured_like_any_other() {
         Section::Ellipsoids {
             from_nm: 0.0,
             to_nm: 40.0,
+            altered: None,
         },
         Section::Rod {
             from_nm: 40.0,

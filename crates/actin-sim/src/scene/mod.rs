@@ -45,7 +45,7 @@ pub use schema::schema;
 pub(crate) use support::is_across;
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
 pub use types::{
-    Clamp, DragRates, Dynamics, End, Equilibrium, Filament, Hinge, Hold, Integrator, Pace, Scene,
-    Section, Setting, Slides, Stage, StopTolerances, Task,
+    Altered, Clamp, DragRates, Dynamics, End, Equilibrium, Filament, Hinge, Hold, Integrator, Pace,
+    Scene, Section, Setting, Slides, Stage, StopTolerances, Task,
 };
 pub(crate) use validate::MOST_COUNTED;

@@ -90,7 +90,40 @@ fn filament(filament: &Filament) -> Result<(), SceneProblem> {
         let previous = i.checked_sub(1).map(|p| &sections[p]);
         check_boundary(i, section, previous)?;
     }
-    check_model(filament)
+    check_model(filament)?;
+    for (i, section) in sections.iter().enumerate() {
+        check_altered(
+            &format!("filament.sections[{i}].altered"),
+            section,
+            filament,
+        )?;
+    }
+    Ok(())
+}
+
+fn check_altered(key: &str, section: &Section, filament: &Filament) -> Result<(), SceneProblem> {
+    let Some(altered) = section.altered() else {
+        return Ok(());
+    };
+    for (name, factor) in [
+        ("lateral_rigidity_factor", altered.lateral_rigidity_factor),
+        (
+            "longitudinal_rigidity_factor",
+            altered.longitudinal_rigidity_factor,
+        ),
+        ("mass_factor", altered.mass_factor),
+    ] {
+        positive(&format!("{key}.{name}"), factor)?;
+    }
+    for (name, bonds) in [
+        ("lateral_bonds", altered.lateral_bonds),
+        ("longitudinal_bonds", altered.longitudinal_bonds),
+    ] {
+        if let Some(bonds) = bonds {
+            check_bonds(&format!("{key}.{name}"), filament.monomers.anchors, bonds)?;
+        }
+    }
+    Ok(())
 }
 
 fn check_place(filament: &Filament) -> Result<(), SceneProblem> {
@@ -154,8 +187,10 @@ fn check_boundary(
             rule,
         ));
     }
-    let same =
-        previous.is_some_and(|p| std::mem::discriminant(p) == std::mem::discriminant(section));
+    let same = previous.is_some_and(|p| {
+        std::mem::discriminant(p) == std::mem::discriminant(section)
+            && p.altered() == section.altered()
+    });
     if same {
         return Err(SceneProblem::new(
             format!("{key}.from_nm"),
@@ -206,8 +241,16 @@ fn check_monomers(m: &Monomers) -> Result<(), SceneProblem> {
         finite(&format!("filament.monomers.{key}"), value)?;
     }
     each_positive("filament.monomers.semi_axes_nm", m.semi_axes_nm)?;
-    check_bonds("lateral_bonds", m.anchors, m.lateral_bonds)?;
-    check_bonds("longitudinal_bonds", m.anchors, m.longitudinal_bonds)?;
+    check_bonds(
+        "filament.monomers.lateral_bonds",
+        m.anchors,
+        m.lateral_bonds,
+    )?;
+    check_bonds(
+        "filament.monomers.longitudinal_bonds",
+        m.anchors,
+        m.longitudinal_bonds,
+    )?;
     check_shortest(m)?;
     if m.anchors == Anchors::Cubature && m.seed != 0 {
         return Err(SceneProblem::new(
@@ -236,11 +279,7 @@ fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(), ScenePro
     if range.contains(&bonds) {
         return Ok(());
     }
-    Err(SceneProblem::new(
-        format!("filament.monomers.{key}"),
-        bonds,
-        rule,
-    ))
+    Err(SceneProblem::new(key, bonds, rule))
 }
 
 /// Both kinds of interface have the same shortest bond. The default one is not to blame.

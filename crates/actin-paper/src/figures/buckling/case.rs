@@ -147,7 +147,11 @@ impl Case {
             to_nm,
             segments: None,
         };
-        let monomers = |from_nm, to_nm| Section::Ellipsoids { from_nm, to_nm };
+        let monomers = |from_nm, to_nm| Section::Ellipsoids {
+            from_nm,
+            to_nm,
+            altered: None,
+        };
         let length = self.length_nm();
         match self.resolved {
             Resolved::Rod => vec![rod(0.0, length)],

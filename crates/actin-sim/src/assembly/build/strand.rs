@@ -35,7 +35,8 @@ pub(super) struct Strand<'a> {
     pub(super) placement: Placement,
     pub(super) resolved: Vec<Resolved>,
     pub(super) lattice: Lattice,
-    pub(super) model: EllipsoidModel,
+    /// The monomers of each section; of a rod those that it stands for.
+    pub(super) models: Vec<EllipsoidModel>,
     pub(super) law: law::Law,
     cross_section: CrossSection,
     pub(super) bodies: Vec<Body>,
@@ -68,7 +69,9 @@ impl<'a> Strand<'a> {
             },
             resolved: resolve(filament, is_held)?,
             lattice: Lattice::of(filament, is_held),
-            model: models::ellipsoids(monomers, index)?,
+            models: (filament.sections.iter())
+                .map(|section| models::ellipsoids(&section.monomers(monomers), index))
+                .collect::<Result<_, _>>()?,
             law: law::Law::new(&filament.rod)?,
             cross_section: CrossSection::new(density, area).map_err(|error| {
                 let rule = format!("the mass per length that follows must be {}", error.rule);
@@ -107,8 +110,10 @@ impl<'a> Strand<'a> {
 
     /// Pushes the junction to the section before, then the bodies of section `i`.
     fn push_section(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
-        if i > 0 {
+        if i > 0 && self.is_junction(i - 1) {
             self.push_junction_frames(i - 1, stock)?;
+        } else if i > 0 {
+            self.junction_frames.push(0..0);
         }
         match self.resolved[i].monomers {
             Some((first, last)) => self.push_monomers(i, (first, last), stock),
@@ -127,7 +132,7 @@ impl<'a> Strand<'a> {
             ..self.placement
         };
         let count = usize::try_from(last - first + 1).expect("resolve leaves at least two");
-        let built = self.model.build(&mut stock.state, &placement, first, count);
+        let built = self.models[i].build(&mut stock.state, &placement, first, count);
         let monomers = built
             .map_err(|error| SceneProblem::new("filament.sections", last, error.to_string()))?;
         for k in 0..count {
@@ -299,6 +304,23 @@ impl<'a> Strand<'a> {
             first_tip,
             last_tip,
         });
+    }
+
+    /// Whether section `i` and the next are of different kinds; neighbouring monomers are bonded.
+    pub(super) fn is_junction(&self, i: usize) -> bool {
+        let sections = self.resolved.get(i).zip(self.resolved.get(i + 1));
+        sections.is_some_and(|(a, b)| a.monomers.is_some() != b.monomers.is_some())
+    }
+
+    /// The monomers from which section `i` is bonded upwards, and those of the next section to which the
+    /// last of them are bonded, if it has some.
+    pub(super) fn bonded_run(&self, i: usize, own: &Monomers) -> Monomers {
+        let goes_on = i + 1 < self.resolved.len() && !self.is_junction(i);
+        Monomers {
+            // As far as the longest interface reaches.
+            count: own.count + if goes_on { 2 } else { 0 },
+            ..*own
+        }
     }
 
     /// Number of monomers of section `i` that a junction attaches to.
