@@ -51,9 +51,12 @@ const SECOND: [&str; 2] = [
             stiffness_pn_per_nm: 50.0, rest_length_nm: 8.4)",
 ];
 
+/// Which of [`HELD`] is for motions alone.
+pub(crate) const IN_TIME: usize = 4;
+
 /// Clamps, linkers and the rest: a force at once, a force by a ramp, an end that turns and slides,
-/// a linker whose anchor moves.
-const HELD: [[&str; 3]; 4] = [
+/// a linker whose anchor moves, loads that change in time and turn along.
+const HELD: [[&str; 3]; 5] = [
     [
         "Clamp(end: Start),",
         "",
@@ -78,6 +81,17 @@ const HELD: [[&str; 3]; 4] = [
                 stiffness_pn_per_nm: 10.0),",
         "path: [Stage(set: [Anchor(linker: 0, shift_nm: (0.0, 2.0, 1.0))], duration_ns: 0.1)]",
     ],
+    [
+        "Clamp(end: Start),",
+        "",
+        "loads: [
+            Force(end: End, force_pn: (-12.0, 3.0, 0.0), follows: true, factor: Sine(period_ns: 0.07)),
+            Couple(at_nm: 23.0, couple_pn_nm: (0.0, 9.0, 20.0), factor: Ramp(duration_ns: 0.1)),
+            ForcePerLength(from_nm: 5.0, force_pn_per_nm: (0.0, 0.1, 0.0),
+                factor: Table(time_ns: [0.0, 0.05, 0.15], factor: [0.0, 1.0, 0.3])),
+         ],
+         path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)], duration_ns: 0.1)]",
+    ],
 ];
 
 const INTEGRATORS: [&str; 5] = ["PositionVerlet", "Pefrl", "Vefrl", "ForestRuth", "Suzuki"];
@@ -100,7 +114,8 @@ impl Choice {
 
     /// The scene as a motion in time.
     pub(crate) fn motion(&self) -> Scene {
-        let stop = if self.stops {
+        // Under a sine nothing comes to rest.
+        let stop = if self.stops && self.held != IN_TIME {
             "stop: (force_pn: 5.0, torque_pn_nm: 5.0, kinetic_pn_nm: 1.0),"
         } else {
             ""

@@ -141,6 +141,7 @@ impl Extreme {
         let state = assembly.system.state();
         let applied = assembly.scene.loads.iter().map(|load| match *load {
             Load::EndForce { force_pn, .. } => Vector3::from(force_pn),
+            _ => panic!("only ends are loaded"),
         });
         let reactions = assembly
             .clamps

@@ -158,7 +158,10 @@ fn where_a_scene_lies_does_not_matter() {
         moved
             .filaments_mut()
             .for_each(|f| move_filament(f, turn, shift));
-        for Load::EndForce { force_pn, .. } in &mut moved.loads {
+        for load in &mut moved.loads {
+            let Load::EndForce { force_pn, .. } = load else {
+                panic!("only ends are loaded");
+            };
             *force_pn = (turn * Vector3::from(*force_pn)).into();
         }
         for place in moved
@@ -230,6 +233,7 @@ fn a_path_moves_the_end_of_the_filament_that_it_names() {
     scene.path = vec![Stage {
         set: moving(turn, shift, further),
         duration_ns: None,
+        pace: actin_sim::Pace::Smooth,
     }];
     let moved = solve(&scene);
     let distance = apart((&moved, 0), (&built, 0), moved.points.len(), |x| x);

@@ -233,8 +233,13 @@ fn what_check_prints_is_the_scene() {
     let open: Vec<&str> = open.map(str::trim).collect();
     assert_eq!(
         open,
-        ["imperfection: None,", "thermal: None,", "stop: None,"],
-        "no imperfection, no heat, no rule to stop; all else is resolved"
+        [
+            "imperfection: None,",
+            "hinge: None,",
+            "thermal: None,",
+            "stop: None,"
+        ],
+        "no imperfection, no spring at an end, no heat, no rule to stop; all else is resolved"
     );
     fs::write(place.path("resolved.ron"), printed).unwrap();
     let again = place.actin(&["check", "resolved.ron"]);

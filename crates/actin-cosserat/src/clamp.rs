@@ -1,4 +1,4 @@
-//! Three ways to hold an end of a rod.
+//! Ways to hold an end of a rod.
 
 use crate::{RodEnd, RodError, RodLayout};
 use actin_mechanics::State;
@@ -18,6 +18,8 @@ pub enum RodClamp {
     NodeAndFrame,
     /// The last two nodes and the last segment's frame: the segment cannot even stretch.
     TwoNodesAndFrame,
+    /// The last node alone: the end turns about it.
+    Pin,
 }
 
 /// The bodies that a clamp holds.
@@ -62,10 +64,10 @@ impl RodClamp {
     pub fn held(self, layout: &RodLayout, end: RodEnd) -> Result<Held, RodError> {
         let frame = match self {
             Self::Wall => layout.wall(end).ok_or(RodError::NoWall(end))?,
-            Self::NodeAndFrame | Self::TwoNodesAndFrame => layout.end_frame(end),
+            Self::NodeAndFrame | Self::TwoNodesAndFrame | Self::Pin => layout.end_frame(end),
         };
         let nodes = match self {
-            Self::Wall | Self::NodeAndFrame => 1,
+            Self::Wall | Self::NodeAndFrame | Self::Pin => 1,
             Self::TwoNodesAndFrame => 2,
         };
         let Range { start, end: past } = layout.points();
@@ -75,7 +77,7 @@ impl RodClamp {
         };
         Ok(Held {
             points,
-            frames: frame..frame + 1,
+            frames: frame..frame + usize::from(self != Self::Pin),
         })
     }
 
@@ -126,7 +128,9 @@ mod tests {
 
     #[test]
     fn each_clamp_holds_what_its_name_says() {
-        use RodClamp::{NodeAndFrame, TwoNodesAndFrame, Wall};
+        use RodClamp::{NodeAndFrame, Pin, TwoNodesAndFrame, Wall};
+        assert_eq!(held(Pin, RodEnd::Start), (vec![0], vec![]));
+        assert_eq!(held(Pin, RodEnd::End), (vec![3], vec![]));
         assert_eq!(held(Wall, RodEnd::Start), (vec![0], vec![0]));
         assert_eq!(held(Wall, RodEnd::End), (vec![3], vec![3]));
         assert_eq!(held(NodeAndFrame, RodEnd::Start), (vec![0], vec![0]));

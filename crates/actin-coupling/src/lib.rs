@@ -7,7 +7,7 @@
 //! being built, [`Junction::new`] makes the interaction once all bodies stand.
 //!
 //! A [`Linker`] is a spring that holds a [`Site`] of a filament, on monomer or rod, to an [`Anchor`]
-//! or to another site.
+//! or to another site; a [`SiteForce`] pulls at sites.
 //!
 //! Nothing here knows how monomers hold together or where a scene puts a junction or a linker.
 //!
@@ -24,12 +24,14 @@ mod error;
 mod junction;
 mod linker;
 mod site;
+mod site_force;
 
 pub use build::push_junction_frames;
 pub use error::{JunctionError, LinkerError, LinkerKey};
 pub use junction::{AttachedMonomer, Junction, JunctionParts, JunctionSide, JunctionWeight};
 pub use linker::{Anchor, Linker, LinkerEnd};
 pub use site::{RodPlace, Site};
+pub use site_force::{ForceKind, SiteForce};
 
 /// The crate of rods, whose ends are joined here.
 pub use actin_cosserat as cosserat;

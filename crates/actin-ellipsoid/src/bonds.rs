@@ -67,15 +67,21 @@ struct Body {
 }
 
 impl Bonds {
-    /// Draws all interfaces within the run, or looks up their weighted bonds.
-    pub(crate) fn new(model: &EllipsoidModel, monomers: Monomers) -> Result<Self, InterfaceError> {
+    /// Draws all interfaces within the run whose lower monomer is among the first `lowers`, or looks up
+    /// their weighted bonds.
+    pub(crate) fn new(
+        model: &EllipsoidModel,
+        monomers: Monomers,
+        lowers: usize,
+    ) -> Result<Self, InterfaceError> {
+        let lowers = lowers.min(monomers.count);
         let [lateral, longitudinal] = InterfaceKind::ALL;
         let tables = [
-            Self::tabulate(model, lateral, &monomers)?,
-            Self::tabulate(model, longitudinal, &monomers)?,
+            Self::tabulate(model, lateral, &monomers, lowers)?,
+            Self::tabulate(model, longitudinal, &monomers, lowers)?,
         ];
         let mut pairs = Vec::new();
-        for lower in 0..monomers.count {
+        for lower in 0..lowers {
             for (kind, table) in InterfaceKind::ALL.into_iter().zip(&tables) {
                 let upper = lower + table.step;
                 if upper < monomers.count {
@@ -102,10 +108,11 @@ impl Bonds {
         model: &EllipsoidModel,
         kind: InterfaceKind,
         monomers: &Monomers,
+        lowers: usize,
     ) -> Result<BondTable, InterfaceError> {
         let parameters = kind.parameters(model.parameters());
         let (step, number) = (kind.steps(), parameters.bonds);
-        let pairs = monomers.count.saturating_sub(step);
+        let pairs = monomers.count.saturating_sub(step).min(lowers);
         if model.parameters().anchors.are_shared() && pairs > 0 {
             let interface = model.interface(kind, monomers.first_index)?;
             let rigidity = parameters.rigidity;

@@ -88,6 +88,15 @@ impl EllipsoidModel {
     /// # Errors
     /// As [`Self::interface`].
     pub fn bonds(&self, monomers: &Monomers) -> Result<Bonds, InterfaceError> {
-        Bonds::new(self, *monomers)
+        Bonds::new(self, *monomers, monomers.count)
+    }
+
+    /// The bonds of a run whose lower monomers are among the first `lowers`: those of a stretch with its own
+    /// parameters, whose last monomers are bonded to the first ones of the next.
+    ///
+    /// # Errors
+    /// As [`Self::interface`].
+    pub fn bonds_above(&self, monomers: &Monomers, lowers: usize) -> Result<Bonds, InterfaceError> {
+        Bonds::new(self, *monomers, lowers)
     }
 }

@@ -18,6 +18,7 @@
 struct Readme;
 
 mod controls;
+mod couple;
 mod frames;
 mod inertia;
 mod interaction;
@@ -43,6 +44,7 @@ mod weight;
 pub mod wide;
 
 pub use controls::{ControlId, Controls};
+pub use couple::{Couple, CoupleKind};
 pub use frames::{Frame, Frames};
 pub use inertia::{Axis, Inertia, InertiaError};
 pub use interaction::Interaction;

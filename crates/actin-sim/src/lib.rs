@@ -54,9 +54,10 @@ pub use scene::read_ron;
 #[cfg(feature = "schema")]
 pub use scene::schema;
 pub use scene::{
-    Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, DragRates, Drawn, Dynamics, End, Equilibrium,
-    Filament, ForceLaw, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Linker,
-    LinkerSite, Load, Material, Monomers, Override, RodLaw, RodLaws, RodModel, Scene, SceneError,
-    SceneProblem, SceneText, Section, Setting, ShearLaw, Slides, Stage, StopTolerances, StretchLaw,
-    Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
+    Acceleration, Altered, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, Couple, CouplePerLength,
+    DragRates, Drawn, Dynamics, End, Equilibrium, Factor, Filament, Force, ForceLaw,
+    ForcePerLength, Hinge, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Linker,
+    LinkerSite, Load, Material, Monomers, Override, Pace, RodLaw, RodLaws, RodModel, Scene,
+    SceneError, SceneProblem, SceneText, Section, Setting, ShearLaw, Slides, Stage, StopTolerances,
+    StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
 };

@@ -100,7 +100,7 @@ impl Outcome {
         if is_motion && self.has_converged() && self.at_rest.is_none() {
             notes.push(
                 "the stop rule was met, but it is not known whether the state at rest is stable: no \
-                 equilibrium was found next to it (force_law: PaperBalance has no energy)"
+                 equilibrium was found next to it (force_law: PaperBalance and loads that follow have no energy)"
                     .to_owned(),
             );
         }

@@ -121,7 +121,10 @@ fn solved(assembly: &mut Assembly) -> Result<(Summary, Record), String> {
 /// Deflection of the cantilever (nm).
 fn tip(variant: &Variant, seed: u64, force: f64) -> Result<f64, String> {
     let mut scene = scene("figure-4/ellipsoids.ron", variant, seed)?;
-    for Load::EndForce { force_pn, .. } in &mut scene.loads {
+    for load in &mut scene.loads {
+        let Load::EndForce { force_pn, .. } = load else {
+            continue;
+        };
         let size = force_pn.iter().map(|f| f * f).sum::<f64>().sqrt();
         *force_pn = force_pn.map(|f| f * force / size);
     }
@@ -161,6 +164,7 @@ fn on_linkers(
     scene.filament.sections = vec![Section::Ellipsoids {
         from_nm: 0.0,
         to_nm: length_nm,
+        altered: None,
     }];
     scene.task = Task::Equilibrium(Equilibrium::default());
     let mut found = Vec::new();
@@ -183,6 +187,7 @@ fn all_monomers(variant: &Variant, seed: u64) -> Result<Scene, String> {
     scene.filament.sections = vec![Section::Ellipsoids {
         from_nm: 0.0,
         to_nm: BUCKLED_NM,
+        altered: None,
     }];
     for clamp in &mut scene.clamps {
         clamp.hold = Hold::Wall;

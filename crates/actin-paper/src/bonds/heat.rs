@@ -54,6 +54,7 @@ impl Filament {
         let section = Section::Ellipsoids {
             from_nm: 0.0,
             to_nm: length_nm,
+            altered: None,
         };
         let seed = if variant.is_drawn() { replica } else { 0 };
         let scene = Scene {

@@ -151,6 +151,8 @@ impl Ran {
 }
 
 fn force_of(load: &Load) -> Vector3 {
-    let Load::EndForce { force_pn, .. } = load;
-    (*force_pn).into()
+    match load {
+        Load::EndForce { force_pn, .. } => (*force_pn).into(),
+        _ => Vector3::zeros(),
+    }
 }

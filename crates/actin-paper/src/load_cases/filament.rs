@@ -98,6 +98,7 @@ impl Made {
             vec![Section::Ellipsoids {
                 from_nm: 0.0,
                 to_nm: length_nm,
+                altered: None,
             }]
         };
         match self {
@@ -149,7 +150,11 @@ fn mixed(rod: &Rod, stretches: &[[f64; 2]], length_nm: f64) -> Vec<Section> {
     let mut sections = Vec::new();
     let mut at = 0.0;
     let monomers = |from_nm: f64, to_nm: f64| {
-        (to_nm > from_nm).then_some(Section::Ellipsoids { from_nm, to_nm })
+        (to_nm > from_nm).then_some(Section::Ellipsoids {
+            from_nm,
+            to_nm,
+            altered: None,
+        })
     };
     for &stretch in stretches {
         sections.extend(monomers(at, stretch[0]));

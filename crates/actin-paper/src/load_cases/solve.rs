@@ -75,6 +75,7 @@ fn clamp(end: End, slides: Slides) -> Clamp {
         filament: 0,
         end,
         hold: Hold::Wall,
+        hinge: None,
         slides,
     }
 }
@@ -229,6 +230,7 @@ impl Course<'_> {
         let stage = |setting: Setting| Stage {
             set: vec![setting],
             duration_ns: None,
+            pace: actin_sim::Pace::Smooth,
         };
         let at = |&factor: &f64| Setting::LoadFactor {
             load: self.load,
@@ -316,6 +318,13 @@ fn linked(figure: u32, made: &Made) -> Result<Found, String> {
         .ok_or_else(|| "no start".to_owned())
 }
 
+/// Holds every clamped end by a wall.
+fn hold_by_walls(scene: &mut Scene) {
+    for clamp in &mut scene.clamps {
+        clamp.hold = Hold::Wall;
+    }
+}
+
 /// A filament whose ends are turned and pushed together, in both orders: the lower equilibrium.
 fn buckled(turn_deg: f64, made: &Made) -> Result<Found, String> {
     let mut scene = scenario("figure-8/rod-140.ron")?;
@@ -324,9 +333,7 @@ fn buckled(turn_deg: f64, made: &Made) -> Result<Found, String> {
     if let (Task::Equilibrium(task), Made::Rod(_)) = (&mut scene.task, made) {
         (task.iterations, task.smallest_step) = (ROD_ITERATIONS, ROD_STEP);
     }
-    for clamp in &mut scene.clamps {
-        clamp.hold = Hold::Wall;
-    }
+    hold_by_walls(&mut scene);
     for linker in &mut scene.linkers {
         linker.at_nm = 0.5 * length_nm;
     }
@@ -335,9 +342,11 @@ fn buckled(turn_deg: f64, made: &Made) -> Result<Found, String> {
         end,
         shift_nm: [0.0, 0.0, by],
     };
+    let (duration_ns, pace) = (None, actin_sim::Pace::Smooth);
     let stage = |set: [Setting; 2]| Stage {
         set: set.into(),
-        duration_ns: None,
+        duration_ns,
+        pace,
     };
     let stages = [
         stage([turn(End::Start, -turn_deg), turn(End::End, turn_deg)]),

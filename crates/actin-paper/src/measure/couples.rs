@@ -58,6 +58,7 @@ fn turns(specimen: &Specimen, axis: &Vector3, turns_rad: &[f64]) -> Scene {
             turn_deg: (axis * turn.to_degrees()).into(),
         }],
         duration_ns: None,
+        pace: actin_sim::Pace::Smooth,
     };
     let path = turns_rad.iter().map(stage).collect();
     specimen.scene("Bending by couples", Some(Slides::Freely), Vec::new(), path)

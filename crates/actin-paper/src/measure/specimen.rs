@@ -39,6 +39,7 @@ impl Specimen {
         let section = Section::Ellipsoids {
             from_nm: 0.0,
             to_nm: length_nm,
+            altered: None,
         };
         Self::of_one_section(section, monomers, RodModel::default())
     }
@@ -95,6 +96,7 @@ impl Specimen {
             filament: 0,
             end,
             hold,
+            hinge: None,
             slides,
         }
     }

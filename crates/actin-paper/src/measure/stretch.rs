@@ -79,6 +79,7 @@ pub(super) fn factors(factors: &[f64]) -> Vec<Stage> {
     let stage = |&factor: &f64| Stage {
         set: vec![Setting::LoadFactor { load: 0, factor }],
         duration_ns: None,
+        pace: actin_sim::Pace::Smooth,
     };
     factors.iter().map(stage).collect()
 }
@@ -91,6 +92,7 @@ fn shifts(specimen: &Specimen, shifts_nm: &[f64]) -> Scene {
             shift_nm: [0.0, 0.0, shift],
         }],
         duration_ns: None,
+        pace: actin_sim::Pace::Smooth,
     };
     let path = shifts_nm.iter().map(stage).collect();
     specimen.scene("Stretch by shift", Some(Slides::Nowhere), Vec::new(), path)

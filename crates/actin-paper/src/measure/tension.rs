@@ -181,6 +181,7 @@ fn pulled(specimen: &Specimen, controls: &[(f64, f64)]) -> Scene {
                 },
             ],
             duration_ns: None,
+            pace: actin_sim::Pace::Smooth,
         }
     };
     let unit = Load::EndForce {

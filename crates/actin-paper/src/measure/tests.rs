@@ -161,6 +161,7 @@ fn pulling_and_turning_are_reciprocal() {
                 },
             ],
             duration_ns: None,
+            pace: actin_sim::Pace::Smooth,
         }];
         let unit = Load::EndForce {
             filament: 0,
@@ -193,6 +194,7 @@ fn mixed_filaments_are_measured_like_any_other() {
         Section::Ellipsoids {
             from_nm: 0.0,
             to_nm: 40.0,
+            altered: None,
         },
         Section::Rod {
             from_nm: 40.0,

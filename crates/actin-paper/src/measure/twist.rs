@@ -64,6 +64,7 @@ fn scene(specimen: &Specimen, turns_deg: &[f64]) -> Scene {
                 turn_deg,
             }],
             duration_ns: None,
+            pace: actin_sim::Pace::Smooth,
         }
     };
     let path = turns_deg.iter().map(stage).collect();

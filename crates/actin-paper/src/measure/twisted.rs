@@ -124,6 +124,7 @@ fn helix(specimen: &Specimen, turns: &[Vector3]) -> Scene {
             turn_deg: turn.map(f64::to_degrees).into(),
         }],
         duration_ns: None,
+        pace: actin_sim::Pace::Smooth,
     };
     let path = turns.iter().map(stage).collect();
     specimen.scene(
@@ -227,6 +228,7 @@ fn opposed(specimen: &Specimen, force_pn: f64, halves: &[Vector3]) -> Scene {
             turn(End::End, half),
         ],
         duration_ns: None,
+        pace: actin_sim::Pace::Smooth,
     };
     let unit = Load::EndForce {
         filament: 0,

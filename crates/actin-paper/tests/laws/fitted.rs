@@ -80,6 +80,7 @@ fn tip(rod_nm: f64, force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
         Section::Ellipsoids {
             from_nm: 0.0,
             to_nm: boundary,
+            altered: None,
         },
         Section::Rod {
             from_nm: boundary,

@@ -148,7 +148,7 @@ fn present(scene: &Scene) -> Option<FilamentSetting> {
         .sections
         .iter()
         .filter_map(|section| match *section {
-            Section::Ellipsoids { from_nm, to_nm } => Some([from_nm, to_nm]),
+            Section::Ellipsoids { from_nm, to_nm, .. } => Some([from_nm, to_nm]),
             Section::Rod { .. } => None,
         });
     let bonds = filament.monomers.lateral_bonds;

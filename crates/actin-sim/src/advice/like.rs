@@ -60,7 +60,7 @@ fn near_vector(a: [f64; 3], b: [f64; 3]) -> bool {
 }
 
 fn same_clamp(a: &Clamp, b: &Clamp) -> bool {
-    (a.end, a.slides, a.hold) == (b.end, b.slides, b.hold)
+    (a.end, a.slides, a.hold, a.hinge) == (b.end, b.slides, b.hold, b.hinge)
 }
 
 fn same_linker(a: &Linker, b: &Linker) -> bool {
@@ -116,6 +116,7 @@ fn has_default_models(scene: &Scene) -> bool {
         ..Monomers::default()
     };
     *given == default
+        && filament.sections.iter().all(|s| s.altered().is_none())
         && filament.rod.material == Material::default()
         && filament.rod.force_law == ForceLaw::EnergyGradient
 }
@@ -124,6 +125,7 @@ fn has_default_models(scene: &Scene) -> bool {
 mod tests {
     use super::super::scenes;
     use super::*;
+    use crate::scene::End;
 
     /// Each scene is like itself and like no other: cantilevers differ in length, buckling in sign.
     #[test]
@@ -142,8 +144,11 @@ mod tests {
         let cantilever = &all[0].1;
         let with = |force_pn: [f64; 3]| {
             let mut scene = cantilever.clone();
-            let Load::EndForce { force_pn: f, .. } = &mut scene.loads[0];
-            *f = force_pn;
+            scene.loads[0] = Load::EndForce {
+                filament: 0,
+                end: End::End,
+                force_pn,
+            };
             is_like(&scene, cantilever)
         };
         // Another direction across, twice the force; not along the filament, nor ten times as much.

@@ -59,7 +59,11 @@ impl FilamentSetting {
         let mut at = 0.0;
         for &[from_nm, to_nm] in &self.monomers {
             all.extend(self.rod(at, from_nm));
-            all.push(Section::Ellipsoids { from_nm, to_nm });
+            all.push(Section::Ellipsoids {
+                from_nm,
+                to_nm,
+                altered: None,
+            });
             at = to_nm;
         }
         all.extend(self.rod(at, length));

@@ -96,8 +96,14 @@ impl Assembly {
         }
         for (i, section) in self.sections.iter().enumerate() {
             if section.is_ellipsoids() {
-                let monomers = self.monomers_of(self.filament_of_section(i));
-                let bonds = self.largest_change_of_bonds(i, monomers, state);
+                let filament = self.filament_of_section(i);
+                let monomers = self.monomers_of(filament);
+                let written = self.scene.filament_at(filament);
+                let written =
+                    written.map(|f| &f.sections[i - self.filaments[filament].sections.start]);
+                let altered = written.map(|section| section.monomers(monomers));
+                let own = altered.as_ref().unwrap_or(monomers);
+                let bonds = self.largest_change_of_bonds(i, own, state);
                 self.push_beyond(&mut found, i, ("bonds", BONDS), bonds);
                 let overlap = self.largest_overlap(section, monomers, state);
                 self.push_beyond(&mut found, i, ("overlap", OVERLAP), overlap);

@@ -41,16 +41,35 @@ impl Assembly {
             count: span.points.len(),
         };
         let filament = self.filament_of_section(section);
-        let model = models::ellipsoids(self.monomers_of(filament), filament)
+        let first = self.filaments[filament].sections.start;
+        let written = self
+            .scene
+            .filament_at(filament)?
+            .sections
+            .get(section - first)?;
+        let model = models::ellipsoids(&written.monomers(self.monomers_of(filament)), filament)
             .expect("the assembly was built with these parameters");
-        let bonds = model.bonds(&monomers);
+        let lowers = monomers.count;
+        let run = Monomers {
+            count: lowers + if self.goes_on_bonded(section) { 2 } else { 0 },
+            ..monomers
+        };
+        let bonds = model.bonds_above(&run, lowers);
         Some(bonds.expect("the assembly was built with these bonds"))
+    }
+
+    /// Whether a section of monomers is followed by another in its filament, to which it is bonded.
+    pub(crate) fn goes_on_bonded(&self, section: usize) -> bool {
+        let filament = &self.filaments[self.filament_of_section(section)];
+        let is_ellipsoids = |i: usize| self.sections[i].is_ellipsoids();
+        section + 1 < filament.sections.end && is_ellipsoids(section) && is_ellipsoids(section + 1)
     }
 
     /// The bonds of all junctions in filament order.
     pub fn junction_bonds(&self) -> Vec<JunctionBond> {
         let junctions = self.filaments.iter().map(|f| f.sections.clone());
         let junctions = junctions.flat_map(|sections| sections.start..sections.end - 1);
+        let junctions = junctions.filter(|&i| !self.goes_on_bonded(i));
         junctions.flat_map(|i| self.bonds_of_junction(i)).collect()
     }
 

@@ -1,10 +1,11 @@
 //! Building the bodies and interactions of a scene, filament by filament. Those of one filament
-//! are in `build/strand.rs` and `build/interactions.rs`, what holds ends in `build/holds.rs`, what
-//! links filaments to their surroundings and to each other in `build/linkers.rs`.
+//! are in `build/strand.rs` and `build/interactions.rs`, what holds ends in `build/holds.rs`, loads in
+//! `build/loads.rs`, what links filaments to their surroundings and to each other in `build/linkers.rs`.
 
 mod holds;
 mod interactions;
 mod linkers;
+mod loads;
 mod size;
 mod spans;
 mod strand;
@@ -33,7 +34,7 @@ impl Assembly {
         let mut builder = Builder::new(scene)?;
         builder.push_filaments()?;
         builder.hold_ends()?;
-        builder.push_loads();
+        builder.push_loads()?;
         builder.push_linkers()?;
         Ok(builder.finish())
     }
@@ -80,11 +81,11 @@ impl<'a> Builder<'a> {
         let mut first_section = 0;
         let mut strands = Vec::new();
         for (i, filament) in scene.filaments().enumerate() {
-            let holds = [End::Start, End::End].map(|end| {
+            let clamps = [End::Start, End::End].map(|end| {
                 let clamp = held.clamp_at(i, end)?;
-                Some(scene.clamps[clamp].hold)
+                Some(&scene.clamps[clamp])
             });
-            let strand = Strand::new((i, filament), holds, first_section, in_bath);
+            let strand = Strand::new((i, filament), clamps, first_section, in_bath);
             strands.push(strand.map_err(|p| p.with_filament(&scene.filament_key(i)))?);
             first_section += filament.sections.len();
         }
@@ -117,20 +118,6 @@ impl<'a> Builder<'a> {
             self.filaments[i].terms = first..self.stock.terms.len();
         }
         Ok(())
-    }
-
-    fn push_loads(&mut self) {
-        for (i, load) in self.scene.loads.iter().enumerate() {
-            let (strands, sections) = (&self.strands, &self.stock.sections);
-            let tip = |filament: usize, end| {
-                let strand = &strands[filament];
-                let section = strand.first_section + strand.filament.end_index(end);
-                sections[section].tip_points(end)
-            };
-            let (interaction, control) = load.build(&mut self.stock.state, tip);
-            self.loads.push(control);
-            self.stock.push_term(interaction, Part::Load(i));
-        }
     }
 
     fn finish(mut self) -> Assembly {

@@ -67,6 +67,7 @@ impl Assembly {
             }
             Part::Load(i) => format!("load_{i}"),
             Part::Linker(i) => format!("linker_{i}"),
+            Part::Clamp(i) => format!("clamp_{i}"),
         }
     }
 }

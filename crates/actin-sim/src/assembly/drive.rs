@@ -95,6 +95,11 @@ impl Drive {
         self.stages == 0
     }
 
+    /// Whether the path sets the factor of a load.
+    pub(super) fn sets(&self, load: ControlId) -> bool {
+        self.loads.iter().any(|(control, _)| *control == load)
+    }
+
     /// Turn of a clamp's end (rad, rotation vector in the lab frame) at path parameter `u`.
     pub(crate) fn turn(&self, clamp: usize, u: f64) -> Vector3 {
         self.motion(self.ends[clamp].turn.as_ref(), (u, 0.0)).0

@@ -71,7 +71,7 @@ pub(super) fn resolve(
         .map(|i| {
             check_reach(filament, &lattice, i)?;
             let resolved = match sections[i] {
-                Section::Ellipsoids { from_nm, to_nm } => {
+                Section::Ellipsoids { from_nm, to_nm, .. } => {
                     monomers(&lattice, is_held, (i, last), (from_nm, to_nm))
                 }
                 Section::Rod { from_nm, to_nm, .. } => rod(&lattice, (i, last), (from_nm, to_nm)),

@@ -9,6 +9,7 @@ mod bonded;
 mod build;
 mod describe;
 mod drive;
+mod hinge;
 mod imperfection;
 mod lattice;
 mod law;
@@ -126,7 +127,10 @@ impl Assembly {
                 .flat_map(|sections| &self.sections[sections])
                 .map(SectionSpan::bonds)
                 .sum(),
-            junctions: sections.map(|sections| sections.len() - 1).sum(),
+            junctions: sections
+                .flat_map(|sections| sections.start..sections.end - 1)
+                .filter(|&section| !self.goes_on_bonded(section))
+                .count(),
             dofs: 3 * (free_points.count() + free_frames.count()) + slides.sum::<usize>(),
         }
     }

@@ -156,6 +156,7 @@ pub(super) fn rod_clamp(hold: Hold) -> RodClamp {
         Hold::Wall => RodClamp::Wall,
         Hold::NodeAndFrame => RodClamp::NodeAndFrame,
         Hold::TwoNodesAndFrame => RodClamp::TwoNodesAndFrame,
+        Hold::Pin => RodClamp::Pin,
     }
 }
 

@@ -52,6 +52,8 @@ pub enum Part {
     Load(usize),
     /// A linker, by its index in the scene.
     Linker(usize),
+    /// The spring of a clamp, by the clamp's index in the scene.
+    Clamp(usize),
 }
 
 /// Where the parts of a filament stand among those of all, and where it was built.

@@ -1,52 +1,65 @@
-//! The path of a scene in time: smooth ramps from stage to stage.
+//! The path of a scene in time, smooth ramps from stage to stage, and the factors of its loads.
 
 use super::{Assembly, Drive};
-use actin_mechanics::State;
+use crate::scene::{Factor, Pace, smooth};
+use actin_mechanics::{ControlId, State};
 
 /// A [`Drive`] whose stages take their durations one after the other; behind the last, controls
 /// stay where they are.
 ///
-/// Within a stage the path parameter grows by `r(x) = x^3 (10 - 15 x + 6 x^2)`, x the share of its
+/// Within a smooth stage the path parameter grows by `r(x) = x^3 (10 - 15 x + 6 x^2)`, x the share of its
 /// time: velocity and acceleration of what is driven are zero at both ends.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ramp {
     drive: Drive,
     times: StageTimes,
+    /// Loads that change in time, and whether the path sets their factor too.
+    factors: Vec<(ControlId, Factor, bool)>,
 }
 
 impl Ramp {
-    /// The ramps of an assembly's path; none where there is no path.
+    /// What moves in an assembly as time goes; none where nothing does.
     pub(crate) fn of(assembly: &Assembly) -> Option<Self> {
-        if assembly.drive.is_still() {
-            return None;
-        }
         let drive = assembly.drive.clone();
+        let loads = assembly.scene.loads.iter().zip(&assembly.loads);
+        let factors: Vec<_> = loads
+            .filter(|(load, _)| !load.factor().is_constant())
+            .map(|(load, &control)| (control, load.factor().clone(), drive.sets(control)))
+            .collect();
         let times = StageTimes::of(assembly);
-        Some(Self { drive, times })
+        (!drive.is_still() || !factors.is_empty()).then_some(Self {
+            drive,
+            times,
+            factors,
+        })
     }
 
-    /// Time that all stages take (ns).
+    /// From when on everything stays where it is (ns).
     pub(crate) fn duration(&self) -> f64 {
-        self.times.end
+        let settled = self
+            .factors
+            .iter()
+            .map(|(_, factor, _)| factor.settles_at());
+        settled.fold(self.times.end, f64::max)
     }
 }
 
 /// When the stages of a path begin, and how long they take.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct StageTimes {
-    /// Begin and duration of each stage (ns).
-    stages: Vec<(f64, f64)>,
+    /// Begin and duration of each stage (ns), and how controls move in it.
+    stages: Vec<(f64, f64, Pace)>,
     /// When the last one ends (ns).
     end: f64,
 }
 
 impl StageTimes {
-    fn new(durations: impl IntoIterator<Item = f64>) -> Self {
+    fn new(durations: impl IntoIterator<Item = (f64, Pace)>) -> Self {
         let mut end = 0.0;
-        let stages = durations.into_iter().map(|duration| {
+        let stages = durations.into_iter().map(|(duration, pace)| {
             let begin = end;
             end += duration;
-            (begin, duration)
+            (begin, duration, pace)
         });
         let stages = stages.collect();
         Self { stages, end }
@@ -55,20 +68,22 @@ impl StageTimes {
     /// Those of an assembly's path.
     pub(crate) fn of(assembly: &Assembly) -> Self {
         let stages = assembly.scene.path.iter();
-        Self::new(stages.filter_map(|stage| stage.duration_ns))
+        Self::new(stages.filter_map(|stage| Some((stage.duration_ns?, stage.pace))))
     }
 
     /// Path parameter at `time` (ns) and its rate (1/ns).
     pub(crate) fn parameter(&self, time: f64) -> (f64, f64) {
-        let past = |&(begin, duration): &(f64, f64)| (time - begin) / duration >= 1.0;
+        let past = |&(begin, duration, _): &(f64, f64, Pace)| (time - begin) / duration >= 1.0;
         let stage = self.stages.partition_point(past);
-        let Some(&(begin, duration)) = self.stages.get(stage) else {
+        let Some(&(begin, duration, pace)) = self.stages.get(stage) else {
             return (stage as f64, 0.0);
         };
         let x = ((time - begin) / duration).max(0.0);
-        let smooth = x.powi(3) * (10.0 + x * (6.0 * x - 15.0));
-        let rate = 30.0 * (x * (1.0 - x)).powi(2) / duration;
-        (stage as f64 + smooth, rate)
+        let (share, rate) = match pace {
+            Pace::Smooth => (smooth(x), 30.0 * (x * (1.0 - x)).powi(2) / duration),
+            Pace::Steady => (x, 1.0 / duration),
+        };
+        (stage as f64 + share, rate)
     }
 }
 
@@ -76,6 +91,14 @@ impl actin_mechanics::Drive for Ramp {
     fn place(&self, state: &mut State, time: f64) {
         let (u, rate) = self.times.parameter(time);
         self.drive.place_moving(state, u, rate);
+        for (control, factor, is_set) in &self.factors {
+            let of_path = if *is_set {
+                state.controls[*control]
+            } else {
+                1.0
+            };
+            state.controls[*control] = of_path * factor.at(time);
+        }
     }
 }
 
@@ -86,7 +109,7 @@ mod tests {
     /// The rate is the derivative of the parameter, and nothing jumps between stages.
     #[test]
     fn ramps_are_smooth() {
-        let ramp = StageTimes::new([2.0, 0.5]);
+        let ramp = StageTimes::new([2.0, 0.5].map(|duration| (duration, Pace::Smooth)));
         assert_eq!(ramp.parameter(-1.0), (0.0, 0.0));
         assert!((ramp.parameter(1.0).0 - 0.5).abs() < 1e-15);
         assert_eq!(ramp.parameter(3.0), (2.0, 0.0));

@@ -12,7 +12,7 @@ pub struct Clamped {
     pub end: End,
     /// Held points.
     pub points: Vec<usize>,
-    /// Held frames.
+    /// Held frames; none of a pinned end without a hinge.
     pub frames: Vec<usize>,
     /// The clamped point on the axis as built (nm, lab frame).
     pub about_nm: Vector3,
@@ -22,7 +22,7 @@ pub struct Clamped {
     pub(super) axis: Vector3,
     /// Position of the first held point minus the clamped point, as built (nm, lab frame).
     pub(super) arm_nm: Vector3,
-    /// Orientation of the first held frame as built.
+    /// Orientation of the first held frame as built, of the filament where none is held.
     pub(super) rest: UnitQuaternion,
 }
 
@@ -38,8 +38,15 @@ pub struct Reaction {
 impl Clamped {
     /// Where the clamped point is in `state` (nm, lab frame): it moves with the held bodies.
     pub fn point_nm(&self, state: &State) -> Vector3 {
-        let turn = state.frames.orientation.get(self.frames[0]) * self.rest.inverse();
-        state.points.position.get(self.points[0]) - turn * self.arm_nm
+        let place = state.points.position.get(self.points[0]);
+        match self.frames.first() {
+            Some(frame) => {
+                let turn = state.frames.orientation.get(*frame) * self.rest.inverse();
+                place - turn * self.arm_nm
+            }
+            // What is pinned stands on the axis.
+            None => place - self.arm_nm,
+        }
     }
 
     /// The reaction in `state` under `loads`: minus what the held bodies feel.

@@ -20,7 +20,7 @@ impl Assembly {
         let span = &self.filaments[filament];
         let section = span.sections.start;
         let rod = self.rods.binary_search_by_key(&section, |r| r.section);
-        let [start, end] = [End::Start, End::End].map(|end| self.held.clamp_at(filament, end));
+        let [start, end] = [End::Start, End::End].map(|end| self.held.fixed_at(filament, end));
         let (Ok(rod), Some(start), Some(end)) = (rod, start, end) else {
             return Ok(());
         };

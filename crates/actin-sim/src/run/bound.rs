@@ -1,7 +1,7 @@
 //! The kinetic energy beyond which a motion is not one: more than its loads can have given it.
 
 use crate::Assembly;
-use crate::scene::{Slides, Task};
+use crate::scene::{Load, Resultant, Slides, Task};
 
 /// By how much the limit exceeds the bound: room for errors of the integrator near its stability
 /// limit and for loads that are not the gradient of an energy.
@@ -26,16 +26,24 @@ pub(super) fn kinetic_limit(assembly: &Assembly) -> f64 {
         let mut clamps = assembly.clamps.iter();
         clamps.any(|clamp| clamp.filament == filament && clamp.slides == Slides::Nowhere)
     };
-    let are_bounded = scene.loads.iter().all(|load| is_fast(load.filament()));
-    if !scene.path.is_empty() || !are_bounded {
+    let work_of = |load: &Load| match load.resultant(scene) {
+        Resultant::Force(force) if stays(load) && is_fast(load.filament()) => {
+            2.0 * (force.norm() * assembly.length_of(load.filament()))
+        }
+        _ => f64::INFINITY,
+    };
+    let work: f64 = scene.loads.iter().map(work_of).sum();
+    if !scene.path.is_empty() || work.is_infinite() {
         return f64::INFINITY;
     }
-    let works = scene.loads.iter();
-    let works = works.map(|load| load.force_pn().norm() * assembly.length_of(load.filament()));
-    let work = 2.0 * works.sum::<f64>();
     let heat = thermal_energy(assembly) * (0.5 * assembly.counts().dofs as f64 + THERMAL_EXCESS);
     let limit = ROOM * (assembly.system.total_energy() + work + heat) + LEAST;
     if limit.is_nan() { f64::INFINITY } else { limit }
+}
+
+/// Whether a load is the same at all times and places, and its resultant what it was in the scene.
+fn stays(load: &Load) -> bool {
+    !load.follows() && load.factor().is_constant() && !matches!(load, Load::Acceleration(_))
 }
 
 /// The thermal energy `kT` (pN nm); none without a bath.

@@ -6,7 +6,7 @@ use super::taken::Taken;
 use super::unknowns::newton;
 use super::{At, Failure, Outcome, Progress, Record, RunPosition, Status};
 use crate::Assembly;
-use crate::scene::{Equilibrium as Settings, SceneProblem};
+use crate::scene::{Equilibrium as Settings, Resultant, SceneProblem};
 use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure,
     PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
@@ -80,13 +80,16 @@ fn lost_load(assembly: &Assembly, last: &Record) -> Option<SceneProblem> {
     let loads = assembly.scene.loads.iter().enumerate();
     loads.into_iter().find_map(|(i, load)| {
         let factor = last.state.controls[assembly.loads[i]];
-        let size = load.force_pn().norm() * factor.abs();
-        let is_lost = size > 0.0 && last.residual_force_pn > RESOLVED * size;
+        let (size, residual, unit) = match load.resultant(&assembly.scene) {
+            Resultant::Force(force) => (force.norm(), last.residual_force_pn, "pN"),
+            Resultant::Couple(couple) => (couple.norm(), last.residual_torque_pn_nm, "pN nm"),
+        };
+        let size = size * factor.abs();
+        let is_lost = size > 0.0 && residual > RESOLVED * size;
         is_lost.then(|| {
             let rule = format!(
-                "is below 100 times the residual of {:.1e} pN, so the equilibrium does not show what it \
-                 does; use a larger load",
-                last.residual_force_pn
+                "is below 100 times the residual of {residual:.1e} {unit}, so the equilibrium does not \
+                 show what it does; use a larger load"
             );
             load.problem(i, rule)
         })

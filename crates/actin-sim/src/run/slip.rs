@@ -79,7 +79,10 @@ impl LinkWatch {
     /// A watch of a run that begins in `start`, its path at the beginning.
     pub(super) fn new(assembly: &Assembly, start: &State) -> Self {
         let held = (0..assembly.filaments.len()).filter_map(|filament| {
-            let ends = [End::Start, End::End].map(|end| assembly.clamp_at(filament, end));
+            let ends = [End::Start, End::End].map(|end| {
+                let clamp = assembly.held.fixed_at(filament, end)?;
+                Some(&assembly.clamps[clamp])
+            });
             let [Some(one), Some(other)] = ends else {
                 return None;
             };

@@ -1,10 +1,10 @@
-//! Loads: how a scene writes them, what is asked of them, and the interactions that they are. A load of a
-//! new kind is a variant here; other files ask these functions.
+//! Loads as a scene writes them, and what all of them have in common. Their rules are in
+//! `load_rules.rs`, the interactions that they are in `assembly/build/loads.rs`.
+//!
+//! A load of a new kind is a variant here; other files ask these functions.
 
-use super::path::UNSET;
-use super::rules::show;
-use super::{End, HeldEnds, Scene, SceneProblem, Slides};
-use actin_mechanics::{ControlId, Interaction, PointLoad, State, Vector3};
+use super::{End, Factor, Scene};
+use actin_mechanics::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// By which factor the force of a like load may differ.
@@ -12,13 +12,14 @@ const FORCE: f64 = 2.0;
 /// How far its direction may be from that of the other, as a cosine.
 const ALONG: f64 = 0.98;
 
-/// A load on a filament.
+/// A load on a filament. Every load has a factor: that of time, `factor`, times what the path sets, 1
+/// where it sets none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Load {
     /// A constant force on a free end: on the last node of a rod, or half on each of the last two
-    /// monomers. On an end that slides it acts on the inner held body.
+    /// monomers. On an end that slides it acts on the inner held body. `Force` says more.
     EndForce {
         /// Index of the filament.
         #[serde(default)]
@@ -29,64 +30,257 @@ pub enum Load {
         /// balance.
         force_pn: [f64; 3],
     },
+    /// A force at an end or at any arc length.
+    Force(Force),
+    /// A couple at an end or at any arc length.
+    Couple(Couple),
+    /// A force per length on an interval.
+    ForcePerLength(ForcePerLength),
+    /// A couple per length on an interval.
+    CouplePerLength(CouplePerLength),
+    /// A force on every mass, such as weight.
+    Acceleration(Acceleration),
+}
+
+/// A force at one place of a filament.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Force {
+    /// Index of the filament.
+    #[serde(default)]
+    pub filament: usize,
+    /// Which end: the last node of a rod, or half on each of the last two monomers. It must be free or
+    /// slide. Exactly one of `end` and `at_nm` is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub end: Option<End>,
+    /// Arc length, from 0 to the length of the filament: on the axis, between the two nodes of a segment or
+    /// on the nearest monomer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_nm: Option<f64>,
+    /// Force in the lab frame; finite. In `Equilibrium` forces along unconstrained directions must
+    /// balance.
+    pub force_pn: [f64; 3],
+    /// Whether it turns with the segment or monomer that it acts on, from the direction given for the
+    /// filament as built. Such a force has no potential: `Equilibrium` refuses it.
+    #[serde(default)]
+    pub follows: bool,
+    /// Its factor in time.
+    #[serde(default)]
+    pub factor: Factor,
+}
+
+/// A couple at one place of a filament.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Couple {
+    /// Index of the filament.
+    #[serde(default)]
+    pub filament: usize,
+    /// Which end: the last segment of a rod, or half on each of the last two monomers. It must be free or
+    /// pinned. Exactly one of `end` and `at_nm` is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub end: Option<End>,
+    /// Arc length, from 0 to the length of the filament: shared between the two segments or monomers
+    /// whose middles are next to it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_nm: Option<f64>,
+    /// Couple in the lab frame; finite. Its work is its size times the twist about its axis, so it has a
+    /// potential. It is constant as long as the cross-section turns about this axis alone; where that is
+    /// swung away by an angle, the couple tilts half as far, and its component along the axis stays.
+    pub couple_pn_nm: [f64; 3],
+    /// Whether it turns with the segment or monomer that it acts on, from the axis given for the filament
+    /// as built. Such a couple has no potential: `Equilibrium` refuses it.
+    #[serde(default)]
+    pub follows: bool,
+    /// Its factor in time.
+    #[serde(default)]
+    pub factor: Factor,
+}
+
+/// A force per length of the filament at rest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ForcePerLength {
+    /// Index of the filament.
+    #[serde(default)]
+    pub filament: usize,
+    /// Arc length at which it begins; at least 0, by default 0.
+    #[serde(default)]
+    pub from_nm: f64,
+    /// Arc length at which it ends; greater than `from_nm`, at most the length of the filament. By default
+    /// its end.
+    #[serde(default)]
+    pub to_nm: Option<f64>,
+    /// Force per length in the lab frame; finite.
+    pub force_pn_per_nm: [f64; 3],
+    /// Whether it turns with the segments or monomers that it acts on. Such a force has no potential:
+    /// `Equilibrium` refuses it.
+    #[serde(default)]
+    pub follows: bool,
+    /// Its factor in time.
+    #[serde(default)]
+    pub factor: Factor,
+}
+
+/// A couple per length of the filament at rest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct CouplePerLength {
+    /// Index of the filament.
+    #[serde(default)]
+    pub filament: usize,
+    /// Arc length at which it begins; at least 0, by default 0.
+    #[serde(default)]
+    pub from_nm: f64,
+    /// Arc length at which it ends; greater than `from_nm`, at most the length of the filament. By default
+    /// its end.
+    #[serde(default)]
+    pub to_nm: Option<f64>,
+    /// Couple per length in the lab frame; finite. Each segment or monomer takes its part as under
+    /// `Couple`.
+    pub couple_pn_nm_per_nm: [f64; 3],
+    /// Whether it turns with the segments or monomers that it acts on. Such a couple has no potential:
+    /// `Equilibrium` refuses it.
+    #[serde(default)]
+    pub follows: bool,
+    /// Its factor in time.
+    #[serde(default)]
+    pub factor: Factor,
+}
+
+/// A force on each mass in proportion to it: weight, or what a filament feels in an accelerated frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Acceleration {
+    /// Index of the filament.
+    #[serde(default)]
+    pub filament: usize,
+    /// Acceleration in the lab frame; finite. That of gravity is 9.81e-9 nm/ns^2.
+    pub acceleration_nm_per_ns2: [f64; 3],
+    /// Its factor in time.
+    #[serde(default)]
+    pub factor: Factor,
+}
+
+/// What a load puts on a filament as a whole, at factor 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Resultant {
+    /// A force (pN, lab frame).
+    Force(Vector3),
+    /// A couple (pN nm, lab frame).
+    Couple(Vector3),
 }
 
 impl Load {
-    /// Refuses load `i` of a scene where it makes no sense.
-    pub(super) fn check(
-        &self,
-        i: usize,
-        (scene, held): (&Scene, &HeldEnds),
-    ) -> Result<(), SceneProblem> {
-        let Self::EndForce {
-            filament,
-            end,
-            force_pn,
-        } = self;
-        let key = format!("loads[{i}]");
-        scene.named_filament(&format!("{key}.filament"), *filament)?;
-        if force_pn.iter().any(|f| !f.is_finite()) {
-            return Err(SceneProblem::new(
-                format!("{key}.force_pn"),
-                show(force_pn),
-                "must be finite",
-            ));
-        }
-        let clamp = held.clamp_at(*filament, *end);
-        if clamp.is_some_and(|c| scene.clamps[c].slides == Slides::Nowhere) {
-            return Err(SceneProblem::new(
-                format!("{key}.end"),
-                show(end),
-                "this end is clamped: a force on it moves nothing",
-            ));
-        }
-        Ok(())
-    }
-
     /// The filament that it acts on.
     pub(crate) fn filament(&self) -> usize {
-        let Self::EndForce { filament, .. } = self;
-        *filament
+        match self {
+            Self::EndForce { filament, .. }
+            | Self::Force(Force { filament, .. })
+            | Self::Couple(Couple { filament, .. })
+            | Self::ForcePerLength(ForcePerLength { filament, .. })
+            | Self::CouplePerLength(CouplePerLength { filament, .. })
+            | Self::Acceleration(Acceleration { filament, .. }) => *filament,
+        }
     }
 
-    /// Its resultant force at factor 1 (pN, lab frame).
-    pub(crate) fn force_pn(&self) -> Vector3 {
-        let Self::EndForce { force_pn, .. } = self;
-        (*force_pn).into()
+    /// Its factor in time.
+    pub(crate) fn factor(&self) -> &Factor {
+        match self {
+            Self::EndForce { .. } => &Factor::Constant,
+            Self::Force(Force { factor, .. })
+            | Self::Couple(Couple { factor, .. })
+            | Self::ForcePerLength(ForcePerLength { factor, .. })
+            | Self::CouplePerLength(CouplePerLength { factor, .. })
+            | Self::Acceleration(Acceleration { factor, .. }) => factor,
+        }
     }
 
-    /// That the size of load `i` breaks a rule.
-    pub(crate) fn problem(&self, i: usize, rule: String) -> SceneProblem {
-        let Self::EndForce { force_pn, .. } = self;
-        SceneProblem::new(format!("loads[{i}].force_pn"), show(force_pn), rule)
+    /// Whether it turns with what it acts on, and so has no potential.
+    pub(crate) fn follows(&self) -> bool {
+        match self {
+            Self::EndForce { .. } | Self::Acceleration(_) => false,
+            Self::Force(Force { follows, .. })
+            | Self::Couple(Couple { follows, .. })
+            | Self::ForcePerLength(ForcePerLength { follows, .. })
+            | Self::CouplePerLength(CouplePerLength { follows, .. }) => *follows,
+        }
+    }
+
+    /// The key of its size, and the size as written.
+    pub(crate) fn written(&self) -> (&'static str, [f64; 3]) {
+        match self {
+            Self::EndForce { force_pn, .. } | Self::Force(Force { force_pn, .. }) => {
+                ("force_pn", *force_pn)
+            }
+            Self::Couple(Couple { couple_pn_nm, .. }) => ("couple_pn_nm", *couple_pn_nm),
+            Self::ForcePerLength(load) => ("force_pn_per_nm", load.force_pn_per_nm),
+            Self::CouplePerLength(load) => ("couple_pn_nm_per_nm", load.couple_pn_nm_per_nm),
+            Self::Acceleration(load) => ("acceleration_nm_per_ns2", load.acceleration_nm_per_ns2),
+        }
+    }
+
+    /// The end that it acts on, if it acts on one.
+    pub(crate) fn end(&self) -> Option<End> {
+        match self {
+            Self::EndForce { end, .. } => Some(*end),
+            Self::Force(Force { end, .. }) | Self::Couple(Couple { end, .. }) => *end,
+            Self::ForcePerLength(_) | Self::CouplePerLength(_) | Self::Acceleration(_) => None,
+        }
+    }
+
+    /// The arc lengths between which it acts (nm), if it acts on an interval.
+    pub(crate) fn interval(&self, scene: &Scene) -> Option<[f64; 2]> {
+        let (from, to) = match self {
+            Self::EndForce { .. } | Self::Force(_) | Self::Couple(_) => return None,
+            Self::ForcePerLength(load) => (load.from_nm, load.to_nm),
+            Self::CouplePerLength(load) => (load.from_nm, load.to_nm),
+            Self::Acceleration(_) => (0.0, None),
+        };
+        let filament = scene.filament_at(self.filament());
+        let length = filament.map_or(0.0, super::Filament::length_nm);
+        Some([from, to.unwrap_or(length)])
+    }
+
+    /// By what its size as written is multiplied in its resultant: a length (nm), a mass (ag), or 1.
+    pub(crate) fn extent(&self, scene: &Scene) -> f64 {
+        let length = self.interval(scene).map_or(1.0, |[from, to]| to - from);
+        match self {
+            Self::Acceleration(load) => {
+                let filament = scene.filament_at(load.filament);
+                let density = filament.map_or(0.0, |f| f.monomers.mass_ag / f.monomers.rise_nm);
+                density * length
+            }
+            _ => length,
+        }
+    }
+
+    /// Its resultant at factor 1; of one that follows as if the filament were as built.
+    pub(crate) fn resultant(&self, scene: &Scene) -> Resultant {
+        let whole = Vector3::from(self.written().1) * self.extent(scene);
+        match self {
+            Self::Couple(_) | Self::CouplePerLength(_) => Resultant::Couple(whole),
+            _ => Resultant::Force(whole),
+        }
     }
 
     /// Whether it presses its end towards the other, mostly along the `axis` of the filament, at a factor.
     pub(crate) fn presses(&self, factor: f64, axis: Vector3) -> bool {
-        let Self::EndForce { end, .. } = self;
-        let force = self.force_pn() * factor;
+        let (Self::EndForce { force_pn, .. } | Self::Force(Force { force_pn, .. })) = self else {
+            return false;
+        };
+        let force = Vector3::from(*force_pn) * factor;
         let along = force.dot(&axis);
-        let inward = if *end == End::Start { along } else { -along };
+        let inward = if self.end() == Some(End::Start) {
+            along
+        } else {
+            -along
+        };
         inward > 0.5 * force.norm()
     }
 
@@ -101,7 +295,10 @@ impl Load {
                 force_pn: g,
                 ..
             },
-        ) = (self, other);
+        ) = (self, other)
+        else {
+            return false;
+        };
         let norm = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let across = |v: &[f64; 3]| v[0].hypot(v[1]);
         let (sizes, cosine) = (
@@ -109,25 +306,5 @@ impl Load {
             (across(f) * across(g) + f[2] * g[2]) / (norm(f) * norm(g)),
         );
         end == at && (1.0 / FORCE..=FORCE).contains(&sizes) && cosine >= ALONG
-    }
-
-    /// The interaction that it is, and the control of its factor; `tip` gives the points that end a
-    /// filament.
-    pub(crate) fn build<'a>(
-        &self,
-        state: &mut State,
-        tip: impl FnOnce(usize, End) -> &'a [usize],
-    ) -> (Box<dyn Interaction>, ControlId) {
-        let Self::EndForce {
-            filament,
-            end,
-            force_pn,
-        } = self;
-        let points = tip(*filament, *end);
-        let share = 1.0 / points.len() as f64;
-        let shares = points.iter().map(|&point| (point, share)).collect();
-        let control = state.add_control(UNSET);
-        let load = PointLoad::new(state, shares, (*force_pn).into(), control);
-        (Box::new(load), control)
     }
 }

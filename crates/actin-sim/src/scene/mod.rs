@@ -4,11 +4,13 @@
 //! [`validate`] then checks what numbers may be. Both report line and column.
 
 mod brackets;
+mod factor;
 pub(crate) mod fitted;
 mod imperfection;
 mod law;
 mod linker;
 mod load;
+mod load_rules;
 mod locate;
 mod magnitude;
 mod mistakes;
@@ -31,12 +33,15 @@ mod types;
 mod validate;
 mod written;
 
+pub use factor::Factor;
+pub(crate) use factor::smooth;
 pub use imperfection::Imperfection;
 pub use law::{
     BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw,
 };
 pub use linker::{Linker, LinkerSite};
-pub use load::Load;
+pub(crate) use load::Resultant;
+pub use load::{Acceleration, Couple, CouplePerLength, Force, ForcePerLength, Load};
 pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
 pub(crate) use place::HeldEnds;
 pub use problem::{SceneError, SceneProblem};
@@ -48,7 +53,7 @@ pub(crate) use support::is_across;
 pub use text::{Override, SceneText};
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
 pub use types::{
-    Clamp, DragRates, Dynamics, End, Equilibrium, Filament, Hold, Integrator, Scene, Section,
-    Setting, Slides, Stage, StopTolerances, Task,
+    Altered, Clamp, DragRates, Dynamics, End, Equilibrium, Filament, Hinge, Hold, Integrator, Pace,
+    Scene, Section, Setting, Slides, Stage, StopTolerances, Task,
 };
 pub(crate) use validate::MOST_COUNTED;

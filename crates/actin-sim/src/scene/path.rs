@@ -74,6 +74,7 @@ mod tests {
         Stage {
             set: factors.iter().map(set).collect(),
             duration_ns: None,
+            pace: crate::scene::Pace::Smooth,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::types::along_z;
 use super::{
-    End, Filament, JunctionModel, Monomers, RodModel, Scene, SceneProblem, Section, Slides,
+    End, Filament, Hold, JunctionModel, Monomers, RodModel, Scene, SceneProblem, Section, Slides,
 };
 use actin_mechanics::{UnitQuaternion, Vector3};
 use nalgebra::Quaternion;
@@ -123,7 +123,11 @@ impl Scene {
 
 /// Which clamp holds each end of each filament, found once for all of them.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct HeldEnds(Vec<[Option<usize>; 2]>);
+pub(crate) struct HeldEnds {
+    clamps: Vec<[Option<usize>; 2]>,
+    /// Of these, those that hold the orientation of the end.
+    fixed: Vec<[Option<usize>; 2]>,
+}
 
 impl HeldEnds {
     /// Those of a scene. Of several clamps at one end the first counts, and what names no filament
@@ -135,12 +139,22 @@ impl HeldEnds {
                 ends[clamp.end as usize].get_or_insert(i);
             }
         }
-        Self(held)
+        let is_fixed = |clamp: &usize| scene.clamps[*clamp].hold != Hold::Pin;
+        let fixed = held.iter().map(|ends| ends.map(|c| c.filter(is_fixed)));
+        Self {
+            fixed: fixed.collect(),
+            clamps: held,
+        }
     }
 
     /// The index of the clamp at one end of a filament; none if it is free.
     pub(crate) fn clamp_at(&self, filament: usize, end: End) -> Option<usize> {
-        self.0.get(filament)?[end as usize]
+        self.clamps.get(filament)?[end as usize]
+    }
+
+    /// The same of a clamp that holds the orientation of the end, which a pin does not.
+    pub(crate) fn fixed_at(&self, filament: usize, end: End) -> Option<usize> {
+        self.fixed.get(filament)?[end as usize]
     }
 
     /// Whether an end is held.

@@ -75,3 +75,24 @@ pub(super) fn check_potential(filament: &Filament) -> Result<(), SceneProblem> {
     }
     Ok(())
 }
+
+/// Exactly one of several keys below `key` is given.
+pub(super) fn check_exactly_one<const N: usize>(
+    key: &str,
+    given: [(&str, Option<String>); N],
+    what: &str,
+) -> Result<(), SceneProblem> {
+    let names = given.each_ref().map(|(name, _)| *name).join(" or ");
+    let mut found = given.into_iter().filter_map(|(name, v)| Some((name, v?)));
+    let Some((first, _)) = found.next() else {
+        let rule = format!("nothing {what}: write {names}");
+        return Err(SceneProblem::new(key, "", rule));
+    };
+    match found.next() {
+        None => Ok(()),
+        Some((name, value)) => {
+            let rule = format!("{first} {what} already: write one of the two");
+            Err(SceneProblem::new(format!("{key}.{name}"), value, rule))
+        }
+    }
+}

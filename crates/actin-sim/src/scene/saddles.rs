@@ -1,6 +1,6 @@
 //! What pushes off a saddle need in a scene.
 
-use super::{Dynamics, Scene, SceneProblem, rules};
+use super::{Dynamics, Load, Scene, SceneProblem, rules};
 
 /// Checks `leave_saddles` of a motion against the rest of the scene: saddles are those of an energy,
 /// and a motion comes to rest on them.
@@ -13,6 +13,11 @@ pub(super) fn check(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProbl
         return Err(refused(
             "a filament in thermal motion is never at rest on a saddle: leave out leave_saddles or \
              thermal",
+        ));
+    }
+    if scene.loads.iter().any(Load::follows) {
+        return Err(refused(
+            "saddles are those of an energy, which loads that turn with the filament do not have",
         ));
     }
     if scene

@@ -1,7 +1,7 @@
 //! The rules of a path: what its stages may set, and how long they take.
 
 use super::rules::{all_finite, finite, positive, show};
-use super::{End, HeldEnds, Scene, SceneProblem, Setting, Stage};
+use super::{End, HeldEnds, Hold, Scene, SceneProblem, Setting, Stage};
 
 /// Checks that what stage `i` sets exists and may be set.
 pub(super) fn check(
@@ -44,7 +44,7 @@ pub(super) fn check(
                 turn_deg,
             } => {
                 all_finite(&key("turn_deg"), turn_deg)?;
-                check_held(&key(""), filament, end)?;
+                check_turns((scene, held), &key(""), (filament, end))?;
             }
         }
     }
@@ -64,6 +64,21 @@ fn check_held(
     }
     let rule = "this end is free: only a clamped end can be moved";
     Err(SceneProblem::new(format!("{prefix}end"), show(end), rule))
+}
+
+/// What is turned from outside is held, and does not turn by itself.
+fn check_turns(
+    (scene, held): (&Scene, &HeldEnds),
+    prefix: &str,
+    (filament, end): (usize, End),
+) -> Result<(), SceneProblem> {
+    check_held((scene, held), prefix, filament, end)?;
+    let clamp = held.clamp_at(filament, end).map(|c| &scene.clamps[c]);
+    if clamp.is_some_and(|c| c.hold == Hold::Pin && c.hinge.is_none()) {
+        let rule = "this end is pinned: it turns by itself";
+        return Err(SceneProblem::new(format!("{prefix}end"), show(end), rule));
+    }
+    Ok(())
 }
 
 /// In time, every stage takes some.

@@ -1,7 +1,7 @@
 //! Whether a scene's loads are borne, and whether its turns go with how its ends slide.
 
 use super::path::{self, Values};
-use super::{Filament, HeldEnds, Scene, SceneProblem, Setting, Slides};
+use super::{Filament, HeldEnds, Resultant, Scene, SceneProblem, Setting, Slides};
 use actin_mechanics::Vector3;
 use std::collections::BTreeSet;
 
@@ -68,7 +68,10 @@ pub(super) fn check_support(scene: &Scene) -> Result<(), SceneProblem> {
         .iter()
         .enumerate()
         .filter(|(f, group)| joined[*f] == *f && !group.is_anchored)
-        .try_for_each(|(_, group)| group.check(&factors))
+        .try_for_each(|(_, group)| {
+            group.check(scene, &factors)?;
+            group.check_couples(scene)
+        })
 }
 
 /// Filaments that linkers join.
@@ -78,8 +81,12 @@ struct Group {
     is_anchored: bool,
     /// Directions, orthonormal, along which the clamps let it move.
     free: Vec<Vector3>,
+    /// Whether no clamp holds its orientation.
+    turns: bool,
     /// Its loads by their indices, with their forces at factor 1 (pN).
     loads: Vec<(usize, Vector3)>,
+    /// The same of couples (pN nm).
+    couples: Vec<(usize, Vector3)>,
 }
 
 /// For each filament that stands for a group what holds and loads that group; what is joined to
@@ -88,7 +95,9 @@ fn groups(scene: &Scene, joined: &[usize]) -> Vec<Group> {
     let unheld = Group {
         is_anchored: false,
         free: Slides::Freely.directions(Vector3::z()),
+        turns: true,
         loads: Vec::new(),
+        couples: Vec::new(),
     };
     let mut groups = vec![unheld; joined.len()];
     for linker in scene.linkers.iter().filter(|linker| linker.to.is_none()) {
@@ -97,11 +106,16 @@ fn groups(scene: &Scene, joined: &[usize]) -> Vec<Group> {
     for clamp in &scene.clamps {
         let axis = scene.filament_at(clamp.filament).map(Filament::axis);
         let slides = clamp.slides.directions(axis.unwrap_or_default());
-        groups[joined[clamp.filament]].hold(slides);
+        let group = &mut groups[joined[clamp.filament]];
+        group.hold(slides);
+        group.turns = false;
     }
     for (i, load) in scene.loads.iter().enumerate() {
         let group = &mut groups[joined[load.filament()]];
-        group.loads.push((i, load.force_pn()));
+        match load.resultant(scene) {
+            Resultant::Force(force) => group.loads.push((i, force)),
+            Resultant::Couple(couple) => group.couples.push((i, couple)),
+        }
     }
     groups
 }
@@ -122,20 +136,37 @@ impl Group {
     }
 
     /// Whether its loads balance before the path and after each stage that changes one of them.
-    fn check(&self, factors: &Factors) -> Result<(), SceneProblem> {
+    fn check(&self, scene: &Scene, factors: &Factors) -> Result<(), SceneProblem> {
         if self.free.is_empty() {
             return Ok(());
         }
-        let set = self.loads.iter().filter_map(|(i, _)| factors[*i].as_ref());
-        let ends: BTreeSet<usize> = set.flat_map(Values::ends).chain([0]).collect();
-        let mut ends = ends.into_iter();
-        ends.try_for_each(|stages| self.check_balance(factors, stages))
+        let mut ends = ends(&self.loads, factors);
+        ends.try_for_each(|stages| self.check_balance(scene, factors, stages))
+    }
+
+    /// Couples about axes of the lab on what nothing keeps from turning: one spins it, and several that
+    /// balance leave it no minimum, since it gains by bending wherever it turns to.
+    fn check_couples(&self, scene: &Scene) -> Result<(), SceneProblem> {
+        let mut acting = self.couples.iter().filter(|(_, m)| m.norm() > 0.0);
+        match acting.next() {
+            Some(&(i, _)) if self.turns => {
+                let rule = "no clamp holds the orientation of this filament: under couples it has no \
+                            stable equilibrium";
+                Err(scene.loads[i].problem(i, rule.to_owned()))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Whether the forces balance along the free directions after so many stages.
-    fn check_balance(&self, factors: &Factors, stages: usize) -> Result<(), SceneProblem> {
+    fn check_balance(
+        &self,
+        scene: &Scene,
+        factors: &Factors,
+        stages: usize,
+    ) -> Result<(), SceneProblem> {
         let (loads, free) = (&self.loads, &self.free);
-        let factor = |i: usize| factors[i].as_ref().map_or(path::UNSET, |v| v.after(stages));
+        let factor = |i: usize| factor(factors, i, stages);
         let along = |force: &Vector3| -> Vector3 { free.iter().map(|d| d * d.dot(force)).sum() };
         let forces = loads.iter().map(|&(i, force)| force * factor(i));
         let left_over = along(&forces.clone().sum());
@@ -155,18 +186,27 @@ impl Group {
                 ", and the other forces do not balance it: their sum is {size:.1e} pN"
             ));
         }
+        let load = &scene.loads[i];
         if size <= DIGITS * all {
-            let [x, y, z] = (force - left_over / factor(i)).into();
+            let balanced = force - left_over / factor(i);
+            let [x, y, z] = (balanced / load.extent(scene)).into();
             rule.push(format!(" (it would be balanced as ({x:?}, {y:?}, {z:?}))"));
         }
         rule.push(": it has no equilibrium".to_owned());
-        let value = format!("{:?}", <[f64; 3]>::from(force));
-        Err(SceneProblem::new(
-            format!("loads[{i}].force_pn"),
-            value,
-            rule.concat(),
-        ))
+        Err(load.problem(i, rule.concat()))
     }
+}
+
+/// The ends of stages at which one of some loads changes, the beginning included.
+fn ends(loads: &[(usize, Vector3)], factors: &Factors) -> impl Iterator<Item = usize> {
+    let set = loads.iter().filter_map(|(i, _)| factors[*i].as_ref());
+    let ends: BTreeSet<usize> = set.flat_map(Values::ends).chain([0]).collect();
+    ends.into_iter()
+}
+
+/// Factor of load `i` after so many stages.
+fn factor(factors: &Factors, i: usize, stages: usize) -> f64 {
+    factors[i].as_ref().map_or(path::UNSET, |v| v.after(stages))
 }
 
 /// For each filament the lowest index among those that linkers join it to, itself included.

@@ -40,10 +40,24 @@ pub struct Scene {
 pub struct Stage {
     /// What is set. Of several settings of one control the last counts.
     pub set: Vec<Setting>,
-    /// Time that the stage takes in `Dynamics`, where controls move by a smooth ramp: required there,
+    /// Time that the stage takes in `Dynamics`: required there,
     /// positive, all stages together at most `duration_ns` of the task. `Equilibrium` ignores it.
     #[serde(default)]
     pub duration_ns: Option<f64>,
+    /// How controls move during that time. `Equilibrium` ignores it.
+    #[serde(default)]
+    pub pace: Pace,
+}
+
+/// How the controls of a stage move in time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum Pace {
+    /// By a ramp whose velocity and acceleration are zero at both ends.
+    #[default]
+    Smooth,
+    /// At constant velocity, which held ends have at once and lose at once.
+    Steady,
 }
 
 /// The value of a control at the end of a stage.
@@ -97,7 +111,7 @@ pub enum Setting {
 #[serde(deny_unknown_fields)]
 pub struct Filament {
     /// Sections in order of arc length, at least one. The first starts at 0, each other where the one
-    /// before it ends; neighbours are of different kinds.
+    /// before it ends; neighbours are of different kinds, or monomers that are `altered` differently.
     pub sections: Vec<Section>,
     /// Parameters of the monomers, the same for all sections that resolve them.
     #[serde(default)]
@@ -139,6 +153,10 @@ pub enum Section {
         from_nm: f64,
         /// Arc length at which it ends; greater than `from_nm`, by two monomers or more.
         to_nm: f64,
+        /// In what its monomers differ from those of the filament. Neighbouring sections of monomers
+        /// differ from each other in this.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        altered: Option<Altered>,
     },
     /// A Cosserat rod.
     Rod {
@@ -152,11 +170,77 @@ pub enum Section {
     },
 }
 
+/// In what the monomers of a section differ from those of the filament, for example where they are
+/// decorated by another protein.
+///
+/// An interface belongs to the section of its lower monomer. Bending and twist come from the same bonds: with
+/// both factors of rigidity the same, every rigidity of the filament is multiplied by it. Two different ones
+/// change the ratio little: where bending is 5 times softer, twist is 5 to 6 times softer, and not the 10
+/// times that cofilin makes it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, default)]
+pub struct Altered {
+    /// Factor of the rigidity of lateral interfaces; positive.
+    pub lateral_rigidity_factor: f64,
+    /// Factor of the rigidity of longitudinal interfaces; positive.
+    pub longitudinal_rigidity_factor: f64,
+    /// Bonds per lateral interface, instead of those of the filament.
+    pub lateral_bonds: Option<usize>,
+    /// Bonds per longitudinal interface, instead of those of the filament.
+    pub longitudinal_bonds: Option<usize>,
+    /// Factor of the mass of a monomer, and so of its moments of inertia; positive.
+    pub mass_factor: f64,
+}
+
+impl Default for Altered {
+    fn default() -> Self {
+        Self {
+            lateral_rigidity_factor: 1.0,
+            longitudinal_rigidity_factor: 1.0,
+            lateral_bonds: None,
+            longitudinal_bonds: None,
+            mass_factor: 1.0,
+        }
+    }
+}
+
+impl Altered {
+    /// Monomers of a filament, altered.
+    pub(crate) fn applied_to(&self, monomers: &Monomers) -> Monomers {
+        let mut altered = monomers.clone();
+        altered.lateral_rigidity_pn_per_nm *= self.lateral_rigidity_factor;
+        altered.longitudinal_rigidity_pn_per_nm *= self.longitudinal_rigidity_factor;
+        altered.lateral_bonds = self.lateral_bonds.unwrap_or(altered.lateral_bonds);
+        altered.longitudinal_bonds = self
+            .longitudinal_bonds
+            .unwrap_or(altered.longitudinal_bonds);
+        altered.mass_ag *= self.mass_factor;
+        altered
+    }
+}
+
 impl Section {
+    /// In what its monomers differ from those of its filament; nothing of a rod.
+    pub(crate) fn altered(&self) -> Option<Altered> {
+        match self {
+            Self::Ellipsoids { altered, .. } => *altered,
+            Self::Rod { .. } => None,
+        }
+    }
+
+    /// The monomers of a section of a filament of these monomers.
+    pub(crate) fn monomers(&self, of_filament: &Monomers) -> Monomers {
+        match self.altered() {
+            Some(altered) => altered.applied_to(of_filament),
+            None => of_filament.clone(),
+        }
+    }
+
     /// Arc lengths of start and end as written (nm).
     pub fn span_nm(&self) -> (f64, f64) {
         match *self {
-            Self::Ellipsoids { from_nm, to_nm } | Self::Rod { from_nm, to_nm, .. } => {
+            Self::Ellipsoids { from_nm, to_nm, .. } | Self::Rod { from_nm, to_nm, .. } => {
                 (from_nm, to_nm)
             }
         }
@@ -186,12 +270,29 @@ pub struct Clamp {
     /// What is held there. Monomers take `Wall` only.
     #[serde(default)]
     pub hold: Hold,
+    /// A spring against turns of a pinned end; only with `hold: Pin`.
+    #[serde(default)]
+    pub hinge: Option<Hinge>,
     /// Along which directions the end is free to slide as one rigid body.
     #[serde(default)]
     pub slides: Slides,
 }
 
-/// Directions along which a clamped end slides as one rigid body; it never turns by itself.
+/// A spring between the cross-section at a pinned end and a frame that a path may turn: energy
+/// `(k_b (theta_1^2 + theta_2^2) + k_t theta_3^2) / 2` of the rotation vector `theta` from one to the other, its third
+/// component along the filament.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Hinge {
+    /// Stiffness against bending aside; positive.
+    pub bend_pn_nm_per_rad: f64,
+    /// Stiffness against turns about the filament; positive.
+    pub twist_pn_nm_per_rad: f64,
+}
+
+/// Directions along which a clamped end slides as one rigid body; it turns by itself only where it is
+/// pinned. A force on an end that slides holds it at constant force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Slides {
@@ -216,6 +317,10 @@ pub enum Hold {
     NodeAndFrame,
     /// Rod only: the last two nodes and the last segment's frame.
     TwoNodesAndFrame,
+    /// Rod only: the last node, about which the end turns freely, or against the spring of a `hinge`. It
+    /// slides nowhere or along the axis. (A linker of no length from a site on the axis to an anchor
+    /// pins monomers.)
+    Pin,
 }
 
 /// What is computed.

@@ -5,8 +5,9 @@ use super::rules::{
 };
 use super::support::{check_support, check_swings};
 use super::{
-    Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Scene, SceneProblem,
-    Section, StopTolerances, Task, imperfection, linker, magnitude, saddles, stage, thermal,
+    Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Resultant, Scene,
+    SceneProblem, Section, Slides, StopTolerances, Task, imperfection, linker, load_rules,
+    magnitude, saddles, stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 
@@ -79,15 +80,20 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
             stage::check_durations(scene, dynamics.duration_ns)?;
             check_swings(scene, held)?;
             saddles::check(scene, dynamics)?;
+            load_rules::check_stop(scene, dynamics)?;
             let stop = dynamics.stop.as_ref();
-            stop.map_or(Ok(()), |s| check_tolerance(scene, "task.stop", s.force_pn))
+            stop.map_or(Ok(()), |s| {
+                check_tolerance(scene, "task.stop", (s.force_pn, s.torque_pn_nm))
+            })
         }
         Task::Equilibrium(equilibrium) => {
             for (i, one) in scene.filaments().enumerate() {
                 check_potential(one).map_err(|p| p.with_filament(&scene.filament_key(i)))?;
             }
+            load_rules::check_statics(scene)?;
             check_support(scene)?;
-            check_tolerance(scene, "task", equilibrium.force_pn)
+            let tolerances = (equilibrium.force_pn, equilibrium.torque_pn_nm);
+            check_tolerance(scene, "task", tolerances)
         }
     }
 }
@@ -103,6 +109,35 @@ fn sections(filament: &Filament, note: &mut impl FnMut(Result<(), SceneProblem>)
         let previous = i.checked_sub(1).map(|p| &sections[p]);
         note(check_span(i, section).and_then(|()| check_boundary(i, section, previous)));
     }
+    for (i, section) in sections.iter().enumerate() {
+        let key = format!("filament.sections[{i}].altered");
+        note(check_altered(&key, section, filament));
+    }
+}
+
+fn check_altered(key: &str, section: &Section, filament: &Filament) -> Result<(), SceneProblem> {
+    let Some(altered) = section.altered() else {
+        return Ok(());
+    };
+    for (name, factor) in [
+        ("lateral_rigidity_factor", altered.lateral_rigidity_factor),
+        (
+            "longitudinal_rigidity_factor",
+            altered.longitudinal_rigidity_factor,
+        ),
+        ("mass_factor", altered.mass_factor),
+    ] {
+        positive(&format!("{key}.{name}"), factor)?;
+    }
+    for (name, bonds) in [
+        ("lateral_bonds", altered.lateral_bonds),
+        ("longitudinal_bonds", altered.longitudinal_bonds),
+    ] {
+        if let Some(bonds) = bonds {
+            check_bonds(&format!("{key}.{name}"), filament.monomers.anchors, bonds)?;
+        }
+    }
+    Ok(())
 }
 
 fn check_place(filament: &Filament) -> Result<(), SceneProblem> {
@@ -166,8 +201,10 @@ fn check_boundary(
             rule,
         ));
     }
-    let same =
-        previous.is_some_and(|p| std::mem::discriminant(p) == std::mem::discriminant(section));
+    let same = previous.is_some_and(|p| {
+        std::mem::discriminant(p) == std::mem::discriminant(section)
+            && p.altered() == section.altered()
+    });
     if same {
         return Err(SceneProblem::new(
             format!("{key}.from_nm"),
@@ -218,8 +255,16 @@ fn check_monomers(m: &Monomers) -> Result<(), SceneProblem> {
         finite(&format!("filament.monomers.{key}"), value)?;
     }
     each_positive("filament.monomers.semi_axes_nm", m.semi_axes_nm)?;
-    check_bonds("lateral_bonds", m.anchors, m.lateral_bonds)?;
-    check_bonds("longitudinal_bonds", m.anchors, m.longitudinal_bonds)?;
+    check_bonds(
+        "filament.monomers.lateral_bonds",
+        m.anchors,
+        m.lateral_bonds,
+    )?;
+    check_bonds(
+        "filament.monomers.longitudinal_bonds",
+        m.anchors,
+        m.longitudinal_bonds,
+    )?;
     check_shortest(m)?;
     if m.anchors == Anchors::Cubature && m.seed != 0 {
         return Err(SceneProblem::new(
@@ -248,11 +293,7 @@ fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(), ScenePro
     if range.contains(&bonds) {
         return Ok(());
     }
-    Err(SceneProblem::new(
-        format!("filament.monomers.{key}"),
-        bonds,
-        rule,
-    ))
+    Err(SceneProblem::new(key, bonds, rule))
 }
 
 /// Both kinds of interface have the same shortest bond. The default one is not to blame.
@@ -302,7 +343,28 @@ fn check_clamp(
             "monomers end the filament here: they take Wall only, which holds the last two",
         ));
     }
-    Ok(())
+    check_pin(&key, clamp)
+}
+
+/// A pinned end that slides freely is a free one, and only a pinned end turns against a spring.
+fn check_pin(key: &str, clamp: &Clamp) -> Result<(), SceneProblem> {
+    let is_pinned = clamp.hold == Hold::Pin;
+    if is_pinned && clamp.slides == Slides::Freely {
+        let rule = "a pinned end that slides freely is a free end: leave the clamp out";
+        return Err(SceneProblem::new(format!("{key}.slides"), "Freely", rule));
+    }
+    let Some(hinge) = clamp.hinge else {
+        return Ok(());
+    };
+    let key = format!("{key}.hinge");
+    if !is_pinned {
+        let rule =
+            "only a pinned end turns against a spring: write hold: Pin, or leave the hinge out";
+        return Err(SceneProblem::new(key, "", rule));
+    }
+    let (bend, twist) = (hinge.bend_pn_nm_per_rad, hinge.twist_pn_nm_per_rad);
+    positive(&format!("{key}.bend_pn_nm_per_rad"), bend)?;
+    positive(&format!("{key}.twist_pn_nm_per_rad"), twist)
 }
 
 fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), SceneProblem> {
@@ -329,18 +391,30 @@ fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), SceneProblem> {
 
 /// A tolerance that a load does not exceed is met before the filament has moved. Monomers bear
 /// half the force each.
-fn check_tolerance(scene: &Scene, key: &str, force_pn: f64) -> Result<(), SceneProblem> {
+fn check_tolerance(
+    scene: &Scene,
+    key: &str,
+    (force_pn, torque_pn_nm): (f64, f64),
+) -> Result<(), SceneProblem> {
     for (i, load) in scene.loads.iter().enumerate() {
-        let size = load.force_pn().norm();
-        if size > 0.0 && size <= 2.0 * force_pn {
-            let rule = format!(
-                "must be below half of loads[{i}] ({size:e} pN): otherwise the filament counts as \
-                 at rest before it has moved"
-            );
+        let (name, unit, tolerance, least) = match load.least(scene) {
+            Resultant::Force(force) => ("force_pn", "pN", force_pn, force.norm()),
+            Resultant::Couple(couple) => ("torque_pn_nm", "pN nm", torque_pn_nm, couple.norm()),
+        };
+        if least > 0.0 && least <= tolerance {
+            let rule = match load.interval(scene) {
+                None => format!(
+                    "must be below half of loads[{i}] ({:e} {unit})",
+                    2.0 * least
+                ),
+                Some(_) => {
+                    format!("must be below what loads[{i}] puts on a nanometre ({least:e} {unit})")
+                }
+            };
             return Err(SceneProblem::new(
-                format!("{key}.force_pn"),
-                show(force_pn),
-                rule,
+                format!("{key}.{name}"),
+                show(tolerance),
+                format!("{rule}: otherwise the filament counts as at rest before it has moved"),
             ));
         }
     }

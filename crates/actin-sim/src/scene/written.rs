@@ -21,7 +21,7 @@ pub(super) struct Written {
     /// Clamped ends. All others are free.
     #[serde(default)]
     clamps: Vec<Clamp>,
-    /// Forces on ends.
+    /// Forces and couples.
     #[serde(default)]
     loads: Vec<Load>,
     /// Springs from sites on filaments to points in space or to other sites.

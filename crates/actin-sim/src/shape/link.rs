@@ -33,7 +33,7 @@ pub fn link_of(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
 pub(crate) fn link_at(assembly: &Assembly, filament: usize, parameter: f64) -> Option<f64> {
     let axis = assembly.filaments[filament].axis();
     let turn = |end| {
-        let clamp = assembly.held.clamp_at(filament, end)?;
+        let clamp = assembly.held.fixed_at(filament, end)?;
         let turn: Vector3 = assembly.drive.turn(clamp, parameter);
         (!is_across(turn, axis)).then(|| turn.dot(&axis))
     };
@@ -49,7 +49,7 @@ pub(crate) fn turn_of_ends(assembly: &Assembly, filament: usize, at: At) -> Opti
     let parameter = path_parameter(assembly, at);
     let axis = assembly.filaments[filament].axis();
     let turned = [End::Start, End::End].map(|end| {
-        let clamp = assembly.held.clamp_at(filament, end)?;
+        let clamp = assembly.held.fixed_at(filament, end)?;
         Some(assembly.drive.turn(clamp, parameter))
     });
     let [Some(start), Some(end)] = turned else {
@@ -78,7 +78,7 @@ pub(crate) fn link_is_unknown(
 ) -> bool {
     if [End::Start, End::End]
         .iter()
-        .any(|end| assembly.clamp_at(filament, *end).is_none())
+        .any(|end| assembly.held.fixed_at(filament, *end).is_none())
     {
         return false;
     }

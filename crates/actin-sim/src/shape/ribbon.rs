@@ -85,7 +85,9 @@ impl Ribbon {
             let centre = |k: usize| (assembly.points[k].s_nm, assembly.centre_line_nm(state, k));
             let mut frames = section.frames.clone();
             if section.is_ellipsoids() {
-                for k in section.points.start..section.points.end - 1 {
+                let next = sections.get(i + 1).filter(|next| next.is_ellipsoids());
+                let past = section.points.end - usize::from(next.is_none());
+                for k in section.points.start..past {
                     let (one, other) = (centre(k), centre(k + 1));
                     ribbon.push_vertex(0.5 * (one.0 + other.0), 0.5 * (one.1 + other.1), true);
                 }
@@ -200,7 +202,7 @@ fn held_frame(
     state: &State,
     end: End,
 ) -> Option<(f64, UnitQuaternion)> {
-    let clamp = assembly.clamp_at(filament, end)?;
+    let clamp = &assembly.clamps[assembly.held.fixed_at(filament, end)?];
     let frame = match end {
         End::Start => *clamp.frames.first()?,
         End::End => *clamp.frames.last()?,

@@ -147,7 +147,11 @@ impl Case {
             to_nm,
             segments: None,
         };
-        let monomers = |from_nm, to_nm| Section::Ellipsoids { from_nm, to_nm };
+        let monomers = |from_nm, to_nm| Section::Ellipsoids {
+            from_nm,
+            to_nm,
+            altered: None,
+        };
         let length = self.length_nm();
         match self.resolved {
             Resolved::Rod => vec![rod(0.0, length)],
@@ -173,7 +177,11 @@ impl Case {
             Order::Together => {
                 let duration_ns = stages.iter().map(|stage| stage.duration_ns).sum();
                 let set = stages.into_iter().flat_map(|stage| stage.set).collect();
-                vec![Stage { set, duration_ns }]
+                vec![Stage {
+                    set,
+                    duration_ns,
+                    pace: actin_sim::Pace::Smooth,
+                }]
             }
         }
     }

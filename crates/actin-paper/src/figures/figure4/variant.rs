@@ -132,8 +132,10 @@ impl Variant {
             filament.rod.material = Material::PrecedingPaper;
         }
         if self.weak {
-            for Load::EndForce { force_pn, .. } in &mut scene.loads {
-                *force_pn = force_pn.map(|f| f * 0.25);
+            for load in &mut scene.loads {
+                if let Load::EndForce { force_pn, .. } = load {
+                    *force_pn = force_pn.map(|f| f * 0.25);
+                }
             }
         }
     }

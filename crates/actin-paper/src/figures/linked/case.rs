@@ -221,7 +221,11 @@ impl Case {
     fn sections(&self) -> Vec<Section> {
         let (length, rod) = (f64::from(self.figure.length), f64::from(self.rod()));
         let (from, to) = (0.5 * (length - rod), 0.5 * (length + rod));
-        let ellipsoids = |from_nm, to_nm| Section::Ellipsoids { from_nm, to_nm };
+        let ellipsoids = |from_nm, to_nm| Section::Ellipsoids {
+            from_nm,
+            to_nm,
+            altered: None,
+        };
         let rod = Section::Rod {
             from_nm: from,
             to_nm: to,

@@ -229,14 +229,17 @@ impl<'a> Drawn<'a> {
     pub(in crate::figures) fn forces(&self) -> Vec<(Vector3, Vector3)> {
         let loads = self.assembly.scene.loads.iter();
         loads
-            .map(|load| {
+            .filter_map(|load| {
                 let Load::EndForce {
                     filament,
                     end,
                     force_pn,
-                } = load;
+                } = load
+                else {
+                    return None;
+                };
                 let at = self.assembly.tip_of(*filament, self.state, *end);
-                (at, (*force_pn).into())
+                Some((at, (*force_pn).into()))
             })
             .collect()
     }

@@ -1,7 +1,8 @@
 //! Holding the ends of filaments, once all bodies stand.
 
 use super::{Body, Builder};
-use crate::assembly::{Clamped, models};
+use crate::assembly::hinge::Hinge;
+use crate::assembly::{Clamped, Part, models};
 use crate::scene::{Clamp, End, SceneProblem};
 use actin_mechanics::Slider;
 use std::ops::Range;
@@ -56,7 +57,11 @@ impl Builder<'_> {
             end: clamp.end,
             axis: strand.filament.axis(),
             arm_nm: state.points.position.get(points.start) - about_nm,
-            rest: state.frames.orientation.get(frames.start),
+            rest: if frames.is_empty() {
+                strand.placement.rotation
+            } else {
+                state.frames.orientation.get(frames.start)
+            },
             points: points.collect(),
             frames: frames.collect(),
             about_nm,
@@ -90,7 +95,18 @@ impl Builder<'_> {
                         let key = format!("clamps[{i}].hold");
                         SceneProblem::new(key, format!("{:?}", clamp.hold), error.to_string())
                     })?;
-                Ok((held.points, held.frames))
+                let Some(anchor) = strand.hinge_frames[clamp.end as usize] else {
+                    return Ok((held.points, held.frames));
+                };
+                // The wall frame is the cross-section at the node, which the spring joins to the held frame.
+                if let Some(wall) = layout.wall(models::rod_end(clamp.end)) {
+                    state.frames.release(wall);
+                    let hinge = Hinge::new(clamp, [anchor, wall]).map_err(|error| {
+                        SceneProblem::new(format!("clamps[{i}].hinge"), "", error.to_string())
+                    })?;
+                    self.stock.push_term(Box::new(hinge), Part::Clamp(i));
+                }
+                Ok((held.points, anchor..anchor + 1))
             }
         }
     }

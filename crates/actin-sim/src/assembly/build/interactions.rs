@@ -13,18 +13,23 @@ use actin_mechanics::Interaction;
 impl Strand<'_> {
     /// Pushes the interactions of all sections and junctions, in filament order.
     pub(super) fn push_interactions(&self, stock: &mut Stock) -> Result<(), SceneProblem> {
-        let junctions: Vec<Junction> = (1..self.bodies.len())
-            .map(|i| self.junction(i - 1, stock))
+        let junctions: Vec<Option<Junction>> = (1..self.bodies.len())
+            .map(|i| {
+                let is_junction = self.is_junction(i - 1);
+                is_junction.then(|| self.junction(i - 1, stock)).transpose()
+            })
             .collect::<Result<_, _>>()?;
-        let joined =
-            |junction: Option<&Junction>| junction.map_or_else(Vec::new, Junction::joined_elements);
+        let joined = |junction: Option<&Option<Junction>>| {
+            let junction = junction.and_then(Option::as_ref);
+            junction.map_or_else(Vec::new, Junction::joined_elements)
+        };
         for i in 0..self.bodies.len() {
             let before = i.checked_sub(1).map(|k| &junctions[k]);
             let around = Around {
                 joined: [joined(before), joined(junctions.get(i))],
                 ends: self.end_shear(i),
             };
-            if let Some(junction) = before {
+            if let Some(Some(junction)) = before {
                 let part = Part::Junction(self.first_section + i - 1);
                 stock.push_term(Box::new(junction.clone()), part);
             }
@@ -43,9 +48,9 @@ impl Strand<'_> {
     ) -> Result<Box<dyn Interaction>, SceneProblem> {
         Ok(match &self.bodies[i] {
             Body::Monomers(monomers) => {
-                let bonds = self
-                    .model
-                    .bonds(monomers)
+                let run = self.bonded_run(i, monomers);
+                let bonds = self.models[i]
+                    .bonds_above(&run, monomers.count)
                     .map_err(|e| models::unbonded(&e, &self.filament.monomers))?;
                 if let Resolution::Ellipsoids { bonds: count, .. } =
                     &mut stock.sections[self.first_section + i].resolution

@@ -74,7 +74,7 @@ impl Builder<'_> {
     }
 
     /// The site at an arc length, radius and azimuth of a filament.
-    fn site(&self, at: &LinkerSite, nodes: &mut Nodes) -> Result<Site, LinkerError> {
+    pub(super) fn site(&self, at: &LinkerSite, nodes: &mut Nodes) -> Result<Site, LinkerError> {
         let strand = &self.strands[at.filament];
         let s_nm = at.at_nm;
         // A boundary belongs to the section before it; the rest behind the last monomer, to
@@ -133,11 +133,11 @@ impl Builder<'_> {
 
 /// Arc lengths of the nodes of those rods that linkers hold on to, found once for each rod.
 #[derive(Default)]
-struct Nodes(HashMap<usize, Vec<f64>>);
+pub(super) struct Nodes(HashMap<usize, Vec<f64>>);
 
 impl Nodes {
     /// Those of the rod of a section (nm from the rod's start).
-    fn of(&mut self, section: usize, layout: &RodLayout) -> &[f64] {
+    pub(super) fn of(&mut self, section: usize, layout: &RodLayout) -> &[f64] {
         self.0
             .entry(section)
             .or_insert_with(|| layout.node_positions())

@@ -28,7 +28,7 @@ fn add(
 ) -> Result<(), SceneProblem> {
     let filament = strand.filament;
     let (count, what) = if let Some((first, last)) = strand.resolved[i].monomers {
-        let monomers = &filament.monomers;
+        let monomers = filament.sections[i].monomers(&filament.monomers);
         let bonds = monomers.lateral_bonds + monomers.longitudinal_bonds;
         let count = (last - first + 1) as f64;
         *bytes += memory::of_monomers(count, bonds, &scene.task);

@@ -23,7 +23,7 @@ impl Builder<'_> {
                 let (strand, i) = strand_of(section);
                 strand.junction_bonds(i)
             }
-            Part::Load(_) | Part::Linker(_) => Vec::new(),
+            Part::Load(_) | Part::Linker(_) | Part::Clamp(_) => Vec::new(),
         };
         self.stock.terms.iter().map(|term| of(term.part)).collect()
     }
@@ -33,16 +33,19 @@ impl Strand<'_> {
     fn section_spans(&self, i: usize) -> Vec<[f64; 2]> {
         match &self.bodies[i] {
             Body::Rod(layout) => rod(layout, self.resolved[i].from_nm),
-            Body::Monomers(monomers) => self.interfaces(monomers),
+            Body::Monomers(monomers) => {
+                self.interfaces(monomers, self.bonded_run(i, monomers).count)
+            }
         }
     }
 
     /// From monomer to monomer: for each lower one the lateral, then the longitudinal interface.
-    fn interfaces(&self, monomers: &Monomers) -> Vec<[f64; 2]> {
+    /// Bonds reach the first `reached` monomers.
+    fn interfaces(&self, monomers: &Monomers, reached: usize) -> Vec<[f64; 2]> {
         let s_nm = |k: usize| self.lattice.s_nm(monomers.index(k));
         let of = |lower: usize| {
             let uppers = InterfaceKind::ALL.map(|kind| lower + kind.steps());
-            let inside = uppers.into_iter().filter(|&upper| upper < monomers.count);
+            let inside = uppers.into_iter().filter(|&upper| upper < reached);
             inside.map(move |upper| [s_nm(lower), s_nm(upper)])
         };
         (0..monomers.count).flat_map(of).collect()

@@ -4,11 +4,11 @@ use super::Stock;
 use crate::assembly::lattice::{Lattice, Resolved, resolve};
 use crate::assembly::{BodyKind, FilamentSpan, FrameInfo, PointInfo, Resolution, SectionSpan};
 use crate::assembly::{law, models};
-use crate::scene::{End, Filament, Hold, MOST_COUNTED, SceneProblem, Section};
+use crate::scene::{Clamp, End, Filament, Hinge, Hold, MOST_COUNTED, SceneProblem, Section};
 use actin_cosserat::{CrossSection, EndShear, RodLayout, StraightRod, Walls};
 use actin_coupling::push_junction_frames;
 use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
-use actin_mechanics::Vector3;
+use actin_mechanics::{Frame, Vector3};
 use std::ops::Range;
 
 /// Length of a rod's segments where the scene does not say how many there are (nm).
@@ -25,13 +25,18 @@ pub(super) struct Strand<'a> {
     pub(super) filament: &'a Filament,
     /// What is held at start and end; nothing at a free one.
     holds: [Option<Hold>; 2],
+    /// The springs of those ends that are hinged.
+    pub(super) hinges: [Option<Hinge>; 2],
+    /// The held frames behind these springs.
+    pub(super) hinge_frames: [Option<usize>; 2],
     /// Index of its first section among those of all filaments.
     pub(super) first_section: usize,
     /// Where arc length begins, and the turn from a filament along lab +z.
     pub(super) placement: Placement,
     pub(super) resolved: Vec<Resolved>,
     pub(super) lattice: Lattice,
-    pub(super) model: EllipsoidModel,
+    /// The monomers of each section; of a rod those that it stands for.
+    pub(super) models: Vec<EllipsoidModel>,
     pub(super) law: law::Law,
     cross_section: CrossSection,
     pub(super) bodies: Vec<Body>,
@@ -44,17 +49,20 @@ impl<'a> Strand<'a> {
     /// `first_section` others, in a heat bath or not.
     pub(super) fn new(
         (index, filament): (usize, &'a Filament),
-        holds: [Option<Hold>; 2],
+        clamps: [Option<&Clamp>; 2],
         first_section: usize,
         in_bath: bool,
     ) -> Result<Self, SceneProblem> {
         let monomers = &filament.monomers;
         let density = monomers.mass_ag / monomers.rise_nm;
         let area = actin_cosserat::constants::CROSS_SECTION_AREA;
+        let holds = clamps.map(|clamp| clamp.map(|c| c.hold));
         let is_held = holds.map(|hold| hold.is_some());
         Ok(Self {
             filament,
             holds,
+            hinges: clamps.map(|clamp| clamp.and_then(|c| c.hinge)),
+            hinge_frames: [None; 2],
             first_section,
             placement: Placement {
                 rotation: filament.rotation(),
@@ -62,7 +70,9 @@ impl<'a> Strand<'a> {
             },
             resolved: resolve(filament, is_held)?,
             lattice: Lattice::of(filament, is_held),
-            model: models::ellipsoids(monomers, index)?,
+            models: (filament.sections.iter())
+                .map(|section| models::ellipsoids(&section.monomers(monomers), index))
+                .collect::<Result<_, _>>()?,
             law: law::Law::new(&filament.rod, in_bath)?,
             cross_section: CrossSection::new(density, area).map_err(|error| {
                 let rule = format!("the mass per length that follows must be {}", error.rule);
@@ -101,8 +111,10 @@ impl<'a> Strand<'a> {
 
     /// Pushes the junction to the section before, then the bodies of section `i`.
     fn push_section(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
-        if i > 0 {
+        if i > 0 && self.is_junction(i - 1) {
             self.push_junction_frames(i - 1, stock)?;
+        } else if i > 0 {
+            self.junction_frames.push(0..0);
         }
         match self.resolved[i].monomers {
             Some((first, last)) => self.push_monomers(i, (first, last), stock),
@@ -121,7 +133,7 @@ impl<'a> Strand<'a> {
             ..self.placement
         };
         let count = usize::try_from(last - first + 1).expect("resolve leaves at least two");
-        let built = self.model.build(&mut stock.state, &placement, first, count);
+        let built = self.models[i].build(&mut stock.state, &placement, first, count);
         let monomers = built
             .map_err(|error| SceneProblem::new("filament.sections", last, error.to_string()))?;
         for k in 0..count {
@@ -158,7 +170,8 @@ impl<'a> Strand<'a> {
         let length = (to_nm - from_nm) / segments as f64;
         let wall = |end| {
             let at_this_end = i == self.filament.end_index(end);
-            at_this_end && self.holds[end as usize] == Some(Hold::Wall)
+            let hold = self.holds[end as usize];
+            at_this_end && (hold == Some(Hold::Wall) || self.hinges[end as usize].is_some())
         };
         let rod = StraightRod {
             start: self.axis_at(from_nm),
@@ -170,11 +183,13 @@ impl<'a> Strand<'a> {
                 end: wall(End::End),
             },
         };
+        self.push_hinge_frame(i, End::Start, (from_nm, length), stock);
         let layout = rod.push(&mut stock.state).map_err(|error| {
             let key = format!("filament.sections[{i}].segments");
             SceneProblem::new(key, segments, error.to_string())
         })?;
         self.describe_rod(i, &layout, length, stock);
+        self.push_hinge_frame(i, End::End, (to_nm, length), stock);
         self.bodies.push(Body::Rod(layout));
         Ok(())
     }
@@ -183,13 +198,36 @@ impl<'a> Strand<'a> {
     /// so that they lack shear, which the rod makes good.
     pub(super) fn end_shear(&self, i: usize) -> [EndShear; 2] {
         [End::Start, End::End].map(|end| {
-            let is_held = self.holds[end as usize].is_some();
+            // A pin lets the end turn, as a free one does.
+            let is_held = self.holds[end as usize].is_some_and(|hold| hold != Hold::Pin);
             if i == self.filament.end_index(end) && is_held {
                 EndShear::Blocked
             } else {
                 EndShear::Loose
             }
         })
+    }
+
+    /// Pushes the held frame behind the spring of a hinge, if section `i` has one at an end, at arc length
+    /// `s_nm` beside segments of a length (nm).
+    fn push_hinge_frame(
+        &mut self,
+        i: usize,
+        end: End,
+        (s_nm, length): (f64, f64),
+        stock: &mut Stock,
+    ) {
+        if i != self.filament.end_index(end) || self.hinges[end as usize].is_none() {
+            return;
+        }
+        let frame = stock.state.frames.push(Frame {
+            orientation: self.placement.rotation,
+            inertia: self.cross_section.segment_inertia(length),
+        });
+        stock.state.frames.hold(frame);
+        let kind = BodyKind::Wall;
+        stock.frames.push(FrameInfo { kind, s_nm });
+        self.hinge_frames[end as usize] = Some(frame);
     }
 
     /// Number of segments of rod section `i`: as written, or as near to the default length as fits.
@@ -267,6 +305,23 @@ impl<'a> Strand<'a> {
             first_tip,
             last_tip,
         });
+    }
+
+    /// Whether section `i` and the next are of different kinds; neighbouring monomers are bonded.
+    pub(super) fn is_junction(&self, i: usize) -> bool {
+        let sections = self.resolved.get(i).zip(self.resolved.get(i + 1));
+        sections.is_some_and(|(a, b)| a.monomers.is_some() != b.monomers.is_some())
+    }
+
+    /// The monomers from which section `i` is bonded upwards, and those of the next section to which the
+    /// last of them are bonded, if it has some.
+    pub(super) fn bonded_run(&self, i: usize, own: &Monomers) -> Monomers {
+        let goes_on = i + 1 < self.resolved.len() && !self.is_junction(i);
+        Monomers {
+            // As far as the longest interface reaches.
+            count: own.count + if goes_on { 2 } else { 0 },
+            ..*own
+        }
     }
 
     /// Number of monomers of section `i` that a junction attaches to.

@@ -1,0 +1,210 @@
+//! Forces at sites: dead ones, and those that turn with what they act on. Where sites are is in
+//! `site.rs`.
+
+use crate::Site;
+use actin_mechanics::{
+    ControlId, Coordinates, Interaction, Loads, SecondOrder, State, Stiffness, UnitQuaternion,
+    Vector3,
+};
+
+/// Whether a force keeps its direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceKind {
+    /// It keeps its direction in the lab: its potential is minus the force times the displacement.
+    Dead,
+    /// It turns with the frame of its site, and has no potential.
+    Follower,
+}
+
+/// A force at sites, scaled by a control: one element for each site.
+///
+/// Each site takes the force times its weight: shares of a force, or lengths where the force is one per
+/// length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SiteForce {
+    /// Each site with its weight, its place and the orientation of its frame at the beginning.
+    sites: Vec<(Site, f64, Vector3, UnitQuaternion)>,
+    /// Force at control value 1 and weight 1 (pN, lab frame).
+    force: Vector3,
+    kind: ForceKind,
+    control: ControlId,
+}
+
+impl SiteForce {
+    /// The force (pN, lab frame, at control value 1) on sites where they are now, each with its weight;
+    /// `control` is its factor.
+    ///
+    /// ```
+    /// use actin_coupling::{ForceKind, Interaction, RodPlace, Site, SiteForce, State, StraightRod};
+    /// use actin_coupling::{Loads, Vector3};
+    /// let mut state = State::default();
+    /// let rod = StraightRod::uniform(2, 10.0).push(&mut state)?;
+    /// let site = Site::on_rod(&rod, RodPlace { segment: 1, fraction: 0.25, ..RodPlace::default() })?;
+    /// let factor = state.add_control(1.0);
+    /// let force = Vector3::x() * 4.0;
+    /// let load = SiteForce::new(&state, vec![(site, 1.0)], force, ForceKind::Dead, factor);
+    /// let mut loads = Loads::zeros(&state);
+    /// load.add_loads(&state, &mut loads);
+    /// assert_eq!([1, 2].map(|i| loads.force.get(i).x), [3.0, 1.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If `state` has no such control or body, or if the force or a weight is not finite.
+    pub fn new(
+        state: &State,
+        sites: Vec<(Site, f64)>,
+        force: Vector3,
+        kind: ForceKind,
+        control: ControlId,
+    ) -> Self {
+        assert!(
+            state.controls.has(control),
+            "a force has {control:?}, which the state does not have"
+        );
+        assert!(
+            force.iter().all(|f| f.is_finite()),
+            "a force must be finite, got {force:?}"
+        );
+        let begin = |(site, weight): (Site, f64)| {
+            assert!(
+                weight.is_finite(),
+                "weights of a force must be finite, got {weight}"
+            );
+            let place = site.position(state);
+            let rest = state.frames.orientation.get(site.frame());
+            (site, weight, place, rest)
+        };
+        Self {
+            sites: sites.into_iter().map(begin).collect(),
+            force,
+            kind,
+            control,
+        }
+    }
+
+    /// Its factor.
+    pub fn control(&self) -> ControlId {
+        self.control
+    }
+
+    /// The force on a site whose frame was in the orientation `rest` (pN, lab frame).
+    fn force_on(&self, site: &Site, rest: UnitQuaternion, state: &State) -> Vector3 {
+        let force = self.force * state.controls[self.control];
+        match self.kind {
+            ForceKind::Dead => force,
+            ForceKind::Follower => {
+                let now = state.frames.orientation.get(site.frame());
+                now * rest.inverse_transform_vector(&force)
+            }
+        }
+    }
+}
+
+impl Interaction for SiteForce {
+    fn term(&self) -> &'static str {
+        "load"
+    }
+
+    fn is_conservative(&self) -> bool {
+        self.kind == ForceKind::Dead
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        for (site, weight, _, rest) in &self.sites {
+            let force = self.force_on(site, *rest, state) * *weight;
+            site.add_force(force, state, loads);
+        }
+    }
+
+    fn elements(&self) -> usize {
+        self.sites.len()
+    }
+
+    /// Zero of a follower, which has no potential.
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        energies.fill(0.0);
+        if !self.is_conservative() {
+            return;
+        }
+        for (energy, (site, weight, place, rest)) in energies.iter_mut().zip(&self.sites) {
+            let displacement = site.position(state) - place;
+            *energy = -weight * self.force_on(site, *rest, state).dot(&displacement);
+        }
+    }
+
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        self.is_conservative().then_some(self as &dyn SecondOrder)
+    }
+}
+
+impl SecondOrder for SiteForce {
+    /// Only an arm gives a dead force a stiffness.
+    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        for (site, weight, _, rest) in &self.sites {
+            if site.arm() == Vector3::zeros() {
+                continue;
+            }
+            let work = self.force_on(site, *rest, state) * -*weight;
+            let frame = Coordinates::Frame(site.frame());
+            stiffness.push(frame, frame, site.curvature_of_work(work, state));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{RodPlace, StraightRod};
+    use actin_mechanics::testing::{
+        assert_is_gradient, assert_is_stiffness, loads_of, move_rigidly, resultant,
+    };
+    use actin_mechanics::{Xorshift, perturb};
+
+    /// Two sites, one of them off the axis of a shaken rod.
+    fn loaded(kind: ForceKind) -> (State, SiteForce) {
+        let mut state = State::default();
+        let rod = StraightRod::uniform(3, 10.0).push(&mut state).unwrap();
+        let control = state.add_control(1.5);
+        let site = |segment, radius| {
+            let place = RodPlace {
+                segment,
+                fraction: 0.3,
+                radius,
+                azimuth: 0.4,
+            };
+            Site::on_rod(&rod, place).unwrap()
+        };
+        let sites = vec![(site(0, 1.8), 2.0), (site(2, 0.0), 0.5)];
+        let force = Vector3::new(0.4, -1.0, 2.0);
+        let load = SiteForce::new(&state, sites, force, kind, control);
+        perturb(&mut state, &mut Xorshift::new(2), 0.5, 0.3);
+        (state, load)
+    }
+
+    #[test]
+    fn dead_forces_have_a_potential() {
+        let (state, load) = loaded(ForceKind::Dead);
+        assert_is_gradient(&load, &state, 1e-2, 1e-10);
+        assert_is_stiffness(&load, &state, 1e-2, 1e-9);
+        let (force, _) = resultant(&state, &loads_of(&load, &state));
+        let expected = Vector3::new(0.4, -1.0, 2.0) * 1.5 * 2.5;
+        assert!((force - expected).norm() < 1e-14);
+    }
+
+    /// Followers turn with the rod, and say that they have no potential.
+    #[test]
+    fn followers_turn_along() {
+        let (mut state, load) = loaded(ForceKind::Follower);
+        let (before, torque) = resultant(&state, &loads_of(&load, &state));
+        let turn = Vector3::new(0.5, -2.0, 0.3);
+        move_rigidly(&mut state, turn, Vector3::zeros());
+        let (after, turned) = resultant(&state, &loads_of(&load, &state));
+        let expected = actin_mechanics::rotation::exp(turn) * before;
+        assert!((after - expected).norm() < 1e-13);
+        let expected = actin_mechanics::rotation::exp(turn) * torque;
+        assert!((turned - expected).norm() < 1e-12);
+        assert!(!load.is_conservative() && load.second_order().is_none());
+        assert!(load.energy(&state).abs() <= 0.0);
+    }
+}

@@ -1,0 +1,282 @@
+//! Couples on frames: about an axis of the lab, with a potential, or fixed in the frames, without one.
+//! Forces on points are in `load.rs`.
+
+use crate::{
+    ControlId, Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness,
+    UnitQuaternion, Vector3,
+};
+
+/// How a couple goes with the turn of what it acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoupleKind {
+    /// Its work is its size times the twist of the frame about its axis `e` in the lab: it has a
+    /// potential.
+    ///
+    /// With `R` the turn of the frame from where it was when the couple was made, split into a twist
+    /// about `e` and a swing of `e` to `Re`, the potential is `-M psi`, `psi` the angle of the twist,
+    /// and the torque is `M (e + Re) / (1 + e . Re)`. Its component along `e` is `M` whatever the turn.
+    /// Turned about `e` alone, the frame feels `M e`; swung by `beta`, it feels a torque tilted half
+    /// as far, longer by `1 / cos(beta/2)`. At a swing of half a turn there is no torque: it is not
+    /// finite.
+    ///
+    /// A couple that kept its direction in the lab exactly would have no potential: turns about
+    /// different axes do not commute, and a closed path of turns would do work.
+    Axial,
+    /// It turns with the frame, and has no potential.
+    Follower,
+}
+
+/// A couple shared among frames and scaled by a control: one element for each frame.
+///
+/// # Source
+/// H. Ziegler, Principles of Structural Stability, 2nd ed. (1977), chapter 5, for which couples have a
+/// potential; the angle `psi` is the sum of the first and third Euler angle about `e`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Couple {
+    /// Each frame with its share and its orientation where `psi` is zero.
+    shares: Vec<(usize, f64, UnitQuaternion)>,
+    /// Couple at control value 1 (lab frame).
+    moment: Vector3,
+    kind: CoupleKind,
+    control: ControlId,
+}
+
+impl Couple {
+    /// The couple `moment` (lab frame, at control value 1) on frames in the orientations that they have
+    /// now, each with its share; `control` is its factor.
+    ///
+    /// ```
+    /// use actin_mechanics::{
+    ///     Couple, CoupleKind, Frame, Inertia, Interaction, Loads, State, UnitQuaternion, Vector3,
+    /// };
+    /// let mut state = State::default();
+    /// let inertia = Inertia::from_moments([1.0, 1.0, 2.0])?;
+    /// let frame = Frame { orientation: UnitQuaternion::identity(), inertia };
+    /// let i = state.frames.push(frame);
+    /// let factor = state.add_control(1.0);
+    /// let couple = Couple::new(&state, &[(i, 1.0)], Vector3::z() * 3.0, CoupleKind::Axial, factor);
+    /// // A turn of half a radian about the axis: the work is 3 times 0.5.
+    /// state.frames.orientation.set(i, UnitQuaternion::new(Vector3::z() * 0.5));
+    /// assert!((couple.energy(&state) + 1.5).abs() < 1e-15);
+    /// # Ok::<(), actin_mechanics::InertiaError>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If `state` has no such frame or control, or if the couple or a share is not finite.
+    pub fn new(
+        state: &State,
+        shares: &[(usize, f64)],
+        moment: Vector3,
+        kind: CoupleKind,
+        control: ControlId,
+    ) -> Self {
+        let frames = state.frames.len();
+        assert!(
+            state.controls.has(control),
+            "a couple has {control:?}, which the state does not have"
+        );
+        assert!(
+            moment.iter().all(|m| m.is_finite()),
+            "a couple must be finite, got {moment:?}"
+        );
+        let with_rest = |&(i, share): &(usize, f64)| {
+            assert!(
+                i < frames,
+                "there are {frames} frames, a couple acts on frame {i}"
+            );
+            assert!(
+                share.is_finite(),
+                "shares of a couple must be finite, got {share}"
+            );
+            (i, share, state.frames.orientation.get(i))
+        };
+        Self {
+            shares: shares.iter().map(with_rest).collect(),
+            moment,
+            kind,
+            control,
+        }
+    }
+
+    /// Its factor.
+    pub fn control(&self) -> ControlId {
+        self.control
+    }
+
+    /// Size at control value 1 and axis; none of a couple of zero.
+    fn axis(&self) -> Option<(f64, Vector3)> {
+        let size = self.moment.norm();
+        (size > 0.0).then(|| (size, self.moment / size))
+    }
+}
+
+/// An axis of the lab as the body sees it now, and as it saw it at the beginning.
+fn seen(axis: Vector3, now: UnitQuaternion, rest: UnitQuaternion) -> (Vector3, Vector3) {
+    let seen = |q: UnitQuaternion| q.inverse_transform_vector(&axis);
+    (seen(now), seen(rest))
+}
+
+impl Interaction for Couple {
+    fn term(&self) -> &'static str {
+        "load"
+    }
+
+    fn is_conservative(&self) -> bool {
+        self.kind == CoupleKind::Axial
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        let Some((size, axis)) = self.axis() else {
+            return;
+        };
+        let factor = state.controls[self.control] * size;
+        for &(i, share, rest) in &self.shares {
+            let (a, b) = seen(axis, state.frames.orientation.get(i), rest);
+            let torque = match self.kind {
+                CoupleKind::Axial => (a + b) / (1.0 + a.dot(&b)),
+                CoupleKind::Follower => b,
+            };
+            loads.torque.add(i, torque * (factor * share));
+        }
+    }
+
+    fn elements(&self) -> usize {
+        self.shares.len()
+    }
+
+    /// `-M psi`, which is known up to two turns: it begins at zero and goes from one full turn to
+    /// minus one where it passes it. A follower has no potential: zero.
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        energies.fill(0.0);
+        let Some((size, axis)) = self.axis().filter(|_| self.is_conservative()) else {
+            return;
+        };
+        let factor = state.controls[self.control] * size;
+        for (energy, &(i, share, rest)) in energies.iter_mut().zip(&self.shares) {
+            let turn = state.frames.orientation.get(i) * rest.inverse();
+            let psi = 2.0 * turn.imag().dot(&axis).atan2(turn.w);
+            *energy = -factor * share * psi;
+        }
+    }
+
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        self.is_conservative().then_some(self as &dyn SecondOrder)
+    }
+}
+
+impl SecondOrder for Couple {
+    /// With `a` and `b` the axis as the frame sees it now and saw it at the beginning,
+    /// `d a / d phi = [a]x` in the torque `M (a + b) / (1 + a . b)`; the symmetric part of it.
+    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        let (size, axis) = self.axis().unwrap_or_default();
+        let factor = state.controls[self.control] * size;
+        for &(i, share, rest) in &self.shares {
+            let (a, b) = seen(axis, state.frames.orientation.get(i), rest);
+            let (cross, scale) = (a.cross_matrix(), 1.0 / (1.0 + a.dot(&b)));
+            let slope: Matrix3 = cross * scale - (a + b) * (b.transpose() * cross) * scale.powi(2);
+            let block = (slope + slope.transpose()) * (-0.5 * factor * share);
+            let frame = Coordinates::Frame(i);
+            stiffness.push(frame, frame, block);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{assert_is_gradient, assert_is_stiffness, loads_of};
+    use crate::{Frame, Inertia, Xorshift, rotation};
+
+    /// Two frames in any orientation, under a couple of 3.7 of which the first takes a quarter; turned
+    /// from there.
+    fn turned(kind: CoupleKind, turn: Vector3) -> (State, Couple) {
+        let mut state = State::default();
+        let control = state.add_control(0.8);
+        let mut noise = Xorshift::new(5);
+        for _ in 0..2 {
+            state.frames.push(Frame {
+                orientation: rotation::exp(noise.vector()),
+                inertia: Inertia::from_moments([1.0, 1.0, 2.0]).unwrap(),
+            });
+        }
+        let moment = Vector3::new(1.2, -3.0, 1.8);
+        let couple = Couple::new(&state, &[(0, 0.25), (1, 0.75)], moment, kind, control);
+        for i in 0..2 {
+            let q = rotation::exp(turn) * state.frames.orientation.get(i);
+            state.frames.orientation.set(i, q);
+        }
+        (state, couple)
+    }
+
+    /// Torque and stiffness are the derivatives of `-M psi`, at small and large swings.
+    #[test]
+    fn axial_couples_have_a_potential() {
+        for turn in [[0.0; 3], [0.3, -0.2, 0.9], [-1.4, 0.8, 1.5]] {
+            let (state, couple) = turned(CoupleKind::Axial, turn.into());
+            // Eighth-order differences of angles over 1 rad; round-off 1e-16 / 1e-2.
+            assert_is_gradient(&couple, &state, 1e-2, 1e-10);
+            assert_is_stiffness(&couple, &state, 1e-2, 1e-9);
+        }
+    }
+
+    /// Along the axis the torque is the couple, to any swing; a turn about the axis changes nothing and
+    /// does work in proportion, up to a full turn.
+    #[test]
+    fn axial_couples_keep_their_component() {
+        let axis = Vector3::new(1.2, -3.0, 1.8).normalize();
+        let size = 0.8 * Vector3::new(1.2f64, -3.0, 1.8).norm();
+        for turn in [axis * 6.2, Vector3::new(0.9, 0.9, -1.1)] {
+            let (state, couple) = turned(CoupleKind::Axial, turn);
+            let loads = loads_of(&couple, &state);
+            let lab = |i| state.frames.orientation.get(i) * loads.torque.get(i);
+            let total = lab(0) + lab(1);
+            assert!((total.dot(&axis) - size).abs() < 1e-13 * size);
+        }
+        let (state, couple) = turned(CoupleKind::Axial, axis * 6.2);
+        assert!((couple.energy(&state) + 6.2 * size).abs() < 1e-12 * size);
+    }
+
+    /// A closed path of turns about two axes, against which a couple that kept its direction in the lab
+    /// would do work: the axial one does none, the follower does.
+    #[test]
+    fn what_follows_does_work_on_a_closed_path() {
+        let work = |kind| {
+            let (mut state, couple) = turned(kind, Vector3::zeros());
+            let first = state.frames.orientation.get(0);
+            let (mut work, n) = (0.0, 2000);
+            for axis in [Vector3::x(), Vector3::y(), -Vector3::x(), -Vector3::y()] {
+                for _ in 0..n {
+                    let step = axis / f64::from(n);
+                    let q = state.frames.orientation.get(0);
+                    state
+                        .frames
+                        .orientation
+                        .set(0, q * rotation::exp(step * 0.5));
+                    work += loads_of(&couple, &state).torque.get(0).dot(&step);
+                    state.frames.orientation.set(0, q * rotation::exp(step));
+                }
+            }
+            // Turns about body axes do not close by themselves: the last one does.
+            let back = rotation::log(state.frames.orientation.get(0).inverse() * first);
+            for _ in 0..n {
+                let q = state.frames.orientation.get(0);
+                let step = back / f64::from(n);
+                state
+                    .frames
+                    .orientation
+                    .set(0, q * rotation::exp(step * 0.5));
+                work += loads_of(&couple, &state).torque.get(0).dot(&step);
+                state.frames.orientation.set(0, q * rotation::exp(step));
+            }
+            work
+        };
+        // The midpoint rule over steps of 5e-4 rad, of a couple of 0.75.
+        assert!(work(CoupleKind::Axial).abs() < 1e-6);
+        assert!(work(CoupleKind::Follower).abs() > 0.05);
+        assert!(
+            !turned(CoupleKind::Follower, Vector3::zeros())
+                .1
+                .is_conservative()
+        );
+    }
+}

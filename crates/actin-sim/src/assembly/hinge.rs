@@ -1,0 +1,54 @@
+//! The spring of a hinged end.
+
+use crate::scene::Clamp;
+use actin_cosserat::{Rigidities, RodElements, RodError, RodJoint, RodMaterial};
+use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
+
+/// A spring against turns between two frames, term `hinge`: one joint of a rod over a length of 1, whose
+/// rigidities are then the stiffnesses of the spring.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Hinge(RodElements);
+
+impl Hinge {
+    /// The hinge of a clamp between its held frame and that of the cross-section; none gives a spring
+    /// without stiffness, which is refused.
+    pub(super) fn new(clamp: &Clamp, frames: [usize; 2]) -> Result<Self, RodError> {
+        let hinge = clamp.hinge;
+        let bend = hinge.map_or(0.0, |h| h.bend_pn_nm_per_rad);
+        let twist = hinge.map_or(0.0, |h| h.twist_pn_nm_per_rad);
+        let material = RodMaterial::new(Rigidities {
+            shear: Vector3::repeat(1.0),
+            bend: Vector3::new(bend, bend, twist),
+        })?;
+        let joint = RodJoint::straight(frames, 1.0);
+        RodElements::new(material, Vec::new(), vec![joint]).map(Self)
+    }
+}
+
+impl Interaction for Hinge {
+    fn term(&self) -> &'static str {
+        "hinge"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        self.0.add_loads(state, loads);
+    }
+
+    fn elements(&self) -> usize {
+        self.0.elements()
+    }
+
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        self.0.write_energies(state, energies);
+    }
+
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        Some(self)
+    }
+}
+
+impl SecondOrder for Hinge {
+    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        self.0.add_stiffness(state, stiffness);
+    }
+}

@@ -1,0 +1,106 @@
+//! A cantilever as a scene, beam theory by integration along the arc, and orders of convergence.
+
+use actin_sim::{Assembly, Plan, Scene, Trajectory};
+
+/// Length (nm), rigidities against bending and twist (pN nm^2).
+pub(crate) const LENGTH: f64 = 160.0;
+pub(crate) const BEND: f64 = 3.9e4;
+pub(crate) const TWIST: f64 = 1.3e4;
+/// Rigidity against shear and stretch (pN): equally stiff, so that frames are those of a rod that does
+/// neither (see `tests/equilibria/common.rs`).
+pub(crate) const SHEAR: f64 = 1e6;
+/// Mass per length (ag/nm): of the default monomers.
+pub(crate) const DENSITY: f64 = 0.0697 / (71.2 / 26.0);
+
+/// A rod on a wall as a scene, with its loads and what else it has.
+pub(crate) fn cantilever(segments: usize, shear: f64, loads: &str, rest: &str) -> String {
+    twisting(segments, (shear, TWIST), loads, rest)
+}
+
+/// The same with another rigidity against twist (pN nm^2).
+pub(crate) fn twisting(
+    segments: usize,
+    (shear, twist): (f64, f64),
+    loads: &str,
+    rest: &str,
+) -> String {
+    format!(
+        "Scene(
+            filament: Filament(
+                sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
+                rod: RodModel(material: Rigidities(
+                    shear_pn: ({shear:?}, {shear:?}, {shear:?}),
+                    bend_pn_nm2: ({BEND:?}, {BEND:?}, {twist:?}),
+                )),
+            ),
+            clamps: [Clamp(end: Start)],
+            loads: [{loads}],
+            {rest}
+        )"
+    )
+}
+
+pub(crate) fn build(text: &str) -> Assembly {
+    let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    Assembly::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
+}
+
+/// Runs a scene to its end; the assembly is then in its last state.
+pub(crate) fn run(text: &str) -> (Assembly, Trajectory) {
+    let mut assembly = build(text);
+    let result = Plan::new(&assembly).map(|plan| plan.run()).unwrap();
+    let (trajectory, _) = result.unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let last = trajectory.records.last().expect("a run has a record");
+    *assembly.system.state_mut() = last.state.clone();
+    (assembly, trajectory)
+}
+
+/// Asserts second-order convergence on meshes each twice as fine, within `slack` of the order, and
+/// returns the limit by Richardson's extrapolation, relative to `exact`.
+pub(crate) fn second_order_limit(what: &str, values: [f64; 3], exact: f64, slack: f64) -> f64 {
+    let errors = values.map(|value| value / exact - 1.0);
+    let orders = [errors[0] / errors[1], errors[1] / errors[2]].map(|r| r.abs().log2());
+    let limit = (4.0 * values[2] - values[1]) / 3.0 / exact - 1.0;
+    println!(
+        "{what}: errors {:.2e} {:.2e} {:.2e}, orders {:.3} {:.3}, extrapolated {limit:.1e}",
+        errors[0], errors[1], errors[2], orders[0], orders[1]
+    );
+    for order in orders {
+        assert!((order - 2.0).abs() < slack, "{what}: orders {orders:?}");
+    }
+    limit
+}
+
+/// Deflection over length of an inextensible cantilever under a force `w` per length across it as built,
+/// that keeps its direction; `alpha = w L^3 / B`. By shooting with the classical method of Runge and
+/// Kutta: `theta'' = -alpha (1 - s) cos(theta)`.
+pub(crate) fn deflection_under_uniform_force(alpha: f64, steps: usize) -> f64 {
+    let shot = |curvature: f64| {
+        let derivative = |s: f64, [theta, kappa, _]: [f64; 3]| {
+            [kappa, -alpha * (1.0 - s) * theta.cos(), theta.sin()]
+        };
+        let h = 1.0 / steps as f64;
+        let mut y = [0.0, curvature, 0.0];
+        let plus = |y: [f64; 3], k: [f64; 3], h: f64| [0, 1, 2].map(|i| y[i] + h * k[i]);
+        for i in 0..steps {
+            let s = i as f64 * h;
+            let a = derivative(s, y);
+            let b = derivative(s + 0.5 * h, plus(y, a, 0.5 * h));
+            let c = derivative(s + 0.5 * h, plus(y, b, 0.5 * h));
+            let d = derivative(s + h, plus(y, c, h));
+            y = [0, 1, 2].map(|k| y[k] + h / 6.0 * (a[k] + 2.0 * b[k] + 2.0 * c[k] + d[k]));
+        }
+        y
+    };
+    // The curvature at the tip grows with that at the wall, which is alpha/2 at most.
+    let (mut low, mut high) = (0.0, 0.5 * alpha);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if shot(middle)[1] > 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    shot(0.5 * (low + high))[2]
+}

@@ -1,0 +1,234 @@
+//! Ends that are pinned, hinged by a spring, and moved at constant velocity.
+
+use crate::common::{BEND, LENGTH, SHEAR, TWIST, build, cantilever, run, second_order_limit};
+use actin_mechanics::{Vector3, rotation};
+use actin_sim::{End, Failure, Plan, RunError, Scene};
+use std::f64::consts::PI;
+
+/// A rod between ends as written, pressed together by a force on its end (pN).
+fn column(segments: usize, start: &str, force: f64) -> String {
+    let task = "task: Equilibrium(leave_saddles: 0),";
+    let load = format!("EndForce(end: End, force_pn: (0.0, 0.0, {:?}))", -force);
+    cantilever(segments, SHEAR, &load, task).replace(
+        "clamps: [Clamp(end: Start)]",
+        &format!("clamps: [{start}, Clamp(end: End, hold: Pin, slides: AlongAxis)]"),
+    )
+}
+
+/// The force at which a straight column loses its stability, by bisection.
+fn critical(segments: usize, start: &str, [mut low, mut high]: [f64; 2]) -> f64 {
+    let is_unstable = |force: f64| {
+        let assembly = build(&column(segments, start, force));
+        match Plan::new(&assembly).unwrap().run() {
+            Ok(_) => false,
+            Err(RunError::Failed(failed)) if matches!(failed.failure, Failure::Saddle(_)) => true,
+            Err(error) => panic!("{force}: {error}"),
+        }
+    };
+    assert!(!is_unstable(low) && is_unstable(high));
+    // Far below the least error of a mesh, 1e-4.
+    while high - low > 1e-7 * high {
+        let middle = 0.5 * (low + high);
+        if is_unstable(middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Euler: a column pinned at both ends buckles at `pi^2 B / L^2`.
+#[test]
+fn a_pinned_column_buckles() {
+    let exact = PI * PI * BEND / LENGTH.powi(2);
+    let values = [8, 16, 32].map(|n| {
+        critical(
+            n,
+            "Clamp(end: Start, hold: Pin)",
+            [0.8 * exact, 1.2 * exact],
+        )
+    });
+    let limit = second_order_limit("pinned column", values, exact, 0.1);
+    // Shear and compression, P/S = 1.5e-5 each.
+    assert!(limit.abs() < 1e-4, "{limit:e}");
+}
+
+/// Hinged at one end by `k = 2 B / L`, pinned at the other: `x / tan(x) = 1 + x^2 B / k L`, between pinned
+/// and clamped; `x^2 B / L^2` is the force.
+#[test]
+fn a_hinged_column_buckles() {
+    let share = 2.0;
+    let (mut low, mut high) = (PI + 1e-9, 4.493_409_457_909_064 - 1e-9);
+    for _ in 0..100 {
+        let x: f64 = 0.5 * (low + high);
+        if x / x.tan() > 1.0 + x * x / share {
+            low = x;
+        } else {
+            high = x;
+        }
+    }
+    let exact = low * low * BEND / LENGTH.powi(2);
+    let k = share * BEND / LENGTH;
+    let start = format!(
+        "Clamp(end: Start, hold: Pin, hinge: (bend_pn_nm_per_rad: {k:?}, twist_pn_nm_per_rad: 50.0))"
+    );
+    let values = [8, 16, 32].map(|n| critical(n, &start, [0.8 * exact, 1.2 * exact]));
+    let limit = second_order_limit("hinged column", values, exact, 0.1);
+    assert!(limit.abs() < 1e-4, "{limit:e}");
+}
+
+/// A cantilever on a hinge: what the spring gives way adds to what the rod does, bent and twisted; the
+/// reaction is what the spring bears.
+#[test]
+fn a_hinge_gives_way() {
+    let (force, couple, bend, twist) = (1e-3, 30.0, 400.0, 120.0);
+    let hinge = format!(
+        "clamps: [Clamp(end: Start, hold: Pin,
+            hinge: (bend_pn_nm_per_rad: {bend:?}, twist_pn_nm_per_rad: {twist:?}))]"
+    );
+    let on_hinge = |segments: usize, loads: &str| {
+        let text = cantilever(segments, SHEAR, loads, "task: Equilibrium(),");
+        run(&text.replace("clamps: [Clamp(end: Start)]", &hinge)).0
+    };
+    let load = format!("Force(end: End, force_pn: ({force:?}, 0.0, 0.0))");
+    let values = [8, 16, 32].map(|segments| {
+        let assembly = on_hinge(segments, &load);
+        assembly.tip_nm(assembly.system.state(), End::End).x
+    });
+    let exact = force * LENGTH.powi(3) / (3.0 * BEND) + force * LENGTH.powi(2) / bend;
+    let limit = second_order_limit("cantilever on a hinge", values, exact, 0.1);
+    assert!(limit.abs() < 1e-5, "{limit:e}");
+    let load = format!("Couple(end: End, couple_pn_nm: (0.0, 0.0, {couple:?}))");
+    let mut assembly = on_hinge(16, &load);
+    let last = assembly
+        .frames
+        .iter()
+        .position(|f| (f.s_nm - 155.0).abs() < 1e-9);
+    let turn = rotation::log(
+        assembly
+            .system
+            .state()
+            .frames
+            .orientation
+            .get(last.unwrap()),
+    );
+    let exact = couple * (155.0 / TWIST + 1.0 / twist);
+    assert!(
+        (turn - Vector3::z() * exact).norm() < 1e-8,
+        "{turn} {exact}"
+    );
+    let loads = assembly.system.loads().clone();
+    let reaction = assembly.clamps[0].reaction(assembly.system.state(), &loads);
+    assert!((reaction.torque_pn_nm + Vector3::z() * couple).norm() < 1e-6);
+}
+
+/// A chain: pinned at both ends, 0.75 of its length apart, almost without resistance to bending, it hangs
+/// as a catenary: `D / 2a` times `L / D` is `sinh(D / 2a)`, the sag `a (cosh(D / 2a) - 1)`.
+#[test]
+fn a_pinned_chain_hangs_as_a_catenary() {
+    let (length, span, weight) = (400.0_f64, 300.0_f64, 0.1);
+    let (mut low, mut high) = (0.1_f64, 5.0_f64);
+    for _ in 0..100 {
+        let x = 0.5 * (low + high);
+        if x.sinh() / x < length / span {
+            low = x;
+        } else {
+            high = x;
+        }
+    }
+    let a = span / (2.0 * low);
+    let exact = a * (low.cosh() - 1.0);
+    let sags = [20, 40, 80].map(|segments| {
+        let text = format!(
+            "Scene(
+                filament: Filament(
+                    sections: [Rod(from_nm: 0.0, to_nm: {length:?}, segments: {segments})],
+                    rod: RodModel(material: Rigidities(
+                        shear_pn: (1e5, 1e5, 1e5), bend_pn_nm2: (0.1, 0.1, 10.0),
+                    )),
+                ),
+                clamps: [Clamp(end: Start, hold: Pin), Clamp(end: End, hold: Pin)],
+                loads: [ForcePerLength(force_pn_per_nm: (-{weight:?}, 0.0, 0.0))],
+                path: [Stage(set: [
+                    LoadFactor(load: 0, factor: 1.0),
+                    Shift(end: End, shift_nm: (0.0, 0.0, {:?})),
+                ])],
+                task: Equilibrium(accept_jumps: true),
+            )",
+            span - length
+        );
+        let (assembly, _) = run(&text);
+        let x = |i: usize| assembly.system.state().points.position.get(i).x;
+        -(0..=segments).map(x).fold(0.0, f64::min)
+    });
+    // Stretch of 2e-4 at most and bending, B / w a^3 = 1e-6.
+    let errors = sags.map(|sag| sag / exact - 1.0);
+    println!("catenary: sag {exact:.3} nm, errors {errors:?}");
+    assert!(errors[2].abs() < 1e-3, "{errors:?}");
+    assert!(errors[2].abs() < errors[0].abs(), "{errors:?}");
+}
+
+/// A steady stage moves an end at constant velocity from its first moment to its last.
+#[test]
+fn a_steady_stage_moves_at_constant_velocity() {
+    let text = "Scene(
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+        clamps: [Clamp(end: Start), Clamp(end: End)],
+        path: [Stage(set: [Shift(end: End, shift_nm: (0.4, 0.0, -2.0))], duration_ns: 4.0, pace: Steady)],
+        task: Dynamics(duration_ns: 5.0, record_every_ns: 0.25,
+            drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0)),
+    )";
+    let (assembly, trajectory) = run(text);
+    let end = assembly.clamps[1].points[0];
+    for record in &trajectory.records {
+        let t = record.at.value();
+        let share = (t / 4.0).min(1.0);
+        let place = Vector3::new(0.4 * share, 0.0, 100.0 - 2.0 * share);
+        let off = (record.state.points.position.get(end) - place).norm();
+        // Time adds up from some hundred steps.
+        assert!(off < 1e-11, "{t}: {off:e}");
+        let velocity = Vector3::new(0.1, 0.0, -0.5);
+        let expected = if t < 3.9 { velocity } else { Vector3::zeros() };
+        let off = (record.state.points.velocity.get(end) - expected).norm();
+        assert!(off < 1e-14 || (t - 4.0).abs() < 0.1, "{t}: {off:e}");
+    }
+}
+
+/// What pins cannot do is refused.
+#[test]
+fn pins_without_a_meaning_are_refused() {
+    for (clamp, path, expected) in [
+        (
+            "hold: Pin, slides: Freely",
+            "",
+            "clamps[0].slides = Freely: a pinned end that slides freely",
+        ),
+        (
+            "hinge: (bend_pn_nm_per_rad: 1.0, twist_pn_nm_per_rad: 1.0)",
+            "",
+            "clamps[0].hinge: only a pinned end turns against a spring",
+        ),
+        (
+            "hold: Pin, hinge: (bend_pn_nm_per_rad: 1.0, twist_pn_nm_per_rad: 0.0)",
+            "",
+            "clamps[0].hinge.twist_pn_nm_per_rad = 0.0: must be finite and greater than 0",
+        ),
+        (
+            "hold: Pin",
+            "Stage(set: [Turn(end: Start, turn_deg: (0.0, 0.0, 9.0))])",
+            "path[0].set[0].end = Start: this end is pinned: it turns by itself",
+        ),
+    ] {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+                clamps: [Clamp(end: Start, {clamp})],
+                path: [{path}],
+                task: Equilibrium(),
+            )"
+        );
+        let message = Scene::from_ron(&text).map_or_else(|e| e.message, |_| String::new());
+        assert!(message.starts_with(expected), "{clamp}: {message}");
+    }
+}

@@ -1,0 +1,11 @@
+//! Loads, ends and sections of scenes against theory: where loads act, how they change in time, which of them
+//! have an energy.
+//!
+//! Bounds were set before results were seen; orders and limits are printed with `--nocapture`.
+
+mod common;
+mod ends;
+mod motion;
+mod refused;
+mod sections;
+mod statics;

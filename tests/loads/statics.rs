@@ -1,0 +1,268 @@
+//! Equilibria under loads of every kind against closed solutions of rods.
+
+use crate::common::{
+    BEND, DENSITY, LENGTH, SHEAR, TWIST, cantilever, deflection_under_uniform_force, run,
+    second_order_limit, twisting,
+};
+use actin_mechanics::{UnitQuaternion, Vector3, rotation};
+use actin_sim::{Assembly, End};
+use std::f64::consts::PI;
+
+const TASK: &str = "task: Equilibrium(),";
+
+fn solved(segments: usize, loads: &str) -> Assembly {
+    run(&cantilever(segments, SHEAR, loads, TASK)).0
+}
+
+/// A rod that resists twist twice as much as bending, to which a couple is led along a path.
+fn stiff_in_twist(segments: usize, loads: &str) -> Assembly {
+    let rest = "path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)])], task: Equilibrium(),";
+    run(&twisting(segments, (SHEAR, 2.0 * BEND), loads, rest)).0
+}
+
+fn tip(assembly: &Assembly) -> Vector3 {
+    assembly.tip_nm(assembly.system.state(), End::End)
+}
+
+/// The turn of the segment whose middle is at an arc length (nm).
+fn turn_at(assembly: &Assembly, s_nm: f64) -> UnitQuaternion {
+    let found = assembly
+        .frames
+        .iter()
+        .position(|f| (f.s_nm - s_nm).abs() < 1e-9);
+    let frame = found.expect("a segment has its middle here");
+    assembly.system.state().frames.orientation.get(frame)
+}
+
+/// Torque on the wall's cross-section (pN nm, lab frame).
+fn wall_torque(assembly: &mut Assembly) -> Vector3 {
+    let loads = assembly.system.loads().clone();
+    assembly.clamps[0]
+        .reaction(assembly.system.state(), &loads)
+        .torque_pn_nm
+}
+
+/// A couple about the axis twists uniformly: `M s / C` at `s`, exactly on any mesh, by a turn and a half
+/// in all; beyond where it acts nothing is twisted.
+#[test]
+fn a_couple_twists() {
+    // About 3 rad of 160 nm.
+    let size = 250.0;
+    let mut assembly = solved(
+        16,
+        &format!("Couple(end: End, couple_pn_nm: (0.0, 0.0, {size:?}))"),
+    );
+    for s_nm in [5.0, 75.0, 155.0] {
+        let expected = rotation::exp(Vector3::z() * (size * s_nm / TWIST));
+        let off = rotation::log(turn_at(&assembly, s_nm) * expected.inverse()).norm();
+        // The residual of 1e-7 pN nm over C/L, 81 pN nm/rad.
+        assert!(off < 1e-8, "{s_nm}: {off:e}");
+    }
+    let torque = wall_torque(&mut assembly);
+    assert!((torque + Vector3::z() * size).norm() < 1e-6, "{torque}");
+    // At 63.7 nm, between two middles: the twist stops there.
+    let at = 63.7;
+    let assembly = solved(
+        16,
+        &format!("Couple(at_nm: {at:?}, couple_pn_nm: (0.0, 0.0, {size:?}))"),
+    );
+    for s_nm in [75.0, 155.0] {
+        let off = rotation::log(turn_at(&assembly, s_nm)) - Vector3::z() * (size * at / TWIST);
+        assert!(off.norm() < 1e-8, "{s_nm}: {off}");
+    }
+}
+
+/// A couple per length `t` twists the tip by `t L^2 / 2C`; on part of the length, from `a` to `b`, by
+/// `t (b^2 - a^2) / 2C`.
+#[test]
+fn a_couple_per_length_twists() {
+    let size = 1.5;
+    for (from, to, slack) in [(0.0, LENGTH, 1e-8), (20.0, 90.0, 1e-8)] {
+        let load = format!(
+            "CouplePerLength(from_nm: {from:?}, to_nm: {to:?}, couple_pn_nm_per_nm: (0.0, 0.0, {size:?}))"
+        );
+        let assembly = solved(16, &load);
+        // The last segment stands at its middle: the half beyond it twists by t h^2 / 8C.
+        let beyond = if to < LENGTH {
+            0.0
+        } else {
+            size * 5.0 * 5.0 / (2.0 * TWIST)
+        };
+        let exact = size * (to * to - from * from) / (2.0 * TWIST) - beyond;
+        let turn = rotation::log(turn_at(&assembly, 155.0)).z;
+        println!("couple per length {from} to {to}: {turn} of {exact}");
+        assert!(
+            (turn - exact).abs() < slack + size * 12.5 / TWIST,
+            "{turn} {exact}"
+        );
+    }
+}
+
+/// A couple across the axis bends into an arc: here up to 0.9 of half a circle. Beyond
+/// half a circle it leaves the plane, turns its axis into that of the couple and is twisted instead, even if it
+/// resists twist twice as much as bending. The arc's chord converges with order two, and its angle is exact on any mesh.
+#[test]
+fn a_couple_bends_into_an_arc() {
+    for angle in [0.5 * PI, 0.9 * PI] {
+        let size = angle * BEND / LENGTH;
+        let radius = LENGTH / angle;
+        let exact = 2.0 * radius * (0.5 * angle).sin();
+        let chords = [10, 20, 40].map(|segments| {
+            let load = format!("Couple(end: End, couple_pn_nm: (0.0, {size:?}, 0.0))");
+            let assembly = stiff_in_twist(segments, &load);
+            let middle = LENGTH - 0.5 * LENGTH / segments as f64;
+            let turn = turn_at(&assembly, middle) * Vector3::z();
+            let expected = angle * middle / LENGTH;
+            assert!((turn.x - expected.sin()).abs() < 1e-8, "{turn}");
+            tip(&assembly).norm()
+        });
+        let limit = second_order_limit(&format!("arc of {angle:.2} rad"), chords, exact, 0.05);
+        assert!(limit.abs() < 1e-5, "{limit:e}");
+    }
+}
+
+/// A couple about any other axis bends into a helix about the couple `m` that the rod bears, which is the
+/// same everywhere: the tangent turns about `m` at `|m|/B` per length. What is borne is the load's own
+/// torque, `M (e + Re) / (1 + e . Re)`.
+#[test]
+fn a_couple_bends_into_a_helix() {
+    let couple = Vector3::new(300.0, 0.0, 260.0);
+    let axis = couple.normalize();
+    let tips = [16, 32, 64].map(|segments| {
+        let load = format!(
+            "Couple(end: End, couple_pn_nm: ({:?}, 0.0, {:?}))",
+            couple.x, couple.z
+        );
+        let mut assembly = stiff_in_twist(segments, &load);
+        let borne = -wall_torque(&mut assembly);
+        let last = turn_at(&assembly, LENGTH - 0.5 * LENGTH / segments as f64);
+        let swung = last * axis;
+        let expected = (axis + swung) * couple.norm() / (1.0 + axis.dot(&swung));
+        assert!(
+            (borne - expected).norm() < 1e-6 * couple.norm(),
+            "{borne} {expected}"
+        );
+        assert!((borne.dot(&axis) - couple.norm()).abs() < 1e-6 * couple.norm());
+        // It is no longer about the axis as built: the helix is not one of a couple fixed in the lab.
+        assert!(borne.cross(&axis).norm() > 0.1 * couple.norm(), "{borne}");
+        // Integral of exp(m s / B) e3.
+        let (rate, about) = (borne.norm() / BEND, borne.normalize());
+        let along = about * about.z;
+        let across = Vector3::z() - along;
+        let angle = rate * LENGTH;
+        let helix = along * LENGTH
+            + across * (angle.sin() / rate)
+            + about.cross(&across) * ((1.0 - angle.cos()) / rate);
+        (tip(&assembly) - helix).norm()
+    });
+    let orders = [tips[0] / tips[1], tips[1] / tips[2]].map(f64::log2);
+    println!("helix: errors {tips:?} nm, orders {orders:?}");
+    assert!(
+        orders.iter().all(|order| (order - 2.0).abs() < 0.05),
+        "{orders:?}"
+    );
+    assert!(tips[2] < 0.02, "{tips:?}");
+}
+
+/// A force between two nodes, a third or two thirds of a segment from the one before, in the limit of small
+/// deflections: `F a^2 (3 L - a) / 6 B` at the tip.
+#[test]
+fn a_force_at_any_arc_length_bends() {
+    let (force, at) = (1e-3, 190.0 / 3.0);
+    let exact = force * at * at * (3.0 * LENGTH - at) / (6.0 * BEND) + force * at / SHEAR;
+    let tips = [16, 32, 64].map(|segments| {
+        let load = format!("Force(at_nm: {at:?}, force_pn: ({force:?}, 0.0, 0.0))");
+        tip(&solved(segments, &load)).x
+    });
+    let limit = second_order_limit("force at a third of a segment", tips, exact, 0.05);
+    assert!(limit.abs() < 1e-5, "{limit:e}");
+}
+
+/// A uniform force, small and large, against beam theory: `w L^4 / 8 B` where it is small. Weight of the
+/// same size does the same to round-off.
+#[test]
+fn a_uniform_force_bends() {
+    for (alpha, slack, bound) in [(1e-3, 0.05, 1e-5), (4.0, 0.05, 1e-5), (20.0, 0.3, 1e-4)] {
+        let [coarse, exact] = [1000, 2000].map(|n| deflection_under_uniform_force(alpha, n));
+        // Of fourth order, far below the bounds.
+        assert!((coarse / exact - 1.0).abs() < 1e-9);
+        if alpha < 0.01 {
+            assert!((exact / (alpha / 8.0) - 1.0).abs() < 1e-6, "{exact}");
+        }
+        let w = alpha * BEND / LENGTH.powi(3);
+        let deflection = |segments, load: &str| tip(&solved(segments, load)).x / LENGTH;
+        let load = format!("ForcePerLength(force_pn_per_nm: ({w:?}, 0.0, 0.0))");
+        let values = [16, 32, 64].map(|segments| deflection(segments, &load));
+        let limit = second_order_limit(&format!("uniform force, {alpha}"), values, exact, slack);
+        assert!(limit.abs() < bound, "{alpha}: {limit:e}");
+        let a = w / DENSITY;
+        let weight = format!("Acceleration(acceleration_nm_per_ns2: ({a:?}, 0.0, 0.0))");
+        let heavy = deflection(32, &weight);
+        println!(
+            "weight, {alpha}: {:.1e} from the uniform force",
+            heavy / values[1] - 1.0
+        );
+        // Both solved to 1e-7 pN.
+        assert!((heavy / values[1] - 1.0).abs() < 1e-6, "{heavy}");
+    }
+}
+
+/// On part of the length, not from node to node: `w (3 L^4 - 4 a^3 L + a^4) / 24 B` from `a` to the tip.
+#[test]
+fn a_force_per_length_acts_on_its_interval() {
+    let (w, a) = (1e-5, 59.0);
+    let moment = 3.0 * LENGTH.powi(4) - 4.0 * a * a * a * LENGTH + f64::powi(a, 4);
+    let exact = w * moment / (24.0 * BEND);
+    for (segments, bound) in [(16, 4e-3), (64, 3e-4)] {
+        let load = format!("ForcePerLength(from_nm: {a:?}, force_pn_per_nm: ({w:?}, 0.0, 0.0))");
+        let error = tip(&solved(segments, &load)).x / exact - 1.0;
+        println!("force per length from {a} nm on {segments} segments: {error:.2e}");
+        assert!(error.abs() < bound, "{segments}: {error:e}");
+    }
+}
+
+/// Whatever resolves the filament, the wall bears what acts on it: force, and torque about the wall.
+#[test]
+fn walls_bear_every_load_in_every_model() {
+    let loads = "Force(end: End, force_pn: (0.5, 0.0, 0.3)),
+        Force(at_nm: 21.3, force_pn: (0.0, 0.4, 0.0)),
+        Couple(end: End, couple_pn_nm: (0.0, 3.0, 5.0)),
+        Couple(at_nm: 21.3, couple_pn_nm: (2.0, 0.0, 0.0)),
+        ForcePerLength(from_nm: 5.0, to_nm: 33.0, force_pn_per_nm: (0.0, 0.01, 0.0)),
+        CouplePerLength(from_nm: 5.0, to_nm: 33.0, couple_pn_nm_per_nm: (0.0, 0.0, 0.1)),
+        Acceleration(acceleration_nm_per_ns2: (0.05, 0.0, 0.0)),";
+    for sections in [
+        "Rod(from_nm: 0.0, to_nm: 40.0)",
+        "Ellipsoids(from_nm: 0.0, to_nm: 40.0)",
+        "Ellipsoids(from_nm: 0.0, to_nm: 20.0), Rod(from_nm: 20.0, to_nm: 40.0)",
+    ] {
+        let text = format!(
+            "Scene(filament: Filament(sections: [{sections}]), clamps: [Clamp(end: Start)],
+                loads: [{loads}], task: Equilibrium())"
+        );
+        let (mut assembly, _) = run(&text);
+        let all = assembly.system.loads().clone();
+        let reaction = assembly.clamps[0].reaction(assembly.system.state(), &all);
+        let moving =
+            (0..assembly.points.len()).filter(|i| assembly.system.state().points.is_free(*i));
+        let mass: f64 = moving.map(|i| assembly.system.state().points.mass(i)).sum();
+        let held: f64 = assembly.clamps[0]
+            .points
+            .iter()
+            .map(|&i| assembly.system.state().points.mass(i))
+            .sum();
+        let expected = Vector3::new(0.5 + 0.05 * (mass + held), 0.4 + 0.28, 0.3);
+        let off = (reaction.force_pn + expected).norm();
+        // Some thirty bodies of 1e-7 pN each.
+        assert!(off < 1e-5, "{sections}: {}", reaction.force_pn);
+        // The energy of the loads is the work that they do: it falls.
+        let energies = assembly.system.energies();
+        let terms = assembly.terms.iter().zip(&energies);
+        let of_loads: Vec<f64> = terms
+            .filter(|(t, _)| t.name == "load")
+            .map(|(_, e)| *e)
+            .collect();
+        assert_eq!(of_loads.len(), 7);
+        assert!(of_loads.iter().sum::<f64>() < 0.0, "{of_loads:?}");
+    }
+}
