@@ -15,7 +15,10 @@ impl Homogenised {
 
     /// Couple (pN nm), the gradient of [`joint_energy`](Self::joint_energy).
     pub fn joint_couple(&self, kappa: Vector3) -> Vector3 {
-        self.joint_jet(kappa).0
+        let loads = self.loads(&self.unsheared(kappa));
+        let [_, slope, _] = self.form.natural_jet(kappa.z);
+        let couple: Vector3 = loads.fixed_rows::<3>(0).into();
+        couple + Vector3::z() * (slope * loads[5])
     }
 
     /// Its derivative (pN nm^2), symmetric.

@@ -22,7 +22,7 @@ use nalgebra::{Matrix6, Vector6};
 use polynomial::{DEGREE, Polynomial, bounded_twist, polynomial};
 pub(crate) use segment::STRAIGHT;
 use segment::joined;
-use terms::{BY_TWIST, InvariantJet, Invariants, Jet};
+use terms::{BY_TWIST, Factors, InvariantJet, InvariantSlope, Invariants, Jet};
 
 /// Strains: `kappa_1`, `kappa_2`, `kappa_3` (rad/nm), `sigma_1`, `sigma_2`, `sigma_3`; or couple (pN nm) and
 /// force (pN) in body axes.
@@ -165,7 +165,7 @@ impl HomogenisedForm {
     /// its coefficients.
     pub fn units(&self, term: Term, strain: &SixVector) -> Vec<PotentialJet> {
         let [t, slope, bend] = bounded_twist(strain[2]);
-        let jet = term.jet(self.invariants(strain));
+        let jet = term.jet(&Factors::at(self.invariants(strain)));
         let mut power = [1.0, 0.0, 0.0];
         let units = (0..=term.degree()).map(|_| {
             let unit = self.by_strain(strain, &jet.times(BY_TWIST, power));
@@ -265,7 +265,17 @@ impl Homogenised {
 
     /// Couple (pN nm) and force (pN), the gradient of [`energy_density`](Self::energy_density).
     pub fn loads(&self, strain: &SixVector) -> SixVector {
-        self.jet(strain).loads
+        let [by_e, by_a, by_g, by_c, by_twist] = self.slopes(strain);
+        let [_, slope, _] = self.form.natural_jet(strain[2]);
+        let across = |own: f64, k: usize, other: usize| own * strain[k] + by_c * strain[other];
+        SixVector::new(
+            across(2.0 * by_a, 0, 3),
+            across(2.0 * by_a, 1, 4),
+            by_twist - slope * by_e,
+            across(2.0 * by_g, 3, 0),
+            across(2.0 * by_g, 4, 1),
+            by_e,
+        )
     }
 
     /// The derivatives of [`loads`](Self::loads), symmetric.
@@ -278,14 +288,27 @@ impl Homogenised {
         self.form.by_strain(strain, &self.sum(strain))
     }
 
+    /// First derivatives by the invariants.
+    fn slopes(&self, strain: &SixVector) -> Invariants {
+        let factors = Factors::at(self.form.invariants(strain));
+        let t = bounded_twist(strain[2]);
+        let mut sum = InvariantSlope::default();
+        for (term, coefficients) in Term::ALL.into_iter().zip(&self.coefficients) {
+            // Beyond its degree there are zeros.
+            let coefficient = polynomial(&coefficients[..=term.degree()], t);
+            sum.add(&term.slope(&factors).times(BY_TWIST, coefficient));
+        }
+        sum.first
+    }
+
     /// Adds up the terms.
     fn sum(&self, strain: &SixVector) -> InvariantJet {
-        let invariants = self.form.invariants(strain);
+        let factors = Factors::at(self.form.invariants(strain));
         let t = bounded_twist(strain[2]);
         let mut sum = InvariantJet::default();
         for (term, coefficients) in Term::ALL.into_iter().zip(&self.coefficients) {
             let coefficient = polynomial(&coefficients[..], t);
-            sum.add(&term.jet(invariants).times(BY_TWIST, coefficient));
+            sum.add(&term.jet(&factors).times(BY_TWIST, coefficient));
         }
         sum
     }

@@ -83,6 +83,13 @@ pub(super) struct InvariantJet {
     pub(super) second: [Invariants; 5],
 }
 
+/// The same with first derivatives alone, which loads need.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct InvariantSlope {
+    value: f64,
+    pub(super) first: Invariants,
+}
+
 const ONE: Jet = [1.0, 0.0, 0.0];
 
 fn linear(x: f64) -> Jet {
@@ -150,6 +157,43 @@ fn compression(x: f64) -> Jet {
     ]
 }
 
+/// What terms are made of, at some strain.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Factors {
+    e: f64,
+    a: f64,
+    g: f64,
+    c: f64,
+    k: f64,
+    /// `E`.
+    stretch: Jet,
+    /// `A`.
+    bend: Jet,
+    /// `r`.
+    root: Jet,
+    /// `G`.
+    shear: Jet,
+    /// What `c` fades with: curvature and shear.
+    fading: [Jet; 2],
+}
+
+impl Factors {
+    pub(super) fn at([e, a, g, c, k]: Invariants) -> Self {
+        Self {
+            e,
+            a,
+            g,
+            c,
+            k,
+            stretch: bounded(e, EXTENSION),
+            bend: bounded_square(a, CURVATURE),
+            root: root(a),
+            shear: bounded_square(g, SHEAR),
+            fading: [fading(a, CURVATURE), fading(g, SHEAR)],
+        }
+    }
+}
+
 impl Term {
     /// All terms, in the order of the coefficients of a law.
     pub const ALL: [Self; 22] = [
@@ -197,13 +241,25 @@ impl Term {
     }
 
     /// The functions whose product it is, but for compression.
-    fn factors(self, [e, a, g, c, k]: Invariants) -> [Jet; 5] {
-        let stretch = bounded(e, EXTENSION);
-        let (bend, r) = (bounded_square(a, CURVATURE), root(a));
-        let shear = bounded_square(g, SHEAR);
+    #[inline]
+    fn factors(self, of: &Factors) -> [Jet; 5] {
+        let &Factors { e, a, g, c, k, .. } = of;
+        let &Factors {
+            stretch,
+            bend,
+            root,
+            shear,
+            ..
+        } = of;
         let coupled = |stretch, bend, shear| {
-            let (a, g) = (fading(a, CURVATURE), fading(g, SHEAR));
-            [stretch, times(bend, a), times(shear, g), linear(c), ONE]
+            let [of_a, of_g] = of.fading;
+            [
+                stretch,
+                times(bend, of_a),
+                times(shear, of_g),
+                linear(c),
+                ONE,
+            ]
         };
         match self {
             Self::AnyStretch => [square(e), ONE, ONE, ONE, ONE],
@@ -215,32 +271,50 @@ impl Term {
             Self::StretchThrice => [times(stretch, times(stretch, stretch)), ONE, ONE, ONE, ONE],
             Self::Compression => [ONE; 5],
             Self::Bend => [ONE, bend, ONE, ONE, ONE],
-            Self::BendRoot => [ONE, r, ONE, ONE, ONE],
-            Self::StretchRoot => [stretch, r, ONE, ONE, ONE],
+            Self::BendRoot => [ONE, root, ONE, ONE, ONE],
+            Self::StretchRoot => [stretch, root, ONE, ONE, ONE],
             Self::StretchBend => [stretch, bend, ONE, ONE, ONE],
             Self::Shear => [ONE, ONE, shear, ONE, ONE],
             Self::StretchShear => [stretch, ONE, shear, ONE, ONE],
             Self::Coupling => coupled(ONE, ONE, ONE),
             Self::StretchCoupling => coupled(stretch, ONE, ONE),
-            Self::RootShear => [ONE, r, shear, ONE, ONE],
-            Self::RootCoupling => coupled(ONE, r, ONE),
+            Self::RootShear => [ONE, root, shear, ONE, ONE],
+            Self::RootCoupling => coupled(ONE, root, ONE),
             Self::ShearCoupling => coupled(ONE, ONE, shear),
             Self::ShearTwice => [ONE, ONE, times(shear, shear), ONE, ONE],
-            Self::StretchRootShear => [stretch, r, shear, ONE, ONE],
-            Self::StretchTwiceRoot => [times(stretch, stretch), r, ONE, ONE, ONE],
+            Self::StretchRootShear => [stretch, root, shear, ONE, ONE],
+            Self::StretchTwiceRoot => [times(stretch, stretch), root, ONE, ONE, ONE],
         }
     }
 
-    /// The term without its polynomial.
-    pub(super) fn jet(self, invariants: Invariants) -> InvariantJet {
+    /// The term without its polynomial, to first order.
+    pub(super) fn slope(self, of: &Factors) -> InvariantSlope {
         if self == Self::Compression {
-            return compressed(invariants);
+            let InvariantJet { value, first, .. } = compressed(of);
+            return InvariantSlope { value, first };
+        }
+        let mut slope = InvariantSlope {
+            value: 1.0,
+            ..InvariantSlope::default()
+        };
+        for (variable, factor) in self.factors(of).into_iter().enumerate() {
+            if factor != ONE {
+                slope = slope.times(variable, factor);
+            }
+        }
+        slope
+    }
+
+    /// The term without its polynomial.
+    pub(super) fn jet(self, of: &Factors) -> InvariantJet {
+        if self == Self::Compression {
+            return compressed(of);
         }
         let mut jet = InvariantJet {
             value: 1.0,
             ..InvariantJet::default()
         };
-        for (variable, factor) in self.factors(invariants).into_iter().enumerate() {
+        for (variable, factor) in self.factors(of).into_iter().enumerate() {
             if factor != ONE {
                 jet = jet.times(variable, factor);
             }
@@ -250,9 +324,9 @@ impl Term {
 }
 
 /// [`Term::Compression`].
-fn compressed([e, a, g, _, k]: Invariants) -> InvariantJet {
+fn compressed(&Factors { e, g, k, root, .. }: &Factors) -> InvariantJet {
     let [of_r, of_g, of_k] = TIGHT;
-    let r = root(a).map(|x| of_r * x);
+    let r = root.map(|x| of_r * x);
     let [value, slope, bend] = compression(e + r[0] + of_g * g + of_k * k * k);
     let by = [1.0, r[1], of_g, 0.0, 2.0 * of_k * k];
     let mut second = by.map(|x| by.map(|y| bend * x * y));
@@ -262,6 +336,23 @@ fn compressed([e, a, g, _, k]: Invariants) -> InvariantJet {
         value,
         first: by.map(|x| slope * x),
         second,
+    }
+}
+
+impl InvariantSlope {
+    /// Times a function of one of the invariants.
+    pub(super) fn times(mut self, variable: usize, [p, slope, _]: Jet) -> Self {
+        self.first = self.first.map(|x| p * x);
+        self.first[variable] += slope * self.value;
+        self.value *= p;
+        self
+    }
+
+    pub(super) fn add(&mut self, other: &Self) {
+        self.value += other.value;
+        for (sum, x) in self.first.iter_mut().zip(other.first) {
+            *sum += x;
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! The hot loops (the drift of frames, the loads between neighbours) do the same arithmetic for
 //! every body. States are structures of arrays so that a loop can take as many
-//! bodies at a time as the processor has lanes: eight with AVX-512, four with AVX2, one where there is nothing better.
+//! bodies at a time as the processor has lanes: four with AVX2, one where there is nothing better.
 //! Which it is, is found out when the program runs; no compiler option is needed.
 //!
 //! # How to read a wide function
