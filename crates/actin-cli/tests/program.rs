@@ -361,7 +361,7 @@ fn check_tells_cost_and_advice() {
     for (force, advice) in [
         (
             "-2.0",
-            "// cheaper: replace all monomers by a rod with law Fitted but for its shear: ",
+            "// cheaper: replace all monomers by a rod with law Fitted: ",
         ),
         ("-50.0", "// cheaper: nothing like this scene was measured"),
     ] {

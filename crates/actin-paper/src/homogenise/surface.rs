@@ -8,8 +8,8 @@ use actin_sim::ellipsoid::{Cell, SixVector};
 use rayon::prelude::*;
 use std::path::Path;
 
-/// Curvature (rad/nm), twist (rad/nm), shear, extension, angle between curvature and shear (deg).
-type Point = [f64; 5];
+/// Curvature (rad/nm), twist (rad/nm), shear, extension.
+type Point = [f64; 4];
 
 /// Where the energy is cut: over the strain of one place up to a value, a line for each value of another.
 struct Cut {
@@ -21,7 +21,7 @@ struct Cut {
     values: [f64; 4],
 }
 
-const CUTS: [Cut; 4] = [
+const CUTS: [Cut; 3] = [
     Cut {
         file: "surface-twist.svg",
         title: "Energy of the twisted and bent filament",
@@ -46,18 +46,8 @@ const CUTS: [Cut; 4] = [
         by: (3, "stretch beyond the free filament"),
         values: [0.0, 5e-4, 1.5e-3, 3e-3],
     },
-    Cut {
-        file: "surface-coupling.svg",
-        title: "Energy of the bent and sheared filament, without twist",
-        over: (4, "angle between curvature and shear (deg)"),
-        range: [0.0, 180.0],
-        by: (0, "curvature (rad/nm)"),
-        values: [0.0, 2.5e-3, 5e-3, 1e-2],
-    },
 ];
 
-/// What is not over or by, in the last cut: shear of 0.01, else nothing.
-const SHEARED: f64 = 0.01;
 /// Points of a line, and cells.
 const POINTS: u32 = 60;
 const CELLS: u32 = 12;
@@ -115,10 +105,7 @@ impl Cut {
         let ([from, to], by, over) = (self.range, self.by.0, self.over.0);
         (0..=count).map(move |n| {
             let x = from + (to - from) * f64::from(n) / f64::from(count);
-            let mut point = [0.0; 5];
-            if over == 4 {
-                point[2] = SHEARED;
-            }
+            let mut point = [0.0; 4];
             point[by] = value;
             point[over] = x;
             (x, point)
@@ -127,7 +114,7 @@ impl Cut {
 }
 
 /// The six strains.
-fn six(law: &Homogenised, [curvature, twist, shear, extension, angle]: Point) -> SixVector {
+fn six(law: &Homogenised, [curvature, twist, shear, extension]: Point) -> SixVector {
     let stretch = law.form().natural_stretch(twist) + extension;
-    strain([curvature, twist, shear, stretch, angle.to_radians()])
+    strain([curvature, twist, shear, stretch, 0.0])
 }
