@@ -148,3 +148,27 @@ fn couples_that_nothing_bears_are_refused() {
     let message = refusal(weight);
     assert!(message.starts_with("loads[0].acceleration_nm_per_ns2 = [0.0, 0.0, -1.0]: no clamp"));
 }
+
+/// A rod on one pin turns under a couple for ever, one on a hinge or on two pins does not.
+#[test]
+fn couples_on_one_pin_are_refused() {
+    let refusal = |clamps: &str| {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+                clamps: [{clamps}],
+                loads: [Couple(end: End, couple_pn_nm: (1.0, 0.0, 0.0))],
+                task: Equilibrium(),
+            )"
+        );
+        Scene::from_ron(&text).map_or_else(|error| error.message, |_| String::new())
+    };
+    assert_ne!(refusal("Clamp(end: Start, hold: Pin)"), "");
+    let hinge = "hinge: (bend_pn_nm_per_rad: 10.0, twist_pn_nm_per_rad: 10.0)";
+    assert_eq!(
+        refusal(&format!("Clamp(end: Start, hold: Pin, {hinge})")),
+        ""
+    );
+    let pins = "Clamp(end: Start, hold: Pin), Clamp(end: End, hold: Pin, slides: AlongAxis)";
+    assert_eq!(refusal(pins), "");
+}

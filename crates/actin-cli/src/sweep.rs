@@ -71,8 +71,13 @@ fn numbers(text: &str) -> Result<Numbers, String> {
                 "{part:?} is neither a number nor a range such as 10-19"
             ));
         };
+        if from > to {
+            return Err(format!("{part:?} runs backwards: write {to}-{from}"));
+        }
         all.extend(from..=to);
     }
+    all.sort_unstable();
+    all.dedup();
     Ok(Numbers(all))
 }
 

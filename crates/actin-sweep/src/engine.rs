@@ -99,12 +99,15 @@ impl SweepDirectory {
         progress: &(dyn Fn(Progress) + Sync),
     ) -> Result<Ended, SweepError> {
         let count = opened.design.len();
+        let mut runs = runs.to_vec();
+        runs.sort_unstable();
+        runs.dedup();
         if let Some(&run) = runs.iter().find(|&&run| run >= count) {
             return Err(SweepError::NoRun { run, runs: count });
         }
         let is_left = |run: &usize| summary(&self.run(*run)).is_none();
         let left: Vec<usize> = runs.iter().copied().filter(is_left).collect();
-        self.remove_checkpoints(runs, &left)?;
+        self.remove_checkpoints(&runs, &left)?;
         let before = runs.len() - left.len();
         let of = runs.len();
         let report = |ended| progress(Progress { ended, before, of });

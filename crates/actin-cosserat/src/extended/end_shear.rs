@@ -12,7 +12,7 @@ pub enum EndShear {
     /// Nothing changes.
     #[default]
     Even,
-    /// A free end, or a neighbour that blocks shear on its own side: as much is added.
+    /// A free or pinned end, or a neighbour that blocks shear on its own side: as much is added.
     Loose,
 }
 

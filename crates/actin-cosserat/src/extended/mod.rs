@@ -2,9 +2,9 @@
 //!
 //! The strain of a segment is its own, the curvature belongs to the nodes: what couples the two
 //! takes the mean curvature of the bending elements around a segment, those of walls and
-//! junctions included. `curvature.rs` finds these, `end_shear.rs` says how much of its strain counts near ends, `law.rs` what couples, `segments.rs`
-//! makes loads and stiffness of it, and `twist_stability.rs` says under which forces twist is
-//! stable.
+//! junctions included. `curvature.rs` finds these, `end_shear.rs` says how much of a strain counts
+//! near ends, `law.rs` what couples, `segments.rs` makes loads and stiffness of it, and
+//! `twist_stability.rs` says under which forces twist is stable.
 
 mod curvature;
 mod end_shear;

@@ -194,6 +194,20 @@ impl Factors {
     }
 }
 
+impl Factors {
+    /// What the coupling is multiplied by, with the coupling.
+    fn coupled(&self, stretch: Jet, bend: Jet, shear: Jet) -> [Jet; 5] {
+        let [of_a, of_g] = self.fading;
+        [
+            stretch,
+            times(bend, of_a),
+            times(shear, of_g),
+            linear(self.c),
+            ONE,
+        ]
+    }
+}
+
 impl Term {
     /// All terms, in the order of the coefficients of a law.
     pub const ALL: [Self; 22] = [
@@ -243,7 +257,7 @@ impl Term {
     /// The functions whose product it is, but for compression.
     #[inline]
     fn factors(self, of: &Factors) -> [Jet; 5] {
-        let &Factors { e, a, g, c, k, .. } = of;
+        let &Factors { e, a, g, k, .. } = of;
         let &Factors {
             stretch,
             bend,
@@ -251,16 +265,7 @@ impl Term {
             shear,
             ..
         } = of;
-        let coupled = |stretch, bend, shear| {
-            let [of_a, of_g] = of.fading;
-            [
-                stretch,
-                times(bend, of_a),
-                times(shear, of_g),
-                linear(c),
-                ONE,
-            ]
-        };
+        let coupled = |stretch, bend, shear| of.coupled(stretch, bend, shear);
         match self {
             Self::AnyStretch => [square(e), ONE, ONE, ONE, ONE],
             Self::AnyBend => [ONE, linear(a), ONE, ONE, ONE],

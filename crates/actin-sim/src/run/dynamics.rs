@@ -107,10 +107,9 @@ pub(crate) fn estimate_at(
     })
 }
 
-/// What is left of the default step under the laws of the rods: `Homogenised` gives way to compression at once
-/// (but for that at 298 K), and
-/// an undamped motion across that gains energy at half the limit of the others (all of it in 200 ns), while at a
-/// quarter a rod of 160 nm gains 0.4 % in 600 ns.
+/// What is left of the default step under the laws of the rods: `Homogenised` without heat gives way to compression at
+/// once, and an undamped motion across that gains energy at half the limit of the others (all of it in 200 ns), while
+/// at a quarter a rod of 160 nm gains 0.4 % in 600 ns. The law at 298 K keeps the whole step.
 fn share_of_laws(assembly: &Assembly) -> f64 {
     let filaments = assembly.scene.filaments().enumerate();
     let mut laws = filaments.filter(|(i, _)| assembly.counts_of(*i).segments > 0);

@@ -1,7 +1,7 @@
 //! Whether a scene's loads are borne, and whether its turns go with how its ends slide.
 
 use super::path::{self, Values};
-use super::{Filament, HeldEnds, Resultant, Scene, SceneProblem, Setting, Slides};
+use super::{Filament, HeldEnds, Hold, Resultant, Scene, SceneProblem, Setting, Slides};
 use actin_mechanics::Vector3;
 use std::collections::BTreeSet;
 
@@ -103,12 +103,16 @@ fn groups(scene: &Scene, joined: &[usize]) -> Vec<Group> {
     for linker in scene.linkers.iter().filter(|linker| linker.to.is_none()) {
         groups[joined[linker.filament]].is_anchored = true;
     }
+    let mut has_bare_pin = vec![false; joined.len()];
     for clamp in &scene.clamps {
         let axis = scene.filament_at(clamp.filament).map(Filament::axis);
         let slides = clamp.slides.directions(axis.unwrap_or_default());
         let group = &mut groups[joined[clamp.filament]];
         group.hold(slides);
-        group.turns = false;
+        // One pin without a hinge lets its filament turn; two let it turn about the line between them alone.
+        let is_bare_pin = clamp.hold == Hold::Pin && clamp.hinge.is_none();
+        group.turns &=
+            is_bare_pin && !std::mem::replace(&mut has_bare_pin[joined[clamp.filament]], true);
     }
     for (i, load) in scene.loads.iter().enumerate() {
         let group = &mut groups[joined[load.filament()]];

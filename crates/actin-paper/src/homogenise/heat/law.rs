@@ -181,7 +181,9 @@ fn residuals(law: &Homogenised, rows: &[HeatRow]) -> String {
     groups.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     groups.dedup();
     for [curvature, shear] in groups {
-        let here = rows.iter().filter(|row| row.group() == [curvature, shear]);
+        let is_here =
+            |row: &&HeatRow| row.group().map(f64::to_bits) == [curvature, shear].map(f64::to_bits);
+        let here = rows.iter().filter(is_here);
         let here: Vec<&HeatRow> = here.collect();
         let _ = writeln!(table, "| {curvature} | {shear} | {}", printed(law, &here));
     }
