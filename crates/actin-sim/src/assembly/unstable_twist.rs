@@ -71,12 +71,13 @@ impl Assembly {
         let watch = rod.twist_watch.as_ref()?;
         let segments = 0..rod.layout.segments();
         let all = segments.map(|k| (k, watch.tangent(rod, k, state)));
-        let (k, _) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let (sigma, kappa) = watch.strains(rod, k, state);
-        let stability = watch.law.twist_stability(&watch.material, sigma, kappa);
-        if stability.is_stable() {
+        let (k, tangent) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        // A potential's critical force is searched for, which takes as long as hundreds of tangents.
+        if tangent > 0.0 {
             return None;
         }
+        let (sigma, kappa) = watch.strains(rod, k, state);
+        let stability = watch.law.twist_stability(&watch.material, sigma, kappa);
         let filament = self.filament_of_section(rod.section);
         let middle = rod.layout.element_positions()[k];
         Some(Weakest {
