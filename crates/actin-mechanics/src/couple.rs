@@ -242,31 +242,26 @@ mod tests {
     fn what_follows_does_work_on_a_closed_path() {
         let work = |kind| {
             let (mut state, couple) = turned(kind, Vector3::zeros());
+            // Work of a small turn (rad, body frame), by the midpoint rule.
+            let turn = |state: &mut State, step: Vector3| {
+                let q = state.frames.orientation.get(0);
+                let middle = q * rotation::exp(step * 0.5);
+                state.frames.orientation.set(0, middle);
+                let work = loads_of(&couple, state).torque.get(0).dot(&step);
+                state.frames.orientation.set(0, q * rotation::exp(step));
+                work
+            };
             let first = state.frames.orientation.get(0);
             let (mut work, n) = (0.0, 2000);
             for axis in [Vector3::x(), Vector3::y(), -Vector3::x(), -Vector3::y()] {
                 for _ in 0..n {
-                    let step = axis / f64::from(n);
-                    let q = state.frames.orientation.get(0);
-                    state
-                        .frames
-                        .orientation
-                        .set(0, q * rotation::exp(step * 0.5));
-                    work += loads_of(&couple, &state).torque.get(0).dot(&step);
-                    state.frames.orientation.set(0, q * rotation::exp(step));
+                    work += turn(&mut state, axis / f64::from(n));
                 }
             }
             // Turns about body axes do not close by themselves: the last one does.
             let back = rotation::log(state.frames.orientation.get(0).inverse() * first);
             for _ in 0..n {
-                let q = state.frames.orientation.get(0);
-                let step = back / f64::from(n);
-                state
-                    .frames
-                    .orientation
-                    .set(0, q * rotation::exp(step * 0.5));
-                work += loads_of(&couple, &state).torque.get(0).dot(&step);
-                state.frames.orientation.set(0, q * rotation::exp(step));
+                work += turn(&mut state, back / f64::from(n));
             }
             work
         };

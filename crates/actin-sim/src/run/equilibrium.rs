@@ -317,7 +317,7 @@ impl<'a> Follower<'a> {
         .map(drop)
     }
 
-    /// Records an equilibrium, unless twist was lost on the way to it: then the path ends there.
+    /// Records an equilibrium, unless twist was lost since the one before: then the path ends there.
     fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) -> ControlFlow<()> {
         if !self.taken.take(record(&self.assembly.system, u, state)) {
             return ControlFlow::Break(());

@@ -82,7 +82,7 @@ impl<'a> Taken<'a> {
         }
     }
 
-    /// Takes a record and returns true, unless twist was lost on the way to it.
+    /// Takes a record and returns true, unless twist was lost since the one before.
     pub(super) fn take(&mut self, record: Record) -> bool {
         let Recorded { links, last, .. } = &mut self.recorded;
         let before = last.as_ref().map(|record| &record.state);

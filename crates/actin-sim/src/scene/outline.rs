@@ -129,7 +129,7 @@ impl Outline {
         })
     }
 
-    /// The node of a path, if it is written; otherwise the last on the way to it, with the number of
+    /// The node of a path, if it is written; otherwise the last written one above it, with the number of
     /// steps that lead there.
     pub(super) fn follow(&self, path: &[Step]) -> (Option<usize>, usize) {
         let mut here = None;
