@@ -195,6 +195,46 @@ fn a_steady_stage_moves_at_constant_velocity() {
     }
 }
 
+/// A hinge knows its angle up to half a turn: a path that turns it further loses a turn, which is said. The
+/// rod takes `k / (k + C / L)` of the turn, here 0.596, and the hinge the rest: 180 deg at 446 deg.
+#[test]
+fn a_hinge_past_half_a_turn_is_a_lost_turn() {
+    let lost = |turn: f64| {
+        let text = format!(
+            "Scene(
+                filament: Filament(
+                    sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: 16)],
+                    rod: RodModel(material: Rigidities(
+                        shear_pn: (1e3, 1e3, 1e4), bend_pn_nm2: ({BEND:?}, {BEND:?}, {TWIST:?}),
+                    )),
+                ),
+                clamps: [
+                    Clamp(end: Start),
+                    Clamp(end: End, hold: Pin,
+                        hinge: (bend_pn_nm_per_rad: 4e3, twist_pn_nm_per_rad: 120.0)),
+                ],
+                loads: [Force(end: End, force_pn: (0.0, 0.0, 40.0))],
+                path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, {turn:?}))])],
+                task: Equilibrium(accept_jumps: true),
+            )"
+        );
+        let text = text.replace("hold: Pin,", "hold: Pin, slides: AlongAxis,");
+        let assembly = build(&text);
+        match Plan::new(&assembly).map(|plan| plan.run()).unwrap() {
+            Ok(_) => 0.0,
+            Err(RunError::Failed(failed)) => match failed.failure {
+                Failure::TwistLost { slip, .. } => slip.lost_turns(),
+                other => panic!("{other}"),
+            },
+            Err(refused) => panic!("{refused}"),
+        }
+    };
+    for (turn, turns) in [(300.0, 0.0), (-430.0, 0.0), (500.0, 1.0), (-600.0, -1.0)] {
+        let found = lost(turn);
+        assert!((found - turns).abs() < 0.5, "{turn}: {found}");
+    }
+}
+
 /// What pins cannot do is refused.
 #[test]
 fn pins_without_a_meaning_are_refused() {

@@ -172,3 +172,78 @@ fn couples_on_one_pin_are_refused() {
     let pins = "Clamp(end: Start, hold: Pin), Clamp(end: End, hold: Pin, slides: AlongAxis)";
     assert_eq!(refusal(pins), "");
 }
+
+/// What acts on held bodies alone moves nothing: the place of a load lies behind a clamp.
+#[test]
+fn loads_on_held_bodies_are_refused() {
+    for load in [
+        "Force(at_nm: 0.0, force_pn: (1.0, 0.0, 0.0))",
+        "ForcePerLength(to_nm: 1.0, force_pn_per_nm: (1.0, 0.0, 0.0))",
+        "Couple(at_nm: 0.0, couple_pn_nm: (0.0, 0.0, 1.0))",
+    ] {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 60.0)]),
+                clamps: [Clamp(end: Start)],
+                loads: [{load}],
+                task: {STATICS},
+            )"
+        );
+        let scene = Scene::from_ron(&text).unwrap();
+        let problem =
+            actin_sim::Assembly::build(&scene).map_or_else(|p| p.to_string(), |_| String::new());
+        assert!(
+            problem.contains("acts on held bodies alone"),
+            "{load}: {problem}"
+        );
+    }
+}
+
+/// Between two bare pins a filament turns about its axis: only couples that balance about it are borne.
+#[test]
+fn a_couple_along_two_pins_is_refused() {
+    let message = |couples: &str| {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+                clamps: [Clamp(end: Start, hold: Pin), Clamp(end: End, hold: Pin)],
+                loads: [{couples}],
+                task: {STATICS},
+            )"
+        );
+        Scene::from_ron(&text).map_or_else(|error| error.message, |_| String::new())
+    };
+    let couple =
+        |at: f64, z: f64| format!("Couple(at_nm: {at:?}, couple_pn_nm: (1.0, 0.0, {z:?})),");
+    let refused = message(&couple(50.0, 1.0));
+    assert!(
+        refused.contains("turn about the line between them"),
+        "{refused}"
+    );
+    assert_eq!(message(&couple(50.0, 0.0)), "");
+    assert_eq!(
+        message(&[couple(20.0, -1.0), couple(50.0, 1.0)].concat()),
+        ""
+    );
+}
+
+/// Nothing is at rest while loads change: what waits for rest is refused if they change to the end.
+#[test]
+fn rest_before_loads_have_settled_is_refused() {
+    let load =
+        |factor: &str| format!("Force(end: End, force_pn: (1.0, 0.0, 0.0), factor: {factor})");
+    for key in [
+        "stop: (force_pn: 1e-4, torque_pn_nm: 1e-4, kinetic_pn_nm: 1e-8)",
+        "leave_saddles: 2",
+    ] {
+        let task = format!("Dynamics(duration_ns: 10.0, {key})");
+        let message = refusal(&load("Sine(period_ns: 1.0)"), &task);
+        assert!(
+            message.contains("under which nothing comes to rest"),
+            "{message}"
+        );
+        let message = refusal(&load("Ramp(begin_ns: 4.0, duration_ns: 6.0)"), &task);
+        assert!(message.contains("changes until 10.0 ns"), "{message}");
+        assert_eq!(refusal(&load("Ramp(duration_ns: 6.0)"), &task), "");
+    }
+}

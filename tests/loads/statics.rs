@@ -42,6 +42,23 @@ fn wall_torque(assembly: &mut Assembly) -> Vector3 {
         .torque_pn_nm
 }
 
+/// A couple that turns its end by two turns and a half is found, with its work counted to the last of them.
+#[test]
+fn a_couple_turns_an_end_more_than_once() {
+    let (size, twist) = (300.0, 3e3);
+    let load = format!("Couple(end: End, couple_pn_nm: (0.0, 0.0, {size:?}))");
+    let (assembly, trajectory) = run(&twisting(16, (SHEAR, twist), &load, TASK));
+    let record = trajectory.records.last().unwrap();
+    let work = assembly.terms.iter().zip(&record.energies_pn_nm);
+    let work: f64 = work
+        .filter(|(term, _)| term.name == "load")
+        .map(|(_, e)| e)
+        .sum();
+    // The last segment's middle, 155 nm from the wall, turns by 15.5 rad.
+    let expected = -size * size * 155.0 / twist;
+    assert!((work / expected - 1.0).abs() < 1e-9, "{work} {expected}");
+}
+
 /// A couple about the axis twists uniformly: `M s / C` at `s`, exactly on any mesh, by a turn and a half
 /// in all; beyond where it acts nothing is twisted.
 #[test]

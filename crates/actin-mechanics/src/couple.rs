@@ -1,6 +1,8 @@
 //! Couples on frames: about an axis of the lab, with a potential, or fixed in the frames, without one.
 //! Forces on points are in `load.rs`.
 
+use std::f64::consts::TAU;
+
 use crate::{
     ControlId, Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness,
     UnitQuaternion, Vector3,
@@ -35,6 +37,9 @@ pub enum CoupleKind {
 pub struct Couple {
     /// Each frame with its share and its orientation where `psi` is zero.
     shares: Vec<(usize, f64, UnitQuaternion)>,
+    /// Frames along which turns are counted, each with its orientation where `psi` is zero and the element
+    /// that acts on it.
+    chain: Vec<(usize, UnitQuaternion, Option<usize>)>,
     /// Couple at control value 1 (lab frame).
     moment: Vector3,
     kind: CoupleKind,
@@ -90,12 +95,42 @@ impl Couple {
             );
             (i, share, state.frames.orientation.get(i))
         };
+        let shares: Vec<_> = shares.iter().map(with_rest).collect();
+        let own = |(element, &(i, _, rest)): (usize, &(usize, f64, UnitQuaternion))| {
+            (i, rest, Some(element))
+        };
         Self {
-            shares: shares.iter().map(with_rest).collect(),
+            chain: shares.iter().enumerate().map(own).collect(),
+            shares,
             moment,
             kind,
             control,
         }
+    }
+
+    /// Counts turns from frame to frame of a chain, so that the potential has no jump where a frame passes
+    /// a full turn: `psi`, known up to two turns, is that next to the `psi` of the frame before. Of the
+    /// first frame, which should be next to one that is held, it lies within one turn of zero.
+    ///
+    /// The frames are in the orientations in which `psi` is zero.
+    ///
+    /// # Panics
+    /// If a frame that the couple acts on is not on the chain.
+    #[must_use]
+    pub fn counted_along(mut self, state: &State, chain: &[usize]) -> Self {
+        let element = |i: usize| self.shares.iter().position(|share| share.0 == i);
+        let link = |&i: &usize| (i, state.frames.orientation.get(i), element(i));
+        let chain: Vec<_> = chain.iter().map(link).collect();
+        let reached = chain.iter().filter(|link| link.2.is_some()).count();
+        assert!(
+            reached == self.shares.len(),
+            "{reached} of {} frames of a couple are on the chain along which turns are counted",
+            self.shares.len()
+        );
+        let last = chain.iter().rposition(|link| link.2.is_some());
+        let counted = last.map_or(0, |last| last + 1);
+        self.chain = chain.into_iter().take(counted).collect();
+        self
     }
 
     /// Its factor.
@@ -144,18 +179,22 @@ impl Interaction for Couple {
         self.shares.len()
     }
 
-    /// `-M psi`, which is known up to two turns: it begins at zero and goes from one full turn to
-    /// minus one where it passes it. A follower has no potential: zero.
+    /// `-M psi`. `psi` is known up to two turns, which are counted along the frames that the couple acts on,
+    /// or along a [chain](Self::counted_along). A follower has no potential: zero.
     fn write_energies(&self, state: &State, energies: &mut [f64]) {
         energies.fill(0.0);
         let Some((size, axis)) = self.axis().filter(|_| self.is_conservative()) else {
             return;
         };
         let factor = state.controls[self.control] * size;
-        for (energy, &(i, share, rest)) in energies.iter_mut().zip(&self.shares) {
+        let mut psi = 0.0;
+        for &(i, rest, element) in &self.chain {
             let turn = state.frames.orientation.get(i) * rest.inverse();
-            let psi = 2.0 * turn.imag().dot(&axis).atan2(turn.w);
-            *energy = -factor * share * psi;
+            let known = 2.0 * turn.imag().dot(&axis).atan2(turn.w);
+            psi = known + 2.0 * TAU * ((psi - known) / (2.0 * TAU)).round();
+            if let Some(element) = element {
+                energies[element] = -factor * self.shares[element].1 * psi;
+            }
         }
     }
 
@@ -234,6 +273,39 @@ mod tests {
         }
         let (state, couple) = turned(CoupleKind::Axial, axis * 6.2);
         assert!((couple.energy(&state) + 6.2 * size).abs() < 1e-12 * size);
+    }
+
+    /// Along a chain from a frame that does not turn, turns are counted beyond two, whatever the swings: the
+    /// work is the couple times the angle.
+    #[test]
+    fn turns_are_counted_along_a_chain() {
+        let mut state = State::default();
+        let control = state.add_control(1.0);
+        let inertia = Inertia::from_moments([1.0, 1.0, 2.0]).unwrap();
+        let orientation = UnitQuaternion::identity();
+        let frames: Vec<usize> = (0..9)
+            .map(|_| {
+                state.frames.push(Frame {
+                    orientation,
+                    inertia,
+                })
+            })
+            .collect();
+        let moment = Vector3::z() * 3.0;
+        let couple = Couple::new(&state, &[(8, 1.0)], moment, CoupleKind::Axial, control);
+        let couple = couple.counted_along(&state, &frames);
+        for turns in [0.3, 0.99, 1.01, 2.7, -3.4] {
+            for &i in &frames {
+                let swing = rotation::exp(Vector3::new(0.2, -0.1, 0.0) * i as f64);
+                let angle = TAU * turns * i as f64 / 8.0;
+                let q = rotation::exp(Vector3::z() * angle) * swing;
+                state.frames.orientation.set(i, q);
+            }
+            // The swing about axes across z adds no twist about it.
+            let work = 3.0 * TAU * turns;
+            let energy = couple.energy(&state);
+            assert!((energy + work).abs() < 1e-12, "{turns}: {energy}");
+        }
     }
 
     /// A closed path of turns about two axes, against which a couple that kept its direction in the lab

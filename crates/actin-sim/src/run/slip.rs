@@ -56,7 +56,7 @@ impl fmt::Display for Slip {
     }
 }
 
-/// Watches the filaments of a run whose ends are held.
+/// Watches the filaments of a run whose ends are held, or hinged: then the spring counts as a joint.
 #[derive(Clone, Debug)]
 pub(super) struct LinkWatch {
     held: Vec<Held>,
@@ -80,7 +80,7 @@ impl LinkWatch {
     pub(super) fn new(assembly: &Assembly, start: &State) -> Self {
         let held = (0..assembly.filaments.len()).filter_map(|filament| {
             let ends = [End::Start, End::End].map(|end| {
-                let clamp = assembly.held.fixed_at(filament, end)?;
+                let clamp = assembly.held.turned_at(filament, end)?;
                 Some(&assembly.clamps[clamp])
             });
             let [Some(one), Some(other)] = ends else {

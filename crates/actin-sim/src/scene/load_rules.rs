@@ -127,16 +127,31 @@ pub(super) fn check_statics(scene: &Scene) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// What `stop` asks of loads: that they come to an end of their changes.
-pub(super) fn check_stop(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProblem> {
-    let is_endless = |load: &Load| load.factor().settles_at().is_infinite();
-    match scene.loads.iter().position(is_endless) {
-        Some(i) if dynamics.stop.is_some() => {
-            let rule = format!(
-                "loads[{i}] has a Sine for a factor, under which nothing comes to rest: leave stop out"
-            );
-            Err(SceneProblem::new("task.stop", "", rule))
-        }
-        _ => Ok(()),
-    }
+/// What `stop` and `leave_saddles` ask of loads: nothing is at rest before they have ended their changes.
+pub(super) fn check_rest(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProblem> {
+    let key = match dynamics {
+        Dynamics { stop: Some(_), .. } => "stop",
+        Dynamics {
+            leave_saddles: 1.., ..
+        } => "leave_saddles",
+        _ => return Ok(()),
+    };
+    let settles = |load: &Load| load.factor().settles_at();
+    let late = |load: &Load| settles(load) >= dynamics.duration_ns;
+    let Some(i) = scene.loads.iter().position(late) else {
+        return Ok(());
+    };
+    let until = settles(&scene.loads[i]);
+    let rule = if until.is_infinite() {
+        format!(
+            "loads[{i}] has a Sine for a factor, under which nothing comes to rest: leave {key} out"
+        )
+    } else {
+        format!(
+            "the factor of loads[{i}] changes until {until:?} ns, and nothing is at rest before: must be \
+             below duration_ns = {:?}, or leave {key} out",
+            dynamics.duration_ns
+        )
+    };
+    Err(SceneProblem::new(format!("task.{key}"), "", rule))
 }

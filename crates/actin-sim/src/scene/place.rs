@@ -127,6 +127,8 @@ pub(crate) struct HeldEnds {
     clamps: Vec<[Option<usize>; 2]>,
     /// Of these, those that hold the orientation of the end.
     fixed: Vec<[Option<usize>; 2]>,
+    /// These, and those with a hinge.
+    turned: Vec<[Option<usize>; 2]>,
 }
 
 impl HeldEnds {
@@ -140,9 +142,12 @@ impl HeldEnds {
             }
         }
         let is_fixed = |clamp: &usize| scene.clamps[*clamp].hold != Hold::Pin;
+        let is_turned = |clamp: &usize| is_fixed(clamp) || scene.clamps[*clamp].hinge.is_some();
         let fixed = held.iter().map(|ends| ends.map(|c| c.filter(is_fixed)));
+        let turned = held.iter().map(|ends| ends.map(|c| c.filter(is_turned)));
         Self {
             fixed: fixed.collect(),
+            turned: turned.collect(),
             clamps: held,
         }
     }
@@ -155,6 +160,11 @@ impl HeldEnds {
     /// The same of a clamp that holds the orientation of the end, which a pin does not.
     pub(crate) fn fixed_at(&self, filament: usize, end: End) -> Option<usize> {
         self.fixed.get(filament)?[end as usize]
+    }
+
+    /// The same of a clamp that holds a frame: at the end, or behind the spring of a hinge.
+    pub(crate) fn turned_at(&self, filament: usize, end: End) -> Option<usize> {
+        self.turned.get(filament)?[end as usize]
     }
 
     /// Whether an end is held.

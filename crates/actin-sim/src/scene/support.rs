@@ -1,7 +1,7 @@
 //! Whether a scene's loads are borne, and whether its turns go with how its ends slide.
 
 use super::path::{self, Values};
-use super::{Filament, HeldEnds, Hold, Resultant, Scene, SceneProblem, Setting, Slides};
+use super::{Clamp, Filament, HeldEnds, Hold, Resultant, Scene, SceneProblem, Setting, Slides};
 use actin_mechanics::Vector3;
 use std::collections::BTreeSet;
 
@@ -70,7 +70,7 @@ pub(super) fn check_support(scene: &Scene) -> Result<(), SceneProblem> {
         .filter(|(f, group)| joined[*f] == *f && !group.is_anchored)
         .try_for_each(|(_, group)| {
             group.check(scene, &factors)?;
-            group.check_couples(scene)
+            group.check_couples(scene, &factors)
         })
 }
 
@@ -81,12 +81,39 @@ struct Group {
     is_anchored: bool,
     /// Directions, orthonormal, along which the clamps let it move.
     free: Vec<Vector3>,
-    /// Whether no clamp holds its orientation.
-    turns: bool,
+    /// How it may turn.
+    turns: Turning,
     /// Its loads by their indices, with their forces at factor 1 (pN).
     loads: Vec<(usize, Vector3)>,
     /// The same of couples (pN nm).
     couples: Vec<(usize, Vector3)>,
+}
+
+/// How the clamps of filaments that linkers join let them turn.
+#[derive(Clone, Copy)]
+enum Turning {
+    /// In any way.
+    Freely,
+    /// In any way, about the pin of a filament.
+    AboutPin(usize),
+    /// About the line between both pins of one filament, its axis as built.
+    AboutLine(Vector3),
+    /// Not at all.
+    Not,
+}
+
+impl Turning {
+    /// How it turns once `clamp` holds it too; `axis` is that of the clamp's filament.
+    fn held_by(self, clamp: &Clamp, axis: Vector3) -> Self {
+        let is_bare_pin = clamp.hold == Hold::Pin && clamp.hinge.is_none();
+        match self {
+            Self::Freely if is_bare_pin => Self::AboutPin(clamp.filament),
+            Self::AboutPin(other) if is_bare_pin && other == clamp.filament => {
+                Self::AboutLine(axis)
+            }
+            _ => Self::Not,
+        }
+    }
 }
 
 /// For each filament that stands for a group what holds and loads that group; what is joined to
@@ -95,7 +122,7 @@ fn groups(scene: &Scene, joined: &[usize]) -> Vec<Group> {
     let unheld = Group {
         is_anchored: false,
         free: Slides::Freely.directions(Vector3::z()),
-        turns: true,
+        turns: Turning::Freely,
         loads: Vec::new(),
         couples: Vec::new(),
     };
@@ -103,16 +130,12 @@ fn groups(scene: &Scene, joined: &[usize]) -> Vec<Group> {
     for linker in scene.linkers.iter().filter(|linker| linker.to.is_none()) {
         groups[joined[linker.filament]].is_anchored = true;
     }
-    let mut has_bare_pin = vec![false; joined.len()];
     for clamp in &scene.clamps {
         let axis = scene.filament_at(clamp.filament).map(Filament::axis);
-        let slides = clamp.slides.directions(axis.unwrap_or_default());
+        let axis = axis.unwrap_or_default();
         let group = &mut groups[joined[clamp.filament]];
-        group.hold(slides);
-        // One pin without a hinge lets its filament turn; two let it turn about the line between them alone.
-        let is_bare_pin = clamp.hold == Hold::Pin && clamp.hinge.is_none();
-        group.turns &=
-            is_bare_pin && !std::mem::replace(&mut has_bare_pin[joined[clamp.filament]], true);
+        group.hold(clamp.slides.directions(axis));
+        group.turns = group.turns.held_by(clamp, axis);
     }
     for (i, load) in scene.loads.iter().enumerate() {
         let group = &mut groups[joined[load.filament()]];
@@ -149,17 +172,40 @@ impl Group {
     }
 
     /// Couples about axes of the lab on what nothing keeps from turning: one spins it, and several that
-    /// balance leave it no minimum, since it gains by bending wherever it turns to.
-    fn check_couples(&self, scene: &Scene) -> Result<(), SceneProblem> {
+    /// balance leave it no minimum, since it gains by bending wherever it turns to. What turns about the
+    /// line between two pins alone takes couples that balance about it.
+    fn check_couples(&self, scene: &Scene, factors: &Factors) -> Result<(), SceneProblem> {
         let mut acting = self.couples.iter().filter(|(_, m)| m.norm() > 0.0);
-        match acting.next() {
-            Some(&(i, _)) if self.turns => {
-                let rule = "no clamp holds the orientation of this filament: under couples it has no \
-                            stable equilibrium";
-                Err(scene.loads[i].problem(i, rule.to_owned()))
+        let Some(&(first, _)) = acting.next() else {
+            return Ok(());
+        };
+        let rule = match self.turns {
+            Turning::Not => return Ok(()),
+            Turning::AboutLine(axis) => {
+                if ends(&self.couples, factors).all(|stages| self.balances(axis, factors, stages)) {
+                    return Ok(());
+                }
+                "both ends are pinned and turn about the line between them: nothing resists this couple \
+                 about it; a hinge or another hold would"
             }
-            _ => Ok(()),
-        }
+            Turning::Freely | Turning::AboutPin(_) => {
+                "no clamp holds the orientation of this filament: under couples it has no stable \
+                 equilibrium"
+            }
+        };
+        Err(scene.loads[first].problem(first, rule.to_owned()))
+    }
+
+    /// Whether its couples have no sum about an axis after so many stages.
+    fn balances(&self, axis: Vector3, factors: &Factors, stages: usize) -> bool {
+        let parts = self
+            .couples
+            .iter()
+            .map(|&(i, couple)| (couple * factor(factors, i, stages), couple));
+        let (sum, all) = parts.fold((0.0, 0.0), |(sum, all), (now, full)| {
+            (sum + now.dot(&axis), all + full.norm())
+        });
+        sum.abs() <= WRITTEN * all
     }
 
     /// Whether the forces balance along the free directions after so many stages.

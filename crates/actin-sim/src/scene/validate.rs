@@ -80,7 +80,7 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
             stage::check_durations(scene, dynamics.duration_ns)?;
             check_swings(scene, held)?;
             saddles::check(scene, dynamics)?;
-            load_rules::check_stop(scene, dynamics)?;
+            load_rules::check_rest(scene, dynamics)?;
             let stop = dynamics.stop.as_ref();
             stop.map_or(Ok(()), |s| {
                 check_tolerance(scene, "task.stop", (s.force_pn, s.torque_pn_nm))

@@ -44,12 +44,13 @@ pub(crate) fn link_at(assembly: &Assembly, filament: usize, parameter: f64) -> O
 /// the link where the ends are parallel; elsewhere the angle that is left when the end's axis
 /// is carried back to that of the start by the smallest rotation, counted on from zero.
 ///
-/// None where an end is free, or tilted against the other by a right angle or more.
+/// Of a hinged end the held frame behind its spring counts. None where an end is free, or tilted against
+/// the other by a right angle or more.
 pub(crate) fn turn_of_ends(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
     let parameter = path_parameter(assembly, at);
     let axis = assembly.filaments[filament].axis();
     let turned = [End::Start, End::End].map(|end| {
-        let clamp = assembly.held.fixed_at(filament, end)?;
+        let clamp = assembly.held.turned_at(filament, end)?;
         Some(assembly.drive.turn(clamp, parameter))
     });
     let [Some(start), Some(end)] = turned else {
@@ -78,7 +79,7 @@ pub(crate) fn link_is_unknown(
 ) -> bool {
     if [End::Start, End::End]
         .iter()
-        .any(|end| assembly.held.fixed_at(filament, *end).is_none())
+        .any(|end| assembly.held.turned_at(filament, *end).is_none())
     {
         return false;
     }

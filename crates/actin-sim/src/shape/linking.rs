@@ -28,15 +28,14 @@ impl Ribbon {
     /// where an end has passed the other, so that the straight lines beyond them overlap, and where the
     /// writhe is not computed.
     pub(crate) fn linking(&self) -> Option<f64> {
-        let [Some(_), Some(_)] = self.ends else {
-            return None;
-        };
-        let (frames, tangents) = self.edges();
+        let (frames, tangents) = self.held_edges()?;
         let twist = angles(&frames, &tangents).iter().sum::<f64>() / (2.0 * PI);
         let (first, last) = (tangents[0], tangents[tangents.len() - 1]);
         let backward = || {
             let is_closed = 1.0 - first.dot(&last) <= PARALLEL && !self.extensions_overlap(first);
-            is_closed.then(|| self.writhe()).flatten()
+            is_closed
+                .then(|| self.writhe_between([first, last]))
+                .flatten()
         };
         let writhe = forward_writhe(&tangents).or_else(backward)?;
         Some(twist + writhe)

@@ -2,6 +2,7 @@
 
 use super::{extended_writhe, twist};
 use crate::{Assembly, End};
+use actin_cosserat::RodEnd;
 use actin_mechanics::{State, UnitQuaternion, Vector3};
 
 /// More vertices than this are not asked for their writhe, which costs their number squared: 5e7
@@ -55,6 +56,9 @@ pub struct Ribbon {
     /// The outermost held frames at start and end, in the same axes, each with its arc length at
     /// rest (nm); none at a free end.
     pub ends: [Option<(f64, UnitQuaternion)>; 2],
+    /// Of each hinged end the held frame behind the spring and the cross-section before it, in the same
+    /// axes.
+    hinges: [Option<[UnitQuaternion; 2]>; 2],
     /// Distance of each vertex from the axis of the filament as built (nm).
     distance_nm: Vec<f64>,
 }
@@ -77,6 +81,7 @@ impl Ribbon {
             frame_s_nm: Vec::new(),
             frames: Vec::new(),
             ends: [End::Start, End::End].map(|end| held_frame(assembly, filament, state, end)),
+            hinges: [End::Start, End::End].map(|end| hinge_frames(assembly, filament, state, end)),
             distance_nm: Vec::new(),
         };
         let sections = assembly.sections_of(filament);
@@ -153,12 +158,35 @@ impl Ribbon {
         std::iter::once(first).chain(inside).chain([last]).unzip()
     }
 
+    /// The same, with the joints of hinges: beyond a hinged end its cross-section, about the last edge, and
+    /// the held frame behind the spring. None where an end is free.
+    pub(super) fn held_edges(&self) -> Option<(Vec<UnitQuaternion>, Vec<Vector3>)> {
+        let (mut frames, mut tangents) = self.edges();
+        for k in [0, 1] {
+            if self.ends[k].is_some() {
+                continue;
+            }
+            let [held, cross_section] = self.hinges[k]?;
+            // In the place of the straight edge of a free end, and beyond it.
+            let at = k * (frames.len() - 1);
+            frames[at] = cross_section;
+            frames.insert(k * frames.len(), held);
+            tangents.insert(k * tangents.len(), held * Vector3::z());
+        }
+        Some((frames, tangents))
+    }
+
     /// Writhe of the filament, which goes on straight beyond both ends: see [`extended_writhe`].
     /// None of more than ten thousand vertices.
     pub fn writhe(&self) -> Option<f64> {
         let [(_, first), (_, last)] = self.extensions(&self.tangents());
+        self.writhe_between([first, last])
+    }
+
+    /// The same, going on along these unit vectors.
+    pub(super) fn writhe_between(&self, beyond: [Vector3; 2]) -> Option<f64> {
         let few = self.points_nm.len() <= MOST_FOR_WRITHE;
-        few.then(|| extended_writhe(&self.points_nm, [first, last]))
+        few.then(|| extended_writhe(&self.points_nm, beyond))
     }
 
     /// Largest distance of the centre line from the axis of the filament as built (nm).
@@ -193,6 +221,29 @@ fn from_rest(assembly: &Assembly, state: &State, i: usize) -> UnitQuaternion {
     let turned =
         state.frames.orientation.get(i) * assembly.rest.frames.orientation.get(i).inverse();
     turned * assembly.filaments[assembly.filament_of_frame(i)].rotation
+}
+
+/// The held frame behind the spring of a hinged end, and the cross-section before it.
+fn hinge_frames(
+    assembly: &Assembly,
+    filament: usize,
+    state: &State,
+    end: End,
+) -> Option<[UnitQuaternion; 2]> {
+    let held = &assembly.held;
+    let clamp = held.turned_at(filament, end)?;
+    if held.fixed_at(filament, end) == Some(clamp) {
+        return None;
+    }
+    let sections = &assembly.filaments[filament].sections;
+    let (section, rod_end) = match end {
+        End::Start => (sections.start, RodEnd::Start),
+        End::End => (sections.end - 1, RodEnd::End),
+    };
+    let rod = assembly.rods.iter().find(|rod| rod.section == section)?;
+    let wall = rod.layout.wall(rod_end)?;
+    let behind = *assembly.clamps[clamp].frames.first()?;
+    Some([behind, wall].map(|frame| from_rest(assembly, state, frame)))
 }
 
 /// The outermost frame that a clamp holds.

@@ -8,7 +8,7 @@ use actin_cosserat::RodLayout;
 use actin_coupling::{ForceKind, LinkerError, RodPlace, Site, SiteForce};
 use actin_ellipsoid::Monomers;
 use actin_mechanics::{
-    ControlId, Couple as FrameCouple, CoupleKind, Interaction, PointLoad, Vector3,
+    ControlId, Couple as FrameCouple, CoupleKind, Interaction, Loads, PointLoad, Residual, Vector3,
 };
 
 /// Frames, each with its share of a couple.
@@ -24,10 +24,25 @@ impl Builder<'_> {
                 SceneProblem::new(format!("loads[{i}]"), "", error.to_string())
             };
             let interaction = self.load(load, control, &mut nodes).map_err(refused)?;
+            let acts = load.end().is_some() || load.written().1.iter().all(|x| *x == 0.0);
+            if !acts && !self.moves(&*interaction, control) {
+                let rule = "acts on held bodies alone, which it does not move";
+                return Err(load.problem(i, rule.to_owned()));
+            }
             self.loads.push(control);
             self.stock.push_term(interaction, Part::Load(i));
         }
         Ok(())
+    }
+
+    /// Whether a load acts on bodies that may move.
+    fn moves(&self, load: &dyn Interaction, control: ControlId) -> bool {
+        let mut state = self.stock.state.clone();
+        state.controls[control] = 1.0;
+        let mut loads = Loads::zeros(&state);
+        load.add_loads(&state, &mut loads);
+        let Residual { force, torque } = loads.residual(&state);
+        force.max(torque) > 0.0
     }
 
     /// The interaction that a load is; `control` is its factor.
@@ -66,7 +81,8 @@ impl Builder<'_> {
                     CoupleKind::Axial
                 };
                 let shares = self.couple_shares(load);
-                Box::new(FrameCouple::new(state, &shares, size, kind, control))
+                let couple = FrameCouple::new(state, &shares, size, kind, control);
+                Box::new(couple.counted_along(state, &self.chain(load.filament())))
             }
         })
     }
@@ -218,19 +234,31 @@ impl Builder<'_> {
         }
     }
 
+    /// The frames along which turns are counted: all from the start, or from the end if only that is held.
+    fn chain(&self, filament: usize) -> Vec<usize> {
+        let mut chain: Vec<usize> = self.frames_between_ends(filament).collect();
+        let is_held = |end| self.held.fixed_at(filament, end).is_some();
+        if is_held(End::End) && !is_held(End::Start) {
+            chain.reverse();
+        }
+        chain
+    }
+
+    /// The frames of a filament without those of junctions and behind hinges, by arc length.
+    fn frames_between_ends(&self, filament: usize) -> impl Iterator<Item = usize> {
+        let behind_hinges = self.strands[filament].hinge_frames;
+        let frames = self.filaments[filament].frames.clone();
+        frames.filter(move |f| {
+            let kind = self.stock.frames[*f].kind;
+            kind != BodyKind::Junction && !behind_hinges.contains(&Some(*f))
+        })
+    }
+
     /// The two frames whose middles are next to an arc length, by how near they are: between them the
     /// couple inside the filament changes by as much as acts before that place.
     fn frames_about(&self, filament: usize, s_nm: f64) -> Shares {
-        let frames = self.filaments[filament].frames.clone();
-        let behind_hinges = self.strands[filament].hinge_frames;
-        let is_of_filament = |f: &usize| {
-            let kind = self.stock.frames[*f].kind;
-            kind != BodyKind::Junction && !behind_hinges.contains(&Some(*f))
-        };
-        let all: Vec<(usize, f64)> = frames
-            .filter(is_of_filament)
-            .map(|f| (f, self.stock.frames[f].s_nm))
-            .collect();
+        let frames = self.frames_between_ends(filament);
+        let all: Vec<(usize, f64)> = frames.map(|f| (f, self.stock.frames[f].s_nm)).collect();
         let above = all.partition_point(|(_, s)| *s <= s_nm);
         if above == 0 || above == all.len() {
             return vec![(all[above.saturating_sub(1)].0, 1.0)];
