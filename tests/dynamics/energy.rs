@@ -137,7 +137,7 @@ fn slow_motion_keeps_its_energy() {
         (ROD, 30.0),
         (ELLIPSOIDS, 1e-6),
         (MIXED, 1e-5),
-        (ROD_AT_BOTH_ENDS, 1e-4),
+        (ROD_AT_BOTH_ENDS, 1e-5),
     ] {
         let wander = slow(filament, level, 0.5, STEPS).wander();
         assert!(wander < 1e-8, "{}: {wander:e}", filament.0);
