@@ -85,21 +85,77 @@ impl StraightRod {
     /// # Errors
     /// No segment, or one whose length is not positive and finite; the state is then unchanged.
     pub fn push(&self, state: &mut State) -> Result<RodLayout, RodError> {
+        let layouts = self.push_in_parts(&[self.segment_lengths.len()], state)?;
+        layouts.into_iter().next().ok_or(RodError::NoSegments)
+    }
+
+    /// Appends a rod whose parts, of so many segments each, may have different materials; each is a rod of
+    /// its own to whatever acts on it.
+    ///
+    /// Neighbouring parts share a node and a free frame, the cross-section there, which stands as the wall
+    /// frame of both: half a segment of one and half a segment of the other bend in series, each by
+    /// the law of its own part. The frame has a quarter of the inertia of the segment on either side, which
+    /// lacks it.
+    ///
+    /// # Errors
+    /// A part without segments, numbers that do not add up to all segments, a length that is not positive
+    /// and finite; the state is then unchanged.
+    pub fn push_in_parts(
+        &self,
+        parts: &[usize],
+        state: &mut State,
+    ) -> Result<Vec<RodLayout>, RodError> {
         let lengths = &self.segment_lengths;
         check_lengths(lengths)?;
+        if parts.contains(&0) || parts.iter().sum::<usize>() != lengths.len() {
+            return Err(RodError::NoSegments);
+        }
         let first_point = state.points.len();
         self.push_nodes(state);
         if self.walls.start {
             self.push_wall(lengths[0], state);
         }
-        let first_frame = state.frames.len();
-        for &length in lengths {
-            state.frames.push(self.frame(length));
+        let mut layouts = Vec::with_capacity(parts.len());
+        let mut done = 0;
+        for (i, &count) in parts.iter().enumerate() {
+            let is_joined = [i > 0, i + 1 < parts.len()];
+            let own = &lengths[done..done + count];
+            let first_frame = state.frames.len();
+            self.push_segments(own, is_joined, state);
+            done += count;
+            if is_joined[1] {
+                let around = 0.25 * (lengths[done - 1] + lengths[done]);
+                state.frames.push(self.frame(around));
+            } else if self.walls.end {
+                self.push_wall(own[count - 1], state);
+            }
+            let walls = Walls {
+                start: is_joined[0] || self.walls.start,
+                end: is_joined[1] || self.walls.end,
+            };
+            let first_point = first_point + done - count;
+            layouts.push(RodLayout::new(
+                first_point,
+                first_frame,
+                own.to_vec(),
+                walls,
+            )?);
         }
-        if self.walls.end {
-            self.push_wall(lengths[lengths.len() - 1], state);
+        Ok(layouts)
+    }
+
+    /// Pushes the frames of a part's segments; a segment beside another part lacks a quarter of its inertia.
+    fn push_segments(&self, lengths: &[f64], is_joined: [bool; 2], state: &mut State) {
+        for (k, &length) in lengths.iter().enumerate() {
+            let is_beside = [k == 0, k + 1 == lengths.len()];
+            let sides = is_beside.iter().zip(is_joined);
+            let lacking = sides.filter(|(beside, joined)| **beside && *joined).count();
+            let own = match lacking {
+                0 => length,
+                sides => length * (1.0 - 0.25 * sides as f64),
+            };
+            state.frames.push(self.frame(own));
         }
-        RodLayout::new(first_point, first_frame, lengths.clone(), self.walls)
     }
 
     fn push_nodes(&self, state: &mut State) {
@@ -159,6 +215,40 @@ mod tests {
         assert!(held.eq([2, 5]));
         let tip = state.points.position.get(layout.end_point(RodEnd::End));
         assert_eq!(tip, Vector3::new(1.0, 2.0, 7.0));
+    }
+
+    /// Parts share a node and a frame; no mass and no inertia is lost or won.
+    #[test]
+    fn parts_share_a_node_and_a_cross_section() {
+        let rod = StraightRod {
+            segment_lengths: vec![1.0, 2.0, 4.0, 3.0],
+            walls: Walls {
+                start: true,
+                end: false,
+            },
+            ..StraightRod::uniform(0, 0.0)
+        };
+        let (mut whole, mut divided) = (State::default(), State::default());
+        rod.push(&mut whole).unwrap();
+        let parts = rod.push_in_parts(&[1, 3], &mut divided).unwrap();
+        assert_eq!(divided.points, whole.points);
+        assert_eq!((parts[0].points(), parts[1].points()), (0..2, 1..5));
+        assert_eq!((parts[0].frames(), parts[1].frames()), (1..2, 3..6));
+        let shared = parts[0].wall(RodEnd::End);
+        assert_eq!((shared, parts[1].wall(RodEnd::Start)), (Some(2), Some(2)));
+        assert!(divided.frames.is_free(2));
+        let inertia = |state: &State| -> f64 {
+            let free = (0..state.frames.len()).filter(|&i| state.frames.is_free(i));
+            free.map(|i| 1.0 / state.frames.inverse_moments(i).x).sum()
+        };
+        let (a, b) = (inertia(&whole), inertia(&divided));
+        assert!((a / b - 1.0).abs() < 1e-14, "{a} {b}");
+        let lengths: f64 = parts.iter().flat_map(RodLayout::voronoi_lengths).sum();
+        // But for the free end, all of the rod bends.
+        assert!((lengths - 8.5).abs() < 1e-14);
+        for wrong in [&[4, 0][..], &[1, 2], &[]] {
+            assert!(rod.push_in_parts(wrong, &mut State::default()).is_err());
+        }
     }
 
     /// All mass is there, half a segment's at either end.

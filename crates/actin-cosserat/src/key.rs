@@ -63,6 +63,10 @@ pub enum RodKey {
     Coefficient,
     /// Cubic shear rigidity.
     CubicShear,
+    /// A factor of rigidities.
+    Factor,
+    /// Curvature at rest.
+    RestCurvature,
     /// Mass per length.
     LinearDensity,
     /// Area of the cross-section.
@@ -101,6 +105,8 @@ impl fmt::Display for RodKey {
             Self::Cubic => "cubic",
             Self::Coefficient => "p",
             Self::CubicShear => "cubic_shear",
+            Self::Factor => "factor",
+            Self::RestCurvature => "rest_curvature",
             Self::LinearDensity => "linear_density",
             Self::Area => "area",
         })

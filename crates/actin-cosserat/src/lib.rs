@@ -58,7 +58,7 @@ pub use law::{
 pub use layout::{RodEnd, RodLayout};
 pub use material::RodMaterial;
 pub use paper_balance::PaperBalance;
-pub use rigidities::Rigidities;
+pub use rigidities::{Rigidities, RigidityFactors};
 pub use shear::{ShearElement, ShearLoads, ShearStiffness};
 pub use strain_laws::StrainLaws;
 

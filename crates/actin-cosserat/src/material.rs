@@ -6,14 +6,19 @@
 
 use crate::homogenised::STRAIGHT;
 use crate::{
-    BendLaw, CubicShear, Homogenised, Rigidities, RodKey, RodParameterError, StrainLaws,
-    StretchLaw, TwistLaw,
+    BendLaw, CubicShear, Homogenised, Rigidities, RigidityFactors, RodKey, RodParameterError,
+    StrainLaws, StretchLaw, TwistLaw,
 };
 use actin_mechanics::{Matrix3, Vector3};
 
 /// The material of a rod: how it resists shear, stretch, bending and twist, validated.
+///
+/// Its laws see a curvature less that at rest ([`with_rest_curvature`](Self::with_rest_curvature)).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RodMaterial(Kind);
+pub struct RodMaterial {
+    kind: Kind,
+    rest_curvature: Vector3,
+}
 
 /// What a material is made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +36,61 @@ impl RodMaterial {
     /// A rigidity that is not positive and finite.
     pub fn new(rigidities: Rigidities) -> Result<Self, RodParameterError> {
         rigidities.validate()?;
-        Ok(Self(Kind::Laws(StrainLaws::constant(rigidities))))
+        Ok(Self::straight(Kind::Laws(StrainLaws::constant(rigidities))))
+    }
+
+    /// The material that is straight at rest.
+    fn straight(kind: Kind) -> Self {
+        Self {
+            kind,
+            rest_curvature: Vector3::zeros(),
+        }
+    }
+
+    /// The same at rest where a rod has the curvature `kappa` (rad/nm, body axes: two of bending, one of
+    /// twist) everywhere: an arc, or with twist a helix.
+    ///
+    /// ```
+    /// use actin_cosserat::{Rigidities, RodMaterial};
+    /// use actin_mechanics::Vector3;
+    /// let arc = Vector3::x() / 100.0;
+    /// let material = RodMaterial::new(Rigidities::table4())?.with_rest_curvature(arc)?;
+    /// assert_eq!(material.bending_couple(arc), Vector3::zeros());
+    /// // Held straight it bears B1 / 100 nm.
+    /// assert_eq!(material.bending_couple(Vector3::zeros()).x, -390.0);
+    /// # Ok::<(), actin_cosserat::RodParameterError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A component that is not finite.
+    pub fn with_rest_curvature(self, kappa: Vector3) -> Result<Self, RodParameterError> {
+        for value in &kappa {
+            RodParameterError::unless_finite(RodKey::RestCurvature, *value)?;
+        }
+        Ok(Self {
+            rest_curvature: kappa,
+            ..self
+        })
+    }
+
+    /// Curvature at rest (rad/nm, body axes).
+    #[inline]
+    pub fn rest_curvature(&self) -> Vector3 {
+        self.rest_curvature
+    }
+
+    /// Every law of a strain with its rigidities multiplied.
+    ///
+    /// # Errors
+    /// A factor that is not positive and finite; a potential, which has no rigidities of its own, unless all
+    /// factors are 1.
+    pub fn softened(self, factors: &RigidityFactors) -> Result<Self, RodParameterError> {
+        if *factors == RigidityFactors::default() {
+            return Ok(self);
+        }
+        factors.validate()?;
+        let laws = self.replaceable(RodKey::Factor)?;
+        Ok(self.with_laws(laws.times(factors)))
     }
 
     /// The material of one potential for all strains, of which there are few in a program:
@@ -41,7 +100,7 @@ impl RodMaterial {
     /// curvature around it. Functions of one strain alone take the others as zero, and the length as
     /// natural.
     pub fn homogenised(law: &'static Homogenised) -> Self {
-        Self(Kind::Potential(law))
+        Self::straight(Kind::Potential(law))
     }
 
     /// The same with another law of twist.
@@ -62,7 +121,7 @@ impl RodMaterial {
     pub fn with_twist(self, twist: TwistLaw) -> Result<Self, RodParameterError> {
         twist.validate()?;
         let laws = self.replaceable(RodKey::Twist)?;
-        Ok(Self(Kind::Laws(StrainLaws { twist, ..laws })))
+        Ok(self.with_laws(StrainLaws { twist, ..laws }))
     }
 
     /// The same with another law of bending.
@@ -72,7 +131,7 @@ impl RodMaterial {
     pub fn with_bend(self, bend: BendLaw) -> Result<Self, RodParameterError> {
         bend.validate()?;
         let laws = self.replaceable(RodKey::Bend)?;
-        Ok(Self(Kind::Laws(StrainLaws { bend, ..laws })))
+        Ok(self.with_laws(StrainLaws { bend, ..laws }))
     }
 
     /// The same with another law of stretch.
@@ -82,7 +141,7 @@ impl RodMaterial {
     pub fn with_stretch(self, stretch: StretchLaw) -> Result<Self, RodParameterError> {
         stretch.validate()?;
         let laws = self.replaceable(RodKey::Tension)?;
-        Ok(Self(Kind::Laws(StrainLaws { stretch, ..laws })))
+        Ok(self.with_laws(StrainLaws { stretch, ..laws }))
     }
 
     /// The same with another law of shear.
@@ -92,12 +151,19 @@ impl RodMaterial {
     pub fn with_shear(self, shear: CubicShear) -> Result<Self, RodParameterError> {
         shear.validate()?;
         let laws = self.replaceable(RodKey::Shear)?;
-        Ok(Self(Kind::Laws(StrainLaws { shear, ..laws })))
+        Ok(self.with_laws(StrainLaws { shear, ..laws }))
+    }
+
+    fn with_laws(self, laws: StrainLaws) -> Self {
+        Self {
+            kind: Kind::Laws(laws),
+            ..self
+        }
     }
 
     /// The laws, of which one is to be replaced.
     fn replaceable(self, key: RodKey) -> Result<StrainLaws, RodParameterError> {
-        match self.0 {
+        match self.kind {
             Kind::Laws(laws) => Ok(laws),
             Kind::Potential(_) => Err(RodParameterError {
                 key,
@@ -110,12 +176,12 @@ impl RodMaterial {
     /// What it is made of.
     #[inline]
     pub(crate) fn kind(&self) -> &Kind {
-        &self.0
+        &self.kind
     }
 
     /// A law for each strain; none where all have one potential.
     pub fn laws(&self) -> Option<&StrainLaws> {
-        match &self.0 {
+        match &self.kind {
             Kind::Laws(laws) => Some(laws),
             Kind::Potential(_) => None,
         }
@@ -123,7 +189,7 @@ impl RodMaterial {
 
     /// The potential of all strains, if there is one.
     pub fn potential(&self) -> Option<&'static Homogenised> {
-        match self.0 {
+        match self.kind {
             Kind::Laws(_) => None,
             Kind::Potential(law) => Some(law),
         }
@@ -132,7 +198,7 @@ impl RodMaterial {
     /// Force in body axes (pN) at shear strain `sigma`.
     #[inline]
     pub fn shear_force(&self, sigma: Vector3) -> Vector3 {
-        match &self.0 {
+        match &self.kind {
             Kind::Laws(laws) => laws.shear_force_beyond(sigma, 0.0),
             Kind::Potential(law) => law.segment_loads(sigma, STRAIGHT).0,
         }
@@ -142,7 +208,7 @@ impl RodMaterial {
     /// [`shear_force`](Self::shear_force) is the gradient.
     #[inline]
     pub fn shear_energy_density(&self, sigma: Vector3) -> f64 {
-        match &self.0 {
+        match &self.kind {
             Kind::Laws(laws) => laws.shear_energy_beyond(sigma, 0.0),
             Kind::Potential(law) => law.segment_energy(sigma, STRAIGHT),
         }
@@ -152,7 +218,7 @@ impl RodMaterial {
     /// with respect to `sigma`, symmetric.
     #[inline]
     pub fn shear_tangent(&self, sigma: Vector3) -> Matrix3 {
-        match &self.0 {
+        match &self.kind {
             Kind::Laws(laws) => laws.shear_tangent_beyond(sigma, 0.0),
             Kind::Potential(law) => law.segment_jet(sigma, STRAIGHT).by_strain,
         }
@@ -161,7 +227,8 @@ impl RodMaterial {
     /// Couple in body axes (pN nm) at curvature `kappa` (rad/nm).
     #[inline]
     pub fn bending_couple(&self, kappa: Vector3) -> Vector3 {
-        match &self.0 {
+        let kappa = kappa - self.rest_curvature;
+        match &self.kind {
             Kind::Laws(laws) => laws.bending_couple(kappa),
             Kind::Potential(law) => law.joint_couple(kappa),
         }
@@ -171,7 +238,8 @@ impl RodMaterial {
     /// [`bending_couple`](Self::bending_couple) with respect to `kappa`, symmetric.
     #[inline]
     pub fn bending_tangent(&self, kappa: Vector3) -> Matrix3 {
-        match &self.0 {
+        let kappa = kappa - self.rest_curvature;
+        match &self.kind {
             Kind::Laws(laws) => laws.bending_tangent(kappa),
             Kind::Potential(law) => law.joint_tangent(kappa),
         }
@@ -181,7 +249,8 @@ impl RodMaterial {
     /// [`bending_couple`](Self::bending_couple) is the gradient.
     #[inline]
     pub fn bending_energy_density(&self, kappa: Vector3) -> f64 {
-        match &self.0 {
+        let kappa = kappa - self.rest_curvature;
+        match &self.kind {
             Kind::Laws(laws) => laws.bending_energy_density(kappa),
             Kind::Potential(law) => law.joint_energy(kappa),
         }

@@ -67,7 +67,10 @@ impl PaperBalance {
         let l = state.points.position.get(i + 1) - state.points.position.get(i);
         match &self.extension {
             None => l,
-            Some((law, curvature)) => l / (1.0 + law.extension(curvature.mean(k, state).z)),
+            Some((law, curvature)) => {
+                let twist = curvature.mean(k, state).z - self.material.rest_curvature().z;
+                l / (1.0 + law.extension(twist))
+            }
         }
     }
 

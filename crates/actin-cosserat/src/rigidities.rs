@@ -87,6 +87,43 @@ impl Rigidities {
     }
 }
 
+/// By what the rigidities of a rod are multiplied, as where another protein decorates it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct RigidityFactors {
+    /// Of shear.
+    pub shear: f64,
+    /// Of stretch.
+    pub stretch: f64,
+    /// Of bending.
+    pub bend: f64,
+    /// Of twist.
+    pub twist: f64,
+}
+
+impl Default for RigidityFactors {
+    fn default() -> Self {
+        Self {
+            shear: 1.0,
+            stretch: 1.0,
+            bend: 1.0,
+            twist: 1.0,
+        }
+    }
+}
+
+impl RigidityFactors {
+    /// Checks every factor.
+    ///
+    /// # Errors
+    /// The first that is not positive and finite.
+    pub fn validate(&self) -> Result<(), RodParameterError> {
+        let all = [self.shear, self.stretch, self.bend, self.twist];
+        all.into_iter()
+            .try_for_each(|value| RodParameterError::unless_positive(RodKey::Factor, value))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

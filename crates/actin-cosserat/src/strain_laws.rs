@@ -1,6 +1,6 @@
 //! A law for each strain: those of shear, stretch, bending and twist side by side.
 
-use crate::{BendLaw, CubicShear, Rigidities, StretchLaw, TwistLaw};
+use crate::{BendLaw, CubicShear, Rigidities, RigidityFactors, StretchLaw, TwistLaw};
 use actin_mechanics::{Matrix3, Vector3};
 
 /// A law for each strain of a rod.
@@ -23,6 +23,16 @@ impl StrainLaws {
             stretch: StretchLaw::Constant(shear.z),
             bend: BendLaw::Constant([bend.x, bend.y]),
             twist: TwistLaw::Constant(bend.z),
+        }
+    }
+
+    /// The same laws with their rigidities multiplied.
+    pub(crate) fn times(self, factors: &RigidityFactors) -> Self {
+        Self {
+            shear: self.shear.times(factors.shear),
+            stretch: self.stretch.times(factors.stretch),
+            bend: self.bend.times(factors.bend),
+            twist: self.twist.times(factors.twist),
         }
     }
 

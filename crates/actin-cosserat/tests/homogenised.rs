@@ -29,6 +29,7 @@ fn joined(layout: RodLayout) -> EnergyGradient {
     let element = |frames, rest_distance| JoinedElement {
         frames,
         element: BendingElement { rest_distance },
+        lacking: Vector3::zeros(),
     };
     let frames = layout.frames();
     let start = element([0, frames.start], 6.0);

@@ -118,6 +118,7 @@ fn rod_of(layout: RodLayout, material: RodMaterial, law: Option<TwistStretch>) -
     let joined = |frames, rest_distance| JoinedElement {
         frames,
         element: BendingElement { rest_distance },
+        lacking: Vector3::zeros(),
     };
     let frames = layout.frames();
     let start = joined([0, frames.start], 6.0);

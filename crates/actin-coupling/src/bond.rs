@@ -22,10 +22,20 @@ pub(crate) struct Bond {
     pub(crate) shear: ShearElement,
     /// Between the first two frames and between the last two.
     pub(crate) bending: [BendingElement; 2],
+    /// Their materials: the rod's, straight at rest towards the monomer, towards the rod bent by what half
+    /// of its end segment is.
+    pub(crate) materials: [RodMaterial; 2],
+    /// Curvature at rest (rad/nm) that the element beside the rod lacks of the rod's.
+    pub(crate) lacking: Vector3,
 }
 
-/// A bending element with the two orientations that it joins.
-type Bend = (BendingElement, UnitQuaternion, UnitQuaternion);
+/// A bending element with its material and the two orientations that it joins.
+type Bend<'a> = (
+    BendingElement,
+    &'a RodMaterial,
+    UnitQuaternion,
+    UnitQuaternion,
+);
 
 impl Bond {
     /// The junction frame.
@@ -40,6 +50,7 @@ impl Bond {
         JoinedElement {
             frames: [self.frames[k], self.frames[k + 1]],
             element: self.bending[k],
+            lacking: self.lacking,
         }
     }
 
@@ -64,8 +75,8 @@ impl Bond {
     /// Nothing else says in which order they are joined, and constant rigidities would not show
     /// it: [`curvatures`](Self::curvatures), which do, are tested.
     #[inline]
-    fn bends(&self, q: &[UnitQuaternion; 3]) -> [Bend; 2] {
-        [0, 1].map(|k| (self.bending[k], q[k], q[k + 1]))
+    fn bends(&self, q: &[UnitQuaternion; 3]) -> [Bend<'_>; 2] {
+        [0, 1].map(|k| (self.bending[k], &self.materials[k], q[k], q[k + 1]))
     }
 
     /// From the first point to the second (lab frame).
@@ -78,7 +89,7 @@ impl Bond {
     /// Curvatures of the two bending elements (rad/nm).
     pub(crate) fn curvatures(&self, state: &State) -> [Vector3; 2] {
         let bends = self.bends(&self.orientations(state));
-        bends.map(|(element, a, b)| element.curvature(a, b))
+        bends.map(|(element, _, a, b)| element.curvature(a, b))
     }
 
     /// Energy at weight 1 (pN nm).
@@ -86,7 +97,7 @@ impl Bond {
         let q = self.orientations(state);
         let bends = self
             .bends(&q)
-            .map(|(element, a, b)| element.energy(material, a, b));
+            .map(|(element, material, a, b)| element.energy(material, a, b));
         self.shear.energy(material, q[1], self.vector(state)) + bends[0] + bends[1]
     }
 
@@ -105,7 +116,7 @@ impl Bond {
         loads.force.add(self.points[1], -weight * shear.force);
         let [before, after] = self
             .bends(&q)
-            .map(|(element, a, b)| element.loads(material, a, b));
+            .map(|(element, material, a, b)| element.loads(material, a, b));
         let on_junction = shear.torque + before.second + after.first;
         let mut torques = [before.first, on_junction, after.second];
         torques[self.monomer] = self.offset * torques[self.monomer];
@@ -126,7 +137,7 @@ impl Bond {
         let shear = self.shear.stiffness(material, q[1], self.vector(state));
         (shear * weight).push(self.points, self.junction(), stiffness);
         let offsets = self.offsets();
-        for (k, (element, a, b)) in self.bends(&q).into_iter().enumerate() {
+        for (k, (element, material, a, b)) in self.bends(&q).into_iter().enumerate() {
             let bending = element.stiffness(material, a, b);
             let bending = bending.in_bodies([offsets[k], offsets[k + 1]]);
             (bending * weight).push([self.frames[k], self.frames[k + 1]], stiffness);

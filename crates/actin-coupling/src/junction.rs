@@ -72,6 +72,9 @@ pub struct JunctionParts<'a> {
 /// - `kappa_C = log(Q_J^T Q_r) / D_C`, `D_C` half the rest length of the rod's end segment plus
 ///   `D_E`.
 ///
+/// A rod that is bent at rest bends the part of `D_C` that is rod: `kappa_C` is counted from its curvature
+/// at rest times the share of half the end segment in `D_C`.
+///
 /// Where the rod comes first, `l = R - r` and both logarithms are of the inverse rotation. Loads
 /// are minus the gradient, so linear and angular momentum balance. It is the same beside either
 /// force law of the rod; the printed balance has factors `1/e` and `1/E^3` here too, and signs
@@ -112,7 +115,9 @@ impl Junction {
             .iter()
             .zip(frames)
             .enumerate()
-            .map(|(k, (monomer, frame))| bond_at_rest(state, side, (k, monomer), frame, rod))
+            .map(|(k, (monomer, frame))| {
+                bond_at_rest(state, side, (k, monomer), frame, (rod, material))
+            })
             .collect::<Result<Vec<_>, _>>()?;
         Ok(Self {
             weight: weight.of(bonds.len()),
@@ -174,7 +179,7 @@ fn bond_at_rest(
     side: JunctionSide,
     (k, monomer): (usize, &AttachedMonomer),
     junction: usize,
-    layout: &RodLayout,
+    (layout, material): (&RodLayout, RodMaterial),
 ) -> Result<Bond, JunctionError> {
     let end = side.rod_end();
     let rod = layout.end_frame(end);
@@ -202,8 +207,16 @@ fn bond_at_rest(
     check_distance(k, l.z)?;
     let distances = [0.5 * l.z, 0.5 * (layout.end_length(end) + l.z)];
     let mut bending = distances.map(|rest_distance| BendingElement { rest_distance });
+    // Only the part that is rod is bent at rest.
+    let of_rod = 0.5 * layout.end_length(end) / distances[1];
+    let rests = [0.0, of_rod].map(|share| material.rest_curvature() * share);
+    let mut materials = rests.map(|rest| {
+        let own = material.with_rest_curvature(rest);
+        own.expect("a share of a finite curvature is finite")
+    });
     if side == JunctionSide::RodFirst {
         bending.reverse();
+        materials.reverse();
     }
     Ok(Bond {
         points,
@@ -215,6 +228,8 @@ fn bond_at_rest(
             rest_direction: l.normalize(),
         },
         bending,
+        materials,
+        lacking: material.rest_curvature() * (1.0 - of_rod),
     })
 }
 

@@ -54,10 +54,10 @@ pub use scene::read_ron;
 #[cfg(feature = "schema")]
 pub use scene::schema;
 pub use scene::{
-    Acceleration, Altered, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, Couple, CouplePerLength,
-    DragRates, Drawn, Dynamics, End, Equilibrium, Factor, Filament, Force, ForceLaw,
-    ForcePerLength, Hinge, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Linker,
-    LinkerSite, Load, Material, Monomers, Override, Pace, RodLaw, RodLaws, RodModel, Scene,
+    Acceleration, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, Couple,
+    CouplePerLength, DragRates, Drawn, Dynamics, End, Equilibrium, Factor, Filament, Force,
+    ForceLaw, ForcePerLength, Hinge, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight,
+    Linker, LinkerSite, Load, Material, Monomers, Override, Pace, RodLaw, RodLaws, RodModel, Scene,
     SceneError, SceneProblem, SceneText, Section, Setting, ShearLaw, Slides, Stage, StopTolerances,
     StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
 };

@@ -61,13 +61,7 @@ pub(crate) fn of_filament(task: &Task) -> f64 {
 pub(crate) fn of_segments(count: f64, rod: &RodModel, task: &Task) -> f64 {
     let each = match rod.law {
         RodLaw::Constant => SEGMENT,
-        RodLaw::PublishedExtension
-        | RodLaw::CouplingEnergy
-        | RodLaw::Fitted
-        | RodLaw::Homogenised
-        | RodLaw::HomogenisedAthermal
-        | RodLaw::HomogenisedAt298K
-        | RodLaw::Laws(_) => LAW_SEGMENT,
+        _ => LAW_SEGMENT,
     };
     let trials = match (rod.force_law, task) {
         (ForceLaw::PaperBalance, Task::Dynamics(_)) => TRIAL_VECTORS,

@@ -28,10 +28,7 @@ fn fitted_without_heat(law: &RodLaw) -> Option<(&'static str, InBath)> {
         RodLaw::PublishedExtension => Some(("PublishedExtension", (9.5, 4.8e3))),
         RodLaw::CouplingEnergy => Some(("CouplingEnergy", (9.5, 4.8e3))),
         RodLaw::Fitted => Some(("Fitted", (9.7, 4.6e3))),
-        RodLaw::Homogenised
-        | RodLaw::HomogenisedAthermal
-        | RodLaw::HomogenisedAt298K
-        | RodLaw::Laws(_) => None,
+        _ => None,
     }
 }
 

@@ -12,6 +12,8 @@ pub struct JoinedElement {
     pub frames: [usize; 2],
     /// The element.
     pub element: BendingElement,
+    /// Curvature at rest (rad/nm) that it lacks of the rod's: zero of what is bent at rest as the rod is.
+    pub lacking: Vector3,
 }
 
 /// Which bending elements stand around each segment of a rod, and with what shares its curvature
@@ -37,6 +39,7 @@ pub struct SegmentCurvature {
 pub(crate) struct Around {
     pub(crate) frames: [usize; 2],
     pub(crate) element: BendingElement,
+    lacking: Vector3,
     /// Its part of the mean; those around a segment sum to 1.
     pub(crate) share: f64,
 }
@@ -66,6 +69,7 @@ impl SegmentCurvature {
             Some(JoinedElement {
                 frames: [frame, frame + 1],
                 element: BendingElement { rest_distance },
+                lacking: Vector3::zeros(),
             })
         };
         let mut curvature = Self {
@@ -111,6 +115,7 @@ impl SegmentCurvature {
             self.around.extend(elements.map(|joined| Around {
                 frames: joined.frames,
                 element: joined.element,
+                lacking: joined.lacking,
                 share,
             }));
         }
@@ -136,7 +141,7 @@ impl SegmentCurvature {
         let q = &state.frames.orientation;
         let curvature = |a: &Around| {
             let [first, second] = a.frames.map(|frame| q.get(frame));
-            a.share * a.element.curvature(first, second)
+            a.share * (a.element.curvature(first, second) + a.lacking)
         };
         self.around(segment).iter().map(curvature).sum()
     }
@@ -168,6 +173,7 @@ mod tests {
         let joined = [4, 5].map(|junction| JoinedElement {
             frames: [3, junction],
             element: BendingElement { rest_distance: 6.0 },
+            lacking: Vector3::zeros(),
         });
         let curvature = SegmentCurvature::new(&layout, &[], &joined);
         assert_eq!(shares(&curvature, 0), [([0, 1], 0.5), ([1, 2], 0.5)]);

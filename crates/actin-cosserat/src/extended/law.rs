@@ -36,6 +36,15 @@ impl MeanCurvature {
             covered: 1.0,
         }
     }
+
+    /// The curvature that the laws of a material see.
+    #[inline]
+    fn beyond_rest_of(self, material: &RodMaterial) -> Self {
+        Self {
+            kappa: self.kappa - material.rest_curvature(),
+            ..self
+        }
+    }
 }
 
 /// First and second derivatives of the energy per length.
@@ -114,6 +123,7 @@ impl SegmentLaw {
         sigma: Vector3,
         curvature: MeanCurvature,
     ) -> (Vector3, Vector3) {
+        let curvature = curvature.beyond_rest_of(material);
         match material.kind() {
             Kind::Laws(laws) => self.loads_of(laws, sigma, curvature.kappa),
             Kind::Potential(law) => law.segment_loads(sigma, curvature),
@@ -147,6 +157,7 @@ impl SegmentLaw {
         sigma: Vector3,
         curvature: MeanCurvature,
     ) -> f64 {
+        let curvature = curvature.beyond_rest_of(material);
         let material = match material.kind() {
             Kind::Laws(laws) => laws,
             Kind::Potential(law) => return law.segment_energy(sigma, curvature),
@@ -165,6 +176,7 @@ impl SegmentLaw {
         sigma: Vector3,
         curvature: MeanCurvature,
     ) -> SegmentJet {
+        let curvature = curvature.beyond_rest_of(material);
         match material.kind() {
             Kind::Laws(laws) => self.jet_of(laws, sigma, curvature.kappa),
             Kind::Potential(law) => law.segment_jet(sigma, curvature),

@@ -13,8 +13,6 @@ pub struct TwistStability {
     /// Derivative of the couple about d3 by the twist at constant `N`, bending and shear (pN nm^2).
     /// Twist is unstable where it is not positive.
     pub tangent: f64,
-    /// Force at which the tangent vanishes (pN), if there is one: [`SegmentLaw::critical_tension`].
-    pub critical_tension: Option<f64>,
 }
 
 impl TwistStability {
@@ -63,6 +61,7 @@ impl SegmentLaw {
         sigma: Vector3,
         kappa: Vector3,
     ) -> Option<f64> {
+        let kappa = kappa - material.rest_curvature();
         let laws = match material.kind() {
             Kind::Laws(laws) => laws,
             Kind::Potential(law) => return law.critical_tension(sigma, kappa),
@@ -80,16 +79,18 @@ impl SegmentLaw {
         sigma: Vector3,
         kappa: Vector3,
     ) -> Option<f64> {
+        let beyond = kappa - material.rest_curvature();
         if let Kind::Potential(law) = material.kind() {
-            return law.critical_compression(sigma, kappa);
+            return law.critical_compression(sigma, beyond);
         }
-        let [.., second] = self.extension(kappa.z);
+        let [.., second] = self.extension(beyond.z);
         let tension = self.critical_tension(material, sigma, kappa)?;
         (second < 0.0).then(|| (-tension).max(0.0))
     }
 
     /// The force along a segment at strain `sigma` and mean curvature `kappa`, and what it does to
-    /// the stability of twist.
+    /// the stability of twist. Of the force at which that is lost [`critical_tension`](Self::critical_tension)
+    /// knows, which takes as long as hundreds of these under a potential.
     pub fn twist_stability(
         &self,
         material: &RodMaterial,
@@ -97,11 +98,7 @@ impl SegmentLaw {
         kappa: Vector3,
     ) -> TwistStability {
         let [tension, tangent] = self.tension_and_tangent(material, sigma, kappa);
-        TwistStability {
-            tension,
-            tangent,
-            critical_tension: self.critical_tension(material, sigma, kappa),
-        }
+        TwistStability { tension, tangent }
     }
 
     /// [`TwistStability::tangent`] alone (pN nm^2).
@@ -115,6 +112,7 @@ impl SegmentLaw {
         sigma: Vector3,
         kappa: Vector3,
     ) -> [f64; 2] {
+        let kappa = kappa - material.rest_curvature();
         let laws = match material.kind() {
             Kind::Laws(laws) => laws,
             Kind::Potential(law) => return law.tension_and_twist_tangent(sigma, kappa),
@@ -274,7 +272,7 @@ mod tests {
                     let sigma = strain_under(&parts, [0.0, 0.0, -share * bound], kappa);
                     let state = law.twist_stability(material, sigma, kappa);
                     assert_eq!(state.is_stable(), stable, "{twist}, {share}");
-                    let critical = state.critical_tension.unwrap();
+                    let critical = law.critical_tension(material, sigma, kappa).unwrap();
                     assert!((critical + bound).abs() < 1e-12 * bound);
                 }
             }

@@ -68,7 +68,7 @@ mod separate;
 use crate::extended::ExtendedSegments;
 use crate::{RodLayout, RodMaterial};
 use actin_mechanics::wide::Arch;
-use actin_mechanics::{Loads, State};
+use actin_mechanics::{Loads, State, Vector3};
 use laws::{
     Bend, ConstantBend, ConstantTwist, CubicAcross, Laws, Length, LinearShear, NaturalLength,
     Polynomial, Potential, Rooted, Shear, Sided, Tanh, Twist, WideStiffening,
@@ -105,6 +105,9 @@ impl FastRod {
         material: &RodMaterial,
         extended: Option<&ExtendedSegments>,
     ) -> Option<Self> {
+        if material.rest_curvature() != Vector3::zeros() {
+            return None;
+        }
         if let Some(law) = material.potential() {
             let rod = Rod::new(layout, Potential::of(law)?, extended)?;
             return Some(Self(Kind::Potential(Box::new(rod))));

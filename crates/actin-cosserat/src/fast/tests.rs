@@ -137,6 +137,7 @@ fn joined(layout: &RodLayout, any: bool) -> [Vec<JoinedElement>; 2] {
     let element = |frames, rest_distance| JoinedElement {
         frames,
         element: BendingElement { rest_distance },
+        lacking: Vector3::zeros(),
     };
     let (frames, after) = (layout.frames(), layout.bending_chain().end);
     let start = vec![element([0, frames.start], 6.0)];

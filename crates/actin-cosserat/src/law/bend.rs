@@ -30,6 +30,18 @@ impl BendLaw {
         }
     }
 
+    /// The law with its rigidities multiplied.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        match self {
+            Self::Constant(rigidities) => Self::Constant(rigidities.map(|b| b * factor)),
+            Self::Stiffening(law) => Self::Stiffening(Stiffening {
+                rest: law.rest * factor,
+                rise: law.rise * factor,
+                ..law
+            }),
+        }
+    }
+
     /// Couple (pN nm) at curvature `kappa` (rad/nm).
     #[inline]
     pub fn couple(&self, kappa: Vector3) -> Vector3 {

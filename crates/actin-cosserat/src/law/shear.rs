@@ -21,6 +21,14 @@ pub struct CubicShear {
 }
 
 impl CubicShear {
+    /// The law with its rigidities multiplied.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        Self {
+            linear: self.linear.map(|s| s * factor),
+            cubic: self.cubic * factor,
+        }
+    }
+
     /// Checks every number.
     ///
     /// # Errors

@@ -44,6 +44,22 @@ impl StretchLaw {
         }
     }
 
+    /// The law with its rigidities multiplied.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        match self {
+            Self::Constant(s3) => Self::Constant(s3 * factor),
+            Self::Sided {
+                tension,
+                compression,
+                width,
+            } => Self::Sided {
+                tension: tension * factor,
+                compression: compression * factor,
+                width,
+            },
+        }
+    }
+
     /// Force (pN) at strain `e`.
     #[inline]
     pub fn force(&self, e: f64) -> f64 {

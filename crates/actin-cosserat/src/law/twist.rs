@@ -1,6 +1,6 @@
 //! How a rod resists twist.
 
-use super::{SidedTwist, TanhTwist};
+use super::{SidedTwist, TanhTwist, TwistRise};
 use crate::{RodKey, RodParameterError};
 
 /// A law of twist, each with a secant rigidity `B3(k)`, couple `B3(k) k` and its integral.
@@ -26,6 +26,30 @@ impl TwistLaw {
             Self::Constant(b3) => RodParameterError::unless_positive(RodKey::B3, *b3),
             Self::Tanh(law) => law.validate(),
             Self::Sided(law) => law.validate(),
+        }
+    }
+
+    /// The law with its rigidities multiplied.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        match self {
+            Self::Constant(b3) => Self::Constant(b3 * factor),
+            Self::Tanh(law) => Self::Tanh(TanhTwist {
+                b_plus: law.b_plus * factor,
+                b_minus: law.b_minus * factor,
+                ..law
+            }),
+            Self::Sided(law) => {
+                let rise = |side: TwistRise| TwistRise {
+                    rise: side.rise * factor,
+                    ..side
+                };
+                Self::Sided(SidedTwist {
+                    rest: law.rest * factor,
+                    under: rise(law.under),
+                    over: rise(law.over),
+                    ..law
+                })
+            }
         }
     }
 

@@ -71,11 +71,7 @@ impl Rod {
             reason = "a few hundred at most, and at least one"
         )]
         let segments = ((to_nm - from_nm) / self.segment_nm).round().max(1.0) as usize;
-        Section::Rod {
-            from_nm,
-            to_nm,
-            segments: Some(segments),
-        }
+        Section::rod(from_nm, to_nm, Some(segments))
     }
 
     fn model(&self) -> RodModel {

@@ -46,11 +46,7 @@ impl Specimen {
 
     /// A rod all along, by default of segments as near to 10 nm as fits.
     pub fn rod(length_nm: f64, segments: Option<usize>, rod: RodModel) -> Self {
-        let section = Section::Rod {
-            from_nm: 0.0,
-            to_nm: length_nm,
-            segments,
-        };
+        let section = Section::rod(0.0, length_nm, segments);
         Self::of_one_section(section, Monomers::default(), rod)
     }
 

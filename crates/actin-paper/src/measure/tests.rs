@@ -196,11 +196,7 @@ fn mixed_filaments_are_measured_like_any_other() {
             to_nm: 40.0,
             altered: None,
         },
-        Section::Rod {
-            from_nm: 40.0,
-            to_nm: 80.0,
-            segments: Some(4),
-        },
+        Section::rod(40.0, 80.0, Some(4)),
     ]));
     let whole = Specimen::ellipsoids(80.0, Monomers::default());
     let turns = [40.0, 80.0];

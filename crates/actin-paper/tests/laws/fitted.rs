@@ -82,11 +82,7 @@ fn tip(rod_nm: f64, force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
             to_nm: boundary,
             altered: None,
         },
-        Section::Rod {
-            from_nm: boundary,
-            to_nm: 160.0,
-            segments: None,
-        },
+        Section::rod(boundary, 160.0, None),
     ];
     let specimen = Specimen::new(Filament {
         rod: rod(law.clone()),

@@ -156,7 +156,7 @@ fn present(scene: &Scene) -> Option<FilamentSetting> {
         bonds,
         weight: filament.junction.weight,
         attached: filament.junction.attached_monomers,
-        ..FilamentSetting::of(monomers.collect(), filament.rod.law.clone())
+        ..FilamentSetting::of(monomers.collect(), filament.rod.law.without_bath())
     })
 }
 

@@ -116,7 +116,7 @@ fn has_default_models(scene: &Scene) -> bool {
         ..Monomers::default()
     };
     *given == default
-        && filament.sections.iter().all(|s| s.altered().is_none())
+        && filament.sections.iter().all(|s| !s.is_altered())
         && filament.rod.material == Material::default()
         && filament.rod.force_law == ForceLaw::EnergyGradient
 }

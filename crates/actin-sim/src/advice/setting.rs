@@ -78,11 +78,7 @@ impl FilamentSetting {
     )]
     fn rod(&self, from_nm: f64, to_nm: f64) -> Option<Section> {
         let segments = ((to_nm - from_nm) / self.segment_nm).round().max(1.0);
-        (to_nm > from_nm).then_some(Section::Rod {
-            from_nm,
-            to_nm,
-            segments: Some(segments as usize),
-        })
+        (to_nm > from_nm).then_some(Section::rod(from_nm, to_nm, Some(segments as usize)))
     }
 }
 

@@ -65,11 +65,17 @@ impl Assembly {
         section + 1 < filament.sections.end && is_ellipsoids(section) && is_ellipsoids(section + 1)
     }
 
+    /// Whether a section and the next of its filament are of different kinds.
+    pub(crate) fn is_junction(&self, section: usize) -> bool {
+        let is_ellipsoids = |i: usize| self.sections[i].is_ellipsoids();
+        is_ellipsoids(section) != is_ellipsoids(section + 1)
+    }
+
     /// The bonds of all junctions in filament order.
     pub fn junction_bonds(&self) -> Vec<JunctionBond> {
         let junctions = self.filaments.iter().map(|f| f.sections.clone());
         let junctions = junctions.flat_map(|sections| sections.start..sections.end - 1);
-        let junctions = junctions.filter(|&i| !self.goes_on_bonded(i));
+        let junctions = junctions.filter(|&i| self.is_junction(i));
         junctions.flat_map(|i| self.bonds_of_junction(i)).collect()
     }
 

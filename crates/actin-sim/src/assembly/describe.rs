@@ -24,6 +24,7 @@ impl Assembly {
             BodyKind::Segment => "segment",
             BodyKind::Junction => "junction frame",
             BodyKind::Wall => "wall",
+            BodyKind::Joint => "cross-section between rods",
         };
         match self.filaments.len() {
             1 => format!("the {name} at s = {s_nm:.2} nm"),

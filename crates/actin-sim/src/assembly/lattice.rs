@@ -74,7 +74,11 @@ pub(super) fn resolve(
                 Section::Ellipsoids { from_nm, to_nm, .. } => {
                     monomers(&lattice, is_held, (i, last), (from_nm, to_nm))
                 }
-                Section::Rod { from_nm, to_nm, .. } => rod(&lattice, (i, last), (from_nm, to_nm)),
+                Section::Rod { from_nm, to_nm, .. } => {
+                    let is_rod = |i: usize| sections.get(i).is_none_or(Section::is_rod);
+                    let keeps = [i == 0 || is_rod(i - 1), is_rod(i + 1)];
+                    rod(&lattice, keeps, (from_nm, to_nm))
+                }
             };
             check(i, &sections[i], resolved)
         })
@@ -136,12 +140,13 @@ fn monomers(
     }
 }
 
-fn rod(lattice: &Lattice, (i, last): (usize, usize), span: (f64, f64)) -> Resolved {
+/// A rod, which `keeps` its ends as written but where they meet monomers.
+fn rod(lattice: &Lattice, keeps: [bool; 2], span: (f64, f64)) -> Resolved {
     let half = 0.5 * lattice.rise_nm;
     let boundary = |s_nm: f64| lattice.s_nm(lattice.last_before(s_nm)) + half;
     Resolved {
-        from_nm: if i == 0 { span.0 } else { boundary(span.0) },
-        to_nm: if i == last { span.1 } else { boundary(span.1) },
+        from_nm: if keeps[0] { span.0 } else { boundary(span.0) },
+        to_nm: if keeps[1] { span.1 } else { boundary(span.1) },
         monomers: None,
     }
 }

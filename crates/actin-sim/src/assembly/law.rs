@@ -1,7 +1,9 @@
 //! From a scene's rod law to the interaction of a rod.
 
 use super::{Ranges, TwistWatch};
-use crate::scene::{self, ForceLaw, Material, RodLaw, RodLaws, RodModel, SceneProblem, fitted};
+use crate::scene::{
+    self, AlteredRod, ForceLaw, Material, RodLaw, RodLaws, RodModel, SceneProblem, Section, fitted,
+};
 use actin_cosserat::{
     BendLaw, CubicShear, EndShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance,
     PolynomialStretch, RodKey, RodLayout, RodMaterial, RodParameterError, RootedStretch,
@@ -19,7 +21,7 @@ pub(super) struct Around {
     pub(super) ends: [EndShear; 2],
 }
 
-/// The constitutive law of the rods of a scene.
+/// The constitutive law of a rod of a scene.
 pub(super) struct Law {
     balance: ForceLaw,
     pub(super) material: RodMaterial,
@@ -27,8 +29,43 @@ pub(super) struct Law {
 }
 
 impl Law {
+    /// The law of section `i` of a filament of rods like `rod`, in a heat bath or not.
+    pub(super) fn of_section(
+        (i, section): (usize, &Section),
+        rod: &RodModel,
+        in_bath: bool,
+    ) -> Result<Self, SceneProblem> {
+        let Some(altered) = section.altered_rod() else {
+            return Self::new(rod, in_bath);
+        };
+        let key = format!("filament.sections[{i}].altered");
+        let named = |problem: SceneProblem| match problem.key.strip_prefix("filament.rod") {
+            Some(rest) if rest != ".force_law" => SceneProblem {
+                key: format!("{key}{rest}"),
+                ..problem
+            },
+            _ => problem,
+        };
+        let law = Self::new(&section.rod_model(rod), in_bath).map_err(named)?;
+        law.altered(altered, &key)
+    }
+
+    /// The same with other rigidities, and another shape at rest.
+    fn altered(self, altered: &AlteredRod, key: &str) -> Result<Self, SceneProblem> {
+        let softened = self.material.softened(&altered.factors()).map_err(|_| {
+            let rule = "has factors of rigidities beside a law that is one potential of all strains: \
+                        leave them out";
+            SceneProblem::new(key, "", rule)
+        })?;
+        let material = softened.with_rest_curvature(altered.rest_curvature());
+        let material = material.map_err(|error| {
+            SceneProblem::new(key, error.value, format!("must be {}", error.rule))
+        })?;
+        Ok(Self { material, ..self })
+    }
+
     /// The law that a scene names, in a heat bath or not.
-    pub(super) fn new(rod: &RodModel, in_bath: bool) -> Result<Self, SceneProblem> {
+    fn new(rod: &RodModel, in_bath: bool) -> Result<Self, SceneProblem> {
         let extends = !matches!(rod.law, RodLaw::Constant | RodLaw::PublishedExtension);
         if rod.force_law == ForceLaw::PaperBalance && extends {
             return Err(SceneProblem::new(
@@ -37,7 +74,11 @@ impl Law {
                 "PaperBalance takes the laws Constant and PublishedExtension only",
             ));
         }
-        if let Some(name) = whole(&rod.law).filter(|_| rod.material != Material::default()) {
+        if let Some(name) = rod
+            .law
+            .whole()
+            .filter(|_| rod.material != Material::default())
+        {
             return Err(SceneProblem::new(
                 "filament.rod.material",
                 format!("{:?}", rod.material),
@@ -124,20 +165,6 @@ impl Law {
     }
 }
 
-/// The name of a law that leaves nothing to the material.
-fn whole(law: &RodLaw) -> Option<&'static str> {
-    match law {
-        RodLaw::Fitted => Some("Fitted"),
-        RodLaw::Homogenised => Some("Homogenised"),
-        RodLaw::HomogenisedAthermal => Some("HomogenisedAthermal"),
-        RodLaw::HomogenisedAt298K => Some("HomogenisedAt298K"),
-        RodLaw::Constant
-        | RodLaw::PublishedExtension
-        | RodLaw::CouplingEnergy
-        | RodLaw::Laws(_) => None,
-    }
-}
-
 fn refused(part: &'static str) -> impl Fn(RodParameterError) -> SceneProblem {
     move |error| {
         let key = format!("filament.rod.{part}.{}", written(error.key));
@@ -176,6 +203,8 @@ fn written(parameter: RodKey) -> &'static str {
         RodKey::Slope => "slope_nm",
         RodKey::Bend => "bend_nm",
         RodKey::Cubic => "cubic_nm3",
+        RodKey::Factor => "factor",
+        RodKey::RestCurvature => "rest_curvature_per_nm",
         RodKey::LinearDensity => "linear_density",
         RodKey::Area => "area",
     }

@@ -129,7 +129,7 @@ impl Assembly {
                 .sum(),
             junctions: sections
                 .flat_map(|sections| sections.start..sections.end - 1)
-                .filter(|&section| !self.goes_on_bonded(section))
+                .filter(|&section| self.is_junction(section))
                 .count(),
             dofs: 3 * (free_points.count() + free_frames.count()) + slides.sum::<usize>(),
         }

@@ -19,6 +19,8 @@ pub enum BodyKind {
     Junction = 3,
     /// A held frame that stands for a wall.
     Wall = 4,
+    /// The cross-section between two rods.
+    Joint = 5,
 }
 
 /// What a point is.

@@ -95,6 +95,8 @@ pub struct Fluctuations {
 /// How far the data behind a rod's laws reach; none where nothing bounds them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Ranges {
+    /// Curvature at rest, from which deformations are counted.
+    rest: Vector3,
     twist: Option<f64>,
     curvature: Option<f64>,
     shear: Option<f64>,
@@ -106,12 +108,16 @@ impl Ranges {
     /// Those of a material, and of the law of its natural length.
     pub(super) fn of(material: &RodMaterial, length: Option<&TwistStretch>) -> Self {
         if let Some(law) = material.potential() {
-            return Self::of_potential(law.range());
+            return Self {
+                rest: material.rest_curvature(),
+                ..Self::of_potential(law.range())
+            };
         }
         let laws = material.laws();
         let twist = laws.and_then(|laws| laws.twist().range());
         let both = twist.into_iter().chain(length.map(TwistStretch::range));
         Self {
+            rest: material.rest_curvature(),
             twist: both.reduce(f64::min).filter(|range| range.is_finite()),
             curvature: laws.and_then(|laws| BendLaw::range(laws.bend())),
             ..Self::default()
@@ -125,6 +131,7 @@ impl Ranges {
             curvature: finite(range.curvature),
             shear: finite(range.shear),
             stretch: Some(range.stretch).filter(|bounds| bounds.iter().all(|b| b.is_finite())),
+            rest: Vector3::zeros(),
         }
     }
 }
@@ -145,12 +152,12 @@ const QUANTITIES: [Quantity; 4] = [
     Quantity {
         name: "twist",
         range: |ranges| ranges.twist.map(|bound| [-bound, bound]),
-        of: |rod, state| Box::new(curvatures(rod, state).map(|(s, kappa)| (s, kappa.z))),
+        of: |rod, state| Box::new(bends(rod, state).map(|(s, kappa)| (s, kappa.z))),
     },
     Quantity {
         name: "curvature",
         range: |ranges| ranges.curvature.map(|bound| [-bound, bound]),
-        of: |rod, state| Box::new(curvatures(rod, state).map(|(s, kappa)| (s, kappa.xy().norm()))),
+        of: |rod, state| Box::new(bends(rod, state).map(|(s, kappa)| (s, kappa.xy().norm()))),
     },
     Quantity {
         name: "shear",
@@ -247,8 +254,8 @@ impl BeyondRange {
     }
 }
 
-/// Curvature of every bending element of a rod, walls and junctions included, with its arc length
-/// from the rod's start (nm).
+/// Curvature of every bending element of a rod, walls and junctions included (of these what they lack at rest
+/// is added), with its arc length from the rod's start (nm).
 pub(super) fn curvatures<'a>(
     rod: &'a Rod,
     state: &'a State,
@@ -258,15 +265,24 @@ pub(super) fn curvatures<'a>(
     let chain = layout.bending_chain().zip(layout.voronoi_lengths());
     let own = chain.zip(nodes).map(|((a, &rest_distance), s)| {
         let element = BendingElement { rest_distance };
-        (s, [a, a + 1], element)
+        (s, [a, a + 1], element, Vector3::zeros())
     });
     let ends = [0.0, layout.length()];
     let joined = rod.joined.iter().zip(ends);
-    let joined = joined.flat_map(|(all, s)| all.iter().map(move |e| (s, e.frames, e.element)));
-    own.chain(joined).map(|(s, frames, element)| {
+    let joined = joined.flat_map(|(all, s)| {
+        let each = all.iter();
+        each.map(move |e| (s, e.frames, e.element, e.lacking))
+    });
+    own.chain(joined).map(|(s, frames, element, lacking)| {
         let [first, second] = frames.map(|frame| state.frames.orientation.get(frame));
-        (s, element.curvature(first, second))
+        (s, element.curvature(first, second) + lacking)
     })
+}
+
+/// What these are beyond the curvature at rest.
+fn bends<'a>(rod: &'a Rod, state: &'a State) -> impl Iterator<Item = (f64, Vector3)> + 'a {
+    let rest = rod.ranges.rest;
+    curvatures(rod, state).map(move |(s, kappa)| (s, kappa - rest))
 }
 
 /// Strain of every segment of a rod under a potential, its third component beyond the natural length, with
@@ -278,7 +294,7 @@ fn strains<'a>(rod: &'a Rod, state: &'a State) -> impl Iterator<Item = (f64, Vec
         let middles = rod.layout.element_positions();
         (0..rod.layout.segments()).map(move |k| {
             let (mut sigma, kappa) = watch.strains(rod, k, state);
-            sigma.z -= law.form().natural_stretch(kappa.z);
+            sigma.z -= law.form().natural_stretch(kappa.z - rod.ranges.rest.z);
             (middles[k], sigma)
         })
     })

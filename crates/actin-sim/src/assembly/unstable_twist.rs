@@ -88,7 +88,7 @@ impl Assembly {
                 s_nm: self.sections[rod.section].from_nm + middle,
                 twist_per_nm: kappa.z,
                 compression_pn: -stability.tension,
-                bound_pn: -stability.critical_tension?,
+                bound_pn: -(watch.law).critical_tension(&watch.material, sigma, kappa)?,
                 share_of_records: 1.0,
             },
         })

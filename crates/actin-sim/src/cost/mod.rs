@@ -15,8 +15,7 @@ pub use rates::{
     STAGES_PER_S, TERMS_PER_S, TRIAL_BODIES_PER_S,
 };
 
-use crate::run::shears_softly;
-use crate::scene::{Anchors, Dynamics, RodLaw, Task};
+use crate::scene::{Anchors, Dynamics, Filament, RodLaw, RodModel, Task};
 use crate::{Assembly, Estimate, memory, shape};
 use std::fmt;
 
@@ -202,15 +201,10 @@ impl Elements {
             if filament.monomers.anchors != Anchors::Cubature {
                 all.drawn += one.bonds as f64;
             }
-            let elements = match filament.rod.law {
-                RodLaw::Constant => &mut all.constant,
-                RodLaw::PublishedExtension
-                | RodLaw::CouplingEnergy
-                | RodLaw::Fitted
-                | RodLaw::Homogenised
-                | RodLaw::HomogenisedAthermal
-                | RodLaw::HomogenisedAt298K
-                | RodLaw::Laws(_) => &mut all.following,
+            let is_constant = |rod: RodModel| rod.law == RodLaw::Constant;
+            let elements = match filament.rod_models().all(is_constant) {
+                true => &mut all.constant,
+                false => &mut all.following,
             };
             *elements += one.elements as f64;
         }
@@ -244,9 +238,9 @@ impl Elements {
         };
         let trials = trials(assembly.counts().dofs);
         let each = self.seconds_of_evaluation() + self.bodies / TRIAL_BODIES_PER_S;
-        let mut laws = assembly.scene.filaments().map(|one| &one.rod.law);
+        let mut rods = (assembly.scene.filaments()).flat_map(Filament::rod_models);
         // The same filaments with constant rods are built and asked too.
-        if self.following > 0.0 && laws.any(shears_softly) {
+        if rods.any(|rod| rod.law.shears_softly()) {
             2.0 * (built + trials * each)
         } else {
             built + trials * each

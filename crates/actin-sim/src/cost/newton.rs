@@ -1,8 +1,8 @@
 //! How many Newton steps equilibria take: counts on the scenes of `cargo xtask tradeoff` and on long
 //! filaments, by what a filament is made of and how it is led to its equilibrium.
 
-use crate::Assembly;
-use crate::scene::{Anchors, Equilibrium, RodLaw, Setting, Task};
+use crate::scene::{Anchors, Equilibrium, Filament, Setting, Task};
+use crate::{Assembly, SectionSpan};
 use actin_mechanics::Vector3;
 
 /// What a filament is made of, by the number of Newton steps it takes: the slowest of a scene counts.
@@ -79,20 +79,17 @@ pub(super) fn counted(steps: u64, equilibria: u64) -> f64 {
 /// The slowest kind of a scene's filaments.
 fn kind(assembly: &Assembly) -> Kind {
     let each = assembly.scene.filaments().enumerate().map(|(i, filament)| {
-        let has = |monomers: bool| {
-            let mut sections = assembly.sections_of(i).iter();
-            sections.any(|section| section.is_ellipsoids() == monomers)
-        };
-        match &filament.rod.law {
-            _ if has(true) => Kind::Monomers,
-            RodLaw::Constant | RodLaw::PublishedExtension | RodLaw::CouplingEnergy => {
-                Kind::Constant
-            }
-            RodLaw::Fitted
-            | RodLaw::Homogenised
-            | RodLaw::HomogenisedAthermal
-            | RodLaw::HomogenisedAt298K
-            | RodLaw::Laws(_) => Kind::Law,
+        let mut laws = filament.rod_models().map(|rod| rod.law);
+        if assembly
+            .sections_of(i)
+            .iter()
+            .any(SectionSpan::is_ellipsoids)
+        {
+            Kind::Monomers
+        } else if laws.all(|law| law.is_published()) {
+            Kind::Constant
+        } else {
+            Kind::Law
         }
     });
     each.max().unwrap_or(Kind::Constant)
@@ -110,19 +107,10 @@ fn from_rest(assembly: &Assembly, kind: Kind) -> f64 {
     let sections = assembly.sections.iter().filter(|s| s.is_ellipsoids());
     let longest = sections.map(|section| section.points.len()).max();
     let rows = longest.unwrap_or(0) as f64 / SHORT;
-    let laws = assembly.scene.filaments().map(|one| &one.rod.law);
-    let has_law = laws.into_iter().any(|law| match law {
-        RodLaw::Fitted
-        | RodLaw::Homogenised
-        | RodLaw::HomogenisedAthermal
-        | RodLaw::HomogenisedAt298K
-        | RodLaw::Laws(_) => true,
-        RodLaw::Constant | RodLaw::PublishedExtension | RodLaw::CouplingEnergy => false,
-    });
+    let mut rods = (assembly.scene.filaments()).flat_map(Filament::rod_models);
+    let has_law = rods.any(|rod| !rod.law.is_published());
     let of_rods = match kind {
-        Kind::Monomers if has_law && assembly.counts().segments > 0 => {
-            FROM_REST[Kind::Law as usize]
-        }
+        Kind::Monomers if has_law => FROM_REST[Kind::Law as usize],
         _ => 0.0,
     };
     let weighted = assembly

@@ -174,28 +174,20 @@ impl Estimate {
 fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, SceneProblem> {
     let mut scene = assembly.scene.clone();
     let mut changes = false;
-    for (i, filament) in scene.filaments_mut().enumerate() {
-        if shears_softly(&filament.rod.law) && assembly.counts_of(i).segments > 0 {
-            filament.rod.law = RodLaw::Constant;
-            changes = true;
+    for filament in scene.filaments_mut() {
+        let is_soft = filament.rod_models().any(|rod| rod.law.shears_softly());
+        changes |= is_soft;
+        let sections = filament.sections.iter_mut();
+        let of_sections = sections.filter_map(|s| s.altered_rod_mut()?.law.as_mut());
+        let laws = of_sections.chain([&mut filament.rod.law]);
+        for law in laws.filter(|law| law.shears_softly()) {
+            *law = RodLaw::Constant;
         }
     }
     if !changes {
         return Ok(None);
     }
     Assembly::build(&scene).map(Some)
-}
-
-/// Whether rods under a law resist shear only once they are sheared.
-pub(crate) fn shears_softly(law: &RodLaw) -> bool {
-    match law {
-        RodLaw::Constant | RodLaw::PublishedExtension | RodLaw::CouplingEnergy => false,
-        RodLaw::Fitted
-        | RodLaw::Homogenised
-        | RodLaw::HomogenisedAthermal
-        | RodLaw::HomogenisedAt298K => true,
-        RodLaw::Laws(laws) => laws.shear.is_some(),
-    }
 }
 
 /// Runs the motion.

@@ -16,7 +16,7 @@ mod taken;
 mod unknowns;
 
 pub use dynamics::Estimate;
-pub(crate) use dynamics::{estimate_at, shears_softly};
+pub(crate) use dynamics::estimate_at;
 pub use equilibrium::EquilibriumReport;
 pub use outcome::{FailedRun, Failure, Outcome, RunError, Status};
 pub use plan::Plan;

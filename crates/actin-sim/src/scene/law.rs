@@ -37,6 +37,41 @@ impl RodLaw {
             Self::Homogenised | Self::HomogenisedAthermal | Self::HomogenisedAt298K
         )
     }
+
+    /// Whether it is one of the paper's, under which neither bending nor shear gets stiffer.
+    pub(crate) fn is_published(&self) -> bool {
+        matches!(
+            self,
+            Self::Constant | Self::PublishedExtension | Self::CouplingEnergy
+        )
+    }
+
+    /// Whether rods under it resist shear only once they are sheared.
+    pub(crate) fn shears_softly(&self) -> bool {
+        match self {
+            Self::Laws(laws) => laws.shear.is_some(),
+            law => !law.is_published(),
+        }
+    }
+
+    /// What it is outside of heat baths.
+    pub(crate) fn without_bath(&self) -> Self {
+        match self {
+            Self::HomogenisedAthermal => Self::Homogenised,
+            law => law.clone(),
+        }
+    }
+
+    /// The name of a law that leaves nothing to the material.
+    pub(crate) fn whole(&self) -> Option<&'static str> {
+        match self {
+            Self::Fitted => Some("Fitted"),
+            Self::Homogenised => Some("Homogenised"),
+            Self::HomogenisedAthermal => Some("HomogenisedAthermal"),
+            Self::HomogenisedAt298K => Some("HomogenisedAt298K"),
+            _ => None,
+        }
+    }
 }
 
 /// A law for each deformation that has one.

@@ -24,6 +24,8 @@ mod rules;
 mod saddles;
 #[cfg(feature = "schema")]
 mod schema;
+mod section;
+mod section_rules;
 mod seeds;
 mod stage;
 mod support;
@@ -48,12 +50,13 @@ pub use problem::{SceneError, SceneProblem};
 pub use read::read_ron;
 #[cfg(feature = "schema")]
 pub use schema::schema;
+pub use section::{Altered, AlteredRod, Section};
 pub use seeds::Drawn;
 pub(crate) use support::is_across;
 pub use text::{Override, SceneText};
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
 pub use types::{
-    Altered, Clamp, DragRates, Dynamics, End, Equilibrium, Filament, Hinge, Hold, Integrator, Pace,
-    Scene, Section, Setting, Slides, Stage, StopTolerances, Task,
+    Clamp, DragRates, Dynamics, End, Equilibrium, Filament, Hinge, Hold, Integrator, Pace, Scene,
+    Setting, Slides, Stage, StopTolerances, Task,
 };
 pub(crate) use validate::MOST_COUNTED;

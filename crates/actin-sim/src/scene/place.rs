@@ -50,6 +50,12 @@ impl Filament {
         tilt * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), roll)
     }
 
+    /// The rods of its sections, but for factors and what they are like at rest.
+    pub(crate) fn rod_models(&self) -> impl Iterator<Item = RodModel> {
+        let rods = self.sections.iter().filter(|section| section.is_rod());
+        rods.map(|section| section.rod_model(&self.rod))
+    }
+
     /// Index of the section at one end.
     pub(crate) fn end_index(&self, end: End) -> usize {
         match end {

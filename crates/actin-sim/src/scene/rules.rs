@@ -1,6 +1,8 @@
 //! Rules that several numbers of a scene share.
 
 use super::{Filament, ForceLaw, SceneProblem, Section};
+use actin_cosserat::constants::CROSS_SECTION_AREA;
+use std::f64::consts::PI;
 use std::fmt::Debug;
 
 /// The value as Rust writes it, with all its digits.
@@ -58,6 +60,23 @@ pub(super) fn each_positive(key: &str, values: [f64; 3]) -> Result<(), SceneProb
         show(values),
         "each must be finite and greater than 0",
     ))
+}
+
+/// A curvature (1/nm) whose radius is greater than that of the filament.
+pub(super) fn check_curvature(
+    key: &str,
+    value: String,
+    curvature: f64,
+) -> Result<(), SceneProblem> {
+    let radius = (CROSS_SECTION_AREA / PI).sqrt();
+    if curvature * radius < 1.0 {
+        return Ok(());
+    }
+    let rule = format!(
+        "bends the filament more than to its own radius of {radius:.1} nm: its inner side would turn \
+         inside out"
+    );
+    Err(SceneProblem::new(key, value, rule))
 }
 
 /// An equilibrium is a minimum of the energy, which the printed balance does not have.

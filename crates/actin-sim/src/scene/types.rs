@@ -1,7 +1,7 @@
 //! What a scene says: filaments, clamps, loads and task. Where filaments are is in `place.rs`.
 
 use super::model::{JunctionModel, Monomers, RodModel};
-use super::{Imperfection, Linker, Load, Thermal, written::Written};
+use super::{Imperfection, Linker, Load, Section, Thermal, written::Written};
 use serde::{Deserialize, Serialize};
 
 /// A scene: filaments, what holds, loads and links them, and what is asked of them.
@@ -111,7 +111,7 @@ pub enum Setting {
 #[serde(deny_unknown_fields)]
 pub struct Filament {
     /// Sections in order of arc length, at least one. The first starts at 0, each other where the one
-    /// before it ends; neighbours are of different kinds, or monomers that are `altered` differently.
+    /// before it ends; neighbours are of different kinds, or `altered` differently.
     pub sections: Vec<Section>,
     /// Parameters of the monomers, the same for all sections that resolve them.
     #[serde(default)]
@@ -139,112 +139,6 @@ pub struct Filament {
 
 pub(super) fn along_z() -> [f64; 3] {
     [0.0, 0.0, 1.0]
-}
-
-/// A stretch of filament resolved in one way.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub enum Section {
-    /// Every monomer as a rigid ellipsoid. Boundaries move to the nearest place half a rise
-    /// beyond a monomer.
-    Ellipsoids {
-        /// Arc length at which the section starts; at least 0.
-        from_nm: f64,
-        /// Arc length at which it ends; greater than `from_nm`, by two monomers or more.
-        to_nm: f64,
-        /// In what its monomers differ from those of the filament. Neighbouring sections of monomers
-        /// differ from each other in this.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        altered: Option<Altered>,
-    },
-    /// A Cosserat rod.
-    Rod {
-        /// Arc length at which the section starts; at least 0.
-        from_nm: f64,
-        /// Arc length at which it ends; greater than `from_nm`.
-        to_nm: f64,
-        /// Number of segments, at least 1. By default the number that makes them most nearly 10 nm long.
-        #[serde(default)]
-        segments: Option<usize>,
-    },
-}
-
-/// In what the monomers of a section differ from those of the filament, for example where they are
-/// decorated by another protein.
-///
-/// An interface belongs to the section of its lower monomer. Bending and twist come from the same bonds: with
-/// both factors of rigidity the same, every rigidity of the filament is multiplied by it. Two different ones
-/// change the ratio little: where bending is 5 times softer, twist is 5 to 6 times softer, and not the 10
-/// times that cofilin makes it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, default)]
-pub struct Altered {
-    /// Factor of the rigidity of lateral interfaces; positive.
-    pub lateral_rigidity_factor: f64,
-    /// Factor of the rigidity of longitudinal interfaces; positive.
-    pub longitudinal_rigidity_factor: f64,
-    /// Bonds per lateral interface, instead of those of the filament.
-    pub lateral_bonds: Option<usize>,
-    /// Bonds per longitudinal interface, instead of those of the filament.
-    pub longitudinal_bonds: Option<usize>,
-    /// Factor of the mass of a monomer, and so of its moments of inertia; positive.
-    pub mass_factor: f64,
-}
-
-impl Default for Altered {
-    fn default() -> Self {
-        Self {
-            lateral_rigidity_factor: 1.0,
-            longitudinal_rigidity_factor: 1.0,
-            lateral_bonds: None,
-            longitudinal_bonds: None,
-            mass_factor: 1.0,
-        }
-    }
-}
-
-impl Altered {
-    /// Monomers of a filament, altered.
-    pub(crate) fn applied_to(&self, monomers: &Monomers) -> Monomers {
-        let mut altered = monomers.clone();
-        altered.lateral_rigidity_pn_per_nm *= self.lateral_rigidity_factor;
-        altered.longitudinal_rigidity_pn_per_nm *= self.longitudinal_rigidity_factor;
-        altered.lateral_bonds = self.lateral_bonds.unwrap_or(altered.lateral_bonds);
-        altered.longitudinal_bonds = self
-            .longitudinal_bonds
-            .unwrap_or(altered.longitudinal_bonds);
-        altered.mass_ag *= self.mass_factor;
-        altered
-    }
-}
-
-impl Section {
-    /// In what its monomers differ from those of its filament; nothing of a rod.
-    pub(crate) fn altered(&self) -> Option<Altered> {
-        match self {
-            Self::Ellipsoids { altered, .. } => *altered,
-            Self::Rod { .. } => None,
-        }
-    }
-
-    /// The monomers of a section of a filament of these monomers.
-    pub(crate) fn monomers(&self, of_filament: &Monomers) -> Monomers {
-        match self.altered() {
-            Some(altered) => altered.applied_to(of_filament),
-            None => of_filament.clone(),
-        }
-    }
-
-    /// Arc lengths of start and end as written (nm).
-    pub fn span_nm(&self) -> (f64, f64) {
-        match *self {
-            Self::Ellipsoids { from_nm, to_nm, .. } | Self::Rod { from_nm, to_nm, .. } => {
-                (from_nm, to_nm)
-            }
-        }
-    }
 }
 
 /// One of the two ends of a filament.

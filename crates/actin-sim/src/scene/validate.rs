@@ -6,13 +6,10 @@ use super::rules::{
 use super::support::{check_support, check_swings};
 use super::{
     Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Resultant, Scene,
-    SceneProblem, Section, Slides, StopTolerances, Task, imperfection, linker, load_rules,
-    magnitude, saddles, stage, thermal,
+    SceneProblem, Slides, StopTolerances, Task, imperfection, linker, load_rules, magnitude,
+    saddles, section_rules, stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
-
-/// Sections are contiguous if their boundaries agree to this length (nm).
-const BOUNDARY_TOLERANCE_NM: f64 = 1e-9;
 
 /// Most bodies of a section, and the furthest place on the lattice: 2^53, up to which whole numbers
 /// are told apart. Memory runs out long before.
@@ -43,7 +40,7 @@ pub(super) fn problems(scene: &Scene) -> Vec<SceneProblem> {
     note(magnitude::check(scene));
     for (i, one) in scene.filaments().enumerate() {
         let named = |problem: SceneProblem| problem.with_filament(&scene.filament_key(i));
-        sections(one, &mut |checked| note(checked.map_err(named)));
+        section_rules::check(one, &mut |checked| note(checked.map_err(named)));
         for check in [check_model, check_place, imperfection::check] {
             note(check(one).map_err(named));
         }
@@ -98,48 +95,6 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
     }
 }
 
-/// Checks the sections of a filament, each of which may break a rule.
-fn sections(filament: &Filament, note: &mut impl FnMut(Result<(), SceneProblem>)) {
-    let sections = &filament.sections;
-    if sections.is_empty() {
-        let rule = "a filament has at least one section";
-        note(Err(SceneProblem::new("filament.sections", "[]", rule)));
-    }
-    for (i, section) in sections.iter().enumerate() {
-        let previous = i.checked_sub(1).map(|p| &sections[p]);
-        note(check_span(i, section).and_then(|()| check_boundary(i, section, previous)));
-    }
-    for (i, section) in sections.iter().enumerate() {
-        let key = format!("filament.sections[{i}].altered");
-        note(check_altered(&key, section, filament));
-    }
-}
-
-fn check_altered(key: &str, section: &Section, filament: &Filament) -> Result<(), SceneProblem> {
-    let Some(altered) = section.altered() else {
-        return Ok(());
-    };
-    for (name, factor) in [
-        ("lateral_rigidity_factor", altered.lateral_rigidity_factor),
-        (
-            "longitudinal_rigidity_factor",
-            altered.longitudinal_rigidity_factor,
-        ),
-        ("mass_factor", altered.mass_factor),
-    ] {
-        positive(&format!("{key}.{name}"), factor)?;
-    }
-    for (name, bonds) in [
-        ("lateral_bonds", altered.lateral_bonds),
-        ("longitudinal_bonds", altered.longitudinal_bonds),
-    ] {
-        if let Some(bonds) = bonds {
-            check_bonds(&format!("{key}.{name}"), filament.monomers.anchors, bonds)?;
-        }
-    }
-    Ok(())
-}
-
 fn check_place(filament: &Filament) -> Result<(), SceneProblem> {
     all_finite("filament.at_nm", filament.at_nm)?;
     all_finite("filament.direction", filament.direction)?;
@@ -152,67 +107,6 @@ fn check_place(filament: &Filament) -> Result<(), SceneProblem> {
         ));
     }
     finite("filament.roll_deg", filament.roll_deg)
-}
-
-fn check_span(i: usize, section: &Section) -> Result<(), SceneProblem> {
-    let (from, to) = section.span_nm();
-    let key = |name: &str| format!("filament.sections[{i}].{name}");
-    non_negative(&key("from_nm"), from)?;
-    finite(&key("to_nm"), to)?;
-    if to <= from {
-        return Err(SceneProblem::new(
-            key("to_nm"),
-            show(to),
-            format!("a section's length is positive: must be greater than from_nm = {from:?}"),
-        ));
-    }
-    if let Section::Rod {
-        segments: Some(0), ..
-    } = section
-    {
-        return Err(SceneProblem::new(
-            key("segments"),
-            0,
-            "a rod has at least one segment",
-        ));
-    }
-    Ok(())
-}
-
-fn check_boundary(
-    i: usize,
-    section: &Section,
-    previous: Option<&Section>,
-) -> Result<(), SceneProblem> {
-    let (from, _) = section.span_nm();
-    let before = previous.map_or(0.0, |p| p.span_nm().1);
-    let rule = match previous {
-        None => "the first section starts at 0".to_owned(),
-        Some(_) if from < before => {
-            format!("overlaps the section before it, which ends at {before:?}")
-        }
-        Some(_) => format!("leaves a gap behind the section before it, which ends at {before:?}"),
-    };
-    let key = format!("filament.sections[{i}]");
-    if (from - before).abs() > BOUNDARY_TOLERANCE_NM {
-        return Err(SceneProblem::new(
-            format!("{key}.from_nm"),
-            show(from),
-            rule,
-        ));
-    }
-    let same = previous.is_some_and(|p| {
-        std::mem::discriminant(p) == std::mem::discriminant(section)
-            && p.altered() == section.altered()
-    });
-    if same {
-        return Err(SceneProblem::new(
-            format!("{key}.from_nm"),
-            show(from),
-            "neighbouring sections of the same kind are one section: write them as one",
-        ));
-    }
-    Ok(())
 }
 
 fn check_model(filament: &Filament) -> Result<(), SceneProblem> {
@@ -276,7 +170,7 @@ fn check_monomers(m: &Monomers) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(), SceneProblem> {
+pub(super) fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(), SceneProblem> {
     let drawn = 1..=MOST_BONDS_PER_INTERFACE;
     let (range, rule) = match anchors {
         Anchors::Independent | Anchors::Identical => {

@@ -100,7 +100,9 @@ impl Ribbon {
                 frames.start += usize::from(i == 0);
                 frames.end -= usize::from(i == last);
             } else {
-                for k in section.points.clone() {
+                // Neighbouring rods share a node.
+                let is_shared = i > 0 && !sections[i - 1].is_ellipsoids();
+                for k in section.points.clone().skip(usize::from(is_shared)) {
                     let (s_nm, point) = centre(k);
                     ribbon.push_vertex(s_nm, point, false);
                 }

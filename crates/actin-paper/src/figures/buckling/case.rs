@@ -142,11 +142,7 @@ impl Case {
     }
 
     fn sections(&self) -> Vec<Section> {
-        let rod = |from_nm, to_nm| Section::Rod {
-            from_nm,
-            to_nm,
-            segments: None,
-        };
+        let rod = |from_nm, to_nm| Section::rod(from_nm, to_nm, None);
         let monomers = |from_nm, to_nm| Section::Ellipsoids {
             from_nm,
             to_nm,

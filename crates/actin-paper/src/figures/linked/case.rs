@@ -226,11 +226,11 @@ impl Case {
             to_nm,
             altered: None,
         };
-        let rod = Section::Rod {
-            from_nm: from,
-            to_nm: to,
-            segments: Some(self.rod() as usize / 10 * self.variant.refinement),
-        };
+        let rod = Section::rod(
+            from,
+            to,
+            Some(self.rod() as usize / 10 * self.variant.refinement),
+        );
         match self.resolved {
             Resolved::Mixed(_) => vec![ellipsoids(0.0, from), rod, ellipsoids(to, length)],
             Resolved::Rod => vec![rod],

@@ -61,7 +61,7 @@ impl Strand<'_> {
             }
             Body::Rod(layout) => {
                 stock.rods.push(self.rod(i, layout, around));
-                self.law.interaction(layout, around)
+                self.laws[i].interaction(layout, around)
             }
         })
     }
@@ -71,9 +71,9 @@ impl Strand<'_> {
         Rod {
             section: self.first_section + i,
             layout: layout.clone(),
-            ranges: self.law.ranges(),
+            ranges: self.laws[i].ranges(),
             joined: around.joined.clone(),
-            twist_watch: self.law.twist_watch(layout, around),
+            twist_watch: self.laws[i].twist_watch(layout, around),
         }
     }
 
@@ -88,14 +88,16 @@ impl Strand<'_> {
                 })
                 .collect()
         };
-        let (side, attached, layout) = match (&self.bodies[i], &self.bodies[i + 1]) {
-            (Body::Monomers(m), Body::Rod(layout)) => {
-                (JunctionSide::MonomersFirst, attach(m, m.count - n), layout)
-            }
+        let (side, attached, (rod, layout)) = match (&self.bodies[i], &self.bodies[i + 1]) {
+            (Body::Monomers(m), Body::Rod(layout)) => (
+                JunctionSide::MonomersFirst,
+                attach(m, m.count - n),
+                (i + 1, layout),
+            ),
             (Body::Rod(layout), Body::Monomers(m)) => {
-                (JunctionSide::RodFirst, attach(m, 0), layout)
+                (JunctionSide::RodFirst, attach(m, 0), (i, layout))
             }
-            _ => unreachable!("validation refuses neighbouring sections of one kind"),
+            _ => unreachable!("a junction is between monomers and a rod"),
         };
         let parts = JunctionParts {
             side,
@@ -103,7 +105,7 @@ impl Strand<'_> {
             monomers: &attached,
             frames: self.junction_frames[i].clone(),
             rod: layout,
-            material: self.law.material,
+            material: self.laws[rod].material,
         };
         Junction::new(&stock.state, parts).map_err(|error| junction_problem(&error))
     }

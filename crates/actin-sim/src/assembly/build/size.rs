@@ -35,7 +35,8 @@ fn add(
         (count, "monomers")
     } else {
         let count = strand.segments(i)? as f64;
-        *bytes += memory::of_segments(count, &filament.rod, &scene.task);
+        let rod = filament.sections[i].rod_model(&filament.rod);
+        *bytes += memory::of_segments(count, &rod, &scene.task);
         (count, "segments")
     };
     let (name, value) = match filament.sections[i] {

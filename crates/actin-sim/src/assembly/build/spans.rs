@@ -67,7 +67,7 @@ impl Strand<'_> {
                 let middle = boundary - 0.5 * layout.end_length(RodEnd::End);
                 (0..n).map(|k| [middle, s_nm(m, k)]).collect()
             }
-            _ => unreachable!("validation refuses neighbouring sections of one kind"),
+            _ => unreachable!("a junction is between monomers and a rod"),
         }
     }
 }

@@ -37,7 +37,8 @@ pub(super) struct Strand<'a> {
     pub(super) lattice: Lattice,
     /// The monomers of each section; of a rod those that it stands for.
     pub(super) models: Vec<EllipsoidModel>,
-    pub(super) law: law::Law,
+    /// The law of each section; of monomers that of the rod which they stand for.
+    pub(super) laws: Vec<law::Law>,
     cross_section: CrossSection,
     pub(super) bodies: Vec<Body>,
     /// Frames of the junction between section i and the next.
@@ -73,7 +74,9 @@ impl<'a> Strand<'a> {
             models: (filament.sections.iter())
                 .map(|section| models::ellipsoids(&section.monomers(monomers), index))
                 .collect::<Result<_, _>>()?,
-            law: law::Law::new(&filament.rod, in_bath)?,
+            laws: (filament.sections.iter().enumerate())
+                .map(|section| law::Law::of_section(section, &filament.rod, in_bath))
+                .collect::<Result<_, _>>()?,
             cross_section: CrossSection::new(density, area).map_err(|error| {
                 let rule = format!("the mass per length that follows must be {}", error.rule);
                 SceneProblem::new("filament.monomers.mass_ag", error.value, rule)
@@ -96,8 +99,8 @@ impl<'a> Strand<'a> {
     /// Pushes the bodies of all sections and of the junctions between them.
     pub(super) fn push_bodies(&mut self, stock: &mut Stock) -> Result<FilamentSpan, SceneProblem> {
         let first = (stock.points.len(), stock.frames.len());
-        for i in 0..self.filament.sections.len() {
-            self.push_section(i, stock)?;
+        while self.bodies.len() < self.filament.sections.len() {
+            self.push_section(self.bodies.len(), stock)?;
         }
         Ok(FilamentSpan {
             sections: self.first_section..stock.sections.len(),
@@ -109,7 +112,8 @@ impl<'a> Strand<'a> {
         })
     }
 
-    /// Pushes the junction to the section before, then the bodies of section `i`.
+    /// Pushes the junction to the section before, then the bodies of section `i`, and those of all rods that
+    /// follow it if it is one.
     fn push_section(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
         if i > 0 && self.is_junction(i - 1) {
             self.push_junction_frames(i - 1, stock)?;
@@ -118,7 +122,7 @@ impl<'a> Strand<'a> {
         }
         match self.resolved[i].monomers {
             Some((first, last)) => self.push_monomers(i, (first, last), stock),
-            None => self.push_rod(i, stock),
+            None => self.push_rods(i, stock),
         }
     }
 
@@ -164,33 +168,49 @@ impl<'a> Strand<'a> {
         Ok(())
     }
 
-    fn push_rod(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
-        let Resolved { from_nm, to_nm, .. } = self.resolved[i];
-        let segments = self.segments(i)?;
-        let length = (to_nm - from_nm) / segments as f64;
-        let wall = |end| {
+    /// Pushes section `first` and all rods that follow it, which share nodes and cross-sections with it.
+    fn push_rods(&mut self, first: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
+        let rods = self.resolved[first..].iter();
+        let past = first + rods.take_while(|r| r.monomers.is_none()).count();
+        let segments: Vec<usize> = (first..past)
+            .map(|i| self.segments(i))
+            .collect::<Result<_, _>>()?;
+        let length = |i: usize| {
+            let Resolved { from_nm, to_nm, .. } = self.resolved[i];
+            (to_nm - from_nm) / segments[i - first] as f64
+        };
+        let lengths = (first..past).map(|i| std::iter::repeat_n(length(i), segments[i - first]));
+        let wall = |i, end| {
             let at_this_end = i == self.filament.end_index(end);
             let hold = self.holds[end as usize];
             at_this_end && (hold == Some(Hold::Wall) || self.hinges[end as usize].is_some())
         };
         let rod = StraightRod {
-            start: self.axis_at(from_nm),
+            start: self.axis_at(self.resolved[first].from_nm),
             orientation: self.placement.rotation,
-            segment_lengths: vec![length; segments],
+            segment_lengths: lengths.flatten().collect(),
             cross_section: self.cross_section,
             walls: Walls {
-                start: wall(End::Start),
-                end: wall(End::End),
+                start: wall(first, End::Start),
+                end: wall(past - 1, End::End),
             },
         };
-        self.push_hinge_frame(i, End::Start, (from_nm, length), stock);
-        let layout = rod.push(&mut stock.state).map_err(|error| {
-            let key = format!("filament.sections[{i}].segments");
-            SceneProblem::new(key, segments, error.to_string())
-        })?;
-        self.describe_rod(i, &layout, length, stock);
-        self.push_hinge_frame(i, End::End, (to_nm, length), stock);
-        self.bodies.push(Body::Rod(layout));
+        let spacing: Vec<f64> = (first..past).map(length).collect();
+        let from_nm = self.resolved[first].from_nm;
+        self.push_hinge_frame(first, End::Start, (from_nm, spacing[0]), stock);
+        let layouts = rod
+            .push_in_parts(&segments, &mut stock.state)
+            .map_err(|error| {
+                let key = format!("filament.sections[{first}].segments");
+                SceneProblem::new(key, segments[0], error.to_string())
+            })?;
+        for ((i, layout), &length) in (first..past).zip(layouts).zip(&spacing) {
+            self.describe_rod(i, &layout, length, stock);
+            let to_nm = self.resolved[i].to_nm;
+            self.push_hinge_frame(i, End::End, (to_nm, length), stock);
+            self.bodies.push(Body::Rod(layout));
+        }
+        self.junction_frames.extend((first + 1..past).map(|_| 0..0));
         Ok(())
     }
 
@@ -200,10 +220,16 @@ impl<'a> Strand<'a> {
         [End::Start, End::End].map(|end| {
             // A pin lets the end turn, as a free one does.
             let is_held = self.holds[end as usize].is_some_and(|hold| hold != Hold::Pin);
-            if i == self.filament.end_index(end) && is_held {
-                EndShear::Blocked
-            } else {
+            if i == self.filament.end_index(end) {
+                if is_held {
+                    EndShear::Blocked
+                } else {
+                    EndShear::Loose
+                }
+            } else if self.is_junction(if end == End::Start { i - 1 } else { i }) {
                 EndShear::Loose
+            } else {
+                EndShear::Even
             }
         })
     }
@@ -261,27 +287,34 @@ impl<'a> Strand<'a> {
     fn describe_rod(&self, i: usize, layout: &RodLayout, length: f64, stock: &mut Stock) {
         let Resolved { from_nm, to_nm, .. } = self.resolved[i];
         let node = |k: usize| from_nm + k as f64 * length;
-        for k in 0..layout.points().len() {
+        // The node that it shares with a rod before it is known, and so is the cross-section there.
+        let goes_on = [i.checked_sub(1), Some(i)].map(|k| k.is_some_and(|k| self.is_joint(k)));
+        for k in usize::from(goes_on[0])..layout.points().len() {
             stock.points.push(PointInfo {
                 kind: BodyKind::Node,
                 s_nm: node(k),
                 frame: None,
             });
         }
-        let wall = |s_nm| FrameInfo {
-            kind: BodyKind::Wall,
+        let kind = |is_joint: bool| match is_joint {
+            true => BodyKind::Joint,
+            false => BodyKind::Wall,
+        };
+        let wall = |s_nm, is_joint| FrameInfo {
+            kind: kind(is_joint),
             s_nm,
         };
         let walls = [actin_cosserat::RodEnd::Start, actin_cosserat::RodEnd::End]
             .map(|end| layout.wall(end).is_some());
-        stock.frames.extend(walls[0].then(|| wall(from_nm)));
+        let is_new = walls[0] && !goes_on[0];
+        stock.frames.extend(is_new.then(|| wall(from_nm, false)));
         stock
             .frames
             .extend((0..layout.segments()).map(|k| FrameInfo {
                 kind: BodyKind::Segment,
                 s_nm: node(k) + 0.5 * length,
             }));
-        stock.frames.extend(walls[1].then(|| wall(to_nm)));
+        (stock.frames).extend(walls[1].then(|| wall(to_nm, goes_on[1])));
         let Range { start, end } = layout.points();
         let resolution = Resolution::Rod { segment_nm: length };
         let bodies = (layout.points(), layout.frames());
@@ -311,6 +344,13 @@ impl<'a> Strand<'a> {
     pub(super) fn is_junction(&self, i: usize) -> bool {
         let sections = self.resolved.get(i).zip(self.resolved.get(i + 1));
         sections.is_some_and(|(a, b)| a.monomers.is_some() != b.monomers.is_some())
+    }
+
+    /// Whether section `i` and the next are both rods.
+    fn is_joint(&self, i: usize) -> bool {
+        let is_rod = |r: &Resolved| r.monomers.is_none();
+        let rods = self.resolved[i..].iter().take(2).filter(|r| is_rod(r));
+        rods.count() == 2
     }
 
     /// The monomers from which section `i` is bonded upwards, and those of the next section to which the
