@@ -58,6 +58,6 @@ pub use scene::{
     CouplePerLength, DragRates, Drawn, Dynamics, End, Equilibrium, Factor, Filament, Force,
     ForceLaw, ForcePerLength, Hinge, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight,
     Linker, LinkerSite, Load, Material, Monomers, Override, Pace, RodLaw, RodLaws, RodModel, Scene,
-    SceneError, SceneProblem, SceneText, Section, Setting, ShearLaw, Slides, Stage, StopTolerances,
-    StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
+    SceneError, SceneProblem, SceneText, Section, Setting, Shape, ShearLaw, Slides, Stage,
+    StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
 };

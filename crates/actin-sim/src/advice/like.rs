@@ -116,6 +116,7 @@ fn has_default_models(scene: &Scene) -> bool {
         ..Monomers::default()
     };
     *given == default
+        && filament.shape.is_none()
         && filament.sections.iter().all(|s| !s.is_altered())
         && filament.rod.material == Material::default()
         && filament.rod.force_law == ForceLaw::EnergyGradient

@@ -2,6 +2,7 @@
 //! are in `build/strand.rs` and `build/interactions.rs`, what holds ends in `build/holds.rs`, loads in
 //! `build/loads.rs`, what links filaments to their surroundings and to each other in `build/linkers.rs`.
 
+mod bend;
 mod holds;
 mod interactions;
 mod linkers;
@@ -103,7 +104,8 @@ impl<'a> Builder<'a> {
         })
     }
 
-    /// Pushes the bodies of all filaments, then their interactions.
+    /// Pushes the bodies of all filaments, straight and unstrained, then their interactions, then bends
+    /// those that have a shape.
     fn push_filaments(&mut self) -> Result<(), SceneProblem> {
         let scene = self.scene;
         for (i, strand) in self.strands.iter_mut().enumerate() {
@@ -116,6 +118,12 @@ impl<'a> Builder<'a> {
             let pushed = strand.push_interactions(&mut self.stock);
             pushed.map_err(|p| p.with_filament(&scene.filament_key(i)))?;
             self.filaments[i].terms = first..self.stock.terms.len();
+        }
+        for (strand, span) in self.strands.iter_mut().zip(&mut self.filaments) {
+            let bent = strand.bend(span.frames.clone(), &mut self.stock);
+            let key = scene.filament_key(strand.index);
+            bent.map_err(|p| p.with_filament(&key))?;
+            span.shape.clone_from(&strand.built);
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use super::Clamped;
 use crate::scene::path::{self, Values};
-use crate::scene::{HeldEnds, Scene, Setting, Slides};
+use crate::scene::{HeldEnds, Scene, Setting, Slides, swept};
 use actin_coupling::Linker;
 use actin_mechanics::{ControlId, State, UnitQuaternion, Vector3, rotation};
 use std::ops::{Add, Mul, Sub};
@@ -248,15 +248,7 @@ fn angular_velocity(theta: Vector3, rate: Vector3) -> Vector3 {
         return rate;
     }
     // Beyond a full turn J_l^-1 has poles; J_l itself is written out.
-    let angle = theta.norm();
-    if angle < 1e-8 {
-        return rate + 0.5 * theta.cross(&rate);
-    }
-    let (sin, cos) = angle.sin_cos();
-    let axis = theta / angle;
-    rate * (sin / angle)
-        + axis * (axis.dot(&rate) * (1.0 - sin / angle))
-        + axis.cross(&rate) * ((1.0 - cos) / angle)
+    swept(theta, rate)
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ pub(super) fn displace(
             }
             let s_nm = points[p].s_nm;
             let (shift, turn) = field.at(s_nm, span);
-            let axis_point = span.origin_nm + span.axis() * s_nm;
+            let axis_point = span.axis_place(s_nm);
             let arm = state.points.position.get(p) - axis_point;
             let place = axis_point + shift + rotation::exp(turn) * arm;
             state.points.position.set(p, place);
@@ -110,7 +110,8 @@ impl Field {
         // Held monomers stand outside, and a resolved length is off by up to half a rise.
         let x = (s_nm / self.length_nm).clamp(0.0, 1.0);
         let turn = Vector3::z().cross(&self.slope(x)) / self.length_nm;
-        (span.rotation * self.shift(x), span.rotation * turn)
+        let rotation = span.frame_at(s_nm);
+        (rotation * self.shift(x), rotation * turn)
     }
 }
 

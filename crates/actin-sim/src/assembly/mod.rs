@@ -7,6 +7,7 @@
 mod beyond_use;
 mod bonded;
 mod build;
+mod built;
 mod describe;
 mod drive;
 mod hinge;

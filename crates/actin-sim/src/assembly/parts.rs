@@ -1,5 +1,6 @@
 //! What bodies, sections and terms are, for writers and pictures.
 
+use super::built::Built;
 use super::{Ranges, TwistWatch};
 use crate::scene::End;
 use actin_cosserat::{JoinedElement, RodLayout};
@@ -71,12 +72,29 @@ pub struct FilamentSpan {
     pub terms: Range<usize>,
     /// Where arc length begins (nm, lab frame).
     pub origin_nm: Vector3,
-    /// The turn from a filament along lab +z.
+    /// The turn from a filament along lab +z, or of its shape.
     pub rotation: UnitQuaternion,
+    /// Where its axis is, if it is not built straight; seen along lab +z.
+    pub(crate) shape: Option<Built>,
 }
 
 impl FilamentSpan {
-    /// Unit vector along the filament as built (lab frame).
+    /// Place of its axis as built at an arc length (nm, lab frame).
+    pub fn axis_place(&self, s_nm: f64) -> Vector3 {
+        match &self.shape {
+            None => self.origin_nm + self.axis() * s_nm,
+            Some(built) => self.origin_nm + self.rotation * built.at(s_nm).0,
+        }
+    }
+
+    /// The turn from a filament along lab +z at an arc length (nm) as built.
+    pub fn frame_at(&self, s_nm: f64) -> UnitQuaternion {
+        let built = self.shape.as_ref();
+        built.map_or(self.rotation, |built| self.rotation * built.at(s_nm).1)
+    }
+
+    /// Unit vector along the filament as built (lab frame); of one with a shape that along which its shape is
+    /// placed.
     pub fn axis(&self) -> Vector3 {
         self.rotation * Vector3::z()
     }

@@ -4,6 +4,7 @@
 //! [`validate`] then checks what numbers may be. Both report line and column.
 
 mod brackets;
+mod curve;
 mod factor;
 pub(crate) mod fitted;
 mod imperfection;
@@ -27,14 +28,17 @@ mod schema;
 mod section;
 mod section_rules;
 mod seeds;
+mod shape;
 mod stage;
 mod support;
 mod text;
 mod thermal;
+mod trace;
 mod types;
 mod validate;
 mod written;
 
+pub(crate) use curve::{Curve, swept};
 pub use factor::Factor;
 pub(crate) use factor::smooth;
 pub use imperfection::Imperfection;
@@ -52,6 +56,7 @@ pub use read::read_ron;
 pub use schema::schema;
 pub use section::{Altered, AlteredRod, Section};
 pub use seeds::Drawn;
+pub use shape::Shape;
 pub(crate) use support::is_across;
 pub use text::{Override, SceneText};
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};

@@ -1,5 +1,6 @@
 //! Which filament a scene means by an index, and where each is built.
 
+use super::curve::Curve;
 use super::types::along_z;
 use super::{
     End, Filament, Hold, JunctionModel, Monomers, RodModel, Scene, SceneProblem, Section, Slides,
@@ -18,6 +19,7 @@ impl Filament {
             at_nm: [0.0; 3],
             direction: along_z(),
             roll_deg: 0.0,
+            shape: None,
             imperfection: None,
         }
     }
@@ -54,6 +56,24 @@ impl Filament {
     pub(crate) fn rod_models(&self) -> impl Iterator<Item = RodModel> {
         let rods = self.sections.iter().filter(|section| section.is_rod());
         rods.map(|section| section.rod_model(&self.rod))
+    }
+
+    /// Where its sections begin (nm), as written.
+    pub(crate) fn boundaries(&self) -> Vec<f64> {
+        self.sections.iter().map(|s| s.span_nm().0).collect()
+    }
+
+    /// Unit vector along the filament at one end as built (lab frame).
+    pub(crate) fn axis_at(&self, end: End) -> Vector3 {
+        if self.shape.is_none() {
+            return self.axis();
+        }
+        let s_nm = match end {
+            End::Start => 0.0,
+            End::End => self.length_nm(),
+        };
+        let (_, frame) = Curve::of(self, &self.boundaries()).at(s_nm);
+        self.rotation() * frame * Vector3::z()
     }
 
     /// Index of the section at one end.

@@ -62,13 +62,18 @@ pub(super) fn each_positive(key: &str, values: [f64; 3]) -> Result<(), SceneProb
     ))
 }
 
+/// Radius of a filament's cross-section (nm).
+pub(super) fn radius_nm() -> f64 {
+    (CROSS_SECTION_AREA / PI).sqrt()
+}
+
 /// A curvature (1/nm) whose radius is greater than that of the filament.
 pub(super) fn check_curvature(
     key: &str,
     value: String,
     curvature: f64,
 ) -> Result<(), SceneProblem> {
-    let radius = (CROSS_SECTION_AREA / PI).sqrt();
+    let radius = radius_nm();
     if curvature * radius < 1.0 {
         return Ok(());
     }

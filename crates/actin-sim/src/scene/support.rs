@@ -1,7 +1,7 @@
 //! Whether a scene's loads are borne, and whether its turns go with how its ends slide.
 
 use super::path::{self, Values};
-use super::{Clamp, Filament, HeldEnds, Hold, Resultant, Scene, SceneProblem, Setting, Slides};
+use super::{Clamp, HeldEnds, Hold, Resultant, Scene, SceneProblem, Setting, Slides};
 use actin_mechanics::Vector3;
 use std::collections::BTreeSet;
 
@@ -31,7 +31,7 @@ pub(super) fn check_swings(scene: &Scene, held: &HeldEnds) -> Result<(), ScenePr
             };
             let clamp = held.clamp_at(filament, end);
             let slides = clamp.map(|c| scene.clamps[c].slides);
-            let axis = scene.filament_at(filament).map(Filament::axis);
+            let axis = scene.filament_at(filament).map(|f| f.axis_at(end));
             let tilts = axis.is_some_and(|axis| is_across(turn_deg.into(), axis));
             if slides == Some(Slides::Freely) || (slides == Some(Slides::AlongAxis) && tilts) {
                 return Err(SceneProblem::new(
@@ -131,7 +131,7 @@ fn groups(scene: &Scene, joined: &[usize]) -> Vec<Group> {
         groups[joined[linker.filament]].is_anchored = true;
     }
     for clamp in &scene.clamps {
-        let axis = scene.filament_at(clamp.filament).map(Filament::axis);
+        let axis = (scene.filament_at(clamp.filament)).map(|f| f.axis_at(clamp.end));
         let axis = axis.unwrap_or_default();
         let group = &mut groups[joined[clamp.filament]];
         group.hold(clamp.slides.directions(axis));

@@ -141,6 +141,14 @@ impl SceneText {
         Ok(())
     }
 
+    /// Replaces what is written between two places by something that comes from the same place.
+    pub(super) fn replace(&mut self, range: Range<usize>, inserted: &str) {
+        let origin = self.origins[range.start];
+        let from = std::iter::repeat_n(origin, inserted.len());
+        self.origins.splice(range.clone(), from);
+        self.text.replace_range(range, inserted);
+    }
+
     /// The scene that the text describes.
     ///
     /// # Errors
@@ -204,7 +212,7 @@ impl SceneText {
     }
 
     /// An error of the text with overrides, with its place in the text as written.
-    fn placed(&self, error: SceneError) -> SceneError {
+    pub(super) fn placed(&self, error: SceneError) -> SceneError {
         let at = place(&self.text, (error.line, error.column));
         let mut before = self.origins[..at.min(self.origins.len())].iter().rev();
         let (line, column) = match self.origins.get(at) {

@@ -1,7 +1,7 @@
 //! What a scene says: filaments, clamps, loads and task. Where filaments are is in `place.rs`.
 
 use super::model::{JunctionModel, Monomers, RodModel};
-use super::{Imperfection, Linker, Load, Section, Thermal, written::Written};
+use super::{Imperfection, Linker, Load, Section, Shape, Thermal, written::Written};
 use serde::{Deserialize, Serialize};
 
 /// A scene: filaments, what holds, loads and links them, and what is asked of them.
@@ -132,6 +132,10 @@ pub struct Filament {
     /// to the direction takes lab +x.
     #[serde(default)]
     pub roll_deg: f64,
+    /// The curve along which it is built; without one it is straight. What is bent and not so at rest
+    /// begins under stress.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shape: Option<Shape>,
     /// A small displacement from the axis with which a run begins.
     #[serde(default)]
     pub imperfection: Option<Imperfection>,

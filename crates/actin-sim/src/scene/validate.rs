@@ -7,7 +7,7 @@ use super::support::{check_support, check_swings};
 use super::{
     Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Resultant, Scene,
     SceneProblem, Slides, StopTolerances, Task, imperfection, linker, load_rules, magnitude,
-    saddles, section_rules, stage, thermal,
+    saddles, section_rules, shape, stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 
@@ -41,7 +41,7 @@ pub(super) fn problems(scene: &Scene) -> Vec<SceneProblem> {
     for (i, one) in scene.filaments().enumerate() {
         let named = |problem: SceneProblem| problem.with_filament(&scene.filament_key(i));
         section_rules::check(one, &mut |checked| note(checked.map_err(named)));
-        for check in [check_model, check_place, imperfection::check] {
+        for check in [check_model, check_place, imperfection::check, shape::check] {
             note(check(one).map_err(named));
         }
     }

@@ -31,13 +31,19 @@ pub fn link_of(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
 
 /// The same at a path parameter.
 pub(crate) fn link_at(assembly: &Assembly, filament: usize, parameter: f64) -> Option<f64> {
-    let axis = assembly.filaments[filament].axis();
+    let axis = axis_of_ends(assembly, filament)?;
     let turn = |end| {
         let clamp = assembly.held.fixed_at(filament, end)?;
         let turn: Vector3 = assembly.drive.turn(clamp, parameter);
         (!is_across(turn, axis)).then(|| turn.dot(&axis))
     };
     Some((turn(End::End)? - turn(End::Start)?) / (2.0 * PI))
+}
+
+/// The axis along which a filament is built; none of one with a shape, whose ends have axes of their own.
+fn axis_of_ends(assembly: &Assembly, filament: usize) -> Option<Vector3> {
+    let span = &assembly.filaments[filament];
+    span.shape.is_none().then(|| span.axis())
 }
 
 /// How far the end of a filament is turned against its start (turns), as the path prescribes:
@@ -48,7 +54,7 @@ pub(crate) fn link_at(assembly: &Assembly, filament: usize, parameter: f64) -> O
 /// the other by a right angle or more.
 pub(crate) fn turn_of_ends(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
     let parameter = path_parameter(assembly, at);
-    let axis = assembly.filaments[filament].axis();
+    let axis = axis_of_ends(assembly, filament)?;
     let turned = [End::Start, End::End].map(|end| {
         let clamp = assembly.held.turned_at(filament, end)?;
         Some(assembly.drive.turn(clamp, parameter))

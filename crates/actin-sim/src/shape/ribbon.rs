@@ -218,11 +218,12 @@ fn top_of_parabola(x: [f64; 3], y: [f64; 3]) -> f64 {
     y[1] - 0.5 * slope * slope / curvature
 }
 
-/// The axes in which the filament of frame `i` was built, turned as the frame since then.
+/// The axes in which the filament of frame `i` was built there, turned as the frame since then.
 fn from_rest(assembly: &Assembly, state: &State, i: usize) -> UnitQuaternion {
     let turned =
         state.frames.orientation.get(i) * assembly.rest.frames.orientation.get(i).inverse();
-    turned * assembly.filaments[assembly.filament_of_frame(i)].rotation
+    let span = &assembly.filaments[assembly.filament_of_frame(i)];
+    turned * span.frame_at(assembly.frames[i].s_nm)
 }
 
 /// The held frame behind the spring of a hinged end, and the cross-section before it.

@@ -28,7 +28,7 @@ impl Builder<'_> {
                 ));
             }
             let strand = &self.strands[clamp.filament];
-            let axis = strand.filament.axis();
+            let axis = strand.tangent_at(strand.end_nm(clamp.end));
             let directions = clamp.slides.directions(axis);
             if !directions.is_empty() {
                 self.stock.state.sliders.push(Slider {
@@ -46,19 +46,16 @@ impl Builder<'_> {
     /// The end that a clamp holds with these bodies.
     fn clamped(&self, clamp: &Clamp, points: Range<usize>, frames: Range<usize>) -> Clamped {
         let strand = &self.strands[clamp.filament];
-        let section = &strand.resolved[strand.filament.end_index(clamp.end)];
-        let about_nm = strand.axis_at(match clamp.end {
-            End::Start => section.from_nm,
-            End::End => section.to_nm,
-        });
+        let s_nm = strand.end_nm(clamp.end);
+        let about_nm = strand.axis_at(s_nm);
         let state = &self.stock.state;
         Clamped {
             filament: clamp.filament,
             end: clamp.end,
-            axis: strand.filament.axis(),
+            axis: strand.tangent_at(s_nm),
             arm_nm: state.points.position.get(points.start) - about_nm,
             rest: if frames.is_empty() {
-                strand.placement.rotation
+                strand.frame_at(s_nm)
             } else {
                 state.frames.orientation.get(frames.start)
             },

@@ -1,6 +1,7 @@
 //! One filament under construction: its bodies and interactions, section by section.
 
 use super::Stock;
+use crate::assembly::built::Built;
 use crate::assembly::lattice::{Lattice, Resolved, resolve};
 use crate::assembly::{BodyKind, FilamentSpan, FrameInfo, PointInfo, Resolution, SectionSpan};
 use crate::assembly::{law, models};
@@ -8,7 +9,7 @@ use crate::scene::{Clamp, End, Filament, Hinge, Hold, MOST_COUNTED, SceneProblem
 use actin_cosserat::{CrossSection, EndShear, RodLayout, StraightRod, Walls};
 use actin_coupling::push_junction_frames;
 use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
-use actin_mechanics::{Frame, Vector3};
+use actin_mechanics::{Frame, UnitQuaternion, Vector3};
 use std::ops::Range;
 
 /// Length of a rod's segments where the scene does not say how many there are (nm).
@@ -22,6 +23,8 @@ pub(super) enum Body {
 
 /// A filament under construction. Problems name its keys as those of `filament`.
 pub(super) struct Strand<'a> {
+    /// Its index in the scene.
+    pub(super) index: usize,
     pub(super) filament: &'a Filament,
     /// What is held at start and end; nothing at a free one.
     holds: [Option<Hold>; 2],
@@ -33,6 +36,8 @@ pub(super) struct Strand<'a> {
     pub(super) first_section: usize,
     /// Where arc length begins, and the turn from a filament along lab +z.
     pub(super) placement: Placement,
+    /// Where its axis is once it is bent along its shape.
+    pub(super) built: Option<Built>,
     pub(super) resolved: Vec<Resolved>,
     pub(super) lattice: Lattice,
     /// The monomers of each section; of a rod those that it stands for.
@@ -60,6 +65,7 @@ impl<'a> Strand<'a> {
         let holds = clamps.map(|clamp| clamp.map(|c| c.hold));
         let is_held = holds.map(|hold| hold.is_some());
         Ok(Self {
+            index,
             filament,
             holds,
             hinges: clamps.map(|clamp| clamp.and_then(|c| c.hinge)),
@@ -69,6 +75,7 @@ impl<'a> Strand<'a> {
                 rotation: filament.rotation(),
                 translation: filament.at_nm.into(),
             },
+            built: None,
             resolved: resolve(filament, is_held)?,
             lattice: Lattice::of(filament, is_held),
             models: (filament.sections.iter())
@@ -93,7 +100,35 @@ impl<'a> Strand<'a> {
 
     /// Where a place of a filament along lab +z from the origin is in this one (nm, lab frame).
     pub(super) fn place(&self, of_straight: Vector3) -> Vector3 {
-        self.placement.translation + self.placement.rotation * of_straight
+        let own = self.built.as_ref().map_or(of_straight, |built| {
+            let (place, frame) = built.at(of_straight.z);
+            place + frame * Vector3::new(of_straight.x, of_straight.y, 0.0)
+        });
+        self.placement.translation + self.placement.rotation * own
+    }
+
+    /// Arc length of an end (nm).
+    pub(super) fn end_nm(&self, end: End) -> f64 {
+        let section = &self.resolved[self.filament.end_index(end)];
+        match end {
+            End::Start => section.from_nm,
+            End::End => section.to_nm,
+        }
+    }
+
+    /// The turn from a filament along lab +z at an arc length (nm).
+    pub(super) fn frame_at(&self, s_nm: f64) -> UnitQuaternion {
+        let rotation = self.placement.rotation;
+        let built = self.built.as_ref();
+        built.map_or(rotation, |built| rotation * built.at(s_nm).1)
+    }
+
+    /// Unit vector along the filament at an arc length (nm, lab frame).
+    pub(super) fn tangent_at(&self, s_nm: f64) -> Vector3 {
+        match self.built {
+            None => self.filament.axis(),
+            Some(_) => self.frame_at(s_nm) * Vector3::z(),
+        }
     }
 
     /// Pushes the bodies of all sections and of the junctions between them.
@@ -109,6 +144,7 @@ impl<'a> Strand<'a> {
             terms: 0..0,
             origin_nm: self.placement.translation,
             rotation: self.placement.rotation,
+            shape: None,
         })
     }
 
@@ -179,6 +215,10 @@ impl<'a> Strand<'a> {
             let Resolved { from_nm, to_nm, .. } = self.resolved[i];
             (to_nm - from_nm) / segments[i - first] as f64
         };
+        for i in first..past {
+            let angle = self.laws[i].material.rest_curvature().norm() * length(i);
+            self.check_angle(i, segments[i - first], angle)?;
+        }
         let lengths = (first..past).map(|i| std::iter::repeat_n(length(i), segments[i - first]));
         let wall = |i, end| {
             let at_this_end = i == self.filament.end_index(end);
