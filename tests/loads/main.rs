@@ -7,5 +7,7 @@ mod common;
 mod ends;
 mod motion;
 mod refused;
+mod rods;
 mod sections;
+mod shapes;
 mod statics;

@@ -6,6 +6,7 @@ use actin_sim::{
 };
 use std::fmt;
 use std::io::Read;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// A failure and the exit code that goes with it.
@@ -84,6 +85,13 @@ impl Opened {
             text.set(one.clone())
                 .map_err(|error| input(&name, &error))?;
         }
+        // Of standard input, which is in no folder, the working directory.
+        let folder = match source.is_standard_input() {
+            true => None,
+            false => source.scene.parent(),
+        };
+        let read = text.read_points(folder.unwrap_or(Path::new("")));
+        read.map_err(|error| Failure::Input(shown(&name, &text, &error)))?;
         let mut scene = text.scene().map_err(|first| all(&name, &text, first))?;
         if let Some(seed) = source.seed {
             let reseeded = Drawn::ALL.map(|what| scene.reseed(what, seed));
@@ -119,9 +127,7 @@ impl Opened {
 
     /// The same with the line that is to blame.
     fn show(&self, problem: &actin_sim::SceneProblem) -> String {
-        let error = self.text.locate(problem);
-        let told = placed(&self.name, &error);
-        format!("{told}{}", excerpt::of(&self.text, &error))
+        shown(&self.name, &self.text, &self.text.locate(problem))
     }
 }
 
@@ -135,11 +141,13 @@ fn all(name: &str, text: &SceneText, first: SceneError) -> Failure {
     if mistakes.is_empty() {
         mistakes.push(first);
     }
-    let shown = mistakes.iter().map(|mistake| {
-        let told = placed(name, mistake);
-        format!("{told}{}", excerpt::of(text, mistake))
-    });
-    Failure::Input(shown.collect::<Vec<_>>().join("\nerror: "))
+    let told = mistakes.iter().map(|mistake| shown(name, text, mistake));
+    Failure::Input(told.collect::<Vec<_>>().join("\nerror: "))
+}
+
+/// A mistake with its place and the line that is to blame.
+fn shown(name: &str, text: &SceneText, mistake: &SceneError) -> String {
+    format!("{}{}", placed(name, mistake), excerpt::of(text, mistake))
 }
 
 fn placed(name: &str, error: &SceneError) -> String {

@@ -7,7 +7,7 @@ use std::path::Path;
 use workplace::{Workplace, code, stderr, stdout};
 
 /// Scenes of `scenarios/bad`, with a mistake of each kind.
-const MISTAKES: [&str; 24] = [
+const MISTAKES: [&str; 28] = [
     "several-mistakes",
     "several-broken-rules",
     "filament-without-its-bracket",
@@ -32,6 +32,10 @@ const MISTAKES: [&str; 24] = [
     "clamp-twice",
     "non-finite-number",
     "linker-outside-the-filament",
+    "negative-factor-of-a-rod",
+    "factors-of-a-potential",
+    "arc-that-closes",
+    "points-of-no-file",
 ];
 
 /// Exit code 2, nothing on standard output, and every mistake with its line.

@@ -3,10 +3,10 @@
 mod common;
 
 use actin_cosserat::{
-    BendLaw, BendingElement, CubicShear, EnergyGradient, JoinedElement, PaperBalance,
-    PolynomialStretch, Rigidities, RodLayout, RodMaterial, RootedStretch, SegmentCurvature,
-    SegmentLaw, SidedTwist, Stiffening, StraightRod, StretchLaw, TanhTwist, TwistLaw, TwistRise,
-    TwistStretch, Walls,
+    BendLaw, BendingElement, CubicShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance,
+    PolynomialStretch, Rigidities, RigidityFactors, RodLayout, RodMaterial, RootedStretch,
+    SegmentCurvature, SegmentLaw, SidedTwist, Stiffening, StraightRod, StretchLaw, TanhTwist,
+    TwistLaw, TwistRise, TwistStretch, Walls,
 };
 use actin_mechanics::Xorshift;
 use actin_mechanics::testing::{
@@ -90,6 +90,45 @@ fn every_law() -> RodMaterial {
         .unwrap()
 }
 
+fn bent_at_rest(material: RodMaterial) -> RodMaterial {
+    let kappa = Vector3::new(0.02, -0.03, 0.05);
+    material.with_rest_curvature(kappa).unwrap()
+}
+
+/// Rigidities are multiplied, and nothing else: strains, where laws change and shapes at rest stay.
+#[test]
+fn softened_laws_are_multiples() {
+    let mut noise = Xorshift::new(31);
+    let factors = RigidityFactors {
+        shear: 0.5,
+        stretch: 0.5,
+        bend: 0.1,
+        twist: 0.1,
+    };
+    for (name, material, _) in laws() {
+        let softer = material.softened(&factors).unwrap();
+        assert_eq!(softer.rest_curvature(), material.rest_curvature());
+        for _ in 0..10 {
+            let (sigma, kappa) = (0.1 * noise.vector(), 0.1 * noise.vector());
+            let (force, couple) = (material.shear_force(sigma), material.bending_couple(kappa));
+            let miss = (softer.shear_force(sigma) - 0.5 * force).norm() / force.norm();
+            assert!(miss < 1e-14, "{name}: {miss:e}");
+            let miss = (softer.bending_couple(kappa) - 0.1 * couple).norm() / couple.norm();
+            assert!(miss < 1e-13, "{name}: {miss:e}");
+        }
+    }
+    for value in [0.0, -1.0, f64::NAN] {
+        let wrong = RigidityFactors {
+            twist: value,
+            ..factors
+        };
+        assert!(constant().softened(&wrong).is_err());
+    }
+    let potential = RodMaterial::homogenised(Homogenised::mean_filament());
+    assert!(potential.softened(&factors).is_err());
+    assert!(potential.softened(&RigidityFactors::default()).is_ok());
+}
+
 /// Materials with what couples their segments.
 fn laws() -> Vec<(&'static str, RodMaterial, Option<TwistStretch>)> {
     let twisted = constant().with_twist(TwistLaw::Tanh(wide_twist())).unwrap();
@@ -110,6 +149,12 @@ fn laws() -> Vec<(&'static str, RodMaterial, Option<TwistStretch>)> {
         ("B_perp(kappa)", bent, None),
         ("all", every_law(), Some(wide_stretch())),
         ("sided twist and rooted stretch", sided, Some(ROOTED)),
+        (
+            "all, bent at rest",
+            bent_at_rest(every_law()),
+            Some(wide_stretch()),
+        ),
+        ("constant, bent at rest", bent_at_rest(constant()), None),
     ]
 }
 

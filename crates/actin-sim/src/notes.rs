@@ -5,7 +5,7 @@
 //! tell, to the `notes` of its summary.
 
 use crate::assembly::Rod;
-use crate::scene::{Anchors, Material, Monomers, RodLaw, RodModel, Task};
+use crate::scene::{Anchors, Filament, Material, Monomers, RodLaw, RodModel, Task};
 use crate::{Assembly, Outcome, Record, shape};
 use actin_cosserat::Homogenised;
 use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
@@ -46,23 +46,23 @@ impl Assembly {
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         for (i, filament) in self.scene.filaments().enumerate() {
-            if self.counts_of(i).bonds > 0 {
-                let each = InterfaceKind::ALL.map(|kind| few_bonds(&filament.monomers, kind));
-                let new = each
-                    .into_iter()
-                    .flatten()
-                    .filter(|note| !notes.contains(note));
-                notes.extend(new.collect::<Vec<_>>());
+            let sections = filament.sections.iter().filter(|s| !s.is_rod());
+            for section in sections {
+                let monomers = section.monomers(&filament.monomers);
+                for kind in InterfaceKind::ALL {
+                    let note = few_bonds(&monomers, kind);
+                    notes.extend(note.filter(|note| !notes.contains(note)));
+                }
             }
         }
         notes.extend(self.short_rods());
-        if let Some(thermal) = self.scene.thermal() {
-            for (i, filament) in self.scene.filaments().enumerate() {
-                let has_rod = self.counts_of(i).segments > 0;
-                let note = has_rod.then(|| law_in_bath(&filament.rod, thermal.temperature_k));
-                let note = note.flatten();
-                notes.extend(note.filter(|note| !notes.contains(note)));
-            }
+        let thermal = self.scene.thermal();
+        for rod in self.scene.filaments().flat_map(Filament::rod_models) {
+            let note = match thermal {
+                Some(thermal) => law_in_bath(&rod, thermal.temperature_k),
+                None => (rod.law == RodLaw::HomogenisedAt298K).then(|| HEATED.to_owned()),
+            };
+            notes.extend(note.filter(|note| !notes.contains(note)));
         }
         notes
     }
@@ -71,8 +71,9 @@ impl Assembly {
     fn short_rods(&self) -> Option<String> {
         let under_law = |rod: &&Rod| {
             let filament = self.filament_of_section(rod.section);
-            let mut filaments = self.scene.filaments().skip(filament);
-            filaments.next().is_some_and(|f| f.rod.law.is_homogenised())
+            let written = self.scene.filament_at(filament);
+            let i = rod.section - self.filaments[filament].sections.start;
+            written.is_some_and(|f| f.sections[i].rod_model(&f.rod).law.is_homogenised())
         };
         let lengths = self.rods.iter().filter(under_law);
         let shortest = lengths
@@ -154,6 +155,11 @@ fn far_from(temperature_k: f64) -> Option<String> {
     })
 }
 
+/// The note on the free energy without a heat bath.
+const HEATED: &str = "rods under the law HomogenisedAt298K without a heat bath: their free energy at 298 K is least where they \
+    are 0.46 % shorter than built, so that a rod held at both ends is under tension; without heat Homogenised is the \
+    energy of monomers at rest";
+
 /// The note on the energy without heat in a heat bath.
 const ATHERMAL: &str = "rods under the law HomogenisedAthermal in a heat bath: its energy is one at zero \
     temperature, not a free energy. At 298 K free rods of 110 nm in segments of 10 nm have a persistence length of \
@@ -225,6 +231,32 @@ mod tests {
         assert_eq!(notes(&monomers(""), ""), [""; 0]);
         let drawn = "anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8";
         assert_eq!(notes(&monomers(drawn), ""), [""; 0]);
+    }
+
+    /// Sections with too few bonds of their own are noted as filaments are.
+    #[test]
+    fn few_weighted_bonds_of_a_section_are_noted() {
+        let filament = "Filament(sections: [
+            Ellipsoids(from_nm: 0.0, to_nm: 12.0),
+            Ellipsoids(from_nm: 12.0, to_nm: 24.0, altered: (lateral_bonds: 8)),
+        ])";
+        let found = notes(filament, "");
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].starts_with("8 weighted bonds for a lateral interface"));
+    }
+
+    /// A section's own law is what is noted; without heat the free energy is.
+    #[test]
+    fn laws_of_sections_are_noted() {
+        let filament = "Filament(sections: [
+            Rod(from_nm: 0.0, to_nm: 80.0),
+            Rod(from_nm: 80.0, to_nm: 160.0, altered: (law: HomogenisedAt298K)),
+        ], rod: RodModel(law: Fitted))";
+        let found = notes(filament, "");
+        assert_eq!(found, [HEATED]);
+        let heated = notes(filament, BATH);
+        assert_eq!(heated.len(), 1, "{heated:?}");
+        assert!(heated[0].starts_with("rods under the law Fitted in a heat bath"));
     }
 
     /// Each law once, however many filaments have it; none without heat, and none of filaments

@@ -47,15 +47,16 @@ impl Opened {
         };
         let sweep = Sweep::from_ron(&text).map_err(refused)?;
         let scene_path = path.parent().unwrap_or(Path::new("")).join(&sweep.scene);
-        let scene = read(&scene_path)?;
+        let mut scene = SceneText::new(&read(&scene_path)?);
         // First the scene alone: what is wrong with it is not the fault of the sweep.
-        SceneText::new(&scene)
-            .read()
-            .map_err(|error| SweepError::Refused {
-                file: scene_path,
-                error,
-            })?;
-        Self::new(sweep, scene).map_err(|problem| refused(SceneError::locate(&problem, &text)))
+        let folder = scene_path.parent().unwrap_or(Path::new(""));
+        let found = scene.read_points(folder).and_then(|()| scene.read());
+        found.map_err(|error| SweepError::Refused {
+            file: scene_path.clone(),
+            error,
+        })?;
+        Self::new(sweep, scene.text().to_owned())
+            .map_err(|problem| refused(SceneError::locate(&problem, &text)))
     }
 
     /// Checks a sweep with the text of its scene.

@@ -254,7 +254,13 @@ impl Load {
             Self::Acceleration(load) => {
                 let filament = scene.filament_at(load.filament);
                 let density = filament.map_or(0.0, |f| f.monomers.mass_ag / f.monomers.rise_nm);
-                density * length
+                let sections = filament.into_iter().flat_map(|f| &f.sections);
+                // Lengths by which the masses of altered monomers exceed those of the others.
+                let excess = sections.filter_map(|section| {
+                    let (from, to) = section.span_nm();
+                    Some((section.altered()?.mass_factor - 1.0) * (to - from))
+                });
+                density * (length + excess.sum::<f64>())
             }
             _ => length,
         }

@@ -1,0 +1,175 @@
+//! Rods next to rods: what they share, and what each has of its own.
+
+use crate::common::{build, run, second_order_limit};
+use actin_mechanics::testing::{assert_is_balanced, assert_is_gradient, assert_is_stiffness};
+use actin_mechanics::{Vector3, Xorshift, perturb, rotation};
+use actin_sim::{Assembly, BodyKind, End, Plan};
+
+/// Rigidities of the default rod (pN nm^2, pN).
+const BEND: f64 = 3.9e4;
+const TWIST: f64 = 1.3e4;
+const SHEAR: f64 = 1.6e4;
+/// What cofilin leaves of bending and twist, and where (nm).
+const SOFTER: [f64; 2] = [0.2, 0.1];
+const STRETCH: [f64; 2] = [50.0, 110.0];
+const LENGTH: f64 = 160.0;
+
+fn text(sections: &str, law: &str, loads: &str) -> String {
+    format!(
+        "Scene(
+            filament: Filament(sections: [{sections}], rod: RodModel(law: {law})),
+            clamps: [Clamp(end: Start)],
+            loads: [{loads}],
+            task: Equilibrium(),
+        )"
+    )
+}
+
+const ONE: &str = "Rod(from_nm: 0.0, to_nm: 160.0, segments: 16)";
+const TWO: &str = "Rod(from_nm: 0.0, to_nm: 70.0, segments: 7),
+    Rod(from_nm: 70.0, to_nm: 160.0, segments: 9, altered: ())";
+
+/// A rod cut into sections that do not differ bends in its plane as one: half a segment and half a segment in
+/// series are the element between them.
+#[test]
+fn cuts_change_nothing() {
+    for law in ["Constant", "PublishedExtension", "Fitted", "Homogenised"] {
+        let load = "EndForce(end: End, force_pn: (1.0, 0.0, 0.0))";
+        let [one, two] = [ONE, TWO].map(|sections| run(&text(sections, law, load)).0);
+        let tip = |assembly: &Assembly| assembly.tip_nm(assembly.system.state(), End::End);
+        let miss = (tip(&one) - tip(&two)).norm();
+        println!("{law}: {miss:.1e} nm");
+        // Residuals of 1e-7 pN on what 1 pN moves by some 30 nm; under Homogenised what one end does to shear
+        // at the other, exp(-160/5.5) of it, is cut off.
+        assert!(miss < 1e-4, "{law}: {miss:e}");
+        assert_eq!((one.points.len(), one.counts().junctions), (17, 0));
+        assert_eq!((two.points.len(), two.counts().junctions), (17, 0));
+        assert_eq!(two.frames.len(), one.frames.len() + 1);
+        let mass = |assembly: &Assembly| -> f64 {
+            let points = &assembly.system.state().points;
+            (0..points.len()).map(|i| points.mass(i)).sum()
+        };
+        assert!((mass(&one) / mass(&two) - 1.0).abs() < 1e-13);
+    }
+}
+
+/// The cross-section between two rods takes its inertia from its neighbours, so that the largest frequency
+/// rises by the root of 4/3 at most.
+#[test]
+fn a_cut_keeps_the_time_step() {
+    let frequency = |sections: &str| {
+        let text =
+            text(sections, "Constant", "").replace("Equilibrium()", "Dynamics(duration_ns: 1.0)");
+        let assembly = build(&text);
+        let plan = Plan::new(&assembly).unwrap();
+        plan.estimate().unwrap().largest_frequency_rad_per_ns
+    };
+    let ratio = frequency(TWO) / frequency(ONE);
+    println!("largest frequency: {ratio:.4}");
+    assert!((0.999..1.16).contains(&ratio), "{ratio}");
+}
+
+/// The scene of the repository, on segments `refined` times as short.
+fn cofilin(refined: usize) -> Assembly {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/cofilin.ron");
+    let mut text = std::fs::read_to_string(path).unwrap();
+    for segments in [6, 5] {
+        let refined = format!("segments: {}", segments * refined);
+        text = text.replace(&format!("segments: {segments}"), &refined);
+    }
+    run(&text).0
+}
+
+/// Deflection and twist of a stepped beam: `F (int (L - s)^2/B ds + L/S)` with order two, and `M int ds/C`
+/// exactly. A joint that bends as one of its neighbours alone is off by half the step in compliance over half a
+/// segment: of first order.
+#[test]
+fn a_softened_stretch_is_a_stepped_beam() {
+    let [from, to] = STRETCH;
+    let cube = |a: f64, b: f64| ((LENGTH - a).powi(3) - (LENGTH - b).powi(3)) / 3.0;
+    let bent = (cube(0.0, from) + cube(from, to) / SOFTER[0] + cube(to, LENGTH)) / BEND;
+    let exact = 1e-3 * (bent + LENGTH / SHEAR);
+    let mut tips = [0.0; 3];
+    for (k, tip) in tips.iter_mut().enumerate() {
+        let assembly = cofilin(1 << k);
+        let state = assembly.system.state();
+        *tip = assembly.tip_nm(state, End::End).x;
+        let last = assembly.sections[2].frames.end - 1;
+        let turn = rotation::log(state.frames.orientation.get(last)).z;
+        // The last segment's frame stands at its middle.
+        let s = assembly.frames[last].s_nm;
+        let twisted = 0.5 * (s - (to - from) + (to - from) / SOFTER[1]) / TWIST;
+        println!("{} segments: twist {:.1e}", 16 << k, turn / twisted - 1.0);
+        assert!((turn / twisted - 1.0).abs() < 1e-6, "{turn} {twisted}");
+    }
+    let limit = second_order_limit("softened stretch", tips, exact, 0.02);
+    // Slopes of 0.01 make the beam nonlinear by their square.
+    assert!(limit.abs() < 1e-4, "{limit:e}");
+}
+
+/// Rods of several laws, bent at rest, beside each other and monomers.
+const MANY: &str = "
+    Rod(from_nm: 0.0, to_nm: 30.0, altered: (law: Constant, rest_curvature_per_nm: (0.01, -0.02))),
+    Rod(from_nm: 30.0, to_nm: 60.0, altered: (bend_rigidity_factor: 0.2, twist_rigidity_factor: 0.1,
+        stretch_rigidity_factor: 0.5, shear_rigidity_factor: 2.0)),
+    Rod(from_nm: 60.0, to_nm: 90.0, altered: (law: Homogenised,
+        rest_curvature_per_nm: (0.004, 0.002), rest_twist_per_nm: 0.01)),
+    Ellipsoids(from_nm: 90.0, to_nm: 105.0),
+    Rod(from_nm: 105.0, to_nm: 135.0, altered: (law: PublishedExtension, rest_twist_per_nm: -0.02)),
+    Rod(from_nm: 135.0, to_nm: 165.0, altered: (rest_curvature_per_nm: (0.0, 0.01), rest_twist_per_nm: 0.02))";
+
+/// Loads, those of the vector path among them, and second derivatives are those of the energy.
+#[test]
+fn every_section_is_the_gradient_of_its_energy() {
+    let assembly = build(&text(MANY, "Fitted", ""));
+    let joints = assembly.frames.iter().filter(|f| f.kind == BodyKind::Joint);
+    assert_eq!((joints.count(), assembly.counts().junctions), (3, 2));
+    let mut state = assembly.rest.clone();
+    perturb(&mut state, &mut Xorshift::new(8), 0.02, 0.05);
+    for interaction in assembly.system.interactions() {
+        assert_is_gradient(interaction.as_ref(), &state, 1e-4, 1e-6);
+        assert_is_stiffness(interaction.as_ref(), &state, 1e-4, 1e-5);
+        assert_is_balanced(interaction.as_ref(), &state, 1e-11);
+    }
+}
+
+/// What is built as it is at rest is not loaded, whatever its laws, and beyond no range.
+#[test]
+fn the_shape_at_rest_bears_nothing() {
+    // Without the published length, which pulls a filament at rest.
+    let sections = MANY.replace("law: PublishedExtension, ", "");
+    let text = text(&sections, "Fitted", "").replace("rod:", "shape: AtRest, rod:");
+    let mut assembly = build(&text);
+    let loads = assembly.system.loads().clone();
+    let residual = loads.residual(&assembly.rest);
+    // Round-off of strains of 1e-15 against rigidities of 1e4 and couples over 10 nm.
+    assert!(
+        residual.force < 1e-8 && residual.torque < 1e-7,
+        "{residual:?}"
+    );
+    assert_eq!(assembly.beyond_range(&assembly.rest), []);
+    // It is bent nevertheless.
+    let tip = assembly.tip_nm(&assembly.rest, End::End);
+    assert!(tip.xy().norm() > 10.0, "{tip}");
+}
+
+/// Ranges are those of a section's own law, counted from its shape at rest.
+#[test]
+fn sections_leave_the_data_of_their_own_laws() {
+    let sections = "Rod(from_nm: 0.0, to_nm: 40.0),
+        Rod(from_nm: 40.0, to_nm: 80.0, altered: (law: Fitted, rest_twist_per_nm: 0.03))";
+    let assembly = build(&text(sections, "Constant", ""));
+    let twisted = |rate: f64| {
+        let mut state = assembly.rest.clone();
+        for (f, frame) in assembly.frames.iter().enumerate() {
+            let turn = rotation::exp(Vector3::z() * (rate * frame.s_nm));
+            state.frames.orientation.set(f, turn);
+        }
+        let found = assembly.beyond_range(&state).into_iter();
+        found.map(|b| (b.section, b.quantity)).collect::<Vec<_>>()
+    };
+    // The data reach 0.047 rad/nm.
+    assert_eq!(twisted(0.06), []);
+    assert_eq!(twisted(0.0), []);
+    assert_eq!(twisted(-0.03), [(1, "twist".to_owned())]);
+}
