@@ -16,4 +16,5 @@ mod range;
 mod record;
 mod rest;
 mod short_bonds;
+mod steps;
 mod thermal;

@@ -3,6 +3,7 @@
 //!
 //! The tables of `docs/measured/waves.md` are what these tests print with `--nocapture`.
 
+mod bending;
 mod field;
 mod frequencies;
 mod pulses;

@@ -3,7 +3,7 @@
 use crate::layout::check_lengths;
 use crate::shape::from_z;
 use crate::{CrossSection, RodClamp, RodEnd, RodError, RodLayout};
-use actin_mechanics::{Frame, Point, State, UnitQuaternion, Vector3};
+use actin_mechanics::{Frame, Inertia, Point, State, UnitQuaternion, Vector3};
 
 /// At which ends a rod has a held wall frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,8 +25,24 @@ pub struct StraightRod {
     pub segment_lengths: Vec<f64>,
     /// What its masses and moments of inertia follow from.
     pub cross_section: CrossSection,
+    /// Transverse inertia of its segments.
+    pub rotary_inertia: RotaryInertia,
     /// Where it has wall frames.
     pub walls: Walls,
+}
+
+/// What the transverse inertia of a segment holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RotaryInertia {
+    /// The moments of the cross-section, as in the rod equations. The fastest mode, a segment that turns
+    /// against shear, is then as fast however long the segment is.
+    #[default]
+    CrossSection,
+    /// In addition `mu l^3 / 12`, `mu` the mass per length and `l` the segment's length: the segment turns as a
+    /// rigid piece of rod. Its frequency falls as `1 / l`, and that of slow bending by a relative `(k l)^2 / 24`
+    /// at a wave number `k`, an error of the order of the mesh's. At rest nothing changes, nor do
+    /// fluctuations in a heat bath.
+    RigidSegment,
 }
 
 impl StraightRod {
@@ -38,6 +54,7 @@ impl StraightRod {
             orientation: UnitQuaternion::identity(),
             segment_lengths: vec![segment_length; segments],
             cross_section: CrossSection::actin(),
+            rotary_inertia: RotaryInertia::default(),
             walls: Walls::default(),
         }
     }
@@ -124,8 +141,8 @@ impl StraightRod {
             self.push_segments(own, is_joined, state);
             done += count;
             if is_joined[1] {
-                let around = 0.25 * (lengths[done - 1] + lengths[done]);
-                state.frames.push(self.frame(around));
+                let mean = 0.5 * (lengths[done - 1] + lengths[done]);
+                state.frames.push(self.frame(0.5 * mean, mean));
             } else if self.walls.end {
                 self.push_wall(own[count - 1], state);
             }
@@ -154,7 +171,7 @@ impl StraightRod {
                 0 => length,
                 sides => length * (1.0 - 0.25 * sides as f64),
             };
-            state.frames.push(self.frame(own));
+            state.frames.push(self.frame(own, length));
         }
     }
 
@@ -174,14 +191,23 @@ impl StraightRod {
     }
 
     fn push_wall(&self, length: f64, state: &mut State) {
-        let wall = state.frames.push(self.frame(length));
+        let wall = state.frames.push(self.frame(length, length));
         state.frames.hold(wall);
     }
 
-    fn frame(&self, length: f64) -> Frame {
+    /// A frame with the inertia of a piece, so long, of a segment.
+    fn frame(&self, piece: f64, segment: f64) -> Frame {
+        let section = self.cross_section.segment_inertia(piece);
+        let about_middle = match self.rotary_inertia {
+            RotaryInertia::CrossSection => 0.0,
+            RotaryInertia::RigidSegment => self.cross_section.mass(piece) * segment.powi(2) / 12.0,
+        };
         Frame {
             orientation: self.orientation,
-            inertia: self.cross_section.segment_inertia(length),
+            inertia: Inertia {
+                transverse: section.transverse + about_middle,
+                ..section
+            },
         }
     }
 }

@@ -40,7 +40,7 @@ mod shear;
 mod strain_laws;
 
 pub use bending::{BendingElement, BendingLoads, BendingStiffness};
-pub use build::{StraightRod, Walls};
+pub use build::{RotaryInertia, StraightRod, Walls};
 pub use clamp::{Held, RodClamp};
 pub use cross_section::CrossSection;
 pub use elements::{RodElements, RodJoint, RodSegment};

@@ -1,7 +1,7 @@
 //! From the parameters of a scene to the models of the crates below.
 
 use crate::scene::{self, End, Hold, Monomers, SceneProblem};
-use actin_cosserat::{RodClamp, RodEnd};
+use actin_cosserat::{RodClamp, RodEnd, RotaryInertia};
 use actin_ellipsoid::{
     EllipsoidKey, EllipsoidModel, EllipsoidParameterError, EllipsoidParameters, InterfaceError,
     InterfaceKey, InterfaceKind, InterfaceParameters,
@@ -157,6 +157,14 @@ pub(super) fn rod_clamp(hold: Hold) -> RodClamp {
         Hold::NodeAndFrame => RodClamp::NodeAndFrame,
         Hold::TwoNodesAndFrame => RodClamp::TwoNodesAndFrame,
         Hold::Pin => RodClamp::Pin,
+    }
+}
+
+/// The transverse inertia of segments that a scene asks for.
+pub(super) fn rotary_inertia(of_scene: scene::RotaryInertia) -> RotaryInertia {
+    match of_scene {
+        scene::RotaryInertia::CrossSection => RotaryInertia::CrossSection,
+        scene::RotaryInertia::RigidSegment => RotaryInertia::RigidSegment,
     }
 }
 

@@ -48,7 +48,9 @@ pub use law::{
 pub use linker::{Linker, LinkerSite};
 pub(crate) use load::Resultant;
 pub use load::{Acceleration, Couple, CouplePerLength, Force, ForcePerLength, Load};
-pub use model::{Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel};
+pub use model::{
+    Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel, RotaryInertia,
+};
 pub(crate) use place::HeldEnds;
 pub use problem::{SceneError, SceneProblem};
 pub use read::read_ron;

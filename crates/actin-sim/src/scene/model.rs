@@ -89,6 +89,21 @@ pub struct RodModel {
     pub material: Material,
     /// Constitutive law. `Fitted` and the laws `Homogenised` need the default material.
     pub law: RodLaw,
+    /// Transverse inertia of segments.
+    pub rotary_inertia: RotaryInertia,
+}
+
+/// What the transverse inertia of a segment holds. It matters in `Dynamics` alone, and not for means and
+/// fluctuations in a heat bath.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum RotaryInertia {
+    /// That of the cross-section. The time step does not grow with the length of segments beyond 10 nm.
+    #[default]
+    CrossSection,
+    /// In addition that of a rigid piece of rod, `mass length^2 / 12`: the time step grows with the length of
+    /// segments, and slow bending is slower by `(2 pi length / wavelength)^2 / 24`.
+    RigidSegment,
 }
 
 /// The two force laws of the rod.

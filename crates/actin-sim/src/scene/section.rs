@@ -190,6 +190,7 @@ impl Section {
         let material = altered.and_then(|altered| altered.material);
         RodModel {
             force_law: of_filament.force_law,
+            rotary_inertia: of_filament.rotary_inertia,
             law: law.unwrap_or_else(|| of_filament.law.clone()),
             material: material.unwrap_or(of_filament.material),
         }

@@ -1,0 +1,119 @@
+//! Slow bending of a clamped rod: what a rigid segment's rotary inertia costs it, and the mesh.
+
+use crate::field::{Motion, build, set};
+use actin_mechanics::Vector3;
+use std::f64::consts::PI;
+
+/// Length of the rod (nm).
+const LENGTH: f64 = 160.0;
+/// Bending rigidity (pN nm^2) and mass per length (pN ns^2/nm^2).
+const BEND: f64 = 3.9e4;
+const DENSITY: f64 = 0.0697 / (71.2 / 26.0);
+
+/// A mode of a slender cantilever: `beta L`, and the mean of `(L f')^2` over that of `f^2`.
+struct Mode {
+    beta_l: f64,
+    slopes: f64,
+}
+
+const MODES: [Mode; 2] = [
+    Mode {
+        beta_l: 1.875_104_068_7,
+        slopes: 4.647_8,
+    },
+    Mode {
+        beta_l: 4.694_091_132_9,
+        slopes: 32.417,
+    },
+];
+
+impl Mode {
+    /// Displacement and slope at an arc length (nm).
+    fn shape(&self, s: f64) -> [f64; 2] {
+        let (b, x) = (self.beta_l / LENGTH, self.beta_l * s / LENGTH);
+        let ratio =
+            (self.beta_l.cosh() + self.beta_l.cos()) / (self.beta_l.sinh() + self.beta_l.sin());
+        let shape = x.cosh() - x.cos() - ratio * (x.sinh() - x.sin());
+        let slope = b * (x.sinh() + x.sin() - ratio * (x.cosh() - x.cos()));
+        [shape, slope]
+    }
+
+    /// Its frequency (rad/ns) in a slender rod.
+    fn slender(&self) -> f64 {
+        (self.beta_l / LENGTH).powi(2) * (BEND / DENSITY).sqrt()
+    }
+
+    /// Its frequency (rad/ns) on a mesh, from the zeros of its amplitude over ten periods.
+    fn measured(&self, segments: usize, inertia: &str) -> f64 {
+        let period = 2.0 * PI / self.slender();
+        let mut assembly = build(&format!(
+            "Scene(
+                filament: Filament(
+                    sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
+                    rod: RodModel(
+                        rotary_inertia: {inertia},
+                        material: Rigidities(shear_pn: (3.4e4, 3.4e4, 3.4e4), bend_pn_nm2: ({BEND:?}, {BEND:?}, 1.3e4)),
+                    ),
+                ),
+                clamps: [Clamp(end: Start)],
+                task: Dynamics(duration_ns: {:?}, record_every_ns: {:?}),
+            )",
+            10.2 * period,
+            0.005 * period,
+        ));
+        set(&mut assembly, &|s| {
+            let [shape, slope] = self.shape(s);
+            Motion {
+                shift: Vector3::zeros(),
+                turn: Vector3::zeros(),
+                velocity: Vector3::x() * (1e-4 * shape),
+                spin: Vector3::y() * (1e-4 * slope),
+            }
+        });
+        let (trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
+        let amplitude = |state: &actin_mechanics::State| -> f64 {
+            let points = assembly.points.iter().zip(state.points.position.iter());
+            points.map(|(p, x)| self.shape(p.s_nm)[0] * x.x).sum()
+        };
+        let series = trajectory.records.iter();
+        let series: Vec<_> = series
+            .map(|r| (r.at.value(), amplitude(&r.state)))
+            .collect();
+        let zeros: Vec<f64> = series
+            .windows(2)
+            .filter(|pair| pair[0].1 * pair[1].1 < 0.0)
+            .map(|pair| {
+                let [(t0, a0), (t1, a1)] = [pair[0], pair[1]];
+                t0 + (t1 - t0) * a0 / (a0 - a1)
+            })
+            .collect();
+        (zeros.len() - 1) as f64 * PI / (zeros[zeros.len() - 1] - zeros[0])
+    }
+}
+
+/// By Rayleigh's quotient segments of length `h` that turn as rigid pieces slow a mode by a relative
+/// `h^2/24` times the mean square of its slope over that of its displacement, to higher powers of that.
+#[test]
+fn rigid_segments_slow_bending_as_rayleigh_says() {
+    println!(
+        "mode, segments: rad/ns, against a slender rod, slower with rigid segments, as expected"
+    );
+    for (m, mode) in MODES.iter().enumerate() {
+        for segments in [4, 8, 16].into_iter().skip(m) {
+            let [section, rigid] =
+                ["CrossSection", "RigidSegment"].map(|i| mode.measured(segments, i));
+            let (slower, h) = (1.0 - rigid / section, 1.0 / segments as f64);
+            let expected = h * h / 24.0 * mode.slopes;
+            println!(
+                "{}, {segments}: {section:.5}, {:+.4}, {slower:.5}, {expected:.5}",
+                m + 1,
+                section / mode.slender() - 1.0
+            );
+            // Higher powers of the shift, and the mesh of the mode itself.
+            assert!(
+                (slower / expected - 1.0).abs() < 0.1 + 2.0 * expected,
+                "{slower} {expected}"
+            );
+        }
+    }
+}
