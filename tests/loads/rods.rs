@@ -30,18 +30,24 @@ const TWO: &str = "Rod(from_nm: 0.0, to_nm: 70.0, segments: 7),
     Rod(from_nm: 70.0, to_nm: 160.0, segments: 9, altered: ())";
 
 /// A rod cut into sections that do not differ bends in its plane as one: half a segment and half a segment in
-/// series are the element between them.
+/// series are the element between them. Where the strain of a segment is coupled to the curvature around it, each
+/// half sees the segment on its own side alone, as on a finer mesh: that moves the tip by far less than finer
+/// segments do.
 #[test]
 fn cuts_change_nothing() {
     for law in ["Constant", "PublishedExtension", "Fitted", "Homogenised"] {
         let load = "EndForce(end: End, force_pn: (1.0, 0.0, 0.0))";
-        let [one, two] = [ONE, TWO].map(|sections| run(&text(sections, law, load)).0);
+        let fine = ONE.replace("16", "32");
+        let [one, two, fine] = [ONE, TWO, &fine].map(|sections| run(&text(sections, law, load)).0);
         let tip = |assembly: &Assembly| assembly.tip_nm(assembly.system.state(), End::End);
-        let miss = (tip(&one) - tip(&two)).norm();
-        println!("{law}: {miss:.1e} nm");
-        // Residuals of 1e-7 pN on what 1 pN moves by some 30 nm; under Homogenised what one end does to shear
-        // at the other, exp(-160/5.5) of it, is cut off.
-        assert!(miss < 1e-4, "{law}: {miss:e}");
+        let [miss, refined] = [&two, &fine].map(|other| (tip(&one) - tip(other)).norm());
+        println!("{law}: {miss:.1e} nm, finer segments {refined:.1e} nm");
+        let bound = if law == "Constant" {
+            1e-8
+        } else {
+            0.01 * refined
+        };
+        assert!(miss < bound, "{law}: {miss:e} {refined:e}");
         assert_eq!((one.points.len(), one.counts().junctions), (17, 0));
         assert_eq!((two.points.len(), two.counts().junctions), (17, 0));
         assert_eq!(two.frames.len(), one.frames.len() + 1);

@@ -48,7 +48,9 @@ fn every_model_follows_the_arc() {
         linkers: [Linker(at_nm: 45.0, radius_nm: 1.8, azimuth_deg: 30.0,
             displaced_nm: (1.0, 2.0, 3.0), stiffness_pn_per_nm: 5.0)],
         task: Equilibrium(),";
-    for (sections, miss) in [(ROD, 0.02), (MONOMERS, 1e-12), (MIXED, 0.02)] {
+    // Segments l are tangents of a polygon that is wider by (l/R)^2/24 of the radius.
+    let wider = 1.01 * 2.0_f64.sqrt() * (LENGTH / 20.0).powi(2) / (24.0 * RADIUS);
+    for (sections, miss) in [(ROD, wider), (MONOMERS, 1e-12), (MIXED, wider)] {
         let assembly = build(&text(sections, ARC, rest));
         for (i, point) in assembly.points.iter().enumerate() {
             let (place, _) = on_arc(&assembly, point.s_nm);

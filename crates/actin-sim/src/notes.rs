@@ -45,7 +45,7 @@ impl Assembly {
     /// Notes on this scene before it runs, a sentence or two each.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
-        for (i, filament) in self.scene.filaments().enumerate() {
+        for filament in self.scene.filaments() {
             let sections = filament.sections.iter().filter(|s| !s.is_rod());
             for section in sections {
                 let monomers = section.monomers(&filament.monomers);

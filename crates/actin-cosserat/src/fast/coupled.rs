@@ -4,7 +4,9 @@
     reason = "vector code must be compiled into the function that enables the instructions"
 )]
 
-use super::elements::{Segments, bending_couples, quaternions, vectors, vectors_mut};
+use super::elements::{
+    Segments, bending_couples, quaternions, vectors, vectors_mut, where_there_is,
+};
 use super::ends::Ends;
 use super::laws::Law;
 use super::rod::AddLoads;
@@ -118,7 +120,7 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         ] = self.bodies.get(simd, group);
         // Of the elements before: nothing of the segments is in it, so that it need not wait for them.
         let [covers, shear] = self.of_ends(simd, group);
-        let own = self.own(simd, covers, wide::scale(simd, before, inverse_distance));
+        let own = self.own(simd, covers, (before, inverse_distance));
         let segments = self.segments(simd, group, [length, inverse_length, shear]);
         let mut kappa = wide::scale(simd, before, share_before);
         kappa = wide::scale_add(simd, after, share_after, kappa);
@@ -168,10 +170,15 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         }
     }
 
-    /// Couples of the elements before a group's frames at this curvature.
+    /// Couples of the elements before a group's frames at these angles over their distances.
     #[inline(always)]
-    fn own(&self, simd: S, covers: S::f64s, kappa: Wide3<S>) -> Wide3<S> {
-        let own = self.law.bending(simd, kappa);
+    fn own(&self, simd: S, covers: S::f64s, (angle, inverse): (Wide3<S>, S::f64s)) -> Wide3<S> {
+        let own = self.law.bending(simd, wide::scale(simd, angle, inverse));
+        let own = if L::BENT {
+            where_there_is(simd, inverse, own)
+        } else {
+            own
+        };
         if !L::COVERS {
             return own;
         }

@@ -86,15 +86,16 @@ impl<S: Simd> Segments<S> {
     /// Zero where there is no segment: a natural length that is not the rest length pulls at no strain.
     #[inline(always)]
     fn existing(&self, simd: S, n: Wide3<S>) -> Wide3<S> {
-        let zero = simd.splat_f64s(0.0);
-        let exists = simd.greater_than_f64s(self.inverse, zero);
-        let [x, y, z] = n;
-        [
-            simd.select_f64s(exists, x, zero),
-            simd.select_f64s(exists, y, zero),
-            simd.select_f64s(exists, z, zero),
-        ]
+        where_there_is(simd, self.inverse, n)
     }
+}
+
+/// Zero where there is no element, whose inverse length is zero.
+#[inline(always)]
+pub(super) fn where_there_is<S: Simd>(simd: S, inverse: S::f64s, v: Wide3<S>) -> Wide3<S> {
+    let zero = simd.splat_f64s(0.0);
+    let exists = simd.greater_than_f64s(inverse, zero);
+    v.map(|component| simd.select_f64s(exists, component, zero))
 }
 
 /// The parts of the torques of bending elements at couple `m` (pN nm) that the two frames feel with

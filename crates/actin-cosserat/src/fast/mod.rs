@@ -6,7 +6,7 @@
 //! twist, the published length that follows it, or both; the laws fitted to monomers or any
 //! of them, with cubic or with constant shear. The scalar path is left to a stretch with two sides, to
 //! the published twist or length together with fitted laws (stiffening, cubic shear, fitted twist or
-//! length), to rods whose strain knows of more than eight elements that join them to others, and to
+//! length), to rods under other laws than constant ones that are bent at rest, to rods whose strain knows of more than eight elements that join them to others, and to
 //! the printed balance. The choice falls when the interaction is built, so that no loop asks for the
 //! kind of a law. Energies and second derivatives are not in the loop of a motion and stay scalar.
 //!
@@ -70,7 +70,7 @@ use crate::{RodLayout, RodMaterial};
 use actin_mechanics::wide::Arch;
 use actin_mechanics::{Loads, State, Vector3};
 use laws::{
-    Bend, ConstantBend, ConstantTwist, CubicAcross, Laws, Length, LinearShear, NaturalLength,
+    Bend, Bent, ConstantBend, ConstantTwist, CubicAcross, Laws, Length, LinearShear, NaturalLength,
     Polynomial, Potential, Rooted, Shear, Sided, Tanh, Twist, WideStiffening,
 };
 use rod::Rod;
@@ -94,6 +94,8 @@ enum Kind {
     Fitted(Rod<Fitted>),
     /// The same with constant shear.
     FittedLinearShear(Rod<FittedLinearShear>),
+    /// Every rigidity is constant, with a curvature at rest.
+    Bent(Rod<Bent<Constant>>),
     /// One potential for all strains.
     Potential(Box<Rod<Potential>>),
 }
@@ -106,7 +108,7 @@ impl FastRod {
         extended: Option<&ExtendedSegments>,
     ) -> Option<Self> {
         if material.rest_curvature() != Vector3::zeros() {
-            return None;
+            return Self::bent(layout, material, extended);
         }
         if let Some(law) = material.potential() {
             let rod = Rod::new(layout, Potential::of(law)?, extended)?;
@@ -118,6 +120,17 @@ impl FastRod {
             .or_else(|| kind(rod, Kind::Fitted))
             .or_else(|| kind(rod, Kind::FittedLinearShear));
         kind.map(Self)
+    }
+
+    /// The loop of a rod that is bent at rest.
+    fn bent(
+        layout: &RodLayout,
+        material: &RodMaterial,
+        extended: Option<&ExtendedSegments>,
+    ) -> Option<Self> {
+        let law = Laws::of(material, extended.map(|segments| &segments.law))?;
+        let rod = Rod::new(layout, Bent::new(law, material), extended)?;
+        Some(Self(Kind::Bent(rod)))
     }
 
     /// Adds the loads of all elements.
@@ -132,6 +145,7 @@ impl FastRod {
             Kind::Published(rod) => rod.add_loads(arch, layout, state, loads),
             Kind::Fitted(rod) => rod.add_loads(arch, layout, state, loads),
             Kind::FittedLinearShear(rod) => rod.add_loads(arch, layout, state, loads),
+            Kind::Bent(rod) => rod.add_loads(arch, layout, state, loads),
             Kind::Potential(rod) => rod.add_loads(arch, layout, state, loads),
         }
     }

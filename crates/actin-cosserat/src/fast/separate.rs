@@ -4,7 +4,9 @@
     reason = "vector code must be compiled into the function that enables the instructions"
 )]
 
-use super::elements::{Segments, bending_couples, quaternions, vectors, vectors_mut};
+use super::elements::{
+    Segments, bending_couples, quaternions, vectors, vectors_mut, where_there_is,
+};
 use super::laws::Law;
 use super::rod::AddLoads;
 use actin_mechanics::wide::{self, Columns, ShiftedUp, Simd};
@@ -53,6 +55,11 @@ impl<L: Law> AddLoads<'_, L> {
             let [inverse_distance] = inverse_distances.get(simd, group);
             let (theta, coefficient) = wide::log_with_coefficient(simd, turn);
             let m = law.bending(simd, wide::scale(simd, theta, inverse_distance));
+            let m = if L::BENT {
+                where_there_is(simd, inverse_distance, m)
+            } else {
+                m
+            };
             let [even, odd] = bending_couples(simd, theta, coefficient, m);
             let on_first = wide::add(simd, even, odd);
             let on_second = reactions.next(simd, wide::sub(simd, odd, even));

@@ -107,6 +107,15 @@ fn laws() -> Vec<Named> {
     ]
 }
 
+/// Rods that are bent and twisted at rest, so that lanes without an element would have a couple.
+fn bent() -> [Named; 2] {
+    let kappa = Vector3::new(0.02, -0.01, 0.03);
+    [kappa, kappa * 30.0].map(|kappa| {
+        let material = material().with_rest_curvature(kappa).unwrap();
+        ("bent", material, None)
+    })
+}
+
 /// A rod of unequal segments with other bodies before and after it.
 fn rod(segments: usize, walls: Walls, noise: &mut Xorshift) -> (State, RodLayout) {
     let mut state = State::default();
@@ -233,7 +242,7 @@ fn assert_paths_agree(
 #[test]
 fn loads_are_those_of_the_scalar_path() {
     let mut noise = Xorshift::new(1);
-    for law in &laws() {
+    for law in laws().iter().chain(&bent()) {
         for segments in (1..=9).chain([12, 15, 16, 17, 64]) {
             for walls in all_walls() {
                 for (angle, is_joined) in [(0.01, false), (0.3, true), (1.0, false), (1.8, true)] {
@@ -252,7 +261,7 @@ fn loads_are_those_of_the_scalar_path() {
 #[test]
 fn loads_of_smooth_rods_are_those_of_the_scalar_path() {
     let mut noise = Xorshift::new(5);
-    for law in &laws() {
+    for law in laws().iter().chain(&bent()) {
         for angle in [1e-3, 1e-5] {
             let walls = Walls {
                 start: true,
@@ -354,6 +363,7 @@ fn kind_of(law: &Named) -> Option<&'static str> {
     let rod = FastRod::new(&layout, &law.1, extended.as_ref())?;
     Some(match rod.0 {
         Kind::Constant(_) => "constant",
+        Kind::Bent(_) => "bent",
         Kind::Published(_) => "published",
         Kind::Fitted(_) => "fitted",
         Kind::FittedLinearShear(_) => "fitted, linear shear",
@@ -364,7 +374,7 @@ fn kind_of(law: &Named) -> Option<&'static str> {
 /// The cheapest loop that can is taken: with another, the law would be right and slow.
 #[test]
 fn every_law_has_its_loop() {
-    for law in &laws() {
+    for law in laws().iter().chain(&bent()) {
         assert_eq!(kind_of(law), Some(law.0));
     }
 }

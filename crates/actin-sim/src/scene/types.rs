@@ -113,10 +113,10 @@ pub struct Filament {
     /// Sections in order of arc length, at least one. The first starts at 0, each other where the one
     /// before it ends; neighbours are of different kinds, or `altered` differently.
     pub sections: Vec<Section>,
-    /// Parameters of the monomers, the same for all sections that resolve them.
+    /// Parameters of the monomers; sections may be `altered`.
     #[serde(default)]
     pub monomers: Monomers,
-    /// Parameters of the rod, the same for all rod sections.
+    /// Parameters of the rod; sections may be `altered`.
     #[serde(default)]
     pub rod: RodModel,
     /// Parameters of the junctions between monomers and rod.

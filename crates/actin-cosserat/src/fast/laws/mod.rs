@@ -5,6 +5,7 @@
 //! a lane stands by a branch: both sides are evaluated, or their numbers selected.
 
 mod bend;
+mod bent;
 mod length;
 mod potential;
 mod shear;
@@ -15,6 +16,7 @@ use actin_mechanics::wide::{Simd, Wide3};
 use std::fmt::Debug;
 
 pub(super) use bend::{Bend, ConstantBend, WideStiffening};
+pub(super) use bent::Bent;
 pub(super) use length::{Length, NaturalLength, Polynomial, Rooted};
 pub(super) use potential::Potential;
 pub(super) use shear::{CubicAcross, LinearShear, Shear};
@@ -28,6 +30,9 @@ pub(super) trait Law: Copy + Debug {
     /// Whether joints beside free ends stand for the half segments there, and segments near ends have factors of
     /// their shear.
     const COVERS: bool = false;
+
+    /// Whether it has couples without curvature: what does not exist is then not zero by itself.
+    const BENT: bool = false;
 
     /// Couple of bending elements (pN nm) at curvature `kappa` (rad/nm). The reference is
     /// [`RodMaterial::bending_couple`].
