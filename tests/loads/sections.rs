@@ -210,3 +210,30 @@ fn masses_and_refusals() {
         assert!(message.starts_with(expected), "{change}: {message}");
     }
 }
+
+/// Heavier monomers weigh more: what balances their weight has an equilibrium, what balances that of the others
+/// has not.
+#[test]
+fn weight_counts_the_mass_of_sections() {
+    let density = 0.0697 / (71.2 / 26.0);
+    let read = |lengths: f64| {
+        let force = -1e-3 * density * lengths;
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [
+                    Ellipsoids(from_nm: 0.0, to_nm: 60.0),
+                    Ellipsoids(from_nm: 60.0, to_nm: 120.0, altered: (mass_factor: 2.0)),
+                ]),
+                loads: [
+                    Acceleration(acceleration_nm_per_ns2: (1e-3, 0.0, 0.0)),
+                    EndForce(end: End, force_pn: ({force:?}, 0.0, 0.0)),
+                ],
+                task: Equilibrium(),
+            )"
+        );
+        Scene::from_ron(&text).map(|_| ()).map_err(|e| e.message)
+    };
+    assert_eq!(read(180.0), Ok(()));
+    let refused = read(120.0).unwrap_err();
+    assert!(refused.contains("it has no equilibrium"), "{refused}");
+}

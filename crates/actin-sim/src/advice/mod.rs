@@ -142,6 +142,25 @@ mod tests {
         assert_eq!(Advice::of(&scene).unwrap(), Advice { change, like });
     }
 
+    /// Outside of heat baths the law without heat is the one that was measured.
+    #[test]
+    fn the_law_without_heat_is_known() {
+        let advised = |law| {
+            let setting = FilamentSetting {
+                bonds: 16,
+                ..FilamentSetting::of(vec![[0.0, 60.0]], law)
+            };
+            let advice = Advice::of(&setting.apply(&cantilever())).unwrap();
+            advice.change.map(|change| change.what)
+        };
+        let known = advised(RodLaw::Homogenised);
+        assert!(
+            known.as_deref().is_some_and(|what| what.contains("bonds")),
+            "{known:?}"
+        );
+        assert_eq!(advised(RodLaw::HomogenisedAthermal), known);
+    }
+
     /// 60 nm of monomers on a wall with this task.
     fn asked(task: &str) -> Scene {
         Scene::from_ron(&format!(
