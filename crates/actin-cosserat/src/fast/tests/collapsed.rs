@@ -40,6 +40,7 @@ fn of_segments(arch: Arch, rod: &FastRod, states: &[[Vector3; 2]]) -> Vec<[Vecto
         Kind::Published(rod) => arch.dispatch(OfSegments(rod.law, states)),
         Kind::Fitted(rod) => arch.dispatch(OfSegments(rod.law, states)),
         Kind::FittedLinearShear(rod) => arch.dispatch(OfSegments(rod.law, states)),
+        Kind::Bent(rod) => arch.dispatch(OfSegments(rod.law, states)),
         Kind::Potential(rod) => arch.dispatch(OfSegments(rod.law, states)),
     }
 }
