@@ -184,11 +184,7 @@ fn bond_at_rest(
     let end = side.rod_end();
     let rod = layout.end_frame(end);
     let q = &state.frames.orientation;
-    let angle = rotation::log(q.get(junction).inverse() * q.get(rod)).norm();
-    if angle > PARALLEL || angle.is_nan() {
-        let frame = junction;
-        return Err(JunctionError::NotParallel { frame, angle });
-    }
+    check_parallel(state, [junction, rod])?;
     let end_point = layout.end_point(end);
     let (points, frames, monomer_at) = match side {
         JunctionSide::MonomersFirst => (
@@ -205,19 +201,8 @@ fn bond_at_rest(
     let x = &state.points.position;
     let l = q.get(junction).inverse() * (x.get(points[1]) - x.get(points[0]));
     check_distance(k, l.z)?;
-    let distances = [0.5 * l.z, 0.5 * (layout.end_length(end) + l.z)];
-    let mut bending = distances.map(|rest_distance| BendingElement { rest_distance });
-    // Only the part that is rod is bent at rest.
-    let of_rod = 0.5 * layout.end_length(end) / distances[1];
-    let rests = [0.0, of_rod].map(|share| material.rest_curvature() * share);
-    let mut materials = rests.map(|rest| {
-        let own = material.with_rest_curvature(rest);
-        own.expect("a share of a finite curvature is finite")
-    });
-    if side == JunctionSide::RodFirst {
-        bending.reverse();
-        materials.reverse();
-    }
+    let (bending, materials) = bends_at_rest(side, [l.z, layout.end_length(end)], material);
+    let beside_rod = &materials[usize::from(monomer_at == 0)];
     Ok(Bond {
         points,
         frames,
@@ -228,9 +213,41 @@ fn bond_at_rest(
             rest_direction: l.normalize(),
         },
         bending,
+        lacking: material.rest_curvature() - beside_rod.rest_curvature(),
         materials,
-        lacking: material.rest_curvature() * (1.0 - of_rod),
     })
+}
+
+/// Refuses a junction frame that is not parallel to the rod's.
+fn check_parallel(state: &State, [frame, rod]: [usize; 2]) -> Result<(), JunctionError> {
+    let q = &state.frames.orientation;
+    let angle = rotation::log(q.get(frame).inverse() * q.get(rod)).norm();
+    if angle > PARALLEL || angle.is_nan() {
+        return Err(JunctionError::NotParallel { frame, angle });
+    }
+    Ok(())
+}
+
+/// The bending elements of a bond in filament order, with their materials; `axial` is the distance of the monomer
+/// from the rod's end along the axis, `segment` the length of its end segment (nm).
+fn bends_at_rest(
+    side: JunctionSide,
+    [axial, segment]: [f64; 2],
+    material: RodMaterial,
+) -> ([BendingElement; 2], [RodMaterial; 2]) {
+    let distances = [0.5 * axial, 0.5 * (segment + axial)];
+    let mut bending = distances.map(|rest_distance| BendingElement { rest_distance });
+    // Only the part that is rod is bent at rest.
+    let shares = [0.0, 0.5 * segment / distances[1]];
+    let mut materials = shares.map(|share| {
+        let own = material.with_rest_curvature(material.rest_curvature() * share);
+        own.expect("a share of a finite curvature is finite")
+    });
+    if side == JunctionSide::RodFirst {
+        bending.reverse();
+        materials.reverse();
+    }
+    (bending, materials)
 }
 
 impl Interaction for Junction {

@@ -219,24 +219,8 @@ impl<'a> Strand<'a> {
             let angle = self.laws[i].material.rest_curvature().norm() * length(i);
             self.check_angle(i, segments[i - first], angle)?;
         }
-        let lengths = (first..past).map(|i| std::iter::repeat_n(length(i), segments[i - first]));
-        let wall = |i, end| {
-            let at_this_end = i == self.filament.end_index(end);
-            let hold = self.holds[end as usize];
-            at_this_end && (hold == Some(Hold::Wall) || self.hinges[end as usize].is_some())
-        };
-        let rod = StraightRod {
-            start: self.axis_at(self.resolved[first].from_nm),
-            orientation: self.placement.rotation,
-            segment_lengths: lengths.flatten().collect(),
-            cross_section: self.cross_section,
-            rotary_inertia: models::rotary_inertia(self.filament.rod.rotary_inertia),
-            walls: Walls {
-                start: wall(first, End::Start),
-                end: wall(past - 1, End::End),
-            },
-        };
         let spacing: Vec<f64> = (first..past).map(length).collect();
+        let rod = self.straight_rod([first, past], &segments, &spacing);
         let from_nm = self.resolved[first].from_nm;
         self.push_hinge_frame(first, End::Start, (from_nm, spacing[0]), stock);
         let layouts = rod
@@ -253,6 +237,33 @@ impl<'a> Strand<'a> {
         }
         self.junction_frames.extend((first + 1..past).map(|_| 0..0));
         Ok(())
+    }
+
+    /// Sections `first` to before `past`, of so many segments of these lengths (nm), as one straight rod.
+    fn straight_rod(
+        &self,
+        [first, past]: [usize; 2],
+        segments: &[usize],
+        spacing: &[f64],
+    ) -> StraightRod {
+        let lengths = spacing.iter().zip(segments);
+        let lengths = lengths.map(|(&length, &count)| std::iter::repeat_n(length, count));
+        let wall = |i, end| {
+            let at_this_end = i == self.filament.end_index(end);
+            let hold = self.holds[end as usize];
+            at_this_end && (hold == Some(Hold::Wall) || self.hinges[end as usize].is_some())
+        };
+        StraightRod {
+            start: self.axis_at(self.resolved[first].from_nm),
+            orientation: self.placement.rotation,
+            segment_lengths: lengths.flatten().collect(),
+            cross_section: self.cross_section,
+            rotary_inertia: models::rotary_inertia(self.filament.rod.rotary_inertia),
+            walls: Walls {
+                start: wall(first, End::Start),
+                end: wall(past - 1, End::End),
+            },
+        }
     }
 
     /// What the ends of section `i` let it do. A junction holds its monomers beside each other as a wall does,
