@@ -86,10 +86,8 @@ impl Opened {
                 .map_err(|error| input(&name, &error))?;
         }
         // Of standard input, which is in no folder, the working directory.
-        let folder = match source.is_standard_input() {
-            true => None,
-            false => source.scene.parent(),
-        };
+        let beside = source.scene.parent();
+        let folder = beside.filter(|_| !source.is_standard_input());
         let read = text.read_points(folder.unwrap_or(Path::new("")));
         read.map_err(|error| Failure::Input(shown(&name, &text, &error)))?;
         let mut scene = text.scene().map_err(|first| all(&name, &text, first))?;

@@ -96,9 +96,7 @@ impl Law {
             }
             RodLaw::Fitted => with_laws(material, &fitted::laws())?,
             RodLaw::Homogenised if in_bath => heated(),
-            RodLaw::Homogenised | RodLaw::HomogenisedAthermal => {
-                (RodMaterial::homogenised(Homogenised::mean_filament()), None)
-            }
+            RodLaw::Homogenised | RodLaw::HomogenisedAthermal => athermal(),
             RodLaw::HomogenisedAt298K => heated(),
             RodLaw::Laws(laws) => with_laws(material, laws)?,
         };
@@ -212,6 +210,11 @@ fn written(parameter: RodKey) -> &'static str {
 
 /// A material with or without a law of length against twist.
 type Parts = (RodMaterial, Option<TwistStretch>);
+
+/// The law of filaments without heat.
+fn athermal() -> Parts {
+    (RodMaterial::homogenised(Homogenised::mean_filament()), None)
+}
 
 /// The law of filaments at 298 K.
 fn heated() -> Parts {

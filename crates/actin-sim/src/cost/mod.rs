@@ -202,9 +202,10 @@ impl Elements {
                 all.drawn += one.bonds as f64;
             }
             let is_constant = |rod: RodModel| rod.law == RodLaw::Constant;
-            let elements = match filament.rod_models().all(is_constant) {
-                true => &mut all.constant,
-                false => &mut all.following,
+            let elements = if filament.rod_models().all(is_constant) {
+                &mut all.constant
+            } else {
+                &mut all.following
             };
             *elements += one.elements as f64;
         }

@@ -3,7 +3,7 @@
 //!
 //! A filament is seen as if it were along lab +z from the origin; where it is built is in `place.rs`.
 
-use super::{Filament, Shape};
+use super::{AlteredRod, Filament, Shape};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use std::f64::consts::TAU;
 
@@ -94,7 +94,7 @@ impl Curve {
                 from,
                 place,
                 frame,
-                curvature: altered.map_or_else(Vector3::zeros, |rod| rod.rest_curvature()),
+                curvature: altered.map_or_else(Vector3::zeros, AlteredRod::rest_curvature),
                 unroll: 0.0,
             });
         }
@@ -257,7 +257,7 @@ impl Spline {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{AlteredRod, Section};
+    use crate::scene::Section;
 
     fn curve(shape: Shape) -> Curve {
         let filament = Filament {
@@ -318,7 +318,7 @@ mod tests {
             // A little above the start, to the left of the axis where it is right-handed.
             let near = helix.at(1.0).0 - helix.at(0.0).0;
             let handed = (helix.at(0.0).0 - axis).cross(&near).z;
-            assert_eq!(handed.signum(), pitch.signum());
+            assert!(handed * pitch > 0.0, "{handed} {pitch}");
         }
     }
 

@@ -139,7 +139,9 @@ fn check_points(nm: &[[f64; 3]], file: Option<&str>) -> Result<(), SceneProblem>
     }
     for (i, point) in nm.iter().enumerate() {
         super::rules::all_finite(&format!("{key}[{i}]"), *point)?;
-        if i > 0 && nm[i - 1] == *point {
+        let is_before =
+            |other: &[f64; 3]| other.iter().zip(point).all(|(a, b)| (a - b).abs() <= 0.0);
+        if i > 0 && is_before(&nm[i - 1]) {
             let rule = "is the point before it: neighbouring points are at different places";
             return Err(SceneProblem::new(format!("{key}[{i}]"), show(point), rule));
         }

@@ -102,25 +102,20 @@ impl Strand<'_> {
         let angles = chain.clone().zip(chain.skip(1));
         let angles = angles.map(|(a, b)| rotation::log(q.get(a).inverse() * q.get(b)).norm());
         let largest = angles.fold(0.0, f64::max);
-        self.check_angle(i, layout.segments(), largest)
+        check_angle(i, layout.segments(), largest)
     }
+}
 
-    /// Refuses segments of a section that stand against their neighbours at an angle (rad).
-    pub(super) fn check_angle(
-        &self,
-        i: usize,
-        segments: usize,
-        angle: f64,
-    ) -> Result<(), SceneProblem> {
-        if angle < LARGEST_ANGLE {
-            return Ok(());
-        }
-        let rule = format!(
-            "neighbouring segments would stand at {:.0} deg to each other: use more, so that it is below {:.0}",
-            angle.to_degrees(),
-            LARGEST_ANGLE.to_degrees()
-        );
-        let key = format!("filament.sections[{i}].segments");
-        Err(SceneProblem::new(key, segments, rule))
+/// Refuses segments of a section that stand against their neighbours at an angle (rad).
+pub(super) fn check_angle(i: usize, segments: usize, angle: f64) -> Result<(), SceneProblem> {
+    if angle < LARGEST_ANGLE {
+        return Ok(());
     }
+    let rule = format!(
+        "neighbouring segments would stand at {:.0} deg to each other: use more, so that it is below {:.0}",
+        angle.to_degrees(),
+        LARGEST_ANGLE.to_degrees()
+    );
+    let key = format!("filament.sections[{i}].segments");
+    Err(SceneProblem::new(key, segments, rule))
 }

@@ -1,6 +1,7 @@
 //! One filament under construction: its bodies and interactions, section by section.
 
 use super::Stock;
+use super::bend::check_angle;
 use crate::assembly::built::Built;
 use crate::assembly::lattice::{Lattice, Resolved, resolve};
 use crate::assembly::{BodyKind, FilamentSpan, FrameInfo, PointInfo, Resolution, SectionSpan};
@@ -217,7 +218,7 @@ impl<'a> Strand<'a> {
         };
         for i in first..past {
             let angle = self.laws[i].material.rest_curvature().norm() * length(i);
-            self.check_angle(i, segments[i - first], angle)?;
+            check_angle(i, segments[i - first], angle)?;
         }
         let spacing: Vec<f64> = (first..past).map(length).collect();
         let rod = self.straight_rod([first, past], &segments, &spacing);
@@ -348,12 +349,9 @@ impl<'a> Strand<'a> {
                 frame: None,
             });
         }
-        let kind = |is_joint: bool| match is_joint {
-            true => BodyKind::Joint,
-            false => BodyKind::Wall,
-        };
-        let wall = |s_nm, is_joint| FrameInfo {
-            kind: kind(is_joint),
+        let kinds = [BodyKind::Wall, BodyKind::Joint];
+        let wall = |s_nm, is_joint: bool| FrameInfo {
+            kind: kinds[usize::from(is_joint)],
             s_nm,
         };
         let walls = [actin_cosserat::RodEnd::Start, actin_cosserat::RodEnd::End]
