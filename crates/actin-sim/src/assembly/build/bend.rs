@@ -39,7 +39,7 @@ impl Strand<'_> {
                     shift
                 }
                 Body::Rod(layout) => {
-                    self.check_angles(i, layout, stock)?;
+                    check_angles(i, layout, stock)?;
                     let start = built.curve().at(from_nm).0 + built.last_shift();
                     self.lay(layout, start, stock) - built.curve().at(to_nm).0
                 }
@@ -90,20 +90,16 @@ impl Strand<'_> {
         }
         place
     }
+}
 
-    fn check_angles(
-        &self,
-        i: usize,
-        layout: &RodLayout,
-        stock: &Stock,
-    ) -> Result<(), SceneProblem> {
-        let q = &stock.state.frames.orientation;
-        let chain = layout.bending_chain();
-        let angles = chain.clone().zip(chain.skip(1));
-        let angles = angles.map(|(a, b)| rotation::log(q.get(a).inverse() * q.get(b)).norm());
-        let largest = angles.fold(0.0, f64::max);
-        check_angle(i, layout.segments(), largest)
-    }
+/// Refuses segments of section `i` as they stand now.
+fn check_angles(i: usize, layout: &RodLayout, stock: &Stock) -> Result<(), SceneProblem> {
+    let q = &stock.state.frames.orientation;
+    let chain = layout.bending_chain();
+    let angles = chain.clone().zip(chain.skip(1));
+    let angles = angles.map(|(a, b)| rotation::log(q.get(a).inverse() * q.get(b)).norm());
+    let largest = angles.fold(0.0, f64::max);
+    check_angle(i, layout.segments(), largest)
 }
 
 /// Refuses segments of a section that stand against their neighbours at an angle (rad).
