@@ -2,6 +2,7 @@
 
 use crate::field::{Motion, build, set};
 use actin_mechanics::Vector3;
+use actin_sim::{Assembly, Trajectory};
 use std::f64::consts::PI;
 
 /// Length of the rod (nm).
@@ -71,6 +72,11 @@ impl Mode {
             }
         });
         let (trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
+        self.frequency(&assembly, &trajectory)
+    }
+
+    /// From the zeros of its amplitude.
+    fn frequency(&self, assembly: &Assembly, trajectory: &Trajectory) -> f64 {
         let amplitude = |state: &actin_mechanics::State| -> f64 {
             let points = assembly.points.iter().zip(state.points.position.iter());
             points.map(|(p, x)| self.shape(p.s_nm)[0] * x.x).sum()

@@ -71,8 +71,9 @@ use actin_mechanics::wide::Arch;
 use actin_mechanics::{Loads, State, Vector3};
 use laws::{
     Bend, Bent, ConstantBend, ConstantTwist, CubicAcross, Laws, Length, LinearShear, NaturalLength,
-    Polynomial, Potential, Rooted, Shear, Sided, Tanh, Twist, WideStiffening,
+    Polynomial, Rooted, Shear, Sided, Tanh, Twist, WideStiffening,
 };
+pub(crate) use laws::{Law, Potential};
 use rod::Rod;
 
 type Constant = Laws<LinearShear, ConstantBend, ConstantTwist, NaturalLength>;
@@ -111,7 +112,7 @@ impl FastRod {
             return Self::bent(layout, material, extended);
         }
         if let Some(law) = material.potential() {
-            let rod = Rod::new(layout, Potential::of(law)?, extended)?;
+            let rod = Rod::new(layout, law.unrolled(), extended)?;
             return Some(Self(Kind::Potential(Box::new(rod))));
         }
         let rod = (layout, material, extended);

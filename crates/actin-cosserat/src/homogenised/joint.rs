@@ -5,6 +5,8 @@
 //! (`segment.rs`). `U` at the joints resists turns that alternate from joint to joint, which no mean sees.
 
 use super::{Homogenised, PotentialJet, SixVector};
+use crate::fast::Law;
+use actin_mechanics::wide::Scalar;
 use actin_mechanics::{Matrix3, Vector3};
 
 impl Homogenised {
@@ -15,10 +17,7 @@ impl Homogenised {
 
     /// Couple (pN nm), the gradient of [`joint_energy`](Self::joint_energy).
     pub fn joint_couple(&self, kappa: Vector3) -> Vector3 {
-        let loads = self.loads(&self.unsheared(kappa));
-        let [_, slope, _] = self.form.natural_jet(kappa.z);
-        let couple: Vector3 = loads.fixed_rows::<3>(0).into();
-        couple + Vector3::z() * (slope * loads[5])
+        self.unrolled.bending(Scalar, kappa.into()).into()
     }
 
     /// Its derivative (pN nm^2), symmetric.

@@ -14,15 +14,17 @@ mod twist_stability;
 pub use mean_filament::StrainRange;
 pub use terms::Term;
 
-pub(crate) use polynomial::TWIST_SIZE;
+pub(crate) use polynomial::{Polynomial, TWIST_SIZE};
 pub(crate) use terms::{BENT, CURVATURE, EXTENSION, SHEAR, SLACK, TIGHT};
 
+use crate::fast::{Law, Potential};
 use crate::{RodKey, RodParameterError};
+use actin_mechanics::wide::Scalar;
 use nalgebra::{Matrix6, Vector6};
-use polynomial::{DEGREE, Polynomial, bounded_twist, polynomial};
+use polynomial::{DEGREE, bounded_twist, polynomial};
 pub(crate) use segment::STRAIGHT;
 use segment::joined;
-use terms::{BY_TWIST, Factors, InvariantJet, InvariantSlope, Invariants, Jet};
+use terms::{BY_TWIST, Factors, InvariantJet, Invariants, Jet};
 
 /// Strains: `kappa_1`, `kappa_2`, `kappa_3` (rad/nm), `sigma_1`, `sigma_2`, `sigma_3`; or couple (pN nm) and
 /// force (pN) in body axes.
@@ -71,6 +73,8 @@ pub struct Homogenised {
     /// One per term.
     coefficients: [Polynomial; Term::ALL.len()],
     range: StrainRange,
+    /// The same, written out for first derivatives.
+    unrolled: Potential,
 }
 
 /// A potential at some strain.
@@ -240,10 +244,16 @@ impl Homogenised {
             *polynomial = padded(&coefficients(term), term.degree() + 1)?;
         }
         Ok(Self {
+            unrolled: Potential::new(&form, &all),
             form,
             coefficients: all,
             range: StrainRange::UNBOUNDED,
         })
+    }
+
+    /// It written out for loops.
+    pub(crate) fn unrolled(&self) -> Potential {
+        self.unrolled
     }
 
     /// The form.
@@ -265,17 +275,11 @@ impl Homogenised {
 
     /// Couple (pN nm) and force (pN), the gradient of [`energy_density`](Self::energy_density).
     pub fn loads(&self, strain: &SixVector) -> SixVector {
-        let [by_e, by_a, by_g, by_c, by_twist] = self.slopes(strain);
-        let [_, slope, _] = self.form.natural_jet(strain[2]);
-        let across = |own: f64, k: usize, other: usize| own * strain[k] + by_c * strain[other];
-        SixVector::new(
-            across(2.0 * by_a, 0, 3),
-            across(2.0 * by_a, 1, 4),
-            by_twist - slope * by_e,
-            across(2.0 * by_g, 3, 0),
-            across(2.0 * by_g, 4, 1),
-            by_e,
-        )
+        let [x, y, k, s1, s2, s3] = (*strain).into();
+        let [force, couple] = self.unrolled.segment(Scalar, [s1, s2, s3], [x, y, k]);
+        let joint = self.unrolled.bending(Scalar, [x, y, k]);
+        let couple = [0, 1, 2].map(|i| couple[i] + joint[i]);
+        SixVector::from_row_slice([couple, force].as_flattened())
     }
 
     /// The derivatives of [`loads`](Self::loads), symmetric.
@@ -286,19 +290,6 @@ impl Homogenised {
     /// All three at once.
     pub fn jet(&self, strain: &SixVector) -> PotentialJet {
         self.form.by_strain(strain, &self.sum(strain))
-    }
-
-    /// First derivatives by the invariants.
-    fn slopes(&self, strain: &SixVector) -> Invariants {
-        let factors = Factors::at(self.form.invariants(strain));
-        let t = bounded_twist(strain[2]);
-        let mut sum = InvariantSlope::default();
-        for (term, coefficients) in Term::ALL.into_iter().zip(&self.coefficients) {
-            // Beyond its degree there are zeros.
-            let coefficient = polynomial(&coefficients[..=term.degree()], t);
-            sum.add(&term.slope(&factors).times(BY_TWIST, coefficient));
-        }
-        sum.first
     }
 
     /// Adds up the terms.

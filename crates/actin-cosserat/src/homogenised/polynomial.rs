@@ -7,10 +7,10 @@ use super::terms::{Jet, bounded, of};
 pub(crate) const TWIST_SIZE: f64 = 0.02;
 
 /// Largest degree of a polynomial.
-pub(super) const DEGREE: usize = 9;
+pub(crate) const DEGREE: usize = 9;
 
 /// Coefficients of `t^0` to `t^9`.
-pub(super) type Polynomial = [f64; DEGREE + 1];
+pub(crate) type Polynomial = [f64; DEGREE + 1];
 
 /// `t` with its derivatives by the twist (rad/nm).
 pub(super) fn bounded_twist(twist: f64) -> Jet {

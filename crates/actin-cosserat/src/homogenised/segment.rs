@@ -6,6 +6,8 @@
 
 use super::{Homogenised, PotentialJet, SixVector};
 use crate::extended::{MeanCurvature, SegmentJet};
+use crate::fast::Law;
+use actin_mechanics::wide::Scalar;
 use actin_mechanics::{Matrix3, Vector3};
 
 /// No curvature, in joints either.
@@ -25,10 +27,10 @@ impl Homogenised {
         curvature: MeanCurvature,
     ) -> (Vector3, Vector3) {
         let MeanCurvature { kappa, covered } = curvature;
-        let loads = self.loads(&joined(sigma, kappa));
-        let couple: Vector3 = loads.fixed_rows::<3>(0).into();
-        let force = loads.fixed_rows::<3>(3).into();
-        (force, couple - covered * self.joint_couple(kappa))
+        let [force, couple] = self.unrolled.segment(Scalar, sigma.into(), kappa.into());
+        // What joints do not cover.
+        let own = self.joint_couple(kappa) * (1.0 - covered);
+        (force.into(), Vector3::from(couple) + own)
     }
 
     /// First and second derivatives.

@@ -83,13 +83,6 @@ pub(super) struct InvariantJet {
     pub(super) second: [Invariants; 5],
 }
 
-/// The same with first derivatives alone, which loads need.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct InvariantSlope {
-    value: f64,
-    pub(super) first: Invariants,
-}
-
 const ONE: Jet = [1.0, 0.0, 0.0];
 
 fn linear(x: f64) -> Jet {
@@ -292,24 +285,6 @@ impl Term {
         }
     }
 
-    /// The term without its polynomial, to first order.
-    pub(super) fn slope(self, of: &Factors) -> InvariantSlope {
-        if self == Self::Compression {
-            let InvariantJet { value, first, .. } = compressed(of);
-            return InvariantSlope { value, first };
-        }
-        let mut slope = InvariantSlope {
-            value: 1.0,
-            ..InvariantSlope::default()
-        };
-        for (variable, factor) in self.factors(of).into_iter().enumerate() {
-            if factor != ONE {
-                slope = slope.times(variable, factor);
-            }
-        }
-        slope
-    }
-
     /// The term without its polynomial.
     pub(super) fn jet(self, of: &Factors) -> InvariantJet {
         if self == Self::Compression {
@@ -341,23 +316,6 @@ fn compressed(&Factors { e, g, k, root, .. }: &Factors) -> InvariantJet {
         value,
         first: by.map(|x| slope * x),
         second,
-    }
-}
-
-impl InvariantSlope {
-    /// Times a function of one of the invariants.
-    pub(super) fn times(mut self, variable: usize, [p, slope, _]: Jet) -> Self {
-        self.first = self.first.map(|x| p * x);
-        self.first[variable] += slope * self.value;
-        self.value *= p;
-        self
-    }
-
-    pub(super) fn add(&mut self, other: &Self) {
-        self.value += other.value;
-        for (sum, x) in self.first.iter_mut().zip(other.first) {
-            *sum += x;
-        }
     }
 }
 

@@ -42,7 +42,7 @@ mod vectors;
 
 pub use columns::{Columns, ColumnsMut, ShiftedDown, ShiftedUp};
 pub use functions::{clamp, cosine_and_sinc, tanh};
-pub use pulp::{Arch, Simd, WithSimd};
+pub use pulp::{Arch, Scalar, Simd, WithSimd};
 pub use rotations::{
     WideQuaternion, log_with_coefficient, matrix, product, relative, transpose_mul,
 };

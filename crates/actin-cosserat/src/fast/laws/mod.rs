@@ -18,12 +18,12 @@ use std::fmt::Debug;
 pub(super) use bend::{Bend, ConstantBend, WideStiffening};
 pub(super) use bent::Bent;
 pub(super) use length::{Length, NaturalLength, Polynomial, Rooted};
-pub(super) use potential::Potential;
+pub(crate) use potential::Potential;
 pub(super) use shear::{CubicAcross, LinearShear, Shear};
 pub(super) use twist::{ConstantTwist, Sided, Tanh, Twist};
 
 /// What the loop asks a material.
-pub(super) trait Law: Copy + Debug {
+pub(crate) trait Law: Copy + Debug {
     /// Whether the curvature around a segment has to do with its strain.
     const COUPLES: bool;
 

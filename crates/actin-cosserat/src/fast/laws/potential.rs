@@ -1,8 +1,10 @@
 //! One potential for all strains.
 
 use super::Law;
-use crate::homogenised::{BENT, CURVATURE, EXTENSION, SHEAR, SLACK, TIGHT, TWIST_SIZE};
-use crate::{Homogenised, Term};
+use crate::Term;
+use crate::homogenised::{
+    BENT, CURVATURE, EXTENSION, HomogenisedForm, Polynomial, SHEAR, SLACK, TIGHT, TWIST_SIZE,
+};
 use actin_mechanics::wide::{Simd, Wide3};
 
 /// The law of [`Homogenised`]: what terms are multiplied by, as constants or as polynomials in the bounded
@@ -10,8 +12,8 @@ use actin_mechanics::wide::{Simd, Wide3};
 ///
 /// Joints have the terms of curvature alone; in segments these cancel, so that the others are all that is left
 /// of `W - U`.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::fast) struct Potential {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Potential {
     rest: f64,
     natural: [f64; 10],
     any_stretch: [f64; 1],
@@ -39,40 +41,43 @@ pub(in crate::fast) struct Potential {
 }
 
 impl Potential {
-    /// The law, where its polynomials have the degrees that the loop was written for.
-    pub(in crate::fast) fn of(law: &Homogenised) -> Option<Self> {
-        Some(Self {
-            rest: law.form().rest(),
-            natural: law.form().natural().try_into().ok()?,
-            any_stretch: of(law, Term::AnyStretch)?,
-            any_bend: of(law, Term::AnyBend)?,
-            any_shear: of(law, Term::AnyShear)?,
-            twist: of(law, Term::Twist)?,
-            turn: of(law, Term::Turn)?,
-            stretch: of(law, Term::Stretch)?,
-            stretch_thrice: of(law, Term::StretchThrice)?,
-            compression: of(law, Term::Compression)?,
-            bend: of(law, Term::Bend)?,
-            root: of(law, Term::BendRoot)?,
-            stretch_root: of(law, Term::StretchRoot)?,
-            stretch_bend: of(law, Term::StretchBend)?,
-            shear: of(law, Term::Shear)?,
-            stretch_shear: of(law, Term::StretchShear)?,
-            coupling: of(law, Term::Coupling)?,
-            stretch_coupling: of(law, Term::StretchCoupling)?,
-            root_shear: of(law, Term::RootShear)?,
-            root_coupling: of(law, Term::RootCoupling)?,
-            shear_coupling: of(law, Term::ShearCoupling)?,
-            shear_twice: of(law, Term::ShearTwice)?,
-            stretch_root_shear: of(law, Term::StretchRootShear)?,
-            stretch_twice_root: of(law, Term::StretchTwiceRoot)?,
-        })
+    /// The law of a form with these coefficients of each term.
+    pub(crate) fn new(form: &HomogenisedForm, terms: &[Polynomial; Term::ALL.len()]) -> Self {
+        Self {
+            rest: form.rest(),
+            natural: std::array::from_fn(|k| form.natural()[k]),
+            any_stretch: of(terms, Term::AnyStretch),
+            any_bend: of(terms, Term::AnyBend),
+            any_shear: of(terms, Term::AnyShear),
+            twist: of(terms, Term::Twist),
+            turn: of(terms, Term::Turn),
+            stretch: of(terms, Term::Stretch),
+            stretch_thrice: of(terms, Term::StretchThrice),
+            compression: of(terms, Term::Compression),
+            bend: of(terms, Term::Bend),
+            root: of(terms, Term::BendRoot),
+            stretch_root: of(terms, Term::StretchRoot),
+            stretch_bend: of(terms, Term::StretchBend),
+            shear: of(terms, Term::Shear),
+            stretch_shear: of(terms, Term::StretchShear),
+            coupling: of(terms, Term::Coupling),
+            stretch_coupling: of(terms, Term::StretchCoupling),
+            root_shear: of(terms, Term::RootShear),
+            root_coupling: of(terms, Term::RootCoupling),
+            shear_coupling: of(terms, Term::ShearCoupling),
+            shear_twice: of(terms, Term::ShearTwice),
+            stretch_root_shear: of(terms, Term::StretchRootShear),
+            stretch_twice_root: of(terms, Term::StretchTwiceRoot),
+        }
     }
 }
 
-/// The coefficients of a term.
-fn of<const N: usize>(law: &Homogenised, term: Term) -> Option<[f64; N]> {
-    law.coefficients(term).try_into().ok()
+/// The coefficients of a term up to its degree, `N - 1`.
+fn of<const N: usize>(terms: &[Polynomial; Term::ALL.len()], term: Term) -> [f64; N] {
+    debug_assert_eq!(N, term.degree() + 1, "{term:?}");
+    let mut all = Term::ALL.into_iter().zip(terms);
+    let found = all.find(|(other, _)| *other == term);
+    std::array::from_fn(|k| found.map_or(0.0, |(_, polynomial)| polynomial[k]))
 }
 
 /// A polynomial at the bounded twist, and its derivative by that.
