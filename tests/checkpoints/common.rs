@@ -1,8 +1,8 @@
 //! Small scenes of every kind, and a sink that interrupts a run at a given moment.
 
 use actin_sim::{
-    Assembly, CheckpointError, Checkpoints, Outcome, Plan, Record, RunDirectory, RunPosition,
-    Scene, Sink, Trajectory,
+    Assembly, CheckpointError, Checkpoints, Outcome, Plan, Record, Recorded, RunDirectory,
+    RunPosition, Scene, Sink, Trajectory,
 };
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -176,8 +176,8 @@ impl Sink for Leaving<'_> {
         self.left.is_multiple_of(2)
     }
 
-    fn checkpoint(&mut self, position: &RunPosition, records: usize, wall_s: f64) {
-        self.checkpoints.checkpoint(position, records, wall_s);
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+        self.checkpoints.checkpoint(position, recorded, wall_s);
     }
 }
 

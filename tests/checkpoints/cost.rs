@@ -4,7 +4,7 @@
 use crate::common::{build, checkpoints};
 use actin_integrate::{DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Run, advance, stable_step};
 use actin_mechanics::System;
-use actin_sim::{MotionPosition, Plan, RunDirectory, RunPosition, Scene, Sink};
+use actin_sim::{MotionPosition, Plan, Recorded, RunDirectory, RunPosition, Scene, Sink};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -125,7 +125,8 @@ fn cost_of_checkpoints() {
         );
         assert!(outcome.is_ok());
         let position = first.0.unwrap();
-        let time = least(|| files.checkpoint(&position, 0, 0.0));
+        let none = Recorded::of(&plan, []);
+        let time = least(|| files.checkpoint(&position, &none, 0.0));
         let bytes = std::fs::metadata(directory.path().join("checkpoint.bin")).unwrap();
         println!("| {name} | {} | {:.2} |", bytes.len(), 1e3 * time);
     }

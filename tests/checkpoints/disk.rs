@@ -38,12 +38,12 @@ fn a_failed_checkpoint_leaves_the_last_one() {
     let later = RunPosition::Motion(later);
     let obstacle = directory.path().join("checkpoint.bin.part");
     fs::create_dir(&obstacle).unwrap();
-    files.checkpoint(&later, saved.recorded.count(), 1.0);
+    files.checkpoint(&later, &saved.recorded, 1.0);
     assert!(files.last_failed());
     assert_eq!(fs::read(&path).unwrap(), before);
 
     fs::remove_dir(&obstacle).unwrap();
-    files.checkpoint(&later, saved.recorded.count(), 1.0);
+    files.checkpoint(&later, &saved.recorded, 1.0);
     assert!(!files.last_failed());
     let again = checkpoints(&directory, &plan).resume(&plan).unwrap();
     assert_eq!(again.position, later);

@@ -5,9 +5,9 @@ use crate::progress::Progress;
 use crate::signals;
 use crate::{RunArguments, SceneArguments};
 use actin_sim::{
-    Checkpoints, FailedRun, Failure as Broken, Outcome, Plan, Record, Records, RunDirectory,
-    RunDirectoryError, RunError, RunLock, RunPosition, Saved, Sink, StabilitySummary, Status,
-    Summary, UnstableTwist,
+    Checkpoints, FailedRun, Failure as Broken, Outcome, Plan, Record, Recorded, Records,
+    RunDirectory, RunDirectoryError, RunError, RunLock, RunPosition, Saved, Sink, StabilitySummary,
+    Status, Summary, UnstableTwist,
 };
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -229,8 +229,8 @@ impl Sink for Watched<'_> {
         self.checkpoints.is_checkpoint_due()
     }
 
-    fn checkpoint(&mut self, position: &RunPosition, records: usize, wall_s: f64) {
-        self.checkpoints.checkpoint(position, records, wall_s);
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+        self.checkpoints.checkpoint(position, recorded, wall_s);
     }
 }
 

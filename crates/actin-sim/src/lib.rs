@@ -19,10 +19,12 @@ pub mod cost;
 mod error;
 mod memory;
 mod notes;
+mod observe;
 mod results;
 mod run;
 mod scene;
 pub mod shape;
+pub mod statistics;
 
 // The crates whose types are in the API of this one.
 pub use actin_cosserat as cosserat;
@@ -39,6 +41,7 @@ pub use assembly::{
     UnstableTwist,
 };
 pub use error::SimError;
+pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
 pub use results::{
     CheckpointError, Checkpoints, Damage, EndReaction, EndReactions, EnergySummary,
     FilamentSummary, LinkerSummary, ResidualSummary, RunDirectory, RunDirectoryError, RunLock,
@@ -46,8 +49,8 @@ pub use results::{
 };
 pub use run::{
     Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, MotionPosition, Outcome,
-    PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records, RunError, RunPosition,
-    SaddlePush, Saved, Sink, Slip, Status, Trajectory, solver,
+    PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records, Row, RowIter, RunError,
+    RunPosition, SaddlePush, Saved, Sink, Slip, Status, Trajectory, solver,
 };
 pub use scene::fitted::laws as fitted_laws;
 pub use scene::read_ron;
@@ -57,7 +60,7 @@ pub use scene::{
     Acceleration, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, Couple,
     CouplePerLength, DragRates, Drawn, Dynamics, End, Equilibrium, Factor, Filament, Force,
     ForceLaw, ForcePerLength, Hinge, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight,
-    Linker, LinkerSite, Load, Material, Monomers, Override, Pace, RodLaw, RodLaws, RodModel,
+    Linker, LinkerSite, Load, Material, Monomers, Observable, Output, Override, Pace, Point, RodLaw, RodLaws, RodModel,
     RotaryInertia, Scene, SceneError, SceneProblem, SceneText, Section, Setting, Shape, ShearLaw,
     Slides, Stage, StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
 };

@@ -12,7 +12,7 @@ use crate::measure::{Turns, jackknife, steps_in};
 use actin_integrate::{Bath, Composition, Drag, POSITION_VERLET, advance_in};
 use actin_integrate::{largest_frequency, stable_step};
 use actin_sim::{
-    Assembly, BOLTZMANN_PN_NM_PER_K, Equilibrium, Filament as Description, Monomers, Scene,
+    Assembly, BOLTZMANN_PN_NM_PER_K, Equilibrium, Filament as Description, Monomers, Output, Scene,
     Section, Task,
 };
 use rayon::prelude::*;
@@ -68,6 +68,9 @@ impl Filament {
             loads: Vec::new(),
             linkers: Vec::new(),
             path: Vec::new(),
+            observe: Vec::new(),
+            burn_in_ns: None,
+            output: Output::default(),
             task: Task::Equilibrium(Equilibrium::default()),
         };
         let assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;

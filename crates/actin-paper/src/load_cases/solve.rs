@@ -8,7 +8,8 @@ use crate::run::{run_to_end, scenario};
 use actin_mechanics::{State, Vector3};
 use actin_sim::shape::Ribbon;
 use actin_sim::{
-    Assembly, Clamp, End, Equilibrium, Hold, Load, Part, Scene, Setting, Slides, Stage, Task,
+    Assembly, Clamp, End, Equilibrium, Hold, Load, Output, Part, Scene, Setting, Slides, Stage,
+    Task,
 };
 use serde::{Deserialize, Serialize};
 
@@ -248,6 +249,9 @@ impl Course<'_> {
             loads: vec![force([0.0, 0.0, 1.0]), force([1.0, 0.0, 0.0])],
             linkers: Vec::new(),
             path: path.collect(),
+            observe: Vec::new(),
+            burn_in_ns: None,
+            output: Output::default(),
             task: Task::Equilibrium(solver(made)),
         }
     }

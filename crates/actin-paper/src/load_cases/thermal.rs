@@ -8,7 +8,7 @@ use super::filament::{Made, Rod};
 use super::row::Row;
 use crate::measure::{Sampled, Turns, jackknife, steps_in};
 use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
-use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Equilibrium, RodLaw, Scene, Task};
+use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Equilibrium, Output, RodLaw, Scene, Task};
 use rayon::prelude::*;
 
 /// Temperature (K).
@@ -91,6 +91,9 @@ fn replica(law: &RodLaw, replica: u64) -> Result<Turns, String> {
         loads: Vec::new(),
         linkers: Vec::new(),
         path: Vec::new(),
+        observe: Vec::new(),
+        burn_in_ns: None,
+        output: Output::default(),
         task: Task::Equilibrium(Equilibrium::default()),
     };
     let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;

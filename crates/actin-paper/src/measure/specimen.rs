@@ -1,8 +1,8 @@
 //! What is measured.
 
 use actin_sim::{
-    Clamp, End, Equilibrium, Filament, Hold, Load, Monomers, RodModel, Scene, Section, Slides,
-    Stage, Task,
+    Clamp, End, Equilibrium, Filament, Hold, Load, Monomers, Output, RodModel, Scene, Section,
+    Slides, Stage, Task,
 };
 
 /// A filament to be measured, how it is held and how far equilibria are solved.
@@ -76,6 +76,9 @@ impl Specimen {
             loads,
             linkers: Vec::new(),
             path,
+            observe: Vec::new(),
+            burn_in_ns: None,
+            output: Output::default(),
             task: Task::Equilibrium(self.solver.clone()),
         }
     }

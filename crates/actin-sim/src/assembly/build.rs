@@ -15,6 +15,7 @@ use super::{
     Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Part, PointInfo, Rod, SectionSpan, Term,
     imperfection,
 };
+use crate::observe::{EnergyNames, Observers};
 use crate::scene::{End, HeldEnds, Scene, SceneProblem, Section};
 use actin_coupling::Linker;
 use actin_mechanics::{ControlId, Interaction, State, System};
@@ -142,7 +143,7 @@ impl<'a> Builder<'a> {
         let rest = stock.state.clone();
         let bodies = (stock.points.as_slice(), stock.frames.as_slice());
         imperfection::displace(&scene, &self.filaments, bodies, &mut stock.state);
-        Assembly {
+        let mut assembly = Assembly {
             drive,
             scene,
             bytes: self.bytes,
@@ -159,7 +160,11 @@ impl<'a> Builder<'a> {
             loads: self.loads,
             linkers: self.linkers,
             spans,
-        }
+            observers: Observers::default(),
+        };
+        let energies = EnergyNames::of(&assembly);
+        assembly.observers = Observers::new(&assembly.scene, &energies);
+        assembly
     }
 
     /// The scene with the number of segments of every rod.

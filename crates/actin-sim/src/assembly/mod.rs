@@ -37,6 +37,7 @@ pub use reaction::{Clamped, Reaction};
 pub use unstable_twist::UnstableTwist;
 pub(crate) use unstable_twist::{TwistRecords, TwistWatch};
 
+use crate::observe::Observers;
 use crate::scene::{End, HeldEnds, Monomers, Scene};
 use actin_coupling::Linker;
 use actin_mechanics::{ControlId, State, System, UnitQuaternion, Vector3};
@@ -73,6 +74,8 @@ pub struct Assembly {
     /// For each term the arc lengths (nm) between which each of its elements lies; empty for loads
     /// and linkers, which are no part of a filament.
     pub(crate) spans: Vec<Vec<[f64; 2]>>,
+    /// What is observed of every record.
+    pub(crate) observers: Observers,
     /// What the path of the scene moves.
     pub drive: Drive,
     /// The state as built, unloaded and at rest, without imperfections.

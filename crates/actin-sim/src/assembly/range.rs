@@ -4,7 +4,7 @@ use super::{Assembly, Rod};
 use actin_cosserat::{BendLaw, BendingElement, RodMaterial, StrainRange, TwistStretch};
 use actin_mechanics::{State, Vector3};
 use serde::{Deserialize, Serialize};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 /// A rod goes further than the data that one of its laws was fitted to.
 ///
@@ -181,11 +181,26 @@ impl Assembly {
     pub fn beyond_range(&self, state: &State) -> Vec<BeyondRange> {
         let mut found = Vec::new();
         for rod in &self.rods {
-            for quantity in QUANTITIES {
-                found.extend(self.tally(rod, quantity, state).worst);
+            for quantity in 0..QUANTITIES.len() {
+                let worst = self.tally(rod, quantity, state).worst;
+                found.extend(worst.map(|excess| self.told(excess, None)));
             }
         }
         found
+    }
+
+    /// What goes beyond its range, in words and with its filament.
+    fn told(&self, excess: Excess, fluctuations: Option<Fluctuations>) -> BeyondRange {
+        let filament = self.filament_of_section(excess.section);
+        BeyondRange {
+            filament,
+            section: excess.section - self.filaments[filament].sections.start,
+            quantity: QUANTITIES[excess.quantity].name.to_owned(),
+            s_nm: excess.s_nm,
+            value: excess.value,
+            range: excess.range,
+            fluctuations,
+        }
     }
 
     /// The same over the records of a run: the worst for each section and quantity or, in a heat
@@ -195,13 +210,14 @@ impl Assembly {
         states: impl IntoIterator<Item = &'a State>,
     ) -> Vec<BeyondRange> {
         let mut watch = RangeWatch::new(self);
-        states.into_iter().for_each(|state| watch.add(state));
-        watch.end()
+        states.into_iter().for_each(|state| watch.add(self, state));
+        watch.end(self)
     }
 
     /// How a quantity stands in a rod; nothing is counted where it has no range.
-    fn tally(&self, rod: &Rod, quantity: Quantity, state: &State) -> Tally {
-        let Some([lowest, highest]) = (quantity.range)(&rod.ranges) else {
+    fn tally(&self, rod: &Rod, quantity: usize, state: &State) -> Tally {
+        let Quantity { range, of, .. } = QUANTITIES[quantity];
+        let Some([lowest, highest]) = range(&rod.ranges) else {
             return Tally::default();
         };
         let bound = |value: f64| if value < 0.0 { lowest } else { highest };
@@ -215,24 +231,19 @@ impl Assembly {
             value.abs() * of_other > than.abs() * of_value
         };
         let (mut elements, mut beyond, mut largest) = (0, 0, (0.0, 0.0));
-        for (s, value) in (quantity.of)(rod, state) {
+        for (s, value) in of(rod, state) {
             elements += 1;
             beyond += usize::from(value < lowest || value > highest);
             if is_further(value, largest.1) {
                 largest = (s, value);
             }
         }
-        let worst = (beyond > 0).then(|| {
-            let filament = self.filament_of_section(rod.section);
-            BeyondRange {
-                filament,
-                section: rod.section - self.filaments[filament].sections.start,
-                quantity: quantity.name.to_owned(),
-                s_nm: self.sections[rod.section].from_nm + largest.0,
-                value: largest.1,
-                range: bound(largest.1).abs(),
-                fluctuations: None,
-            }
+        let worst = (beyond > 0).then(|| Excess {
+            section: rod.section,
+            quantity,
+            s_nm: self.sections[rod.section].from_nm + largest.0,
+            value: largest.1,
+            range: bound(largest.1).abs(),
         });
         Tally {
             elements,
@@ -247,9 +258,23 @@ impl BeyondRange {
     pub fn is_strain(&self) -> bool {
         matches!(self.quantity.as_str(), "shear" | "stretch")
     }
+}
 
+/// Where a quantity goes furthest beyond its range; units are those of [`BeyondRange`].
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Excess {
+    /// Index of the section among those of all filaments.
+    section: usize,
+    /// Index in [`QUANTITIES`].
+    quantity: usize,
+    s_nm: f64,
+    value: f64,
+    range: f64,
+}
+
+impl Excess {
     /// The value over the range.
-    fn excess(&self) -> f64 {
+    fn ratio(&self) -> f64 {
         self.value.abs() / self.range
     }
 }
@@ -301,55 +326,58 @@ fn strains<'a>(rod: &'a Rod, state: &'a State) -> impl Iterator<Item = (f64, Vec
 }
 
 /// Looks at one state after another for where rods leave the data of their laws.
-pub(crate) struct RangeWatch<'a> {
-    assembly: &'a Assembly,
-    found: Found,
-}
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct RangeWatch(Found);
 
 /// What was found so far.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 enum Found {
     Worst(Worst),
     InBath(Box<InBath>),
 }
 
 /// The worst for each section and quantity.
-#[derive(Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Worst {
-    list: Vec<BeyondRange>,
-    /// Where each stands in the list: filament, section and quantity.
-    places: HashMap<(usize, usize, &'static str), usize>,
+    list: Vec<Excess>,
+    /// Where each stands in the list: section among those of all filaments, and quantity.
+    places: BTreeMap<(usize, usize), usize>,
 }
 
 /// What was counted of each quantity in a heat bath, and in how many states it went beyond its range.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct InBath {
     states: u32,
-    tallies: [(Quantity, Tally, u32); QUANTITIES.len()],
+    /// In the order of [`QUANTITIES`].
+    tallies: [(Tally, u32); QUANTITIES.len()],
 }
 
-impl<'a> RangeWatch<'a> {
-    pub(crate) fn new(assembly: &'a Assembly) -> Self {
-        let found = match assembly.scene.thermal() {
+impl RangeWatch {
+    pub(crate) fn new(assembly: &Assembly) -> Self {
+        Self(match assembly.scene.thermal() {
             None => Found::Worst(Worst::default()),
             Some(_) => Found::InBath(Box::new(InBath {
                 states: 0,
-                tallies: QUANTITIES.map(|quantity| (quantity, Tally::default(), 0)),
+                tallies: QUANTITIES.map(|_| (Tally::default(), 0)),
             })),
-        };
-        Self { assembly, found }
+        })
     }
 
-    pub(crate) fn add(&mut self, state: &State) {
-        match &mut self.found {
-            Found::Worst(worst) => worst.add(self.assembly, state),
-            Found::InBath(all) => all.add(self.assembly, state),
+    pub(crate) fn add(&mut self, assembly: &Assembly, state: &State) {
+        match &mut self.0 {
+            Found::Worst(worst) => worst.add(assembly, state),
+            Found::InBath(all) => all.add(assembly, state),
         }
     }
 
     /// What was found in all states.
-    pub(crate) fn end(self) -> Vec<BeyondRange> {
-        match self.found {
-            Found::Worst(worst) => worst.list,
-            Found::InBath(all) => all.end(),
+    pub(crate) fn end(self, assembly: &Assembly) -> Vec<BeyondRange> {
+        match self.0 {
+            Found::Worst(worst) => {
+                let list = worst.list.into_iter();
+                list.map(|excess| assembly.told(excess, None)).collect()
+            }
+            Found::InBath(all) => all.end(assembly),
         }
     }
 }
@@ -359,17 +387,17 @@ impl Worst {
         let all = assembly
             .rods
             .iter()
-            .flat_map(|rod| QUANTITIES.map(|q| (rod, q)));
+            .flat_map(|rod| (0..QUANTITIES.len()).map(move |q| (rod, q)));
         for (rod, quantity) in all {
-            let Some(beyond) = assembly.tally(rod, quantity, state).worst else {
+            let Some(excess) = assembly.tally(rod, quantity, state).worst else {
                 continue;
             };
-            let key = (beyond.filament, beyond.section, quantity.name);
+            let key = (excess.section, quantity);
             let place = *self.places.entry(key).or_insert(self.list.len());
             match self.list.get_mut(place) {
-                Some(known) if known.excess() >= beyond.excess() => {}
-                Some(known) => *known = beyond,
-                None => self.list.push(beyond),
+                Some(known) if known.ratio() >= excess.ratio() => {}
+                Some(known) => *known = excess,
+                None => self.list.push(excess),
             }
         }
     }
@@ -378,48 +406,42 @@ impl Worst {
 impl InBath {
     fn add(&mut self, assembly: &Assembly, state: &State) {
         self.states += 1;
-        for (quantity, all, states_beyond) in &mut self.tallies {
+        for (quantity, (all, states_beyond)) in self.tallies.iter_mut().enumerate() {
             let before = all.beyond;
             for rod in &assembly.rods {
-                all.add(assembly.tally(rod, *quantity, state));
+                all.add(assembly.tally(rod, quantity, state));
             }
             *states_beyond += u32::from(all.beyond > before);
         }
     }
 
     /// One entry for each quantity that went beyond its range in any state.
-    fn end(self) -> Vec<BeyondRange> {
-        let found = self
-            .tallies
-            .into_iter()
-            .filter_map(|(_, all, states_beyond)| {
-                let fluctuations = Some(Fluctuations {
-                    share_of_records: f64::from(states_beyond) / f64::from(self.states),
-                    share_of_elements: all.beyond as f64 / all.elements as f64,
-                });
-                all.worst.map(|worst| BeyondRange {
-                    fluctuations,
-                    ..worst
-                })
+    fn end(self, assembly: &Assembly) -> Vec<BeyondRange> {
+        let found = self.tallies.into_iter().filter_map(|(all, states_beyond)| {
+            let fluctuations = Some(Fluctuations {
+                share_of_records: f64::from(states_beyond) / f64::from(self.states),
+                share_of_elements: all.beyond as f64 / all.elements as f64,
             });
+            all.worst.map(|worst| assembly.told(worst, fluctuations))
+        });
         found.collect()
     }
 }
 
 /// How often and how far a quantity goes beyond its range.
-#[derive(Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Tally {
     elements: usize,
     beyond: usize,
-    worst: Option<BeyondRange>,
+    worst: Option<Excess>,
 }
 
 impl Tally {
     fn add(&mut self, other: Self) {
         self.elements += other.elements;
         self.beyond += other.beyond;
-        let excess = |worst: &Option<BeyondRange>| worst.as_ref().map_or(0.0, BeyondRange::excess);
-        if excess(&other.worst) > excess(&self.worst) {
+        let ratio = |worst: &Option<Excess>| worst.as_ref().map_or(0.0, Excess::ratio);
+        if ratio(&other.worst) > ratio(&self.worst) {
             self.worst = other.worst;
         }
     }

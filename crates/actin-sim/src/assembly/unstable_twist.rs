@@ -37,6 +37,7 @@ pub(crate) struct TwistWatch {
 }
 
 /// The segment of a rod whose twist is least stable.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Weakest {
     tangent: f64,
     found: UnstableTwist,
@@ -62,7 +63,7 @@ impl Assembly {
         states: impl IntoIterator<Item = &'a State>,
     ) -> Vec<UnstableTwist> {
         let mut all = TwistRecords::new(self);
-        states.into_iter().for_each(|state| all.add(state));
+        states.into_iter().for_each(|state| all.add(self, state));
         all.end()
     }
 
@@ -96,30 +97,34 @@ impl Assembly {
 }
 
 /// Looks at one state after another for where twist is unstable.
-pub(crate) struct TwistRecords<'a> {
-    assembly: &'a Assembly,
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct TwistRecords {
     states: u32,
     /// For each rod in how many states its twist is unstable, and where most; nothing in a heat bath.
     worst: Vec<(u32, Option<Weakest>)>,
 }
 
-impl<'a> TwistRecords<'a> {
-    pub(crate) fn new(assembly: &'a Assembly) -> Self {
+impl TwistRecords {
+    pub(crate) fn new(assembly: &Assembly) -> Self {
         let rods = match assembly.scene.thermal() {
             None => assembly.rods.len(),
             Some(_) => 0,
         };
         Self {
-            assembly,
             states: 0,
             worst: (0..rods).map(|_| (0, None)).collect(),
         }
     }
 
-    pub(crate) fn add(&mut self, state: &State) {
+    /// Whether it looks at as many rods as `other`.
+    pub(crate) fn fits(&self, other: &Self) -> bool {
+        self.worst.len() == other.worst.len()
+    }
+
+    pub(crate) fn add(&mut self, assembly: &Assembly, state: &State) {
         self.states += 1;
-        for (rod, (count, known)) in self.assembly.rods.iter().zip(&mut self.worst) {
-            let Some(weakest) = self.assembly.weakest_of(rod, state) else {
+        for (rod, (count, known)) in assembly.rods.iter().zip(&mut self.worst) {
+            let Some(weakest) = assembly.weakest_of(rod, state) else {
                 continue;
             };
             *count += 1;

@@ -3,7 +3,7 @@
 use super::clock;
 use super::names::ENERGIES;
 use super::{RunDirectoryError, finite::ensure_finite_in};
-use crate::{Assembly, Part, Record, Records, Term};
+use crate::{Assembly, Part, Records, Row, Term};
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::io::{self, Write};
@@ -23,7 +23,7 @@ pub(super) struct Totals {
 
 impl Totals {
     /// The totals of a record whose energies belong to `terms`.
-    pub(super) fn new(terms: &[Term], record: &Record) -> Self {
+    pub(super) fn new(terms: &[Term], record: &Row) -> Self {
         let potential = sum_where(terms, record, |_| true);
         let elastic = sum_where(terms, record, |term| !matches!(term.part, Part::Load(_)));
         Self {
@@ -36,7 +36,7 @@ impl Totals {
 }
 
 /// Energy of those terms of a record that `belongs` accepts (pN nm).
-pub(super) fn sum_where(terms: &[Term], record: &Record, belongs: impl Fn(&Term) -> bool) -> f64 {
+pub(super) fn sum_where(terms: &[Term], record: &Row, belongs: impl Fn(&Term) -> bool) -> f64 {
     let energies = terms.iter().zip(&record.energies_pn_nm);
     energies
         .filter(|(term, _)| belongs(term))
@@ -88,7 +88,7 @@ impl<'a> EnergyTable<'a> {
     }
 
     /// The row of a record.
-    fn row(&self, record: &Record) -> Vec<f64> {
+    fn row(&self, record: &Row) -> Vec<f64> {
         // What the sum of no numbers is: a term of -0 stays as it is.
         let mut sums = vec![-0.0; self.sums];
         for places in &self.places {
@@ -103,7 +103,7 @@ impl<'a> EnergyTable<'a> {
     ///
     /// # Errors
     /// The first such number, with its column and the index of its row.
-    pub(super) fn ensure_finite(&self, i: usize, record: &Record) -> Result<(), RunDirectoryError> {
+    pub(super) fn ensure_finite(&self, i: usize, record: &Row) -> Result<(), RunDirectoryError> {
         let mut columns = self.header.iter().zip(self.row(record));
         columns.try_for_each(|(name, value)| ensure_finite_in((ENERGIES, name), i, &[], [value]))
     }
@@ -115,8 +115,8 @@ impl<'a> EnergyTable<'a> {
     pub(super) fn write(&self, records: &dyn Records, out: &mut impl Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(&self.header)?;
-        for record in records.iter() {
-            let row = self.row(&*record?);
+        for record in records.rows() {
+            let row = self.row(&record?);
             writer.write_record(row.iter().map(|value| format!("{value:?}")))?;
         }
         writer.flush()
@@ -138,7 +138,7 @@ fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
 }
 
 /// One row, with sums of energies by name and by part.
-fn row(terms: &[Term], record: &Record, sums: Vec<f64>) -> Vec<f64> {
+fn row(terms: &[Term], record: &Row, sums: Vec<f64>) -> Vec<f64> {
     let totals = Totals::new(terms, record);
     [
         record.at.value(),

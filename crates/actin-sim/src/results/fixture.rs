@@ -107,6 +107,7 @@ pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record 
         kinetic_pn_nm: state.kinetic_energy(),
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
+        observed: Vec::new(),
         state,
     }
 }

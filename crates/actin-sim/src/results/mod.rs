@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `scene.ron` | the scene, every default written out | `actin run` |
 //! | `energies.csv` | energies and residuals of every record | anything |
+//! | `observables.csv` | what the scene observes, of every record | anything |
 //! | `profile.csv` | the last record along each filament: place, curvature, twist, energy | anything |
 //! | `states.npz` | every record's state | numpy |
 //! | `vtk/NNNN.vtp`, `run.pvd` | every record as a picture | `ParaView`, pyvista |
@@ -28,6 +29,7 @@ mod fixture;
 mod lock;
 mod manifest;
 mod names;
+mod observables;
 mod profile;
 mod review;
 mod staged;

@@ -3,6 +3,7 @@
 pub(super) const SCENE: &str = "scene.ron";
 pub(super) const SUMMARY: &str = "summary.json";
 pub(super) const ENERGIES: &str = "energies.csv";
+pub(super) const OBSERVABLES: &str = "observables.csv";
 pub(super) const PROFILE: &str = "profile.csv";
 pub(super) const STATES: &str = "states.npz";
 pub(super) const COLLECTION: &str = "run.pvd";
@@ -15,8 +16,16 @@ pub(super) const PICTURES: &str = "vtk";
 pub(super) const MANIFEST: &str = "actin-run.json";
 
 /// Everything that a run writes, beside its pictures, its manifest and its lock.
-pub(super) const FILES: [&str; 8] = [
-    SCENE, SUMMARY, ENERGIES, PROFILE, STATES, COLLECTION, CHECKPOINT, RECORDS,
+pub(super) const FILES: [&str; 9] = [
+    SCENE,
+    SUMMARY,
+    ENERGIES,
+    OBSERVABLES,
+    PROFILE,
+    STATES,
+    COLLECTION,
+    CHECKPOINT,
+    RECORDS,
 ];
 
 /// What a run writes before it has results.

@@ -76,8 +76,9 @@ impl<'a> Staged<'a> {
             atomic::publish(&path).map_err(RunDirectoryError::io(&path))?;
             self.published += 1;
         }
-        for folder in [self.folder.join(PICTURES), self.folder.to_owned()] {
-            sync(&folder).map_err(RunDirectoryError::io(&folder))?;
+        let pictures = (self.pictures > 0).then(|| self.folder.join(PICTURES));
+        for folder in pictures.iter().map(PathBuf::as_path).chain([self.folder]) {
+            sync(folder).map_err(RunDirectoryError::io(folder))?;
         }
         Ok(())
     }

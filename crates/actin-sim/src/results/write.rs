@@ -2,12 +2,12 @@
 
 use super::atomic;
 use super::directory::RunDirectory;
-use super::energies::EnergyTable;
 use super::manifest::Manifest;
-use super::names::{COLLECTION, ENERGIES, PICTURES, PROFILE, SCENE, STATES, SUMMARY, picture_name};
-use super::review::Review;
+use super::names::{
+    COLLECTION, ENERGIES, OBSERVABLES, PICTURES, PROFILE, SCENE, STATES, SUMMARY, picture_name,
+};
+use super::review::{Review, Tables};
 use super::staged::Staged;
-use super::states::States;
 use super::vtk::{Drawing, write_collection};
 use super::{RunDirectoryError, Summary, ThermalSummary, profile};
 use crate::shape::{self, ProfilePoint};
@@ -92,8 +92,18 @@ impl RunDirectory {
         let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
         manifest.ensure_own(&self.path)?;
         manifest.note_scene(&results.scene);
-        manifest.add([SCENE, ENERGIES, STATES, PROFILE, COLLECTION, SUMMARY]);
-        manifest.add((0..results.records.count()).map(picture_name));
+        manifest.add([SCENE, ENERGIES, PROFILE, SUMMARY]);
+        let output = results.assembly.scene.output;
+        if !results.tables.observables.is_empty() {
+            manifest.add([OBSERVABLES]);
+        }
+        if output.states {
+            manifest.add([STATES]);
+        }
+        if output.vtk {
+            manifest.add([COLLECTION]);
+            manifest.add((0..results.records.count()).map(picture_name));
+        }
         manifest.write(&self.path)
     }
 }
@@ -103,8 +113,7 @@ struct Results<'a> {
     assembly: &'a Assembly,
     records: &'a dyn Records,
     scene: String,
-    table: EnergyTable<'a>,
-    states: States<'a>,
+    tables: Tables<'a>,
     along: Vec<Vec<ProfilePoint>>,
     summary: Summary,
 }
@@ -116,12 +125,13 @@ impl<'a> Results<'a> {
         outcome: &Outcome,
     ) -> Result<Self, RunDirectoryError> {
         let assembly = plan.assembly();
-        let (table, states) = (EnergyTable::new(assembly), States::new(assembly));
-        let review = Review::of(assembly, records, (&table, &states))?;
+        let tables = Tables::new(assembly);
+        let review = Review::of(assembly, records, &tables)?;
         let last = review.last.ok_or(RunDirectoryError::NoRecord)?;
         let summary = Summary {
-            beyond_range: review.ranges.end(),
-            unstable_twist: review.twist.end(),
+            beyond_range: outcome.beyond_range.clone(),
+            unstable_twist: outcome.unstable_twist.clone(),
+            observables: review.observables,
             thermal: ThermalSummary::new(assembly, &review.kinetic),
             ..Summary::new(assembly, &last, outcome)
         };
@@ -136,8 +146,7 @@ impl<'a> Results<'a> {
             assembly,
             records,
             scene: plan.scene().to_ron(),
-            table,
-            states,
+            tables,
             along,
             summary,
         })
@@ -145,11 +154,21 @@ impl<'a> Results<'a> {
 
     fn stage(&self, staged: &mut Staged<'_>) -> Result<(), RunDirectoryError> {
         staged.file(SCENE, |out| out.write_all(self.scene.as_bytes()))?;
-        staged.file(ENERGIES, |out| self.table.write(self.records, out))?;
-        staged.file(STATES, |out| self.states.write(self.records, out))?;
+        let (tables, output) = (&self.tables, self.assembly.scene.output);
+        staged.file(ENERGIES, |out| tables.energies.write(self.records, out))?;
+        if !tables.observables.is_empty() {
+            staged.file(OBSERVABLES, |out| {
+                tables.observables.write(self.records, out)
+            })?;
+        }
+        if output.states {
+            staged.file(STATES, |out| tables.states.write(self.records, out))?;
+        }
         staged.file(PROFILE, |out| profile::write(&self.along, out))?;
-        self.stage_pictures(staged)?;
-        staged.file(COLLECTION, |out| self.write_collection(out))?;
+        if output.vtk {
+            self.stage_pictures(staged)?;
+            staged.file(COLLECTION, |out| self.write_collection(out))?;
+        }
         staged.file(SUMMARY, |out| {
             serde_json::to_writer_pretty(&mut *out, &self.summary)?;
             writeln!(out)

@@ -210,9 +210,9 @@ pub(super) fn run(
         largest_frequency_rad_per_ns: Some(estimate.largest_frequency_rad_per_ns),
         saddles_left: recorder.pushes.len(),
         pushes: recorder.pushes,
-        beyond_use: recorder.taken.into_beyond_use(),
         ..Outcome::new(Status::Failed, wall_s)
-    };
+    }
+    .with(recorder.taken.into_remarks());
     Ok(conclude(assembly, dynamics, ending, outcome))
 }
 

@@ -4,7 +4,7 @@ use super::rest::{is_saddle, saddle};
 use super::sink::{Arrival, Clock, PathPosition, Saved, Sink};
 use super::taken::Taken;
 use super::unknowns::newton;
-use super::{At, Failure, Outcome, Progress, Record, RunPosition, Status};
+use super::{At, Failure, Outcome, Progress, Record, Recorded, RunPosition, Status};
 use crate::Assembly;
 use crate::scene::{Equilibrium as Settings, Resultant, SceneProblem};
 use actin_equilibrium::{
@@ -68,9 +68,9 @@ pub(super) fn run(
         saddles_left: position.saddles_left,
         jumps: position.jumps,
         equilibrium: report(position, lowest.flatten(), work),
-        beyond_use: taken.into_beyond_use(),
         ..Outcome::new(status, clock.wall_s())
-    };
+    }
+    .with(taken.into_remarks());
     Ok((outcome, failure))
 }
 
@@ -347,13 +347,15 @@ impl<'a> Follower<'a> {
     }
 
     fn checkpoint(&mut self) {
-        // The best state of an attempt that failed: the next attempt begins without it.
-        let less = match self.position.points {
-            0 => self.taken.count(),
-            _ => 0,
-        };
         let position = RunPosition::Path(Box::new(self.position.clone()));
-        self.taken.checkpoint(&position, less, self.clock.wall_s());
+        let wall_s = self.clock.wall_s();
+        if self.position.points > 0 {
+            self.taken.checkpoint(&position, wall_s);
+        } else {
+            // The best state of an attempt that failed: the next attempt begins without it.
+            let none = Recorded::new(self.assembly);
+            self.taken.checkpoint_behind(&position, &none, wall_s);
+        }
     }
 
     fn go_on(&mut self) -> ControlFlow<()> {
@@ -408,6 +410,7 @@ fn record(system: &System, u: f64, state: &State) -> Record {
         kinetic_pn_nm: 0.0,
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
+        observed: Vec::new(),
         state: state.clone(),
     }
 }

@@ -20,10 +20,11 @@ pub(crate) use dynamics::estimate_at;
 pub use equilibrium::EquilibriumReport;
 pub use outcome::{FailedRun, Failure, Outcome, RunError, Status};
 pub use plan::Plan;
-pub use records::{At, Record, RecordIter, Records, Trajectory};
+pub use records::{At, Record, RecordIter, Records, Row, RowIter, Trajectory};
 pub use rest::SaddlePush;
 pub use sink::{Arrival, MotionPosition, PathPosition, Progress, RunPosition, Saved, Sink};
 pub use slip::Slip;
+pub(crate) use taken::Carried;
 pub use taken::Recorded;
 pub use unknowns::newton as solver;
 

@@ -1,8 +1,9 @@
 //! How a run ended, what it cost, and what went wrong.
 
+use super::taken::Remarks;
 use super::{EquilibriumReport, SaddlePush, Slip};
-use crate::BeyondUse;
 use crate::scene::SceneProblem;
+use crate::{BeyondRange, BeyondUse, UnstableTwist};
 use actin_equilibrium::{Certificate, PathFailure};
 use actin_integrate::RunFailure;
 use serde::{Deserialize, Serialize};
@@ -50,6 +51,10 @@ pub struct Outcome {
     pub jumps: usize,
     /// Where the model does not apply to its states, the worst of all records; a run with any has failed.
     pub beyond_use: Vec<BeyondUse>,
+    /// Where rods leave the data behind their laws, the worst of all records; in a heat bath with how often.
+    pub beyond_range: Vec<BeyondRange>,
+    /// Where the force along a rod makes its twist unstable, the worst of all records; never in a heat bath.
+    pub unstable_twist: Vec<UnstableTwist>,
     /// Why it failed, in words; empty unless it did.
     pub failure: String,
     /// Time that the run took (s).
@@ -71,8 +76,25 @@ impl Outcome {
             pushes: Vec::new(),
             jumps: 0,
             beyond_use: Vec::new(),
+            beyond_range: Vec::new(),
+            unstable_twist: Vec::new(),
             failure: String::new(),
             wall_s,
+        }
+    }
+
+    /// The same with what is wrong with the states of its records.
+    pub(super) fn with(self, remarks: Remarks) -> Self {
+        let Remarks {
+            beyond_use,
+            beyond_range,
+            unstable_twist,
+        } = remarks;
+        Self {
+            beyond_use,
+            beyond_range,
+            unstable_twist,
+            ..self
         }
     }
 

@@ -39,9 +39,13 @@ impl<'a> Plan<'a> {
     /// memory holds.
     pub fn new(assembly: &'a Assembly) -> Result<Self, SceneProblem> {
         let estimate = estimate(assembly)?;
+        assembly.observers.check(assembly, estimate.as_ref())?;
         let mut scene = assembly.scene.clone();
         if let Some(estimate) = &estimate {
             estimate.resolve(&mut scene);
+        }
+        if !scene.observe.is_empty() {
+            scene.burn_in_ns = scene.burn_in();
         }
         Ok(Self {
             assembly,

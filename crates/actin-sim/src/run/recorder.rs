@@ -4,7 +4,7 @@ use super::rest::{RestJudge, SaddlePush, is_saddle};
 use super::sink::{Clock, MotionPosition, Saved};
 use super::slip::Slip;
 use super::taken::Taken;
-use super::{At, Progress, Record, RunPosition, Sink};
+use super::{At, Progress, Record, Recorded, RunPosition, Sink};
 use crate::Assembly;
 use crate::assembly::Ramp;
 use crate::scene::Dynamics;
@@ -25,8 +25,9 @@ pub(super) struct Recorder<'a> {
     judge: Option<RestJudge<'a>>,
     /// Where an interrupted run goes on.
     position: Option<Checkpoint>,
-    /// Where the run stood at the last record from which it went on.
-    last_good: Option<Checkpoint>,
+    /// Where the run stood at the last record from which it went on, and what it remembered then; that is not
+    /// known where it was resumed since.
+    last_good: Option<(Checkpoint, Option<Recorded>)>,
     /// Whether there has been a record since.
     is_behind: bool,
     is_interrupted: bool,
@@ -71,9 +72,12 @@ impl<'a> Recorder<'a> {
             clock,
             judge: RestJudge::new(assembly, dynamics),
             is_behind: position.is_none(),
-            last_good: position.as_ref().map(|checkpoint| Checkpoint {
-                here: checkpoint.last_good.clone(),
-                ..checkpoint.clone()
+            last_good: position.as_ref().map(|checkpoint| {
+                let good = Checkpoint {
+                    here: checkpoint.last_good.clone(),
+                    ..checkpoint.clone()
+                };
+                (good, None)
             }),
             position,
             is_interrupted: false,
@@ -109,11 +113,12 @@ impl<'a> Recorder<'a> {
             Err(failure) => return Ending::Failed(failure),
         };
         if let Some(slip) = self.taken.slip() {
-            let step = self.last_good.as_ref().map_or(0, |good| good.here.step);
-            if let Some(good) = &self.last_good {
+            let step = self.last_good.as_ref().map_or(0, |good| good.0.here.step);
+            if let Some((good, _)) = self.last_good.take() {
                 system.state_mut().set_motion(&good.here.motion);
+                // What slipped was not taken.
+                self.keep(good);
             }
-            self.keep_last_good(0);
             return Ending::Slipped(slip, step);
         }
         if self.is_interrupted {
@@ -121,8 +126,13 @@ impl<'a> Recorder<'a> {
         }
         let certificate = self.certificate(outcome.reason, system);
         if certificate.as_ref().is_some_and(is_saddle) {
-            // The last record ended the run: it belongs to what comes after the last good state.
-            self.keep_last_good(1);
+            // The last record ended the run: it belongs to what comes after the last good state. Where nothing
+            // came before it since the run was resumed, what was kept then stays.
+            if let Some((good, Some(recorded))) = self.last_good.take() {
+                let position = self.position_at(good);
+                let wall_s = self.wall_s();
+                self.taken.checkpoint_behind(&position, &recorded, wall_s);
+            }
         }
         Ending::Ended(outcome, certificate)
     }
@@ -138,19 +148,17 @@ impl<'a> Recorder<'a> {
         Some(nearest.certificate)
     }
 
-    /// Keeps a checkpoint behind all records but the last `less`.
-    fn keep(&mut self, checkpoint: Checkpoint, less: usize) {
-        let position = RunPosition::Motion(Box::new(MotionPosition {
-            checkpoint,
-            pushes: self.pushes.clone(),
-        }));
-        self.taken.checkpoint(&position, less, self.clock.wall_s());
+    /// Keeps a checkpoint behind all records.
+    fn keep(&mut self, checkpoint: Checkpoint) {
+        let position = self.position_at(checkpoint);
+        self.taken.checkpoint(&position, self.clock.wall_s());
     }
 
-    fn keep_last_good(&mut self, less: usize) {
-        if let Some(good) = self.last_good.clone() {
-            self.keep(good, less);
-        }
+    fn position_at(&self, checkpoint: Checkpoint) -> RunPosition {
+        RunPosition::Motion(Box::new(MotionPosition {
+            checkpoint,
+            pushes: self.pushes.clone(),
+        }))
     }
 }
 
@@ -190,12 +198,14 @@ impl Observer for Recorder<'_> {
 
     fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
         if self.is_behind {
-            self.last_good = Some(pause.checkpoint());
+            // A saddle alone is left without its record, and none is looked for in a heat bath.
+            let recorded = self.judge.as_ref().map(|_| self.taken.recorded().clone());
+            self.last_good = Some((pause.checkpoint(), recorded));
             self.is_behind = false;
         }
         self.is_interrupted = self.taken.sink.is_interrupted();
         if self.is_interrupted || self.taken.sink.is_checkpoint_due() {
-            self.keep(pause.checkpoint(), 0);
+            self.keep(pause.checkpoint());
         }
         if self.is_interrupted {
             return ControlFlow::Break(());
@@ -204,11 +214,11 @@ impl Observer for Recorder<'_> {
     }
 
     fn finish(&mut self, end: &Pause<'_>) {
-        self.keep(end.checkpoint(), 0);
+        self.keep(end.checkpoint());
     }
 
     fn fail(&mut self, last_good: &Checkpoint) {
-        self.keep(last_good.clone(), 0);
+        self.keep(last_good.clone());
     }
 }
 
@@ -230,5 +240,6 @@ fn record(moment: &mut Moment<'_>) -> Record {
         kinetic_pn_nm: moment.kinetic_energy(),
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
+        observed: Vec::new(),
     }
 }

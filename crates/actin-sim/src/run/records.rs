@@ -54,6 +54,9 @@ pub struct Record {
     pub residual_force_pn: f64,
     /// Largest torque on a free frame (pN nm).
     pub residual_torque_pn_nm: f64,
+    /// What the scene observes, in the order of the columns of `observables.csv`; NaN where there is nothing
+    /// yet.
+    pub observed: Vec<f64>,
 }
 
 impl Record {
@@ -61,6 +64,35 @@ impl Record {
     pub fn potential_pn_nm(&self) -> f64 {
         self.energies_pn_nm.iter().sum()
     }
+
+    /// The record without its state.
+    pub fn row(&self) -> Row {
+        Row {
+            at: self.at,
+            energies_pn_nm: self.energies_pn_nm.clone(),
+            kinetic_pn_nm: self.kinetic_pn_nm,
+            residual_force_pn: self.residual_force_pn,
+            residual_torque_pn_nm: self.residual_torque_pn_nm,
+            observed: self.observed.clone(),
+        }
+    }
+}
+
+/// A recorded moment without its state; fields are those of [`Record`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// When, or where on the path.
+    pub at: At,
+    /// Energy of each term of the assembly, in order (pN nm).
+    pub energies_pn_nm: Vec<f64>,
+    /// Kinetic energy of the free bodies (pN nm).
+    pub kinetic_pn_nm: f64,
+    /// Largest force on a free point (pN).
+    pub residual_force_pn: f64,
+    /// Largest torque on a free frame (pN nm).
+    pub residual_torque_pn_nm: f64,
+    /// What the scene observes.
+    pub observed: Vec<f64>,
 }
 
 /// The records of a run, which can be gone through in order any number of times.
@@ -71,12 +103,21 @@ pub trait Records {
     /// How many there are.
     fn count(&self) -> usize;
 
-    /// The records in order. What cannot be read is an error, and the end.
+    /// The records in order, as far as they are kept with their states: all, or the last alone where a scene's
+    /// `output` needs no states. What cannot be read is an error, and the end.
     fn iter(&self) -> RecordIter<'_>;
+
+    /// All records in order, without their states.
+    fn rows(&self) -> RowIter<'_> {
+        Box::new(self.iter().map(|record| record.map(|record| record.row())))
+    }
 }
 
 /// Goes through records.
 pub type RecordIter<'a> = Box<dyn Iterator<Item = io::Result<Cow<'a, Record>>> + 'a>;
+
+/// Goes through records without their states.
+pub type RowIter<'a> = Box<dyn Iterator<Item = io::Result<Row>> + 'a>;
 
 /// Records in memory.
 #[derive(Clone, Debug, Default)]

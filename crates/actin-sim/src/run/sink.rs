@@ -31,12 +31,12 @@ pub trait Sink {
         false
     }
 
-    /// Keeps a checkpoint: where the run stands, how many of its records come before that, and the time
-    /// it has taken (s). Called when one is due, when the run is interrupted, when it fails and when it
+    /// Keeps a checkpoint: where the run stands, what it remembers of the records before that, of which the
+    /// sink may have more, and the time it has taken (s). Called when one is due, when the run is interrupted, when it fails and when it
     /// has ended, before results are written.
     ///
     /// A sink that cannot keep it has to say so itself: the run goes on all the same.
-    fn checkpoint(&mut self, _position: &RunPosition, _records: usize, _wall_s: f64) {}
+    fn checkpoint(&mut self, _position: &RunPosition, _recorded: &Recorded, _wall_s: f64) {}
 }
 
 impl Sink for Trajectory {

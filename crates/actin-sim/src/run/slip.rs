@@ -11,6 +11,7 @@ use crate::scene::Slides;
 use crate::shape::{Ribbon, WHOLE, turn_of_ends};
 use crate::{Assembly, End};
 use actin_mechanics::State;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Turns of a filament that its twist and writhe no longer show.
@@ -57,13 +58,13 @@ impl fmt::Display for Slip {
 }
 
 /// Watches the filaments of a run whose ends are held, or hinged: then the spring counts as a joint.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct LinkWatch {
     held: Vec<Held>,
 }
 
 /// A filament with both ends held.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Held {
     filament: usize,
     /// Twist plus writhe (turns) less the turn of the ends, where the run begins or since an end went
@@ -98,6 +99,11 @@ impl LinkWatch {
         Self {
             held: held.collect(),
         }
+    }
+
+    /// Whether it watches as many filaments as `other`.
+    pub(super) fn fits(&self, other: &Self) -> bool {
+        self.held.len() == other.held.len()
     }
 
     /// Follows a record that was found good when it was made.

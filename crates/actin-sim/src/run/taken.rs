@@ -2,16 +2,36 @@
 
 use super::slip::{LinkWatch, Slip};
 use super::{Plan, Progress, Record, RunPosition, Sink};
-use crate::assembly::worst_of;
-use crate::{Assembly, BeyondUse};
+use crate::assembly::{RangeWatch, TwistRecords, worst_of};
+use crate::observe::{Memory, View};
+use crate::{Assembly, BeyondRange, BeyondUse, UnstableTwist};
+use serde::{Deserialize, Serialize};
 
 /// What a run remembers of the records that it has taken. It holds one of them, the last.
 #[derive(Clone, Debug)]
 pub struct Recorded {
+    pub(crate) carried: Carried,
+    pub(crate) last: Option<Record>,
+}
+
+/// What a run carries from record to record, besides the last of them. A checkpoint holds it.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Carried {
+    /// How many records there are.
+    pub(crate) count: usize,
     links: LinkWatch,
-    count: usize,
-    last: Option<Record>,
     beyond_use: Vec<BeyondUse>,
+    ranges: RangeWatch,
+    twist: TwistRecords,
+    observed: Memory,
+}
+
+/// What is wrong with the states of a run, the worst of all records.
+#[derive(Debug)]
+pub(super) struct Remarks {
+    pub(super) beyond_use: Vec<BeyondUse>,
+    pub(super) beyond_range: Vec<BeyondRange>,
+    pub(super) unstable_twist: Vec<UnstableTwist>,
 }
 
 impl Recorded {
@@ -23,39 +43,56 @@ impl Recorded {
             assembly.drive.place(&mut start, 0.0);
         }
         Self {
-            links: LinkWatch::new(assembly, &start),
-            count: 0,
+            carried: Carried {
+                count: 0,
+                links: LinkWatch::new(assembly, &start),
+                beyond_use: Vec::new(),
+                ranges: RangeWatch::new(assembly),
+                twist: TwistRecords::new(assembly),
+                observed: assembly.observers.memory(),
+            },
             last: None,
-            beyond_use: Vec::new(),
         }
     }
 
     /// That of a run that has taken `records`, in order: what a sink of one's own needs to
     /// [resume](crate::Plan::resume_into).
     pub fn of(plan: &Plan<'_>, records: impl IntoIterator<Item = Record>) -> Self {
-        let mut recorded = Self::new(plan.assembly());
+        let assembly = plan.assembly();
+        let mut recorded = Self::new(assembly);
         for record in records {
-            recorded.follow(plan.assembly(), record);
+            recorded.carried.links.follow(assembly, &record);
+            recorded.push(assembly, record);
         }
         recorded
     }
 
     /// How many records there are.
     pub fn count(&self) -> usize {
-        self.count
+        self.carried.count
     }
 
-    /// Adds a record that was found good when it was taken.
-    pub(crate) fn follow(&mut self, assembly: &Assembly, record: Record) {
-        self.links.follow(assembly, &record);
-        self.push(assembly, record);
-    }
-
-    fn push(&mut self, assembly: &Assembly, record: Record) {
+    /// Adds a record, with what the scene observes of it.
+    fn push(&mut self, assembly: &Assembly, mut record: Record) -> &Record {
+        let all = &mut self.carried;
+        let energies = (record.energies_pn_nm.as_slice(), record.kinetic_pn_nm);
+        let view = View::new(assembly, (record.at, &record.state), energies);
+        record.observed = assembly.observers.row(&view, &mut all.observed);
         let beyond = assembly.beyond_use(&record.state);
-        self.beyond_use = worst_of(self.beyond_use.drain(..).chain(beyond).collect::<Vec<_>>());
-        self.count += 1;
-        self.last = Some(record);
+        all.beyond_use = worst_of(all.beyond_use.drain(..).chain(beyond).collect::<Vec<_>>());
+        all.ranges.add(assembly, &record.state);
+        all.twist.add(assembly, &record.state);
+        all.count += 1;
+        self.last.insert(record)
+    }
+}
+
+impl Carried {
+    /// Whether it is of a run of the same scene as `other`, which has taken no records.
+    pub(crate) fn fits(&self, other: &Self) -> bool {
+        self.observed.fits(&other.observed)
+            && self.links.fits(&other.links)
+            && self.twist.fits(&other.twist)
     }
 }
 
@@ -84,11 +121,13 @@ impl<'a> Taken<'a> {
 
     /// Takes a record and returns true, unless twist was lost since the one before.
     pub(super) fn take(&mut self, record: Record) -> bool {
-        let Recorded { links, last, .. } = &mut self.recorded;
+        let Recorded { carried, last } = &mut self.recorded;
+        let good = carried.links.clone();
         let before = last.as_ref().map(|record| &record.state);
         let here = (&record.state, record.at);
-        self.slip = links.slip(self.assembly, here, before);
+        self.slip = carried.links.slip(self.assembly, here, before);
         if self.slip.is_some() {
+            carried.links = good;
             return false;
         }
         self.take_unchecked(record);
@@ -97,8 +136,8 @@ impl<'a> Taken<'a> {
 
     /// Takes a record whose twist is not looked at: that of an attempt which failed.
     pub(super) fn take_unchecked(&mut self, record: Record) {
-        self.sink.record(&record);
-        self.recorded.push(self.assembly, record);
+        let record = self.recorded.push(self.assembly, record);
+        self.sink.record(record);
     }
 
     /// The last record.
@@ -106,9 +145,9 @@ impl<'a> Taken<'a> {
         self.recorded.last.as_ref()
     }
 
-    /// How many there are.
-    pub(super) fn count(&self) -> usize {
-        self.recorded.count
+    /// What is remembered of all records.
+    pub(super) fn recorded(&self) -> &Recorded {
+        &self.recorded
     }
 
     /// Whether twist was lost.
@@ -121,14 +160,29 @@ impl<'a> Taken<'a> {
         self.slip.take()
     }
 
-    /// What is far outside the range of the model in them, the worst of all.
-    pub(super) fn into_beyond_use(self) -> Vec<BeyondUse> {
-        self.recorded.beyond_use
+    /// What is wrong with the states of all records.
+    pub(super) fn into_remarks(self) -> Remarks {
+        let carried = self.recorded.carried;
+        Remarks {
+            beyond_use: carried.beyond_use,
+            beyond_range: carried.ranges.end(self.assembly),
+            unstable_twist: carried.twist.end(),
+        }
     }
 
-    /// Passes a checkpoint on that comes behind all records but the last `less`.
-    pub(super) fn checkpoint(&mut self, position: &RunPosition, less: usize, wall_s: f64) {
-        self.sink.checkpoint(position, self.count() - less, wall_s);
+    /// Passes a checkpoint on that comes behind all records.
+    pub(super) fn checkpoint(&mut self, position: &RunPosition, wall_s: f64) {
+        self.sink.checkpoint(position, &self.recorded, wall_s);
+    }
+
+    /// Passes a checkpoint on that comes behind those that are `recorded`.
+    pub(super) fn checkpoint_behind(
+        &mut self,
+        position: &RunPosition,
+        recorded: &Recorded,
+        wall_s: f64,
+    ) {
+        self.sink.checkpoint(position, recorded, wall_s);
     }
 
     /// Passes on how far the run has come.

@@ -16,6 +16,7 @@ mod locate;
 mod magnitude;
 mod mistakes;
 mod model;
+mod observable;
 mod outline;
 pub(crate) mod path;
 mod place;
@@ -51,6 +52,7 @@ pub use load::{Acceleration, Couple, CouplePerLength, Force, ForcePerLength, Loa
 pub use model::{
     Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel, RotaryInertia,
 };
+pub use observable::{Observable, Output, Point};
 pub(crate) use place::HeldEnds;
 pub use problem::{SceneError, SceneProblem};
 pub use read::read_ron;

@@ -1,7 +1,9 @@
 //! What a scene says: filaments, clamps, loads and task. Where filaments are is in `place.rs`.
 
 use super::model::{JunctionModel, Monomers, RodModel};
-use super::{Imperfection, Linker, Load, Section, Shape, Thermal, written::Written};
+use super::{
+    Imperfection, Linker, Load, Observable, Output, Section, Shape, Thermal, written::Written,
+};
 use serde::{Deserialize, Serialize};
 
 /// A scene: filaments, what holds, loads and links them, and what is asked of them.
@@ -26,6 +28,12 @@ pub struct Scene {
     pub linkers: Vec<Linker>,
     /// How controls are moved, stage by stage: loads, shifts and turns of held ends, anchors.
     pub path: Vec<Stage>,
+    /// What is computed of every record.
+    pub observe: Vec<Observable>,
+    /// Time that means of what is observed leave out (ns); by default a fifth of the duration.
+    pub burn_in_ns: Option<f64>,
+    /// Which files are written.
+    pub output: Output,
     /// What is asked.
     pub task: Task,
 }

@@ -7,7 +7,7 @@ use super::support::{check_support, check_swings};
 use super::{
     Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Resultant, Scene,
     SceneProblem, Slides, StopTolerances, Task, imperfection, linker, load_rules, magnitude,
-    saddles, section_rules, shape, stage, thermal,
+    observable, saddles, section_rules, shape, stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 
@@ -60,6 +60,10 @@ pub(super) fn problems(scene: &Scene) -> Vec<SceneProblem> {
     for (i, stage) in scene.path.iter().enumerate() {
         note(stage::check(scene, &held, (i, stage)));
     }
+    for (i, one) in scene.observe.iter().enumerate() {
+        note(one.check(i, (scene, &held)));
+    }
+    note(observable::check_burn_in(scene));
     note(match &scene.task {
         Task::Dynamics(dynamics) => check_dynamics(dynamics),
         Task::Equilibrium(equilibrium) => check_equilibrium(equilibrium),

@@ -1,6 +1,6 @@
 //! A scene as its text has it: one `filament` or a list of `filaments`.
 
-use super::{Clamp, Filament, Linker, Load, Scene, SceneProblem, Stage, Task};
+use super::{Clamp, Filament, Linker, Load, Observable, Output, Scene, SceneProblem, Stage, Task};
 use serde::{Deserialize, Serialize};
 
 /// A scene: filaments, what holds, loads and links them, and what is computed.
@@ -31,6 +31,16 @@ pub(super) struct Written {
     /// so does the factor of every load that some stage sets; all other loads act in full throughout.
     #[serde(default)]
     path: Vec<Stage>,
+    /// What is computed of every record as it is taken, for `observables.csv`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    observe: Vec<Observable>,
+    /// Time from the start that means of `observe` leave out; at least 0, below `duration_ns`. Only with
+    /// `thermal`, where it is a fifth of `duration_ns` by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    burn_in_ns: Option<f64>,
+    /// Which of the larger files are written.
+    #[serde(default, skip_serializing_if = "Output::is_default")]
+    output: Output,
     /// What is computed.
     task: Task,
 }
@@ -64,6 +74,9 @@ impl TryFrom<Written> for Scene {
             loads: written.loads,
             linkers: written.linkers,
             path: written.path,
+            observe: written.observe,
+            burn_in_ns: written.burn_in_ns,
+            output: written.output,
             task: written.task,
         })
     }
@@ -92,6 +105,9 @@ impl From<Scene> for Written {
             loads: scene.loads,
             linkers: scene.linkers,
             path: scene.path,
+            observe: scene.observe,
+            burn_in_ns: scene.burn_in_ns,
+            output: scene.output,
             task: scene.task,
         }
     }

@@ -1,14 +1,16 @@
 //! Checkpoints of a run in its directory: when they are written, and what is left at the end.
 
 use super::file::{Contents, Identity, same_scene};
-use super::log::{RecordLog, Tally};
+use super::log::{RecordLog, Stored, Tally};
 use super::{CheckpointError, Damage};
 use crate::results::atomic::replace_durably;
 use crate::results::directory::RunDirectory;
 use crate::results::manifest::remove_if_there;
 use crate::results::names::{CHECKPOINT, RECORDS, SCENE, SUMMARY};
 use crate::results::{RunDirectoryError, Summary};
-use crate::run::{Plan, Record, RecordIter, Recorded, Records, RunPosition, Saved, Sink, Status};
+use crate::run::{
+    Plan, Record, RecordIter, Recorded, Records, RowIter, RunPosition, Saved, Sink, Status,
+};
 use std::borrow::Cow;
 use std::fs;
 use std::io::Write;
@@ -49,7 +51,7 @@ impl Checkpoints {
         let records = directory.path.join(RECORDS);
         Self {
             path: directory.path.join(CHECKPOINT),
-            log: RecordLog::new(records, Tally::default(), &identity.like, identity.terms),
+            log: RecordLog::new(records, Tally::default(), &identity.form, None),
             identity,
             every,
             last: Instant::now(),
@@ -66,23 +68,18 @@ impl Checkpoints {
     /// # Errors
     /// If there is no checkpoint, or one that is damaged, of another scene or of another program.
     pub fn resume(&mut self, plan: &Plan<'_>) -> Result<Saved, CheckpointError> {
-        let contents = self
-            .identity
-            .read(&self.path)
-            .map_err(|damage| damage.of(&self.path))?;
-        let Identity { like, terms, .. } = &self.identity;
+        let damaged = |damage: Damage| damage.of(&self.path);
+        let contents = self.identity.read(&self.path).map_err(damaged)?;
+        let (records, form) = (contents.records, &self.identity.form);
+        let none = Recorded::new(plan.assembly());
+        let saved = contents.saved(&none, form).map_err(damaged)?;
         let path = self.path.with_file_name(RECORDS);
-        self.log = RecordLog::new(path.clone(), contents.records, like, *terms);
-        let mut recorded = Recorded::new(plan.assembly());
-        for record in self.log.read().map_err(|damage| damage.of(&path))? {
-            let record = record.map_err(|damage| damage.of(&path))?;
-            recorded.follow(plan.assembly(), record);
+        self.log = RecordLog::new(path.clone(), records, form, saved.recorded.last.as_ref());
+        // What cannot be read is found now and not when the run has ended.
+        for stored in self.log.read().map_err(|damage| damage.of(&path))? {
+            stored.map_err(|damage| damage.of(&path))?;
         }
-        Ok(Saved {
-            position: contents.position.into_owned(),
-            recorded,
-            wall_s: contents.wall_s,
-        })
+        Ok(saved)
     }
 
     /// Checkpoints written so far.
@@ -98,16 +95,18 @@ impl Checkpoints {
     fn write(
         &mut self,
         position: &RunPosition,
-        records: usize,
+        recorded: &Recorded,
         wall_s: f64,
     ) -> Result<(), CheckpointError> {
         let log = self.path.with_file_name(RECORDS);
-        let synced = self.log.sync(records);
+        let synced = self.log.sync(recorded.count());
         let records = synced.map_err(|error| Damage::from(error).of(&log))?;
         let bytes = self.identity.encode(&Contents {
             wall_s,
             records,
             position: Cow::Borrowed(position),
+            carried: Cow::Borrowed(&recorded.carried),
+            last: recorded.last.as_ref().map(|last| Stored::new(last, true)),
         });
         let replaced = replace_durably(&self.path, |out| out.write_all(&bytes));
         replaced.map_err(|error| Damage::from(error).of(&self.path))
@@ -127,8 +126,8 @@ impl Sink for Checkpoints {
         self.last.elapsed() >= self.every
     }
 
-    fn checkpoint(&mut self, position: &RunPosition, records: usize, wall_s: f64) {
-        let outcome = self.write(position, records, wall_s);
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+        let outcome = self.write(position, recorded, wall_s);
         self.last_failed = outcome.is_err();
         match outcome {
             Ok(()) => self.written += 1,
@@ -146,6 +145,10 @@ impl Records for Checkpoints {
 
     fn iter(&self) -> RecordIter<'_> {
         self.log.iter()
+    }
+
+    fn rows(&self) -> RowIter<'_> {
+        self.log.rows()
     }
 }
 

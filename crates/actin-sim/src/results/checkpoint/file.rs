@@ -1,11 +1,10 @@
 //! `checkpoint.bin`: its header, whose it is, and how it replaces the one before.
 
 use super::Damage;
-use super::log::{Tally, compare, open};
+use super::log::{Form, Stored, Tally, compare, open};
 use super::wire::{decode, decode_all, encode};
-use crate::run::RunPosition;
+use crate::run::{Carried, Recorded, RunPosition, Saved};
 use crate::{Plan, Task};
-use actin_mechanics::State;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io::Read;
@@ -14,7 +13,7 @@ use std::path::Path;
 const MAGIC: &[u8; 8] = b"ACTINCKP";
 /// Version of the format: to be raised with every change of a byte,
 /// those of the records included.
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 /// Bytes of the header: magic, version, length and checksum of the contents, checksum of these.
 const HEADER: usize = 8 + 4 + 8 + 4 + 4;
 /// Version of the program.
@@ -25,10 +24,8 @@ const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 pub(super) struct Identity {
     /// The scene as resolved.
     scene: String,
-    /// A state of the assembly, for what time does not change.
-    pub(super) like: State,
-    /// Number of interactions.
-    pub(super) terms: usize,
+    /// What its records have in common.
+    pub(super) form: Form,
     /// Whether the scene asks for a motion in time.
     is_motion: bool,
 }
@@ -46,6 +43,9 @@ pub(super) struct Contents<'a> {
     pub(super) wall_s: f64,
     pub(super) records: Tally,
     pub(super) position: Cow<'a, RunPosition>,
+    /// What the run carries from record to record, and the last of them.
+    pub(super) carried: Cow<'a, Carried>,
+    pub(super) last: Option<Stored<'a>>,
 }
 
 impl Identity {
@@ -54,8 +54,12 @@ impl Identity {
         let assembly = plan.assembly();
         Self {
             scene: plan.scene().to_ron(),
-            like: assembly.system.state().clone(),
-            terms: assembly.terms.len(),
+            form: Form {
+                like: assembly.system.state().clone(),
+                terms: assembly.terms.len(),
+                columns: assembly.observers.columns().len(),
+                has_states: assembly.scene.output.needs_states(),
+            },
             is_motion: matches!(assembly.scene.task, Task::Dynamics(_)),
         }
     }
@@ -85,7 +89,7 @@ impl Identity {
         if matches!(*contents.position, RunPosition::Motion(_)) != self.is_motion {
             return Err(Damage::Contents("a run of another task".into()));
         }
-        if !contents.position.fits(&self.like) {
+        if !contents.position.fits(&self.form.like) {
             let what = "other numbers of bodies or controls than the scene has";
             return Err(Damage::Contents(what.into()));
         }
@@ -110,6 +114,30 @@ pub(super) fn same_scene(kept: &str, given: &str) -> Result<(), Damage> {
                 given: given.unwrap_or_default().trim().to_owned(),
             });
         }
+    }
+}
+
+impl Contents<'_> {
+    /// The run that was interrupted, which remembers `none` before its first record.
+    ///
+    /// # Errors
+    /// Contents of a run with other numbers of records, bodies or columns.
+    pub(super) fn saved(self, none: &Recorded, form: &Form) -> Result<Saved, Damage> {
+        let carried = self.carried.into_owned();
+        let is_sound = carried.count == self.records.count
+            && carried.fits(&none.carried)
+            && self.last.is_some() == (carried.count > 0)
+            && self.last.as_ref().is_none_or(|last| last.fits(form));
+        if !is_sound {
+            let what = "other numbers of records, bodies or columns than the run has";
+            return Err(Damage::Contents(what.into()));
+        }
+        let last = self.last.and_then(|last| last.into_record(form));
+        Ok(Saved {
+            position: self.position.into_owned(),
+            recorded: Recorded { carried, last },
+            wall_s: self.wall_s,
+        })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Damage;
 use super::wire::{decode_all, encode};
-use crate::run::{At, Record, RecordIter, Records};
+use crate::run::{At, Record, RecordIter, Records, Row, RowIter};
 use actin_mechanics::{Motion, State};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -25,20 +25,35 @@ pub(super) struct Tally {
     pub(super) checksum: u32,
 }
 
-/// A record in the log. Those of one run are of one length: their lists are, and numbers of a varying
-/// length there are none.
-#[derive(Serialize, Deserialize)]
-struct Stored<'a> {
+/// What all records of a run have in common.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Form {
+    /// A state of the run, for what time does not change.
+    pub(super) like: State,
+    /// Energies of a record.
+    pub(super) terms: usize,
+    /// Numbers that are observed.
+    pub(super) columns: usize,
+    /// Whether records are kept with their states.
+    pub(super) has_states: bool,
+}
+
+/// A record in the log, or the last in a checkpoint. Those of one log are of one length: their lists are, and
+/// numbers of a varying length there are none.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Stored<'a> {
     at: At,
     kinetic_pn_nm: f64,
     residual_force_pn: f64,
     residual_torque_pn_nm: f64,
     energies_pn_nm: Cow<'a, [f64]>,
-    motion: Motion,
+    observed: Cow<'a, [f64]>,
+    motion: Option<Motion>,
 }
 
 impl<'a> Stored<'a> {
-    fn new(record: &'a Record) -> Self {
+    /// A record, with its state or without.
+    pub(super) fn new(record: &'a Record, has_state: bool) -> Self {
         let Record {
             at,
             state,
@@ -46,6 +61,7 @@ impl<'a> Stored<'a> {
             kinetic_pn_nm,
             residual_force_pn,
             residual_torque_pn_nm,
+            observed,
         } = record;
         Self {
             at: *at,
@@ -53,35 +69,64 @@ impl<'a> Stored<'a> {
             residual_force_pn: *residual_force_pn,
             residual_torque_pn_nm: *residual_torque_pn_nm,
             energies_pn_nm: energies_pn_nm.into(),
-            motion: state.motion(),
+            observed: observed.into(),
+            motion: has_state.then(|| state.motion()),
         }
     }
 
-    /// The record of a run with states like `like` and `terms` energies.
-    fn read(bytes: &'a [u8], like: &State, terms: usize) -> Result<Record, Damage> {
-        let stored: Self = decode_all(bytes)?;
-        if !stored.motion.fits(like) || stored.energies_pn_nm.len() != terms {
+    /// What a log of records of this form holds.
+    fn read(bytes: &[u8], form: &Form) -> Result<Stored<'static>, Damage> {
+        let stored: Stored<'static> = decode_all(bytes)?;
+        if !stored.fits(form) || stored.motion.is_some() != form.has_states {
             return Err(Damage::Contents("a record of another scene".into()));
         }
-        Ok(Record {
-            at: stored.at,
-            state: like.in_motion(stored.motion),
-            energies_pn_nm: stored.energies_pn_nm.into_owned(),
-            kinetic_pn_nm: stored.kinetic_pn_nm,
-            residual_force_pn: stored.residual_force_pn,
-            residual_torque_pn_nm: stored.residual_torque_pn_nm,
+        Ok(stored)
+    }
+
+    /// Whether its lists are as long as those of a run's records.
+    pub(super) fn fits(&self, form: &Form) -> bool {
+        self.motion.as_ref().is_none_or(|m| m.fits(&form.like))
+            && self.energies_pn_nm.len() == form.terms
+            && self.observed.len() == form.columns
+    }
+
+    /// The same without its state.
+    fn into_row(self) -> Row {
+        Row {
+            at: self.at,
+            energies_pn_nm: self.energies_pn_nm.into_owned(),
+            kinetic_pn_nm: self.kinetic_pn_nm,
+            residual_force_pn: self.residual_force_pn,
+            residual_torque_pn_nm: self.residual_torque_pn_nm,
+            observed: self.observed.into_owned(),
+        }
+    }
+
+    /// The record, if it has its state.
+    pub(super) fn into_record(mut self, form: &Form) -> Option<Record> {
+        let motion = self.motion.take()?;
+        let row = self.into_row();
+        Some(Record {
+            at: row.at,
+            state: form.like.in_motion(motion),
+            energies_pn_nm: row.energies_pn_nm,
+            kinetic_pn_nm: row.kinetic_pn_nm,
+            residual_force_pn: row.residual_force_pn,
+            residual_torque_pn_nm: row.residual_torque_pn_nm,
+            observed: row.observed,
         })
     }
 
     /// Bytes of a record of such a run.
-    fn length(like: &State, terms: usize) -> usize {
+    fn length(form: &Form) -> usize {
         let record = Self {
             at: At::Time(0.0),
             kinetic_pn_nm: 0.0,
             residual_force_pn: 0.0,
             residual_torque_pn_nm: 0.0,
-            energies_pn_nm: vec![0.0; terms].into(),
-            motion: like.motion(),
+            energies_pn_nm: vec![0.0; form.terms].into(),
+            observed: vec![0.0; form.columns].into(),
+            motion: form.has_states.then(|| form.like.motion()),
         };
         encode(&record, Vec::new()).len()
     }
@@ -94,10 +139,9 @@ impl<'a> Stored<'a> {
 #[derive(Debug)]
 pub(super) struct RecordLog {
     path: PathBuf,
-    /// A state of the run, for what time does not change.
-    like: State,
-    /// Energies of a record.
-    terms: usize,
+    form: Form,
+    /// The last record, where the log has no states.
+    last: Option<Record>,
     /// Bytes of a record with its checksum.
     length: usize,
     /// Open from the first time that it is written to.
@@ -113,14 +157,14 @@ pub(super) struct RecordLog {
 }
 
 impl RecordLog {
-    /// The log at `path` of a run with states like `like` and `terms` energies, of which `tally` is
-    /// known to be on the disk.
-    pub(super) fn new(path: PathBuf, tally: Tally, like: &State, terms: usize) -> Self {
+    /// The log at `path` of a run with records of this form, of which `tally` is known to be on the disk and
+    /// `last` is the last.
+    pub(super) fn new(path: PathBuf, tally: Tally, form: &Form, last: Option<&Record>) -> Self {
         Self {
             path,
-            like: like.clone(),
-            terms,
-            length: Stored::length(like, terms) + CHECKSUM,
+            form: form.clone(),
+            last: last.filter(|_| !form.has_states).cloned(),
+            length: Stored::length(form) + CHECKSUM,
             file: None,
             written: tally,
             taken: tally,
@@ -132,7 +176,11 @@ impl RecordLog {
     /// Adds a record. Where the disk refuses, [`sync`](Self::sync) will tell.
     pub(super) fn push(&mut self, record: &Record) {
         let start = self.buffer.len();
-        self.buffer = encode(&Stored::new(record), std::mem::take(&mut self.buffer));
+        let stored = Stored::new(record, self.form.has_states);
+        self.buffer = encode(&stored, std::mem::take(&mut self.buffer));
+        if !self.form.has_states {
+            self.last = Some(record.clone());
+        }
         let checksum = follow(self.taken.checksum, &self.buffer[start..]);
         self.buffer.extend(checksum.to_le_bytes());
         self.taken = Tally {
@@ -203,6 +251,15 @@ impl RecordLog {
         records.checked_add(HEADER)
     }
 
+    /// What the log holds from the first record on.
+    fn stored(&self) -> Box<dyn Iterator<Item = io::Result<Stored<'static>>> + '_> {
+        let refused = |damage: Damage| io::Error::other(damage.of(&self.path));
+        match self.read() {
+            Ok(reading) => Box::new(reading.map(move |stored| stored.map_err(refused))),
+            Err(damage) => Box::new(std::iter::once(Err(refused(damage)))),
+        }
+    }
+
     /// Reads the records from the first on.
     pub(super) fn read(&self) -> Result<Reading<'_>, Damage> {
         let file: Box<dyn Read> = match self.written.count {
@@ -247,11 +304,15 @@ impl Records for RecordLog {
     }
 
     fn iter(&self) -> RecordIter<'_> {
-        let refused = |damage: Damage| io::Error::other(damage.of(&self.path));
-        match self.read() {
-            Ok(reading) => Box::new(reading.map(move |r| r.map(Cow::Owned).map_err(refused))),
-            Err(damage) => Box::new(std::iter::once(Err(refused(damage)))),
+        if !self.form.has_states {
+            return Box::new(self.last.iter().map(|record| Ok(Cow::Borrowed(record))));
         }
+        let whole = |stored: Stored<'_>| stored.into_record(&self.form).map(Cow::Owned);
+        Box::new(self.stored().filter_map(move |r| r.map(whole).transpose()))
+    }
+
+    fn rows(&self) -> RowIter<'_> {
+        Box::new(self.stored().map(|stored| stored.map(Stored::into_row)))
     }
 }
 
@@ -267,7 +328,7 @@ pub(super) struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    fn next_record(&mut self) -> Result<Option<Record>, Damage> {
+    fn next_record(&mut self) -> Result<Option<Stored<'static>>, Damage> {
         let Self { log, tally, .. } = self;
         if tally.count == log.taken.count {
             let part = "all records, which belong to another checkpoint,".into();
@@ -280,12 +341,12 @@ impl Reading<'_> {
         let written = u32::from_le_bytes(written);
         compare(format!("record {}", tally.count), tally.checksum, written)?;
         tally.count += 1;
-        Stored::read(body, &log.like, log.terms).map(Some)
+        Stored::read(body, &log.form).map(Some)
     }
 }
 
 impl Iterator for Reading<'_> {
-    type Item = Result<Record, Damage>;
+    type Item = Result<Stored<'static>, Damage>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.has_ended {
@@ -353,13 +414,23 @@ mod tests {
     use std::fs;
 
     /// A log of a made-up run, its folder, and the records that go into it.
-    fn log() -> (tempfile::TempDir, RecordLog, Vec<Record>) {
+    fn log_of(has_states: bool) -> (tempfile::TempDir, RecordLog, Vec<Record>) {
         let assembly = fixture::clamped_start();
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("records.bin");
-        let log = RecordLog::new(path, Tally::default(), &assembly.rest, assembly.terms.len());
+        let form = Form {
+            like: assembly.rest.clone(),
+            terms: assembly.terms.len(),
+            columns: 0,
+            has_states,
+        };
+        let log = RecordLog::new(path, Tally::default(), &form, None);
         let records = fixture::trajectory(&assembly).records;
         (folder, log, records)
+    }
+
+    fn log() -> (tempfile::TempDir, RecordLog, Vec<Record>) {
+        log_of(true)
     }
 
     /// However many records there are, less than a buffer and a record of them wait in memory; the rest is
@@ -396,8 +467,7 @@ mod tests {
         for (count, tally) in tallies.into_iter().enumerate() {
             assert_eq!(log.sync(count).unwrap(), tally);
         }
-        let (path, terms) = (log.path.clone(), log.terms);
-        let mut again = RecordLog::new(path, tallies[2], &log.like, terms);
+        let mut again = RecordLog::new(log.path.clone(), tallies[2], &log.form, None);
         assert_eq!(Trajectory::read(&again).unwrap().records.len(), 2);
         // Resumed, the file ends behind them, until there are more.
         again.push(&records[2]);
@@ -421,5 +491,22 @@ mod tests {
         log.sync(3).unwrap();
         assert!(log.buffer.is_empty());
         assert_eq!(Trajectory::read(&log).unwrap().records.len(), 3);
+    }
+
+    /// Without states a record takes the bytes of its numbers, however many bodies there are; all rows come
+    /// back, and of the states that of the last.
+    #[test]
+    fn without_states_records_are_rows() {
+        let (_folder, mut log, records) = log_of(false);
+        records.iter().for_each(|record| log.push(record));
+        log.sync(3).unwrap();
+        // A time with its kind, three numbers, as many energies as terms, two lengths, no state.
+        let expected = 9 + 3 * 8 + 8 * log.form.terms + 3;
+        assert_eq!(log.length, expected + CHECKSUM);
+        let rows: Vec<Row> = log.rows().map(Result::unwrap).collect();
+        let expected: Vec<Row> = records.iter().map(Record::row).collect();
+        assert_eq!((rows, log.count()), (expected, 3));
+        let kept = Trajectory::read(&log).unwrap().records;
+        assert_eq!((kept.len(), &kept[0].state), (1, &records[2].state));
     }
 }

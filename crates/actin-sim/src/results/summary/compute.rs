@@ -4,6 +4,7 @@ use super::{
     EndReactions, EnergySummary, FilamentSummary, LateKinetic, LinkerSummary, ResidualSummary,
     ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
 };
+use crate::observe::{Averages, View};
 use crate::{Assembly, At, End, Outcome, Record, Status, Task, shape};
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, Residual};
@@ -15,14 +16,19 @@ impl Summary {
             Task::Dynamics(_) => At::Time(0.0),
             Task::Equilibrium(_) => At::Path(0.0),
         };
-        let record = Record {
+        let mut record = Record {
             at,
             state: assembly.rest.clone(),
             energies_pn_nm: vec![0.0; assembly.terms.len()],
             kinetic_pn_nm: 0.0,
             residual_force_pn: 0.0,
             residual_torque_pn_nm: 0.0,
+            observed: Vec::new(),
         };
+        let energies = (record.energies_pn_nm.as_slice(), 0.0);
+        let view = View::new(assembly, (at, &record.state), energies);
+        let observers = &assembly.observers;
+        record.observed = observers.row(&view, &mut observers.memory());
         Self::new(assembly, &record, &Outcome::new(Status::Interrupted, 0.0))
     }
 
@@ -32,7 +38,7 @@ impl Summary {
         let filaments = FilamentSummary::all(assembly, last);
         let first = &filaments[0];
         let mut kinetic = LateKinetic::of(1);
-        kinetic.add(last);
+        kinetic.add(last.kinetic_pn_nm);
         Self {
             scene: assembly.scene.title.clone(),
             status: outcome.status,
@@ -56,6 +62,7 @@ impl Summary {
             unstable_twist: assembly.unstable_twist_over([&last.state]),
             beyond_use: outcome.beyond_use.clone(),
             linkers: LinkerSummary::all(assembly, &last.state),
+            observables: Averages::of_one(assembly, last),
             shape: first.shape,
             residual: ResidualSummary::of(last),
             residual_floor: equilibrium.and_then(|e| e.floor).map(Into::into),

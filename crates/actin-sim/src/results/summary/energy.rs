@@ -24,10 +24,11 @@ pub struct EnergySummary {
 impl EnergySummary {
     pub(super) fn new(assembly: &Assembly, record: &Record) -> Self {
         let terms = &assembly.terms;
-        let totals = Totals::new(terms, record);
+        let row = record.row();
+        let totals = Totals::new(terms, &row);
         let names = distinct(terms, |term| term.name);
         let of_name = |name: &'static str| {
-            let energy = sum_where(terms, record, |term| term.name == name);
+            let energy = sum_where(terms, &row, |term| term.name == name);
             (name.to_owned(), energy)
         };
         Self {

@@ -18,8 +18,9 @@ pub(super) use thermal::LateKinetic;
 pub use thermal::ThermalSummary;
 
 use super::{RunDirectoryError, finite::ensure_finite};
-use crate::{BeyondRange, BeyondUse, Counts, SaddlePush, Status, UnstableTwist};
+use crate::{BeyondRange, BeyondUse, Counts, ObservableSummary, SaddlePush, Status, UnstableTwist};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// What a run ended with. Field names are the keys of `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,6 +90,10 @@ pub struct Summary {
     /// What the linkers do, in the order of the scene.
     #[serde(default)]
     pub linkers: Vec<LinkerSummary>,
+    /// What the scene observes, by the columns of `observables.csv`: the last record, and in a heat bath means;
+    /// no key where nothing is observed.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub observables: BTreeMap<String, ObservableSummary>,
     /// Twist, writhe, link and distance from the axis of filament 0.
     pub shape: ShapeSummary,
     /// How far from an equilibrium the last record is.
@@ -224,6 +229,8 @@ impl Summary {
         let key = "thermal.kinetic_temperature_k".to_owned();
         scalars.extend(thermal.map(|kelvin| (key, kelvin)));
         scalars.extend(self.shape.scalars());
+        let observed = self.observables.iter();
+        scalars.extend(observed.flat_map(|(name, one)| one.scalars(name)));
         scalars.extend(self.pushes.iter().enumerate().flat_map(pushes::scalars));
         let eigenvalue = self.lowest_stiffness_eigenvalue.into_iter();
         scalars.extend(eigenvalue.map(|value| ("lowest_stiffness_eigenvalue".to_owned(), value)));

@@ -1,7 +1,7 @@
 //! What a summary says of thermal motion.
 
+use crate::Assembly;
 use crate::scene::{BOLTZMANN_PN_NM_PER_K, Thermal};
-use crate::{Assembly, Record};
 use serde::{Deserialize, Serialize};
 
 /// The temperature that was asked for and the one that was met.
@@ -54,11 +54,12 @@ impl LateKinetic {
         }
     }
 
-    pub(in crate::results) fn add(&mut self, record: &Record) {
+    /// Adds the kinetic energy (pN nm) of the next record.
+    pub(in crate::results) fn add(&mut self, kinetic_pn_nm: f64) {
         match self.early {
             0 => {
                 self.records += 1;
-                self.sum_pn_nm += record.kinetic_pn_nm;
+                self.sum_pn_nm += kinetic_pn_nm;
             }
             _ => self.early -= 1,
         }
@@ -96,7 +97,7 @@ mod tests {
         }
         let mut late = LateKinetic::of(3);
         for record in &records {
-            late.add(record);
+            late.add(record.kinetic_pn_nm);
         }
         let summary = ThermalSummary::new(&warm, &late).unwrap();
         assert_eq!((summary.temperature_k, summary.seed), (300.0, u64::MAX));

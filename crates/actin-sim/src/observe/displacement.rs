@@ -1,0 +1,74 @@
+//! How far a point has gone.
+
+use super::{Checked, Observe, Past, View, chain};
+use crate::scene::Point;
+use crate::{Assembly, End, Estimate};
+use actin_mechanics::Vector3;
+
+/// Times closer than this share of a lag are the same.
+const SAME: f64 = 1e-6;
+
+/// Square of the displacement of a point, since the first record or over a time.
+#[derive(Debug)]
+pub(super) struct SquaredDisplacement {
+    pub(super) filament: usize,
+    pub(super) of: Point,
+    pub(super) lag_ns: Option<f64>,
+}
+
+impl SquaredDisplacement {
+    /// Where the point is (nm).
+    fn place(&self, view: &View<'_>) -> Vector3 {
+        match self.of {
+            Point::Tip => view.assembly.tip_of(self.filament, view.state, End::End),
+            Point::Centre => chain::centre(view.ribbon(self.filament)),
+        }
+    }
+}
+
+impl Observe for SquaredDisplacement {
+    fn columns(&self) -> Vec<String> {
+        let of = match self.of {
+            Point::Tip => "tip",
+            Point::Centre => "centre",
+        };
+        let over = self.lag_ns.map(|lag| format!("_over_{lag}ns"));
+        let over = over.unwrap_or_default();
+        vec![format!(
+            "squared_displacement[{}]_{of}{over}_nm2",
+            self.filament
+        )]
+    }
+
+    fn observe(&self, view: &View<'_>, past: &mut Past, row: &mut Vec<f64>) {
+        let here = self.place(view);
+        let Some(lag) = self.lag_ns else {
+            let first = *past.first.get_or_insert(here.into());
+            row.push((here - Vector3::from(first)).norm_squared());
+            return;
+        };
+        let now = view.at.value();
+        let (earliest, latest) = (now - lag * (1.0 + SAME), now - lag * (1.0 - SAME));
+        while past.recent.front().is_some_and(|(t, _)| *t < earliest) {
+            past.recent.pop_front();
+        }
+        let then = past.recent.front().filter(|(t, _)| *t <= latest);
+        let square = then.map(|(_, then)| (here - Vector3::from(*then)).norm_squared());
+        row.push(square.unwrap_or(f64::NAN));
+        past.recent.push_back((now, here.into()));
+    }
+
+    /// A lag falls on records only.
+    fn check(&self, _assembly: &Assembly, estimate: Option<&Estimate>) -> Checked {
+        let (Some(lag), Some(estimate)) = (self.lag_ns, estimate) else {
+            return Ok(());
+        };
+        let every = estimate.record_every_ns;
+        let records = (lag / every).round();
+        if records >= 1.0 && (lag - records * every).abs() <= SAME * lag {
+            return Ok(());
+        }
+        let rule = format!("must be a multiple of the time between records, {every:?}");
+        Err(("lag_ns", lag, rule))
+    }
+}

@@ -1,0 +1,62 @@
+//! Energies of all, and of each section and junction.
+
+use super::{Observe, Past, View};
+use crate::{Assembly, Part};
+
+/// Names of sections and junctions, and for each term the place of its name, if it belongs to one.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Names {
+    names: Vec<String>,
+    places: Vec<Option<usize>>,
+}
+
+impl Names {
+    /// Those of an assembly.
+    pub(crate) fn of(assembly: &Assembly) -> Self {
+        let mut parts: Vec<Part> = Vec::new();
+        let mut place = |part: Part| match part {
+            Part::Load(_) | Part::Linker(_) | Part::Clamp(_) => None,
+            // Terms of one part stand together.
+            Part::Section(_) | Part::Junction(_) => {
+                let known = parts.iter().rposition(|known| *known == part);
+                Some(known.unwrap_or_else(|| {
+                    parts.push(part);
+                    parts.len() - 1
+                }))
+            }
+        };
+        let places = assembly.terms.iter().map(|term| place(term.part)).collect();
+        let names = parts.iter().map(|part| assembly.name_of(*part)).collect();
+        Self { names, places }
+    }
+}
+
+/// Potential and kinetic energy, and energies of sections and junctions.
+#[derive(Debug)]
+pub(super) struct Energies(Names);
+
+impl Energies {
+    pub(super) fn new(names: Names) -> Self {
+        Self(names)
+    }
+}
+
+impl Observe for Energies {
+    fn columns(&self) -> Vec<String> {
+        let all = ["potential", "kinetic"].into_iter();
+        all.chain(self.0.names.iter().map(String::as_str))
+            .map(|name| format!("energy_{name}_pn_nm"))
+            .collect()
+    }
+
+    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+        row.extend([view.energies_pn_nm.iter().sum(), view.kinetic_pn_nm]);
+        let first = row.len();
+        row.resize(first + self.0.names.len(), 0.0);
+        for (energy, place) in view.energies_pn_nm.iter().zip(&self.0.places) {
+            if let Some(place) = place {
+                row[first + place] += energy;
+            }
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Means of what is observed over a run in a heat bath, for `summary.json`.
+
+use super::Observers;
+use crate::statistics::{BlockAverages, Estimate};
+use crate::{Assembly, Record};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// What is known of one column of `observables.csv`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ObservableSummary {
+    /// Its value at the last record; none where it has none yet.
+    pub last: Option<f64>,
+    /// Its mean over the records behind the burn-in; none without thermal noise.
+    #[serde(flatten, default, skip_serializing_if = "Option::is_none")]
+    pub mean: Option<MeanSummary>,
+}
+
+/// A mean over records behind the burn-in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MeanSummary {
+    /// The mean; none where there is no such record.
+    pub mean: Option<f64>,
+    /// Its standard error, from averages over blocks; a lower bound where it has not levelled off.
+    pub error: Option<f64>,
+    /// Whether the error levels off as blocks become longer.
+    pub levelled_off: bool,
+    /// Records of a block at which it does; none where it does not.
+    pub block_records: Option<u64>,
+    /// Independent samples that would give this error; an upper bound where it has not levelled off.
+    pub independent_samples: Option<f64>,
+    /// Records behind the burn-in that have a value.
+    pub records: u64,
+    /// A length that follows from the mean; only of tangent correlations.
+    #[serde(flatten, default, skip_serializing_if = "Option::is_none")]
+    pub derived: Option<DerivedLength>,
+}
+
+/// A persistence length with its standard error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DerivedLength {
+    /// Persistence length (nm); none unless the mean correlation is between 0 and 1.
+    pub persistence_length_nm: Option<f64>,
+    /// Its standard error (nm), from that of the correlation.
+    pub persistence_length_error_nm: Option<f64>,
+}
+
+impl ObservableSummary {
+    /// Its numbers under their keys.
+    pub(crate) fn scalars(&self, name: &str) -> Vec<(String, f64)> {
+        let mean = self.mean.unwrap_or_default();
+        let derived = mean.derived.unwrap_or_default();
+        [
+            ("last", self.last),
+            ("mean", mean.mean),
+            ("error", mean.error),
+            ("independent_samples", mean.independent_samples),
+            ("persistence_length_nm", derived.persistence_length_nm),
+            (
+                "persistence_length_error_nm",
+                derived.persistence_length_error_nm,
+            ),
+        ]
+        .into_iter()
+        .filter_map(|(key, value)| Some((format!("observables.{name}.{key}"), value?)))
+        .collect()
+    }
+}
+
+/// Averages of all columns, as records are looked at one by one.
+pub(crate) struct Averages<'a> {
+    observers: &'a Observers,
+    /// When they begin (ns); never without thermal noise.
+    from_ns: Option<f64>,
+    columns: Vec<BlockAverages>,
+    last: Vec<f64>,
+}
+
+impl<'a> Averages<'a> {
+    pub(crate) fn new(assembly: &'a Assembly) -> Self {
+        let observers = &assembly.observers;
+        Self {
+            observers,
+            from_ns: assembly.scene.burn_in(),
+            columns: vec![BlockAverages::default(); observers.columns().len()],
+            last: Vec::new(),
+        }
+    }
+
+    /// All columns of a record that is looked at alone.
+    pub(crate) fn of_one(
+        assembly: &'a Assembly,
+        record: &Record,
+    ) -> BTreeMap<String, ObservableSummary> {
+        let mut all = Self::new(assembly);
+        all.add(record.at.value(), &record.observed);
+        all.end()
+    }
+
+    /// Adds the row of the next record, at a time (ns).
+    pub(crate) fn add(&mut self, time_ns: f64, row: &[f64]) {
+        if self.from_ns.is_some_and(|from| time_ns >= from) {
+            let known = self.columns.iter_mut().zip(row);
+            for (column, value) in known.filter(|(_, value)| value.is_finite()) {
+                column.push(*value);
+            }
+        }
+        self.last = row.to_vec();
+    }
+
+    /// All columns by their names.
+    pub(crate) fn end(self) -> BTreeMap<String, ObservableSummary> {
+        let names = self.observers.columns().iter().enumerate();
+        let one = |(i, name): (usize, &String)| {
+            let last = self.last.get(i).copied().filter(|value| value.is_finite());
+            let summary = ObservableSummary {
+                last,
+                mean: self.from_ns.map(|_| self.mean(name, &self.columns[i])),
+            };
+            (name.clone(), summary)
+        };
+        names.map(one).collect()
+    }
+
+    fn mean(&self, name: &str, averages: &BlockAverages) -> MeanSummary {
+        let Some(Estimate {
+            mean,
+            values,
+            error,
+            block,
+            independent,
+        }) = averages.estimate()
+        else {
+            return MeanSummary {
+                derived: self.observers.derived(name, f64::NAN, None),
+                ..MeanSummary::default()
+            };
+        };
+        MeanSummary {
+            mean: Some(mean),
+            error,
+            levelled_off: block.is_some(),
+            block_records: block,
+            independent_samples: Some(independent),
+            records: values,
+            derived: self.observers.derived(name, mean, error),
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! How the direction of a filament is lost along it.
+
+use super::{Checked, DerivedLength, Observe, Past, View};
+use crate::shape::Ribbon;
+use crate::{Assembly, Estimate};
+use actin_mechanics::Vector3;
+
+/// Room for the round-off of sums of lengths (nm).
+const SAME_PLACE_NM: f64 = 1e-9;
+
+/// Mean cosine of the angle between cross-sections a distance apart.
+///
+/// The normal of a cross-section is the third axis of its frame, which shear does not turn. At a distance between
+/// two frames the cosine lies on the straight line between theirs. Pairs are weighted alike.
+///
+/// Of a filament with the persistence length `p`, the mean over a heat bath is `exp(-distance / p)` in space
+/// (Doi and Edwards, The Theory of Polymer Dynamics (1986), section 8.8).
+#[derive(Debug)]
+pub(super) struct TangentCorrelation {
+    pub(super) filament: usize,
+    pub(super) over_nm: f64,
+}
+
+impl Observe for TangentCorrelation {
+    fn columns(&self) -> Vec<String> {
+        let Self { filament, over_nm } = self;
+        vec![format!("tangent_correlation[{filament}]_over_{over_nm}nm")]
+    }
+
+    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+        row.push(correlation(view.ribbon(self.filament), self.over_nm));
+    }
+
+    fn derived(&self, mean: f64, error: Option<f64>) -> Option<DerivedLength> {
+        let loss = -mean.ln();
+        let length = Some(self.over_nm / loss).filter(|p| p.is_finite() && *p > 0.0);
+        let errors = length.zip(error).map(|(p, e)| p * e / (mean * loss));
+        Some(DerivedLength {
+            persistence_length_nm: length,
+            persistence_length_error_nm: errors,
+        })
+    }
+
+    fn check(&self, assembly: &Assembly, _estimate: Option<&Estimate>) -> Checked {
+        let s_nm = Ribbon::of(assembly, self.filament, &assembly.rest).frame_s_nm;
+        let most = s_nm[s_nm.len() - 1] - s_nm[0];
+        if self.over_nm <= most + SAME_PLACE_NM {
+            return Ok(());
+        }
+        let rule = format!("must be at most {most:?}, from the first cross-section to the last");
+        Err(("over_nm", self.over_nm, rule))
+    }
+}
+
+/// The mean over all frames that have another at this distance (nm) behind them.
+fn correlation(ribbon: &Ribbon, over_nm: f64) -> f64 {
+    let s_nm = &ribbon.frame_s_nm;
+    let normals: Vec<Vector3> = ribbon.frames.iter().map(|q| q * Vector3::z()).collect();
+    let (mut sum, mut count, mut upper) = (0.0, 0.0, 0);
+    for lower in 0..s_nm.len() {
+        let place = s_nm[lower] + over_nm;
+        while upper < s_nm.len() && s_nm[upper] < place - SAME_PLACE_NM {
+            upper += 1;
+        }
+        if upper == s_nm.len() {
+            break;
+        }
+        // The frame before it is `lower` itself at the least: the distance is positive.
+        let before = upper - 1;
+        let share = (place - s_nm[before]) / (s_nm[upper] - s_nm[before]);
+        let cosine = |k: usize| normals[lower].dot(&normals[k]);
+        sum += (1.0 - share) * cosine(before) + share * cosine(upper);
+        count += 1.0;
+    }
+    sum / count
+}

@@ -1,0 +1,47 @@
+//! Ends of filaments: where they are, and the vector between them.
+
+use super::{Observe, Past, View, vector};
+use crate::End;
+
+/// The place of an end.
+#[derive(Debug)]
+pub(super) struct Tip {
+    pub(super) filament: usize,
+    pub(super) end: End,
+}
+
+impl Observe for Tip {
+    fn columns(&self) -> Vec<String> {
+        let name = match self.end {
+            End::Start => "start",
+            End::End => "tip",
+        };
+        vector(&format!("{name}[{}]", self.filament), "_nm")
+    }
+
+    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+        let tip = view.assembly.tip_of(self.filament, view.state, self.end);
+        row.extend(tip.iter());
+    }
+}
+
+/// The vector from the start to the end, and its length.
+#[derive(Debug)]
+pub(super) struct EndToEnd {
+    pub(super) filament: usize,
+}
+
+impl Observe for EndToEnd {
+    fn columns(&self) -> Vec<String> {
+        let name = format!("end_to_end[{}]", self.filament);
+        let mut columns = vector(&name, "_nm");
+        columns.push(format!("{name}_nm"));
+        columns
+    }
+
+    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+        let at = |end| view.assembly.tip_of(self.filament, view.state, end);
+        let reach = at(End::End) - at(End::Start);
+        row.extend(reach.iter().copied().chain([reach.norm()]));
+    }
+}

@@ -1,0 +1,55 @@
+//! A record as observers see it: what several of them need is computed once.
+
+use crate::shape::Ribbon;
+use crate::{Assembly, At};
+use actin_mechanics::{Loads, State};
+use std::cell::OnceCell;
+
+/// A record that is being taken.
+pub(crate) struct View<'a> {
+    pub(crate) assembly: &'a Assembly,
+    pub(crate) at: At,
+    pub(crate) state: &'a State,
+    /// Energy of each term (pN nm).
+    pub(crate) energies_pn_nm: &'a [f64],
+    /// Kinetic energy (pN nm).
+    pub(crate) kinetic_pn_nm: f64,
+    ribbons: Vec<OnceCell<Ribbon>>,
+    loads: OnceCell<Loads>,
+}
+
+impl<'a> View<'a> {
+    /// That of a state of `assembly` with its energies.
+    pub(crate) fn new(
+        assembly: &'a Assembly,
+        (at, state): (At, &'a State),
+        (energies_pn_nm, kinetic_pn_nm): (&'a [f64], f64),
+    ) -> Self {
+        Self {
+            assembly,
+            at,
+            state,
+            energies_pn_nm,
+            kinetic_pn_nm,
+            ribbons: assembly.filaments.iter().map(|_| OnceCell::new()).collect(),
+            loads: OnceCell::new(),
+        }
+    }
+
+    /// The centre line of a filament.
+    pub(super) fn ribbon(&self, filament: usize) -> &Ribbon {
+        let of = || Ribbon::of(self.assembly, filament, self.state);
+        self.ribbons[filament].get_or_init(of)
+    }
+
+    /// All loads: one evaluation more than the run itself takes.
+    pub(super) fn loads(&self) -> &Loads {
+        self.loads.get_or_init(|| {
+            let mut loads = Loads::zeros(self.state);
+            for interaction in self.assembly.system.interactions() {
+                interaction.add_loads(self.state, &mut loads);
+            }
+            loads
+        })
+    }
+}

@@ -1,0 +1,60 @@
+//! `observables.csv`: what the scene observes, a row for each record.
+
+use super::clock;
+use super::names::OBSERVABLES;
+use super::{RunDirectoryError, finite::ensure_finite_in};
+use crate::{Assembly, Records, Row};
+use std::io::{self, Write};
+
+/// The table: time or path, then the columns of all that is observed.
+pub(super) struct ObservableTable<'a> {
+    assembly: &'a Assembly,
+}
+
+impl<'a> ObservableTable<'a> {
+    pub(super) fn new(assembly: &'a Assembly) -> Self {
+        Self { assembly }
+    }
+
+    /// Whether there is nothing to write.
+    pub(super) fn is_empty(&self) -> bool {
+        self.columns().is_empty()
+    }
+
+    fn columns(&self) -> &'a [String] {
+        self.assembly.observers.columns()
+    }
+
+    /// Refuses numbers of record `i` that are infinite. (What is no number stands for nothing yet.)
+    ///
+    /// # Errors
+    /// The first such number, with its column and the index of its row.
+    pub(super) fn ensure_finite(&self, i: usize, row: &Row) -> Result<(), RunDirectoryError> {
+        let mut columns = self.columns().iter().zip(&row.observed);
+        columns.try_for_each(|(name, value)| {
+            let known = Some(*value).filter(|value| !value.is_nan());
+            ensure_finite_in((OBSERVABLES, name), i, &[], known)
+        })
+    }
+
+    /// Writes the table of `records`. Numbers have as many digits as bring them back exactly; where there is
+    /// nothing yet, a cell is empty.
+    ///
+    /// # Errors
+    /// Those of `out` and of the records.
+    pub(super) fn write(&self, records: &dyn Records, out: &mut impl Write) -> io::Result<()> {
+        let mut writer = csv::Writer::from_writer(out);
+        let columns = self.columns().iter().map(String::as_str);
+        writer.write_record(std::iter::once(clock(self.assembly)).chain(columns))?;
+        for row in records.rows() {
+            let row = row?;
+            let cell = |value: &f64| match value {
+                value if value.is_nan() => String::new(),
+                value => format!("{value:?}"),
+            };
+            let time = format!("{:?}", row.at.value());
+            writer.write_record(std::iter::once(time).chain(row.observed.iter().map(cell)))?;
+        }
+        writer.flush()
+    }
+}
