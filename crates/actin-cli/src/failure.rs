@@ -139,6 +139,11 @@ fn all(name: &str, text: &SceneText, first: SceneError) -> Failure {
     if mistakes.is_empty() {
         mistakes.push(first);
     }
+    listed(name, text, &mistakes)
+}
+
+/// Mistakes of a file of this name, each with its line underlined.
+pub(crate) fn listed(name: &str, text: &SceneText, mistakes: &[SceneError]) -> Failure {
     let told = mistakes.iter().map(|mistake| shown(name, text, mistake));
     Failure::Input(told.collect::<Vec<_>>().join("\nerror: "))
 }

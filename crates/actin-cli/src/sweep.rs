@@ -1,8 +1,8 @@
 //! `actin sweep`: many runs of a scene, and one table.
 
-use crate::failure::Failure;
+use crate::failure::{self, Failure};
 use crate::{seconds, signals};
-use actin_sim::RunDirectoryError;
+use actin_sim::{RunDirectoryError, SceneText};
 use actin_sweep::{Ended, Opened, Progress, Settings, SweepDirectory, SweepError};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -205,6 +205,14 @@ impl From<SweepError> for Failure {
     fn from(error: SweepError) -> Self {
         let message = error.to_string();
         match error {
+            SweepError::Refused {
+                file,
+                text,
+                mistakes,
+            } if !text.is_empty() => {
+                let name = file.display().to_string();
+                failure::listed(&name, &SceneText::new(&text), &mistakes)
+            }
             SweepError::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
                 Self::Input(message)
             }

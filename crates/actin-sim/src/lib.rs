@@ -43,9 +43,10 @@ pub use assembly::{
 pub use error::SimError;
 pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
 pub use results::{
-    CheckpointError, Checkpoints, Damage, EndReaction, EndReactions, EnergySummary,
+    CheckpointError, Checkpoints, Damage, Difference, EndReaction, EndReactions, EnergySummary,
     FilamentSummary, LinkerSummary, ResidualSummary, RunDirectory, RunDirectoryError, RunLock,
-    ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
+    ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary, first_difference,
+    replace_file,
 };
 pub use run::{
     Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, MotionPosition, Outcome,
@@ -53,7 +54,6 @@ pub use run::{
     RunPosition, SaddlePush, Saved, Sink, Slip, Status, Trajectory, solver,
 };
 pub use scene::fitted::laws as fitted_laws;
-pub use scene::read_ron;
 #[cfg(feature = "schema")]
 pub use scene::schema;
 pub use scene::{
@@ -64,3 +64,4 @@ pub use scene::{
     RotaryInertia, Scene, SceneError, SceneProblem, SceneText, Section, Setting, Shape, ShearLaw,
     Slides, Stage, StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
 };
+pub use scene::{Readings, read_all, read_ron};

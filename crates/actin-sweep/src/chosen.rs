@@ -1,10 +1,49 @@
 //! Results by name: numbers of a `summary.json`.
 
-use serde_json::Value;
+use serde_json::{Map, Value};
 
-/// What a name such as `filaments[1].tip_nm[0]` stands for; none where the summary has nothing there.
+/// What a name such as `filaments[1].tip_nm[0]` or `observables.tip[0]_x_nm.mean` stands for; none where the
+/// summary has nothing there.
 pub(crate) fn find<'a>(summary: &'a Value, name: &str) -> Option<&'a Value> {
-    summary.pointer(&pointer(name))
+    let (mut here, mut rest) = (summary, name);
+    while !rest.is_empty() {
+        (here, rest) = match here {
+            Value::Object(fields) => {
+                let (key, behind) = key(rest, fields);
+                (fields.get(key)?, behind)
+            }
+            Value::Array(items) => {
+                let (step, behind) = step(rest);
+                (items.get(step.parse::<usize>().ok()?)?, behind)
+            }
+            _ => return None,
+        };
+    }
+    Some(here)
+}
+
+/// The first step of a path, without brackets, and what is behind it.
+fn step(path: &str) -> (&str, &str) {
+    let path = path.strip_prefix('.').unwrap_or(path);
+    match path
+        .strip_prefix('[')
+        .and_then(|index| index.split_once(']'))
+    {
+        Some(step) => step,
+        None => path.split_at(path.find(['.', '[']).unwrap_or(path.len())),
+    }
+}
+
+/// The first step of a path through an object, and what is behind it. Keys may hold dots and brackets, as those of
+/// observables do: the longest that the path begins with is meant.
+fn key<'a>(path: &'a str, fields: &Map<String, Value>) -> (&'a str, &'a str) {
+    let inside = path.strip_prefix('.').unwrap_or(path);
+    let is_meant = |key: &&String| {
+        let rest = inside.strip_prefix(key.as_str());
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+    };
+    let known = fields.keys().filter(is_meant).max_by_key(|key| key.len());
+    known.map_or_else(|| step(path), |key| inside.split_at(key.len()))
 }
 
 /// The number, or the truth, of a result; none of anything else.
@@ -15,22 +54,28 @@ pub(crate) fn number(value: &Value) -> Option<f64> {
 /// Why a summary like this one cannot have a result of this name; none if it can. Lists may grow, and what is
 /// null may become something.
 pub(crate) fn refusal(like: &Value, name: &str) -> Option<String> {
-    let steps: Vec<&str> = name.split(['.', '[']).collect();
-    let mut here = like;
-    for step in steps {
-        let step = step.trim_end_matches(']');
-        here = match here {
+    let (mut here, mut rest) = (like, name);
+    while !rest.is_empty() {
+        (here, rest) = match here {
             Value::Null => return None,
-            Value::Array(items) => match step.parse::<usize>() {
-                Ok(index) if index < items.len() => &items[index],
-                Ok(_) if is_fixed(items) => return Some(format!("has {} numbers", items.len())),
-                Ok(_) => return None,
-                Err(_) => return Some(format!("{step} is not an index")),
-            },
-            Value::Object(fields) => match fields.get(step) {
-                Some(field) => field,
-                None => return Some(unknown(step, fields.keys())),
-            },
+            Value::Array(items) => {
+                let (step, behind) = step(rest);
+                match step.parse::<usize>() {
+                    Ok(index) if index < items.len() => (&items[index], behind),
+                    Ok(_) if is_fixed(items) => {
+                        return Some(format!("has {} numbers", items.len()));
+                    }
+                    Ok(_) => return None,
+                    Err(_) => return Some(format!("{step} is not an index")),
+                }
+            }
+            Value::Object(fields) => {
+                let (key, behind) = key(rest, fields);
+                match fields.get(key) {
+                    Some(field) => (field, behind),
+                    None => return Some(unknown(key, fields.keys())),
+                }
+            }
             _ => return Some("is a number itself".into()),
         };
     }
@@ -57,12 +102,6 @@ fn unknown<'a>(step: &str, known: impl Iterator<Item = &'a String>) -> String {
     }
 }
 
-fn pointer(name: &str) -> String {
-    let steps = name.split(['.', '[']);
-    let steps = steps.map(|step| step.trim_end_matches(']'));
-    steps.flat_map(|step| ["/", step]).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -77,10 +116,22 @@ mod tests {
             "beyond_range": [],
             "energy": { "total": 7.5 },
             "filaments": [{ "tip_nm": [4.0, 5.0, 6.0] }],
+            "observables": {
+                "twist[0]_at_12.5nm_rad_per_nm": { "last": 0.5, "mean": null },
+                "twist[0]_at_12nm_rad_per_nm": { "last": 0.25 },
+            },
         });
         let of = |name| find(&summary, name).and_then(number);
         assert_eq!(of("tip_nm[1]"), Some(2.5));
         assert_eq!(of("filaments[0].tip_nm[2]"), Some(6.0));
+        assert_eq!(
+            of("observables.twist[0]_at_12.5nm_rad_per_nm.last"),
+            Some(0.5)
+        );
+        assert_eq!(
+            of("observables.twist[0]_at_12nm_rad_per_nm.last"),
+            Some(0.25)
+        );
         assert_eq!(
             (of("stable"), of("status"), of("tip_nm")),
             (Some(1.0), None, None)
@@ -91,6 +142,7 @@ mod tests {
             "beyond_range[3].value",
             "energy.total",
             "stable",
+            "observables.twist[0]_at_12.5nm_rad_per_nm.mean",
         ] {
             assert_eq!(refusal(&summary, name), None, "{name}");
         }
@@ -101,6 +153,14 @@ mod tests {
             ("energy", "holds several numbers: total"),
             ("status", "is not a number"),
             ("tip_nm.x", "x is not an index"),
+            (
+                "observables.twist[0]_at_12.5nm_rad_per_nm",
+                "holds several numbers: last, mean",
+            ),
+            (
+                "observables.tip[0]_x_nm.last",
+                "no tip there: known are twist[0]_at_12.5nm",
+            ),
         ] {
             let found = refusal(&summary, name).unwrap();
             assert!(found.contains(why), "{name}: {found}");

@@ -5,7 +5,7 @@
 
 use crate::files::{self, MANIFEST, PARAMETERS, SCENE, SWEEP};
 use crate::{Opened, SweepError};
-use actin_sim::RunLock;
+use actin_sim::{Difference, RunLock, first_difference};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -88,9 +88,8 @@ impl SweepDirectory {
             let path = self.path.join(name);
             // One that is missing was killed before it was written.
             let kept = fs::read(&path).unwrap_or_else(|_| given.clone());
-            if kept != given {
-                let [kept, given] = [&kept, &given].map(|bytes| String::from_utf8_lossy(bytes));
-                let (line, kept, given) = first_difference(&kept, &given);
+            let [kept, given] = [&kept, &given].map(|bytes| String::from_utf8_lossy(bytes));
+            if let Some(Difference { line, kept, given }) = first_difference(&kept, &given) {
                 return Err(SweepError::Other {
                     path: self.path.clone(),
                     file: name,
@@ -143,17 +142,4 @@ fn parameters(opened: &Opened) -> Vec<u8> {
         numbers.chain(values).chain(fixed).chain([seed]).collect()
     });
     files::csv(std::iter::once(head).chain(rows))
-}
-
-fn first_difference(kept: &str, given: &str) -> (usize, String, String) {
-    let (mut old, mut new) = (kept.lines(), given.lines());
-    let mut line = 0;
-    loop {
-        line += 1;
-        let (kept, given) = (old.next(), new.next());
-        if kept != given || kept.is_none() {
-            let text = |line: Option<&str>| line.unwrap_or_default().trim().to_owned();
-            return (line, text(kept), text(given));
-        }
-    }
 }

@@ -9,13 +9,15 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SweepError {
-    /// The sweep or its scene was refused, with the file.
-    #[error("{}:{error}", .file.display())]
+    /// The sweep or its scene was refused, with every mistake, a line each.
+    #[error("{}", lines(.file, .mistakes))]
     Refused {
         /// The file.
         file: PathBuf,
-        /// What is wrong, where.
-        error: SceneError,
+        /// What it holds; empty where that is no text.
+        text: String,
+        /// What is wrong, where, in the order of the text; at least one mistake.
+        mistakes: Vec<SceneError>,
     },
     /// The directory holds something else.
     #[error(
@@ -73,7 +75,24 @@ pub enum SweepError {
     Checkpoint(#[from] CheckpointError),
 }
 
+fn lines(file: &Path, mistakes: &[SceneError]) -> String {
+    let lines = mistakes.iter();
+    let lines = lines.map(|mistake| format!("{}:{mistake}", file.display()));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
 impl SweepError {
+    /// A file with mistakes, in any order.
+    pub(crate) fn refused(file: &Path, text: &str, mut mistakes: Vec<SceneError>) -> Self {
+        mistakes.sort_by_key(|mistake| (mistake.line, mistake.column));
+        mistakes.dedup();
+        Self::Refused {
+            file: file.to_owned(),
+            text: text.to_owned(),
+            mistakes,
+        }
+    }
+
     /// The error of an operation on `path`.
     pub(crate) fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
         move |source| Self::Io {

@@ -1,7 +1,8 @@
 //! Names of the files of a sweep directory, and how they are written: whole or not at all.
 
 use crate::SweepError;
-use std::fs::{self, File};
+use actin_sim::replace_file;
+use std::fs;
 use std::io::Write;
 use std::path::Path;
 
@@ -14,22 +15,15 @@ pub(crate) const TABLE: &str = "table.csv";
 pub(crate) const SNAKEFILE: &str = "Snakefile";
 pub(crate) const PROFILE: &str = "profiles/default/config.yaml";
 
-/// Puts a whole file on the disk in the place of another, or leaves what was there.
+/// Puts a whole file on the disk in the place of another, or leaves what was there. Several processes may write
+/// the same one.
 pub(crate) fn replace(folder: &Path, name: &str, contents: &[u8]) -> Result<(), SweepError> {
     let path = folder.join(name);
     let part = format!(".{}.{}.part", name.replace('/', "-"), std::process::id());
     let part = folder.join(part);
-    let write = || {
-        path.parent().map_or(Ok(()), fs::create_dir_all)?;
-        let mut file = File::create(&part)?;
-        file.write_all(contents)?;
-        file.sync_all()?;
-        fs::rename(&part, &path)
-    };
-    write().map_err(|error| {
-        let _ = fs::remove_file(&part);
-        SweepError::io(&path)(error)
-    })
+    let above = path.parent().map_or(Ok(()), fs::create_dir_all);
+    let written = above.and_then(|()| replace_file(&path, &part, |out| out.write_all(contents)));
+    written.map_err(SweepError::io(&path))
 }
 
 /// Rows of texts as CSV.

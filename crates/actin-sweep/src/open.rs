@@ -3,7 +3,10 @@
 use crate::design::Run;
 use crate::sweep::Axis;
 use crate::{Design, Sweep, SweepError, chosen, rules};
-use actin_sim::{Assembly, Override, Plan, Scene, SceneError, SceneProblem, SceneText, Summary};
+use actin_sim::{
+    Assembly, Override, Plan, Readings, Scene, SceneError, SceneProblem, SceneText, Summary,
+    read_all,
+};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -37,26 +40,40 @@ impl Opened {
     /// Reads a sweep and its scene from their files.
     ///
     /// # Errors
-    /// A file that cannot be read, or as [`new`](Self::new).
+    /// A file that cannot be read, or every mistake of the sweep, or of its scene.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, SweepError> {
         let path = path.as_ref();
         let text = read(path)?;
-        let refused = |error| SweepError::Refused {
-            file: path.to_owned(),
-            error,
+        let refused = |mistakes| SweepError::refused(path, &text, mistakes);
+        let Readings {
+            value,
+            mut mistakes,
+        } = read_all::<Sweep>(&text, "Sweep");
+        let at = |problem: &SceneProblem| SceneError::locate(problem, &text);
+        let sweep = match value {
+            Some(sweep) if mistakes.is_empty() => sweep,
+            known => {
+                let problems = known.iter().flat_map(rules::problems);
+                mistakes.extend(problems.map(|problem| at(&problem)));
+                return Err(refused(mistakes));
+            }
         };
-        let sweep = Sweep::from_ron(&text).map_err(refused)?;
         let scene_path = path.parent().unwrap_or(Path::new("")).join(&sweep.scene);
         let mut scene = SceneText::new(&read(&scene_path)?);
         // First the scene alone: what is wrong with it is not the fault of the sweep.
         let folder = scene_path.parent().unwrap_or(Path::new(""));
-        let found = scene.read_points(folder).and_then(|()| scene.read());
-        found.map_err(|error| SweepError::Refused {
-            file: scene_path.clone(),
-            error,
-        })?;
-        Self::new(sweep, scene.text().to_owned())
-            .map_err(|problem| refused(SceneError::locate(&problem, &text)))
+        let points = scene.read_points(folder);
+        let in_scene = |mistakes| SweepError::refused(&scene_path, scene.written(), mistakes);
+        points.map_err(|error| in_scene(vec![error]))?;
+        if let Err(error) = scene.read() {
+            let mut all = scene.mistakes();
+            if all.is_empty() {
+                all.push(error);
+            }
+            return Err(in_scene(all));
+        }
+        let opened = Self::with(sweep, scene.text().to_owned());
+        opened.map_err(|problems| refused(problems.iter().map(at).collect()))
     }
 
     /// Checks a sweep with the text of its scene.
@@ -66,12 +83,23 @@ impl Opened {
     /// result that runs do not have, samples of what the scene does not draw. Values that only the rules of a
     /// scene refuse are no error: their runs fail.
     pub fn new(sweep: Sweep, scene: String) -> Result<Self, SceneProblem> {
-        rules::check(&sweep)?;
+        Self::with(sweep, scene).map_err(|problems| problems[0].clone())
+    }
+
+    /// The same with every rule that is broken, at least one: those of the sweep's own numbers first.
+    fn with(sweep: Sweep, scene: String) -> Result<Self, Vec<SceneProblem>> {
+        let all = |problems: Vec<SceneProblem>| match problems.is_empty() {
+            true => Ok(()),
+            false => Err(problems),
+        };
+        all(rules::problems(&sweep))?;
         let mut base = SceneText::new(&scene);
-        for (i, value) in sweep.set.iter().enumerate() {
+        let values = sweep.set.iter().enumerate();
+        let set_all = values.map(|(i, value)| {
             let key = format!("set[{i}].value");
-            set(&mut base, &value.key, &value.value.0, &key)?;
-        }
+            set(&mut base, &value.key, &value.value.0, &key)
+        });
+        all(set_all.filter_map(Result::err).collect())?;
         let design = Design::new(&sweep);
         let opened = Self {
             sweep,
@@ -79,10 +107,10 @@ impl Opened {
             scene,
             base,
         };
-        opened.check_values()?;
-        opened.check_samples()?;
-        opened.check_results()?;
-        Ok(opened)
+        let mut problems = opened.problems_of_values();
+        problems.extend(opened.check_samples().err());
+        problems.extend(opened.problems_of_results());
+        all(problems).map(|()| opened)
     }
 
     /// The text of the scene of a point.
@@ -109,25 +137,33 @@ impl Opened {
         Ok((scene, text))
     }
 
-    /// Every value that an axis writes is one that its key may have, for one point after another.
-    fn check_values(&self) -> Result<(), SceneProblem> {
+    /// Values of axes that their keys may not have, for one point after another; the first of each axis.
+    fn problems_of_values(&self) -> Vec<SceneProblem> {
         let mut first = 0;
-        for (i, axis) in self.sweep.vary.iter().enumerate() {
-            let keys = axis.keys();
-            let mut text = self.base.clone();
-            let before = self.design.overrides(0).take(first);
-            before.for_each(|one| drop(text.set(one)));
-            let mut seen = BTreeSet::new();
-            for (k, row) in axis.rows().iter().enumerate() {
-                if !seen.insert(row.clone()) {
-                    continue;
-                }
-                let mut text = text.clone();
-                for (j, (key, value)) in keys.iter().zip(row).enumerate() {
-                    set(&mut text, key, value, &place(i, axis, k, j))?;
-                }
+        let axes = self.sweep.vary.iter().enumerate();
+        axes.filter_map(|(i, axis)| {
+            let before = first;
+            first += axis.keys().len();
+            self.check_axis((i, axis), before).err()
+        })
+        .collect()
+    }
+
+    /// Checks the values of an axis, before whose keys there are `first` of others.
+    fn check_axis(&self, (i, axis): (usize, &Axis), first: usize) -> Result<(), SceneProblem> {
+        let keys = axis.keys();
+        let mut text = self.base.clone();
+        let before = self.design.overrides(0).take(first);
+        before.for_each(|one| drop(text.set(one)));
+        let mut seen = BTreeSet::new();
+        for (k, row) in axis.rows().iter().enumerate() {
+            if !seen.insert(row.clone()) {
+                continue;
             }
-            first += keys.len();
+            let mut text = text.clone();
+            for (j, (key, value)) in keys.iter().zip(row).enumerate() {
+                set(&mut text, key, value, &place(i, axis, k, j))?;
+            }
         }
         Ok(())
     }
@@ -153,21 +189,21 @@ impl Opened {
         Err(SceneProblem::new("samples", "", rule))
     }
 
-    /// Results are in the summary of the first point that can be built.
-    fn check_results(&self) -> Result<(), SceneProblem> {
+    /// Results that are not in the summary of the first point that can be built.
+    fn problems_of_results(&self) -> Vec<SceneProblem> {
         let assembly = self.example().map(|scene| Assembly::build(&scene));
         let Some(Ok(assembly)) = assembly else {
-            return Ok(());
+            return Vec::new();
         };
         let summary = serde_json::to_value(Summary::as_built(&assembly));
         let summary = summary.expect("a summary is JSON");
         let names = self.sweep.results.iter().enumerate();
-        for (i, name) in names {
-            if let Some(why) = chosen::refusal(&summary, name) {
-                return Err(SceneProblem::new(format!("results[{i}]"), name, why));
-            }
-        }
-        Ok(())
+        names
+            .filter_map(|(i, name)| {
+                let why = chosen::refusal(&summary, name)?;
+                Some(SceneProblem::new(format!("results[{i}]"), name, why))
+            })
+            .collect()
     }
 
     /// What all runs cost: the first of each point is built, none is run.
@@ -218,8 +254,5 @@ fn set(text: &mut SceneText, key: &str, value: &str, place: &str) -> Result<(), 
 
 fn read(path: &Path) -> Result<String, SweepError> {
     let bytes = std::fs::read(path).map_err(SweepError::io(path))?;
-    Scene::text(bytes).map_err(|error| SweepError::Refused {
-        file: path.to_owned(),
-        error,
-    })
+    Scene::text(bytes).map_err(|error| SweepError::refused(path, "", vec![error]))
 }

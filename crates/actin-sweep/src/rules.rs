@@ -8,30 +8,48 @@ const MOST_RUNS: f64 = 1e6;
 
 type Checked = Result<(), SceneProblem>;
 
-/// Checks every rule that does not need the scene.
-pub(crate) fn check(sweep: &Sweep) -> Checked {
+/// Every broken rule that does not need the scene, one for each key.
+pub(crate) fn problems(sweep: &Sweep) -> Vec<SceneProblem> {
+    let mut found: Vec<SceneProblem> = Vec::new();
+    let mut note = |checked: Checked| {
+        let is_new = |p: &SceneProblem| found.iter().all(|f| f.key != p.key);
+        let new = checked.err().filter(is_new);
+        found.extend(new);
+    };
     for (i, value) in sweep.set.iter().enumerate() {
-        check_path(&format!("set[{i}].key"), &value.key)?;
+        note(check_path(&format!("set[{i}].key"), &value.key));
     }
     for (i, axis) in sweep.vary.iter().enumerate() {
-        check_axis(&format!("vary[{i}]"), axis)?;
+        note(check_axis(&format!("vary[{i}]"), axis));
     }
-    check_twice(sweep)?;
-    check_results(sweep)?;
-    let samples = sweep.samples.as_ref();
-    if samples.is_some_and(|samples| samples.number == 0) {
+    note(check_twice(sweep));
+    note(some("results", sweep.results.len(), "result"));
+    for i in 0..sweep.results.len() {
+        note(check_result(sweep, i));
+    }
+    note(check_samples(sweep));
+    note(check_runs(sweep));
+    found
+}
+
+fn check_samples(sweep: &Sweep) -> Checked {
+    let Some(samples) = &sweep.samples else {
+        return Ok(());
+    };
+    if samples.number == 0 {
         return Err(SceneProblem::new("samples.number", 0, "must be at least 1"));
     }
-    if samples.is_some_and(|samples| samples.of.is_empty()) {
+    if samples.of.is_empty() {
         let rule = "must name something that is drawn: Bonds, Noise or Imperfections";
         return Err(SceneProblem::new("samples.of", "[]", rule));
     }
-    let runs = sweep
-        .vary
-        .iter()
-        .map(|axis| axis.len() as f64)
-        .product::<f64>()
-        * samples.map_or(1.0, |samples| samples.number as f64);
+    Ok(())
+}
+
+fn check_runs(sweep: &Sweep) -> Checked {
+    let samples = sweep.samples.as_ref();
+    let points = sweep.vary.iter().map(|axis| axis.len() as f64);
+    let runs = points.product::<f64>() * samples.map_or(1.0, |samples| samples.number as f64);
     if runs > MOST_RUNS {
         let rule = format!("a sweep has at most {MOST_RUNS:e} runs, these are {runs:e}");
         return Err(SceneProblem::new("vary", "", rule));
@@ -149,17 +167,14 @@ fn overlap(one: &str, other: &str) -> bool {
     is_within(one, other) || is_within(other, one)
 }
 
-fn check_results(sweep: &Sweep) -> Checked {
-    some("results", sweep.results.len(), "result")?;
-    for (i, name) in sweep.results.iter().enumerate() {
-        let rule = if name == "wall_s" {
-            "differs from run to run: the table holds what does not"
-        } else if sweep.results[..i].contains(name) {
-            "is in the list already"
-        } else {
-            continue;
-        };
-        return Err(SceneProblem::new(format!("results[{i}]"), name, rule));
-    }
-    Ok(())
+fn check_result(sweep: &Sweep, i: usize) -> Checked {
+    let name = &sweep.results[i];
+    let rule = if name == "wall_s" {
+        "differs from run to run: the table holds what does not"
+    } else if sweep.results[..i].contains(name) {
+        "is in the list already"
+    } else {
+        return Ok(());
+    };
+    Err(SceneProblem::new(format!("results[{i}]"), name, rule))
 }

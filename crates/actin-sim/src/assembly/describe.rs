@@ -19,12 +19,9 @@ impl Assembly {
             }
         };
         let name = match kind {
-            BodyKind::Monomer => "monomer",
-            BodyKind::Node => "node",
-            BodyKind::Segment => "segment",
             BodyKind::Junction => "junction frame",
-            BodyKind::Wall => "wall",
             BodyKind::Joint => "cross-section between rods",
+            other => other.name(),
         };
         match self.filaments.len() {
             1 => format!("the {name} at s = {s_nm:.2} nm"),

@@ -24,6 +24,30 @@ pub enum BodyKind {
     Joint = 5,
 }
 
+impl BodyKind {
+    /// All kinds, in the order of their numbers.
+    pub const ALL: [Self; 6] = [
+        Self::Monomer,
+        Self::Node,
+        Self::Segment,
+        Self::Junction,
+        Self::Wall,
+        Self::Joint,
+    ];
+
+    /// The name that files give it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Monomer => "monomer",
+            Self::Node => "node",
+            Self::Segment => "segment",
+            Self::Junction => "junction",
+            Self::Wall => "wall",
+            Self::Joint => "joint",
+        }
+    }
+}
+
 /// What a point is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointInfo {

@@ -24,15 +24,21 @@ pub(super) fn stage(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> io::Result<()> {
-    let unfinished = unfinished(path);
-    let written = create(&unfinished).and_then(|file| {
+    stage_as(&unfinished(path), fill)
+}
+
+fn stage_as(
+    unfinished: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> io::Result<()> {
+    let written = create(unfinished).and_then(|file| {
         let mut out = BufWriter::new(file);
         fill(&mut out)?;
         out.into_inner().map(drop).map_err(io::Error::from)
     });
     if written.is_err() {
         // The error that led here says more than one about the removal could.
-        let _ = fs::remove_file(&unfinished);
+        let _ = fs::remove_file(unfinished);
     }
     written
 }
@@ -49,7 +55,7 @@ pub(super) fn replace(
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> io::Result<()> {
     stage(path, fill)?;
-    publish_or_remove(path)
+    publish_or_remove(&unfinished(path), path)
 }
 
 /// The same so that it holds even if power is lost: the file and its new name are on the disk.
@@ -57,18 +63,31 @@ pub(super) fn replace_durably(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> io::Result<()> {
-    stage(path, |out| {
+    replace_file(path, &unfinished(path), fill)
+}
+
+/// Puts a whole file in the place of `path`, or leaves what was there, even if power is lost. It is written as
+/// `unfinished`, in the same folder: where several processes may write the same file, a name of each its own.
+///
+/// # Errors
+/// A refusal of the file system; nothing is left of the unfinished file.
+pub fn replace_file(
+    path: &Path,
+    unfinished: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> io::Result<()> {
+    stage_as(unfinished, |out| {
         fill(out)?;
         io::Write::flush(out)?;
         out.get_ref().sync_all()
     })?;
-    publish_or_remove(path)?;
+    publish_or_remove(unfinished, path)?;
     path.parent().map_or(Ok(()), sync)
 }
 
-fn publish_or_remove(path: &Path) -> io::Result<()> {
-    publish(path).inspect_err(|_| {
-        let _ = fs::remove_file(unfinished(path));
+fn publish_or_remove(unfinished: &Path, path: &Path) -> io::Result<()> {
+    fs::rename(unfinished, path).inspect_err(|_| {
+        let _ = fs::remove_file(unfinished);
     })
 }
 

@@ -20,6 +20,7 @@
 
 mod atomic;
 mod checkpoint;
+mod difference;
 mod directory;
 mod energies;
 mod error;
@@ -38,7 +39,9 @@ mod summary;
 mod vtk;
 mod write;
 
+pub use atomic::replace_file;
 pub use checkpoint::{CheckpointError, Checkpoints, Damage};
+pub use difference::{Difference, first_difference};
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;
 pub use lock::RunLock;

@@ -4,9 +4,11 @@
 //! |---|---|---|
 //! | `time_ns`, or `path` of equilibria | [T] | time, or stages of the path |
 //! | `position_nm`, `velocity_nm_per_ns` | [T, points, 3] | lab frame |
+//! | `centre_line_nm` | [T, points, 3] | points brought to the axis: nodes as they are, monomers moved inward |
 //! | `quaternion` | [T, frames, 4] | orientation, body to lab, in order w, x, y, z |
 //! | `angular_momentum` | [T, frames, 3] | body frame, pN nm ns |
 //! | `s_nm`, `kind` | [points] | arc length at rest, code of [`BodyKind`](crate::BodyKind) |
+//! | `kind_names` | [kinds] | what the codes stand for |
 //! | `filament` | [points] | index of the filament |
 //! | `frame_s_nm`, `frame_kind`, `frame_filament` | [frames] | the same for frames |
 //!
@@ -14,7 +16,7 @@
 
 use super::names::STATES;
 use super::{RunDirectoryError, clock, finite::ensure_finite_in};
-use crate::{Assembly, FilamentSpan, Record, Records};
+use crate::{Assembly, BodyKind, FilamentSpan, Record, Records};
 use actin_mechanics::State;
 use npyz::{NpyWriter, WriterBuilder};
 use std::io::{self, Seek, Write};
@@ -64,6 +66,15 @@ impl<'a> States<'a> {
             field("quaternion", frames, &QUATERNION),
             field("angular_momentum", frames, &ANGULAR_MOMENTUM),
         ]
+    }
+
+    /// Every point brought to the centre line.
+    fn centre_line(&self, state: &State) -> Vec<f64> {
+        let points = 0..self.assembly.points.len();
+        let places = points.map(|i| self.assembly.centre_line_nm(state, i));
+        places
+            .flat_map(|place| [place.x, place.y, place.z])
+            .collect()
     }
 
     /// One number for each body.
@@ -150,6 +161,10 @@ impl<'a> States<'a> {
         for (name, values) in self.filaments() {
             write_array(archive, name, values)?;
         }
+        write_texts(archive, "kind_names", &BodyKind::ALL.map(BodyKind::name))?;
+        let line = |record: &Record| self.centre_line(&record.state);
+        let shape = [count, self.assembly.points.len(), 3];
+        write_records(archive, "centre_line_nm", &shape, records, line)?;
         for field in self.fields() {
             let shape = [count, field.bodies, field.components.len()];
             let values = |record: &Record| field.values(&record.state).collect::<Vec<_>>();
@@ -167,6 +182,27 @@ fn write_array<W: Write + Seek, T: npyz::AutoSerialize>(
 ) -> io::Result<()> {
     let mut writer = begin_array(archive, name, &[values.len()])?;
     writer.extend(values)?;
+    writer.finish()
+}
+
+/// Adds an array of texts, as numpy writes them.
+fn write_texts<W: Write + Seek>(
+    archive: &mut ZipWriter<W>,
+    name: &str,
+    texts: &[&str],
+) -> io::Result<()> {
+    let longest = texts.iter().map(|text| text.chars().count()).max();
+    let kind = format!("<U{}", longest.unwrap_or(1));
+    let kind = kind.parse().expect("the name of a type of numpy");
+    begin_entry(archive, name)?;
+    let mut writer = npyz::WriteOptions::<str>::new()
+        .dtype(npyz::DType::Plain(kind))
+        .shape(&[texts.len() as u64])
+        .writer(archive)
+        .begin_nd()?;
+    for text in texts {
+        writer.push(text)?;
+    }
     writer.finish()
 }
 
@@ -192,14 +228,18 @@ fn begin_array<'a, W: Write + Seek, T: npyz::AutoSerialize>(
     name: &str,
     shape: &[usize],
 ) -> io::Result<NpyWriter<T, &'a mut ZipWriter<W>>> {
+    begin_entry(archive, name)?;
+    let shape: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
+    let builder = npyz::WriteOptions::new().default_dtype().shape(&shape);
+    builder.writer(archive).begin_nd()
+}
+
+fn begin_entry<W: Write + Seek>(archive: &mut ZipWriter<W>, name: &str) -> io::Result<()> {
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
         .last_modified_time(DateTime::default())
         .large_file(true);
-    archive.start_file(format!("{name}.npy"), options)?;
-    let shape: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
-    let builder = npyz::WriteOptions::new().default_dtype().shape(&shape);
-    builder.writer(archive).begin_nd()
+    Ok(archive.start_file(format!("{name}.npy"), options)?)
 }
 
 const POSITION: [Component; 3] = [
@@ -320,7 +360,29 @@ mod tests {
         assert!(frame_kinds.contains(&0) && frame_kinds.contains(&2) && frame_kinds.contains(&3));
         let (_, filaments) = read::<u64>(&mut archive, "filament");
         assert_eq!(filaments, vec![0; assembly.points.len()]);
-        assert_eq!(archive.len(), 11);
+        let (_, names) = read::<String>(&mut archive, "kind_names");
+        assert_eq!(names, ["monomer", "node", "segment", "junction", "wall", "joint"]);
+        assert_eq!(names[usize::from(kinds[0])], "monomer");
+        assert_eq!(archive.len(), 13);
+    }
+
+    /// At rest the centre line is the axis, through monomers and nodes alike; a node is its own place.
+    #[test]
+    fn the_centre_line_runs_through_monomers_and_nodes() {
+        let assembly = fixture::clamped_start();
+        let mut trajectory = fixture::trajectory(&assembly);
+        trajectory.records[0].state = assembly.rest.clone();
+        let mut archive = archive(&assembly, &trajectory);
+        let (shape, line) = read::<f64>(&mut archive, "centre_line_nm");
+        let points = assembly.points.len();
+        assert_eq!(shape, [3, points as u64, 3]);
+        for (point, place) in assembly.points.iter().zip(line.chunks(3)) {
+            // Round-off of places of 42 nm.
+            assert!(place[0].hypot(place[1]) < 1e-13 && (place[2] - point.s_nm).abs() < 1e-12);
+        }
+        let (_, positions) = read::<f64>(&mut archive, "position_nm");
+        let last = 3 * (3 * points - 1);
+        assert_eq!(line[last..], positions[last..]);
     }
 
     /// Each body says which filament it belongs to: as many of the second as of the first here.

@@ -8,6 +8,7 @@ use super::outline::{Outline, line_and_column, place};
 use super::read::{Refusal, read_refusing};
 use super::written::Written;
 use super::{Scene, SceneError, SceneProblem, validate};
+use serde::de::DeserializeOwned;
 
 /// Most mistakes that are looked for.
 const MOST: usize = 50;
@@ -18,42 +19,62 @@ const MOST: usize = 50;
 /// Rules are checked where all of the text means something: those of numbers first, those of the whole scene
 /// if numbers break none.
 pub(super) fn all(text: &str) -> (Vec<SceneError>, Vec<SceneProblem>) {
+    let Readings { value, mistakes } = read_all::<Written>(text, "Scene");
+    let problems = match value.map(Scene::try_from) {
+        Some(Ok(scene)) => validate::problems(&scene),
+        Some(Err(problem)) => vec![problem],
+        None => Vec::new(),
+    };
+    (mistakes, problems)
+}
+
+/// What a text describes, and every mistake in it.
+#[derive(Clone, Debug)]
+pub struct Readings<T> {
+    /// What it describes, without keys that are not known; none where a mistake leaves it without meaning.
+    pub value: Option<T>,
+    /// What cannot be read, in the order of the text, as far as one does not hide another.
+    pub mistakes: Vec<SceneError>,
+}
+
+/// Reads what a RON text describes as [`read_ron`](super::read_ron) does, and finds every mistake, not only the
+/// first.
+pub fn read_all<T: DeserializeOwned>(text: &str, name: &str) -> Readings<T> {
     let text = without_mark(text);
     let mut search = Search {
         text,
+        name,
         left: text.to_owned(),
         blanked: Vec::new(),
         found: Vec::new(),
         is_whole: true,
     };
-    let written = search.read();
-    let is_whole = search.is_whole;
-    let errors = search.found;
-    let problems = match written.map(Scene::try_from) {
-        Some(Ok(scene)) if is_whole => validate::problems(&scene),
-        Some(Err(problem)) if is_whole => vec![problem],
-        _ => Vec::new(),
-    };
-    (errors, problems)
+    let value = search.read().filter(|_| search.is_whole);
+    Readings {
+        value,
+        mistakes: search.found,
+    }
 }
 
 struct Search<'a> {
     text: &'a str,
+    /// Name of the outermost structure.
+    name: &'a str,
     /// The text with all that was refused blanked out.
     left: String,
     /// Paths of what was.
     blanked: Vec<String>,
     found: Vec<SceneError>,
-    /// Whether what is left means what the text means, but for keys that no scene has.
+    /// Whether what is left means what the text means, but for keys that are not known.
     is_whole: bool,
 }
 
 impl Search<'_> {
-    /// Reads until nothing more is refused; what is left, if that is a scene.
-    fn read(&mut self) -> Option<Written> {
+    /// Reads until nothing more is refused; what is left, if that can be read.
+    fn read<T: DeserializeOwned>(&mut self) -> Option<T> {
         for _ in 0..MOST {
-            match read_refusing(&self.left, self.text, "Scene") {
-                Ok(written) => return Some(written),
+            match read_refusing(&self.left, self.text, self.name) {
+                Ok(value) => return Some(value),
                 Err(refusal) => self.note(refusal)?,
             }
         }

@@ -49,6 +49,7 @@ pub use law::{
 pub use linker::{Linker, LinkerSite};
 pub(crate) use load::Resultant;
 pub use load::{Acceleration, Couple, CouplePerLength, Force, ForcePerLength, Load};
+pub use mistakes::{Readings, read_all};
 pub use model::{
     Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel, RotaryInertia,
 };

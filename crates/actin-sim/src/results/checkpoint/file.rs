@@ -3,6 +3,7 @@
 use super::Damage;
 use super::log::{Form, Stored, Tally, compare, open};
 use super::wire::{decode, decode_all, encode};
+use crate::results::difference::{Difference, first_difference};
 use crate::run::{Carried, Recorded, RunPosition, Saved};
 use crate::{Plan, Task};
 use serde::{Deserialize, Serialize};
@@ -99,21 +100,9 @@ impl Identity {
 
 /// Refuses another scene, with the first line that differs.
 pub(super) fn same_scene(kept: &str, given: &str) -> Result<(), Damage> {
-    if kept == given {
-        return Ok(());
-    }
-    let (mut old, mut new) = (kept.lines(), given.lines());
-    let mut line = 0;
-    loop {
-        line += 1;
-        let (kept, given) = (old.next(), new.next());
-        if kept != given || kept.is_none() {
-            return Err(Damage::Scene {
-                line,
-                kept: kept.unwrap_or_default().trim().to_owned(),
-                given: given.unwrap_or_default().trim().to_owned(),
-            });
-        }
+    match first_difference(kept, given) {
+        None => Ok(()),
+        Some(Difference { line, kept, given }) => Err(Damage::Scene { line, kept, given }),
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! In `ParaView`, a glyph "3D Glyphs" of a sphere of radius 1 with orientation mode Quaternion,
 //! orientation array `orientation` and scale array `semi_axes_nm` (by vector components) draws
-//! the monomers as the ellipsoids that they are.
+//! the monomers as the ellipsoids that they are. The field array `kind_names` tells what the codes of `kind`
+//! stand for.
 
 mod poly_data;
 mod xml;
@@ -58,6 +59,7 @@ impl<'a> Drawing<'a> {
         let arrays = self.fixed_arrays().into_iter().chain(frame_arrays(&turns));
         Picture(PolyData {
             time: time_ns,
+            texts: vec![("kind_names", BodyKind::ALL.map(BodyKind::name).into())],
             points: flat(state.points.position.iter()),
             arrays: arrays.collect(),
             vertices: self.vertices(),

@@ -54,6 +54,8 @@ pub(super) struct Array {
 pub(super) struct PolyData {
     /// Time that the picture shows, in the unit of the caller.
     pub time: f64,
+    /// Texts of the whole picture: a name, and what stands under it.
+    pub texts: Vec<(&'static str, Vec<&'static str>)>,
     /// Coordinates, three for each point.
     pub points: Vec<f64>,
     /// Data of the points.
@@ -76,7 +78,7 @@ impl PolyData {
             r#"<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">"#
         )?;
         writeln!(out, "<PolyData>")?;
-        self.write_time(out)?;
+        self.write_field(out)?;
         writeln!(
             out,
             r#"<Piece NumberOfPoints="{}" NumberOfVerts="{}" NumberOfLines="{}" NumberOfStrips="0" NumberOfPolys="0">"#,
@@ -89,14 +91,25 @@ impl PolyData {
         writeln!(out, "</Piece>\n</PolyData>\n</VTKFile>")
     }
 
-    /// The time under the name by which VTK's readers find it.
-    fn write_time(&self, out: &mut impl Write) -> io::Result<()> {
+    /// The time under the name by which VTK's readers find it, and texts as numbers of their characters, each
+    /// text with a zero behind it.
+    fn write_field(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "<FieldData>")?;
         writeln!(
             out,
             r#"<DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="binary">{}</DataArray>"#,
             block(&self.time.to_le_bytes())
         )?;
+        for (name, texts) in &self.texts {
+            let count = texts.len();
+            let of_text = |text: &&str| text.bytes().chain([0]).collect::<Vec<_>>();
+            let bytes = texts.iter().flat_map(of_text).map(|byte| byte.to_string());
+            let bytes = bytes.collect::<Vec<_>>().join(" ");
+            writeln!(
+                out,
+                r#"<Array type="String" Name="{name}" NumberOfTuples="{count}" format="ascii">{bytes}</Array>"#
+            )?;
+        }
         writeln!(out, "</FieldData>")
     }
 
@@ -173,6 +186,7 @@ mod tests {
     fn picture() -> PolyData {
         PolyData {
             time: 0.3,
+            texts: vec![("kind_names", vec!["a", "bc"])],
             points: (0..15).map(|i| 1.0 / f64::from(i + 1)).collect(),
             arrays: vec![
                 Array {
@@ -245,6 +259,16 @@ mod tests {
             ("pair", &floats(pair)),
         ];
         assert_same(&arrays, &expected);
+    }
+
+    /// Texts are bytes in decimals, as `vtkStringArray` is read.
+    #[test]
+    fn texts_are_written_as_characters() {
+        let mut bytes = Vec::new();
+        picture().write(&mut bytes).unwrap();
+        let text = String::from_utf8(bytes).unwrap();
+        let expected = r#"<Array type="String" Name="kind_names" NumberOfTuples="2" format="ascii">97 0 98 99 0</Array>"#;
+        assert!(text.contains(expected), "{text}");
     }
 
     /// Offsets are ends, not starts: the first vertex ends at 1.
