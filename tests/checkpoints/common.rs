@@ -107,6 +107,8 @@ impl Choice {
         };
         let text = format!(
             "Scene({filament}, clamps: [{clamps} {clamp}], linkers: [{linkers} {linker}], {rest},
+                observe: [Tip(), EndReaction(end: Start), Curvature(at_nm: 20.0), Contour(), Energies,
+                    TangentCorrelation(over_nm: 12.0), SquaredDisplacement(of: Centre)],
                 task: {task})"
         );
         Scene::from_ron(&text).unwrap()

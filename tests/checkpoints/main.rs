@@ -4,4 +4,5 @@ mod common;
 mod cost;
 mod damaged;
 mod disk;
+mod observed;
 mod resumed;

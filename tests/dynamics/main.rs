@@ -10,6 +10,7 @@ mod invariants;
 mod joined;
 mod laws;
 mod modes;
+mod observed;
 mod order;
 mod paper_balance;
 mod range;

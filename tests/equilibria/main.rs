@@ -18,6 +18,7 @@ mod homogenised;
 mod joined;
 mod linkers;
 mod lost_twist;
+mod observed;
 mod reciprocity;
 mod ring;
 mod saddles;

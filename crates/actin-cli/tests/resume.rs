@@ -4,7 +4,9 @@
 
 mod common;
 
-use common::{MOTION, PATH, Workplace, assert_same_files, code, contents, files, signal, stderr};
+use common::{
+    MOTION, PATH, Workplace, assert_same_files, code, contents, files, observed, signal, stderr,
+};
 use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Command, Output};
@@ -31,8 +33,10 @@ fn stop(child: &Child) {
 #[test]
 fn an_interrupted_run_goes_on_to_the_same_bytes() {
     let hangup = ["-STOP", "-HUP", "-TERM", "-CONT", "-HUP"];
+    let observed = observed();
     for (scene, signals) in [
         (MOTION, &["-INT"][..]),
+        (&observed, &["-INT"]),
         (PATH, &["-TERM"]),
         (MOTION, &hangup),
     ] {
@@ -130,7 +134,7 @@ fn assert_survives(scenes: &[&str], rounds: usize, most_ms: u64) {
 
 #[test]
 fn a_killed_run_goes_on_to_the_same_bytes() {
-    assert_survives(&[MOTION], 1, 400);
+    assert_survives(&[MOTION, &observed()], 1, 400);
 }
 
 /// The same some hundred times, in a minute or more.

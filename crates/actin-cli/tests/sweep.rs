@@ -282,6 +282,96 @@ fn mistakes_of_a_sweep_have_their_place() {
     }
 }
 
+/// All mistakes of a sweep, each with its line, as those of a scene: what cannot be read, and broken rules.
+#[test]
+fn all_mistakes_of_a_sweep_are_told() {
+    let unread = SWEEP
+        .replace("vary:", "varies:")
+        .replace("number: 3", "number: 0");
+    let rules = SWEEP
+        .replace("-1.5, inf", "-1.5, high")
+        .replace("counts.segments", "counts.segment")
+        .replace("energy_pn_nm.total", "energy_pn_nm.sum");
+    for (sweep, lines) in [
+        (
+            unread,
+            &["4:5: unknown key varies", "8:22: samples.number = 0: must"][..],
+        ),
+        (
+            rules,
+            &[
+                "5:63: vary[0].values[2] = high",
+                "9:41: results[1] = energy_pn_nm.sum: summary.json has no sum there",
+                "9:61: results[2] = counts.segment: summary.json has no segment there",
+            ],
+        ),
+    ] {
+        let output = place(&sweep).actin(&["sweep", "sweep.ron", "--check"]);
+        let found = stderr(&output);
+        assert_eq!(code(&output), 2, "{found}");
+        let told: Vec<&str> = found.split("error: ").skip(1).collect();
+        assert_eq!(told.len(), lines.len(), "{found}");
+        for (told, line) in told.iter().zip(lines) {
+            assert!(told.starts_with(&format!("sweep.ron:{line}")), "{told}");
+            assert!(told.contains("^^^"), "{told}");
+        }
+    }
+}
+
+/// Means of observables are columns, and their errors; names that no run has are refused.
+#[test]
+fn observables_are_results() {
+    let place = place("");
+    let scene = "Scene(
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)]),
+        clamps: [Clamp(end: Start)],
+        observe: [Tip(), TangentCorrelation(over_nm: 12.5)],
+        output: (vtk: false, states: false),
+        task: Dynamics(
+            duration_ns: 4.0, record_every_ns: 0.02,
+            drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+            thermal: (temperature_k: 298.0, seed: 1),
+        ),
+    )";
+    fs::write(place.path("scene.ron"), scene).unwrap();
+    let columns = [
+        "observables.tip[0]_z_nm.mean",
+        "observables.tip[0]_z_nm.error",
+        "observables.tangent_correlation[0]_over_12.5nm.persistence_length_nm",
+    ];
+    let sweep = |result: &str| {
+        format!(
+            "Sweep(scene: \"scene.ron\", samples: Samples(number: 2),
+             results: [\"{}\", \"{}\", \"{}\", \"{result}\"])",
+            columns[0], columns[1], columns[2]
+        )
+    };
+    fs::write(place.path("sweep.ron"), sweep("work.steps")).unwrap();
+    assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "a"]));
+    let runs = read(&place, "a/runs.csv");
+    for row in runs.lines().skip(1) {
+        let number = |k: usize| row.split(',').nth(k).unwrap().parse::<f64>();
+        let [tip, error, length] = [4, 5, 6].map(|k| number(k).unwrap());
+        assert!(
+            tip > 29.0 && tip < 30.5 && error > 0.0 && error < 0.1,
+            "{row}"
+        );
+        assert!(length > 1000.0, "{row}");
+    }
+    assert!(!place.path("a/runs/0/states.npz").exists());
+    fs::write(
+        place.path("sweep.ron"),
+        sweep("observables.tip[1]_z_nm.mean"),
+    )
+    .unwrap();
+    let output = place.actin(&["sweep", "sweep.ron", "--out", "b"]);
+    assert!(
+        stderr(&output).contains("summary.json has no tip there"),
+        "{}",
+        stderr(&output)
+    );
+}
+
 /// A directory of another sweep, of the same one without `--resume`, and of somebody: left alone.
 #[test]
 fn other_directories_are_left_alone() {

@@ -29,6 +29,15 @@ pub(crate) const MOTION: &str = "Scene(
     ),
 )";
 
+/// The same in a heat bath, observed, with no states kept.
+pub(crate) fn observed() -> String {
+    let observe = "observe: [Tip(), EndReaction(end: Start), Energies, SquaredDisplacement(of: Tip, lag_ns: 3.0)],
+        output: (vtk: false, states: false),
+        path:";
+    let heat = "thermal: (temperature_k: 298.0, seed: 3),\n        drag:";
+    MOTION.replace("path:", observe).replace("drag:", heat)
+}
+
 /// A hundred equilibria.
 pub(crate) const PATH: &str = "Scene(
     filament: Filament(
@@ -152,7 +161,8 @@ pub(crate) fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 /// Every file of a run directory; of the summary all lines but the time it took.
 pub(crate) fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();
-    for folder in [folder.to_owned(), folder.join("vtk")] {
+    let folders = [folder.to_owned(), folder.join("vtk")];
+    for folder in folders.iter().filter(|folder| folder.exists()) {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
             if !path.is_file() {

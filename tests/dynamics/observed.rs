@@ -1,0 +1,116 @@
+//! What runs in a heat bath observe, against statistical mechanics, within the errors that they tell.
+
+use actin_sim::statistics::BlockAverages;
+use actin_sim::{
+    Assembly, BOLTZMANN_PN_NM_PER_K, MeanSummary, Plan, Record, RunDirectory, Scene, Summary,
+};
+
+/// Standard errors by which a mean may be off; seeds are fixed.
+const ERRORS: f64 = 4.5;
+
+/// Runs a scene into a directory.
+fn run(text: &str) -> (Assembly, Vec<Record>, Summary) {
+    let folder = tempfile::tempdir().unwrap();
+    let directory = RunDirectory::create(folder.path(), false).unwrap();
+    let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
+    let plan = Plan::new(&assembly).unwrap();
+    let (trajectory, outcome) = plan.run().unwrap();
+    let summary = directory.write(&plan, &trajectory, &outcome).unwrap();
+    (assembly, trajectory.records, summary)
+}
+
+fn mean(summary: &Summary, column: &str) -> MeanSummary {
+    let mean = summary.observables[column].mean.unwrap();
+    println!("{column}: {mean:?}");
+    assert!(mean.levelled_off, "{column}");
+    mean
+}
+
+/// Kinetic and elastic energy of a cold rod are `kT/2` for each of its degrees of freedom. The burn-in is left out:
+/// the rod begins without any energy.
+#[test]
+fn energies_are_those_of_equipartition() {
+    let (assembly, records, summary) = run("Scene(
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)]),
+        clamps: [Clamp(end: Start)],
+        observe: [Energies],
+        burn_in_ns: 20.0,
+        output: (vtk: false, states: false),
+        task: Dynamics(
+            duration_ns: 420.0, record_every_ns: 0.2, step_safety: 0.25,
+            drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+            thermal: (temperature_k: 3.0, seed: 7),
+        ),
+    )");
+    assert_eq!(records[0].kinetic_pn_nm.to_bits(), 0.0_f64.to_bits());
+    let expected = 0.5 * assembly.counts().dofs as f64 * BOLTZMANN_PN_NM_PER_K * 3.0;
+    for column in ["energy_kinetic_pn_nm", "energy_section_0_pn_nm"] {
+        let found = mean(&summary, column);
+        assert_eq!(found.records, 2001);
+        let (value, error) = (found.mean.unwrap(), found.error.unwrap());
+        assert!(
+            (value - expected).abs() < ERRORS * error,
+            "{column}: {value} {expected}"
+        );
+        // Scatter that hides everything would pass as well.
+        assert!(error < 0.05 * expected, "{column}: {error}");
+        assert!(found.independent_samples.unwrap() < 2001.0);
+    }
+}
+
+/// A free rod with the persistence length `p = B / kT` of its own length `L`: tangents lose their direction as
+/// `exp(-s / p)`, and the mean square of the end-to-end distance is
+/// `2 p L (1 - p / L (1 - exp(-L / p)))` (Kratky and Porod 1949). Ten segments of `p / 10` miss less than 0.5 % of
+/// either: the first orders of the angle at a joint cancel.
+#[test]
+fn a_free_rod_is_a_worm_like_chain() {
+    let (temperature, length) = (298.0, 100.0_f64);
+    let rigidity = BOLTZMANN_PN_NM_PER_K * temperature * length;
+    let (_, records, summary) = run(&format!(
+        "Scene(
+            filament: Filament(
+                sections: [Rod(from_nm: 0.0, to_nm: {length:?}, segments: 10)],
+                rod: RodModel(material: Rigidities(
+                    shear_pn: (1e3, 1e3, 1e3), bend_pn_nm2: ({rigidity:?}, {rigidity:?}, {rigidity:?}),
+                )),
+            ),
+            observe: [EndToEnd(), TangentCorrelation(over_nm: 30.0)],
+            output: (vtk: false, states: false),
+            task: Dynamics(
+                duration_ns: 6000.0, record_every_ns: 1.0, integrator: PositionVerlet,
+                drag: (translational_per_ns: 0.6, rotational_per_ns: 0.6),
+                thermal: (temperature_k: {temperature:?}, seed: 5),
+            ),
+        )"
+    ));
+    let within = |value: f64, error: f64, expected: f64| {
+        assert!(
+            (value - expected).abs() < ERRORS * error + 0.005 * expected,
+            "{value} {expected}"
+        );
+        assert!(error < 0.03 * expected, "{error}");
+    };
+    let cosine = mean(&summary, "tangent_correlation[0]_over_30nm");
+    within(
+        cosine.mean.unwrap(),
+        cosine.error.unwrap(),
+        (-0.3_f64).exp(),
+    );
+    let derived = cosine.derived.unwrap();
+    let (p, error) = (
+        derived.persistence_length_nm.unwrap(),
+        derived.persistence_length_error_nm.unwrap(),
+    );
+    println!("persistence length {p} +- {error} nm");
+    // 0.5 % of the cosine are 1.7 % of the length.
+    assert!((p - length).abs() < ERRORS * error + 1.7, "{p} {error}");
+    let mut squares = BlockAverages::default();
+    // A fifth of the run is left out by default.
+    for record in records.iter().filter(|r| r.at.value() >= 1200.0) {
+        squares.push(record.observed[3].powi(2));
+    }
+    let square = squares.estimate().unwrap();
+    assert_eq!(square.values, cosine.records);
+    let expected = 2.0 * length * length * (-1.0_f64).exp();
+    within(square.mean, square.error.unwrap(), expected);
+}
