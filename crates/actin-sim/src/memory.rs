@@ -1,6 +1,7 @@
 //! How much memory a scene takes, estimated from its numbers before any of it is allocated, and how
 //! much the machine has. Nothing but a refusal follows from the latter.
 
+use crate::Assembly;
 use crate::scene::{ForceLaw, RodLaw, RodModel, SceneProblem, Task};
 use actin_mechanics::State;
 use std::fs;
@@ -75,11 +76,25 @@ pub(crate) fn of_monomers(count: f64, bonds: usize, task: &Task) -> f64 {
     count * (MONOMER.of(task) + BOND * bonds as f64)
 }
 
+/// Numbers of a record besides its state, its energies and what is observed: time, kinetic energy, residuals.
+const NUMBERS_OF_ROW: usize = 4;
+
 /// Bytes of a recorded state with the energies of so many terms.
-pub(crate) fn of_record(state: &State, terms: usize) -> f64 {
+fn of_record(state: &State, terms: usize) -> f64 {
     // Of a point 6 numbers move, of a frame 7.
     let numbers = 6 * state.points.len() + 7 * state.frames.len() + state.controls.len();
     8.0 * (numbers + terms) as f64
+}
+
+/// Bytes that an assembly's run keeps of each record: the state only where a file needs it.
+pub(crate) fn of_kept_record(assembly: &Assembly) -> f64 {
+    let (terms, columns) = (assembly.terms.len(), assembly.observers.columns().len());
+    let observed = 8.0 * columns as f64;
+    if assembly.scene.output.needs_states() {
+        of_record(assembly.system.state(), terms) + observed
+    } else {
+        8.0 * (NUMBERS_OF_ROW + terms) as f64 + observed
+    }
 }
 
 /// Refuses what takes more bytes than the machine has; `what` says what that is, in words that the
@@ -143,7 +158,7 @@ fn total(meminfo: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Assembly, Scene};
+    use crate::Scene;
 
     #[test]
     fn the_total_is_read() {

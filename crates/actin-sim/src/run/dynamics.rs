@@ -149,8 +149,7 @@ fn check_records(
         "{:?}",
         dynamics.record_every_ns.unwrap_or(steps.record_every_ns)
     );
-    let state = assembly.system.state();
-    let bytes = assembly.bytes + records * memory::of_record(state, assembly.terms.len());
+    let bytes = assembly.bytes + records * memory::of_kept_record(assembly);
     memory::check(bytes, ("task.record_every_ns", value), || {
         let bodies = assembly.points.len() + assembly.frames.len();
         format!("{records:.2e} records of {bodies} bodies need")

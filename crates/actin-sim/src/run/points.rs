@@ -7,7 +7,7 @@ use crate::{Assembly, memory};
 /// the largest length fill it.
 pub(super) fn check_points(assembly: &Assembly, settings: &Settings) -> Result<(), SceneProblem> {
     let least = assembly.drive.stages() as f64 / settings.largest_step;
-    let record = memory::of_record(assembly.system.state(), assembly.terms.len());
+    let record = memory::of_kept_record(assembly);
     let value = format!("{:?}", settings.largest_step);
     memory::check(
         assembly.bytes + least * record,
