@@ -318,11 +318,8 @@ fn all_mistakes_of_a_sweep_are_told() {
     }
 }
 
-/// Means of observables are columns, and their errors; names that no run has are refused.
-#[test]
-fn observables_are_results() {
-    let place = place("");
-    let scene = "Scene(
+/// A rod in a heat bath that observes.
+const HEATED: &str = "Scene(
         filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)]),
         clamps: [Clamp(end: Start)],
         observe: [Tip(), TangentCorrelation(over_nm: 12.5)],
@@ -333,7 +330,12 @@ fn observables_are_results() {
             thermal: (temperature_k: 298.0, seed: 1),
         ),
     )";
-    fs::write(place.path("scene.ron"), scene).unwrap();
+
+/// Means of observables are columns, and their errors; names that no run has are refused.
+#[test]
+fn observables_are_results() {
+    let place = place("");
+    fs::write(place.path("scene.ron"), HEATED).unwrap();
     let columns = [
         "observables.tip[0]_z_nm.mean",
         "observables.tip[0]_z_nm.error",

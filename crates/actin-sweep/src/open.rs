@@ -88,9 +88,12 @@ impl Opened {
 
     /// The same with every rule that is broken, at least one: those of the sweep's own numbers first.
     fn with(sweep: Sweep, scene: String) -> Result<Self, Vec<SceneProblem>> {
-        let all = |problems: Vec<SceneProblem>| match problems.is_empty() {
-            true => Ok(()),
-            false => Err(problems),
+        let all = |problems: Vec<SceneProblem>| {
+            if problems.is_empty() {
+                Ok(())
+            } else {
+                Err(problems)
+            }
         };
         all(rules::problems(&sweep))?;
         let mut base = SceneText::new(&scene);

@@ -98,17 +98,11 @@ mod tests {
 
     #[test]
     fn values_lie_on_straight_lines() {
-        let at = |s| {
-            between(
-                &[0.0, 2.0, 3.0],
-                &[1.0, 5.0, 9.0].map(|x| Vector3::x() * x),
-                s,
-            )
-            .x
-        };
-        assert_eq!(
-            [-1.0, 0.0, 0.5, 2.0, 2.5, 3.0, 7.0].map(at),
-            [1.0, 1.0, 2.0, 5.0, 7.0, 9.0, 9.0]
-        );
+        let values = [1.0, 5.0, 9.0].map(|x| Vector3::x() * x);
+        let places = [-1.0, 0.0, 0.5, 2.0, 2.5, 3.0, 7.0].into_iter();
+        let found: Vec<f64> = places
+            .map(|s| between(&[0.0, 2.0, 3.0], &values, s).x)
+            .collect();
+        assert_eq!(found, [1.0, 1.0, 2.0, 5.0, 7.0, 9.0, 9.0]);
     }
 }

@@ -48,37 +48,32 @@ const ALL: &str = "Scene(
     task: Dynamics(duration_ns: 1.0, record_every_ns: 0.25),
 )";
 
-/// The same numbers as in the summary and the profile of the same state; every column has a name of its own.
-#[test]
-fn observables_agree_with_the_summary() {
-    let assembly = build(ALL);
+/// A record of the mixed filament in a random state near rest, and its summary.
+fn recorded(assembly: &Assembly) -> (Record, Summary) {
     let mut state = assembly.rest.clone();
     perturb(&mut state, &mut Xorshift::new(5), 0.05, 0.02);
-    let row = observe(&assembly, &state);
-    let columns = assembly.observers.columns();
-    assert_eq!(row.len(), columns.len());
-    let mut names = columns.to_vec();
-    names.sort();
-    names.dedup();
-    assert_eq!(names.len(), columns.len());
     let interactions = assembly.system.interactions();
-    let energies: Vec<f64> = interactions.iter().map(|i| i.energy(&state)).collect();
     let record = Record {
         at: At::Time(0.0),
-        state,
+        energies_pn_nm: interactions.iter().map(|i| i.energy(&state)).collect(),
         kinetic_pn_nm: 0.25,
         residual_force_pn: 0.0,
         residual_torque_pn_nm: 0.0,
-        observed: row.clone(),
-        energies_pn_nm: energies,
+        observed: observe(assembly, &state),
+        state,
     };
     let outcome = crate::Outcome::new(crate::Status::Completed, 0.0);
-    let summary = Summary::new(&assembly, &record, &outcome);
+    let summary = Summary::new(assembly, &record, &outcome);
+    (record, summary)
+}
+
+/// The same numbers as in the summary of the same state.
+#[test]
+fn observables_agree_with_the_summary() {
+    let assembly = build(ALL);
+    let (record, summary) = recorded(&assembly);
     let start = summary.end_reactions.start.unwrap();
-    let linker = summary.linkers[0];
-    let of = |column: &str| of(&assembly, &row, column);
-    let curvatures = crate::shape::Ribbon::new(&assembly, &record.state).curvatures();
-    assert!(curvatures.iter().any(|kappa| kappa.z.abs() > 1e-4));
+    let (linker, shape) = (summary.linkers[0], summary.shape);
     for (column, expected) in [
         ("tip[0]_y_nm", summary.tip_nm[1]),
         ("reaction[0]_start_force_x_pn", start.force_pn[0]),
@@ -86,19 +81,31 @@ fn observables_agree_with_the_summary() {
         ("linker[0]_force_x_pn", linker.force_pn[0]),
         ("linker[0]_tension_pn", 10.0 * linker.extension_nm),
         ("linker[0]_length_nm", 2.0 + linker.extension_nm),
-        ("contour[0]_twist_turns", summary.shape.twist_turns),
-        (
-            "contour[0]_largest_distance_nm",
-            summary.shape.largest_distance_nm,
-        ),
+        ("contour[0]_twist_turns", shape.twist_turns),
+        ("contour[0]_largest_distance_nm", shape.largest_distance_nm),
         ("energy_potential_pn_nm", summary.energy_pn_nm.potential),
         ("energy_kinetic_pn_nm", 0.25),
         ("squared_displacement[0]_tip_nm2", 0.0),
     ] {
-        assert_eq!(of(column).to_bits(), expected.to_bits(), "{column}");
+        let found = of(&assembly, &record.observed, column);
+        assert_eq!(found.to_bits(), expected.to_bits(), "{column}");
         let told = summary.observables[column];
         assert_eq!((told.last, told.mean), (Some(expected), None), "{column}");
     }
+}
+
+/// Every column has a name of its own and a value; energies of parts add up, vectors have their lengths.
+#[test]
+fn columns_belong_together() {
+    let assembly = build(ALL);
+    let (record, summary) = recorded(&assembly);
+    let columns = assembly.observers.columns();
+    assert_eq!(record.observed.len(), columns.len());
+    let mut names = columns.to_vec();
+    names.sort();
+    names.dedup();
+    assert_eq!(names.len(), columns.len());
+    let of = |column: &str| of(&assembly, &record.observed, column);
     assert!(of("squared_displacement[0]_centre_over_0.5ns_nm2").is_nan());
     let parts = ["section_0", "junction_0_1", "section_1"];
     let parts = parts.map(|part| of(&format!("energy_{part}_pn_nm")));
@@ -108,6 +115,8 @@ fn observables_agree_with_the_summary() {
     let reach = ["x", "y", "z"].map(|axis| of(&format!("end_to_end[0]_{axis}_nm")));
     let length = of("end_to_end[0]_nm");
     assert!((Vector3::from(reach).norm() - length).abs() < 1e-12 && length > 70.0);
+    let bend = ["_x", "_y", ""].map(|axis| of(&format!("curvature[0]_at_40nm{axis}_rad_per_nm")));
+    assert!((bend[0].hypot(bend[1]) - bend[2]).abs() < 1e-15 && bend[2] > 1e-4);
 }
 
 /// A rod bent and twisted evenly and stretched: each local field is what it was given, whatever resolves it, and

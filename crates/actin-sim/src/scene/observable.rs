@@ -145,11 +145,6 @@ impl Default for Output {
 }
 
 impl Output {
-    /// Whether it is what scenes have that do not say.
-    pub(super) fn is_default(&self) -> bool {
-        *self == Self::default()
-    }
-
     /// Whether the states of records are needed once they were taken.
     pub(crate) fn needs_states(self) -> bool {
         self.vtk || self.states
@@ -179,15 +174,27 @@ impl Observable {
         i: usize,
         (scene, held): (&Scene, &HeldEnds),
     ) -> Result<(), SceneProblem> {
-        let key = |name: &str| format!("observe[{i}].{name}");
+        let key = format!("observe[{i}]");
         if scene.observe[..i].contains(&self) {
-            let rule = "is in the list already";
-            return Err(SceneProblem::new(format!("observe[{i}]"), "", rule));
+            return Err(SceneProblem::new(key, "", "is in the list already"));
         }
         let length = match self.filament() {
             None => 0.0,
-            Some(index) => scene.named_filament(&key("filament"), index)?.length_nm(),
+            Some(index) => {
+                let filament = scene.named_filament(&format!("{key}.filament"), index)?;
+                filament.length_nm()
+            }
         };
+        self.check_own(&|name| format!("{key}.{name}"), (scene, held), length)
+    }
+
+    /// The same of its own keys, on a filament of this length (nm).
+    fn check_own(
+        self,
+        key: &dyn Fn(&str) -> String,
+        (scene, held): (&Scene, &HeldEnds),
+        length: f64,
+    ) -> Result<(), SceneProblem> {
         match self {
             Self::EndReaction { filament, end } if !held.is_held(filament, end) => {
                 let rule = "this end is free: nothing holds it";

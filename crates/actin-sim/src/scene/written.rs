@@ -39,10 +39,15 @@ pub(super) struct Written {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     burn_in_ns: Option<f64>,
     /// Which of the larger files are written.
-    #[serde(default, skip_serializing_if = "Output::is_default")]
+    #[serde(default, skip_serializing_if = "is_default")]
     output: Output,
     /// What is computed.
     task: Task,
+}
+
+/// Whether a key says what scenes without it say.
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 impl TryFrom<Written> for Scene {
