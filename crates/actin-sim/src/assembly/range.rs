@@ -429,7 +429,7 @@ impl InBath {
 }
 
 /// How often and how far a quantity goes beyond its range.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Tally {
     elements: usize,
     beyond: usize,

@@ -98,8 +98,9 @@ impl Observers {
         mean: f64,
         error: Option<f64>,
     ) -> Option<DerivedLength> {
-        let of = |one: &&Box<dyn Observe>| one.columns().iter().any(|name| name == column);
-        self.list.iter().find(of)?.derived(mean, error)
+        let mut all = self.list.iter();
+        let of = all.find(|one| one.columns().iter().any(|name| name == column));
+        of?.derived(mean, error)
     }
 
     /// Refuses what an assembly or its time step does not have.

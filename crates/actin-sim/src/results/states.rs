@@ -361,7 +361,10 @@ mod tests {
         let (_, filaments) = read::<u64>(&mut archive, "filament");
         assert_eq!(filaments, vec![0; assembly.points.len()]);
         let (_, names) = read::<String>(&mut archive, "kind_names");
-        assert_eq!(names, ["monomer", "node", "segment", "junction", "wall", "joint"]);
+        assert_eq!(
+            names,
+            ["monomer", "node", "segment", "junction", "wall", "joint"]
+        );
         assert_eq!(names[usize::from(kinds[0])], "monomer");
         assert_eq!(archive.len(), 13);
     }

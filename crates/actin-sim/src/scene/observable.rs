@@ -169,11 +169,7 @@ impl Observable {
     }
 
     /// Refuses observable `i` of a scene where it makes no sense.
-    pub(super) fn check(
-        self,
-        i: usize,
-        (scene, held): (&Scene, &HeldEnds),
-    ) -> Result<(), SceneProblem> {
+    fn check(self, i: usize, (scene, held): (&Scene, &HeldEnds)) -> Result<(), SceneProblem> {
         let key = format!("observe[{i}]");
         if scene.observe[..i].contains(&self) {
             return Err(SceneProblem::new(key, "", "is in the list already"));
@@ -245,8 +241,20 @@ fn check_lag(scene: &Scene, key: &str, lag_ns: f64) -> Result<(), SceneProblem> 
     Err(SceneProblem::new(key, show(lag_ns), rule))
 }
 
+/// Checks all that is observed, and what means leave out.
+pub(super) fn check_all(
+    scene: &Scene,
+    held: &HeldEnds,
+    note: &mut impl FnMut(Result<(), SceneProblem>),
+) {
+    for (i, one) in scene.observe.iter().enumerate() {
+        note(one.check(i, (scene, held)));
+    }
+    note(check_burn_in(scene));
+}
+
 /// Checks what means leave out.
-pub(super) fn check_burn_in(scene: &Scene) -> Result<(), SceneProblem> {
+fn check_burn_in(scene: &Scene) -> Result<(), SceneProblem> {
     let Some(burn_in) = scene.burn_in_ns else {
         return Ok(());
     };

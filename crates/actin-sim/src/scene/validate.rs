@@ -60,10 +60,7 @@ pub(super) fn problems(scene: &Scene) -> Vec<SceneProblem> {
     for (i, stage) in scene.path.iter().enumerate() {
         note(stage::check(scene, &held, (i, stage)));
     }
-    for (i, one) in scene.observe.iter().enumerate() {
-        note(one.check(i, (scene, &held)));
-    }
-    note(observable::check_burn_in(scene));
+    observable::check_all(scene, &held, &mut note);
     note(match &scene.task {
         Task::Dynamics(dynamics) => check_dynamics(dynamics),
         Task::Equilibrium(equilibrium) => check_equilibrium(equilibrium),

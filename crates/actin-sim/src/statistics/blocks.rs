@@ -162,7 +162,9 @@ mod tests {
 
     fn estimate(values: &[f64]) -> Estimate {
         let mut blocks = BlockAverages::default();
-        values.iter().for_each(|&value| blocks.push(value));
+        for &value in values {
+            blocks.push(value);
+        }
         blocks.estimate().unwrap()
     }
 

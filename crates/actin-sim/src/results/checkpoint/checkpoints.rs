@@ -1,7 +1,8 @@
 //! Checkpoints of a run in its directory: when they are written, and what is left at the end.
 
 use super::file::{Contents, Identity, same_scene};
-use super::log::{RecordLog, Stored, Tally};
+use super::log::{RecordLog, Tally};
+use super::stored::Stored;
 use super::{CheckpointError, Damage};
 use crate::results::atomic::replace_durably;
 use crate::results::directory::RunDirectory;

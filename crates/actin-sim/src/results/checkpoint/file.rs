@@ -1,7 +1,8 @@
 //! `checkpoint.bin`: its header, whose it is, and how it replaces the one before.
 
 use super::Damage;
-use super::log::{Form, Stored, Tally, compare, open};
+use super::log::{Tally, compare, open};
+use super::stored::{Form, Stored};
 use super::wire::{decode, decode_all, encode};
 use crate::results::difference::{Difference, first_difference};
 use crate::run::{Carried, Recorded, RunPosition, Saved};

@@ -13,6 +13,7 @@ mod checkpoints;
 mod error;
 mod file;
 mod log;
+mod stored;
 mod wire;
 
 pub use checkpoints::Checkpoints;
