@@ -182,3 +182,34 @@ fn a_motion_is_pushed_off_a_saddle_once_however_often_it_is_left() {
     compare(&scene, &[before, 1, 1]);
     compare(&scene, &[3 * before, 2, 1]);
 }
+
+/// Filaments in contact, in time and along a path: which neighbours are known, and the pattern of the stiffness,
+/// are not in a checkpoint.
+#[test]
+fn contacts_go_on_to_the_same_bits() {
+    let scene = |path: &str, task: &str| {
+        let text = format!(
+            "Scene(
+                filaments: [
+                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+                    Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 14.0), Rod(from_nm: 14.0, to_nm: 54.0)],
+                        at_nm: (8.0, -27.0, 30.0), direction: (0.0, 1.0, 0.0)),
+                ],
+                clamps: [Clamp(end: Start), Clamp(end: End), Clamp(filament: 1, end: Start)],
+                linkers: [Linker(filament: 1, at_nm: 40.0, to: Site(at_nm: 50.0), stiffness_pn_per_nm: 0.5)],
+                repulsion: Repulsion(planes: [Plane(at_nm: (-4.5, 0.0, 0.0), normal: (1.0, 0.0, 0.0))]),
+                path: [{path}],
+                task: {task},
+            )"
+        );
+        Scene::from_ron(&text).unwrap()
+    };
+    let moved = "Stage(set: [Shift(filament: 1, end: Start, shift_nm: (-5.0, 3.0, 0.0))], duration_ns: 0.4)";
+    let thermal = "Dynamics(duration_ns: 0.5, record_every_ns: 0.05, thermal: (temperature_k: 298.0, seed: 3),
+        drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0))";
+    compare(&scene(moved, thermal), &[2, 3, 1]);
+    compare(
+        &scene(moved, "Equilibrium(force_pn: 1e-6, largest_step: 0.1)"),
+        &[1, 3, 2],
+    );
+}

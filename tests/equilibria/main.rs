@@ -10,6 +10,7 @@ mod buckling;
 mod circle;
 mod common;
 mod compression;
+mod contact;
 mod elastica;
 mod extremes;
 mod helical;

@@ -1,4 +1,5 @@
-//! What joins filaments: the junction between monomers and a Cosserat rod, and linkers.
+//! What joins filaments: the junction between monomers and a Cosserat rod, and linkers; and what keeps them
+//! apart.
 //!
 //! The last one or two monomers before a rod (or the first after it) are attached to the rod's
 //! end, each by one bond that shears, stretches, bends and twists as a piece of the rod does. A
@@ -7,7 +8,8 @@
 //! being built, [`Junction::new`] makes the interaction once all bodies stand.
 //!
 //! A [`Linker`] is a spring that holds a [`Site`] of a filament, on monomer or rod, to an [`Anchor`]
-//! or to another site; a [`SiteForce`] pulls at sites.
+//! or to another site; a [`SiteForce`] pulls at sites. [`repulsion`] keeps filaments out of each other and
+//! out of walls.
 //!
 //! Nothing here knows how monomers hold together or where a scene puts a junction or a linker.
 //!
@@ -23,6 +25,7 @@ mod build;
 mod error;
 mod junction;
 mod linker;
+pub mod repulsion;
 mod site;
 mod site_force;
 

@@ -112,6 +112,8 @@ pub struct Layout {
     sequence: Vec<usize>,
     /// Pairs of bodies that are coupled but no neighbours, the lesser first.
     loose: BTreeSet<(Coordinates, Coordinates)>,
+    /// Places of all bodies, and how far neighbours are apart at most.
+    loose_beyond: Option<(BodyOrder, f64)>,
 }
 
 /// Where the order of unknowns comes from.
@@ -166,6 +168,7 @@ impl Layout {
             },
             sequence: Vec::new(),
             loose: BTreeSet::new(),
+            loose_beyond: None,
         };
         layout.sequence = (0..layout.nodes.len()).collect();
         layout.number();
@@ -195,9 +198,24 @@ impl Layout {
         self
     }
 
+    /// The same of all pairs whose places in an order of the bodies are farther apart than `reach`: of
+    /// pairs that may come to be coupled, such as those in contact.
+    #[must_use]
+    pub fn with_loose_beyond(mut self, order: BodyOrder, reach: f64) -> Self {
+        self.loose_beyond = Some((order, reach));
+        self
+    }
+
     /// Whether two coupled bodies are no neighbours.
     pub(crate) fn is_loose(&self, a: Coordinates, b: Coordinates) -> bool {
-        self.loose.contains(&(a.min(b), a.max(b)))
+        let are_apart = self.loose_beyond.as_ref().is_some_and(|(order, reach)| {
+            let place = |body| match body {
+                Coordinates::Point(i) => order.points[i],
+                Coordinates::Frame(i) => order.frames[i],
+            };
+            (place(a) - place(b)).abs() > *reach
+        });
+        are_apart || self.loose.contains(&(a.min(b), a.max(b)))
     }
 
     /// Number of unknowns.

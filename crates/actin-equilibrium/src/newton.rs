@@ -83,6 +83,14 @@ impl Newton {
         self.solver.work = work;
     }
 
+    /// Settles the order of unknowns by what is coupled in `state`, for interactions whose pairs change:
+    /// what follows then does not depend on the state that is solved first. Nothing happens where an
+    /// interaction has no potential or no second derivatives.
+    pub fn settle_order(&mut self, state: &State, interactions: &[Box<dyn Interaction>]) {
+        // Solves refuse such interactions, with their names.
+        let _ = self.solver.prepare(state, interactions);
+    }
+
     /// Moves `state` to an equilibrium near it.
     ///
     /// Held bodies and controls stay as they are, velocities are not looked at.

@@ -16,7 +16,8 @@ pub enum Coordinates {
 /// With `u` and `v` coordinates of two bodies, the block `(a, b)` is `d^2 E / du_a dv_b` at
 /// `u = v = 0`. Each pair of different bodies is given once; the transposed block is implied.
 /// An interaction pushes the same pairs in the same order at every state, so that an
-/// assembler can look up places once.
+/// assembler can look up places once. One whose pairs come and go, such as bodies in contact, costs a new
+/// look-up whenever they do; its pairs depend on the state alone.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stiffness {
     blocks: Vec<(Coordinates, Coordinates, Matrix3)>,

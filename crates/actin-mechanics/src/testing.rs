@@ -4,7 +4,7 @@
 
 mod second_order;
 
-pub use second_order::{assert_is_stiffness, stiffness_matrix};
+pub use second_order::{assert_are_second_derivatives, assert_is_stiffness, stiffness_matrix};
 
 use crate::wide::Arch;
 use crate::{Interaction, Loads, State, Vector3, rotation};

@@ -60,9 +60,9 @@ pub use scene::{
     Acceleration, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, Couple,
     CouplePerLength, DragRates, Drawn, Dynamics, End, Equilibrium, Factor, Filament, Force,
     ForceLaw, ForcePerLength, Hinge, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight,
-    Linker, LinkerSite, Load, Material, Monomers, Observable, Output, Override, Pace, Point,
-    RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError, SceneProblem, SceneText, Section,
-    Setting, Shape, ShearLaw, Slides, Stage, StopTolerances, StretchLaw, Task, Thermal, TwistLaw,
-    TwistRise, TwistStretchLaw,
+    Linker, LinkerSite, Load, Material, Monomers, Observable, Output, Override, Pace, Plane, Point,
+    Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError, SceneProblem,
+    SceneText, Section, Setting, Shape, ShearLaw, Slides, Sphere, SphereSide, Stage,
+    StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
 };
 pub use scene::{Readings, read_all, read_ron};

@@ -56,6 +56,7 @@ impl Assembly {
             }
         }
         notes.extend(self.short_rods());
+        notes.extend(self.notes_on_repulsion());
         let thermal = self.scene.thermal();
         for rod in self.scene.filaments().flat_map(Filament::rod_models) {
             let note = match thermal {

@@ -67,6 +67,7 @@ impl Filament {
             clamps: Vec::new(),
             loads: Vec::new(),
             linkers: Vec::new(),
+            repulsion: None,
             path: Vec::new(),
             observe: Vec::new(),
             burn_in_ns: None,

@@ -248,6 +248,7 @@ impl Course<'_> {
             clamps,
             loads: vec![force([0.0, 0.0, 1.0]), force([1.0, 0.0, 0.0])],
             linkers: Vec::new(),
+            repulsion: None,
             path: path.collect(),
             observe: Vec::new(),
             burn_in_ns: None,

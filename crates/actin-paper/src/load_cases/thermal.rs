@@ -90,6 +90,7 @@ fn replica(law: &RodLaw, replica: u64) -> Result<Turns, String> {
         clamps: Vec::new(),
         loads: Vec::new(),
         linkers: Vec::new(),
+        repulsion: None,
         path: Vec::new(),
         observe: Vec::new(),
         burn_in_ns: None,

@@ -75,6 +75,7 @@ impl Specimen {
             clamps,
             loads,
             linkers: Vec::new(),
+            repulsion: None,
             path,
             observe: Vec::new(),
             burn_in_ns: None,

@@ -35,6 +35,8 @@ pub struct BeyondUse {
     /// - `bend`: curvature of a rod times the radius of its cross-section;
     /// - `bonds`: root mean square of what the bonds between two monomers are longer or shorter than at
     ///   rest, over `lateral_max_bond_nm` or `longitudinal_max_bond_nm`;
+    /// - `contact`: depth of two surfaces in each other over the distance of their axes in contact;
+    /// - `wall`: depth of a surface in a wall over its radius;
     /// - `overlap`: 2 less the distance of two bonded monomers' centres in semi-axes, along the line of
     ///   centres.
     pub quantity: String,
@@ -62,6 +64,15 @@ impl fmt::Display for BeyondUse {
                 "the bonds at s = {s_nm:.2} nm are stretched or compressed by {value:.2} times the \
                  longest length that they may have at rest"
             )?,
+            "contact" => write!(
+                f,
+                "the filament at s = {s_nm:.2} nm is pressed into another, or into itself, by {value:.2} \
+                 of the distance of contact"
+            )?,
+            "wall" => write!(
+                f,
+                "the filament at s = {s_nm:.2} nm is pressed into a wall by {value:.2} of its radius"
+            )?,
             _ => write!(
                 f,
                 "two monomers at s = {s_nm:.2} nm stand inside each other by {value:.2} semi-axes"
@@ -80,8 +91,8 @@ type Furthest = (f64, f64);
 impl Assembly {
     /// Where the model does not apply to `state`: at most once per section and quantity, where it is worst.
     ///
-    /// Only neighbours are looked at. Filaments have no volume in these models: that parts of one far
-    /// apart, or two of them, pass through each other is not seen.
+    /// Only neighbours are looked at, and what repels each other. Without repulsion filaments have no
+    /// volume: that parts of one far apart, or two of them, pass through each other is not seen.
     pub fn beyond_use(&self, state: &State) -> Vec<BeyondUse> {
         let mut found = Vec::new();
         for rod in &self.rods {
@@ -114,7 +125,26 @@ impl Assembly {
             let strain = (self.frames[bond.frame].s_nm, strain);
             self.push_beyond(&mut found, bond.junction, ("strain", STRAIN), strain);
         }
+        self.push_touching(&mut found, state);
         worst(found)
+    }
+
+    /// What is pressed into each other or into walls farther than it can be pushed back.
+    fn push_touching(&self, found: &mut Vec<BeyondUse>, state: &State) {
+        let repelled = self.repelled.iter();
+        for touching in repelled.flat_map(|repelled| repelled.touching(state)) {
+            let s_nm = touching.gap.places[0];
+            let sections = &self.filaments[touching.filaments[0]].sections;
+            let is_past = |section: &SectionSpan| section.to_nm < s_nm;
+            let behind = self.sections[sections.clone()].partition_point(is_past);
+            let section = (sections.start + behind).min(sections.end - 1);
+            let quantity = match touching.part {
+                Part::Contacts => "contact",
+                _ => "wall",
+            };
+            let depth = (s_nm, touching.depth);
+            self.push_beyond(found, section, (quantity, touching.limit), depth);
+        }
     }
 
     /// The worst of [`beyond_use`](Self::beyond_use) over some states.

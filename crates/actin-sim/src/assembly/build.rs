@@ -1,19 +1,21 @@
 //! Building the bodies and interactions of a scene, filament by filament. Those of one filament
 //! are in `build/strand.rs` and `build/interactions.rs`, what holds ends in `build/holds.rs`, loads in
-//! `build/loads.rs`, what links filaments to their surroundings and to each other in `build/linkers.rs`.
+//! `build/loads.rs`, what links filaments to their surroundings and to each other in `build/linkers.rs`,
+//! what keeps them apart in `build/repulsion.rs`.
 
 mod bend;
 mod holds;
 mod interactions;
 mod linkers;
 mod loads;
+mod repulsion;
 mod size;
 mod spans;
 mod strand;
 
 use super::{
-    Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Part, PointInfo, Rod, SectionSpan, Term,
-    imperfection,
+    Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Part, PointInfo, Repelled, Rod, SectionSpan,
+    Term, imperfection,
 };
 use crate::observe::{EnergyNames, Observers};
 use crate::scene::{End, HeldEnds, Scene, SceneProblem, Section};
@@ -38,6 +40,7 @@ impl Assembly {
         builder.hold_ends()?;
         builder.push_loads()?;
         builder.push_linkers()?;
+        builder.push_repulsion()?;
         Ok(builder.finish())
     }
 }
@@ -74,6 +77,7 @@ struct Builder<'a> {
     clamps: Vec<Clamped>,
     loads: Vec<ControlId>,
     linkers: Vec<Linker>,
+    repelled: Option<Repelled>,
 }
 
 impl<'a> Builder<'a> {
@@ -102,6 +106,7 @@ impl<'a> Builder<'a> {
             clamps: Vec::new(),
             loads: Vec::new(),
             linkers: Vec::new(),
+            repelled: None,
         })
     }
 
@@ -159,6 +164,7 @@ impl<'a> Builder<'a> {
             held: self.held,
             loads: self.loads,
             linkers: self.linkers,
+            repelled: self.repelled,
             spans,
             observers: Observers::default(),
         };

@@ -66,6 +66,9 @@ impl Assembly {
             Part::Load(i) => format!("load_{i}"),
             Part::Linker(i) => format!("linker_{i}"),
             Part::Clamp(i) => format!("clamp_{i}"),
+            Part::Contacts => "contacts".to_owned(),
+            Part::Plane(i) => format!("plane_{i}"),
+            Part::Sphere(i) => format!("sphere_{i}"),
         }
     }
 }

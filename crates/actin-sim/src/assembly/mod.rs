@@ -19,6 +19,7 @@ mod parts;
 mod ramp;
 mod range;
 mod reaction;
+mod repelled;
 mod slip;
 mod unstable_twist;
 
@@ -34,6 +35,7 @@ pub(crate) use ramp::{Ramp, StageTimes};
 pub use range::{BeyondRange, Fluctuations};
 pub(crate) use range::{RangeWatch, Ranges};
 pub use reaction::{Clamped, Reaction};
+pub(crate) use repelled::Repelled;
 pub use unstable_twist::UnstableTwist;
 pub(crate) use unstable_twist::{TwistRecords, TwistWatch};
 
@@ -71,6 +73,8 @@ pub struct Assembly {
     pub(crate) loads: Vec<ControlId>,
     /// The linkers, in the order of the scene.
     pub linkers: Vec<Linker>,
+    /// What repels them, if anything does.
+    pub(crate) repelled: Option<Repelled>,
     /// For each term the arc lengths (nm) between which each of its elements lies; empty for loads
     /// and linkers, which are no part of a filament.
     pub(crate) spans: Vec<Vec<[f64; 2]>>,

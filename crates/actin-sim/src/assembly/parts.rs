@@ -7,6 +7,9 @@ use actin_cosserat::{JoinedElement, RodLayout};
 use actin_mechanics::{UnitQuaternion, Vector3};
 use std::ops::Range;
 
+/// How many segments or rises a bond or segment reaches at most, with room.
+const REACH: f64 = 3.0;
+
 /// What a point or a frame stands for. The numbers are those written to files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyKind {
@@ -81,6 +84,12 @@ pub enum Part {
     Linker(usize),
     /// The spring of a clamp, by the clamp's index in the scene.
     Clamp(usize),
+    /// The repulsion of filaments by each other.
+    Contacts,
+    /// A plane that repels, by its index in the scene.
+    Plane(usize),
+    /// A sphere that repels, by its index in the scene.
+    Sphere(usize),
 }
 
 /// Where the parts of a filament stand among those of all, and where it was built.
@@ -197,6 +206,16 @@ impl SectionSpan {
             Resolution::Ellipsoids { bonds, .. } => bonds,
             Resolution::Rod { .. } => 0,
         }
+    }
+
+    /// How far its bonds or segments couple at most (nm of arc length), with room, where monomers stand a
+    /// rise apart: monomers reach the next but one, bending elements from middle to middle.
+    pub(crate) fn reach_nm(&self, rise_nm: f64) -> f64 {
+        REACH
+            * match self.resolution {
+                Resolution::Ellipsoids { .. } => rise_nm,
+                Resolution::Rod { segment_nm } => segment_nm,
+            }
     }
 
     /// Whether the section resolves monomers.

@@ -66,7 +66,7 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Sce
     if let Some(constant) = with_constant_rods(assembly)? {
         frequency = frequency.max(frequency_of(&constant)?);
     }
-    estimate_at(assembly, dynamics, frequency)
+    estimate_at(assembly, dynamics, assembly.with_contact(frequency)?)
 }
 
 /// The largest frequency of an assembly as it stands (rad/ns).

@@ -1,7 +1,7 @@
 //! What may move in statics, in which order its unknowns stand, and how far it is solved.
 
+use crate::Assembly;
 use crate::scene::{Equilibrium as Settings, SceneProblem};
-use crate::{Assembly, Resolution};
 use actin_coupling::{LinkerEnd, Site};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions, Residual};
 use actin_mechanics::Coordinates;
@@ -10,14 +10,16 @@ use actin_mechanics::Coordinates;
 /// reaches beyond an end, so that filaments do not interleave.
 const BETWEEN_FILAMENTS_NM: f64 = 1e3;
 
-/// How many segments or rises a bond or segment reaches at most, with room.
-const REACH: f64 = 3.0;
+/// Largest displacement in a step over the radius of filaments that repel: two of them come half a radius of
+/// each closer, so that none is stepped across.
+const DISPLACEMENT: f64 = 0.5;
 
 /// The solver of an assembly: what may move, filament by filament in the order of arc length, and how far
 /// it is to be solved.
 ///
 /// Where linkers join sites, unknowns are eliminated in an order that fills less if there is one, and
-/// joined bodies swing about each other as they will.
+/// joined bodies swing about each other as they will. So do bodies in contact; the order is then settled in
+/// the state as built, whatever touches later, and steps are shorter than filaments are thick.
 ///
 /// # Errors
 /// Tolerances or bodies that the solver refuses.
@@ -27,7 +29,7 @@ pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneP
     let layout = Layout::new(&assembly.rest, Some(&order(assembly)), Vec::new())
         .map_err(|error| refused("filament", &error))?;
     let loose = loose_pairs(assembly);
-    let layout = if loose.is_empty() {
+    let layout = if loose.is_empty() && assembly.repelled.is_none() {
         layout
     } else {
         layout.with_least_fill().with_loose(loose)
@@ -40,7 +42,21 @@ pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneP
         iterations: settings.iterations,
         ..NewtonOptions::default()
     };
-    Newton::new(layout, options).map_err(|error| refused("task", &error))
+    match &assembly.repelled {
+        None => Newton::new(layout, options).map_err(|error| refused("task", &error)),
+        Some(repelled) => {
+            let options = NewtonOptions {
+                largest_displacement: DISPLACEMENT * repelled.radius_nm,
+                ..options
+            };
+            let reaches = (0..assembly.filaments.len()).map(|i| reach(assembly, i));
+            let layout = layout.with_loose_beyond(order(assembly), reaches.fold(0.0, f64::max));
+            let newton = Newton::new(layout, options);
+            let mut newton = newton.map_err(|error| refused("task", &error))?;
+            newton.settle_order(&assembly.rest, assembly.system.interactions());
+            Ok(newton)
+        }
+    }
 }
 
 /// Bodies that linkers join and nothing else does: those of different filaments, or far apart in one.
@@ -72,13 +88,10 @@ fn bodies_of(site: &Site) -> Vec<Coordinates> {
 
 /// How far bonds and segments of a filament couple at most (nm, arc length).
 fn reach(assembly: &Assembly, filament: usize) -> f64 {
+    let rise_nm = assembly.monomers_of(filament).rise_nm;
     let sections = assembly.sections_of(filament).iter();
-    let longest = sections.map(|section| match section.resolution {
-        Resolution::Rod { segment_nm } => segment_nm,
-        Resolution::Ellipsoids { .. } => assembly.monomers_of(filament).rise_nm,
-    });
-    // Monomers reach the next but one, bending elements from middle to middle.
-    REACH * longest.fold(0.0, f64::max)
+    let reaches = sections.map(|section| section.reach_nm(rise_nm));
+    reaches.fold(0.0, f64::max)
 }
 
 /// Whether no bond or segment couples two bodies; `reaches` are those of the filaments.

@@ -22,6 +22,7 @@ pub(crate) mod path;
 mod place;
 mod problem;
 mod read;
+mod repulsion;
 mod rules;
 mod saddles;
 #[cfg(feature = "schema")]
@@ -57,6 +58,7 @@ pub use observable::{Observable, Output, Point};
 pub(crate) use place::HeldEnds;
 pub use problem::{SceneError, SceneProblem};
 pub use read::read_ron;
+pub use repulsion::{Plane, Repulsion, Sphere, SphereSide};
 #[cfg(feature = "schema")]
 pub use schema::schema;
 pub use section::{Altered, AlteredRod, Section};

@@ -2,7 +2,8 @@
 
 use super::model::{JunctionModel, Monomers, RodModel};
 use super::{
-    Imperfection, Linker, Load, Observable, Output, Section, Shape, Thermal, written::Written,
+    Imperfection, Linker, Load, Observable, Output, Repulsion, Section, Shape, Thermal,
+    written::Written,
 };
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +11,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// Its text has one filament under `filament`, or any number as a list under `filaments`. Clamps,
 /// loads, linkers and settings name a filament by its index, 0 where they name none. Nothing but
-/// linkers joins filaments: they pass through each other.
+/// linkers joins filaments; without `repulsion` they pass through each other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "Written")]
 pub struct Scene {
@@ -26,6 +27,8 @@ pub struct Scene {
     pub loads: Vec<Load>,
     /// Springs from sites to points outside of all filaments, or to other sites.
     pub linkers: Vec<Linker>,
+    /// What keeps filaments out of each other and out of walls.
+    pub repulsion: Option<Repulsion>,
     /// How controls are moved, stage by stage: loads, shifts and turns of held ends, anchors.
     pub path: Vec<Stage>,
     /// What is computed of every record.

@@ -57,6 +57,9 @@ pub(super) fn problems(scene: &Scene) -> Vec<SceneProblem> {
     for (i, linker) in scene.linkers.iter().enumerate() {
         note(linker::check(scene, i, linker));
     }
+    if let Some(repulsion) = &scene.repulsion {
+        repulsion.check(&mut note);
+    }
     for (i, stage) in scene.path.iter().enumerate() {
         note(stage::check(scene, &held, (i, stage)));
     }

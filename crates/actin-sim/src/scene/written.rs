@@ -1,6 +1,8 @@
 //! A scene as its text has it: one `filament` or a list of `filaments`.
 
-use super::{Clamp, Filament, Linker, Load, Observable, Output, Scene, SceneProblem, Stage, Task};
+use super::{
+    Clamp, Filament, Linker, Load, Observable, Output, Repulsion, Scene, SceneProblem, Stage, Task,
+};
 use serde::{Deserialize, Serialize};
 
 /// A scene: filaments, what holds, loads and links them, and what is computed.
@@ -14,8 +16,8 @@ pub(super) struct Written {
     /// The filament, if there is one only. Either this or `filaments` is required.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     filament: Option<Filament>,
-    /// The filaments, at least one, counted from 0. Only linkers join them; they pass through each
-    /// other.
+    /// The filaments, at least one, counted from 0. Only linkers join them; without `repulsion` they
+    /// pass through each other.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     filaments: Option<Vec<Filament>>,
     /// Clamped ends. All others are free.
@@ -27,6 +29,9 @@ pub(super) struct Written {
     /// Springs from sites on filaments to points in space or to other sites.
     #[serde(default)]
     linkers: Vec<Linker>,
+    /// What keeps filaments out of each other and out of walls; without it nothing does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    repulsion: Option<Repulsion>,
     /// Stages along which loads, clamped ends and anchors are moved. Shifts and turns begin at zero, and
     /// so does the factor of every load that some stage sets; all other loads act in full throughout.
     #[serde(default)]
@@ -78,6 +83,7 @@ impl TryFrom<Written> for Scene {
             clamps: written.clamps,
             loads: written.loads,
             linkers: written.linkers,
+            repulsion: written.repulsion,
             path: written.path,
             observe: written.observe,
             burn_in_ns: written.burn_in_ns,
@@ -109,6 +115,7 @@ impl From<Scene> for Written {
             clamps: scene.clamps,
             loads: scene.loads,
             linkers: scene.linkers,
+            repulsion: scene.repulsion,
             path: scene.path,
             observe: scene.observe,
             burn_in_ns: scene.burn_in_ns,

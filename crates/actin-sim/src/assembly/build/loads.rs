@@ -321,7 +321,7 @@ fn rod_sites(
 
 impl Strand<'_> {
     /// The stretch of filament (nm) that the monomer at an arc length stands for.
-    fn cell(&self, s_nm: f64) -> [f64; 2] {
+    pub(super) fn cell(&self, s_nm: f64) -> [f64; 2] {
         let half = 0.5 * self.lattice.rise_nm;
         [s_nm - half, s_nm + half]
     }

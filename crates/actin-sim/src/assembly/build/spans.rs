@@ -23,7 +23,12 @@ impl Builder<'_> {
                 let (strand, i) = strand_of(section);
                 strand.junction_bonds(i)
             }
-            Part::Load(_) | Part::Linker(_) | Part::Clamp(_) => Vec::new(),
+            Part::Load(_)
+            | Part::Linker(_)
+            | Part::Clamp(_)
+            | Part::Contacts
+            | Part::Plane(_)
+            | Part::Sphere(_) => Vec::new(),
         };
         self.stock.terms.iter().map(|term| of(term.part)).collect()
     }

@@ -63,6 +63,7 @@ impl Summary {
             beyond_use: outcome.beyond_use.clone(),
             linkers: LinkerSummary::all(assembly, &last.state),
             observables: Averages::of_one(assembly, last),
+            smallest_gap_nm: assembly.smallest_gap_nm(&last.state),
             shape: first.shape,
             residual: ResidualSummary::of(last),
             residual_floor: equilibrium.and_then(|e| e.floor).map(Into::into),

@@ -94,6 +94,10 @@ pub struct Summary {
     /// no key where nothing is observed.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub observables: BTreeMap<String, ObservableSummary>,
+    /// Distance of the two surfaces nearest to each other (nm), of filaments that repel or of walls;
+    /// negative where one is in the other. No key unless two are within a quarter of a radius.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub smallest_gap_nm: Option<f64>,
     /// Twist, writhe, link and distance from the axis of filament 0.
     pub shape: ShapeSummary,
     /// How far from an equilibrium the last record is.
@@ -215,6 +219,7 @@ impl Summary {
             ("time_ns", self.time_ns),
             ("path", self.path),
             ("time_step_ns", self.time_step_ns),
+            ("smallest_gap_nm", self.smallest_gap_nm),
             (
                 "largest_frequency_rad_per_ns",
                 self.largest_frequency_rad_per_ns,

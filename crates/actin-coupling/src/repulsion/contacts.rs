@@ -1,0 +1,271 @@
+//! Capsules that repel each other, as an interaction.
+
+use super::capsule::{Capsule, RepulsionError, Row, positive};
+use super::distance;
+use super::kernel::Kernel;
+use super::neighbours::{Neighbours, Reach};
+use super::pair::Pair;
+use actin_mechanics::{Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness};
+use std::f64::consts::PI;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// What is looked beyond contact so that a list of neighbours lasts, in radii.
+const SKIN: f64 = 1.0;
+/// Distance from contact within which two capsules are in the pattern of the stiffness, in radii.
+const MARGIN: f64 = 0.25;
+/// Neighbours that press on a filament from all sides: of six in a bundle half of what they resist is
+/// along one direction.
+const PRESSING: f64 = 3.0;
+
+/// What contacts are like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactParameters {
+    /// Radius of every filament (nm): axes repel each other within twice of it.
+    pub radius: f64,
+    /// Greatest stiffness of two filaments that cross at a right angle (pN/nm).
+    pub stiffness: f64,
+    /// Length of filament (nm) from which on parts of one repel each other; at least that of the half
+    /// circle of a hairpin whose sides touch, `pi` radii.
+    pub apart: f64,
+}
+
+/// Repulsion between capsules of different filaments, and of parts of one that are apart along it: term
+/// `repulsion`, one element for each capsule, which has half the energy of each of its contacts.
+///
+/// `E = sum w_a w_b e (1 - r_ab^2/D^2)^4` over points of both axes that are less than `D`, two radii,
+/// apart; each stands for the length `w` (nm). With `k` the `stiffness`, `e = 27 k / (32 pi)`. Two
+/// filaments that cross at a right angle at a distance `d` repel each other with `2 pi e d q^4`,
+/// `q = 1 - d^2/D^2`: with `0.351 k D` at most, at `d = D/3`, behind which they would pass through each
+/// other. Forces act along the lines between points: momentum and angular momentum stay as they are.
+///
+/// Loads allocate memory only when filaments have moved by a radius since neighbours were last looked for.
+#[derive(Debug)]
+pub struct Contacts {
+    capsules: Vec<Capsule>,
+    rows: Vec<Row>,
+    radius: f64,
+    kernel: Kernel,
+    reach: Reach,
+    neighbours: Mutex<Neighbours>,
+}
+
+impl Clone for Contacts {
+    fn clone(&self) -> Self {
+        Self {
+            capsules: self.capsules.clone(),
+            rows: self.rows.clone(),
+            neighbours: Mutex::default(),
+            ..*self
+        }
+    }
+}
+
+/// How far two surfaces are apart where they are nearest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// Distance of the surfaces (nm); negative where one is in the other.
+    pub gap: f64,
+    /// The capsules, by their indices; of a wall the second is the first again.
+    pub capsules: [usize; 2],
+    /// Arc lengths there (nm).
+    pub places: [f64; 2],
+}
+
+impl Contacts {
+    /// Contacts between `capsules`.
+    ///
+    /// # Errors
+    /// A radius, a stiffness or a length that is not positive and finite, or a length below `pi` radii.
+    ///
+    /// ```
+    /// use actin_coupling::repulsion::{Axis, Capsule, ContactParameters, Contacts};
+    /// use actin_coupling::{Interaction, Loads, Point, State, Vector3};
+    /// let mut state = State::default();
+    /// // Two stretches of 20 nm that cross at a right angle, 5 nm apart.
+    /// let ends = [(10.0, 0.0, 0.0), (-10.0, 0.0, 0.0), (0.0, 10.0, 5.0), (0.0, -10.0, 5.0)];
+    /// let points = ends.map(|(x, y, z)| {
+    ///     state.points.push(Point { position: Vector3::new(x, y, z), mass: 1.0 })
+    /// });
+    /// let capsule = |a, b, filament| Capsule::new(Axis::Points([a, b]), 20.0, (filament, 10.0));
+    /// let capsules = vec![capsule(points[0], points[1], 0)?, capsule(points[2], points[3], 1)?];
+    /// let like = ContactParameters { radius: 3.5, stiffness: 100.0, apart: 11.0 };
+    /// let contacts = Contacts::new(capsules, like)?;
+    /// let mut loads = Loads::zeros(&state);
+    /// contacts.add_loads(&state, &mut loads);
+    /// let force = loads.force.get(points[2]).z + loads.force.get(points[3]).z;
+    /// // 2 pi e d q^4 with e = 27 k / (32 pi) = 26.86 pN/nm, d = 5 nm, q = 1 - 25/49.
+    /// assert!((force / 48.59 - 1.0).abs() < 1e-3, "{force}");
+    /// assert!((contacts.closest(&state).unwrap().gap + 2.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn new(
+        capsules: Vec<Capsule>,
+        parameters: ContactParameters,
+    ) -> Result<Self, RepulsionError> {
+        let ContactParameters {
+            radius,
+            stiffness,
+            apart,
+        } = parameters;
+        positive("radius", radius)?;
+        positive("stiffness", stiffness)?;
+        positive("apart", apart)?;
+        if apart < PI * radius {
+            return Err(RepulsionError {
+                key: "apart",
+                value: apart,
+                rule: "at least pi radii",
+            });
+        }
+        Ok(Self {
+            rows: capsules.iter().map(|c| Row::of(c, radius)).collect(),
+            capsules,
+            radius,
+            kernel: Kernel::new(stiffness, 2.0 * radius),
+            reach: Reach {
+                known: (2.0 + MARGIN) * radius,
+                skin: SKIN * radius,
+                apart,
+            },
+            neighbours: Mutex::default(),
+        })
+    }
+
+    /// The capsules.
+    pub fn capsules(&self) -> &[Capsule] {
+        &self.capsules
+    }
+
+    /// Depth over the distance of contact, two radii, at which the force of a crossing is greatest.
+    pub fn yield_depth() -> f64 {
+        1.0 - Kernel::YIELD
+    }
+
+    /// What contacts can stiffen a filament by per length (pN/nm^2), with neighbours pressed against it
+    /// on all sides that move the opposite way.
+    pub fn greatest_stiffness(&self) -> f64 {
+        2.0 * PRESSING * self.kernel.greatest_parallel()
+    }
+
+    /// Where surfaces are nearest; none if none are within a quarter of a radius.
+    pub fn closest(&self, state: &State) -> Option<Gap> {
+        let mut least: Option<Gap> = None;
+        let known = self.neighbours(state);
+        for &[i, j] in &known.pairs {
+            let nearest = distance::between(known.ends[i], known.ends[j]);
+            let gap = nearest.squared.sqrt() - 2.0 * self.radius;
+            let is_least = least.is_none_or(|least| gap < least.gap);
+            if gap <= MARGIN * self.radius && is_least {
+                let at = |capsule: &Capsule, share: f64| {
+                    capsule.middle() + (share - 0.5) * capsule.length()
+                };
+                let [a, b] = nearest.shares;
+                let places = [at(&self.capsules[i], a), at(&self.capsules[j], b)];
+                let capsules = [i, j];
+                least = Some(Gap {
+                    gap,
+                    capsules,
+                    places,
+                });
+            }
+        }
+        least
+    }
+
+    /// The neighbours in a state.
+    fn neighbours(&self, state: &State) -> MutexGuard<'_, Neighbours> {
+        let locked = self.neighbours.lock();
+        let mut neighbours = locked.unwrap_or_else(PoisonError::into_inner);
+        neighbours.update(&self.capsules, state, &self.reach);
+        neighbours
+    }
+
+    /// Goes through the pairs of capsules whose axes are nearer than `within`, in the order of their
+    /// indices.
+    fn visit(&self, state: &State, within: f64, mut visit: impl FnMut([usize; 2], &Pair)) {
+        let known = self.neighbours(state);
+        for &[i, j] in &known.pairs {
+            let ends = [known.ends[i], known.ends[j]];
+            if distance::between(ends[0], ends[1]).squared < within * within {
+                let rows = [self.rows[i], self.rows[j]];
+                visit([i, j], &Pair { ends, rows });
+            }
+        }
+    }
+}
+
+impl Interaction for Contacts {
+    fn term(&self) -> &'static str {
+        "repulsion"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        self.visit(state, self.kernel.reach, |pair, places| {
+            let forces = places.forces(&self.kernel);
+            for (i, forces) in pair.into_iter().zip(forces) {
+                self.capsules[i].add_forces(forces, state, loads);
+            }
+        });
+    }
+
+    fn elements(&self) -> usize {
+        self.capsules.len()
+    }
+
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        assert_eq!(energies.len(), self.elements(), "one energy per capsule");
+        energies.fill(0.0);
+        self.visit(state, self.kernel.reach, |pair, places| {
+            let half = 0.5 * places.energy(&self.kernel);
+            for i in pair {
+                energies[i] += half;
+            }
+        });
+    }
+
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        Some(self)
+    }
+}
+
+impl SecondOrder for Contacts {
+    /// The pairs are those whose surfaces are within a quarter of a radius of contact in this very state,
+    /// so that they change before their blocks cease to be zero.
+    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        self.visit(state, self.reach.known, |[i, j], places| {
+            let tangents = places.tangents(&self.kernel);
+            let forces = places.forces(&self.kernel);
+            let (a, b) = (&self.capsules[i], &self.capsules[j]);
+            let (of_a, of_b) = (a.slopes(state), b.slopes(state));
+            let bodies: [Follows; 4] = [(0, of_a[0]), (0, of_a[1]), (2, of_b[0]), (2, of_b[1])];
+            push_blocks(&bodies, &tangents, stiffness);
+            for (capsule, forces) in [a, b].into_iter().zip(forces) {
+                let geometric = capsule.curvature_of_work(forces.map(|f| -f), state);
+                if let Some((frame, block)) = geometric {
+                    stiffness.push(frame, frame, block);
+                }
+            }
+        });
+    }
+}
+
+/// A body, the index of the first of the two ends that follow it, and their derivatives.
+type Follows = (usize, (Coordinates, [Matrix3; 2]));
+
+/// Pushes `J^T K J` for each pair of bodies once.
+fn push_blocks(bodies: &[Follows; 4], tangents: &[[Matrix3; 4]; 4], stiffness: &mut Stiffness) {
+    for (k, &(first, (a, slopes_a))) in bodies.iter().enumerate() {
+        for &(second, (b, slopes_b)) in &bodies[k..] {
+            let mut block = Matrix3::zeros();
+            for (e, slope_a) in slopes_a.iter().enumerate() {
+                for (f, slope_b) in slopes_b.iter().enumerate() {
+                    block += slope_a.transpose() * tangents[first + e][second + f] * slope_b;
+                }
+            }
+            if a == b {
+                block = 0.5 * (block + block.transpose());
+            }
+            stiffness.push(a, b, block);
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Two capsules: the sum over the points of both axes.
+
+use super::capsule::Row;
+use super::kernel::Kernel;
+use actin_mechanics::{Matrix3, Vector3};
+
+/// Two capsules as they stand: ends and points of the axis of each.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    pub(super) ends: [[Vector3; 2]; 2],
+    pub(super) rows: [Row; 2],
+}
+
+/// Two points in contact: from the first to the second, depth, shares along their capsules, and the
+/// product of the lengths that they stand for.
+struct Touch {
+    d: Vector3,
+    depth: f64,
+    shares: [f64; 2],
+    weight: f64,
+}
+
+impl Pair {
+    /// Goes through all points that are in contact, those of the first in order, with each those of the
+    /// second in order.
+    #[inline]
+    fn touches(&self, kernel: &Kernel, mut visit: impl FnMut(&Touch)) {
+        let [[a0, a1], [b0, b1]] = self.ends;
+        let (along_a, along_b) = (a1 - a0, b1 - b0);
+        let length2 = along_b.norm_squared();
+        let [row, other] = self.rows;
+        let weight = row.weight * other.weight;
+        for k in 0..row.count {
+            let share = row.share(k);
+            let x = a0 + along_a * share;
+            let start = x - b0;
+            // Of the second axis the stretch within reach.
+            let middle = start.dot(&along_b) / length2;
+            let across = start.norm_squared() - middle * middle * length2;
+            let half = ((kernel.reach * kernel.reach - across) / length2).sqrt();
+            let count = other.count as f64;
+            for l in points_between(
+                (middle - half) * count,
+                (middle + half) * count,
+                other.count,
+            ) {
+                let at = other.share(l);
+                let d = along_b * at - start;
+                let depth = kernel.depth(d);
+                if depth > 0.0 {
+                    visit(&Touch {
+                        d,
+                        depth,
+                        shares: [share, at],
+                        weight,
+                    });
+                }
+            }
+        }
+    }
+
+    /// Energy (pN nm).
+    pub(super) fn energy(&self, kernel: &Kernel) -> f64 {
+        let mut energy = 0.0;
+        self.touches(kernel, |t| energy += t.weight * kernel.energy(t.depth));
+        energy
+    }
+
+    /// Forces on the two ends of each (pN, lab frame).
+    pub(super) fn forces(&self, kernel: &Kernel) -> [[Vector3; 2]; 2] {
+        let mut forces = [[Vector3::zeros(); 2]; 2];
+        self.touches(kernel, |t| {
+            let force = t.d * (t.weight * kernel.force_over_distance(t.depth));
+            let [a, b] = t.shares;
+            forces[0][0] -= force * (1.0 - a);
+            forces[0][1] -= force * a;
+            forces[1][0] += force * (1.0 - b);
+            forces[1][1] += force * b;
+        });
+        forces
+    }
+
+    /// Second derivatives by the four ends, those of the first capsule first.
+    pub(super) fn tangents(&self, kernel: &Kernel) -> [[Matrix3; 4]; 4] {
+        let mut blocks = [[Matrix3::zeros(); 4]; 4];
+        self.touches(kernel, |t| {
+            let tangent = kernel.tangent(t.depth, t.d) * t.weight;
+            let [a, b] = t.shares;
+            let factors = [a - 1.0, -a, 1.0 - b, b];
+            for (row, f) in blocks.iter_mut().zip(factors) {
+                for (block, g) in row.iter_mut().zip(factors) {
+                    *block += tangent * (f * g);
+                }
+            }
+        });
+        blocks
+    }
+}
+
+/// Those of `count` points at 0.5, 1.5, 2.5 ... that lie between two places; one more on either side, since
+/// places are rounded. None if the places are no numbers, as where nothing is within reach.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "not negative; conversions saturate, which leaves all points on that side"
+)]
+fn points_between(from: f64, to: f64, count: usize) -> std::ops::Range<usize> {
+    let first = (from - 1.5).max(0.0) as usize;
+    let past = (to + 1.5).max(0.0) as usize;
+    first.min(count)..past.min(count)
+}

@@ -1,0 +1,322 @@
+//! Repulsion: that its loads are a gradient that balances, that it is what the closed forms say however axes
+//! are divided, and that no result depends on when neighbours were looked for.
+
+use actin_coupling::repulsion::{
+    Axis, Capsule, ContactParameters, Contacts, RepulsionError, Side, Tethers, Wall, WallContact,
+};
+use actin_mechanics::testing::{
+    assert_are_second_derivatives, assert_is_balanced, assert_is_gradient, assert_is_invariant,
+    loads_of,
+};
+use actin_mechanics::{Frame, Inertia, Interaction, Loads, Point, State, Vector3, rotation};
+use actin_mechanics::{Xorshift, perturb};
+use std::f64::consts::PI;
+
+const RADIUS: f64 = 3.5;
+const STIFFNESS: f64 = 100.0;
+
+fn parameters() -> ContactParameters {
+    ContactParameters {
+        radius: RADIUS,
+        stiffness: STIFFNESS,
+        apart: 30.0,
+    }
+}
+
+/// Pushes a straight chain of `count` capsules of a length as nodes of a filament.
+fn chain(
+    state: &mut State,
+    (filament, from, along): (usize, Vector3, Vector3),
+    (count, length): (usize, f64),
+) -> Vec<Capsule> {
+    let nodes: Vec<usize> = (0..=count)
+        .map(|k| {
+            let position = from + along.normalize() * (length * k as f64);
+            let mass = 0.2;
+            state.points.push(Point { position, mass })
+        })
+        .collect();
+    let of = |(k, pair): (usize, &[usize])| {
+        let middle = (k as f64 + 0.5) * length;
+        Capsule::new(Axis::Points([pair[0], pair[1]]), length, (filament, middle)).unwrap()
+    };
+    nodes.windows(2).enumerate().map(of).collect()
+}
+
+/// Pushes monomers along z, the axis 1.8 nm from their centres.
+fn monomers(state: &mut State, filament: usize, from: Vector3, count: usize) -> Vec<Capsule> {
+    let (rise, radius) = (2.7385, 1.8);
+    let of = |k: usize| {
+        let turn = rotation::exp(Vector3::z() * (2.9 * k as f64));
+        let centre = from + Vector3::z() * (rise * k as f64) + turn * Vector3::x() * radius;
+        let point = state.points.push(Point {
+            position: centre,
+            mass: 0.0697,
+        });
+        let frame = state.frames.push(Frame {
+            orientation: turn,
+            inertia: Inertia::from_moments([0.2, 0.15, 0.15]).unwrap(),
+        });
+        let arms = [-0.5, 0.5].map(|h| Vector3::new(-radius, 0.0, h * rise));
+        let axis = Axis::Body { point, frame, arms };
+        Capsule::new(axis, rise, (filament, rise * k as f64)).unwrap()
+    };
+    (0..count).map(of).collect()
+}
+
+/// A chain across monomers and a second chain at a slant to both, in contact, all perturbed.
+fn tangle() -> (State, Vec<Capsule>) {
+    let mut state = State::default();
+    let (z, x) = (Vector3::z(), Vector3::x());
+    let mut capsules = monomers(&mut state, 0, z * -8.0, 7);
+    let across = (1, x * -15.0 + Vector3::y() * 5.0, x + z * 0.1);
+    capsules.extend(chain(&mut state, across, (3, 10.0)));
+    let slanted = (2, Vector3::new(-12.0, 10.0, -4.0), x + z * 0.3);
+    capsules.extend(chain(&mut state, slanted, (3, 8.0)));
+    perturb(&mut state, &mut Xorshift::new(4), 0.3, 0.1);
+    (state, capsules)
+}
+
+/// Loads, second derivatives, balance and invariance, of monomers and chains alike.
+#[test]
+fn contacts_are_the_gradient_of_an_energy_that_is_seen_from_everywhere_alike() {
+    let (state, capsules) = tangle();
+    let contacts = Contacts::new(capsules, parameters()).unwrap();
+    assert!(contacts.energy(&state) > 10.0, "no contact is tested");
+    // The kernel has four derivatives only: a step over its edge leaves h^4 of the fifth.
+    assert_is_gradient(&contacts, &state, 1e-3, 1e-8);
+    assert_are_second_derivatives(&contacts, &state, 1e-3, 1e-7);
+    assert_is_balanced(&contacts, &state, 1e-13);
+    assert_is_invariant(&contacts, &state, 1e-12);
+}
+
+#[test]
+fn walls_are_the_gradient_of_their_energy() {
+    let (state, capsules) = tangle();
+    let plane = Wall::Plane {
+        point: Vector3::y() * -1.0,
+        normal: Vector3::new(0.2, 2.0, 0.1),
+    };
+    let sphere = |radius, side| Wall::Sphere {
+        centre: Vector3::new(1.0, 22.0, 2.0),
+        radius,
+        side,
+    };
+    for wall in [
+        plane,
+        sphere(15.0, Side::Outside),
+        sphere(23.0, Side::Inside),
+    ] {
+        let contact = WallContact::new(capsules.clone(), wall, RADIUS, STIFFNESS).unwrap();
+        assert!(contact.energy(&state) > 1.0, "{wall:?} touches nothing");
+        assert_is_gradient(&contact, &state, 1e-3, 1e-8);
+        assert_are_second_derivatives(&contact, &state, 1e-3, 1e-7);
+    }
+}
+
+/// The force along `across` on the second of two filaments that start as given.
+fn force_between(
+    first: (Vector3, Vector3),
+    second: (Vector3, Vector3),
+    division: [(usize, f64); 2],
+    across: Vector3,
+) -> f64 {
+    let mut state = State::default();
+    let mut capsules = chain(&mut state, (0, first.0, first.1), division[0]);
+    let others = state.points.len();
+    capsules.extend(chain(&mut state, (1, second.0, second.1), division[1]));
+    let contacts = Contacts::new(capsules, parameters()).unwrap();
+    let loads = loads_of(&contacts, &state);
+    let on_second: Vector3 = (others..state.points.len())
+        .map(|i| loads.force.get(i))
+        .sum();
+    on_second.dot(&across)
+}
+
+/// The closed form of a crossing, `2 pi e d q^4`, wherever the axes cross and however they are divided: a
+/// surface has no bumps that a filament could catch on. Deviations are those of sums from integrals, which grow
+/// where the stretch in contact is no longer than a few of its points.
+#[test]
+fn a_crossing_has_its_force_wherever_it_is_and_however_axes_are_divided() {
+    let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+    for (d, bound) in [(2.333, 1e-4), (4.0, 1e-3), (5.5, 1e-2), (6.3, 5e-2)] {
+        let q = 1.0 - d * d / (4.0 * RADIUS * RADIUS);
+        let expected = 27.0 * STIFFNESS / (32.0 * PI) * 2.0 * PI * d * q.powi(4);
+        for division in [(4, 10.0), (15, 2.7385), (2, 20.0), (40, 1.0)] {
+            for shift in [0.0, 0.3, 1.1, 4.9] {
+                let first = (x * (-20.0 + shift), x);
+                let second = (y * -19.0 + z * d, y);
+                let force = force_between(first, second, [division, (4, 10.0)], z);
+                let error = (force / expected - 1.0).abs();
+                assert!(error < bound, "{d}, {division:?}, {shift}: {error:e}");
+            }
+        }
+    }
+}
+
+/// Per length, the derivative of `256/315 e D q^4.5`.
+#[test]
+fn parallel_filaments_have_the_force_per_length_of_the_integral() {
+    let (y, z) = (Vector3::y(), Vector3::z());
+    let reach = 2.0 * RADIUS;
+    let per_length = |d: f64| {
+        let (e, q) = (27.0 * STIFFNESS / (32.0 * PI), 1.0 - (d / reach).powi(2));
+        256.0 / 315.0 * e * reach * 4.5 * q.powf(3.5) * 2.0 * d / (reach * reach)
+    };
+    // The second is all within the first; its force is spread evenly.
+    for (d, bound) in [(3.0, 1e-4), (5.0, 1e-3), (6.3, 3e-2)] {
+        for shift in [0.0, 0.7] {
+            let second = (y * d + z * (20.0 + shift), z);
+            let force = force_between((Vector3::zeros(), z), second, [(8, 10.0), (11, 2.7385)], y);
+            let error = (force / (11.0 * 2.7385) / per_length(d) - 1.0).abs();
+            assert!(error < bound, "{d}, {shift}: {error:e}");
+        }
+    }
+}
+
+/// The greatest stiffness of a crossing is the one asked for, and that of parallel filaments is what tethers
+/// take it for.
+#[test]
+fn stiffness_is_what_was_asked_for() {
+    let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+    let slope = |force: &dyn Fn(f64) -> f64, d: f64| (force(d - 1e-3) - force(d + 1e-3)) / 2e-3;
+    let steps = || (20..70).map(|k| f64::from(k) * 0.1);
+    let crossing = |d: f64| {
+        let pieces = [(4, 10.0), (4, 10.0)];
+        force_between((x * -20.0, x), (y * -20.0 + z * d, y), pieces, z)
+    };
+    let greatest = steps().map(|d| slope(&crossing, d)).fold(0.0, f64::max);
+    assert!((greatest / STIFFNESS - 1.0).abs() < 2e-3, "{greatest}");
+    let parallel = |d: f64| {
+        let pieces = [(8, 10.0), (4, 10.0)];
+        force_between((Vector3::zeros(), z), (y * d + z * 20.0, z), pieces, y) / 40.0
+    };
+    let greatest = steps().map(|d| slope(&parallel, d)).fold(0.0, f64::max);
+    let contacts = Contacts::new(Vec::new(), parameters()).unwrap();
+    let tether = contacts.greatest_stiffness() / 6.0;
+    assert!(
+        (greatest / tether - 1.0).abs() < 2e-3,
+        "{greatest}, {tether}"
+    );
+}
+
+/// Loads in a state are the same bits whether neighbours were looked for there or far back, also where all
+/// have moved a little less than calls for another look.
+#[test]
+fn loads_do_not_depend_on_when_neighbours_were_looked_for() {
+    let (mut state, capsules) = tangle();
+    let used = Contacts::new(capsules.clone(), parameters()).unwrap();
+    let mut noise = Xorshift::new(9);
+    for _ in 0..200 {
+        perturb(&mut state, &mut noise, 0.4, 0.05);
+        let fresh = Contacts::new(capsules.clone(), parameters()).unwrap();
+        assert_eq!(loads_of(&used, &state), loads_of(&fresh, &state));
+        assert_eq!(
+            used.energy(&state).to_bits(),
+            fresh.energy(&state).to_bits()
+        );
+        let blocks = |contacts: &Contacts| {
+            let mut stiffness = actin_mechanics::Stiffness::default();
+            let second = contacts.second_order().unwrap();
+            second.add_stiffness(&state, &mut stiffness);
+            stiffness
+        };
+        assert_eq!(blocks(&used), blocks(&fresh));
+        assert_eq!(used.closest(&state), fresh.closest(&state));
+    }
+}
+
+/// The sides of a hairpin repel each other; what lies within the bend does not, nor do neighbours.
+#[test]
+fn a_filament_repels_itself_where_it_comes_back() {
+    let mut state = State::default();
+    let (y, z) = (Vector3::y(), Vector3::z());
+    let there = chain(&mut state, (0, Vector3::zeros(), z), (5, 10.0));
+    let back = chain(&mut state, (0, y * 6.0 + z * 50.0, -z), (5, 10.0));
+    let shifted = back.iter().map(|capsule| {
+        let (first, middle) = (state.points.len() - 6, capsule.middle());
+        let k = (middle / 10.0).floor();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "0 to 4"
+        )]
+        let first = first + k as usize;
+        let middle = middle + 50.0 + 9.42;
+        Capsule::new(Axis::Points([first, first + 1]), 10.0, (0, middle)).unwrap()
+    });
+    let capsules: Vec<Capsule> = there.into_iter().chain(shifted).collect();
+    let contacts = Contacts::new(capsules, parameters()).unwrap();
+    let mut energies = vec![0.0; contacts.elements()];
+    contacts.write_energies(&state, &mut energies);
+    let touched: Vec<bool> = energies.iter().map(|e| *e > 0.0).collect();
+    // The last segment before the bend is 9.4 nm of filament from the first behind it, and 19.4 nm from the next.
+    let expected = [true, true, true, true, false, false, true, true, true, true];
+    assert_eq!(touched, expected);
+}
+
+/// Far from the distance of contact there is nothing, and what is no number or far beyond all measure ends in no
+/// panic.
+#[test]
+fn exploded_states_end_in_no_panic() {
+    let (state, capsules) = tangle();
+    let contacts = Contacts::new(capsules, parameters()).unwrap();
+    for bad in [f64::NAN, f64::INFINITY, 1e200] {
+        let mut broken = state.clone();
+        broken.points.position.x[2] = bad;
+        contacts.add_loads(&broken, &mut Loads::zeros(&broken));
+        let _ = contacts.closest(&broken);
+    }
+}
+
+/// `k L |x|^2 / 2`: the ends of 20 nm move by 2 nm, as if each had half the length.
+#[test]
+fn tethers_hold_all_of_an_axis() {
+    let mut state = State::default();
+    let capsules = chain(&mut state, (0, Vector3::zeros(), Vector3::z()), (2, 10.0));
+    let tethers = Tethers::new(&state, &capsules, RADIUS, 3.0);
+    for i in 0..3 {
+        state.points.position.add(i, Vector3::x() * 2.0);
+    }
+    assert!((tethers.energy(&state) - 3.0 * 20.0 * 2.0).abs() < 1e-10);
+    assert_is_gradient(&tethers, &state, 1e-2, 1e-10);
+}
+
+#[test]
+fn numbers_that_make_no_sense_are_refused() {
+    let key = |result: Result<(), RepulsionError>| result.unwrap_err().key;
+    let contacts = |like| Contacts::new(Vec::new(), like).map(drop);
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let of = |radius, stiffness, apart| ContactParameters {
+            radius,
+            stiffness,
+            apart,
+        };
+        assert_eq!(key(contacts(of(bad, 1.0, 30.0))), "radius");
+        assert_eq!(key(contacts(of(1.0, bad, 30.0))), "stiffness");
+        assert_eq!(key(contacts(of(1.0, 1.0, bad))), "apart");
+        let capsule = Capsule::new(Axis::Points([0, 1]), bad, (0, 0.0));
+        assert_eq!(key(capsule.map(drop)), "length");
+    }
+    assert_eq!(
+        key(contacts(ContactParameters {
+            apart: 10.0,
+            ..parameters()
+        })),
+        "apart"
+    );
+    let wall = |wall| WallContact::new(Vec::new(), wall, RADIUS, STIFFNESS).map(drop);
+    let plane = |normal| Wall::Plane {
+        point: Vector3::zeros(),
+        normal,
+    };
+    assert_eq!(key(wall(plane(Vector3::zeros()))), "normal");
+    assert!(wall(plane(Vector3::x() * 1e-200)).is_ok());
+    let sphere = |radius, side| Wall::Sphere {
+        centre: Vector3::zeros(),
+        radius,
+        side,
+    };
+    assert_eq!(key(wall(sphere(3.0, Side::Inside))), "radius of a sphere");
+    assert!(wall(sphere(3.0, Side::Outside)).is_ok());
+}

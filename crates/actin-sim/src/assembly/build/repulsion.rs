@@ -1,0 +1,147 @@
+//! From a scene's repulsion to what repels which stretches of filament.
+
+use super::{Body, Builder};
+use crate::assembly::Part;
+use crate::assembly::repelled::{Repelled, Touching};
+use crate::scene::{Repulsion, SceneProblem, SphereSide};
+use actin_coupling::repulsion::{
+    Axis, Capsule, ContactParameters, Contacts, RepulsionError, Side, Wall, WallContact,
+};
+use actin_mechanics::Vector3;
+use std::f64::consts::PI;
+
+impl Builder<'_> {
+    /// Pushes what the scene says of repulsion.
+    ///
+    /// # Errors
+    /// Filaments that are built so far into each other or into a wall that they would be driven through.
+    pub(super) fn push_repulsion(&mut self) -> Result<(), SceneProblem> {
+        let Some(repulsion) = &self.scene.repulsion else {
+            return Ok(());
+        };
+        let refused = |e: RepulsionError| SceneProblem::new("repulsion", "", e.to_string());
+        let capsules = self.capsules().map_err(refused)?;
+        let (radius, stiffness) = (repulsion.radius_nm, repulsion.stiffness_pn_per_nm);
+        let parameters = ContactParameters {
+            radius,
+            stiffness,
+            apart: self.reach_nm().max(PI * radius),
+        };
+        let contacts = repulsion
+            .filaments
+            .then(|| Contacts::new(capsules.clone(), parameters))
+            .transpose()
+            .map_err(refused)?;
+        if let Some(contacts) = &contacts {
+            self.stock
+                .push_term(Box::new(contacts.clone()), Part::Contacts);
+        }
+        let mut walls = Vec::new();
+        for (part, wall) in walls_of(repulsion) {
+            let wall =
+                WallContact::new(capsules.clone(), wall, radius, stiffness).map_err(refused)?;
+            self.stock.push_term(Box::new(wall.clone()), part);
+            walls.push((part, wall));
+        }
+        let repelled = Repelled {
+            capsules,
+            contacts,
+            walls,
+            radius_nm: radius,
+        };
+        let touching = repelled.touching(&self.stock.state);
+        if let Some(beyond) = touching.iter().find(|touching| touching.is_beyond()) {
+            return Err(self.built_into(beyond, radius));
+        }
+        self.repelled = Some(repelled);
+        Ok(())
+    }
+
+    /// That filaments stand in each other or in a wall as built.
+    fn built_into(&self, touching: &Touching, radius: f64) -> SceneProblem {
+        let key = match touching.part {
+            Part::Plane(i) => format!("repulsion.planes[{i}]"),
+            Part::Sphere(i) => format!("repulsion.spheres[{i}]"),
+            _ => "repulsion.radius_nm".to_owned(),
+        };
+        let value = match touching.part {
+            Part::Contacts => format!("{radius:?}"),
+            _ => String::new(),
+        };
+        let rule = format!(
+            "as built {}: farther than the repulsion could push back; place them apart",
+            touching.in_words(self.filaments.len())
+        );
+        SceneProblem::new(key, value, rule)
+    }
+
+    /// How far bonds and segments couple at most, in any filament (nm).
+    fn reach_nm(&self) -> f64 {
+        let strands = self.strands.iter().zip(&self.filaments);
+        let of_each = strands.flat_map(|(strand, span)| {
+            let sections = self.stock.sections[span.sections.clone()].iter();
+            sections.map(|section| section.reach_nm(strand.lattice.rise_nm))
+        });
+        of_each.fold(0.0, f64::max)
+    }
+
+    /// All filaments, as stretches of axis in the order of arc length.
+    fn capsules(&self) -> Result<Vec<Capsule>, RepulsionError> {
+        let state = &self.stock.state;
+        let mut capsules = Vec::new();
+        for (filament, strand) in self.strands.iter().enumerate() {
+            for (body, resolved) in strand.bodies.iter().zip(&strand.resolved) {
+                match body {
+                    Body::Rod(layout) => {
+                        let nodes = layout.node_positions();
+                        for (segment, length) in layout.segment_lengths().iter().enumerate() {
+                            let first = layout.points().start + segment;
+                            let middle =
+                                resolved.from_nm + 0.5 * (nodes[segment] + nodes[segment + 1]);
+                            let axis = Axis::Points([first, first + 1]);
+                            capsules.push(Capsule::new(axis, *length, (filament, middle))?);
+                        }
+                    }
+                    Body::Monomers(monomers) => {
+                        for k in 0..monomers.count {
+                            let s_nm = strand.lattice.s_nm(monomers.index(k));
+                            let (point, frame) = (monomers.point(k), monomers.frame(k));
+                            let q = state.frames.orientation.get(frame);
+                            let arms = strand.cell(s_nm).map(|s| {
+                                let arm = strand.axis_at(s) - state.points.position.get(point);
+                                q.inverse_transform_vector(&arm)
+                            });
+                            let axis = Axis::Body { point, frame, arms };
+                            let length = strand.lattice.rise_nm;
+                            capsules.push(Capsule::new(axis, length, (filament, s_nm))?);
+                        }
+                    }
+                }
+            }
+        }
+        Ok(capsules)
+    }
+}
+
+/// The walls of a scene, planes first.
+fn walls_of(repulsion: &Repulsion) -> Vec<(Part, Wall)> {
+    let planes = repulsion.planes.iter().enumerate().map(|(i, plane)| {
+        let wall = Wall::Plane {
+            point: Vector3::from(plane.at_nm),
+            normal: Vector3::from(plane.normal),
+        };
+        (Part::Plane(i), wall)
+    });
+    let spheres = repulsion.spheres.iter().enumerate().map(|(i, sphere)| {
+        let wall = Wall::Sphere {
+            centre: Vector3::from(sphere.at_nm),
+            radius: sphere.radius_nm,
+            side: match sphere.side {
+                SphereSide::Inside => Side::Inside,
+                SphereSide::Outside => Side::Outside,
+            },
+        };
+        (Part::Sphere(i), wall)
+    });
+    planes.chain(spheres).collect()
+}

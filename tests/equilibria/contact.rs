@@ -1,0 +1,219 @@
+//! Equilibria in contact: against closed forms, beam theory, and whatever the filament is resolved into.
+
+use crate::common::{build, failure, run_anyway, solved};
+use actin_mechanics::testing::resultant;
+use actin_mechanics::{Loads, Vector3};
+use actin_sim::{Assembly, Failure, Part, Summary};
+
+/// Force of one part of an assembly on all bodies, and about where it acts along z.
+fn pushed(assembly: &Assembly, part: Part) -> (Vector3, f64) {
+    let term = assembly.terms.iter().position(|t| t.part == part).unwrap();
+    let state = assembly.system.state();
+    let mut loads = Loads::zeros(state);
+    assembly.system.interactions()[term].add_loads(state, &mut loads);
+    let (force, moment) = resultant(state, &loads);
+    // Of a force along x at height z the moment about the origin is z F along y.
+    (force, moment.y / force.x)
+}
+
+/// A cantilever of 160 nm pressed aside by a sphere at its end, which is moved into its way by `shift_nm`.
+fn pressed(section: &str, at_nm: f64, x_nm: f64) -> String {
+    format!(
+        "Scene(
+            filament: Filament(sections: [{section}]),
+            clamps: [Clamp(end: Start)],
+            repulsion: Repulsion(
+                filaments: false, stiffness_pn_per_nm: 1e4,
+                spheres: [Sphere(at_nm: ({x_nm:?}, 0.0, {at_nm:?}), radius_nm: 10.0, side: Outside)],
+            ),
+            task: Equilibrium(),
+        )"
+    )
+}
+
+/// The force of a sphere on a cantilever is `d / (s^3/3B + s/S)`, `d` the deflection where it presses: beam theory,
+/// with what bends and shears read from the rod alone. Segments of 5 nm carry 0.03 % of bending too little, and the
+/// contact is 4 nm wide: together less than half a percent.
+#[test]
+fn a_sphere_presses_a_cantilever_as_beam_theory_has_it() {
+    let rod = "Rod(from_nm: 0.0, to_nm: 160.0, segments: 32)";
+    // The surfaces meet at 13.7 nm.
+    let (assembly, _) = solved(&pressed(rod, 120.0, -12.7));
+    let (force, z) = pushed(&assembly, Part::Sphere(0));
+    let state = assembly.system.state();
+    let x = |k: usize| state.points.position.get(k);
+    let k = (0..32).find(|&k| x(k + 1).z > z).unwrap();
+    let share = (z - x(k).z) / (x(k + 1).z - x(k).z);
+    let deflection = x(k).x + share * (x(k + 1).x - x(k).x);
+    let expected = deflection / (z.powi(3) / (3.0 * 3.9e4) + z / 1.6e4);
+    let error = force.x / expected - 1.0;
+    println!(
+        "{:.5} pN at {z:.2} nm for {deflection:.4} nm, {error:e} from beam theory",
+        force.x
+    );
+    assert!(force.x > 0.03 && error.abs() < 5e-3, "{error}");
+}
+
+/// A rod that its weight presses on a plane, in which nothing holds it, lies `p` deep: `k p^3 / (6 R^3)` is its weight
+/// per length. So do monomers.
+#[test]
+fn a_filament_lies_on_a_plane_at_the_depth_of_its_weight() {
+    let per_nm = 0.05;
+    let depth = (6.0 * 3.7_f64.powi(3) * per_nm / 1e3).cbrt();
+    for section in [
+        "Rod(from_nm: 0.0, to_nm: 80.0)",
+        "Ellipsoids(from_nm: 0.0, to_nm: 80.0)",
+        "Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 80.0)",
+    ] {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [{section}], at_nm: (4.0, 0.0, 0.0)),
+                clamps: [Clamp(end: Start, slides: Freely)],
+                loads: [ForcePerLength(force_pn_per_nm: (-{per_nm:?}, 0.0, 0.0))],
+                repulsion: Repulsion(planes: [Plane(at_nm: (0.0, 0.0, 0.0), normal: (3.0, 0.0, 0.0))]),
+                task: Equilibrium(),
+            )"
+        );
+        let (assembly, outcome) = solved(&text);
+        let state = assembly.system.state();
+        let gap = assembly.smallest_gap_nm(state).unwrap();
+        println!("{section}: {gap:.6} nm, {depth:.6} nm deep");
+        // Ends of a clamped monomer filament reach a rise beyond the load: 3 % more length, 1 % less depth.
+        let bound = if section.starts_with("Rod") {
+            1e-6
+        } else {
+            2e-2
+        };
+        assert!((gap / -depth - 1.0).abs() < bound, "{gap}");
+        let last = actin_sim::Record {
+            at: actin_sim::At::Path(1.0),
+            state: state.clone(),
+            energies_pn_nm: assembly.system.energies(),
+            kinetic_pn_nm: 0.0,
+            residual_force_pn: 0.0,
+            residual_torque_pn_nm: 0.0,
+        };
+        let summary = Summary::new(&assembly, &last, &outcome);
+        assert_eq!(summary.smallest_gap_nm, Some(gap));
+    }
+}
+
+/// Two filaments, one across the other, both held at both ends; the second is moved against the first.
+fn crossing(first: &str, shift_nm: f64) -> String {
+    format!(
+        "Scene(
+            filaments: [
+                Filament(sections: [{first}]),
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 80.0, segments: 16)], at_nm: (9.0, -40.0, 40.0),
+                    direction: (0.0, 1.0, 0.0)),
+            ],
+            clamps: [
+                Clamp(end: Start), Clamp(end: End),
+                Clamp(filament: 1, end: Start), Clamp(filament: 1, end: End),
+            ],
+            repulsion: Repulsion(),
+            path: [Stage(set: [
+                Shift(filament: 1, end: Start, shift_nm: ({shift_nm:?}, 0.0, 0.0)),
+                Shift(filament: 1, end: End, shift_nm: ({shift_nm:?}, 0.0, 0.0)),
+            ])],
+            task: Equilibrium(),
+        )"
+    )
+}
+
+/// Two crossing filaments are moved into each other's way until each is bent by 4 nm: forces are equal and opposite, the
+/// state is a minimum, and the force is what the whole energy changes by with the displacement of the ends, of
+/// which nothing but the contact holds the second back.
+#[test]
+fn crossing_filaments_bend_each_other() {
+    let rod = "Rod(from_nm: 0.0, to_nm: 80.0, segments: 16)";
+    for first in [rod, "Ellipsoids(from_nm: 0.0, to_nm: 80.0)"] {
+        let (assembly, outcome) = solved(&crossing(first, -12.0));
+        let state = assembly.system.state();
+        let gap = assembly.smallest_gap_nm(state).unwrap();
+        assert_eq!(outcome.certificate().unwrap().negative, 0);
+        let term = assembly
+            .terms
+            .iter()
+            .position(|t| t.part == Part::Contacts)
+            .unwrap();
+        let mut loads = Loads::zeros(state);
+        assembly.system.interactions()[term].add_loads(state, &mut loads);
+        let on = |filament: usize| -> Vector3 {
+            let points = assembly.filaments[filament].points.clone();
+            points.map(|i| loads.force.get(i)).sum()
+        };
+        let energy = |shift: f64| solved(&crossing(first, shift)).0.system.potential_energy();
+        let slope = (energy(-12.05) - energy(-11.95)) / 0.1;
+        let error = on(1).x / slope - 1.0;
+        println!(
+            "{first}: gap {gap:.4} nm, force {:.3} pN, {error:e} from the work",
+            on(1).x
+        );
+        assert!((on(0) + on(1)).norm() < 1e-10 * on(0).norm());
+        // The square of 0.05 nm over that of a few nm.
+        assert!(
+            error.abs() < 1e-3 && gap < -1.0 && gap > -2.0,
+            "{error}, {gap}"
+        );
+    }
+}
+
+/// What is pressed farther than repulsion can push back has failed, and says where.
+#[test]
+fn what_is_pressed_through_a_wall_fails() {
+    let text = "Scene(
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)], at_nm: (4.0, 0.0, 0.0)),
+        clamps: [Clamp(end: Start, slides: Freely)],
+        loads: [ForcePerLength(force_pn_per_nm: (-500.0, 0.0, 0.0))],
+        repulsion: Repulsion(planes: [Plane(at_nm: (0.0, 0.0, 0.0), normal: (1.0, 0.0, 0.0))]),
+        task: Equilibrium(force_pn: 1e-5),
+    )";
+    let (failure, outcome) = failure(run_anyway(&mut build(text)).1);
+    assert!(matches!(failure, Failure::BeyondUse(_)), "{failure}");
+    let beyond = &outcome.beyond_use[0];
+    assert_eq!(
+        (beyond.quantity.as_str(), beyond.filament, beyond.section),
+        ("wall", 0, 0)
+    );
+    assert!(beyond.value > 1.0, "{beyond}");
+}
+
+/// Filaments built into each other: refused where they would be driven through, noted where they would be
+/// driven apart.
+#[test]
+fn filaments_built_into_each_other_are_refused_or_noted() {
+    let scene = |x: f64| {
+        format!(
+            "Scene(
+                filaments: [
+                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 80.0)]),
+                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 80.0)], at_nm: ({x:?}, -40.0, 40.0),
+                        direction: (0.0, 1.0, 0.0)),
+                ],
+                repulsion: Repulsion(),
+                task: Dynamics(duration_ns: 1.0),
+            )"
+        )
+    };
+    let problem = |x| {
+        let scene = actin_sim::Scene::from_ron(&scene(x)).unwrap();
+        Assembly::build(&scene).map(|assembly| assembly.notes())
+    };
+    let refused = problem(2.0).unwrap_err().to_string();
+    assert!(
+        refused.starts_with(
+            "repulsion.radius_nm = 3.7: as built filament 0 is 5.40 nm deep in filament 1 at s = 40.00 and 40.00 nm"
+        ),
+        "{refused}"
+    );
+    let notes = problem(6.4).unwrap();
+    assert_eq!(
+        notes,
+        [
+            "repulsion: as built filament 0 is 1.00 nm deep in filament 1 at s = 40.00 and 40.00 nm, so that it is not \
+          at rest"
+        ]
+    );
+    assert!(problem(7.5).unwrap().is_empty());
+}
