@@ -100,6 +100,7 @@ impl Observer for First {
         self.0 = Some(RunPosition::Motion(Box::new(MotionPosition {
             checkpoint: pause.checkpoint(),
             pushes: Vec::new(),
+            events: Vec::new(),
         })));
         ControlFlow::Break(())
     }

@@ -213,3 +213,37 @@ fn contacts_go_on_to_the_same_bits() {
         &[1, 3, 2],
     );
 }
+
+/// Linkers that break, form and step: what holds and where is in the checkpoint, and so is the log of events.
+#[test]
+fn linkers_go_on_to_the_same_bits() {
+    let scene = |task: &str| {
+        let text = format!(
+            "Scene(
+                filaments: [
+                    Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 14.0), Rod(from_nm: 14.0, to_nm: 44.0)]),
+                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)], at_nm: (9.0, 0.0, 0.0)),
+                ],
+                clamps: [Clamp(end: Start)],
+                linkers: [
+                    Linker(at_nm: 20.0, to: Site(filament: 1, at_nm: 22.0), stiffness_pn_per_nm: 20.0, rest_length_nm: 8.0,
+                        kinetics: Kinetics(seed: 1, breaks: Breaking(rate_per_ns: 20.0, force_pn: 10.0),
+                            forms: Forming(rate_per_ns: 30.0, reach_nm: 5.0))),
+                    Linker(at_nm: 2.0, displaced_nm: (-5.0, 0.0, 0.0), stiffness_pn_per_nm: 2.0,
+                        kinetics: Kinetics(seed: 4, steps: Stepping(step_nm: 2.7, rate_per_ns: 30.0, stall_pn: 50.0))),
+                ],
+                task: Dynamics(duration_ns: 0.3, record_every_ns: 0.03, {task}),
+            )"
+        );
+        Scene::from_ron(&text).unwrap()
+    };
+    let thermal = "thermal: (temperature_k: 298.0, seed: 3),
+        drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0)";
+    for task in ["", "integrator: Vefrl", thermal] {
+        let scene = scene(task);
+        let assembly = actin_sim::Assembly::build(&scene).unwrap();
+        let (_, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
+        assert!(outcome.events.len() > 5, "{:?}", outcome.events);
+        compare(&scene, &[2, 3, 5]);
+    }
+}

@@ -9,6 +9,7 @@ mod equipartition;
 mod filaments;
 mod invariants;
 mod joined;
+mod kinetics;
 mod laws;
 mod modes;
 mod observed;

@@ -95,7 +95,7 @@ impl Opened {
             let reseeded = Drawn::ALL.map(|what| scene.reseed(what, seed));
             if reseeded.iter().sum::<usize>() == 0 {
                 return Err(Failure::Input(format!(
-                    "--seed {seed}: {name} draws nothing: no bonds, thermal noise or imperfections"
+                    "--seed {seed}: {name} draws nothing: no bonds, thermal noise, imperfections or events of linkers"
                 )));
             }
         }

@@ -8,7 +8,7 @@
 //! being built, [`Junction::new`] makes the interaction once all bodies stand.
 //!
 //! A [`Linker`] is a spring that holds a [`Site`] of a filament, on monomer or rod, to an [`Anchor`]
-//! or to another site; a [`SiteForce`] pulls at sites. [`repulsion`] keeps filaments out of each other and
+//! or to another site; a [`SwitchedLinker`] holds at one of several or not at all; a [`SiteForce`] pulls at sites. [`repulsion`] keeps filaments out of each other and
 //! out of walls.
 //!
 //! Nothing here knows how monomers hold together or where a scene puts a junction or a linker.
@@ -28,6 +28,7 @@ mod linker;
 pub mod repulsion;
 mod site;
 mod site_force;
+mod switched;
 
 pub use build::push_junction_frames;
 pub use error::{JunctionError, LinkerError, LinkerKey};
@@ -35,6 +36,7 @@ pub use junction::{AttachedMonomer, Junction, JunctionParts, JunctionSide, Junct
 pub use linker::{Anchor, Linker, LinkerEnd};
 pub use site::{RodPlace, Site};
 pub use site_force::{ForceKind, SiteForce};
+pub use switched::SwitchedLinker;
 
 /// The crate of rods, whose ends are joined here.
 pub use actin_cosserat as cosserat;

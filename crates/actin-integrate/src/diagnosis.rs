@@ -163,6 +163,14 @@ impl Thermostat for Probe<'_> {
     fn add_thermal_impulses(&mut self, points: &Vectors, frames: &Vectors) {
         self.system.add_thermal_impulses(points, frames);
     }
+
+    fn has_step_end(&self) -> bool {
+        self.system.has_step_end()
+    }
+
+    fn end_step(&mut self, step: u64, h: f64) {
+        self.system.end_step(step, h);
+    }
 }
 
 /// The first load that is not finite: on which body, and of which term.

@@ -272,6 +272,17 @@ impl Run {
 
     /// Advances `system` by `steps` steps, the first of which has the number `first_step`.
     pub(crate) fn advance(&self, system: &mut impl Thermostat, first_step: u64, steps: u64) {
+        if !system.has_step_end() {
+            self.advance_at_once(system, first_step, steps);
+            return;
+        }
+        for step in first_step..first_step + steps {
+            self.advance_at_once(system, step, 1);
+            system.end_step(step + 1, self.h);
+        }
+    }
+
+    fn advance_at_once(&self, system: &mut impl Thermostat, first_step: u64, steps: u64) {
         let (scheme, h) = (self.scheme, self.h);
         match &self.bath {
             None => advance(system, scheme, h, steps, &self.drag),

@@ -61,7 +61,7 @@ pub use spring::{Hooke, Spring, SpringError, Springs};
 pub use state::State;
 pub use stats::StateStats;
 pub use stiffness::{Coordinates, SecondOrder, Stiffness};
-pub use system::{Drive, Split, System, Thermostat};
+pub use system::{Drive, Split, StepEnd, System, Thermostat};
 pub use vectors::Vectors;
 pub use weight::Weight;
 

@@ -19,7 +19,15 @@ pub trait Split {
     fn force_evaluations(&self) -> u64;
 }
 
-/// What a heat bath may do to a system besides damping it.
+/// What happens to a system between one time step and the next, such as a spring that breaks.
+pub trait StepEnd: std::fmt::Debug + Send + Sync {
+    /// Lets happen what does at the end of the step with the number `step`, counted from 1, of a length
+    /// `h`. Returns whether loads may have changed. What it does depends on its arguments alone: steps may be made
+    /// again.
+    fn end_step(&self, state: &mut State, step: u64, h: f64) -> bool;
+}
+
+/// What a heat bath may do to a system besides damping it, and what happens between steps.
 pub trait Thermostat: Split {
     /// Number of points and of frames, held ones included.
     fn bodies(&self) -> (usize, usize);
@@ -31,6 +39,14 @@ pub trait Thermostat: Split {
     /// body axis `a`. Held bodies gain nothing; a body that slides gains, along its `k`-th
     /// direction, component `k` of its first point's `d` over the root of its whole mass.
     fn add_thermal_impulses(&mut self, points: &Vectors, frames: &Vectors);
+
+    /// Whether something happens at the end of each step, so that steps are to be made one by one.
+    fn has_step_end(&self) -> bool {
+        false
+    }
+
+    /// Lets that happen, at the end of the step with the number `step`, counted from 1, of a length `h`.
+    fn end_step(&mut self, _step: u64, _h: f64) {}
 }
 
 /// What moves held bodies and controls as time goes.
@@ -56,6 +72,7 @@ pub struct System {
     changed_outside: bool,
     force_evaluations: u64,
     drive: Option<Box<dyn Drive>>,
+    step_end: Option<Box<dyn StepEnd>>,
 }
 
 impl System {
@@ -70,7 +87,7 @@ impl System {
     }
 
     /// Another system under the same interactions, which both share, in a state of the same bodies; it
-    /// has no drive.
+    /// has no drive, and nothing happens between its steps.
     ///
     /// # Panics
     /// As [`new`](Self::new).
@@ -90,6 +107,7 @@ impl System {
             changed_outside: false,
             force_evaluations: 0,
             drive: None,
+            step_end: None,
         }
     }
 
@@ -99,6 +117,11 @@ impl System {
         self.loads_are_current = false;
         self.state.time = 0.0;
         self.drive = Some(drive);
+    }
+
+    /// Lets something happen between steps from now on.
+    pub fn set_step_end(&mut self, step_end: Box<dyn StepEnd>) {
+        self.step_end = Some(step_end);
     }
 
     /// The present state.
@@ -242,6 +265,18 @@ impl Thermostat for System {
             slider.add_thermal_impulses(&mut state.points.velocity, points);
         }
         state.frames.add_thermal_impulses(frames);
+    }
+
+    fn has_step_end(&self) -> bool {
+        self.step_end.is_some()
+    }
+
+    fn end_step(&mut self, step: u64, h: f64) {
+        if let Some(step_end) = &self.step_end
+            && step_end.end_step(&mut self.state, step, h)
+        {
+            self.loads_are_current = false;
+        }
     }
 }
 

@@ -37,8 +37,8 @@ pub use actin_integrate as integrate;
 pub use actin_mechanics as mechanics;
 pub use assembly::{
     Assembly, BeyondRange, BeyondUse, BodyKind, Clamped, Counts, Drive, FilamentSpan, Fluctuations,
-    FrameInfo, JunctionBond, Part, PointInfo, Reaction, Resolution, SectionSpan, Term,
-    UnstableTwist,
+    FrameInfo, Happening, JunctionBond, LinkerEvent, Part, PointInfo, Reaction, Resolution,
+    SectionSpan, Term, UnstableTwist,
 };
 pub use error::SimError;
 pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
@@ -57,12 +57,13 @@ pub use scene::fitted::laws as fitted_laws;
 #[cfg(feature = "schema")]
 pub use scene::schema;
 pub use scene::{
-    Acceleration, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Clamp, Couple,
-    CouplePerLength, DragRates, Drawn, Dynamics, End, Equilibrium, Factor, Filament, Force,
-    ForceLaw, ForcePerLength, Hinge, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight,
-    Linker, LinkerSite, Load, Material, Monomers, Observable, Output, Override, Pace, Plane, Point,
-    Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError, SceneProblem,
-    SceneText, Section, Setting, Shape, ShearLaw, Slides, Sphere, SphereSide, Stage,
-    StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
+    Acceleration, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking, Catch,
+    Clamp, Couple, CouplePerLength, DragRates, Drawn, Dynamics, End, Equilibrium, Factor, Filament,
+    Force, ForceLaw, ForcePerLength, Forming, Hinge, Hold, Imperfection, Integrator, JunctionModel,
+    JunctionWeight, Kinetics, Linker, LinkerSite, Load, Material, Monomers, Observable, Output,
+    Override, Pace, Plane, Point, Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene,
+    SceneError, SceneProblem, SceneText, Section, Setting, Shape, ShearLaw, Slides, Sphere,
+    SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise,
+    TwistStretchLaw,
 };
 pub use scene::{Readings, read_all, read_ron};

@@ -76,8 +76,8 @@ pub(crate) fn of_monomers(count: f64, bonds: usize, task: &Task) -> f64 {
     count * (MONOMER.of(task) + BOND * bonds as f64)
 }
 
-/// Numbers of a record besides its state, its energies and what is observed: time, kinetic energy, residuals.
-const NUMBERS_OF_ROW: usize = 4;
+/// Numbers of a record besides its state, its energies and what is observed: time, kinetic energy, residuals, events.
+const NUMBERS_OF_ROW: usize = 5;
 
 /// Bytes of a recorded state with the energies of so many terms.
 fn of_record(state: &State, terms: usize) -> f64 {

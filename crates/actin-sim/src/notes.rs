@@ -95,6 +95,7 @@ impl Outcome {
     /// Notes on what this run could not determine, a sentence each; `last` is its last record.
     pub(crate) fn notes(&self, assembly: &Assembly, last: &Record) -> Vec<String> {
         let mut notes = unknown_twist(assembly, last);
+        notes.extend(assembly.note_on_rates(&last.state));
         let is_motion = matches!(assembly.scene.task, Task::Dynamics(_));
         if is_motion && self.has_converged() && self.at_rest.is_none() {
             notes.push(

@@ -14,13 +14,14 @@ mod spans;
 mod strand;
 
 use super::{
-    Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Part, PointInfo, Repelled, Rod, SectionSpan,
-    Term, imperfection,
+    Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Kinetics, Part, PointInfo, Repelled, Rod,
+    SectionSpan, Term, imperfection,
 };
 use crate::observe::{EnergyNames, Observers};
 use crate::scene::{End, HeldEnds, Scene, SceneProblem, Section};
 use actin_coupling::Linker;
 use actin_mechanics::{ControlId, Interaction, State, System};
+use std::sync::Arc;
 use strand::{Body, Strand};
 
 impl Assembly {
@@ -77,6 +78,7 @@ struct Builder<'a> {
     clamps: Vec<Clamped>,
     loads: Vec<ControlId>,
     linkers: Vec<Linker>,
+    kinetics: Option<Kinetics>,
     repelled: Option<Repelled>,
 }
 
@@ -106,6 +108,7 @@ impl<'a> Builder<'a> {
             clamps: Vec::new(),
             loads: Vec::new(),
             linkers: Vec::new(),
+            kinetics: None,
             repelled: None,
         })
     }
@@ -164,6 +167,7 @@ impl<'a> Builder<'a> {
             held: self.held,
             loads: self.loads,
             linkers: self.linkers,
+            kinetics: self.kinetics.map(Arc::new),
             repelled: self.repelled,
             spans,
             observers: Observers::default(),

@@ -12,6 +12,7 @@ mod describe;
 mod drive;
 mod hinge;
 mod imperfection;
+mod kinetics;
 mod lattice;
 mod law;
 mod models;
@@ -27,6 +28,8 @@ pub use beyond_use::BeyondUse;
 pub(crate) use beyond_use::worst as worst_of;
 pub use bonded::JunctionBond;
 pub use drive::Drive;
+pub use kinetics::{Happening, LinkerEvent};
+pub(crate) use kinetics::{Kinetics, Log};
 pub(crate) use parts::Rod;
 pub use parts::{
     BodyKind, Counts, FilamentSpan, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term,
@@ -45,6 +48,7 @@ use actin_coupling::Linker;
 use actin_mechanics::{ControlId, State, System, UnitQuaternion, Vector3};
 use nalgebra::Unit;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A scene, ready to run.
 #[derive(Debug)]
@@ -71,8 +75,10 @@ pub struct Assembly {
     pub(crate) held: HeldEnds,
     /// The controls of the factors of its loads, in the order of the scene.
     pub(crate) loads: Vec<ControlId>,
-    /// The linkers, in the order of the scene.
+    /// The linkers, in the order of the scene; those that step at their first place.
     pub linkers: Vec<Linker>,
+    /// Those of them to which something happens in time, if there are some.
+    pub(crate) kinetics: Option<Arc<Kinetics>>,
     /// What repels them, if anything does.
     pub(crate) repelled: Option<Repelled>,
     /// For each term the arc lengths (nm) between which each of its elements lies; empty for loads

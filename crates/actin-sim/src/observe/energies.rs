@@ -15,7 +15,12 @@ impl Names {
     pub(crate) fn of(assembly: &Assembly) -> Self {
         let mut parts: Vec<Part> = Vec::new();
         let mut place = |part: Part| match part {
-            Part::Load(_) | Part::Linker(_) | Part::Clamp(_) => None,
+            Part::Load(_)
+            | Part::Linker(_)
+            | Part::Clamp(_)
+            | Part::Contacts
+            | Part::Plane(_)
+            | Part::Sphere(_) => None,
             // Terms of one part stand together.
             Part::Section(_) | Part::Junction(_) => {
                 let known = parts.iter().rposition(|known| *known == part);

@@ -59,6 +59,7 @@ fn recorded(assembly: &Assembly) -> (Record, Summary) {
         kinetic_pn_nm: 0.25,
         residual_force_pn: 0.0,
         residual_torque_pn_nm: 0.0,
+        events_pn_nm: 0.0,
         observed: observe(assembly, &state),
         state,
     };

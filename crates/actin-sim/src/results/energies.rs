@@ -70,6 +70,7 @@ pub(super) struct EnergyTable<'a> {
     /// For each term the place of its name, and that of its part, behind those of all names.
     places: [Vec<usize>; 2],
     sums: usize,
+    assembly: &'a Assembly,
 }
 
 impl<'a> EnergyTable<'a> {
@@ -84,6 +85,7 @@ impl<'a> EnergyTable<'a> {
             header: header(assembly, &names, &parts),
             sums: names.len() + parts.len(),
             places: [by_name, behind.collect()],
+            assembly,
         }
     }
 
@@ -96,7 +98,9 @@ impl<'a> EnergyTable<'a> {
                 sums[place] += energy;
             }
         }
-        row(self.terms, record, sums)
+        let mut row = row(self.terms, record, sums);
+        row.extend(self.assembly.kinetics.as_ref().map(|_| record.events_pn_nm));
+        row
     }
 
     /// Refuses numbers of record `i` that are not finite.
@@ -131,9 +135,13 @@ fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
         .chain(parts.iter().map(|part| assembly.name_of(*part)))
         .map(|name| format!("{name}_pn_nm"));
     let residuals = ["residual_force_pn", "residual_torque_pn_nm"].map(str::to_owned);
+    // What events have added to the total so far: without it, drag and driving the total is constant.
+    let events = assembly.energy_of_events_pn_nm(&assembly.rest);
+    let events = events.map(|_| "events_pn_nm".to_owned());
     std::iter::once(clock(assembly).to_owned())
         .chain(energies)
         .chain(residuals)
+        .chain(events)
         .collect()
 }
 

@@ -47,6 +47,7 @@ pub(super) fn linked() -> Assembly {
         displaced_nm: Some([1.0, 0.5, -0.3]),
         stiffness_pn_per_nm: 3.0,
         rest_length_nm: 0.4,
+        kinetics: None,
     });
     Assembly::build(&scene).unwrap()
 }
@@ -74,6 +75,7 @@ pub(super) fn pair() -> Assembly {
         displaced_nm: None,
         stiffness_pn_per_nm: 3.0,
         rest_length_nm: 0.4,
+        kinetics: None,
     });
     Assembly::build(&scene).unwrap()
 }
@@ -107,6 +109,7 @@ pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record 
         kinetic_pn_nm: state.kinetic_energy(),
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
+        events_pn_nm: 0.0,
         observed: Vec::new(),
         state,
     }

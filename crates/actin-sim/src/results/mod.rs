@@ -24,6 +24,7 @@ mod difference;
 mod directory;
 mod energies;
 mod error;
+mod events;
 mod finite;
 #[cfg(test)]
 mod fixture;

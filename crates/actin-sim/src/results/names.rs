@@ -4,6 +4,7 @@ pub(super) const SCENE: &str = "scene.ron";
 pub(super) const SUMMARY: &str = "summary.json";
 pub(super) const ENERGIES: &str = "energies.csv";
 pub(super) const OBSERVABLES: &str = "observables.csv";
+pub(super) const EVENTS: &str = "events.csv";
 pub(super) const PROFILE: &str = "profile.csv";
 pub(super) const STATES: &str = "states.npz";
 pub(super) const COLLECTION: &str = "run.pvd";
@@ -16,10 +17,11 @@ pub(super) const PICTURES: &str = "vtk";
 pub(super) const MANIFEST: &str = "actin-run.json";
 
 /// Everything that a run writes, beside its pictures, its manifest and its lock.
-pub(super) const FILES: [&str; 9] = [
+pub(super) const FILES: [&str; 10] = [
     SCENE,
     SUMMARY,
     ENERGIES,
+    EVENTS,
     OBSERVABLES,
     PROFILE,
     STATES,

@@ -4,14 +4,15 @@ use super::atomic;
 use super::directory::RunDirectory;
 use super::manifest::Manifest;
 use super::names::{
-    COLLECTION, ENERGIES, OBSERVABLES, PICTURES, PROFILE, SCENE, STATES, SUMMARY, picture_name,
+    COLLECTION, ENERGIES, EVENTS, OBSERVABLES, PICTURES, PROFILE, SCENE, STATES, SUMMARY,
+    picture_name,
 };
 use super::review::{Review, Tables};
 use super::staged::Staged;
 use super::vtk::{Drawing, write_collection};
-use super::{RunDirectoryError, Summary, ThermalSummary, profile};
+use super::{RunDirectoryError, Summary, ThermalSummary, events, profile};
 use crate::shape::{self, ProfilePoint};
-use crate::{Assembly, Outcome, Plan, Records, Scene, Status};
+use crate::{Assembly, LinkerEvent, Outcome, Plan, Records, Scene, Status};
 use std::fs;
 use std::io::{self, Write};
 
@@ -104,6 +105,7 @@ impl RunDirectory {
             manifest.add([COLLECTION]);
             manifest.add((0..results.records.count()).map(picture_name));
         }
+        manifest.add(results.events.as_ref().map(|_| EVENTS));
         manifest.write(&self.path)
     }
 }
@@ -116,6 +118,8 @@ struct Results<'a> {
     tables: Tables<'a>,
     along: Vec<Vec<ProfilePoint>>,
     summary: Summary,
+    /// None where nothing happens to linkers.
+    events: Option<Vec<LinkerEvent>>,
 }
 
 impl<'a> Results<'a> {
@@ -142,6 +146,7 @@ impl<'a> Results<'a> {
             .map(|filament| shape::profile_of(assembly, filament, &last.state))
             .collect();
         profile::ensure_all_finite(&along, PROFILE)?;
+        events::ensure_all_finite(&outcome.events)?;
         Ok(Self {
             assembly,
             records,
@@ -149,6 +154,7 @@ impl<'a> Results<'a> {
             tables,
             along,
             summary,
+            events: assembly.kinetics.as_ref().map(|_| outcome.events.clone()),
         })
     }
 
@@ -165,6 +171,9 @@ impl<'a> Results<'a> {
             staged.file(STATES, |out| tables.states.write(self.records, out))?;
         }
         staged.file(PROFILE, |out| profile::write(&self.along, out))?;
+        if let Some(happened) = &self.events {
+            staged.file(EVENTS, |out| events::write(happened, out))?;
+        }
         if output.vtk {
             self.stage_pictures(staged)?;
             staged.file(COLLECTION, |out| self.write_collection(out))?;

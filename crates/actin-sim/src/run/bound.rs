@@ -33,7 +33,8 @@ pub(super) fn kinetic_limit(assembly: &Assembly) -> f64 {
         _ => f64::INFINITY,
     };
     let work: f64 = scene.loads.iter().map(work_of).sum();
-    if !scene.path.is_empty() || work.is_infinite() {
+    // What binds in a stretched state brings energy with it.
+    if !scene.path.is_empty() || work.is_infinite() || assembly.kinetics.is_some() {
         return f64::INFINITY;
     }
     let heat = thermal_energy(assembly) * (0.5 * assembly.counts().dofs as f64 + THERMAL_EXCESS);

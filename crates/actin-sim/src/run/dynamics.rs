@@ -71,7 +71,15 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Sce
 
 /// The largest frequency of an assembly as it stands (rad/ns).
 fn frequency_of(assembly: &Assembly) -> Result<f64, SceneProblem> {
-    actin_integrate::largest_frequency(&assembly.system).map_err(|error| no_step(&error))
+    let system = &assembly.system;
+    let found = match &assembly.kinetics {
+        None => actin_integrate::largest_frequency(system),
+        Some(kinetics) => {
+            let bound = system.in_state(kinetics.all_bound(system.state()));
+            actin_integrate::largest_frequency(&bound)
+        }
+    };
+    found.map_err(|error| no_step(&error))
 }
 
 /// What leaves a filament without a time step.
@@ -96,6 +104,7 @@ pub(crate) fn estimate_at(
     }
     let steps = Steps::of(dynamics, wanted)?;
     check_records(assembly, dynamics, &steps)?;
+    assembly.check_rates(steps.length_ns)?;
     Ok(Estimate {
         largest_frequency_rad_per_ns: frequency,
         stability_limit_ns: limit,
@@ -200,6 +209,7 @@ pub(super) fn run(
     let mut system = assembly.system.in_state(assembly.system.state().clone());
     let run = prepare(assembly, &mut system, dynamics, estimate)?;
     let mut recorder = Recorder::new(assembly, dynamics, saved, sink);
+    recorder.let_happen(&mut system);
     let ending = recorder.execute(&run, &mut system);
     let ending = recorder.end(ending, &mut system);
     let wall_s = recorder.wall_s();
@@ -208,11 +218,16 @@ pub(super) fn run(
         time_step_ns: Some(estimate.time_step_ns),
         largest_frequency_rad_per_ns: Some(estimate.largest_frequency_rad_per_ns),
         saddles_left: recorder.pushes.len(),
+        events: recorder.events(),
         pushes: recorder.pushes,
         ..Outcome::new(Status::Failed, wall_s)
     }
     .with(recorder.taken.into_remarks());
-    Ok(conclude(assembly, dynamics, ending, outcome))
+    let (mut outcome, failure) = conclude(assembly, dynamics, ending, outcome);
+    // Where it failed, what happened later belongs to no record.
+    let steps = outcome.steps;
+    outcome.events.retain(|event| event.step <= steps);
+    Ok((outcome, failure))
 }
 
 /// How a motion ended, added to what is known of it.

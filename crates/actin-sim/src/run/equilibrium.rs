@@ -410,6 +410,7 @@ fn record(system: &System, u: f64, state: &State) -> Record {
         kinetic_pn_nm: 0.0,
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
+        events_pn_nm: 0.0,
         observed: Vec::new(),
         state: state.clone(),
     }

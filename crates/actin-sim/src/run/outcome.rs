@@ -3,7 +3,7 @@
 use super::taken::Remarks;
 use super::{EquilibriumReport, SaddlePush, Slip};
 use crate::scene::SceneProblem;
-use crate::{BeyondRange, BeyondUse, UnstableTwist};
+use crate::{BeyondRange, BeyondUse, LinkerEvent, UnstableTwist};
 use actin_equilibrium::{Certificate, PathFailure};
 use actin_integrate::RunFailure;
 use serde::{Deserialize, Serialize};
@@ -47,6 +47,8 @@ pub struct Outcome {
     pub saddles_left: usize,
     /// How a motion was pushed off saddles.
     pub pushes: Vec<SaddlePush>,
+    /// What happened to linkers, in order.
+    pub events: Vec<LinkerEvent>,
     /// How often the path went on from where a sudden jump led.
     pub jumps: usize,
     /// Where the model does not apply to its states, the worst of all records; a run with any has failed.
@@ -74,6 +76,7 @@ impl Outcome {
             at_rest: None,
             saddles_left: 0,
             pushes: Vec::new(),
+            events: Vec::new(),
             jumps: 0,
             beyond_use: Vec::new(),
             beyond_range: Vec::new(),

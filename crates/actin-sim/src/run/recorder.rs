@@ -5,13 +5,14 @@ use super::sink::{Clock, MotionPosition, Saved};
 use super::slip::Slip;
 use super::taken::Taken;
 use super::{At, Progress, Record, Recorded, RunPosition, Sink};
-use crate::Assembly;
-use crate::assembly::Ramp;
+use crate::assembly::{Log, Ramp};
 use crate::scene::Dynamics;
+use crate::{Assembly, LinkerEvent};
 use actin_equilibrium::Certificate;
 use actin_integrate::{Checkpoint, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome};
 use actin_mechanics::System;
 use std::ops::ControlFlow;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Passes on what is observed, and pushes the motion off saddles.
 pub(super) struct Recorder<'a> {
@@ -31,6 +32,9 @@ pub(super) struct Recorder<'a> {
     /// Whether there has been a record since.
     is_behind: bool,
     is_interrupted: bool,
+    assembly: &'a Assembly,
+    /// What happened to linkers.
+    log: Log,
 }
 
 /// How a motion ended.
@@ -58,9 +62,11 @@ impl<'a> Recorder<'a> {
     ) -> Self {
         let clock = Clock::new(saved.as_ref());
         let (position, recorded) = saved.map(|s| (s.position, s.recorded)).unzip();
-        let (position, pushes) = match position {
-            None => (None, Vec::new()),
-            Some(RunPosition::Motion(motion)) => (Some(motion.checkpoint), motion.pushes),
+        let (position, pushes, events) = match position {
+            None => (None, Vec::new(), Vec::new()),
+            Some(RunPosition::Motion(motion)) => {
+                (Some(motion.checkpoint), motion.pushes, motion.events)
+            }
             Some(RunPosition::Path(_)) => panic!("a path of equilibria is no motion in time"),
         };
         Self {
@@ -81,7 +87,29 @@ impl<'a> Recorder<'a> {
             }),
             position,
             is_interrupted: false,
+            assembly,
+            log: Arc::new(Mutex::new(events)),
         }
+    }
+
+    /// Lets happen to the linkers of `system` what does, from where the run stands.
+    pub(super) fn let_happen(&self, system: &mut System) {
+        if let Some(kinetics) = &self.assembly.kinetics {
+            system.set_step_end(Box::new(kinetics.happenings(&self.log)));
+        }
+    }
+
+    /// What happened to linkers.
+    pub(super) fn events(&self) -> Vec<LinkerEvent> {
+        let log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
+        log.clone()
+    }
+
+    /// The same up to a step.
+    fn events_until(&self, step: u64) -> Vec<LinkerEvent> {
+        let mut events = self.events();
+        events.retain(|event| event.step <= step);
+        events
     }
 
     /// Executes the run, or what is left of it.
@@ -156,6 +184,7 @@ impl<'a> Recorder<'a> {
 
     fn position_at(&self, checkpoint: Checkpoint) -> RunPosition {
         RunPosition::Motion(Box::new(MotionPosition {
+            events: self.events_until(checkpoint.here.step),
             checkpoint,
             pushes: self.pushes.clone(),
         }))
@@ -240,6 +269,7 @@ fn record(moment: &mut Moment<'_>) -> Record {
         kinetic_pn_nm: moment.kinetic_energy(),
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
+        events_pn_nm: 0.0,
         observed: Vec::new(),
     }
 }

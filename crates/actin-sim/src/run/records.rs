@@ -54,6 +54,8 @@ pub struct Record {
     pub residual_force_pn: f64,
     /// Largest torque on a free frame (pN nm).
     pub residual_torque_pn_nm: f64,
+    /// What breaking, forming and stepping of linkers has added to the energy up to here (pN nm).
+    pub events_pn_nm: f64,
     /// What the scene observes, in the order of the columns of `observables.csv`; NaN where there is nothing
     /// yet.
     pub observed: Vec<f64>,
@@ -73,6 +75,7 @@ impl Record {
             kinetic_pn_nm: self.kinetic_pn_nm,
             residual_force_pn: self.residual_force_pn,
             residual_torque_pn_nm: self.residual_torque_pn_nm,
+            events_pn_nm: self.events_pn_nm,
             observed: self.observed.clone(),
         }
     }
@@ -91,6 +94,8 @@ pub struct Row {
     pub residual_force_pn: f64,
     /// Largest torque on a free frame (pN nm).
     pub residual_torque_pn_nm: f64,
+    /// What breaking, forming and stepping of linkers has added to the energy up to here (pN nm).
+    pub events_pn_nm: f64,
     /// What the scene observes.
     pub observed: Vec<f64>,
 }

@@ -3,6 +3,7 @@
 //! What goes through a sink is values; files are the business of `results`.
 
 use super::{At, Record, Recorded, SaddlePush, Trajectory};
+use crate::LinkerEvent;
 use actin_equilibrium::{Certificate, PathCheckpoint, SolverWork};
 use actin_integrate::Checkpoint;
 use actin_mechanics::{Motion, Residual, State};
@@ -93,6 +94,8 @@ pub struct MotionPosition {
     pub checkpoint: Checkpoint,
     /// How it was pushed off saddles so far.
     pub pushes: Vec<SaddlePush>,
+    /// What happened to linkers so far.
+    pub events: Vec<LinkerEvent>,
 }
 
 /// Where a path of equilibria stands.

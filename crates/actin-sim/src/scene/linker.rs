@@ -1,7 +1,7 @@
 //! Linkers, as a scene writes them, and the rules of their numbers.
 
 use super::rules::{finite, non_negative, positive};
-use super::{Scene, SceneProblem};
+use super::{Kinetics, Scene, SceneProblem, kinetics};
 use serde::{Deserialize, Serialize};
 
 /// A Hookean linker between a site of a filament and an anchor outside of it, or another site.
@@ -41,6 +41,9 @@ pub struct Linker {
     /// Rest length; at least 0.
     #[serde(default)]
     pub rest_length_nm: f64,
+    /// Rates at which it breaks, forms and steps; by default it holds throughout.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kinetics: Option<Kinetics>,
 }
 
 /// Where on a filament a linker holds.
@@ -118,7 +121,7 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
             let key = key(linker.end_key());
             Err(SceneProblem::new(key, show(place), "must be finite"))
         }
-        _ => Ok(()),
+        _ => kinetics::check(scene, i, linker),
     }
 }
 

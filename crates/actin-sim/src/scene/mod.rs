@@ -8,6 +8,7 @@ mod curve;
 mod factor;
 pub(crate) mod fitted;
 mod imperfection;
+mod kinetics;
 mod law;
 mod linker;
 mod load;
@@ -44,6 +45,7 @@ pub(crate) use curve::{Curve, swept};
 pub use factor::Factor;
 pub(crate) use factor::smooth;
 pub use imperfection::Imperfection;
+pub use kinetics::{Breaking, Catch, Forming, Kinetics, Stepping};
 pub use law::{
     BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw,
 };

@@ -90,7 +90,7 @@ impl Repulsion {
     }
 
     /// Every broken rule.
-    pub(super) fn check(&self, note: &mut impl FnMut(Result<(), SceneProblem>)) {
+    fn check(&self, note: &mut impl FnMut(Result<(), SceneProblem>)) {
         if !self.filaments && !self.has_walls() {
             let rule = "nothing is repelled: write planes or spheres, or leave repulsion out";
             note(Err(SceneProblem::new("repulsion.filaments", false, rule)));
@@ -131,6 +131,13 @@ impl Sphere {
             return Err(SceneProblem::new(key, show(self.radius_nm), rule));
         }
         Ok(())
+    }
+}
+
+/// Every broken rule of what a scene says of repulsion.
+pub(super) fn check(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
+    if let Some(repulsion) = &scene.repulsion {
+        repulsion.check(note);
     }
 }
 

@@ -13,11 +13,13 @@ pub enum Drawn {
     Noise,
     /// The shapes of imperfections (`imperfection.seed`).
     Imperfections,
+    /// What happens to linkers (`linkers[].kinetics.seed`).
+    Linkers,
 }
 
 impl Drawn {
     /// Everything that can be drawn.
-    pub const ALL: [Self; 3] = [Self::Bonds, Self::Noise, Self::Imperfections];
+    pub const ALL: [Self; 4] = [Self::Bonds, Self::Noise, Self::Imperfections, Self::Linkers];
 }
 
 impl Scene {
@@ -45,6 +47,10 @@ impl Scene {
                 imperfect
                     .map(|imperfection| imperfection.seed = seed)
                     .count()
+            }
+            Drawn::Linkers => {
+                let linkers = self.linkers.iter_mut().filter_map(|l| l.kinetics.as_mut());
+                linkers.map(|kinetics| kinetics.seed = seed).count()
             }
         }
     }
@@ -75,7 +81,7 @@ mod tests {
             task: Dynamics(duration_ns: 1.0),
         )";
         let mut scene = Scene::from_ron(text).unwrap();
-        assert_eq!(Drawn::ALL.map(|what| scene.reseed(what, 7)), [1, 0, 1]);
+        assert_eq!(Drawn::ALL.map(|what| scene.reseed(what, 7)), [1, 0, 1, 0]);
         assert_eq!(scene.filament.monomers.seed, 7);
         assert_eq!(scene.further[0].monomers.seed, 0);
         assert_eq!(scene.further[0].imperfection.unwrap().seed, 7);

@@ -6,8 +6,8 @@ use super::rules::{
 use super::support::{check_support, check_swings};
 use super::{
     Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Resultant, Scene,
-    SceneProblem, Slides, StopTolerances, Task, imperfection, linker, load_rules, magnitude,
-    observable, saddles, section_rules, shape, stage, thermal,
+    SceneProblem, Slides, StopTolerances, Task, imperfection, kinetics, linker, load_rules,
+    magnitude, observable, repulsion, saddles, section_rules, shape, stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 
@@ -57,9 +57,7 @@ pub(super) fn problems(scene: &Scene) -> Vec<SceneProblem> {
     for (i, linker) in scene.linkers.iter().enumerate() {
         note(linker::check(scene, i, linker));
     }
-    if let Some(repulsion) = &scene.repulsion {
-        repulsion.check(&mut note);
-    }
+    repulsion::check(scene, &mut note);
     for (i, stage) in scene.path.iter().enumerate() {
         note(stage::check(scene, &held, (i, stage)));
     }
@@ -82,6 +80,7 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
             check_swings(scene, held)?;
             saddles::check(scene, dynamics)?;
             load_rules::check_rest(scene, dynamics)?;
+            kinetics::check_rest(scene, dynamics)?;
             let stop = dynamics.stop.as_ref();
             stop.map_or(Ok(()), |s| {
                 check_tolerance(scene, "task.stop", (s.force_pn, s.torque_pn_nm))

@@ -1,11 +1,11 @@
 //! From a scene's linkers to sites on what resolves them.
 
 use super::{Body, Builder, Strand};
-use crate::assembly::Part;
 use crate::assembly::lattice::Resolved;
+use crate::assembly::{Kinetics, Part};
 use crate::scene::{self, LinkerSite, SceneProblem};
 use actin_cosserat::RodLayout;
-use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, RodPlace, Site};
+use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, RodPlace, Site, SwitchedLinker};
 use actin_ellipsoid::Monomers;
 use actin_mechanics::{ControlId, Vector3};
 use std::collections::HashMap;
@@ -24,11 +24,53 @@ impl Builder<'_> {
             let state = &mut self.stock.state;
             let has_anchor = linker.to.is_none();
             let controls = has_anchor.then(|| [0.0; 3].map(|value| state.add_control(value)));
-            let linker = self.linker((i, linker), controls, &mut nodes)?;
-            self.stock
-                .push_term(Box::new(linker.clone()), Part::Linker(i));
-            self.linkers.push(linker);
+            let built = self.linker((i, linker), controls, &mut nodes)?;
+            match linker.kinetics {
+                None => self
+                    .stock
+                    .push_term(Box::new(built.clone()), Part::Linker(i)),
+                Some(kinetics) => self.push_switched((i, linker), kinetics, &built, &mut nodes)?,
+            }
+            self.linkers.push(built);
         }
+        Ok(())
+    }
+
+    /// Pushes linker `i`, to which something happens in time: at each of its places it is as `built`.
+    fn push_switched(
+        &mut self,
+        (i, linker): (usize, &scene::Linker),
+        kinetics: scene::Kinetics,
+        built: &Linker,
+        nodes: &mut Nodes,
+    ) -> Result<(), SceneProblem> {
+        let refused =
+            |error: LinkerError| SceneProblem::new(format!("linkers[{i}]"), "", error.to_string());
+        let length = self.strands[linker.filament].filament.length_nm();
+        let places_nm = match &kinetics.steps {
+            None => vec![linker.at_nm],
+            Some(steps) => steps.places_nm(linker.at_nm, length),
+        };
+        let at = |at_nm: f64, nodes: &mut Nodes| {
+            let place = LinkerSite {
+                at_nm,
+                ..linker.site()
+            };
+            let (stiffness, rest_length) = (linker.stiffness_pn_per_nm, linker.rest_length_nm);
+            Linker::new(
+                self.site(&place, nodes)?,
+                built.end().clone(),
+                stiffness,
+                rest_length,
+            )
+        };
+        let places = places_nm.iter().map(|&s| at(s, nodes));
+        let places = places.collect::<Result<Vec<_>, _>>().map_err(refused)?;
+        let state = &mut self.stock.state;
+        let switched = SwitchedLinker::new(state, places, kinetics.bound);
+        let all = self.kinetics.get_or_insert_with(|| Kinetics::new(state));
+        all.push(i, switched.clone(), kinetics, places_nm);
+        self.stock.push_term(Box::new(switched), Part::Linker(i));
         Ok(())
     }
 

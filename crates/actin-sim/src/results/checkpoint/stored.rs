@@ -28,6 +28,7 @@ pub(super) struct Stored<'a> {
     kinetic_pn_nm: f64,
     residual_force_pn: f64,
     residual_torque_pn_nm: f64,
+    events_pn_nm: f64,
     energies_pn_nm: Cow<'a, [f64]>,
     observed: Cow<'a, [f64]>,
     motion: Option<Motion>,
@@ -43,6 +44,7 @@ impl<'a> Stored<'a> {
             kinetic_pn_nm,
             residual_force_pn,
             residual_torque_pn_nm,
+            events_pn_nm,
             observed,
         } = record;
         Self {
@@ -50,6 +52,7 @@ impl<'a> Stored<'a> {
             kinetic_pn_nm: *kinetic_pn_nm,
             residual_force_pn: *residual_force_pn,
             residual_torque_pn_nm: *residual_torque_pn_nm,
+            events_pn_nm: *events_pn_nm,
             energies_pn_nm: energies_pn_nm.into(),
             observed: observed.into(),
             motion: has_state.then(|| state.motion()),
@@ -80,6 +83,7 @@ impl<'a> Stored<'a> {
             kinetic_pn_nm: self.kinetic_pn_nm,
             residual_force_pn: self.residual_force_pn,
             residual_torque_pn_nm: self.residual_torque_pn_nm,
+            events_pn_nm: self.events_pn_nm,
             observed: self.observed.into_owned(),
         }
     }
@@ -95,6 +99,7 @@ impl<'a> Stored<'a> {
             kinetic_pn_nm: row.kinetic_pn_nm,
             residual_force_pn: row.residual_force_pn,
             residual_torque_pn_nm: row.residual_torque_pn_nm,
+            events_pn_nm: row.events_pn_nm,
             observed: row.observed,
         })
     }
@@ -106,6 +111,7 @@ impl<'a> Stored<'a> {
             kinetic_pn_nm: 0.0,
             residual_force_pn: 0.0,
             residual_torque_pn_nm: 0.0,
+            events_pn_nm: 0.0,
             energies_pn_nm: vec![0.0; form.terms].into(),
             observed: vec![0.0; form.columns].into(),
             motion: form.has_states.then(|| form.like.motion()),

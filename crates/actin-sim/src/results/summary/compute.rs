@@ -23,6 +23,7 @@ impl Summary {
             kinetic_pn_nm: 0.0,
             residual_force_pn: 0.0,
             residual_torque_pn_nm: 0.0,
+            events_pn_nm: 0.0,
             observed: Vec::new(),
         };
         let energies = (record.energies_pn_nm.as_slice(), 0.0);

@@ -21,6 +21,12 @@ pub struct LinkerSummary {
     pub anchor_nm: [f64; 3],
     /// Force on the filament at the site (pN, lab frame); the opposite acts at the other end.
     pub force_pn: [f64; 3],
+    /// Whether it holds; none of one that always does. One that does not has no force.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bound: Option<bool>,
+    /// Arc length of the site (nm); none of one that always holds where it was put.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_nm: Option<f64>,
     /// Length beyond the rest length (nm); negative where the linker is shorter.
     pub extension_nm: f64,
 }
@@ -28,9 +34,23 @@ pub struct LinkerSummary {
 impl LinkerSummary {
     pub(super) fn all(assembly: &Assembly, state: &State) -> Vec<Self> {
         let written = &assembly.scene.linkers;
-        let linkers = written.iter().zip(&assembly.linkers);
+        let linkers = written.iter().zip(&assembly.linkers).enumerate();
         linkers
-            .map(|(written, linker)| Self::new(written, linker, state))
+            .map(|(i, (written, linker))| {
+                let kinetics = assembly.kinetics.as_ref();
+                let switched = kinetics.and_then(|kinetics| kinetics.linker(i));
+                let linker = switched.map_or(linker, |(switched, _)| switched.linker(state));
+                let summary = Self::new(written, linker, state);
+                match assembly.switched(i, state) {
+                    None => summary,
+                    Some((bound, at_nm)) => Self {
+                        bound: Some(bound),
+                        at_nm: Some(at_nm),
+                        force_pn: if bound { summary.force_pn } else { [0.0; 3] },
+                        ..summary
+                    },
+                }
+            })
             .collect()
     }
 
@@ -41,6 +61,8 @@ impl LinkerSummary {
             site_nm: linker.site().position(state).into(),
             anchor_nm: linker.end_position(state).into(),
             force_pn: linker.force(state).into(),
+            bound: None,
+            at_nm: None,
             extension_nm: linker.extension(state),
         }
     }

@@ -1,0 +1,108 @@
+//! A linker that holds or does not, and at one of several places. What switches it is no business of this
+//! crate.
+
+use crate::Linker;
+use actin_mechanics::{ControlId, Interaction, Loads, SecondOrder, State, Stiffness};
+
+/// A linker whose site is one of several places and which may have let go, as two controls say: term
+/// `linker`, one element.
+///
+/// A state that is copied, kept and restored has the linker as it was.
+#[derive(Clone, Debug)]
+pub struct SwitchedLinker {
+    places: Vec<Linker>,
+    bound: ControlId,
+    place: ControlId,
+}
+
+impl SwitchedLinker {
+    /// A linker at the first of its places, with the controls of whether it holds and where.
+    ///
+    /// # Panics
+    /// If there is no place.
+    pub fn new(state: &mut State, places: Vec<Linker>, is_bound: bool) -> Self {
+        assert!(!places.is_empty(), "a linker has at least one place");
+        Self {
+            places,
+            bound: state.add_control(f64::from(u8::from(is_bound))),
+            place: state.add_control(0.0),
+        }
+    }
+
+    /// The linker at each of its places.
+    pub fn places(&self) -> &[Linker] {
+        &self.places
+    }
+
+    /// Whether it holds.
+    pub fn is_bound(&self, state: &State) -> bool {
+        state.controls[self.bound] > 0.0
+    }
+
+    /// Index of its place.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "an index that was set as one"
+    )]
+    pub fn place(&self, state: &State) -> usize {
+        let place = state.controls[self.place] as usize;
+        place.min(self.places.len() - 1)
+    }
+
+    /// The linker at its place, whether it holds or not.
+    pub fn linker(&self, state: &State) -> &Linker {
+        &self.places[self.place(state)]
+    }
+
+    /// Lets go.
+    pub fn release(&self, state: &mut State) {
+        state.controls[self.bound] = 0.0;
+    }
+
+    /// Holds at a place.
+    ///
+    /// # Panics
+    /// If there is no such place.
+    pub fn bind(&self, state: &mut State, place: usize) {
+        assert!(place < self.places.len(), "no place {place}");
+        state.controls[self.bound] = 1.0;
+        state.controls[self.place] = place as f64;
+    }
+}
+
+impl Interaction for SwitchedLinker {
+    fn term(&self) -> &'static str {
+        "linker"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        if self.is_bound(state) {
+            self.linker(state).add_loads(state, loads);
+        }
+    }
+
+    fn elements(&self) -> usize {
+        1
+    }
+
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        if self.is_bound(state) {
+            self.linker(state).write_energies(state, energies);
+        } else {
+            energies.fill(0.0);
+        }
+    }
+
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        Some(self)
+    }
+}
+
+impl SecondOrder for SwitchedLinker {
+    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        if self.is_bound(state) {
+            self.linker(state).add_stiffness(state, stiffness);
+        }
+    }
+}

@@ -1,0 +1,361 @@
+//! Linkers that break, form and step: events at the ends of time steps, and their log.
+
+use super::Assembly;
+use crate::scene::{Breaking, Kinetics as Rates, SceneProblem, Stepping};
+use actin_coupling::SwitchedLinker;
+use actin_mechanics::{ControlId, Interaction, State, StepEnd};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Parts the key of these events from other uses of the same seed.
+const PURPOSE: [u8; 8] = *b"linkers\0";
+
+/// Largest rate times time step: the least is lost of times and of several events in a step.
+const COARSEST: f64 = 0.1;
+
+/// What happened to a linker.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Happening {
+    /// It let go.
+    Broke,
+    /// It began to hold.
+    Formed,
+    /// Its site went to the next place.
+    Stepped,
+    /// It let go at the end of the filament.
+    Left,
+}
+
+impl fmt::Display for Happening {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Broke => "broke",
+            Self::Formed => "formed",
+            Self::Stepped => "stepped",
+            Self::Left => "left",
+        })
+    }
+}
+
+/// Something that happened to a linker at the end of a time step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LinkerEvent {
+    /// Number of the step.
+    pub step: u64,
+    /// Time (ns).
+    pub time_ns: f64,
+    /// Index of the linker.
+    pub linker: usize,
+    /// What happened.
+    pub what: Happening,
+    /// Tension of the linker (pN) just before, or just after it formed.
+    pub force_pn: f64,
+    /// Arc length of the site (nm), of one that stepped where it went.
+    pub at_nm: f64,
+    /// What it added to the energy (pN nm).
+    pub energy_pn_nm: f64,
+}
+
+/// One linker with its rates.
+#[derive(Clone, Debug)]
+struct Switching {
+    index: usize,
+    linker: SwitchedLinker,
+    rates: Rates,
+    /// Arc lengths of its places (nm).
+    places_nm: Vec<f64>,
+}
+
+/// All linkers of a scene to which something happens.
+#[derive(Clone, Debug)]
+pub(crate) struct Kinetics {
+    all: Vec<Switching>,
+    /// What events have added to the energy so far (pN nm).
+    booked: ControlId,
+    /// Largest rate times step met so far.
+    coarsest: ControlId,
+}
+
+/// Events in order.
+pub(crate) type Log = Arc<Mutex<Vec<LinkerEvent>>>;
+
+/// The events of a run, as they happen to its system.
+#[derive(Debug)]
+pub(crate) struct Happenings {
+    kinetics: Arc<Kinetics>,
+    log: Log,
+}
+
+impl Kinetics {
+    /// Those of a state under construction, of which none is known yet.
+    pub(super) fn new(state: &mut State) -> Self {
+        Self {
+            all: Vec::new(),
+            booked: state.add_control(0.0),
+            coarsest: state.add_control(0.0),
+        }
+    }
+
+    /// Adds linker `index`, which may hold at these arc lengths (nm).
+    pub(super) fn push(
+        &mut self,
+        index: usize,
+        linker: SwitchedLinker,
+        rates: Rates,
+        places_nm: Vec<f64>,
+    ) {
+        self.all.push(Switching {
+            index,
+            linker,
+            rates,
+            places_nm,
+        });
+    }
+
+    /// Linker `index`, if something happens to it, and the arc lengths of its places (nm).
+    pub(crate) fn linker(&self, index: usize) -> Option<(&SwitchedLinker, &[f64])> {
+        let switching = self.all.iter().find(|s| s.index == index)?;
+        Some((&switching.linker, &switching.places_nm))
+    }
+
+    /// What events have added to the energy in `state` (pN nm).
+    pub(crate) fn booked(&self, state: &State) -> f64 {
+        state.controls[self.booked]
+    }
+
+    /// The same state with all linkers holding, which is the stiffest.
+    pub(crate) fn all_bound(&self, state: &State) -> State {
+        let mut bound = state.clone();
+        for switching in &self.all {
+            let place = switching.linker.place(state);
+            switching.linker.bind(&mut bound, place);
+        }
+        bound
+    }
+
+    /// The events of a run of these linkers, which go behind those that have happened.
+    pub(crate) fn happenings(self: &Arc<Self>, log: &Log) -> Happenings {
+        Happenings {
+            kinetics: Arc::clone(self),
+            log: Arc::clone(log),
+        }
+    }
+
+    /// Lets happen what does at the end of step `step` of a length (ns), and hands on each event.
+    fn end_step(
+        &self,
+        state: &mut State,
+        step: u64,
+        h: f64,
+        mut note: impl FnMut(LinkerEvent),
+    ) -> bool {
+        let mut changed = false;
+        for switching in &self.all {
+            let (happening, rate) = switching.drawn(state, step, h);
+            let coarse = rate * h;
+            if coarse > state.controls[self.coarsest] {
+                state.controls[self.coarsest] = coarse;
+            }
+            let Some((what, place)) = happening else {
+                continue;
+            };
+            let before = switching.linker.energy(state);
+            let tension = switching.tension(state);
+            switching.change(state, what, place);
+            let energy_pn_nm = switching.linker.energy(state) - before;
+            state.controls[self.booked] += energy_pn_nm;
+            note(LinkerEvent {
+                step,
+                time_ns: step as f64 * h,
+                linker: switching.index,
+                what,
+                force_pn: match what {
+                    Happening::Formed => switching.tension(state),
+                    _ => tension,
+                },
+                at_nm: switching.places_nm[place],
+                energy_pn_nm,
+            });
+            changed = true;
+        }
+        changed
+    }
+}
+
+impl StepEnd for Happenings {
+    fn end_step(&self, state: &mut State, step: u64, h: f64) -> bool {
+        let mut log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
+        // A step that is made again, to find out what broke, is told once.
+        while log.last().is_some_and(|last| last.step >= step) {
+            log.pop();
+        }
+        self.kinetics
+            .end_step(state, step, h, |event| log.push(event))
+    }
+}
+
+impl Switching {
+    /// What happens at the end of a step, if anything does, with the place of the site then; and the rate of all that could
+    /// have happened (1/ns).
+    fn drawn(&self, state: &State, step: u64, h: f64) -> (Option<(Happening, usize)>, f64) {
+        let place = self.linker.place(state);
+        let happens = |rate: f64, draw: f64| draw < -(-rate * h).exp_m1();
+        if !self.linker.is_bound(state) {
+            let Some((nearest, rate)) = self.forming(state) else {
+                return (None, 0.0);
+            };
+            let [draw, _] = self.uniform(step);
+            return (
+                happens(rate, draw).then_some((Happening::Formed, nearest)),
+                rate,
+            );
+        }
+        let breaking = self
+            .rates
+            .breaks
+            .map_or(0.0, |breaks| breaks.rate(self.tension(state)));
+        let stepping = self
+            .rates
+            .steps
+            .map_or(0.0, |steps| steps.rate(self.resistance(state, place)));
+        let rate = breaking + stepping;
+        let [draw, which] = self.uniform(step);
+        if !happens(rate, draw) {
+            return (None, rate);
+        }
+        let happening = if which * rate < breaking {
+            Some((Happening::Broke, place))
+        } else if place + 1 < self.places_nm.len() {
+            Some((Happening::Stepped, place + 1))
+        } else {
+            let leaves = self.rates.steps.is_some_and(|steps| steps.leaves_at_end);
+            leaves.then_some((Happening::Left, place))
+        };
+        (happening, rate)
+    }
+
+    /// The place at which it could form and the rate (1/ns), if it is within reach.
+    fn forming(&self, state: &State) -> Option<(usize, f64)> {
+        let forms = self.rates.forms?;
+        let lengths = self.linker.places().iter().enumerate().map(|(k, linker)| {
+            let apart = linker.end_position(state) - linker.site().position(state);
+            (k, apart.norm())
+        });
+        let (nearest, _) = lengths.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let extension = self.linker.places()[nearest].extension(state);
+        (extension.abs() <= forms.reach_nm).then_some((nearest, forms.rate_per_ns))
+    }
+
+    /// Tension at its place (pN), whether it holds or not.
+    fn tension(&self, state: &State) -> f64 {
+        let linker = self.linker.linker(state);
+        if linker.extension(state) > 0.0 {
+            linker.force(state).norm()
+        } else {
+            0.0
+        }
+    }
+
+    /// Force (pN) against a step from `place`, along the line to the next place, or from the one before it at the end.
+    fn resistance(&self, state: &State, place: usize) -> f64 {
+        let places = self.linker.places();
+        let (from, to) = if place + 1 < places.len() {
+            (place, place + 1)
+        } else {
+            (place.saturating_sub(1), place)
+        };
+        let at = |k: usize| places[k].site().position(state);
+        let along = (at(to) - at(from)).try_normalize(0.0);
+        along.map_or(0.0, |along| -places[place].force(state).dot(&along))
+    }
+
+    fn change(&self, state: &mut State, what: Happening, place: usize) {
+        match what {
+            Happening::Broke | Happening::Left => self.linker.release(state),
+            Happening::Formed | Happening::Stepped => self.linker.bind(state, place),
+        }
+    }
+
+    /// Two numbers uniform in [0, 1) of a step: the stream of `ChaCha8` with its number, of which each linker has words of
+    /// its own.
+    fn uniform(&self, step: u64) -> [f64; 2] {
+        const SPACING: f64 = 1.0 / (1u64 << 53) as f64;
+        let mut key = [0; 32];
+        key[..8].copy_from_slice(&self.rates.seed.to_le_bytes());
+        key[8..16].copy_from_slice(&PURPOSE);
+        let mut generator = ChaCha8Rng::from_seed(key);
+        generator.set_stream(step);
+        // Two numbers of two 32-bit words each.
+        generator.set_word_pos(4 * self.index as u128);
+        std::array::from_fn(|_| (generator.next_u64() >> 11) as f64 * SPACING)
+    }
+}
+
+impl Breaking {
+    /// Rate (1/ns) at a tension (pN).
+    fn rate(&self, tension: f64) -> f64 {
+        let growth = self.force_pn.map_or(0.0, |force| tension / force);
+        let catch = self.catch.map_or(0.0, |catch| {
+            catch.rate_per_ns * (-tension / catch.force_pn).exp()
+        });
+        self.rate_per_ns * growth.exp() + catch
+    }
+}
+
+impl Stepping {
+    /// Rate (1/ns) against a force (pN).
+    fn rate(&self, resistance: f64) -> f64 {
+        self.rate_per_ns * (1.0 - resistance / self.stall_pn).clamp(0.0, 1.0)
+    }
+}
+
+impl Assembly {
+    /// Whether linker `i` holds in `state`, and the arc length of its site (nm); none of one that always holds.
+    pub fn switched(&self, i: usize, state: &State) -> Option<(bool, f64)> {
+        let (linker, places) = self.kinetics.as_ref()?.linker(i)?;
+        Some((linker.is_bound(state), places[linker.place(state)]))
+    }
+
+    /// What linkers that broke, formed or stepped have added to the energy in `state` (pN nm); none where nothing happens
+    /// to linkers.
+    pub fn energy_of_events_pn_nm(&self, state: &State) -> Option<f64> {
+        Some(self.kinetics.as_ref()?.booked(state))
+    }
+
+    /// Refuses rates of linkers that are fast beside a time step (ns).
+    pub(crate) fn check_rates(&self, step_ns: f64) -> Result<(), SceneProblem> {
+        for (i, linker) in self.scene.linkers.iter().enumerate() {
+            let rates = linker.kinetics.iter().flat_map(Rates::rates);
+            for (name, rate) in rates {
+                if rate * step_ns > COARSEST {
+                    let rule = format!(
+                        "is {:.2} in a time step of {step_ns:.3e} ns: must be at most {COARSEST}, or \
+                         events come too late; write a shorter task.time_step_ns",
+                        rate * step_ns
+                    );
+                    let key = format!("linkers[{i}].kinetics.{name}");
+                    return Err(SceneProblem::new(key, format!("{rate:?}"), rule));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The note on rates that forces have made fast beside a time step.
+    pub(crate) fn note_on_rates(&self, last: &State) -> Option<String> {
+        let kinetics = self.kinetics.as_ref()?;
+        let coarsest = last.controls[kinetics.coarsest];
+        (coarsest > COARSEST).then(|| {
+            format!(
+                "under force rates of linkers came to {coarsest:.2} in a time step: events come up to half a step \
+                 late, and there is one at most for each linker in a step; with a shorter time_step_ns they are finer"
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,84 @@
+//! Linkers that break, form and step while filaments move: the ledger of energies, and what they do to a filament.
+
+use actin_sim::{Assembly, Happening, Plan, Scene};
+
+/// A rod, free and without drag, under linkers with rates; and what happened to these.
+fn moved(linkers: &str, task: &str) -> (Assembly, Vec<f64>, Vec<f64>, Vec<actin_sim::LinkerEvent>) {
+    let text = format!(
+        "Scene(
+            filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 14.0), Rod(from_nm: 14.0, to_nm: 64.0)]),
+            linkers: [{linkers}],
+            task: Dynamics({task}),
+        )"
+    );
+    let assembly =
+        Assembly::build(&Scene::from_ron(&text).unwrap_or_else(|e| panic!("{e}"))).unwrap();
+    let (trajectory, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
+    let booked = |r: &actin_sim::Record| assembly.energy_of_events_pn_nm(&r.state).unwrap();
+    let total = |r: &actin_sim::Record| r.potential_pn_nm() + r.kinetic_pn_nm;
+    let totals = trajectory.records.iter().map(total).collect();
+    let booked = trajectory.records.iter().map(booked).collect();
+    (assembly, totals, booked, outcome.events)
+}
+
+const LINKERS: &str = "
+    Linker(at_nm: 10.0, displaced_nm: (2.0, 0.0, 0.0), stiffness_pn_per_nm: 5.0,
+        kinetics: Kinetics(seed: 1, breaks: Breaking(rate_per_ns: 8.0, force_pn: 20.0),
+            forms: Forming(rate_per_ns: 20.0, reach_nm: 5.0))),
+    Linker(at_nm: 40.0, displaced_nm: (-3.0, 1.0, 0.0), stiffness_pn_per_nm: 5.0, rest_length_nm: 1.0,
+        kinetics: Kinetics(seed: 1, bound: false, breaks: Breaking(rate_per_ns: 8.0),
+            forms: Forming(rate_per_ns: 20.0, reach_nm: 5.0))),
+    Linker(at_nm: 6.0, radius_nm: 1.8, displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0,
+        kinetics: Kinetics(seed: 2, steps: Stepping(step_nm: 5.5, rate_per_ns: 20.0, stall_pn: 30.0))),";
+
+/// Without drag the total changes by what events have added, and by nothing else: 1e-7 of it is the integrator's. A motor
+/// goes from monomers onto the rod, whose linkers come and go.
+#[test]
+fn what_events_add_to_the_energy_is_booked() {
+    for integrator in ["Pefrl", "Vefrl"] {
+        let task = format!("duration_ns: 0.8, record_every_ns: 0.02, integrator: {integrator}");
+        let (_, totals, booked, events) = moved(LINKERS, &task);
+        let count = |what| events.iter().filter(|e| e.what == what).count();
+        let counts = [Happening::Broke, Happening::Formed, Happening::Stepped].map(count);
+        let size = booked.iter().fold(0.0, |m: f64, b| m.max(b.abs()));
+        let start = totals[0];
+        let ledger = totals
+            .iter()
+            .zip(&booked)
+            .map(|(total, booked)| (total - booked - start).abs());
+        let open = ledger.fold(0.0, f64::max);
+        println!(
+            "{integrator}: {counts:?} broke, formed, stepped; {size:.2} pN nm booked, {open:e} not"
+        );
+        assert!(counts.iter().all(|&count| count > 2), "{counts:?}");
+        assert!(size > 10.0 && open < 1e-6 * size, "{open}");
+        let on_rod = events
+            .iter()
+            .any(|e| e.what == Happening::Stepped && e.at_nm > 20.0);
+        assert!(on_rod, "the motor stays on monomers");
+        let sum: f64 = events.iter().map(|e| e.energy_pn_nm).sum();
+        assert!((sum - booked.last().unwrap()).abs() < 1e-9 * size);
+    }
+}
+
+/// A motor with a stiff anchor drags a filament the other way until it stalls: the force along the filament then is near the
+/// stall force, never more than a step's worth beyond it.
+#[test]
+fn a_motor_pulls_until_it_stalls() {
+    let text = "Scene(
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 120.0)]),
+        clamps: [Clamp(end: Start)],
+        linkers: [Linker(at_nm: 30.0, displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: 0.5,
+            kinetics: Kinetics(seed: 3, steps: Stepping(step_nm: 2.0, rate_per_ns: 5.0, stall_pn: 6.0)))],
+        task: Dynamics(duration_ns: 20.0, record_every_ns: 0.5,
+            drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0)),
+    )";
+    let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
+    let (trajectory, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
+    let last = &trajectory.records.last().unwrap().state;
+    let (bound, at_nm) = assembly.switched(0, last).unwrap();
+    let force = 0.5 * (at_nm - 30.0);
+    println!("{} steps, {force} pN at {at_nm} nm", outcome.events.len());
+    // 6 pN are 12 nm, at which the rate is zero.
+    assert!(bound && (at_nm - 42.0).abs() < 2.1, "{at_nm}");
+}
