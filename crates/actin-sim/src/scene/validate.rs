@@ -38,13 +38,7 @@ pub(super) fn problems(scene: &Scene) -> Vec<SceneProblem> {
         found.extend(new);
     };
     note(magnitude::check(scene));
-    for (i, one) in scene.filaments().enumerate() {
-        let named = |problem: SceneProblem| problem.with_filament(&scene.filament_key(i));
-        section_rules::check(one, &mut |checked| note(checked.map_err(named)));
-        for check in [check_model, check_place, imperfection::check, shape::check] {
-            note(check(one).map_err(named));
-        }
-    }
+    filaments(scene, &mut note);
     if scene.filaments().any(|one| one.sections.is_empty()) {
         return found;
     }
@@ -70,6 +64,17 @@ pub(super) fn problems(scene: &Scene) -> Vec<SceneProblem> {
         found.extend(check_whole(scene, &held).err());
     }
     found
+}
+
+/// Checks each filament by itself.
+fn filaments(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
+    for (i, one) in scene.filaments().enumerate() {
+        let named = |problem: SceneProblem| problem.with_filament(&scene.filament_key(i));
+        section_rules::check(one, &mut |checked| note(checked.map_err(named)));
+        for check in [check_model, check_place, imperfection::check, shape::check] {
+            note(check(one).map_err(named));
+        }
+    }
 }
 
 /// The rules between parts of a scene that are sound each.

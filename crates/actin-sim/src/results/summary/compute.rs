@@ -38,8 +38,6 @@ impl Summary {
         let equilibrium = outcome.equilibrium.as_ref();
         let filaments = FilamentSummary::all(assembly, last);
         let first = &filaments[0];
-        let mut kinetic = LateKinetic::of(1);
-        kinetic.add(last.kinetic_pn_nm);
         Self {
             scene: assembly.scene.title.clone(),
             status: outcome.status,
@@ -68,7 +66,7 @@ impl Summary {
             shape: first.shape,
             residual: ResidualSummary::of(last),
             residual_floor: equilibrium.and_then(|e| e.floor).map(Into::into),
-            thermal: ThermalSummary::new(assembly, &kinetic),
+            thermal: ThermalSummary::new(assembly, &kinetic_of(last)),
             lowest_stiffness_eigenvalue: equilibrium.and_then(|e| e.lowest_eigenvalue),
             work: WorkSummary::new(outcome),
             wall_s: outcome.wall_s,
@@ -77,6 +75,13 @@ impl Summary {
             filaments,
         }
     }
+}
+
+/// The kinetic energy of a record alone.
+fn kinetic_of(record: &Record) -> LateKinetic {
+    let mut kinetic = LateKinetic::of(1);
+    kinetic.add(record.kinetic_pn_nm);
+    kinetic
 }
 
 impl WorkSummary {
