@@ -1,9 +1,9 @@
 //! Columns: critical loads from the stiffness turning singular, and what comes after.
 
 use crate::common::{
-    BEND, LENGTH, SHEAR, build, cantilever, critical, frame, material, newton, point,
-    second_order_limit, solved, to,
+    BEND, LENGTH, SHEAR, build, cantilever, critical, frame, material, newton, point, solved, to,
 };
+use crate::theory::second_order_limit;
 use actin_cosserat::{RodElements, RodJoint, RodSegment};
 use actin_equilibrium::{BodyOrder, Group, Layout, Newton};
 use actin_mechanics::{Interaction, PointLoad, State, UnitQuaternion, Vector3};

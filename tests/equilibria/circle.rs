@@ -1,6 +1,7 @@
 //! A rod rolled up by turning its end, which moves freely: couples only, so uniform curvature.
 
-use crate::common::{BEND, LENGTH, bisect, build, run, second_order_limit};
+use crate::common::{BEND, LENGTH, PRECISION, build, run};
+use crate::theory::{bisect, second_order_limit};
 use actin_mechanics::Vector3;
 use actin_sim::{Assembly, End, Failure, Outcome, RunError};
 use std::f64::consts::PI;
@@ -83,11 +84,11 @@ fn a_rod_that_twists_easily_leaves_the_plane() {
     let exact = (2.0 * x).to_degrees();
     println!("conjugate point at {exact} deg");
     let values = [10, 20, 40].map(|segments| {
-        let mut is_unstable = |turn: f64| {
+        let is_unstable = |turn: f64| {
             let (_, report) = rolled(segments, c * BEND, turn);
             report.equilibrium.unwrap().certificate.negative > 0
         };
-        bisect(&mut is_unstable, [190.0, 230.0])
+        bisect(is_unstable, [190.0, 230.0], PRECISION)
     });
     let limit = second_order_limit("roll-up loses stability", values, exact, 0.08);
     assert!(limit.abs() < 1e-5, "{limit:e}");

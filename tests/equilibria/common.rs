@@ -1,5 +1,6 @@
-//! Scenes as text, solvers for them, orders of convergence and a search for critical loads.
+//! Scenes as text, solvers for them, and a search for critical loads.
 
+use crate::theory::bisect;
 use actin_cosserat::{Rigidities, RodMaterial};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions, Residual};
 use actin_mechanics::{Frame, Inertia, Interaction, Point, State, UnitQuaternion, Vector3};
@@ -77,6 +78,9 @@ pub(crate) const BEND: f64 = 3.9e4;
 /// Its rigidity against shear and stretch (pN).
 pub(crate) const SHEAR: f64 = 1e5;
 
+/// Relative precision of critical loads: far below the least error of a mesh, 1e-5.
+pub(crate) const PRECISION: f64 = 1e-9;
+
 /// A solver for the free bodies of an assembly, in the order of arc length.
 pub(crate) fn newton(assembly: &Assembly, tolerance: f64) -> Newton {
     let order = BodyOrder {
@@ -106,46 +110,13 @@ pub(crate) fn critical(
     interactions: &[Box<dyn Interaction>],
     bounds: [f64; 2],
 ) -> f64 {
-    let mut is_unstable = |control: f64| {
+    let is_unstable = |control: f64| {
         let mut state = straight.clone();
         let factor = state.controls.ids().next().unwrap();
         state.controls[factor] = control;
         newton.solve(&mut state, interactions).unwrap().is_saddle()
     };
-    bisect(&mut is_unstable, bounds)
-}
-
-/// The parameter between `bounds` at which stability is lost.
-pub(crate) fn bisect(is_unstable: &mut dyn FnMut(f64) -> bool, bounds: [f64; 2]) -> f64 {
-    let [mut low, mut high] = bounds;
-    assert!(!is_unstable(low), "stable at {low}");
-    assert!(is_unstable(high), "unstable at {high}");
-    // Far below the least error of a mesh, 1e-5.
-    while high - low > 1e-9 * high {
-        let middle = 0.5 * (low + high);
-        if is_unstable(middle) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    0.5 * (low + high)
-}
-
-/// Asserts second-order convergence on meshes each twice as fine, within `slack` of the order,
-/// and returns the limit by Richardson's extrapolation.
-pub(crate) fn second_order_limit(what: &str, values: [f64; 3], exact: f64, slack: f64) -> f64 {
-    let errors = values.map(|value| value / exact - 1.0);
-    let orders = [errors[0] / errors[1], errors[1] / errors[2]].map(|r| r.abs().log2());
-    let limit = (4.0 * values[2] - values[1]) / 3.0 / exact - 1.0;
-    println!(
-        "{what}: errors {:.2e} {:.2e} {:.2e}, orders {:.3} {:.3}, extrapolated {limit:.1e}",
-        errors[0], errors[1], errors[2], orders[0], orders[1]
-    );
-    for order in orders {
-        assert!((order - 2.0).abs() < slack, "{what}: orders {orders:?}");
-    }
-    limit
+    bisect(is_unstable, bounds, PRECISION)
 }
 
 /// A material of these rigidities (pN, pN nm^2).

@@ -1,6 +1,7 @@
 //! The cantilever under a force across its tip against the exact elastica.
 
-use crate::common::{BEND, LENGTH, SHEAR, cantilever, second_order_limit, solved};
+use crate::common::{BEND, LENGTH, SHEAR, cantilever, solved};
+use crate::theory::second_order_limit;
 use actin_sim::End;
 
 /// `alpha = F L^2 / B` and the deflection over the length of the inextensible rod.

@@ -26,4 +26,6 @@ mod saddles;
 mod second_derivatives;
 mod several;
 mod shape;
+#[path = "../theory.rs"]
+mod theory;
 mod unheld;

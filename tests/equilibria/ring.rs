@@ -1,6 +1,7 @@
 //! Michell's ring: a closed rod that is twisted snaps out of its plane.
 
-use crate::common::{bisect, frame, material, point, second_order_limit, to};
+use crate::common::{PRECISION, frame, material, point, to};
+use crate::theory::{bisect, second_order_limit};
 use actin_cosserat::{RodElements, RodJoint, RodSegment};
 use actin_equilibrium::{Layout, Newton};
 use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3, rotation};
@@ -56,7 +57,7 @@ fn ring(n: usize, twist: f64) -> (State, Vec<Box<dyn Interaction>>) {
 fn a_twisted_ring_leaves_its_plane() {
     let exact = TAU * 3.0_f64.sqrt() * RATIO;
     let values = [32, 64, 128].map(|n| {
-        let mut is_unstable = |twist: f64| {
+        let is_unstable = |twist: f64| {
             let (mut state, terms) = ring(n, twist);
             let mut newton = Newton::new(Layout::free(&state), to(1e-9)).unwrap();
             let flat: f64 = terms.iter().map(|term| term.energy(&state)).sum();
@@ -65,7 +66,7 @@ fn a_twisted_ring_leaves_its_plane() {
             // it ends in, an eight, has a third of the energy.
             found.is_saddle() || found.energy < 0.8 * flat
         };
-        bisect(&mut is_unstable, [0.9 * exact, 1.1 * exact])
+        bisect(is_unstable, [0.9 * exact, 1.1 * exact], PRECISION)
     });
     let limit = second_order_limit("Michell's ring", values, exact, 0.1);
     assert!(limit.abs() < 1e-4, "{limit:e}");

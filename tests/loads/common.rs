@@ -1,5 +1,6 @@
-//! A cantilever as a scene, beam theory by integration along the arc, and orders of convergence.
+//! A cantilever as a scene, and beam theory by integration along the arc.
 
+use crate::theory::bisect;
 use actin_sim::{Assembly, Plan, Scene, Trajectory};
 
 /// Length (nm), rigidities against bending and twist (pN nm^2).
@@ -55,22 +56,6 @@ pub(crate) fn run(text: &str) -> (Assembly, Trajectory) {
     (assembly, trajectory)
 }
 
-/// Asserts second-order convergence on meshes each twice as fine, within `slack` of the order, and
-/// returns the limit by Richardson's extrapolation, relative to `exact`.
-pub(crate) fn second_order_limit(what: &str, values: [f64; 3], exact: f64, slack: f64) -> f64 {
-    let errors = values.map(|value| value / exact - 1.0);
-    let orders = [errors[0] / errors[1], errors[1] / errors[2]].map(|r| r.abs().log2());
-    let limit = (4.0 * values[2] - values[1]) / 3.0 / exact - 1.0;
-    println!(
-        "{what}: errors {:.2e} {:.2e} {:.2e}, orders {:.3} {:.3}, extrapolated {limit:.1e}",
-        errors[0], errors[1], errors[2], orders[0], orders[1]
-    );
-    for order in orders {
-        assert!((order - 2.0).abs() < slack, "{what}: orders {orders:?}");
-    }
-    limit
-}
-
 /// Deflection over length of an inextensible cantilever under a force `w` per length across it as built,
 /// that keeps its direction; `alpha = w L^3 / B`. By shooting with the classical method of Runge and
 /// Kutta: `theta'' = -alpha (1 - s) cos(theta)`.
@@ -93,14 +78,10 @@ pub(crate) fn deflection_under_uniform_force(alpha: f64, steps: usize) -> f64 {
         y
     };
     // The curvature at the tip grows with that at the wall, which is alpha/2 at most.
-    let (mut low, mut high) = (0.0, 0.5 * alpha);
-    for _ in 0..100 {
-        let middle = 0.5 * (low + high);
-        if shot(middle)[1] > 0.0 {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    shot(0.5 * (low + high))[2]
+    let curvature = bisect(
+        |curvature| shot(curvature)[1] > 0.0,
+        [0.0, 0.5 * alpha],
+        1e-14,
+    );
+    shot(curvature)[2]
 }

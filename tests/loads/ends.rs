@@ -1,6 +1,7 @@
 //! Ends that are pinned, hinged by a spring, and moved at constant velocity.
 
-use crate::common::{BEND, LENGTH, SHEAR, TWIST, build, cantilever, run, second_order_limit};
+use crate::common::{BEND, LENGTH, SHEAR, TWIST, build, cantilever, run};
+use crate::theory::{bisect, second_order_limit};
 use actin_mechanics::{Vector3, rotation};
 use actin_sim::{End, Failure, Plan, RunError, Scene};
 use std::f64::consts::PI;
@@ -16,7 +17,7 @@ fn column(segments: usize, start: &str, force: f64) -> String {
 }
 
 /// The force at which a straight column loses its stability, by bisection.
-fn critical(segments: usize, start: &str, [mut low, mut high]: [f64; 2]) -> f64 {
+fn critical(segments: usize, start: &str, bounds: [f64; 2]) -> f64 {
     let is_unstable = |force: f64| {
         let assembly = build(&column(segments, start, force));
         match Plan::new(&assembly).unwrap().run() {
@@ -25,17 +26,8 @@ fn critical(segments: usize, start: &str, [mut low, mut high]: [f64; 2]) -> f64 
             Err(error) => panic!("{force}: {error}"),
         }
     };
-    assert!(!is_unstable(low) && is_unstable(high));
     // Far below the least error of a mesh, 1e-4.
-    while high - low > 1e-7 * high {
-        let middle = 0.5 * (low + high);
-        if is_unstable(middle) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    0.5 * (low + high)
+    bisect(is_unstable, bounds, 1e-7)
 }
 
 /// Euler: a column pinned at both ends buckles at `pi^2 B / L^2`.
@@ -59,16 +51,9 @@ fn a_pinned_column_buckles() {
 #[test]
 fn a_hinged_column_buckles() {
     let share = 2.0;
-    let (mut low, mut high) = (PI + 1e-9, 4.493_409_457_909_064 - 1e-9);
-    for _ in 0..100 {
-        let x: f64 = 0.5 * (low + high);
-        if x / x.tan() > 1.0 + x * x / share {
-            low = x;
-        } else {
-            high = x;
-        }
-    }
-    let exact = low * low * BEND / LENGTH.powi(2);
+    let is_beyond = |x: f64| x / x.tan() < 1.0 + x * x / share;
+    let x = bisect(is_beyond, [PI + 1e-9, 4.493_409_457_909_064 - 1e-9], 1e-14);
+    let exact = x * x * BEND / LENGTH.powi(2);
     let k = share * BEND / LENGTH;
     let start = format!(
         "Clamp(end: Start, hold: Pin, hinge: (bend_pn_nm_per_rad: {k:?}, twist_pn_nm_per_rad: 50.0))"
@@ -128,17 +113,9 @@ fn a_hinge_gives_way() {
 #[test]
 fn a_pinned_chain_hangs_as_a_catenary() {
     let (length, span, weight) = (400.0_f64, 300.0_f64, 0.1);
-    let (mut low, mut high) = (0.1_f64, 5.0_f64);
-    for _ in 0..100 {
-        let x = 0.5 * (low + high);
-        if x.sinh() / x < length / span {
-            low = x;
-        } else {
-            high = x;
-        }
-    }
-    let a = span / (2.0 * low);
-    let exact = a * (low.cosh() - 1.0);
+    let x = bisect(|x| x.sinh() / x > length / span, [0.1, 5.0], 1e-14);
+    let a = span / (2.0 * x);
+    let exact = a * (x.cosh() - 1.0);
     let sags = [20, 40, 80].map(|segments| {
         let text = format!(
             "Scene(

@@ -11,3 +11,5 @@ mod rods;
 mod sections;
 mod shapes;
 mod statics;
+#[path = "../theory.rs"]
+mod theory;

@@ -1,9 +1,9 @@
 //! Equilibria under loads of every kind against closed solutions of rods.
 
 use crate::common::{
-    BEND, DENSITY, LENGTH, SHEAR, TWIST, cantilever, deflection_under_uniform_force, run,
-    second_order_limit, twisting,
+    BEND, DENSITY, LENGTH, SHEAR, TWIST, cantilever, deflection_under_uniform_force, run, twisting,
 };
+use crate::theory::second_order_limit;
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use actin_sim::{Assembly, End};
 use std::f64::consts::PI;

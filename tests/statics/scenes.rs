@@ -8,7 +8,7 @@ fn scenarios() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios")
 }
 
-/// All scenes below `folder`, those in a folder `bad` left out.
+/// All scenes below `folder`, those in a folder `bad` left out, and sweeps.
 fn scenes(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder)
         .unwrap()
@@ -20,6 +20,7 @@ fn scenes(folder: &Path) -> Vec<PathBuf> {
             false => vec![path],
         })
         .filter(|path| path.extension().is_some_and(|extension| extension == "ron"))
+        .filter(|path| !path.to_string_lossy().ends_with("-sweep.ron"))
         .collect();
     all.sort();
     all

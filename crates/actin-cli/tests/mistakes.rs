@@ -7,7 +7,7 @@ use std::path::Path;
 use workplace::{Workplace, code, stderr, stdout};
 
 /// Scenes of `scenarios/bad`, with a mistake of each kind.
-const MISTAKES: [&str; 28] = [
+const MISTAKES: [&str; 42] = [
     "several-mistakes",
     "several-broken-rules",
     "filament-without-its-bracket",
@@ -36,6 +36,20 @@ const MISTAKES: [&str; 28] = [
     "factors-of-a-potential",
     "arc-that-closes",
     "points-of-no-file",
+    "unit-behind-a-number",
+    "decimal-comma",
+    "missing-comma",
+    "equals-sign",
+    "comment-with-a-hash",
+    "vector-in-square-brackets",
+    "name-in-quotes",
+    "task-without-brackets",
+    "one-clamp-without-a-list",
+    "lower-case-choice",
+    "force-on-a-clamped-end",
+    "equilibrium-of-a-free-filament",
+    "thermal-without-drag",
+    "time-step-above-stability-limit",
 ];
 
 /// Exit code 2, nothing on standard output, and every mistake with its line.

@@ -1,6 +1,7 @@
 //! `cargo xtask docs`: the pages of the book that are generated (keys of scenes from the types that read
-//! them, tables from the report of a full run), and the length of what is written by hand.
+//! them, tables from the report of a full run, mistakes and what they print), and the length of what is written by hand.
 
+mod mistakes;
 mod scenes;
 mod tables;
 mod words;
@@ -79,6 +80,7 @@ pub(crate) fn findings(root: &Path) -> Result<Vec<String>, String> {
 /// The generated files by their paths, with what they should hold.
 fn generated(root: &Path) -> Result<BTreeMap<String, String>, String> {
     let mut files = scenes::files();
+    files.extend(mistakes::file(root)?);
     files.extend(tables::files(&report::read(&root.join(REFERENCE))?));
     Ok(files)
 }

@@ -34,6 +34,7 @@ mod seeds;
 mod shape;
 mod stage;
 mod support;
+mod syntax;
 mod text;
 mod thermal;
 mod trace;

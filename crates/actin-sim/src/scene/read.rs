@@ -1,6 +1,7 @@
 //! Reading and writing scenes as RON.
 
-use super::{RodLaw, RodLaws, Scene, SceneError, SceneProblem, brackets, locate};
+use super::outline::place;
+use super::{RodLaw, RodLaws, Scene, SceneError, SceneProblem, brackets, locate, syntax};
 use super::{validate::validate, written::Written};
 use ron::error::{Error as RonError, SpannedError};
 use ron::extensions::Extensions;
@@ -160,7 +161,9 @@ fn explain(error: &SpannedError, text: &str, name: &str) -> SceneError {
     let message = in_words(&error.code, &name.to_lowercase()).unwrap_or_else(|| {
         let path = locate::path_at(text, (line, column));
         let colon = if path.is_empty() { "" } else { ": " };
-        format!("{path}{colon}{}", error.code)
+        let advice = syntax::advice(&error.code, &text[place(text, (line, column))..]);
+        let what = advice.unwrap_or_else(|| error.code.to_string());
+        format!("{path}{colon}{what}")
     });
     SceneError {
         meant: meant(&error.code),

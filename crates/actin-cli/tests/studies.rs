@@ -1,0 +1,203 @@
+//! The studies of the book: their scenes and sweeps run in short, and their scripts draw what they left.
+
+mod workplace;
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use workplace::{Workplace, code, stderr, stdout};
+
+/// A study: its sweep, and what is put in place of what in copies of sweep and scene, so that it is short.
+struct Study {
+    name: &'static str,
+    shorter: &'static [(&'static str, &'static str)],
+    /// Rows of its table.
+    points: usize,
+    /// What its scene takes by `--set` for a run of its own.
+    set: &'static [&'static str],
+}
+
+const STUDIES: [Study; 5] = [
+    Study {
+        name: "extension",
+        shorter: &[
+            (
+                "values: [0.2, 1.0, 4.0, 12.0, 30.0, 60.0]",
+                "values: [1.0, 12.0]",
+            ),
+            ("number: 4", "number: 2"),
+            ("duration_ns: 2000.0", "duration_ns: 3.0"),
+            ("record_every_ns: 8.0", "record_every_ns: 0.05"),
+        ],
+        points: 4,
+        set: &["task.duration_ns=0.5", "task.record_every_ns=0.1"],
+    },
+    Study {
+        name: "compression",
+        shorter: &[
+            ("duration_ns: 1500.0", "duration_ns: 3.0"),
+            ("record_every_ns: 15.0", "record_every_ns: 0.5"),
+            ("-150.0", "-0.3"),
+        ],
+        points: 6,
+        set: &[
+            "path[0].duration_ns=0.5",
+            "path[0].set[0].shift_nm[2]=-0.05",
+            "task.duration_ns=0.5",
+            "task.record_every_ns=0.1",
+        ],
+    },
+    Study {
+        name: "softened",
+        shorter: &[],
+        points: 45,
+        set: &["path[0].set[0].turn_deg[1]=5.0"],
+    },
+    Study {
+        name: "sine",
+        shorter: &[
+            ("Sine(period_ns: 40.0),", "Sine(period_ns: 1.0),"),
+            ("duration_ns: 400.0", "duration_ns: 4.0"),
+            ("record_every_ns: 4.0", "record_every_ns: 0.1"),
+        ],
+        points: 102,
+        set: &["task.duration_ns=1.0", "task.record_every_ns=0.1"],
+    },
+    Study {
+        name: "bundle",
+        shorter: &[],
+        points: 10,
+        set: &["loads[0].force_pn[0]=0.01"],
+    },
+];
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/studies")
+}
+
+/// A copy of the studies, in which this one is short.
+fn place(study: &Study) -> Workplace {
+    let place = Workplace::with("");
+    for entry in fs::read_dir(folder()).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_file() {
+            fs::copy(
+                &path,
+                place.path(path.file_name().unwrap().to_str().unwrap()),
+            )
+            .unwrap();
+        }
+    }
+    for (from, to) in study.shorter {
+        let files = [
+            format!("{}.ron", study.name),
+            format!("{}-sweep.ron", study.name),
+        ];
+        let texts = files.map(|file| (fs::read_to_string(place.path(&file)).unwrap(), file));
+        assert!(texts.iter().any(|(text, _)| text.contains(from)), "{from}");
+        for (text, file) in texts {
+            fs::write(place.path(&file), text.replace(from, to)).unwrap();
+        }
+    }
+    place
+}
+
+/// Each scene by itself, with a few keys set.
+#[test]
+fn scenes_run() {
+    for study in STUDIES {
+        let place = place(&study);
+        let file = format!("{}.ron", study.name);
+        let set = study.set.iter().flat_map(|key| ["--set", key]);
+        let arguments: Vec<&str> = ["run", &file, "--out", "run"]
+            .into_iter()
+            .chain(set)
+            .collect();
+        let output = place.actin(&arguments);
+        assert_eq!(code(&output), 0, "{}: {}", study.name, stderr(&output));
+    }
+}
+
+/// Each sweep in short; then its script writes a figure and the table of its page. Where there is no Python
+/// with matplotlib the test says so, or fails if `ACTIN_REQUIRE_MATPLOTLIB` is set, as `.ci/run` does.
+#[test]
+fn sweeps_run_and_scripts_draw_them() {
+    let python = python();
+    for study in STUDIES {
+        let (place, name) = (place(&study), study.name);
+        let sweep = format!("{name}-sweep");
+        let output = place.actin(&["sweep", &format!("{sweep}.ron")]);
+        assert_eq!(code(&output), 0, "{name}: {}", stderr(&output));
+        let table = fs::read_to_string(place.path(&format!("sweeps/{sweep}/table.csv"))).unwrap();
+        assert!(
+            table.matches('\n').count() > study.points,
+            "{name}: {table}"
+        );
+        let Some(python) = &python else { continue };
+        let page = "page.md";
+        let empty = "<!-- generated: numbers -->\n\n<!-- end -->\n";
+        fs::write(place.path(page), empty).unwrap();
+        let output = Command::new(python)
+            .args([&format!("{name}.py"), "--page", page])
+            .current_dir(place.path("."))
+            .output()
+            .unwrap();
+        assert_eq!(
+            code(&output),
+            0,
+            "{name}: {}{}",
+            stdout(&output),
+            stderr(&output)
+        );
+        let svg = fs::read_to_string(place.path(&format!("{name}.svg"))).unwrap();
+        assert!(svg.len() < 100_000 && svg.contains("</svg>"), "{name}");
+        let page = fs::read_to_string(place.path(page)).unwrap();
+        assert!(page.lines().count() > 5, "{name}: {page}");
+        assert!(!page.contains("nan"), "{name}: {page}");
+    }
+}
+
+/// A Python with numpy and matplotlib.
+fn python() -> Option<String> {
+    let named = env::var("PYTHON").ok();
+    let usual = ["python3", "/usr/bin/python3"].map(str::to_owned);
+    let has_both = |python: &String| {
+        let mut command = Command::new(python);
+        let output = command.args(["-c", "import numpy, matplotlib"]).output();
+        output.is_ok_and(|output| output.status.success())
+    };
+    let found = named.into_iter().chain(usual).find(has_both);
+    if found.is_none() {
+        let message =
+            "no python3 with numpy and matplotlib: the scripts of the studies are NOT TESTED";
+        assert!(
+            env::var_os("ACTIN_REQUIRE_MATPLOTLIB").is_none(),
+            "{message}"
+        );
+        eprintln!("{message}");
+    }
+    found
+}
+
+/// What is written by `make_bundle.py` is what it writes.
+#[test]
+fn the_bundle_is_what_its_script_writes() {
+    let place = Workplace::with("");
+    let script = folder().join("make_bundle.py");
+    let Ok(output) = Command::new("python3")
+        .arg(script)
+        .arg(place.path("."))
+        .output()
+    else {
+        return eprintln!("no python3: the scene of the bundle is NOT TESTED");
+    };
+    assert!(output.status.success(), "{}", stderr(&output));
+    for name in ["bundle.ron", "bundle-sweep.ron"] {
+        let written = fs::read_to_string(place.path(name)).unwrap();
+        assert!(
+            written == fs::read_to_string(folder().join(name)).unwrap(),
+            "{name}"
+        );
+    }
+}

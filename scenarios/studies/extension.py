@@ -1,0 +1,77 @@
+"""Force against extension at 298 K beside a worm-like chain of finite length, clamped at one end.
+
+Needs numpy and matplotlib. From the folder of `actin sweep scenarios/studies/extension-sweep.ron`:
+    python3 scenarios/studies/extension.py --extension-sweep sweeps/extension-sweep
+"""
+
+import numpy as np
+import study
+
+LENGTH, BEND, STRETCH = 100.0, 3.9e4, 3.4e4  # nm, pN nm^2, pN: of the rod
+MONOMERS_BEND = 11.7 * 1e3 * study.KT_298  # pN nm^2: their persistence length in free motion, 11.7 um
+SETTLED = 100.0  # ns
+
+
+def finite_chain(force, length=LENGTH, bend=BEND, stretch=STRETCH):
+    """Extension (nm) of a stiff chain held in direction at one end: P. K. Purohit and others, Int. J. Non-Linear
+    Mech. 43, 1056 (2008). Angles aside have the modes sin((n + 1/2) pi s / L), each with kT / (B q^2 + F)."""
+    root = np.sqrt(bend * force)
+    return length * (1 - study.KT_298 / (2 * root) * np.tanh(length * force / root) + force / stretch)
+
+
+def long_chain(force, length=LENGTH, bend=BEND, stretch=STRETCH):
+    """The same without ends (Odijk 1995)."""
+    return length * (1 - study.KT_298 / (2 * np.sqrt(bend * force)) + force / stretch)
+
+
+def segments(force, number=10, length=LENGTH, bend=BEND, stretch=STRETCH):
+    """The same of a rod of so many segments, from the inverse of the stiffness of its angles aside."""
+    h = length / number
+    matrix = np.diag(np.full(number, 2 * bend / h + force * h)) - bend / h * (np.eye(number, k=1) + np.eye(number, k=-1))
+    matrix[0, 0] += bend / h  # the wall: half a segment
+    matrix[-1, -1] -= bend / h
+    return length * (1 + force / stretch) - h * study.KT_298 * np.trace(np.linalg.inv(matrix))
+
+
+def main():
+    options = study.arguments(["extension-sweep"], __doc__)
+    found = {}
+    for row in study.rows(options.extension_sweep, "runs.csv"):
+        mean, error = study.mean_tip(f"{options.extension_sweep}/runs/{row['run']:.0f}", SETTLED)
+        kind = "monomers" if "Ellip" in row["filament.sections"] else "rod"
+        found.setdefault((kind, row["loads[0].force_pn[2]"]), []).append((mean[2], error[2]))
+    figure, panel = study.axes(width=4.6, height=3.2)
+    force = np.geomspace(0.1, 100.0, 200)
+    panel.semilogx(force, long_chain(force), "k:", lw=0.8, label="worm-like chain without ends")
+    panel.semilogx(force, finite_chain(force), "k-", lw=0.8, label="of 100 nm, clamped")
+    lines, kinds = [], ["rod", "monomers"]
+    for kind in kinds:
+        forces = np.array(sorted(f for k, f in found if k == kind))
+        runs = [np.array(found[kind, f])[:, 0] for f in forces]
+        mean = np.array([r.mean() for r in runs])
+        blocks = np.array([np.sqrt((np.array(found[kind, f])[:, 1] ** 2).sum()) / len(found[kind, f]) for f in forces])
+        panel.errorbar(forces, mean, blocks, fmt="os"[kinds.index(kind)], color=f"C{kinds.index(kind)}", mfc="none",
+                       capsize=2, label=kind)
+        if kind == "monomers":
+            # One number is fitted: the length, which heat changes.
+            curve = finite_chain(forces, bend=MONOMERS_BEND)
+            length = np.average(mean - curve, weights=blocks**-2)
+            panel.semilogx(force, finite_chain(force, bend=MONOMERS_BEND) + length, "C1-", lw=0.8,
+                           label=f"of {MONOMERS_BEND / study.KT_298 / 1e3:.1f} µm, {-length:.2f} nm shorter")
+        else:
+            curve, length = np.array([segments(f) for f in forces]), 0.0
+        for f, z, e, r, c in zip(forces, mean, blocks, runs, curve + length):
+            scatter = r.std(ddof=1) / np.sqrt(len(r)) if len(r) > 1 else float("nan")
+            lines.append([kind, f"{f:g}", f"{z:.3f} ± {e:.3f}", f"{scatter:.3f}", f"{c:.3f}", f"{(z - c) / e:+.1f}",
+                          f"{long_chain(f):.2f}"])
+    panel.set_ylim(97.5, 100.4)
+    panel.set_xlabel("force (pN)")
+    panel.set_ylabel("extension (nm)")
+    panel.legend(fontsize=8)
+    study.save(figure, f"{options.figures}/extension.svg")
+    study.put_table(options.page, ["filament", "force (pN)", "extension (nm), block error", "error from runs (nm)",
+                                   "theory (nm)", "difference / error", "chain without ends (nm)"], lines)
+
+
+if __name__ == "__main__":
+    main()
