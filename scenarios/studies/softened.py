@@ -7,13 +7,16 @@ Needs numpy and matplotlib. From the folder of `actin sweep scenarios/studies/so
 import numpy as np
 import study
 
-BARE, SOFT, MIDDLE = range(3)
+BARE, SOFT, MIDDLE, CONSTANT, FITTED = range(5)
 BENDING, TWIST = 5.0, 10.0  # how much softer the middle is to be
+EDGES = np.array([50.0, 100.0])  # nm
 LISTED = [30.0, 60.0, 120.0, -30.0, -60.0, -120.0]  # turns in the table (deg)
 
 
 def variant(row):
     sections = row["filament.sections"]
+    if "Rod" in sections:
+        return FITTED if row["filament.rod.law"] == "Fitted" else CONSTANT
     if sections.count("Ellipsoids") > 1:
         return MIDDLE
     return SOFT if "altered" in sections else BARE
@@ -66,44 +69,55 @@ def slopes(s, angle, edges):
     return np.cumsum(np.linalg.lstsq(np.array(kinks).T, angle, rcond=None)[0][1:])
 
 
+def along(run, axis):
+    """Arc lengths from one held cross-section to the other, and turn (rad) about an axis of what is between."""
+    s, vectors = study.turns(run)
+    if s[1] - s[0] < 4:  # of two held monomers the inner one
+        s, vectors = s[1:-1], vectors[1:-1]
+    return s, np.unwrap(vectors[:, axis])
+
+
+def share(run, axis, total):
+    """Share of the middle in the turn."""
+    s, angle = along(run, axis)
+    return slopes(s, angle, EDGES)[1] * (EDGES[1] - EDGES[0]) / total
+
+
 def main():
     options = study.arguments(["softened-sweep"], __doc__)
     found = read(options.softened_sweep)
     figure, panels = study.axes(2, width=6.8)
     lines = []
     for panel, axis, ratio, shown in (panels[0], 1, BENDING, [30.0]), (panels[1], 2, TWIST, [120.0, -120.0]):
-        for (kind, a, turn), (couple, run) in sorted(found.items()):
-            if kind != MIDDLE or a != axis:
+        for turn in sorted({t for kind, a, t in found if a == axis}):
+            couples = [found[kind, axis, turn][0] for kind in (BARE, SOFT) if (kind, axis, turn) in found]
+            if turn not in LISTED or len(couples) < 2:
                 continue
-            s, vectors = study.turns(run)
-            ends = [s[1], s[-2]]  # of the inner held monomers
-            inside = (s >= ends[0]) & (s <= ends[1])
-            s, angle = s[inside], vectors[inside, axis]
-            edges = np.array([50.0, 100.0])
             total = np.radians(turn)
-            # Turns of more than half a turn are rotation vectors of less: unwound along the filament.
-            angle = np.unwrap(angle)
-            middle = slopes(s, angle, edges)[1] * (edges[1] - edges[0]) / total
-            whole = ends[1] - ends[0]
-            stepped = shared(np.array([ends[0], *edges, ends[1]]), 1.0, ratio, edges)
+            runs = [found[kind, axis, turn][1] for kind in (MIDDLE, FITTED, CONSTANT)]
+            s, angle = along(runs[0], axis)
+            whole = s[-1] - s[0]
             own = expected(found, axis, np.sign(turn), abs(total), (whole - 50, 50), whole)
-            softer = [np.interp(abs(turn), *zip(*sorted((abs(t), c) for (k, a2, t), (c, _) in found.items()
-                      if (k, a2) == (kind2, axis) and t * turn > 0))) for kind2 in (BARE, SOFT)]
-            if turn in LISTED:
-                lines.append(["bend" if axis == 1 else "twist", f"{turn:g}", f"{abs(softer[0] / softer[1]):.1f}",
-                              f"{middle:.2f}", f"{own:.2f}", f"{stepped[2] - stepped[1]:.2f}"])
+            places = np.array([s[0], *EDGES, s[-1]])
+            beam = shared(places, 1.0, ratio, EDGES)
+            lines.append(["bend" if axis == 1 else "twist", f"{turn:+g}", f"{couples[0] / couples[1]:.1f}",
+                          *(f"{share(run, axis, total):.2f}" for run in runs), f"{own:.2f}", f"{beam[2] - beam[1]:.2f}"])
             if turn in shown:
                 colour = f"C{shown.index(turn)}"
                 panel.plot(s, np.degrees(study.smooth(s, angle, 8.0)), colour, label=f"monomers, {turn:+g}°")
-                panel.plot(s, np.degrees(shared(s, total, ratio, edges)), "k--", lw=0.8)
-                panel.plot(s, np.degrees(total * (s - s[0]) / whole), "k:", lw=0.8)
-        panel.axvspan(50, 100, color="0.93", zorder=-1)
+                rod = along(runs[1], axis)
+                panel.plot(rod[0], np.degrees(rod[1]), "o", color=colour, mfc="none", ms=3, label="rod, Fitted")
+                panel.plot(places, turn * beam, "k--", lw=0.8)
+                panel.plot(places[[0, -1]], [0, turn], "k:", lw=0.8)
+        panel.axvspan(*EDGES, color="0.93", zorder=-1)
         panel.set_xlabel("arc length (nm)")
         panel.set_ylabel("bent by (°)" if axis == 1 else "twisted by (°)")
-        panel.legend()
+        panel.legend(fontsize=7)
     study.save(figure, f"{options.figures}/softened.svg")
     study.put_table(options.page, ["end turned by", "deg", "softer all along by", "share of the middle: monomers",
-                                   "each part by its own law", f"stepped beam, {BENDING:g} and {TWIST:g}"], lines)
+                                   "rod, `Fitted`", "rod, `Constant`", "each part by its own law",
+                                   f"stepped beam, {BENDING:g} and {TWIST:g}"], lines)
 
 
-main()
+if __name__ == "__main__":
+    main()

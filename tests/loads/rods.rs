@@ -1,6 +1,7 @@
 //! Rods next to rods: what they share, and what each has of its own.
 
-use crate::common::{build, run, second_order_limit};
+use crate::common::{build, run};
+use crate::theory::second_order_limit;
 use actin_mechanics::testing::{assert_is_balanced, assert_is_gradient, assert_is_stiffness};
 use actin_mechanics::{Vector3, Xorshift, perturb, rotation};
 use actin_sim::{Assembly, BodyKind, End, Plan};

@@ -51,7 +51,7 @@ const STUDIES: [Study; 5] = [
     Study {
         name: "softened",
         shorter: &[],
-        points: 45,
+        points: 75,
         set: &["path[0].set[0].turn_deg[1]=5.0"],
     },
     Study {
