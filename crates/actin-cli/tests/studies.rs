@@ -50,18 +50,38 @@ const STUDIES: [Study; 5] = [
     },
     Study {
         name: "softened",
-        shorter: &[],
-        points: 75,
+        shorter: &[
+            (
+                "(0.0, 10.0, 0.0), (0.0, 30.0, 0.0), (0.0, 60.0, 0.0),",
+                "(0.0, 10.0, 0.0), (0.0, 30.0, 0.0),",
+            ),
+            (
+                "(0.0, 0.0, 60.0), (0.0, 0.0, 90.0), (0.0, 0.0, 120.0), (0.0, 0.0, 180.0), (0.0, 0.0, 240.0),",
+                "(0.0, 0.0, 60.0),",
+            ),
+            (
+                "(0.0, 0.0, -60.0), (0.0, 0.0, -90.0), (0.0, 0.0, -120.0), (0.0, 0.0, -180.0), (0.0, 0.0, -240.0),",
+                "(0.0, 0.0, -60.0),",
+            ),
+        ],
+        points: 30,
         set: &["path[0].set[0].turn_deg[1]=5.0"],
     },
     Study {
         name: "sine",
         shorter: &[
-            ("Sine(period_ns: 40.0),", "Sine(period_ns: 1.0),"),
+            (
+                "Sine(period_ns: 5.0), Sine(period_ns: 7.0), Sine(period_ns: 9.0), Sine(period_ns: 11.0), Sine(period_ns: 13.0),",
+                "",
+            ),
+            (
+                "Sine(period_ns: 14.5), Sine(period_ns: 16.0), Sine(period_ns: 19.0), Sine(period_ns: 25.0), Sine(period_ns: 40.0),",
+                "Sine(period_ns: 14.5),",
+            ),
             ("duration_ns: 400.0", "duration_ns: 4.0"),
             ("record_every_ns: 4.0", "record_every_ns: 0.1"),
         ],
-        points: 102,
+        points: 48,
         set: &["task.duration_ns=1.0", "task.record_every_ns=0.1"],
     },
     Study {
