@@ -1,7 +1,7 @@
 """Deflection of a bundle of seven filaments against the stiffness of its linkers, beside a frame of beam elements.
 
-Needs numpy and matplotlib. From the folder of `actin sweep scenarios/studies/bundle-sweep.ron`:
-    python3 scenarios/studies/bundle.py --bundle-sweep sweeps/bundle-sweep
+Needs numpy and matplotlib. From the folder of `actin sweep` of bundle-sweep.ron and bundle-push-sweep.ron:
+    python3 scenarios/studies/bundle.py
 """
 
 import math
@@ -62,8 +62,31 @@ def deflection(stiffness, force=FORCE):
     return moved[ELEMENTS * 6]
 
 
+def pushed(panel, sweep):
+    """Least distance of the axes of any two filaments against the force on an outer one; rows of the table."""
+    lines = {}
+    for row in study.rows(sweep):
+        arrays = study.states(f"{sweep}/runs/{row['point']:.0f}")
+        place, filament = arrays["position_nm"][-1], arrays["filament"]
+        parts = [place[filament == f] for f in range(7)]
+        least = min(np.linalg.norm(a[:, None] - b[None], axis=-1).min() for i, a in enumerate(parts) for b in parts[:i])
+        force = row["loads[4].force_pn[0]"]
+        moved = [row[f"filaments[{f}].tip_displacement_nm[0]"] for f in (4, 1)]
+        lines.setdefault(row["repulsion"] in (None, "None"), []).append((force, least, *moved))
+    for without, points in lines.items():
+        force, least, *_ = np.array(sorted(points)).T
+        panel.semilogx(force, least, "s--" if without else "o-", mfc="none", label="without" if without else "with repulsion")
+    panel.axhline(7.4, color="0.6", lw=0.8, ls=":")
+    panel.text(min(force), 7.5, "twice the radius", fontsize=8, color="0.4")
+    panel.set_xlabel("force on one end (pN)")
+    panel.set_ylabel("least distance of axes (nm)")
+    panel.legend(fontsize=8)
+    both = zip(*(sorted(lines[without]) for without in (True, False)))
+    return [[f"{a[0]:g}", *(f"{x:.2f}" for x in (a[1], b[1], a[2], b[2], a[3], b[3]))] for a, b in both]
+
+
 def main():
-    options = study.arguments(["bundle-sweep"], __doc__)
+    options = study.arguments(["bundle-sweep", "bundle-push-sweep"], __doc__)
     rows = study.rows(options.bundle_sweep)
     stiffness = np.array([row["linkers[0].stiffness_pn_per_nm"] for row in rows])
     tips = np.array([row["tip_displacement_nm[0]"] for row in rows])
@@ -72,7 +95,7 @@ def main():
     rigidity = 7 * FORCE * LENGTH**3 / 3 / tips
     curve = np.geomspace(stiffness.min(), stiffness.max(), 25)
     frame = np.array([deflection(k) for k in curve])
-    figure, panel = study.axes(width=4.6)
+    figure, (panel, beside) = study.axes(2, width=6.8)
     panel.loglog(curve, 7 * FORCE * LENGTH**3 / 3 / frame / EI, "k-", lw=0.8, label="frame of beam elements")
     panel.loglog(stiffness, rigidity / EI, "o", mfc="none", label="bundle")
     for value, label in (apart, "seven filaments apart: 7"), (together, f"seven as one beam: {together / EI:.0f}"):
@@ -81,10 +104,13 @@ def main():
     panel.set_xlabel("stiffness of a linker (pN/nm)")
     panel.set_ylabel("rigidity / that of one filament")
     panel.legend(loc="center right")
+    push = pushed(beside, options.bundle_push_sweep)
     study.save(figure, f"{options.figures}/bundle.svg")
     lines = [[f"{k:g}", f"{t:.4f}", f"{deflection(k):.4f}", f"{r / EI:.1f}"] for k, t, r in zip(stiffness, tips, rigidity)]
     study.put_table(options.page, ["linker (pN/nm)", "end moves by (nm)", "frame of beam elements (nm)",
                                    "rigidity over that of one"], lines)
+    study.put_table(options.page, ["force (pN)", "least distance of axes (nm)", "with repulsion", "it moves by (nm)",
+                                   "with repulsion", "the opposite one moves by (nm)", "with repulsion"], push, "push")
 
 
 if __name__ == "__main__":

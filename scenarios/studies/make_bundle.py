@@ -66,6 +66,25 @@ def sweep():
     print(")")
 
 
-for write, name in (scene, "bundle.ron"), (sweep, "bundle-sweep.ron"):
+def push():
+    linkers = round(LENGTH / EVERY) * len(pairs)
+    print("// The end of an outer filament is pushed to its neighbours, with weak linkers, with and without repulsion.")
+    print("// Written by make_bundle.py.")
+    print("Sweep(")
+    print('    title: "A filament pushed to its neighbours in a bundle",')
+    print('    scene: "bundle.ron",')
+    print("    set: [")
+    for linker in range(linkers):
+        print(f'        Set(key: "linkers[{linker}].stiffness_pn_per_nm", value: 0.01),')
+    print("    ],")
+    print("    vary: [")
+    print('        List(key: "repulsion", values: [None, Repulsion()]),')
+    print('        List(key: "loads[4].force_pn[0]", values: [0.1, 0.2, 0.4, 0.8, 1.6, 3.2]),')
+    print("    ],")
+    print('    results: ["filaments[4].tip_displacement_nm[0]", "tip_displacement_nm[0]", "filaments[1].tip_displacement_nm[0]"],')
+    print(")")
+
+
+for write, name in (scene, "bundle.ron"), (sweep, "bundle-sweep.ron"), (push, "bundle-push-sweep.ron"):
     with open(Path(sys.argv[1]) / name, "w") as file, contextlib.redirect_stdout(file):
         write()

@@ -154,9 +154,13 @@ fn sweeps_run_and_scripts_draw_them() {
             table.matches('\n').count() > study.points,
             "{name}: {table}"
         );
+        if name == "bundle" {
+            let output = place.actin(&["sweep", "bundle-push-sweep.ron"]);
+            assert_eq!(code(&output), 0, "{name}: {}", stderr(&output));
+        }
         let Some(python) = &python else { continue };
         let page = "page.md";
-        let empty = "<!-- generated: numbers -->\n\n<!-- end -->\n";
+        let empty = "<!-- generated: numbers -->\n\n<!-- end -->\n\n<!-- generated: push -->\n\n<!-- end -->\n";
         fs::write(place.path(page), empty).unwrap();
         let output = Command::new(python)
             .args([&format!("{name}.py"), "--page", page])
@@ -213,7 +217,7 @@ fn the_bundle_is_what_its_script_writes() {
         return eprintln!("no python3: the scene of the bundle is NOT TESTED");
     };
     assert!(output.status.success(), "{}", stderr(&output));
-    for name in ["bundle.ron", "bundle-sweep.ron"] {
+    for name in ["bundle.ron", "bundle-sweep.ron", "bundle-push-sweep.ron"] {
         let written = fs::read_to_string(place.path(name)).unwrap();
         assert!(
             written == fs::read_to_string(folder().join(name)).unwrap(),
