@@ -186,7 +186,7 @@ fn an_explosion_is_reported_and_what_was_good_is_kept() {
 /// the load can have given, 2 pN over 60 nm, twice, and 1, and not when numbers overflow.
 #[test]
 fn a_slow_explosion_is_caught() {
-    let unstable = "duration_ns: 1000.0, time_step_ns: 0.0035, allow_unstable_step: true";
+    let unstable = "duration_ns: 1000.0, time_step_ns: 0.00602, allow_unstable_step: true";
     let place = Workplace::with(&TINY.replace("duration_ns: 1.0", unstable));
     let output = place.actin(&["run", "scene.ron", "--out", "a"]);
     assert_eq!(code(&output), 3, "{}", stderr(&output));
