@@ -91,8 +91,7 @@ fn what_cannot_be_set_is_refused_by_name() {
     }
     let drawn = ["--set", "filament.monomers.anchors=Cubature", "--seed", "3"];
     let output = place.actin(&[&["run", "scene.ron"][..], &drawn].concat());
-    let message =
-        "error: --seed 3: scene.ron draws nothing: no bonds, thermal noise, imperfections or events of linkers\n";
+    let message = "error: --seed 3: scene.ron draws nothing: no bonds, thermal noise, imperfections or events of linkers\n";
     assert_eq!((code(&output), stderr(&output)), (2, message));
     assert!(!place.path("runs").exists());
 }
