@@ -31,6 +31,8 @@ pub struct Capsule {
     /// Which filament, and arc length of its middle (nm).
     filament: usize,
     middle: f64,
+    /// Contour (nm) within which it does not touch its own filament.
+    reach: f64,
 }
 
 /// A number of a repulsion that was refused.
@@ -70,7 +72,19 @@ impl Capsule {
             length,
             filament,
             middle,
+            reach: 0.0,
         })
+    }
+
+    /// The same where bonds or bending couple its filament over a contour (nm): within it the two do not repel.
+    #[must_use]
+    pub fn with_reach(self, reach: f64) -> Self {
+        Self { reach, ..self }
+    }
+
+    /// Whether two may touch: of one filament they are as far apart along it as each asks, and `apart` (nm).
+    pub(super) fn may_touch(&self, other: &Self, apart: f64) -> bool {
+        self.contour_between(other) >= apart.max(self.reach).max(other.reach)
     }
 
     /// The filament that it belongs to.
@@ -193,5 +207,29 @@ impl Row {
     /// Where point `k` is, as a share of the length.
     pub(super) fn share(&self, k: usize) -> f64 {
         (k as f64 + 0.5) / self.count as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Parts of a filament touch from its own reach on, whatever other filaments ask for.
+    #[test]
+    fn each_filament_has_its_own_reach() {
+        let capsule = |filament: usize, middle: f64, reach: f64| {
+            let axis = Axis::Points([0, 1]);
+            Capsule::new(axis, 5.0, (filament, middle))
+                .unwrap()
+                .with_reach(reach)
+        };
+        let (one, near, far) = (
+            capsule(0, 0.0, 15.0),
+            capsule(0, 14.0, 15.0),
+            capsule(0, 16.0, 15.0),
+        );
+        assert!(!one.may_touch(&near, 11.0) && one.may_touch(&far, 11.0));
+        assert!(!one.may_touch(&far, 17.0) && !one.may_touch(&capsule(0, 16.0, 30.0), 11.0));
+        assert!(one.may_touch(&capsule(1, 0.0, 300.0), 11.0));
     }
 }

@@ -66,7 +66,7 @@ impl Neighbours {
             }
             for other in tree.locate_in_envelope_intersecting(around(*ends, cutoff)) {
                 let j = other.data;
-                let may_touch = j > i && capsules[i].contour_between(&capsules[j]) >= reach.apart;
+                let may_touch = j > i && capsules[i].may_touch(&capsules[j], reach.apart);
                 if may_touch && distance::between(*ends, self.ends[j]).squared < cutoff * cutoff {
                     self.pairs.push([i, j]);
                 }

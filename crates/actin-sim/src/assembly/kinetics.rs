@@ -2,7 +2,7 @@
 
 use super::Assembly;
 use crate::scene::{Breaking, Kinetics as Rates, SceneProblem, Stepping};
-use actin_coupling::SwitchedLinker;
+use actin_coupling::{Linker, SwitchedLinker};
 use actin_mechanics::{ControlId, Interaction, State, StepEnd};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -226,7 +226,8 @@ impl Switching {
         if !happens(rate, draw) {
             return (None, rate);
         }
-        let happening = if which * rate < breaking {
+        // A tension beyond all numbers breaks it.
+        let happening = if breaking.is_infinite() || which * rate < breaking {
             Some((Happening::Broke, place))
         } else if place + 1 < self.places_nm.len() {
             Some((Happening::Stepped, place + 1))
@@ -240,13 +241,14 @@ impl Switching {
     /// The place at which it could form and the rate (1/ns), if it is within reach.
     fn forming(&self, state: &State) -> Option<(usize, f64)> {
         let forms = self.rates.forms?;
-        let lengths = self.linker.places().iter().enumerate().map(|(k, linker)| {
-            let apart = linker.end_position(state) - linker.site().position(state);
-            (k, apart.norm())
-        });
-        let (nearest, _) = lengths.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let extension = self.linker.places()[nearest].extension(state);
-        (extension.abs() <= forms.reach_nm).then_some((nearest, forms.rate_per_ns))
+        let extensions = self
+            .linker
+            .places()
+            .iter()
+            .map(|one| one.extension(state).abs());
+        let by_size = |a: &(usize, f64), b: &(usize, f64)| a.1.total_cmp(&b.1);
+        let (nearest, extension) = extensions.enumerate().min_by(by_size)?;
+        (extension <= forms.reach_nm).then_some((nearest, forms.rate_per_ns))
     }
 
     /// Tension at its place (pN), whether it holds or not.
@@ -313,6 +315,17 @@ impl Stepping {
 }
 
 impl Assembly {
+    /// Linker `i` where its site is in `state`, and whether it holds.
+    pub(crate) fn linker_in<'a>(&'a self, i: usize, state: &State) -> (&'a Linker, bool) {
+        let switched = self
+            .kinetics
+            .as_ref()
+            .and_then(|kinetics| kinetics.linker(i));
+        switched.map_or((&self.linkers[i], true), |(switched, _)| {
+            (switched.linker(state), switched.is_bound(state))
+        })
+    }
+
     /// Whether linker `i` holds in `state`, and the arc length of its site (nm); none of one that always holds.
     pub fn switched(&self, i: usize, state: &State) -> Option<(bool, f64)> {
         let (linker, places) = self.kinetics.as_ref()?.linker(i)?;

@@ -2,7 +2,8 @@
 
 use super::{Observe, Past, View, vector};
 
-/// The force of a linker on the filament at its site, its tension and its length.
+/// The force of a linker on the filament at its site, its tension and its length: from its site to its other
+/// end. One that does not hold has no force.
 #[derive(Debug)]
 pub(super) struct Linker {
     pub(super) linker: usize,
@@ -17,12 +18,12 @@ impl Observe for Linker {
     }
 
     fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
-        let linker = &view.assembly.linkers[self.linker];
+        let (linker, is_bound) = view.assembly.linker_in(self.linker, view.state);
         let written = &view.assembly.scene.linkers[self.linker];
-        let force = linker.force(view.state);
+        let holds = f64::from(u8::from(is_bound));
         let extension = linker.extension(view.state);
-        row.extend(force.iter());
-        row.push(written.stiffness_pn_per_nm * extension);
+        row.extend((holds * linker.force(view.state)).iter());
+        row.push(holds * written.stiffness_pn_per_nm * extension);
         row.push(written.rest_length_nm + extension);
     }
 }

@@ -58,7 +58,7 @@ pub struct Catch {
     pub force_pn: f64,
 }
 
-/// Forming where the site is within reach of the other end; of several places at the nearest.
+/// Forming where the site is within reach of the other end; of several places at the one where it is strained least.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -58,6 +58,9 @@ fn of_names_and_lengths(error: &RonError) -> Option<String> {
 /// What stands where a value has ended and a comma is expected.
 fn before_comma(rest: &str) -> String {
     let word: String = rest.chars().take_while(char::is_ascii_alphabetic).collect();
+    if rest.starts_with("()") {
+        return "a choice without keys is written without brackets".to_owned();
+    }
     // Only whole numbers end at a point.
     if rest.starts_with(['.', 'e', 'E']) && !begins_with_key(rest) {
         "a whole number is expected".to_owned()

@@ -189,7 +189,7 @@ pub struct Clamp {
 
 /// A spring between the cross-section at a pinned end and a frame that a path may turn: energy
 /// `(k_b (theta_1^2 + theta_2^2) + k_t theta_3^2) / 2` of the rotation vector `theta` from one to the other, its third
-/// component along the filament. It is known below half a turn: a run whose path turns a hinge further fails.
+/// component along the filament. It is known below half a turn: a run whose path turns a hinge further fails, if the other end is held or hinged too.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

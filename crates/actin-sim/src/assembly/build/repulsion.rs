@@ -1,12 +1,14 @@
 //! From a scene's repulsion to what repels which stretches of filament.
 
-use super::{Body, Builder};
+use super::{Body, Builder, Strand};
 use crate::assembly::Part;
 use crate::assembly::repelled::{Repelled, Touching};
 use crate::scene::{Repulsion, SceneProblem, SphereSide};
+use actin_cosserat::RodLayout;
 use actin_coupling::repulsion::{
     Axis, Capsule, ContactParameters, Contacts, RepulsionError, Side, Wall, WallContact,
 };
+use actin_ellipsoid::Monomers;
 use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
@@ -25,7 +27,7 @@ impl Builder<'_> {
         let parameters = ContactParameters {
             radius,
             stiffness,
-            apart: self.reach_nm().max(PI * radius),
+            apart: PI * radius,
         };
         let contacts = repulsion
             .filaments
@@ -75,52 +77,64 @@ impl Builder<'_> {
         SceneProblem::new(key, value, rule)
     }
 
-    /// How far bonds and segments couple at most, in any filament (nm).
-    fn reach_nm(&self) -> f64 {
-        let strands = self.strands.iter().zip(&self.filaments);
-        let of_each = strands.flat_map(|(strand, span)| {
-            let sections = self.stock.sections[span.sections.clone()].iter();
-            sections.map(|section| section.reach_nm(strand.lattice.rise_nm))
-        });
-        of_each.fold(0.0, f64::max)
-    }
-
     /// All filaments, as stretches of axis in the order of arc length.
     fn capsules(&self) -> Result<Vec<Capsule>, RepulsionError> {
-        let state = &self.stock.state;
         let mut capsules = Vec::new();
         for (filament, strand) in self.strands.iter().enumerate() {
-            for (body, resolved) in strand.bodies.iter().zip(&strand.resolved) {
-                match body {
-                    Body::Rod(layout) => {
-                        let nodes = layout.node_positions();
-                        for (segment, length) in layout.segment_lengths().iter().enumerate() {
-                            let first = layout.points().start + segment;
-                            let middle =
-                                resolved.from_nm + 0.5 * (nodes[segment] + nodes[segment + 1]);
-                            let axis = Axis::Points([first, first + 1]);
-                            capsules.push(Capsule::new(axis, *length, (filament, middle))?);
-                        }
-                    }
-                    Body::Monomers(monomers) => {
-                        for k in 0..monomers.count {
-                            let s_nm = strand.lattice.s_nm(monomers.index(k));
-                            let (point, frame) = (monomers.point(k), monomers.frame(k));
-                            let q = state.frames.orientation.get(frame);
-                            let arms = strand.cell(s_nm).map(|s| {
-                                let arm = strand.axis_at(s) - state.points.position.get(point);
-                                q.inverse_transform_vector(&arm)
-                            });
-                            let axis = Axis::Body { point, frame, arms };
-                            let length = strand.lattice.rise_nm;
-                            capsules.push(Capsule::new(axis, length, (filament, s_nm))?);
-                        }
-                    }
-                }
+            let sections = &self.stock.sections[self.filaments[filament].sections.clone()];
+            let bodies = strand.bodies.iter().zip(&strand.resolved);
+            for ((body, resolved), section) in bodies.zip(sections) {
+                let reach = section.reach_nm(strand.lattice.rise_nm);
+                let of_body = match body {
+                    Body::Rod(layout) => segments(layout, (filament, resolved.from_nm)),
+                    Body::Monomers(monomers) => self.monomers(strand, monomers, filament),
+                };
+                capsules.extend(of_body?.into_iter().map(|c| c.with_reach(reach)));
             }
         }
         Ok(capsules)
     }
+
+    /// The stretches of axis of monomers, a rise each.
+    fn monomers(
+        &self,
+        strand: &Strand<'_>,
+        monomers: &Monomers,
+        filament: usize,
+    ) -> Result<Vec<Capsule>, RepulsionError> {
+        let state = &self.stock.state;
+        let capsule = |k: usize| {
+            let s_nm = strand.lattice.s_nm(monomers.index(k));
+            let (point, frame) = (monomers.point(k), monomers.frame(k));
+            let q = state.frames.orientation.get(frame);
+            let arms = strand.cell(s_nm).map(|s| {
+                let arm = strand.axis_at(s) - state.points.position.get(point);
+                q.inverse_transform_vector(&arm)
+            });
+            let axis = Axis::Body { point, frame, arms };
+            Capsule::new(axis, strand.lattice.rise_nm, (filament, s_nm))
+        };
+        (0..monomers.count).map(capsule).collect()
+    }
+}
+
+/// The segments of a rod that begins at this arc length (nm) of a filament.
+fn segments(
+    layout: &RodLayout,
+    (filament, from_nm): (usize, f64),
+) -> Result<Vec<Capsule>, RepulsionError> {
+    let nodes = layout.node_positions();
+    let lengths = layout.segment_lengths().iter().enumerate();
+    let capsule = |(segment, length): (usize, &f64)| {
+        let first = layout.points().start + segment;
+        let middle = from_nm + 0.5 * (nodes[segment] + nodes[segment + 1]);
+        Capsule::new(
+            Axis::Points([first, first + 1]),
+            *length,
+            (filament, middle),
+        )
+    };
+    lengths.map(capsule).collect()
 }
 
 /// The walls of a scene, planes first.

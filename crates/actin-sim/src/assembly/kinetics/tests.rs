@@ -208,3 +208,58 @@ fn events_belong_to_seed_step_and_linker() {
     let other = Assembly::build(&scene).unwrap();
     assert_ne!(late, events(&other, &mut other.rest.clone(), 500..700));
 }
+
+/// A tension beside which the force of the rate is nothing breaks a linker at once, and no number overflows into
+/// none of the events.
+#[test]
+fn great_tension_breaks() {
+    let linker = "at_nm: 40.0, displaced_nm: (20.0, 0.0, 0.0), stiffness_pn_per_nm: 100.0";
+    let kinetics = "breaks: Breaking(rate_per_ns: 1e-3, force_pn: 2.0)";
+    let assembly = linkers(1, linker, kinetics);
+    let broken = events(&assembly, &mut assembly.rest.clone(), 1..2);
+    assert_eq!(broken.len(), 1);
+    assert_eq!(broken[0].what, Happening::Broke);
+}
+
+/// A linker with a rest length forms where it is as long as that, not where its ends are nearest.
+#[test]
+fn forming_takes_the_place_of_least_strain() {
+    let linker =
+        "at_nm: 40.0, anchor_nm: (2.0, 0.0, 50.0), rest_length_nm: 10.0, stiffness_pn_per_nm: 1.0";
+    let kinetics = "bound: false, forms: Forming(rate_per_ns: 50.0, reach_nm: 1.0),
+        steps: Stepping(step_nm: 5.0, rate_per_ns: 1e-9, stall_pn: 5.0)";
+    let assembly = linkers(1, linker, kinetics);
+    let mut state = assembly.rest.clone();
+    assert!(!assembly.linker_in(0, &state).1);
+    let formed = events(&assembly, &mut state, 1..5);
+    assert_eq!(formed[0].what, Formed);
+    // At 40 and 60 nm its ends are 10.2 nm apart, at 50 nm 2 nm.
+    assert!(assembly.linker_in(0, &state).1);
+    let (_, at_nm) = assembly.switched(0, &state).unwrap();
+    assert!((at_nm - 50.0).abs() > 9.0, "{at_nm}");
+}
+
+/// What is observed of a linker that does not hold has no force.
+#[test]
+fn linkers_that_do_not_hold_pull_nothing() {
+    let text = "Scene(
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 80.0)]),
+        linkers: [Linker(at_nm: 40.0, displaced_nm: (5.0, 0.0, 0.0), stiffness_pn_per_nm: 2.0,
+            kinetics: Kinetics(seed: 5, bound: BOUND, breaks: Breaking(rate_per_ns: 1e-9)))],
+        observe: [Linker(linker: 0)],
+        task: Dynamics(duration_ns: 1e-3),
+    )";
+    for (bound, tension) in [("true", 10.0), ("false", 0.0)] {
+        let scene =
+            Scene::from_ron(&text.replace("BOUND", bound)).unwrap_or_else(|e| panic!("{e}"));
+        let assembly = Assembly::build(&scene).unwrap();
+        let (trajectory, _) = crate::Plan::new(&assembly).unwrap().run().unwrap();
+        let observed = &trajectory.records[0].observed;
+        let expected = [tension, 0.0, 0.0, tension, 5.0];
+        let is_near = observed
+            .iter()
+            .zip(expected)
+            .all(|(x, y)| (x - y).abs() < 1e-12);
+        assert!(is_near, "{bound}: {observed:?}");
+    }
+}

@@ -34,12 +34,10 @@ pub struct LinkerSummary {
 impl LinkerSummary {
     pub(super) fn all(assembly: &Assembly, state: &State) -> Vec<Self> {
         let written = &assembly.scene.linkers;
-        let linkers = written.iter().zip(&assembly.linkers).enumerate();
+        let linkers = written.iter().enumerate();
         linkers
-            .map(|(i, (written, linker))| {
-                let kinetics = assembly.kinetics.as_ref();
-                let switched = kinetics.and_then(|kinetics| kinetics.linker(i));
-                let linker = switched.map_or(linker, |(switched, _)| switched.linker(state));
+            .map(|(i, written)| {
+                let (linker, _) = assembly.linker_in(i, state);
                 let summary = Self::new(written, linker, state);
                 match assembly.switched(i, state) {
                     None => summary,
