@@ -225,11 +225,11 @@ mod tests {
         };
         let (one, near, far) = (
             capsule(0, 0.0, 15.0),
-            capsule(0, 14.0, 15.0),
-            capsule(0, 16.0, 15.0),
+            capsule(0, 19.0, 15.0),
+            capsule(0, 21.0, 15.0),
         );
         assert!(!one.may_touch(&near, 11.0) && one.may_touch(&far, 11.0));
-        assert!(!one.may_touch(&far, 17.0) && !one.may_touch(&capsule(0, 16.0, 30.0), 11.0));
+        assert!(!one.may_touch(&far, 17.0) && !one.may_touch(&capsule(0, 21.0, 30.0), 11.0));
         assert!(one.may_touch(&capsule(1, 0.0, 300.0), 11.0));
     }
 }

@@ -245,7 +245,8 @@ fn linkers_that_do_not_hold_pull_nothing() {
     let text = "Scene(
         filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 80.0)]),
         linkers: [Linker(at_nm: 40.0, displaced_nm: (5.0, 0.0, 0.0), stiffness_pn_per_nm: 2.0,
-            kinetics: Kinetics(seed: 5, bound: BOUND, breaks: Breaking(rate_per_ns: 1e-9)))],
+            kinetics: Kinetics(seed: 5, bound: BOUND, breaks: Breaking(rate_per_ns: 1e-9),
+            forms: Forming(rate_per_ns: 1e-9, reach_nm: 10.0)))],
         observe: [Linker(linker: 0)],
         task: Dynamics(duration_ns: 1e-3),
     )";
