@@ -1,6 +1,6 @@
 //! Slow bending of a clamped rod: what a rigid segment's rotary inertia costs it, and the mesh.
 
-use crate::field::{Motion, build, set};
+use crate::field::{Motion, build, frequency_of, set};
 use actin_mechanics::Vector3;
 use actin_sim::{Assembly, Trajectory};
 use std::f64::consts::PI;
@@ -85,15 +85,7 @@ impl Mode {
         let series: Vec<_> = series
             .map(|r| (r.at.value(), amplitude(&r.state)))
             .collect();
-        let zeros: Vec<f64> = series
-            .windows(2)
-            .filter(|pair| pair[0].1 * pair[1].1 < 0.0)
-            .map(|pair| {
-                let [(t0, a0), (t1, a1)] = [pair[0], pair[1]];
-                t0 + (t1 - t0) * a0 / (a0 - a1)
-            })
-            .collect();
-        (zeros.len() - 1) as f64 * PI / (zeros[zeros.len() - 1] - zeros[0])
+        frequency_of(&series)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use actin_mechanics::{State, Vector3, rotation};
 use actin_sim::{Assembly, Scene};
+use std::f64::consts::PI;
 
 /// How the cross-section at one arc length is moved, whatever resolves it there.
 #[derive(Clone, Copy, Debug)]
@@ -53,4 +54,17 @@ pub(crate) fn set_spin(state: &mut State, i: usize, spin: Vector3) {
     let body = state.frames.orientation.get(i).inverse() * spin;
     let momentum = body.component_div(&state.frames.inverse_moments(i));
     state.frames.angular_momentum.set(i, momentum);
+}
+
+/// The frequency (rad/ns) of an oscillation, times (ns) and amplitudes, from its zeros by interpolation.
+pub(crate) fn frequency_of(series: &[(f64, f64)]) -> f64 {
+    let zeros: Vec<f64> = series
+        .windows(2)
+        .filter(|pair| pair[0].1 * pair[1].1 < 0.0)
+        .map(|pair| {
+            let [(t0, a0), (t1, a1)] = [pair[0], pair[1]];
+            t0 + (t1 - t0) * a0 / (a0 - a1)
+        })
+        .collect();
+    (zeros.len() - 1) as f64 * PI / (zeros[zeros.len() - 1] - zeros[0])
 }

@@ -5,7 +5,7 @@
 //! away). So the frequencies are `2 c/h sin(k h/2)` with `k = (2m - 1) pi / 2L`, without an error
 //! of the mesh beyond that formula.
 
-use crate::field::{Motion, build, set};
+use crate::field::{Motion, build, frequency_of, set};
 use actin_mechanics::Vector3;
 use actin_sim::Assembly;
 use std::f64::consts::PI;
@@ -96,15 +96,7 @@ fn measured(wave: Wave, segments: usize, m: usize) -> f64 {
             (record.at.value(), amplitude)
         })
         .collect();
-    let zeros: Vec<f64> = amplitudes
-        .windows(2)
-        .filter(|pair| pair[0].1 * pair[1].1 < 0.0)
-        .map(|pair| {
-            let [(t0, a0), (t1, a1)] = [pair[0], pair[1]];
-            t0 + (t1 - t0) * a0 / (a0 - a1)
-        })
-        .collect();
-    (zeros.len() - 1) as f64 * PI / (zeros[zeros.len() - 1] - zeros[0])
+    frequency_of(&amplitudes)
 }
 
 /// A stretching that carries half of the mass, or a twisting with the moment of a solid segment
