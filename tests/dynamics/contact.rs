@@ -3,7 +3,7 @@
 use crate::record::scientific;
 use actin_integrate::{Drag, PEFRL, POSITION_VERLET, advance};
 use actin_mechanics::{State, System, Vector3};
-use actin_sim::{Assembly, Plan, Scene};
+use actin_sim::{Assembly, Plan, Scene, Trajectory};
 
 const TASK: &str = "task: Dynamics(duration_ns: 1.0)";
 
@@ -141,4 +141,41 @@ fn the_time_step_knows_contact_before_it_happens() {
             );
         }
     }
+}
+
+/// What passes through another filament between two records ends the run, with the step, the body and the
+/// term, though at no record anything touches.
+#[test]
+fn passing_through_between_records_fails() {
+    let text = "Scene(
+        filaments: [
+            Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+            Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], at_nm: (12.0, -30.0, 30.0),
+                direction: (0.0, 1.0, 0.0)),
+        ],
+        clamps: [Clamp(end: Start), Clamp(end: End)],
+        loads: [ForcePerLength(filament: 1, from_nm: 0.0, to_nm: 60.0, force_pn_per_nm: (-30.0, 0.0, 0.0))],
+        repulsion: Repulsion(stiffness_pn_per_nm: STIFFNESS),
+        task: Dynamics(duration_ns: 0.2, record_every_ns: 0.2),
+    )";
+    let run = |stiffness: &str| {
+        let scene = Scene::from_ron(&text.replace("STIFFNESS", stiffness)).unwrap();
+        let assembly = Assembly::build(&scene).unwrap();
+        let mut trajectory = Trajectory::default();
+        let result = Plan::new(&assembly).unwrap().run_into(&mut trajectory);
+        (trajectory.records.len(), result)
+    };
+    let (records, result) = run("1.0");
+    let failure = result.unwrap_err().to_string();
+    println!("{failure}");
+    assert!(
+        failure.starts_with("bodies that are to stay apart pass through each other at step")
+            && failure.contains("\"repulsion\"")
+            && failure.contains("of filament"),
+        "{failure}"
+    );
+    assert_eq!(records, 1);
+    let (records, result) = run("1e4");
+    assert_eq!(records, 2);
+    result.unwrap();
 }

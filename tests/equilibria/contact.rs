@@ -219,3 +219,41 @@ fn filaments_built_into_each_other_are_refused_or_noted() {
     );
     assert!(problem(7.5).unwrap().is_empty());
 }
+
+/// A filament that is moved across another, whose ends are held, goes no farther than where it would pass
+/// through, whatever the steps: behind it there is an equilibrium, stable and without any energy.
+#[test]
+fn a_path_does_not_lead_filaments_through_each_other() {
+    for (stiffness, largest_step) in [(20.0, 1.0), (20.0, 0.02), (600.0, 1.0)] {
+        let text = format!(
+            "Scene(
+                filaments: [
+                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], at_nm: (7.5, -30.0, 30.0),
+                        direction: (0.0, 1.0, 0.0)),
+                ],
+                clamps: [Clamp(end: Start), Clamp(end: End), Clamp(filament: 1, end: Start),
+                    Clamp(filament: 1, end: End)],
+                path: [Stage(set: [
+                    Shift(filament: 1, end: Start, shift_nm: (-40.0, 0.0, 0.0)),
+                    Shift(filament: 1, end: End, shift_nm: (-40.0, 0.0, 0.0)),
+                ])],
+                repulsion: Repulsion(stiffness_pn_per_nm: {stiffness:?}),
+                task: Equilibrium(largest_step: {largest_step:?}),
+            )"
+        );
+        let mut assembly = build(&text);
+        let (trajectory, outcome) = run_anyway(&mut assembly);
+        let (failure, _) = failure(outcome);
+        let reason = failure.to_string();
+        println!("{stiffness} pN/nm, steps of {largest_step}: {reason}");
+        assert!(reason.contains("an interaction keeps away"), "{reason}");
+        // The axis of the one is still on its side of the other.
+        let last = &trajectory.records.last().unwrap().state.points.position;
+        let x = |filament: usize| {
+            let points = assembly.filaments[filament].points.clone();
+            last.get(points.start + points.len() / 2).x
+        };
+        assert!(x(1) > x(0), "{} and {}", x(0), x(1));
+    }
+}

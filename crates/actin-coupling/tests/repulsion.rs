@@ -320,3 +320,44 @@ fn numbers_that_make_no_sense_are_refused() {
     assert_eq!(key(wall(sphere(3.0, Side::Inside))), "radius of a sphere");
     assert!(wall(sphere(3.0, Side::Outside)).is_ok());
 }
+
+/// What passes through another is told whether the step is short, so that only known neighbours are looked
+/// at, or long; so is what flies through a sphere. What passes beside it is not.
+#[test]
+fn passing_through_is_told() {
+    let crossing = |height: f64, aside: f64| {
+        let mut state = State::default();
+        let x = Vector3::x();
+        let mut capsules = chain(&mut state, (0, x * -20.0, x), (4, 10.0));
+        let from = Vector3::new(1.0, -20.0 + aside, height);
+        capsules.extend(chain(&mut state, (1, from, Vector3::y()), (4, 10.0)));
+        (state, capsules)
+    };
+    let (above, capsules) = crossing(3.0, 0.0);
+    let contacts = Contacts::new(capsules.clone(), parameters()).unwrap();
+    let told = |from: &State, to: &State| contacts.passes_through(from, to).is_some();
+    // Behind, half way in, and past an end, each from near and from far.
+    for start in [crossing(3.0, 0.0).0, crossing(50.0, 0.0).0] {
+        for (height, aside, passes) in [
+            (-3.0, 0.0, true),
+            (-70.0, 0.0, true),
+            (0.5, 0.0, true),
+            (2.0, 0.0, false),
+            (-3.0, 500.0, false),
+        ] {
+            let way = told(&start, &crossing(height, aside).0);
+            assert_eq!(way, passes, "to {height}, {aside}");
+        }
+    }
+    assert!(!told(&above, &above));
+    let sphere = Wall::Sphere {
+        centre: Vector3::new(1.0, 4.0, 0.0),
+        radius: 2.0,
+        side: Side::Outside,
+    };
+    let wall = WallContact::new(capsules, sphere, RADIUS, STIFFNESS).unwrap();
+    for (aside, passes) in [(0.0, true), (100.0, false)] {
+        let [above, below] = [5.0, -5.0].map(|height| crossing(height, aside).0);
+        assert_eq!(wall.passes_through(&above, &below).is_some(), passes);
+    }
+}

@@ -36,6 +36,9 @@ const KEPT: f64 = 1.0 / 64.0;
 const MANY: usize = 2000;
 /// Factor by which the stiffening of ties is raised and lowered.
 const STIFFER: f64 = 4.0;
+/// A solve ends when of its steps so many more than half of the others are cut short since bodies would
+/// pass through each other: on a way around something few are.
+const BLOCKED: usize = 20;
 /// Growth of the reach after a step that was accepted at once.
 const REACH_GROWTH: f64 = 2.0;
 
@@ -75,6 +78,10 @@ pub(crate) struct Descent {
     rest: usize,
     /// How much ties are stiffened per motion (pN/nm^2).
     cubic: f64,
+    /// Whether the present step led bodies through each other and was cut short.
+    is_cut: bool,
+    /// Twice the steps of which that is so, less those of which it is not.
+    blocked: usize,
     options: NewtonOptions,
 }
 
@@ -99,12 +106,24 @@ impl Descent {
             reach: 1.0,
             rest: 0,
             cubic: 0.0,
+            is_cut: false,
+            blocked: 0,
             options: *options,
         }
     }
 
     pub(crate) fn is_on_excursion(&self) -> bool {
         self.anchor.is_some()
+    }
+
+    /// Whether one of the last steps was cut short since bodies would have passed through each other.
+    pub(crate) fn is_blocked(&self) -> bool {
+        self.blocked > 0
+    }
+
+    /// Whether this has gone on for so long that it will not end.
+    pub(crate) fn stays_blocked(&self) -> bool {
+        self.blocked >= 2 * BLOCKED
     }
 
     /// Whether this is an excursion that is above where it began; if so, its next step goes back.
@@ -134,6 +153,21 @@ impl Descent {
     /// # Errors
     /// If the stiffness cannot be factorised.
     pub(crate) fn advance(
+        &mut self,
+        solver: &mut Solver,
+        interactions: &[Box<dyn Interaction>],
+    ) -> Result<Option<(Direction, Taken)>, SolveError> {
+        self.is_cut = false;
+        let found = self.find_step(solver, interactions);
+        self.blocked = if self.is_cut {
+            self.blocked + 2
+        } else {
+            self.blocked.saturating_sub(1)
+        };
+        found
+    }
+
+    fn find_step(
         &mut self,
         solver: &mut Solver,
         interactions: &[Box<dyn Interaction>],
@@ -218,17 +252,19 @@ impl Descent {
         let layout = &solver.layout;
         self.trial.clone_from(&self.state);
         layout.apply(&mut self.trial, &direction.step, fraction);
-        self.there.update(interactions, &self.trial);
+        self.there.follow(interactions, (&self.state, &self.trial));
         let velocities = layout.velocities(&self.state, &direction.step);
         self.carried.clone_from(&self.trial);
         let chain = solver.assembly.chain();
         chain.carry(&self.state, &velocities, fraction, &mut self.carried);
-        self.beyond.update(interactions, &self.carried);
+        self.beyond
+            .follow(interactions, (&self.state, &self.carried));
         solver.work.evaluations += 2;
         if self.beyond.is_finite() && is_lower(&self.beyond, &self.there) {
             std::mem::swap(&mut self.trial, &mut self.carried);
             std::mem::swap(&mut self.there, &mut self.beyond);
         }
+        self.is_cut |= self.there.has_passed();
     }
 
     /// Whether the trial state is good enough, and why.

@@ -106,8 +106,9 @@ impl Newton {
             if !(extent.rotation <= FARTHEST && extent.displacement <= FARTHEST * size) {
                 break;
             }
+            let before = there.clone();
             self.layout().apply(&mut there, &step, 1.0);
-            here.update(interactions, &there);
+            here.follow(interactions, (&before, &there));
         }
         best.map(|(_, state)| state)
     }

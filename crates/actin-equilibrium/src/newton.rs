@@ -271,6 +271,9 @@ impl Run<'_> {
         if let Some(ending) = self.ending(descent) {
             return Ok(Some(ending));
         }
+        if descent.stays_blocked() {
+            return self.give_up(descent, SolveError::PassesThrough);
+        }
         if self.history.len() >= self.options.iterations {
             return self.give_up(descent, SolveError::IterationLimit(self.options.iterations));
         }
@@ -280,7 +283,12 @@ impl Run<'_> {
             self.solver
                 .assemble(self.interactions, &descent.state, &descent.here.loads);
             self.measure(descent);
-            return self.give_up(descent, SolveError::Stagnated);
+            let cause = if descent.is_blocked() {
+                SolveError::PassesThrough
+            } else {
+                SolveError::Stagnated
+            };
+            return self.give_up(descent, cause);
         };
         self.solver.work.iterations += 1;
         self.history.push(Iteration {

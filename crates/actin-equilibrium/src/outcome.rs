@@ -66,6 +66,9 @@ pub enum SolveError {
     /// No step, however short, lowers the energy or the residual.
     #[error("no step, however short, lowers the energy or the residual")]
     Stagnated,
+    /// Every step downhill leads bodies through each other that an interaction keeps apart.
+    #[error("the way to lower energy leads through what an interaction keeps away")]
+    PassesThrough,
     /// The stiffness has entries that are not finite, or no regularisation makes it definite.
     #[error("the stiffness cannot be made positive definite by adding {0:.3e} pN/nm")]
     NotFactorizable(f64),

@@ -4,7 +4,7 @@
 //! none. At a limit point, beyond which there is no equilibrium near by, the steps shrink to the
 //! smallest and the path ends with a report of the last equilibrium.
 
-use crate::evaluation::Evaluation;
+use crate::evaluation::{Evaluation, passes_through};
 use crate::history::SolverWork;
 use crate::motion::StepSize;
 use crate::newton::Newton;
@@ -47,6 +47,9 @@ pub enum PathError {
     /// No equilibrium was found at the next parameter.
     #[error("{0}")]
     NoEquilibrium(Box<NewtonFailure>),
+    /// What is set at the next parameter leads bodies through each other that an interaction keeps apart.
+    #[error("what is set there leads through what an interaction keeps away")]
+    PassesThrough,
     /// The next equilibrium is a saddle.
     #[error("the equilibrium loses its stability: {negative} negative eigenvalue(s)")]
     Unstable {
@@ -221,10 +224,14 @@ impl<'a> Walk<'a> {
     ) -> Result<(), (f64, PathError)> {
         loop {
             let next = self.next_parameter();
-            let mut trial = self.predict(state, next, set);
             let is_smallest = self.at.step <= self.options.smallest_step;
-            let cause = match self.solve(&mut trial, companion) {
-                Ok(equilibrium) => {
+            let predicted = self.predict(state, next, set);
+            let found = predicted.and_then(|mut trial| {
+                let equilibrium = self.solve(&mut trial, companion)?;
+                Ok((trial, equilibrium))
+            });
+            let cause = match found {
+                Ok((trial, equilibrium)) => {
                     let moved = self.moved(state, &trial);
                     let far = moved.rotation > self.options.largest_turn
                         || moved.strain > self.options.largest_strain
@@ -269,24 +276,37 @@ impl<'a> Walk<'a> {
     }
 
     /// A state at which to begin: with controls set, and extrapolated if that is lower in energy.
-    fn predict(&self, state: &State, next: f64, set: Set<'_>) -> State {
+    ///
+    /// # Errors
+    /// If the way to where it is set leads through what an interaction keeps away.
+    fn predict(&self, state: &State, next: f64, set: Set<'_>) -> Result<State, PathError> {
         let mut plain = state.clone();
         set(&mut plain, next);
+        let passes = |to: &State| passes_through(self.interactions, state, to);
+        let is_blocked = passes(&plain);
         let known = self.at.previous.as_ref();
         let Some((previous, before)) = known.filter(|_| self.options.extrapolate) else {
-            return plain;
+            return if is_blocked {
+                Err(PathError::PassesThrough)
+            } else {
+                Ok(plain)
+            };
         };
         let layout = self.newton.layout();
         let motion = layout.difference(&state.in_motion(previous.clone()), state);
         let factor = (next - self.at.parameter) / (self.at.parameter - before);
         let mut extrapolated = plain.clone();
         layout.apply(&mut extrapolated, &motion, factor);
-        let with = Evaluation::new(self.interactions, &extrapolated);
-        let without = Evaluation::new(self.interactions, &plain);
-        if with.energy_above(&without) < 0.0 {
-            extrapolated
-        } else {
-            plain
+        let is_lower = || {
+            let with = Evaluation::new(self.interactions, &extrapolated);
+            let without = Evaluation::new(self.interactions, &plain);
+            with.energy_above(&without) < 0.0
+        };
+        match (passes(&extrapolated), is_blocked) {
+            (true, true) => Err(PathError::PassesThrough),
+            (false, true) => Ok(extrapolated),
+            (false, false) if is_lower() => Ok(extrapolated),
+            _ => Ok(plain),
         }
     }
 

@@ -184,7 +184,8 @@ impl<'a> Ridge<'a> {
         newton
             .layout()
             .apply(&mut moved, &self.mode.shape, amplitude);
-        let there = Evaluation::new(self.interactions, &moved);
+        let mut there = self.energies.clone();
+        there.follow(self.interactions, (self.state, &moved));
         newton.solver.work.evaluations += 1;
         (there.energy_above(&self.energies), moved)
     }

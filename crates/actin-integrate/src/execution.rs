@@ -5,7 +5,7 @@ use crate::{
     Body, Checkpoint, FailureKind, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome,
     Snapshot,
 };
-use actin_mechanics::{Split, State, System};
+use actin_mechanics::{Coordinates, Split, State, System};
 use std::ops::ControlFlow;
 
 /// A run in progress.
@@ -143,6 +143,7 @@ impl<'a, 'o> Execution<'a, 'o> {
     /// Fails if the state is unsound; of one that is `shown`, its whole energy counts.
     fn check(&mut self, is_shown: bool) -> Result<(), RunFailure> {
         let kinetic = match self.inspect(is_shown) {
+            Ok(_) if self.passed().is_some() => return Err(self.fail(FailureKind::PassesThrough)),
             Ok(kinetic) => kinetic,
             Err(problem) => return Err(self.fail(problem)),
         };
@@ -159,6 +160,19 @@ impl<'a, 'o> Execution<'a, 'o> {
             self.inspect_energy()?;
         }
         Ok(kinetic)
+    }
+
+    /// A body that has passed through another since the last check, and the term that was to prevent it.
+    fn passed(&self) -> Option<(Body, &'static str)> {
+        let (before, here) = (&self.sound.1, self.system.state());
+        let mut all = self.system.interactions().iter();
+        all.find_map(|interaction| {
+            let body = match interaction.passes_through(before, here)? {
+                Coordinates::Point(i) => Body::Point(i),
+                Coordinates::Frame(i) => Body::Frame(i),
+            };
+            Some((body, interaction.term()))
+        })
     }
 
     /// Whether there is more energy than there can be, or none that is a number.
@@ -270,16 +284,7 @@ impl<'a, 'o> Execution<'a, 'o> {
             _ => problem,
         };
         let (problem, before) = self.replay(problem);
-        let broken = self.system.state().clone();
-        let (body, term) = self
-            .probe(&before)
-            .or_else(|| match problem {
-                FailureKind::TooMuchEnergy(energy) if !energy.is_finite() => {
-                    broken_energy(self.system.interactions(), &broken)
-                }
-                _ => None,
-            })
-            .unwrap_or_else(|| blame(self.system.interactions(), &broken, &before));
+        let (body, term) = self.culprit(problem, &before);
         self.last_good.restore(self.system);
         let last_good = Checkpoint {
             here: self.last_good.clone(),
@@ -298,6 +303,24 @@ impl<'a, 'o> Execution<'a, 'o> {
             last_good_step: self.last_good.step,
             last_good_time: self.run.time(self.last_good.step),
         }
+    }
+
+    /// The body and the term to blame for the present state, one step after `before`.
+    fn culprit(&mut self, problem: FailureKind, before: &State) -> (Body, &'static str) {
+        if problem == FailureKind::PassesThrough
+            && let Some(passed) = self.passed()
+        {
+            return passed;
+        }
+        let broken = self.system.state().clone();
+        self.probe(before)
+            .or_else(|| match problem {
+                FailureKind::TooMuchEnergy(energy) if !energy.is_finite() => {
+                    broken_energy(self.system.interactions(), &broken)
+                }
+                _ => None,
+            })
+            .unwrap_or_else(|| blame(self.system.interactions(), &broken, before))
     }
 
     /// Repeats the way from the last observation, up to the first check with too much energy, which
@@ -329,7 +352,11 @@ impl<'a, 'o> Execution<'a, 'o> {
         while self.step < found_step {
             before.clone_from(self.system.state());
             self.advance_to(self.step + 1);
-            if let Err(problem) = self.inspect(whole) {
+            let broken = match found {
+                FailureKind::PassesThrough => self.passed().map(|_| found),
+                _ => self.inspect(whole).err(),
+            };
+            if let Some(problem) = broken {
                 return (problem, before);
             }
         }

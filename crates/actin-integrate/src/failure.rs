@@ -38,6 +38,9 @@ pub enum FailureKind {
     /// finite number.
     #[error("{}", too_much(*.0))]
     TooMuchEnergy(f64),
+    /// A body has passed through another that an interaction keeps apart.
+    #[error("bodies that are to stay apart pass through each other")]
+    PassesThrough,
 }
 
 fn too_much(energy: f64) -> String {
@@ -48,13 +51,26 @@ fn too_much(energy: f64) -> String {
     }
 }
 
+/// What is said of the body and the term, before and behind the name of the term, and what may help.
+fn words(problem: FailureKind) -> [&'static str; 3] {
+    match problem {
+        FailureKind::PassesThrough => ["against ", "", "a greater stiffness of it may help"],
+        _ => [
+            "on which ",
+            " acts most strongly",
+            "a smaller time step may help",
+        ],
+    }
+}
+
 /// A run that broke: where, when, and which term of the model is to be suspected.
 ///
 /// The system has been put back to the last observed state that was good.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
-    "{problem} at step {step} ({time} ns): {body}, on which {term:?} acts most strongly; the last \
-     good state, of step {last_good_step}, was kept; a smaller time step may help"
+    "{problem} at step {step} ({time} ns): {body}, {}{term:?}{}; the last \
+     good state, of step {last_good_step}, was kept; {}", 
+     words(*problem)[0], words(*problem)[1], words(*problem)[2]
 )]
 pub struct RunFailure {
     /// What went wrong.

@@ -1,6 +1,6 @@
 //! What acts on bodies.
 
-use crate::{Loads, SecondOrder, State};
+use crate::{Coordinates, Loads, SecondOrder, State};
 use std::fmt::Debug;
 
 /// A term of the model: some elements of one kind (springs, joints, loads).
@@ -32,6 +32,13 @@ pub trait Interaction: Debug + Send + Sync {
 
     /// The second derivatives of the energy, where the interaction knows them.
     fn second_order(&self) -> Option<&dyn SecondOrder> {
+        None
+    }
+
+    /// A body that passes through another on the straight way from one state to another, if this
+    /// interaction is there to prevent that: energies before and behind do not tell. Solvers refuse
+    /// such steps, runs end.
+    fn passes_through(&self, _from: &State, _to: &State) -> Option<Coordinates> {
         None
     }
 

@@ -122,6 +122,14 @@ impl Capsule {
         }
     }
 
+    /// A body that it follows.
+    pub(super) fn body(&self) -> Coordinates {
+        match self.axis {
+            Axis::Points([first, _]) => Coordinates::Point(first),
+            Axis::Body { point, .. } => Coordinates::Point(point),
+        }
+    }
+
     /// Adds what forces at the two ends (pN, lab frame) do to the bodies.
     pub(super) fn add_forces(&self, forces: [Vector3; 2], state: &State, loads: &mut Loads) {
         match self.axis {

@@ -13,6 +13,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 const SKIN: f64 = 1.0;
 /// Distance from contact within which two capsules are in the pattern of the stiffness, in radii.
 const MARGIN: f64 = 0.25;
+/// Distance of two axes, over the radius, that no step may lead across: half of that at which a crossing
+/// ceases to be pushed back more the nearer it is.
+const IMPASSABLE: f64 = Kernel::YIELD;
 /// Neighbours that press on a filament from all sides: of six in a bundle half of what they resist is
 /// along one direction.
 const PRESSING: f64 = 3.0;
@@ -225,6 +228,17 @@ impl Interaction for Contacts {
 
     fn second_order(&self) -> Option<&dyn SecondOrder> {
         Some(self)
+    }
+
+    /// Axes that come within a third of a radius of each other pass through each other: they are far
+    /// behind where they would have been pushed back. Of two that are nearer already, those do that
+    /// come nearer still.
+    fn passes_through(&self, from: &State, to: &State) -> Option<Coordinates> {
+        let later: Vec<_> = self.capsules.iter().map(|c| c.ends(to)).collect();
+        let limits = (&self.reach, IMPASSABLE * self.radius);
+        let neighbours = self.neighbours(from);
+        let [i, _] = neighbours.first_passing(&self.capsules, &later, limits)?;
+        Some(self.capsules[i].body())
     }
 }
 

@@ -19,6 +19,7 @@ mod distance;
 mod kernel;
 mod neighbours;
 mod pair;
+mod passing;
 mod tethers;
 mod wall;
 

@@ -2,6 +2,7 @@
 
 use super::Capsule;
 use super::distance;
+use super::passing::comes_within;
 use actin_mechanics::{State, Vector3};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -55,35 +56,96 @@ impl Neighbours {
 
     fn find(&mut self, capsules: &[Capsule], reach: &Reach) {
         let cutoff = reach.known + reach.skin;
-        let boxes = self.ends.iter().enumerate();
-        let boxes = boxes.filter(|(_, ends)| ends.iter().all(|x| x.amax() < FARTHEST));
-        let boxes: Vec<_> = boxes.map(|(i, ends)| boxed(*ends, i)).collect();
-        let tree = RTree::bulk_load(boxes);
+        let boxes: Vec<_> = self.ends.iter().map(Bounds::around).collect();
         self.pairs.clear();
-        for (i, ends) in self.ends.iter().enumerate() {
-            if !ends.iter().all(|x| x.amax() < FARTHEST) {
-                continue;
-            }
-            for other in tree.locate_in_envelope_intersecting(around(*ends, cutoff)) {
-                let j = other.data;
-                let may_touch = j > i && capsules[i].may_touch(&capsules[j], reach.apart);
-                if may_touch && distance::between(*ends, self.ends[j]).squared < cutoff * cutoff {
-                    self.pairs.push([i, j]);
-                }
+        for [i, j] in meeting(&boxes, capsules, reach.apart, cutoff) {
+            if distance::between(self.ends[i], self.ends[j]).squared < cutoff * cutoff {
+                self.pairs.push([i, j]);
             }
         }
-        self.pairs.sort_unstable();
         self.found_at.clone_from(&self.ends);
+    }
+
+    /// The first two capsules that come within `least` (nm) of each other, or nearer than they are, on the
+    /// straight way from the present places of all to `later` ones.
+    pub(super) fn first_passing(
+        &self,
+        capsules: &[Capsule],
+        later: &[[Vector3; 2]],
+        (reach, least): (&Reach, f64),
+    ) -> Option<[usize; 2]> {
+        let ways = || self.ends.iter().zip(later);
+        let farthest = ways()
+            .flat_map(|([a, b], [c, d])| [(a - c).norm_squared(), (b - d).norm_squared()])
+            .fold(0.0, f64::max)
+            .sqrt();
+        let passes = |&[i, j]: &[usize; 2]| {
+            comes_within(
+                least,
+                [i, j].map(|k| self.ends[k]),
+                [i, j].map(|k| later[k]),
+            )
+        };
+        // Whatever can meet in a short step is near already.
+        if 2.0 * farthest + least <= reach.known {
+            return self.pairs.iter().copied().find(passes);
+        }
+        let boxes: Vec<_> = ways()
+            .map(|way| Bounds::around(way.0).with(&Bounds::around(way.1)))
+            .collect();
+        let mut pairs = meeting(&boxes, capsules, reach.apart, least).into_iter();
+        pairs.find(passes)
     }
 }
 
-/// The box about an axis, with the index of its capsule.
-fn boxed([a, b]: [Vector3; 2], i: usize) -> GeomWithData<Rectangle<[f64; 3]>, usize> {
-    GeomWithData::new(Rectangle::from_corners(a.into(), b.into()), i)
+/// A box with edges along the axes.
+#[derive(Clone, Copy, Debug)]
+struct Bounds {
+    lower: Vector3,
+    upper: Vector3,
 }
 
-/// The box about an axis, wider by `margin` on all sides.
-fn around([a, b]: [Vector3; 2], margin: f64) -> AABB<[f64; 3]> {
-    let margin = Vector3::repeat(margin);
-    AABB::from_corners((a.inf(&b) - margin).into(), (a.sup(&b) + margin).into())
+impl Bounds {
+    /// That about a stretch.
+    fn around([a, b]: &[Vector3; 2]) -> Self {
+        Self {
+            lower: a.inf(b),
+            upper: a.sup(b),
+        }
+    }
+
+    /// That about both.
+    fn with(&self, other: &Self) -> Self {
+        Self {
+            lower: self.lower.inf(&other.lower),
+            upper: self.upper.sup(&other.upper),
+        }
+    }
+
+    /// Whether it is where a motion that has not exploded can be.
+    fn is_near(&self) -> bool {
+        self.lower.amax() < FARTHEST && self.upper.amax() < FARTHEST
+    }
+}
+
+/// Pairs of capsules that may touch and whose boxes come within a distance of each other, sorted.
+fn meeting(boxes: &[Bounds], capsules: &[Capsule], apart: f64, within: f64) -> Vec<[usize; 2]> {
+    let near = || boxes.iter().enumerate().filter(|(_, b)| b.is_near());
+    let leaves = near().map(|(i, b)| {
+        let corners: [[f64; 3]; 2] = [b.lower.into(), b.upper.into()];
+        GeomWithData::new(Rectangle::from_corners(corners[0], corners[1]), i)
+    });
+    let tree = RTree::bulk_load(leaves.collect());
+    let margin = Vector3::repeat(within);
+    let mut pairs = Vec::new();
+    for (i, b) in near() {
+        let around = AABB::from_corners((b.lower - margin).into(), (b.upper + margin).into());
+        let others = tree
+            .locate_in_envelope_intersecting(around)
+            .map(|leaf| leaf.data);
+        let touching = others.filter(|&j| j > i && capsules[i].may_touch(&capsules[j], apart));
+        pairs.extend(touching.map(|j| [i, j]));
+    }
+    pairs.sort_unstable();
+    pairs
 }

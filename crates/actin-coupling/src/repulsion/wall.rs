@@ -4,7 +4,10 @@ use super::capsule::{Capsule, RepulsionError, Row, positive};
 use super::contacts::Gap;
 use super::distance;
 use super::kernel::WallKernel;
-use actin_mechanics::{Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3};
+use super::passing::comes_within;
+use actin_mechanics::{
+    Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
+};
 
 /// Distance from contact within which a capsule is in the pattern of the stiffness, in radii.
 const MARGIN: f64 = 0.25;
@@ -267,6 +270,25 @@ impl Interaction for WallContact {
 
     fn second_order(&self) -> Option<&dyn SecondOrder> {
         Some(self)
+    }
+
+    /// An axis that comes within half the radius of a sphere that it is to stay out of may come out on
+    /// the other side. Behind other walls there is no way out but back.
+    fn passes_through(&self, from: &State, to: &State) -> Option<Coordinates> {
+        let Wall::Sphere {
+            centre,
+            radius,
+            side: Side::Outside,
+        } = self.wall
+        else {
+            return None;
+        };
+        let still = [centre; 2];
+        let passes = |capsule: &&Capsule| {
+            let ways = [from, to].map(|state| [capsule.ends(state), still]);
+            comes_within(0.5 * radius, ways[0], ways[1])
+        };
+        self.capsules.iter().find(passes).map(Capsule::body)
     }
 }
 

@@ -17,8 +17,8 @@ const STIFFNESS_PN_PER_NM: f64 = 1000.0;
 /// Two filaments repel each other within twice their radius, softly at first: `2 pi e d q^4` where they
 /// cross at a right angle at a distance `d`, with `q = 1 - d^2/(4 R^2)` and `e` 0.27 of the stiffness. At a
 /// third of the contact distance this is greatest, `0.70 k R`; a run with a record
-/// that comes closer has failed; between records, and in a step along a path, filaments may pass through each
-/// other unseen. A wall pushes
+/// that comes closer has failed, and so has one in which, at any time, two come twice as close as that: they
+/// pass through each other. No step of `Equilibrium` leads there. A wall pushes
 /// with `k p^3/(6 R^3)` per length where a surface is pressed into it by `p`. Drag or friction between surfaces
 /// there is none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
