@@ -7,7 +7,7 @@ use std::path::Path;
 use workplace::{Workplace, code, stderr, stdout};
 
 /// Scenes of `scenarios/bad`, with a mistake of each kind.
-const MISTAKES: [&str; 42] = [
+const MISTAKES: [&str; 45] = [
     "several-mistakes",
     "several-broken-rules",
     "filament-without-its-bracket",
@@ -46,6 +46,9 @@ const MISTAKES: [&str; 42] = [
     "task-without-brackets",
     "one-clamp-without-a-list",
     "lower-case-choice",
+    "observable-without-brackets",
+    "repulsion-as-a-switch",
+    "points-in-micrometres",
     "force-on-a-clamped-end",
     "equilibrium-of-a-free-filament",
     "thermal-without-drag",

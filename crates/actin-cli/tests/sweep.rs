@@ -374,6 +374,26 @@ fn observables_are_results() {
     );
 }
 
+/// A run that ends well but lacks a result is told as one that failed: its means are of nothing.
+#[test]
+fn a_result_that_is_lacking_is_told() {
+    let place = place("");
+    fs::write(
+        place.path("sweep.ron"),
+        "Sweep(scene: \"scene.ron\", results: [\"work.steps\", \"filaments[1].tip_nm[0]\"])",
+    )
+    .unwrap();
+    let output = place.actin(&["sweep", "sweep.ron", "--out", "out"]);
+    assert_done(&output);
+    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(told.starts_with("1 run(s), 1 failed"), "{told}");
+    let reason = "its summary has no value of filaments[1].tip_nm[0]";
+    for table in ["out/runs.csv", "out/table.csv"] {
+        let text = read(&place, table);
+        assert!(text.lines().nth(1).unwrap().ends_with(reason), "{text}");
+    }
+}
+
 /// A directory of another sweep, of the same one without `--resume`, and of somebody: left alone.
 #[test]
 fn other_directories_are_left_alone() {

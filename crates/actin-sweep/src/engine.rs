@@ -1,7 +1,7 @@
 //! All runs of a sweep, on any number of threads.
 
 use crate::run::{State, make, summary};
-use crate::table::Table;
+use crate::table::{Row, Table};
 use crate::{Opened, SweepDirectory, SweepError};
 use actin_sim::{CheckpointError, RunDirectory};
 use std::num::NonZeroUsize;
@@ -49,7 +49,7 @@ pub struct Progress {
 pub struct Ended {
     /// Runs that have ended.
     pub ended: usize,
-    /// Runs among them that failed.
+    /// Runs among them that failed or lack a result.
     pub failed: usize,
     /// Runs that were to be made.
     pub of: usize,
@@ -123,7 +123,9 @@ impl SweepDirectory {
         };
         let ended = crew.make_all(&report)?;
         let has_failed = |run: &&usize| {
-            summary(&self.run(**run)).is_some_and(|summary| summary["status"] == "failed")
+            let results = &opened.sweep.results;
+            let summary = summary(&self.run(**run));
+            summary.is_some_and(|summary| !Row::of(&summary, results).failure.is_empty())
         };
         let failed = runs.iter().filter(has_failed).count();
         Ok(Ended { ended, failed, of })

@@ -13,12 +13,41 @@ pub(crate) struct Table<'a> {
     rows: Vec<Row>,
 }
 
+/// A run, as the tables have it.
 #[derive(Debug)]
-struct Row {
+pub(crate) struct Row {
     status: String,
-    failure: String,
-    /// Results as the summary has them; none of a run that failed.
+    /// Why it failed, or which results it lacks; empty if all is well.
+    pub(crate) failure: String,
+    /// Results as the summary has them; none of a run that failed, nor where there is no value.
     results: Vec<Option<Value>>,
+}
+
+impl Row {
+    /// The results of these names in a summary.
+    pub(crate) fn of(summary: &Value, names: &[String]) -> Self {
+        let text = |key: &str| summary[key].as_str().unwrap_or_default().to_owned();
+        let status = text("status");
+        let counts = status != "failed";
+        let found = |name: &String| {
+            let value = chosen::find(summary, name).filter(|_| counts);
+            value.filter(|value| !value.is_null()).cloned()
+        };
+        let results: Vec<_> = names.iter().map(found).collect();
+        let lacking = names.iter().zip(&results);
+        let lacking = lacking.filter(|(_, result)| counts && result.is_none());
+        let lacking: Vec<&str> = lacking.map(|(name, _)| name.as_str()).collect();
+        let failure = if lacking.is_empty() {
+            text("failure")
+        } else {
+            format!("its summary has no value of {}", lacking.join(", "))
+        };
+        Self {
+            status,
+            failure,
+            results,
+        }
+    }
 }
 
 impl<'a> Table<'a> {
@@ -29,15 +58,7 @@ impl<'a> Table<'a> {
             let path = directory.run(run);
             let missing = || SweepError::io(&path)(io::ErrorKind::NotFound.into());
             let summary = summary(&path).ok_or_else(missing)?;
-            let text = |key: &str| summary[key].as_str().unwrap_or_default().to_owned();
-            let status = text("status");
-            let counts = status != "failed";
-            let found = |name: &String| chosen::find(&summary, name).filter(|_| counts).cloned();
-            Ok(Row {
-                status,
-                failure: text("failure"),
-                results: results.iter().map(found).collect(),
-            })
+            Ok(Row::of(&summary, results))
         };
         let rows: Result<_, SweepError> = (0..opened.design.len()).map(row).collect();
         Ok(Self {
@@ -62,10 +83,8 @@ impl<'a> Table<'a> {
         let rows = self.rows.iter().enumerate().map(|(index, row)| {
             let run = design.run(index);
             let seed = run.seed.map_or_else(String::new, |seed| seed.to_string());
-            let cell = |value: &Option<Value>| match value {
-                None | Some(Value::Null) => String::new(),
-                Some(value) => value.to_string(),
-            };
+            let cell =
+                |value: &Option<Value>| value.as_ref().map_or_else(String::new, Value::to_string);
             let numbers = [run.index, run.point].map(|n| n.to_string()).into_iter();
             numbers
                 .chain(design.points[run.point].iter().cloned())
@@ -77,7 +96,8 @@ impl<'a> Table<'a> {
         files::csv(std::iter::once(head.collect()).chain(rows))
     }
 
-    /// Point by point: means over the runs that did not fail, and their standard errors.
+    /// Point by point: means over the runs that have a result, and their standard errors. Runs that lack
+    /// one count as failed.
     fn points(&self) -> Vec<u8> {
         let (design, sweep) = (&self.opened.design, &self.opened.sweep);
         let both = |name: &String| [name.clone(), format!("{name} error")];
@@ -88,7 +108,7 @@ impl<'a> Table<'a> {
             .chain(words(&["failure"]));
         let chunks = self.rows.chunks(design.runs_of_point()).enumerate();
         let rows = chunks.map(|(point, rows)| {
-            let failed = rows.iter().filter(|row| row.status == "failed");
+            let failed = rows.iter().filter(|row| !row.failure.is_empty());
             let first = failed.clone().next().map(|row| row.failure.clone());
             let counts = [rows.len(), failed.count()].map(|n| n.to_string());
             let results = (0..sweep.results.len()).flat_map(|k| {

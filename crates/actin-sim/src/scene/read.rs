@@ -161,7 +161,7 @@ fn explain(error: &SpannedError, text: &str, name: &str) -> SceneError {
     let message = in_words(&error.code, &name.to_lowercase()).unwrap_or_else(|| {
         let path = locate::path_at(text, (line, column));
         let colon = if path.is_empty() { "" } else { ": " };
-        let advice = syntax::advice(&error.code, &text[place(text, (line, column))..]);
+        let advice = syntax::advice(&error.code, text.split_at(place(text, (line, column))));
         let what = advice.unwrap_or_else(|| error.code.to_string());
         format!("{path}{colon}{what}")
     });

@@ -160,9 +160,14 @@ fn check_curve(filament: &Filament, shape: &Shape, length: f64) -> Result<(), Sc
         .length()
         .filter(|whole| *whole < length * (1.0 - SHORT))
     {
-        let rule = format!(
-            "the curve is {whole:.3} nm long, and the filament {length:?} nm: it needs more points"
-        );
+        // Points in micrometres are as good as any but for a factor.
+        let what = if (whole * 1e3 >= length * (1.0 - SHORT)) && whole * 1e2 < length {
+            "are the points in um? They are read in nm"
+        } else {
+            "it needs more points"
+        };
+        let rule =
+            format!("the curve is {whole:.3} nm long, and the filament {length:?} nm: {what}");
         return Err(SceneProblem::new(key, "", rule));
     }
     let (s_nm, curvature) = curve.largest_curvature(length);

@@ -3,8 +3,9 @@
 
 use ron::error::Error as RonError;
 
-/// What to write instead; none for what is rare. `rest` is the text from where the parser stopped.
-pub(super) fn advice(error: &RonError, rest: &str) -> Option<String> {
+/// What to write instead; none for what is rare. `rest` is the text from where the parser stopped, `before`
+/// what it has read.
+pub(super) fn advice(error: &RonError, (before, rest): (&str, &str)) -> Option<String> {
     let rest = rest.trim_start();
     let (kind, behind) = match error {
         RonError::ExpectedComma => return Some(before_comma(rest)),
@@ -20,10 +21,9 @@ pub(super) fn advice(error: &RonError, rest: &str) -> Option<String> {
         RonError::ExpectedIdentifier => ("a name", ""),
         RonError::ExpectedMapColon if rest.starts_with('=') => ("a colon", " in place of ="),
         RonError::ExpectedMapColon => ("a colon", " between key and value"),
-        RonError::ExpectedStructLike | RonError::ExpectedNamedStructLike(_) => (
-            "a (",
-            ": structures and vectors are written in round brackets",
-        ),
+        RonError::ExpectedStructLike | RonError::ExpectedNamedStructLike(_) => {
+            return Some(round_brackets(before));
+        }
         _ => return of_names_and_lengths(error),
     };
     let quoted = if behind.is_empty() && rest.starts_with('"') {
@@ -49,9 +49,26 @@ fn of_names_and_lengths(error: &RonError) -> Option<String> {
             Some(format!("{numbers} numbers are expected, not {found}"))
         }
         RonError::ExpectedDifferentStructName { expected, found } => {
-            Some(format!("{expected} is expected, not {found}"))
+            let brackets = if matches!(found.as_str(), "true" | "false") {
+                "(...)"
+            } else {
+                ""
+            };
+            Some(format!("{expected}{brackets} is expected, not {found}"))
         }
         _ => None,
+    }
+}
+
+/// That a structure is written in brackets, even of one whose name stands there alone.
+fn round_brackets(before: &str) -> String {
+    let before = before.trim_end();
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let name = &before[before.trim_end_matches(is_part).len()..];
+    if name.starts_with(|c: char| c.is_ascii_uppercase()) {
+        format!("{name} is written with round brackets, even if nothing is in them: {name}()")
+    } else {
+        "a ( is expected: structures and vectors are written in round brackets".to_owned()
     }
 }
 
