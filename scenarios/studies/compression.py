@@ -37,14 +37,9 @@ def name(row):
 
 
 def force(run):
-    """Times (ns) and force on the moving end (pN): observed, or from the rise of the elastic energy over its way."""
-    observed = study.observed(run, "reaction[0]_end_force_z_pn")
-    if observed is not None:
-        return observed[0], -observed[1]
-    table = study.energies(run)
-    time, energy = table["time_ns"], table["elastic_pn_nm"]
-    way = 150.0 * time / time[-1]
-    return time, np.gradient(energy, way)
+    """Times (ns) and force on the moving end (pN)."""
+    time, pulled = study.observed(run, "reaction[0]_end_force_z_pn")
+    return time, -pulled
 
 
 def main():

@@ -45,6 +45,7 @@ def scene():
             print(f"        Linker(filament: {i}, at_nm: {s}, radius_nm: {SPACING / 2}, azimuth_deg: {site(i, j)}, to: Site(filament: {j},"
                   f" at_nm: {s}, radius_nm: {SPACING / 2}, azimuth_deg: {site(j, i)}), stiffness_pn_per_nm: 10.0),")
     print("    ],")
+    print("    output: (vtk: false),")
     print("    task: Equilibrium(),")
     print(")")
 

@@ -23,9 +23,7 @@ def receptance(omega, drag):
 
 def measured(run, period):
     """The same from the motion of the end, by least squares over whole periods; and what the fit leaves, relative."""
-    arrays = study.states(run)
-    time = arrays["time_ns"]
-    place = study.tip(arrays)[:, 0]
+    time, place = study.observed(run, "tip[0]_x_nm")
     begin = time[-1] - period * np.floor((time[-1] - min(SETTLED, 0.5 * time[-1])) / period)
     late = time >= begin - 1e-9
     phase = 2 * np.pi * time[late] / period

@@ -59,33 +59,10 @@ def columns(path):
     return dict(zip(head, values.T))
 
 
-def energies(run):
-    return columns(Path(run) / "energies.csv")
-
-
 def observed(run, name):
-    """Times (ns) and values of a column of observables.csv; none if the run has none."""
-    path = Path(run) / "observables.csv"
-    if not path.exists():
-        return None
-    table = columns(path)
-    return table.get("time_ns", table.get("path")), table[name]
-
-
-def tip(arrays):
-    """Places of the end of filament 0 in every record: the last node, or halfway between the last two monomers."""
-    last = np.flatnonzero(arrays["filament"] == 0)[-1]
-    place = arrays["position_nm"]
-    return place[:, last] if arrays["kind"][last] == 1 else place[:, last - 1 : last + 1].mean(axis=1)
-
-
-def mean_tip(run, settled):
-    """Mean place of the end of filament 0 (nm) later than that (ns), and its block errors."""
-    arrays = states(run)
-    time = arrays["time_ns"]
-    late = tip(arrays)[time >= min(settled, time[-1] / 4)]
-    mean, error = np.transpose([block_error(component) for component in late.T])
-    return mean, error
+    """Times (ns) and values of a column of observables.csv."""
+    table = columns(Path(run) / "observables.csv")
+    return table["time_ns"], table[name]
 
 
 def turns(run):
@@ -104,16 +81,6 @@ def turns(run):
 def smooth(s, values, reach=18.0):
     """Means over half a turn of the helix to either side, of which monomers wobble about."""
     return np.array([values[abs(s - x) <= min(reach, x - s[0], s[-1] - x) + 1e-9].mean(axis=0) for x in s])
-
-
-def block_error(series):
-    """Mean, and its standard error from the largest scatter of means over blocks (Flyvbjerg and Petersen 1989)."""
-    series = np.asarray(series, float)
-    mean, errors = series.mean(), []
-    while len(series) >= 16:
-        errors.append(series.std(ddof=1) / np.sqrt(len(series)))
-        series = series[: len(series) // 2 * 2].reshape(-1, 2).mean(axis=1)
-    return mean, max(errors, default=float("nan"))
 
 
 def axes(columns=1, rows=1, width=6.4, height=2.9, **more):

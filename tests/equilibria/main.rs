@@ -26,6 +26,7 @@ mod saddles;
 mod second_derivatives;
 mod several;
 mod shape;
+mod states;
 #[path = "../theory.rs"]
 mod theory;
 mod unheld;

@@ -459,7 +459,9 @@ fn percent(share: f64) -> String {
 }
 
 fn print_other_states(summary: &Summary) {
-    if summary.other_states_likely {
+    if let Some(states) = &summary.states {
+        println!("{states}");
+    } else if summary.other_states_likely {
         println!(
             "other stable states are likely: {} saddle(s) and {} sudden jump(s) on the way; another \
              start or direction may end elsewhere",

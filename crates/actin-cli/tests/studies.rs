@@ -29,9 +29,14 @@ const STUDIES: [Study; 5] = [
             ("number: 4", "number: 2"),
             ("duration_ns: 2000.0", "duration_ns: 3.0"),
             ("record_every_ns: 8.0", "record_every_ns: 0.05"),
+            ("burn_in_ns: 100.0", "burn_in_ns: 0.5"),
         ],
         points: 4,
-        set: &["task.duration_ns=0.5", "task.record_every_ns=0.1"],
+        set: &[
+            "task.duration_ns=0.5",
+            "task.record_every_ns=0.1",
+            "burn_in_ns=0.1",
+        ],
     },
     Study {
         name: "compression",

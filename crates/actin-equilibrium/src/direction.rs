@@ -177,6 +177,13 @@ impl Solver {
         factor.solve(b);
     }
 
+    /// Turns independent numbers into a step whose parts vary together as the inverse of the matrix that
+    /// was last factorised, in place; that is positive definite.
+    pub(crate) fn spread(&self, noise: &mut [f64]) {
+        let factor = self.factor.as_ref().expect("the stiffness is assembled");
+        factor.spread(noise);
+    }
+
     /// Factorises the stiffness with the least multiple of the metric that makes it positive
     /// definite; `inertia` is that of the present factor.
     pub(crate) fn make_positive(&mut self, inertia: Inertia) -> Result<f64, SolveError> {

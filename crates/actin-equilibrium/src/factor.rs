@@ -218,6 +218,15 @@ impl Factor {
         );
     }
 
+    /// Solves `L^T x = |D|^(-1/2) b` in place: of independent `b` with variance one, `x` has the covariance
+    /// `(L |D| L^T)^(-1)`.
+    pub(crate) fn spread(&self, b: &mut [f64]) {
+        for column in (0..b.len()).rev() {
+            let below: f64 = self.below(column).map(|(row, value)| value * b[row]).sum();
+            b[column] = b[column] / self.pivot(column).abs().sqrt() - below;
+        }
+    }
+
     /// Whether loads `f` meet positive pivots only, as where symmetry keeps them off the directions
     /// in which the energy falls; no pivot may be doubtful.
     ///

@@ -39,6 +39,7 @@ mod path_options;
 mod pattern;
 mod relax;
 mod saddle;
+mod search;
 mod ties;
 
 pub use certificate::{Certificate, Stability};
@@ -56,6 +57,7 @@ pub use path_observer::{PathCheckpoint, PathObserver, PathPoint};
 pub use path_options::{Jumps, PathOptions, Saddles};
 pub use relax::{EquilibriumError, relax};
 pub use saddle::Push;
+pub use search::{Distinct, Found, Search, SearchObserver};
 
 /// The crate of points, frames, loads and interactions whose equilibria are found.
 pub use actin_mechanics as mechanics;

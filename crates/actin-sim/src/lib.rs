@@ -45,13 +45,14 @@ pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
 pub use results::{
     CheckpointError, Checkpoints, Damage, Difference, EndReaction, EndReactions, EnergySummary,
     FilamentSummary, LinkerSummary, ResidualSummary, RunDirectory, RunDirectoryError, RunLock,
-    ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary, first_difference,
-    replace_file,
+    ShapeSummary, StabilitySummary, StateSummary, StatesSummary, Summary, ThermalSummary,
+    WorkSummary, first_difference, replace_file,
 };
 pub use run::{
     Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, MotionPosition, Outcome,
     PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records, Row, RowIter, RunError,
-    RunPosition, SaddlePush, Saved, Sink, Slip, Status, Trajectory, solver,
+    RunPosition, SaddlePush, Saved, Sink, Slip, StableState, StableStates, Status, Trajectory,
+    solver,
 };
 pub use scene::fitted::laws as fitted_laws;
 #[cfg(feature = "schema")]

@@ -7,6 +7,7 @@
 //! | `observables.csv` | what the scene observes, of every record | anything |
 //! | `profile.csv` | the last record along each filament: place, curvature, twist, energy | anything |
 //! | `states.npz` | every record's state | numpy |
+//! | `other_states.npz` | stable states that were looked for, as `states.npz`; in place of the path it counts | numpy |
 //! | `vtk/NNNN.vtp`, `run.pvd` | every record as a picture | `ParaView`, pyvista |
 //! | `summary.json` | the last record in numbers | anything |
 //! | `records.bin` | the records of a run that has not ended, from which the rest is written | `actin run --resume` |
@@ -48,7 +49,8 @@ pub use error::RunDirectoryError;
 pub use lock::RunLock;
 pub use summary::{
     EndReaction, EndReactions, EnergySummary, FilamentSummary, LinkerSummary, ResidualSummary,
-    ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
+    ShapeSummary, StabilitySummary, StateSummary, StatesSummary, Summary, ThermalSummary,
+    WorkSummary,
 };
 
 use crate::{Assembly, Task};

@@ -7,6 +7,7 @@ pub(super) const OBSERVABLES: &str = "observables.csv";
 pub(super) const EVENTS: &str = "events.csv";
 pub(super) const PROFILE: &str = "profile.csv";
 pub(super) const STATES: &str = "states.npz";
+pub(super) const OTHER_STATES: &str = "other_states.npz";
 pub(super) const COLLECTION: &str = "run.pvd";
 pub(super) const CHECKPOINT: &str = "checkpoint.bin";
 pub(super) const RECORDS: &str = "records.bin";
@@ -17,7 +18,7 @@ pub(super) const PICTURES: &str = "vtk";
 pub(super) const MANIFEST: &str = "actin-run.json";
 
 /// Everything that a run writes, beside its pictures, its manifest and its lock.
-pub(super) const FILES: [&str; 10] = [
+pub(super) const FILES: [&str; 11] = [
     SCENE,
     SUMMARY,
     ENERGIES,
@@ -25,6 +26,7 @@ pub(super) const FILES: [&str; 10] = [
     OBSERVABLES,
     PROFILE,
     STATES,
+    OTHER_STATES,
     COLLECTION,
     CHECKPOINT,
     RECORDS,

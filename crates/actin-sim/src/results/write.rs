@@ -4,15 +4,15 @@ use super::atomic;
 use super::directory::RunDirectory;
 use super::manifest::Manifest;
 use super::names::{
-    COLLECTION, ENERGIES, EVENTS, OBSERVABLES, PICTURES, PROFILE, SCENE, STATES, SUMMARY,
-    picture_name,
+    COLLECTION, ENERGIES, EVENTS, OBSERVABLES, OTHER_STATES, PICTURES, PROFILE, SCENE, STATES,
+    SUMMARY, picture_name,
 };
 use super::review::{Review, Tables};
 use super::staged::Staged;
 use super::vtk::{Drawing, write_collection};
 use super::{RunDirectoryError, Summary, ThermalSummary, events, profile};
 use crate::shape::{self, ProfilePoint};
-use crate::{Assembly, LinkerEvent, Outcome, Plan, Records, Scene, Status};
+use crate::{Assembly, At, LinkerEvent, Outcome, Plan, Record, Records, Scene, Status, Trajectory};
 use std::fs;
 use std::io::{self, Write};
 
@@ -101,6 +101,7 @@ impl RunDirectory {
         if output.states {
             manifest.add([STATES]);
         }
+        manifest.add(results.others.as_ref().map(|_| OTHER_STATES));
         if output.vtk {
             manifest.add([COLLECTION]);
             manifest.add((0..results.records.count()).map(picture_name));
@@ -120,6 +121,21 @@ struct Results<'a> {
     summary: Summary,
     /// None where nothing happens to linkers.
     events: Option<Vec<LinkerEvent>>,
+    /// Stable states that were looked for; none where they were not.
+    others: Option<Trajectory>,
+}
+
+/// The stable states that a run has found, in the order of their energies.
+fn others(outcome: &Outcome) -> Option<Trajectory> {
+    let states = outcome.equilibrium.as_ref()?.states.as_ref()?;
+    let states = states.states.iter().enumerate();
+    let records = states.map(|(i, state)| Record {
+        at: At::Path(i as f64),
+        ..state.record.clone()
+    });
+    Some(Trajectory {
+        records: records.collect(),
+    })
 }
 
 impl<'a> Results<'a> {
@@ -155,6 +171,7 @@ impl<'a> Results<'a> {
             along,
             summary,
             events: assembly.kinetics.as_ref().map(|_| outcome.events.clone()),
+            others: others(outcome),
         })
     }
 
@@ -169,6 +186,9 @@ impl<'a> Results<'a> {
         }
         if output.states {
             staged.file(STATES, |out| tables.states.write(self.records, out))?;
+        }
+        if let Some(others) = &self.others {
+            staged.file(OTHER_STATES, |out| tables.states.write(others, out))?;
         }
         staged.file(PROFILE, |out| profile::write(&self.along, out))?;
         if let Some(happened) = &self.events {

@@ -2,6 +2,7 @@
 
 use super::rest::{is_saddle, saddle};
 use super::sink::{Arrival, Clock, PathPosition, Saved, Sink};
+use super::states::{StableStates, search};
 use super::taken::Taken;
 use super::unknowns::newton;
 use super::{At, Failure, Outcome, Progress, Record, Recorded, RunPosition, Status};
@@ -34,6 +35,8 @@ pub struct EquilibriumReport {
     pub floor: Option<Residual>,
     /// Residual force (pN) and torque (pN nm) before each Newton step of the last equilibrium.
     pub history: Vec<Residual>,
+    /// Stable states about it, if the scene asks for them.
+    pub states: Option<StableStates>,
 }
 
 /// Solves for the equilibrium, or follows the path.
@@ -47,6 +50,10 @@ pub(super) fn run(
     let mut state = assembly.system.state().clone();
     let mut follower = Follower::new(assembly, settings, saved, sink);
     let failure = follower.follow_to_the_end(&mut newton, &mut state)?;
+    let states = match failure {
+        None => follower.look_around(&mut newton, &state)?,
+        Some(_) => None,
+    };
     // What was interrupted at its very end is done.
     let is_interrupted = follower.is_interrupted && failure.is_none();
     let Follower {
@@ -67,7 +74,8 @@ pub(super) fn run(
         force_evaluations: work.evaluations,
         saddles_left: position.saddles_left,
         jumps: position.jumps,
-        equilibrium: report(position, lowest.flatten(), work),
+        equilibrium: report(position, lowest.flatten(), work)
+            .map(|report| EquilibriumReport { states, ..report }),
         ..Outcome::new(status, clock.wall_s())
     }
     .with(taken.into_remarks());
@@ -202,6 +210,24 @@ impl<'a> Follower<'a> {
         };
         self.checkpoint();
         Ok(failure)
+    }
+
+    /// Looks for other stable states, if the scene asks for them.
+    fn look_around(
+        &mut self,
+        newton: &mut Newton,
+        state: &State,
+    ) -> Result<Option<StableStates>, SceneProblem> {
+        let starts = self.settings.states;
+        let last = self.taken.last().map(|last| last.at);
+        let Some(at) = last.filter(|_| starts > 0 && !self.is_interrupted) else {
+            return Ok(None);
+        };
+        let tools = (newton, &mut self.taken);
+        let states = search(self.assembly, tools, (state, at), starts)
+            .map_err(|error| SceneProblem::new("task.states", starts, error.to_string()))?;
+        self.is_interrupted = states.is_none();
+        Ok(states)
     }
 
     /// Certifies the last equilibrium again if it seems to be a saddle, with the residual as small as it
@@ -394,7 +420,7 @@ impl PathObserver for Follower<'_> {
     }
 }
 
-fn record(system: &System, u: f64, state: &State) -> Record {
+pub(super) fn record(system: &System, u: f64, state: &State) -> Record {
     let mut loads = Loads::zeros(state);
     for interaction in system.interactions() {
         interaction.add_loads(state, &mut loads);
@@ -434,5 +460,6 @@ fn report(
         points: position.points,
         floor: last.floor,
         history: last.history,
+        states: None,
     })
 }

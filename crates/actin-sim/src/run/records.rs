@@ -40,7 +40,7 @@ impl At {
 }
 
 /// One recorded moment.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Record {
     /// When, or where on the path.
     pub at: At,

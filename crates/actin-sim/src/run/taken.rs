@@ -1,10 +1,11 @@
 //! The records of a run as they are taken: what is known of them without keeping them.
 
 use super::slip::{LinkWatch, Slip};
-use super::{Plan, Progress, Record, RunPosition, Sink};
+use super::{At, Plan, Progress, Record, RunPosition, Sink};
 use crate::assembly::{RangeWatch, TwistRecords, worst_of};
 use crate::observe::{Memory, View};
 use crate::{Assembly, BeyondRange, BeyondUse, UnstableTwist};
+use actin_mechanics::State;
 use serde::{Deserialize, Serialize};
 
 /// What a run remembers of the records that it has taken. It holds one of them, the last.
@@ -140,6 +141,13 @@ impl<'a> Taken<'a> {
     pub(super) fn take_unchecked(&mut self, record: Record) {
         let record = self.recorded.push(self.assembly, record);
         self.sink.record(record);
+    }
+
+    /// Whether a state that is not recorded has all turns of the last record.
+    pub(super) fn has_all_turns(&self, here: (&State, At)) -> bool {
+        let mut links = self.recorded.carried.links.clone();
+        let before = self.last().map(|record| &record.state);
+        links.slip(self.assembly, here, before).is_none()
     }
 
     /// The last record.

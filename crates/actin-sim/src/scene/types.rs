@@ -264,6 +264,10 @@ pub struct Equilibrium {
     pub accept_jumps: bool,
     /// Whether the lowest eigenvalue of the stiffness is computed at the end.
     pub lowest_eigenvalue: bool,
+    /// From how many starts other stable states are looked for, drawn at random about the equilibrium at the
+    /// end and about those that are found; at most 10000. `summary.json` lists them by energy,
+    /// `other_states.npz` holds them. States that lost a turn on the way do not count.
+    pub states: usize,
 }
 
 impl Default for Equilibrium {
@@ -277,6 +281,7 @@ impl Default for Equilibrium {
             leave_saddles: 3,
             accept_jumps: false,
             lowest_eigenvalue: false,
+            states: 0,
         }
     }
 }

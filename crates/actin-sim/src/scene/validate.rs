@@ -17,6 +17,8 @@ pub(crate) const MOST_COUNTED: f64 = 9_007_199_254_740_992.0;
 
 /// Most bonds of one interface: with a hundredth of them the anchors' sampling noise is gone.
 const MOST_BONDS_PER_INTERFACE: usize = 10_000;
+/// Most starts of a search for stable states.
+const MOST_STATES: usize = 10_000;
 
 /// Checks every rule that does not need the filament to be built.
 ///
@@ -286,6 +288,13 @@ fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), SceneProblem> {
             "task.iterations",
             0,
             "must be at least 1",
+        ));
+    }
+    if equilibrium.states > MOST_STATES {
+        return Err(SceneProblem::new(
+            "task.states",
+            equilibrium.states,
+            format!("must be at most {MOST_STATES}"),
         ));
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use super::{
     EndReactions, EnergySummary, FilamentSummary, LateKinetic, LinkerSummary, ResidualSummary,
-    ShapeSummary, StabilitySummary, Summary, ThermalSummary, WorkSummary,
+    ShapeSummary, StabilitySummary, StatesSummary, Summary, ThermalSummary, WorkSummary,
 };
 use crate::observe::{Averages, View};
 use crate::{Assembly, At, End, Outcome, Record, Status, Task, shape};
@@ -68,6 +68,7 @@ impl Summary {
             residual_floor: equilibrium.and_then(|e| e.floor).map(Into::into),
             thermal: ThermalSummary::new(assembly, &kinetic_of(last)),
             lowest_stiffness_eigenvalue: equilibrium.and_then(|e| e.lowest_eigenvalue),
+            states: StatesSummary::of(assembly, outcome),
             work: WorkSummary::new(outcome),
             wall_s: outcome.wall_s,
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -96,7 +97,7 @@ impl WorkSummary {
 }
 
 impl FilamentSummary {
-    fn all(assembly: &Assembly, last: &Record) -> Vec<Self> {
+    pub(super) fn all(assembly: &Assembly, last: &Record) -> Vec<Self> {
         // The system's own loads belong to its present state, which need not be the record's.
         let mut loads = Loads::zeros(&last.state);
         for interaction in assembly.system.interactions() {

@@ -7,12 +7,14 @@ mod linkers;
 mod pushes;
 mod reactions;
 mod shape;
+mod states;
 mod thermal;
 
 pub use energy::EnergySummary;
 pub use linkers::LinkerSummary;
 pub use reactions::{EndReaction, EndReactions};
 pub use shape::ShapeSummary;
+pub use states::{StateSummary, StatesSummary};
 
 pub(super) use thermal::LateKinetic;
 pub use thermal::ThermalSummary;
@@ -111,6 +113,9 @@ pub struct Summary {
     pub thermal: Option<ThermalSummary>,
     /// Lowest eigenvalue of the stiffness; none unless an equilibrium was asked for it.
     pub lowest_stiffness_eigenvalue: Option<f64>,
+    /// Stable states, where an equilibrium was asked for others; no key where it was not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub states: Option<StatesSummary>,
     /// What the run cost in work.
     pub work: WorkSummary,
     /// What the run cost in time (s).

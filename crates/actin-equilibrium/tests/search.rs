@@ -1,0 +1,113 @@
+//! Several stable equilibria: that a search finds those that there are, and no others.
+
+mod common;
+
+use actin_equilibrium::{
+    Found, Iteration, Newton, NewtonOptions, Search, SearchObserver, SolveError,
+};
+use actin_mechanics::{Interaction, PointLoad, State, Vector3, Xorshift, perturb};
+use common::{ACTIN, Rod};
+use std::ops::ControlFlow;
+
+/// A column, softest about its y axis.
+const COLUMN: Rod = Rod {
+    segments: 16,
+    bending: Vector3::new(3.9e4, 3.0e4, 1.3e4),
+    ..ACTIN
+};
+
+/// A column under a share of the critical load of its softer axis, and a solver.
+fn column(share: f64) -> (State, Vec<Box<dyn Interaction>>, Newton) {
+    let mut state = COLUMN.state();
+    let critical = std::f64::consts::PI.powi(2) * 3.0e4 / (4.0 * COLUMN.length.powi(2));
+    let control = state.add_control(1.0);
+    let force = Vector3::z() * (-share * critical);
+    let load = PointLoad::new(&state, vec![(16, 1.0)], force, control);
+    let mut terms = COLUMN.interactions();
+    terms.push(Box::new(load));
+    let newton = Newton::new(COLUMN.layout(&state), NewtonOptions::default()).unwrap();
+    perturb(&mut state, &mut Xorshift::new(3), 0.0, 0.0);
+    (state, terms, newton)
+}
+
+const SEARCH: Search = Search {
+    starts: 16,
+    seed: 1,
+};
+
+fn searched(share: f64, search: &Search) -> Found {
+    let (mut state, terms, mut newton) = column(share);
+    let known = newton.minimize(&mut state, &terms, 8).unwrap();
+    newton
+        .search((&state, known), &terms, search, &mut ())
+        .unwrap()
+}
+
+/// Below the critical load of the softer axis there is the straight column alone, between those of both axes
+/// it leans to one side or the other, alike in energy; upright or aside about the other axis it is not stable.
+#[test]
+fn a_column_leans_to_either_side() {
+    let straight = searched(0.9, &SEARCH);
+    assert_eq!(straight.states.len(), 1);
+    assert_eq!((straight.states[0].found, straight.lost), (17, 0));
+    let leaning = searched(1.2, &SEARCH);
+    let tips: Vec<Vector3> = leaning
+        .states
+        .iter()
+        .map(|s| s.state.points.position.get(16))
+        .collect();
+    println!(
+        "{tips:?}, {:?}",
+        leaning.states.iter().map(|s| s.found).collect::<Vec<_>>()
+    );
+    assert_eq!((tips.len(), leaning.lost), (2, 0));
+    let apart = tips[0].x + tips[1].x;
+    assert!(tips[0].x.abs() > 10.0 && apart.abs() < 1e-4, "{tips:?}");
+    let [a, b] = [0, 1].map(|i| leaning.states[i].equilibrium.energy);
+    assert!((a - b).abs() < 1e-8 * a.abs(), "{a} and {b}");
+    assert_eq!(leaning.states.iter().filter(|s| s.is_known).count(), 1);
+    // A start is the same whatever the number of them.
+    let fewer = searched(1.2, &Search { starts: 8, seed: 1 });
+    let found = |found: &Found| found.states.iter().map(|s| s.found).sum::<usize>();
+    assert_eq!((found(&leaning), found(&fewer)), (17, 9));
+}
+
+/// Who watches may end a search, and refuse what it finds.
+#[test]
+fn an_observer_rules() {
+    struct Ends(usize);
+    impl SearchObserver for Ends {
+        fn iterate(&mut self, _: &Iteration) -> ControlFlow<()> {
+            self.0 -= 1;
+            if self.0 == 0 {
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(())
+        }
+    }
+    struct Right;
+    impl SearchObserver for Right {
+        fn counts(&mut self, state: &State) -> bool {
+            state.points.position.get(16).x > 0.0
+        }
+    }
+    let (mut state, terms, mut newton) = column(1.2);
+    let known = newton.minimize(&mut state, &terms, 8).unwrap();
+    let ended = newton.search((&state, known.clone()), &terms, &SEARCH, &mut Ends(10));
+    assert_eq!(ended.unwrap_err(), SolveError::Interrupted);
+    let found = newton
+        .search((&state, known), &terms, &SEARCH, &mut Right)
+        .unwrap();
+    let counted: usize = found.states.iter().map(|s| s.found).sum();
+    assert!(
+        found.lost > 0 && counted + found.lost == 17,
+        "{counted}, {}",
+        found.lost
+    );
+    let right =
+        |s: &&actin_equilibrium::Distinct| s.is_known || s.state.points.position.get(16).x > 0.0;
+    assert_eq!(
+        found.states.iter().filter(right).count(),
+        found.states.len()
+    );
+}

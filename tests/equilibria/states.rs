@@ -1,0 +1,94 @@
+//! Other stable states of a scene: that they are what they are said to be, and the same every time.
+
+use crate::common::{build, solved};
+use actin_sim::{Assembly, Outcome, RunDirectory, StableStates, Trajectory};
+
+/// 80 nm of monomers pressed together by a tenth, between clamped ends.
+fn buckled(states: usize) -> String {
+    format!(
+        "Scene(
+            filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 80.0)],
+                imperfection: Imperfection(amplitude_nm: 0.2, seed: 1)),
+            clamps: [Clamp(end: Start), Clamp(end: End)],
+            path: [Stage(set: [Shift(end: End, shift_nm: (0.0, 0.0, -8.0))])],
+            task: Equilibrium(states: {states}),
+        )"
+    )
+}
+
+fn found(outcome: &Outcome) -> &StableStates {
+    outcome
+        .equilibrium
+        .as_ref()
+        .unwrap()
+        .states
+        .as_ref()
+        .unwrap()
+}
+
+/// All are minima with the energies that they are said to have, within the tolerance, sorted, and one of them is the result,
+/// which is the same with a search and without.
+#[test]
+fn stable_states_are_stable() {
+    let (assembly, outcome) = solved(&buckled(12));
+    let all = found(&outcome);
+    let interactions = assembly.system.interactions();
+    let energy = |state| interactions.iter().map(|i| i.energy(state)).sum::<f64>();
+    let result = energy(assembly.system.state());
+    let plain = solved(&buckled(0)).0;
+    assert_eq!(plain.system.state(), assembly.system.state());
+    let rows: Vec<_> = all
+        .states
+        .iter()
+        .map(|s| (s.above_result_pn_nm, s.starts, s.is_result))
+        .collect();
+    println!("{rows:?}, lost {}", all.lost);
+    let starts: usize = all.states.iter().map(|s| s.starts).sum();
+    assert_eq!(starts + all.lost, 12);
+    assert!(
+        all.states.len() > 1,
+        "bonds that let go and close again have several states"
+    );
+    assert!(
+        all.states
+            .is_sorted_by(|a, b| a.above_result_pn_nm <= b.above_result_pn_nm)
+    );
+    assert_eq!(all.states.iter().filter(|s| s.is_result).count(), 1);
+    let scene = actin_sim::Scene::from_ron(&buckled(0)).unwrap();
+    let actin_sim::Task::Equilibrium(settings) = &scene.task else {
+        unreachable!()
+    };
+    let mut newton = actin_sim::solver(&assembly, settings).unwrap();
+    for one in &all.states {
+        let state = &one.record.state;
+        let above = energy(state) - result;
+        assert!(
+            (above - one.above_result_pn_nm).abs() < 1e-9 * result.abs(),
+            "{above}"
+        );
+        let certificate = newton.certify(state, interactions).unwrap();
+        assert_eq!((certificate.negative, certificate.unresolved), (0, 0));
+        assert!(one.record.residual_force_pn <= 1e-7 && one.record.residual_torque_pn_nm <= 1e-7);
+        assert_eq!(one.is_result, above.abs() < 1e-9 * result);
+    }
+    assert_eq!(found(&solved(&buckled(12)).1), all);
+}
+
+/// The directory of a run lists them, and holds them as arrays.
+#[test]
+fn a_run_directory_holds_other_states() {
+    let assembly: Assembly = build(&buckled(3));
+    let plan = actin_sim::Plan::new(&assembly).unwrap();
+    let mut trajectory = Trajectory::default();
+    let outcome = plan.run_into(&mut trajectory).unwrap();
+    let folder = std::env::temp_dir().join(format!("other-states-{}", std::process::id()));
+    let directory = RunDirectory::create(&folder, false).unwrap();
+    directory.write_scene(plan.scene()).unwrap();
+    let summary = directory.write(&plan, &trajectory, &outcome).unwrap();
+    let states = summary.states.unwrap();
+    let lowest = states.found.first().unwrap();
+    assert_eq!(states.found.len(), found(&outcome).states.len());
+    assert!(states.result_above_lowest_pn_nm() >= 0.0 && lowest.filaments.len() == 1);
+    assert!(folder.join("other_states.npz").metadata().unwrap().len() > 10_000);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
