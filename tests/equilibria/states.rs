@@ -1,7 +1,7 @@
 //! Other stable states of a scene: that they are what they are said to be, and the same every time.
 
 use crate::common::{build, solved};
-use actin_sim::{Assembly, Outcome, RunDirectory, StableStates, Trajectory};
+use actin_sim::{Assembly, Equilibrium, Outcome, RunDirectory, StableStates, Trajectory};
 
 /// 80 nm of monomers pressed together by a tenth, between clamped ends.
 fn buckled(states: usize) -> String {
@@ -37,12 +37,8 @@ fn stable_states_are_stable() {
     let result = energy(assembly.system.state());
     let plain = solved(&buckled(0)).0;
     assert_eq!(plain.system.state(), assembly.system.state());
-    let rows: Vec<_> = all
-        .states
-        .iter()
-        .map(|s| (s.above_result_pn_nm, s.starts, s.is_result))
-        .collect();
-    println!("{rows:?}, lost {}", all.lost);
+    let above: Vec<_> = all.states.iter().map(|s| s.above_result_pn_nm).collect();
+    println!("{above:.3?}");
     let starts: usize = all.states.iter().map(|s| s.starts).sum();
     assert_eq!(starts + all.lost, 12);
     assert!(
@@ -54,11 +50,7 @@ fn stable_states_are_stable() {
             .is_sorted_by(|a, b| a.above_result_pn_nm <= b.above_result_pn_nm)
     );
     assert_eq!(all.states.iter().filter(|s| s.is_result).count(), 1);
-    let scene = actin_sim::Scene::from_ron(&buckled(0)).unwrap();
-    let actin_sim::Task::Equilibrium(settings) = &scene.task else {
-        unreachable!()
-    };
-    let mut newton = actin_sim::solver(&assembly, settings).unwrap();
+    let mut newton = actin_sim::solver(&assembly, &Equilibrium::default()).unwrap();
     for one in &all.states {
         let state = &one.record.state;
         let above = energy(state) - result;
