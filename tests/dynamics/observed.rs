@@ -118,3 +118,114 @@ fn a_free_rod_is_a_worm_like_chain() {
     let expected = 2.0 * LENGTH * LENGTH * (-1.0_f64).exp();
     within(square.mean, square.error.unwrap(), expected);
 }
+
+/// A short rod in a heat bath, with what else its filament and its scene have.
+fn heated(filament: &str, scene: &str, task: &str) -> String {
+    format!(
+        "Scene(
+            filament: Filament(sections: [
+                Rod(from_nm: 0.0, to_nm: 60.0{filament},
+            {scene}
+            observe: [TangentCorrelation(over_nm: 30.0)],
+            output: (vtk: false, states: false),
+            task: Dynamics(
+                drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0),
+                thermal: (temperature_k: 298.0, seed: 5), {task}
+            ),
+        )"
+    )
+}
+
+/// Where something else than heat bends or straightens a filament, its tangents do not tell its persistence length: none is
+/// given, and a note says why.
+#[test]
+fn a_persistence_length_is_that_of_heat_alone() {
+    let clamp = "clamps: [Clamp(end: Start)],";
+    let task = "duration_ns: 0.2, record_every_ns: 0.02";
+    for (filament, scene, reason) in [
+        (")])", "", None),
+        (")])", clamp, None),
+        (", altered: (rest_twist_per_nm: 0.01))])", "", None),
+        (
+            ")])",
+            "clamps: [Clamp(end: Start)], loads: [Force(end: End, force_pn: (0.0, 0.0, 5.0))],",
+            Some("loads act on it"),
+        ),
+        (
+            ")])",
+            "clamps: [Clamp(end: Start), Clamp(end: End, hold: Pin, slides: AlongAxis)],",
+            Some("both its ends are held"),
+        ),
+        (
+            ")], shape: Arc(radius_nm: 100.0))",
+            "",
+            Some("it has a shape"),
+        ),
+        (
+            ", altered: (rest_curvature_per_nm: (0.0, 0.01)))])",
+            "",
+            Some("it is curved at rest"),
+        ),
+        (
+            ")])",
+            "linkers: [Linker(at_nm: 60.0, displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0)],",
+            Some("linkers hold it"),
+        ),
+        (
+            ")])",
+            "repulsion: Repulsion(planes: [(at_nm: (0.0, 0.0, -9.0), normal: (0.0, 0.0, 1.0))]),",
+            Some("walls repel it"),
+        ),
+    ] {
+        let (_, _, summary) = run(&heated(filament, scene, task));
+        let mean = summary.observables["tangent_correlation[0]_over_30nm"]
+            .mean
+            .unwrap();
+        assert_eq!(
+            mean.derived.is_some(),
+            reason.is_none(),
+            "{filament} {scene}"
+        );
+        assert!(mean.mean.is_some());
+        let notes = summary
+            .notes
+            .iter()
+            .filter(|note| note.starts_with("observe[0]: no persistence"));
+        let notes: Vec<_> = notes.collect();
+        assert_eq!(notes.len(), usize::from(reason.is_some()), "{notes:?}");
+        if let Some(reason) = reason {
+            assert!(notes[0].contains(reason), "{notes:?}");
+        }
+    }
+}
+
+/// A mean of one record, or of none, is noted before the run; so is an interval of records longer than the motion.
+#[test]
+fn means_of_one_record_are_noted() {
+    let notes = |task: &str, scene: &str| {
+        let text = heated(")])", scene, task);
+        let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+        Plan::new(&assembly).unwrap().notes()
+    };
+    // The burn-in of 0.4 ns leaves the end alone.
+    let told = notes("duration_ns: 2.0, record_every_ns: 2.0", "");
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(
+        told[0].starts_with("observe: means are of 1 record(s)"),
+        "{told:?}"
+    );
+    let told = notes("duration_ns: 2.0, record_every_ns: 5.0", "");
+    assert_eq!(told.len(), 2, "{told:?}");
+    assert!(told[0].contains("longer than the motion"), "{told:?}");
+    assert!(
+        told[1].starts_with("observe: means are of 1 record(s)"),
+        "{told:?}"
+    );
+    let told = notes("duration_ns: 2.0, record_every_ns: 0.5", "burn_in_ns: 1.6,");
+    assert_eq!(told.len(), 1, "{told:?}");
+    // Two records: at 1.5 ns and at the end.
+    assert_eq!(
+        notes("duration_ns: 2.0, record_every_ns: 0.5", "burn_in_ns: 1.5,"),
+        [""; 0]
+    );
+}

@@ -1,6 +1,6 @@
 //! Where motions come to rest: certificates, saddles, and two ways off a saddle.
 
-use actin_sim::{Assembly, Failure, Outcome, Plan, RunError, Scene, Status, Trajectory};
+use actin_sim::{Assembly, End, Failure, Outcome, Plan, RunError, Scene, Status, Trajectory};
 
 /// A rod of 200 nm between two walls, pushed together by 60 nm within 5 ns.
 fn pushed(filament: &str, task: &str) -> String {
@@ -193,4 +193,81 @@ fn twist_that_slips_is_an_error() {
     let slowly = text.replace("duration_ns: 0.02", "duration_ns: 1.5");
     let (trajectory, _) = moved(&slowly).unwrap();
     assert!((trajectory.records.last().unwrap().at.value() - 2.0).abs() < 1e-12);
+}
+
+/// The same of an arc, whose end is turned about lab z and tilts with that: turned fast it slips, slowly it does not.
+#[test]
+fn twist_that_slips_in_an_arc_is_an_error() {
+    let text = "Scene(
+        filament: Filament(
+            sections: [Rod(from_nm: 0.0, to_nm: 100.0)], shape: Arc(radius_nm: 100.0),
+        ),
+        clamps: [Clamp(end: Start), Clamp(end: End)],
+        path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 900.0))], duration_ns: 0.05)],
+        task: Dynamics(
+            duration_ns: 6.0, record_every_ns: 0.005,
+            drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+        ),
+    )";
+    let (_, ended) = moved_anyway(text);
+    let (Failure::TwistLost { place, slip }, _) = failure(ended) else {
+        panic!("nothing slipped");
+    };
+    println!("{place}{slip}");
+    assert!((slip.lost_turns().abs() - 1.0).abs() < 1e-12);
+    let slowly = text.replace("duration_ns: 0.05", "duration_ns: 5.0");
+    let (trajectory, _) = moved(&slowly).unwrap();
+    assert!((trajectory.records.last().unwrap().at.value() - 6.0).abs() < 1e-12);
+}
+
+/// A rod that is free but for the hinge at its start. The spring can bear `pi k`, 62.8 pN nm about the rod; a couple of
+/// more, and a frame that is turned before the rod follows, turn it past half a turn, which ends the run however
+/// seldom it is recorded. Less does not, nor does a turn that the rod follows.
+#[test]
+fn a_hinge_past_half_a_turn_is_an_error_whatever_the_other_end_is() {
+    let run = |load: &str, path: &str, end: &str| {
+        moved_anyway(&format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+                clamps: [
+                    Clamp(end: Start, hold: Pin, hinge: (bend_pn_nm_per_rad: 100.0, twist_pn_nm_per_rad: 20.0)),
+                    {end}
+                ],
+                loads: [{load}], path: [{path}],
+                task: Dynamics(
+                    duration_ns: 20.0, record_every_ns: 10.0,
+                    drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+                ),
+            )"
+        ))
+    };
+    let couple = |size: f64| format!("Couple(end: End, couple_pn_nm: (0.0, 0.0, {size:?}))");
+    let turn = |degrees: f64, duration: f64| {
+        let set = format!("set: [Turn(end: Start, turn_deg: (0.0, 0.0, {degrees:?}))]");
+        format!("Stage({set}, duration_ns: {duration:?})")
+    };
+    let pin = "Clamp(end: End, hold: Pin, slides: AlongAxis),";
+    for (load, path, end, slips) in [
+        (couple(80.0), String::new(), "", true),
+        (couple(80.0), String::new(), pin, true),
+        (couple(40.0), String::new(), "", false),
+        (String::new(), turn(720.0, 0.1), "", true),
+        (String::new(), turn(720.0, 0.1), pin, true),
+        (String::new(), turn(180.0, 18.0), "", false),
+    ] {
+        let (_, ended) = run(&load, &path, end);
+        if !slips {
+            assert!(ended.is_ok(), "{load} {path}");
+            continue;
+        }
+        let (Failure::HingeSlipped { place, slip }, report) = failure(ended) else {
+            panic!("{load} {path} {end} does not slip");
+        };
+        println!("{place}{slip}");
+        assert_eq!((slip.filament, slip.end), (0, End::Start));
+        // In a step it turns by a few degrees at the most.
+        let [angle, twist] = slip.turned_deg;
+        assert!((170.0..180.0).contains(&angle) && (twist.abs() - angle).abs() < 1e-6);
+        assert_eq!(report.status, Status::Failed);
+    }
 }

@@ -2,7 +2,7 @@
 //! said to be lost that is not.
 
 use crate::common::{build, failure, run, run_anyway};
-use actin_sim::{Failure, Summary};
+use actin_sim::{Failure, Plan, Summary};
 
 const MIXED: &str =
     "Rod(from_nm: 0.0, to_nm: 40.0, segments: 3), Ellipsoids(from_nm: 40.0, to_nm: 80.0)";
@@ -87,4 +87,91 @@ fn ends_that_pass_each_other_lose_nothing() {
             "{segments} segments, {aside} nm aside: {notes:?}"
         );
     }
+}
+
+/// The notes of a run that say that lost twist is not known.
+fn unknown(text: &str) -> usize {
+    let mut assembly = build(text);
+    let (trajectory, report) = run(&mut assembly).unwrap();
+    let last = trajectory.records.last().unwrap();
+    let notes = Summary::new(&assembly, last, &report).notes;
+    let says_so = |note: &&String| note.contains("has lost twist is not known");
+    notes.iter().filter(says_so).count()
+}
+
+const ROD: &str = "Rod(from_nm: 0.0, to_nm: 80.0, segments: 32)";
+const QUARTER: &str = "Arc(radius_nm: 50.92958178940651)";
+const HALF: &str = "Arc(radius_nm: 25.464790894703256)";
+const HELIX: &str = "Helix(radius_nm: 5.0, pitch_nm: 60.0)";
+const CURVE: &str = "Points(
+    nm: [(0.0, 0.0, 0.0), (20.0, 10.0, 30.0), (10.0, 30.0, 70.0), (0.0, 0.0, 120.0)])";
+
+/// Of filaments that are built bent the turn of the ends counts from there. Those that stay have lost nothing, and no
+/// note doubts it, unless the straight lines beyond their ends cross.
+#[test]
+fn bent_filaments_that_stay_lose_nothing() {
+    let still = "Turn(end: End, turn_deg: (0.0, 0.0, 0.0))";
+    let narrow = "Helix(radius_nm: 8.0, pitch_nm: 25.0)";
+    let crossing = "Arc(radius_nm: 18.3)";
+    for shape in [QUARTER, HALF, HELIX, narrow, CURVE, crossing] {
+        for sections in [ROD, MIXED] {
+            let filament = format!("sections: [{sections}], shape: {shape}");
+            let doubts = unknown(&driven(&filament, "", still));
+            // The outermost monomer stands beyond its clamped point: there the half circle points inward.
+            let crosses = shape == crossing || (shape, sections) == (HALF, MIXED);
+            assert_eq!(doubts, usize::from(crosses), "{shape} {sections}");
+        }
+    }
+}
+
+/// A turn of such ends that segments follow is no loss, and one that slips through three segments is told. An arc of 80
+/// degrees is turned about the tangent of its end and about that of its start.
+#[test]
+fn bent_filaments_lose_nothing_unseen() {
+    let arc = "Arc(radius_nm: 57.29577951308232)";
+    for (shape, turn) in [
+        (arc, "(1477.2, 0.0, 260.47)"),
+        (arc, "(0.0, 0.0, 1500.0)"),
+        (HELIX, "(0.0, 0.0, 1500.0)"),
+        (CURVE, "(0.0, 0.0, 1500.0)"),
+        (QUARTER, "(1500.0, 0.0, 0.0)"),
+        (HALF, "(0.0, 0.0, -1500.0)"),
+    ] {
+        let text = |sections: &str| {
+            let filament = format!("sections: [{sections}], shape: {shape}");
+            driven(&filament, "", &format!("Turn(end: End, turn_deg: {turn})"))
+        };
+        let followed = lost_turns(&text(ROD));
+        assert_eq!((followed, unknown(&text(ROD))), (0.0, 0), "{shape} {turn}");
+        if shape == HALF {
+            continue;
+        }
+        let slipped = lost_turns(&text(MIXED)).abs();
+        println!("{shape} {turn}: {slipped}");
+        if shape == QUARTER {
+            // A right angle and more with the outermost monomer, which tilts.
+            assert_eq!((slipped, unknown(&text(MIXED))), (0.0, 1));
+        } else {
+            assert!(slipped >= 1.0, "{shape} {turn}");
+        }
+    }
+}
+
+/// A quarter of a circle is turned about the tangent of its end, across its direction: too far for ten segments is
+/// refused, as of a straight filament.
+#[test]
+fn turns_count_about_the_tangent() {
+    let turned = |degrees: f64| {
+        let filament = "sections: [Rod(from_nm: 0.0, to_nm: 80.0, segments: 10)],
+            shape: Arc(radius_nm: 50.92958178940651)";
+        let setting = format!("Turn(end: End, turn_deg: ({degrees:?}, 0.0, 0.0))");
+        let assembly = build(&driven(filament, "", &setting));
+        Plan::new(&assembly)
+            .map_err(|problem| problem.to_string())
+            .err()
+    };
+    assert_eq!(turned(1790.0), None);
+    let refused = turned(1810.0).unwrap();
+    assert!(refused.contains("turned by 1810 deg"), "{refused}");
+    assert!(refused.contains("181 deg in a joint"), "{refused}");
 }

@@ -2,7 +2,7 @@
 
 use crate::common::{BEND, LENGTH, SHEAR, TWIST, build, cantilever, run};
 use crate::theory::{bisect, second_order_limit};
-use actin_mechanics::{Vector3, rotation};
+use actin_mechanics::{Loads, Vector3, rotation};
 use actin_sim::{End, Failure, Plan, RunError, Scene};
 use std::f64::consts::PI;
 
@@ -209,6 +209,90 @@ fn a_hinge_past_half_a_turn_is_a_lost_turn() {
     for (turn, turns) in [(300.0, 0.0), (-430.0, 0.0), (500.0, 1.0), (-600.0, -1.0)] {
         let found = lost(turn);
         assert!((found - turns).abs() < 0.5, "{turn}: {found}");
+    }
+}
+
+/// The same of a filament whose tip a linker holds where it is while its start is turned over: statics find it from one
+/// equilibrium to the next.
+#[test]
+fn a_hinge_that_is_bent_past_half_a_turn_is_told() {
+    let turned = |degrees: f64| {
+        let assembly = build(&format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+                clamps: [Clamp(end: Start, hold: Pin,
+                    hinge: (bend_pn_nm_per_rad: 100.0, twist_pn_nm_per_rad: 20.0))],
+                linkers: [Linker(at_nm: 100.0, displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: 10.0)],
+                path: [Stage(set: [Turn(end: Start, turn_deg: ({degrees:?}, 0.0, 0.0))])],
+                task: Equilibrium(accept_jumps: true),
+            )"
+        ));
+        Plan::new(&assembly).map(|plan| plan.run()).unwrap()
+    };
+    assert!(turned(150.0).is_ok());
+    let Err(RunError::Failed(failed)) = turned(360.0) else {
+        panic!("the hinge slips without a word");
+    };
+    let Failure::HingeSlipped { place, slip } = failed.failure else {
+        panic!("{}", failed.failure);
+    };
+    println!("{place}{slip}");
+    // Bent, not twisted; equilibria on the way are a few degrees apart.
+    let [angle, twist] = slip.turned_deg;
+    assert!(angle > 150.0 && angle < 180.0 && twist.abs() < 1.0);
+}
+
+/// Along directions in which an end slides its clamp bears nothing, in motion either. The torque is then that about
+/// the centre of the held bodies, the force about which has no moment.
+#[test]
+fn what_slides_bears_nothing_along() {
+    for (sections, slides) in [
+        ("Rod(from_nm: 0.0, to_nm: 100.0)", "Freely"),
+        ("Rod(from_nm: 0.0, to_nm: 100.0)", "AlongAxis"),
+        ("Ellipsoids(from_nm: 0.0, to_nm: 60.0)", "Freely"),
+    ] {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [{sections}], shape: Arc(radius_nm: 60.0)),
+                clamps: [Clamp(end: Start), Clamp(end: End, slides: {slides})],
+                loads: [Force(at_nm: 40.0, force_pn: (20.0, 30.0, 10.0))],
+                task: Dynamics(duration_ns: 0.2, drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0)),
+            )"
+        );
+        let (assembly, trajectory) = run(&text);
+        let clamp = assembly.clamp_at(0, End::End).unwrap();
+        let record = &trajectory.records[50];
+        let state = &record.state;
+        let mut loads = Loads::zeros(state);
+        for interaction in assembly.system.interactions() {
+            interaction.add_loads(state, &mut loads);
+        }
+        let reaction = clamp.reaction(state, &loads);
+        let felt: Vector3 = clamp.points.iter().map(|&i| loads.force.get(i)).sum();
+        let tangent = assembly.filaments[0].frame_at(assembly.length_nm()) * Vector3::z();
+        let free = match slides {
+            "Freely" => felt,
+            _ => tangent * tangent.dot(&felt),
+        };
+        // It moves: the loads along are not zero. (An arc alone would stay: it bears couples only.)
+        assert!(free.norm() > 1e-3, "{sections} {slides}: {}", free.norm());
+        let left = reaction.force_pn + felt - free;
+        assert!(left.norm() < 1e-12 * felt.norm(), "{sections} {slides}");
+        if slides != "Freely" {
+            continue;
+        }
+        let place = |i: usize| state.points.position.get(i);
+        let sum: Vector3 = clamp.points.iter().map(|&i| place(i)).sum();
+        let centre = sum / clamp.points.len() as f64;
+        let moments = clamp
+            .points
+            .iter()
+            .map(|&i| (place(i) - centre).cross(&loads.force.get(i)));
+        let turned = |i: usize| state.frames.orientation.get(i) * loads.torque.get(i);
+        let couples = clamp.frames.iter().map(|&i| turned(i));
+        let torque: Vector3 = moments.chain(couples).sum();
+        let off = (reaction.torque_pn_nm + torque).norm();
+        assert!(off < 1e-9 * torque.norm(), "{sections} {slides}: {off:e}");
     }
 }
 

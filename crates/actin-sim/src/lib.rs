@@ -49,10 +49,10 @@ pub use results::{
     WorkSummary, first_difference, replace_file,
 };
 pub use run::{
-    Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, MotionPosition, Outcome,
-    PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records, Row, RowIter, RunError,
-    RunPosition, SaddlePush, Saved, Sink, Slip, StableState, StableStates, Status, Trajectory,
-    solver,
+    Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, MotionPosition,
+    Outcome, PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records, Row, RowIter,
+    RunError, RunPosition, SaddlePush, Saved, Sink, Slip, StableState, StableStates, Status,
+    Trajectory, solver,
 };
 pub use scene::fitted::laws as fitted_laws;
 #[cfg(feature = "schema")]

@@ -5,7 +5,7 @@
 //! tell, to the `notes` of its summary.
 
 use crate::assembly::Rod;
-use crate::scene::{Anchors, Filament, Material, Monomers, RodLaw, RodModel, Task};
+use crate::scene::{Anchors, Filament, Material, Monomers, Observable, RodLaw, RodModel, Task};
 use crate::{Assembly, Outcome, Record, shape};
 use actin_cosserat::Homogenised;
 use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
@@ -65,7 +65,25 @@ impl Assembly {
             };
             notes.extend(note.filter(|note| !notes.contains(note)));
         }
+        notes.extend(self.untold_lengths());
         notes
+    }
+
+    /// Tangent correlations in a heat bath from which no persistence length follows.
+    fn untold_lengths(&self) -> Vec<String> {
+        let observed =
+            (self.scene.observe.iter().enumerate()).filter(|_| self.scene.thermal().is_some());
+        let untold = observed.filter_map(|(i, observable)| {
+            let Observable::TangentCorrelation { filament, .. } = *observable else {
+                return None;
+            };
+            let reason = self.scene.bends_besides_heat(filament)?;
+            Some(format!(
+                "observe[{i}]: no persistence length of filament {filament} is given: {reason}, so that its \
+                 tangents show more than heat"
+            ))
+        });
+        untold.collect()
     }
 
     /// The note on the shortest rod under a law of which it is known how short its rods may be.
@@ -117,8 +135,8 @@ fn unknown_twist(assembly: &Assembly, last: &Record) -> Vec<String> {
         .map(|filament| {
             format!(
                 "filament {filament}: whether it has lost twist is not known. Twist plus writhe does not \
-                 decide where one end has passed the other, or where the ends are tilted and the \
-                 filament turns back"
+                 decide where one end has passed the other, where the straight lines beyond the ends cross, or \
+                 where the ends are tilted and the filament turns back"
             )
         })
         .collect()

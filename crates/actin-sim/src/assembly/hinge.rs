@@ -1,7 +1,8 @@
 //! The spring of a hinged end.
 
-use crate::scene::Clamp;
-use actin_cosserat::{Rigidities, RodElements, RodError, RodJoint, RodMaterial};
+use super::Assembly;
+use crate::scene::{Clamp, End};
+use actin_cosserat::{Rigidities, RodElements, RodEnd, RodError, RodJoint, RodMaterial};
 use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
 
 /// A spring against turns between two frames, term `hinge`: one joint of a rod over a length of 1, whose
@@ -50,5 +51,25 @@ impl Interaction for Hinge {
 impl SecondOrder for Hinge {
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         self.0.add_stiffness(state, stiffness);
+    }
+}
+
+impl Assembly {
+    /// The held frame behind the spring of a hinged end, and that of the cross-section before it; none of any
+    /// other end.
+    pub(crate) fn hinge_frames(&self, filament: usize, end: End) -> Option<[usize; 2]> {
+        let clamp = self.held.turned_at(filament, end)?;
+        if self.held.fixed_at(filament, end) == Some(clamp) {
+            return None;
+        }
+        let sections = &self.filaments[filament].sections;
+        let (section, rod_end) = match end {
+            End::Start => (sections.start, RodEnd::Start),
+            End::End => (sections.end - 1, RodEnd::End),
+        };
+        let rod = self.rods.iter().find(|rod| rod.section == section)?;
+        let wall = rod.layout.wall(rod_end)?;
+        let behind = *self.clamps[clamp].frames.first()?;
+        Some([behind, wall])
     }
 }

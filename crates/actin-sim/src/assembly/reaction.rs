@@ -49,14 +49,23 @@ impl Clamped {
         }
     }
 
-    /// The reaction in `state` under `loads`: minus what the held bodies feel.
+    /// The reaction in `state` under `loads`: minus what the held bodies feel. Along directions in which the end
+    /// slides the clamp bears nothing: there the loads are what moves the end, shared alike by its points, which
+    /// are of one mass.
     pub fn reaction(&self, state: &State, loads: &Loads) -> Reaction {
         let about = self.point_nm(state);
-        let force: Vector3 = self.points.iter().map(|&i| loads.force.get(i)).sum();
+        let felt: Vector3 = self.points.iter().map(|&i| loads.force.get(i)).sum();
+        let free: Vector3 = self
+            .slides
+            .directions(self.axis)
+            .iter()
+            .map(|d| d * d.dot(&felt))
+            .sum();
+        let share = free / self.points.len() as f64;
         let moments: Vector3 = self
             .points
             .iter()
-            .map(|&i| (state.points.position.get(i) - about).cross(&loads.force.get(i)))
+            .map(|&i| (state.points.position.get(i) - about).cross(&(loads.force.get(i) - share)))
             .sum();
         let couples: Vector3 = self
             .frames
@@ -64,7 +73,7 @@ impl Clamped {
             .map(|&i| state.frames.orientation.get(i) * loads.torque.get(i))
             .sum();
         Reaction {
-            force_pn: -force,
+            force_pn: -(felt - free),
             torque_pn_nm: -(moments + couples),
         }
     }

@@ -1,9 +1,11 @@
 //! Turns that segments cannot follow: past half a turn, two neighbours forget which way they came.
 
 use super::Assembly;
+use crate::At;
 use crate::scene::{End, SceneProblem, Setting};
+use crate::shape::turn_of_ends;
 use std::collections::BTreeSet;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 impl Assembly {
     /// Refuses a path that twists a rod held at both ends by half a turn or more in each joint of
@@ -33,8 +35,7 @@ impl Assembly {
         let turned = [start, end].map(|clamp| self.drive.turned_after(clamp));
         let stages: BTreeSet<usize> = turned.into_iter().flatten().collect();
         for stages in stages {
-            let turn = |clamp| self.drive.turn(clamp, stages as f64).dot(&span.axis());
-            let whole = (turn(end) - turn(start)).abs();
+            let whole = self.turned_against(filament, [start, end], stages as f64);
             let each = whole * longest / length;
             if each >= PI {
                 let (whole, each) = (whole.to_degrees(), each.to_degrees());
@@ -51,6 +52,19 @@ impl Assembly {
             }
         }
         Ok(())
+    }
+
+    /// Turn (rad) of the end against the start at a path parameter; where it is not known, the difference of their
+    /// turns about the filament at either.
+    fn turned_against(&self, filament: usize, clamps: [usize; 2], parameter: f64) -> f64 {
+        if let Some(turns) = turn_of_ends(self, filament, At::Path(parameter)) {
+            return TAU * turns.abs();
+        }
+        let turns = clamps.map(|clamp| {
+            let turn = self.drive.turn(clamp, parameter);
+            turn.dot(&self.clamps[clamp].axis)
+        });
+        (turns[1] - turns[0]).abs()
     }
 
     /// The key of the last turn of a filament in a stage; of the stage if there is none.

@@ -41,6 +41,8 @@ pub struct Cost {
     pub seconds: Seconds,
     /// Memory (bytes) of a run into a directory, where records go to the disk.
     pub bytes: f64,
+    /// Whether the scene has repulsion, whose work is in none of these numbers.
+    pub is_repelled: bool,
 }
 
 /// Time on one core of the reference machine (s), by what it goes into.
@@ -112,6 +114,7 @@ impl Cost {
                 results: elements.seconds_of_results(assembly, records),
             },
             bytes: assembly.bytes,
+            is_repelled: assembly.scene.repulsion.is_some(),
         }
     }
 
@@ -155,7 +158,15 @@ impl fmt::Display for Cost {
             time(solve),
             time(results),
             memory::in_words(self.bytes)
-        )
+        )?;
+        if self.is_repelled {
+            write!(
+                f,
+                "; contacts of the repulsion and their search are not counted: filaments side by side take several \
+                 times as long"
+            )?;
+        }
+        Ok(())
     }
 }
 
@@ -326,6 +337,24 @@ mod tests {
         assert_eq!(heated.evaluations, still.evaluations);
         let noise = heated.seconds.solve - still.seconds.solve;
         assert!((noise - 24_000.0 / NOISY_BODIES_PER_S).abs() < 1e-12);
+    }
+
+    /// What repulsion takes is not estimated, which is said.
+    #[test]
+    fn contacts_are_said_not_to_count() {
+        let text = "Scene(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+            repulsion: Repulsion(),
+            task: Dynamics(duration_ns: 1.0),
+        )";
+        let said = |text: &str| {
+            let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
+            let cost = Plan::new(&assembly).unwrap().cost();
+            cost.to_string()
+                .contains("contacts of the repulsion and their search are not counted")
+        };
+        assert!(said(text));
+        assert!(!said(&text.replace("repulsion: Repulsion(),", "")));
     }
 
     /// An equilibrium is estimated without time steps, and for less than the motion towards it.

@@ -66,7 +66,7 @@ impl Observers {
         let list: Vec<_> = scene
             .observe
             .iter()
-            .map(|&one| build(one, energies))
+            .map(|&one| build(one, scene, energies))
             .collect();
         let columns = list.iter().flat_map(|one| one.columns()).collect();
         Self { list, columns }
@@ -124,7 +124,7 @@ impl Observers {
 
 pub(crate) use energies::Names as EnergyNames;
 
-fn build(one: Observable, energies: &EnergyNames) -> Box<dyn Observe> {
+fn build(one: Observable, scene: &Scene, energies: &EnergyNames) -> Box<dyn Observe> {
     match one {
         Observable::Tip { filament, end } => Box::new(tip::Tip { filament, end }),
         Observable::EndReaction { filament, end } => Box::new(reaction::Reaction { filament, end }),
@@ -145,7 +145,11 @@ fn build(one: Observable, energies: &EnergyNames) -> Box<dyn Observe> {
             lag_ns,
         }),
         Observable::TangentCorrelation { filament, over_nm } => {
-            Box::new(tangents::TangentCorrelation { filament, over_nm })
+            Box::new(tangents::TangentCorrelation {
+                filament,
+                over_nm,
+                tells_length: scene.bends_besides_heat(filament).is_none(),
+            })
         }
     }
 }

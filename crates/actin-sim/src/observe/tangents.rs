@@ -19,11 +19,15 @@ const SAME_PLACE_NM: f64 = 1e-9;
 pub(super) struct TangentCorrelation {
     pub(super) filament: usize,
     pub(super) over_nm: f64,
+    /// Whether heat alone bends the filament, so that a persistence length follows.
+    pub(super) tells_length: bool,
 }
 
 impl Observe for TangentCorrelation {
     fn columns(&self) -> Vec<String> {
-        let Self { filament, over_nm } = self;
+        let Self {
+            filament, over_nm, ..
+        } = self;
         vec![format!("tangent_correlation[{filament}]_over_{over_nm}nm")]
     }
 
@@ -32,6 +36,9 @@ impl Observe for TangentCorrelation {
     }
 
     fn derived(&self, mean: f64, error: Option<f64>) -> Option<DerivedLength> {
+        if !self.tells_length {
+            return None;
+        }
         let loss = -mean.ln();
         let length = Some(self.over_nm / loss).filter(|p| p.is_finite() && *p > 0.0);
         let errors = length.zip(error).map(|(p, e)| p * e / (mean * loss));

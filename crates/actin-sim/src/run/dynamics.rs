@@ -7,7 +7,6 @@ use super::rest::{is_saddle, saddle};
 use super::sink::{Saved, Sink};
 use super::steps::Steps;
 use super::{Failure, Outcome, Status};
-use crate::assembly::Ramp;
 use crate::scene::{Dynamics, Integrator, RodLaw, Scene, SceneProblem, StopTolerances, Task};
 use crate::{Assembly, memory};
 use actin_integrate::{Bath, Composition, Drag, Reason, Run};
@@ -207,8 +206,8 @@ pub(super) fn run(
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {
     let mut system = assembly.system.in_state(assembly.system.state().clone());
-    let run = prepare(assembly, &mut system, dynamics, estimate)?;
     let mut recorder = Recorder::new(assembly, dynamics, saved, sink);
+    let run = prepare((assembly, dynamics), &recorder, &mut system, estimate)?;
     recorder.let_happen(&mut system);
     let ending = recorder.execute(&run, &mut system);
     let ending = recorder.end(ending, &mut system);
@@ -256,10 +255,10 @@ fn conclude(
             let attempts = dynamics.leave_saddles;
             certificate.map(|c| Failure::Saddle(saddle(&c, attempts, way_off(dynamics))))
         }
-        Ending::Slipped(slip, step) => {
+        Ending::Slipped(lost, step) => {
             outcome.steps = step;
-            let place = format!("at {:.4} ns, ", slip.at.value());
-            Some(Failure::TwistLost { place, slip })
+            let place = format!("at {:.4} ns, ", lost.at().value());
+            Some(lost.failure(place))
         }
         Ending::Failed(failure) => {
             outcome.steps = failure.last_good_step;
@@ -281,16 +280,16 @@ fn way_off(dynamics: &Dynamics) -> &'static str {
     }
 }
 
-/// The run that the scene asks for; its path is set going.
+/// The run that the scene asks for; its path is set going, with what looks on.
 fn prepare(
-    assembly: &Assembly,
+    (assembly, dynamics): (&Assembly, &Dynamics),
+    recorder: &Recorder<'_>,
     system: &mut System,
-    dynamics: &Dynamics,
     estimate: &Estimate,
 ) -> Result<Run, SceneProblem> {
     let limit = kinetic_limit(assembly);
     let run = plan(dynamics, estimate)?
-        .stopping_from(drive(assembly, system))
+        .stopping_from(recorder.drive(system))
         .with_kinetic_limit(limit)
         .expect("the limit is positive");
     // The bound is that of all energy. In a bath it is not: strain has heat of its own.
@@ -298,16 +297,6 @@ fn prepare(
         Some(_) => run,
         None => run.with_energy_limit(limit).expect("the limit is a number"),
     })
-}
-
-/// Sets the path of the scene going, if there is one, and returns the time that it takes (ns).
-fn drive(assembly: &Assembly, system: &mut System) -> f64 {
-    let Some(ramp) = Ramp::of(assembly) else {
-        return 0.0;
-    };
-    let duration = ramp.duration();
-    system.set_drive(Box::new(ramp));
-    duration
 }
 
 /// The run that the scene asks for. Its numbers were validated with the scene.

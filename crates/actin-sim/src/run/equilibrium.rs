@@ -188,13 +188,13 @@ impl<'a> Follower<'a> {
         state: &mut State,
     ) -> Result<Option<Failure>, SceneProblem> {
         let ended = self.follow(newton, state)?;
-        if let Some(slip) = self.taken.slip() {
+        if let Some(lost) = self.taken.lost() {
             self.is_interrupted = false;
             state.set_motion(&self.position.motion);
             self.checkpoint();
             let stage = place(self.assembly, self.position.stage);
-            let place = format!("{stage}at path parameter {:.4}, ", slip.at.value());
-            return Ok(Some(Failure::TwistLost { place, slip }));
+            let place = format!("{stage}at path parameter {:.4}, ", lost.at().value());
+            return Ok(Some(lost.failure(place)));
         }
         let failure = match ended {
             Some(_) if self.is_interrupted => None,
@@ -279,7 +279,7 @@ impl<'a> Follower<'a> {
             let path = path(self.settings)?;
             let mut stages = self.position.stage..self.assembly.drive.stages();
             stages.try_for_each(|stage| {
-                if self.taken.has_slipped() {
+                if self.taken.has_lost() {
                     return Ok(());
                 }
                 self.stage(&path, newton, state, stage)

@@ -3,6 +3,7 @@
 mod bound;
 mod dynamics;
 mod equilibrium;
+mod hinge;
 mod outcome;
 mod plan;
 mod points;
@@ -19,6 +20,7 @@ mod unknowns;
 pub use dynamics::Estimate;
 pub(crate) use dynamics::estimate_at;
 pub use equilibrium::EquilibriumReport;
+pub use hinge::HingeSlip;
 pub use outcome::{FailedRun, Failure, Outcome, RunError, Status};
 pub use plan::Plan;
 pub use records::{At, Record, RecordIter, Records, Row, RowIter, Trajectory};

@@ -1,7 +1,7 @@
 //! How a run ended, what it cost, and what went wrong.
 
 use super::taken::Remarks;
-use super::{EquilibriumReport, SaddlePush, Slip};
+use super::{EquilibriumReport, HingeSlip, SaddlePush, Slip};
 use crate::scene::SceneProblem;
 use crate::{BeyondRange, BeyondUse, LinkerEvent, UnstableTwist};
 use actin_equilibrium::{Certificate, PathFailure};
@@ -159,6 +159,13 @@ pub enum Failure {
         /// Which filament and how much.
         slip: Slip,
     },
+    /// The spring of a hinged end was turned past half a turn.
+    HingeSlipped {
+        /// When, or in which stage, in words.
+        place: String,
+        /// Which end.
+        slip: HingeSlip,
+    },
     /// The state exploded.
     Diverged {
         /// Where and when.
@@ -181,6 +188,7 @@ impl fmt::Display for Failure {
                 }
             }
             Self::TwistLost { place, slip } => write!(f, "{place}{slip}"),
+            Self::HingeSlipped { place, slip } => write!(f, "{place}{slip}"),
             Self::Diverged { failure, body } => write!(f, "{failure}; {} is {body}", failure.body),
         }
     }

@@ -79,13 +79,14 @@ impl<'a> Plan<'a> {
         Advice::of_estimated(&self.assembly.scene, self.assembly, self.estimate())
     }
 
-    /// What there is to know of its time step, where that is not what the scene asks for or does more
+    /// What there is to know of its time step and its records, where that is not what the scene asks for or does more
     /// than it shows; a sentence or two each. What there is to know of the scene is in
     /// [`Assembly::notes`].
     pub fn notes(&self) -> Vec<String> {
+        let scene = &self.assembly.scene;
         let estimate = self.estimate.iter();
         estimate
-            .flat_map(|e| e.notes(&self.assembly.scene.task))
+            .flat_map(|e| [e.notes(&scene.task), Vec::from_iter(e.note_on_means(scene))].concat())
             .collect()
     }
 }

@@ -1,8 +1,9 @@
-//! Watching a motion: records, checkpoints, twist that slips, and pushes off saddles.
+//! Watching a motion: records, checkpoints, turns that are lost, and pushes off saddles.
 
+use super::hinge::HingeWatch;
 use super::rest::{RestJudge, SaddlePush, is_saddle};
 use super::sink::{Clock, MotionPosition, Saved};
-use super::slip::Slip;
+use super::slip::Lost;
 use super::taken::Taken;
 use super::{At, Progress, Record, Recorded, RunPosition, Sink};
 use crate::assembly::{Log, Ramp};
@@ -35,6 +36,7 @@ pub(super) struct Recorder<'a> {
     assembly: &'a Assembly,
     /// What happened to linkers.
     log: Log,
+    hinges: HingeWatch,
 }
 
 /// How a motion ended.
@@ -43,8 +45,8 @@ pub(super) enum Ending {
     Interrupted(RunOutcome),
     /// At its end, with what the stiffness says if it is at rest.
     Ended(RunOutcome, Option<Certificate>),
-    /// Twist was lost; the step of the last good state.
-    Slipped(Slip, u64),
+    /// Turns were lost; the step of the last good state.
+    Slipped(Lost, u64),
     /// The state became unsound.
     Failed(RunFailure),
 }
@@ -89,7 +91,16 @@ impl<'a> Recorder<'a> {
             is_interrupted: false,
             assembly,
             log: Arc::new(Mutex::new(events)),
+            hinges: HingeWatch::new(assembly),
         }
+    }
+
+    /// Sets the path of the scene going in `system`, if there is one, and returns the time that it takes (ns).
+    pub(super) fn drive(&self, system: &mut System) -> f64 {
+        if let Some(drive) = self.hinges.beside(Ramp::of(self.assembly)) {
+            system.set_drive(drive);
+        }
+        self.rest_from_ns
     }
 
     /// Lets happen to the linkers of `system` what does, from where the run stands.
@@ -120,7 +131,12 @@ impl<'a> Recorder<'a> {
     ) -> Result<RunOutcome, RunFailure> {
         match self.position.take() {
             None => run.execute(system, &mut [self]),
-            Some(checkpoint) => run.resume(&checkpoint, system, &mut [self]),
+            Some(checkpoint) => {
+                let mut state = system.state().clone();
+                state.set_motion(&checkpoint.here.motion);
+                self.hinges.begin(&state);
+                run.resume(&checkpoint, system, &mut [self])
+            }
         }
     }
 
@@ -129,8 +145,8 @@ impl<'a> Recorder<'a> {
         self.clock.wall_s()
     }
 
-    /// What became of the motion. Where it lost twist, `system` is put back to the last good state.
-    /// Where it lost twist or ended on a saddle, that state is kept.
+    /// What became of the motion. Where it lost turns, `system` is put back to the last good state.
+    /// Where it lost turns or ended on a saddle, that state is kept.
     pub(super) fn end(
         &mut self,
         outcome: Result<RunOutcome, RunFailure>,
@@ -140,14 +156,14 @@ impl<'a> Recorder<'a> {
             Ok(outcome) => outcome,
             Err(failure) => return Ending::Failed(failure),
         };
-        if let Some(slip) = self.taken.slip() {
+        if let Some(lost) = self.taken.lost() {
             let step = self.last_good.as_ref().map_or(0, |good| good.0.here.step);
             if let Some((good, _)) = self.last_good.take() {
                 system.state_mut().set_motion(&good.here.motion);
                 // What slipped was not taken.
                 self.keep(good);
             }
-            return Ending::Slipped(slip, step);
+            return Ending::Slipped(lost, step);
         }
         if self.is_interrupted {
             return Ending::Interrupted(outcome);
@@ -176,6 +192,15 @@ impl<'a> Recorder<'a> {
         Some(nearest.certificate)
     }
 
+    /// Ends the run if a hinge was turned too far.
+    fn look_at_hinges(&mut self) -> ControlFlow<()> {
+        let Some(slip) = self.hinges.slip() else {
+            return ControlFlow::Continue(());
+        };
+        self.taken.lose(Lost::Hinge(slip));
+        ControlFlow::Break(())
+    }
+
     /// Keeps a checkpoint behind all records.
     fn keep(&mut self, checkpoint: Checkpoint) {
         let position = self.position_at(checkpoint);
@@ -193,6 +218,7 @@ impl<'a> Recorder<'a> {
 
 impl Observer for Recorder<'_> {
     fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()> {
+        self.look_at_hinges()?;
         if !self.taken.take(record(moment)) {
             return ControlFlow::Break(());
         }
@@ -226,6 +252,7 @@ impl Observer for Recorder<'_> {
     }
 
     fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
+        self.look_at_hinges()?;
         if self.is_behind {
             // A saddle alone is left without its record, and none is looked for in a heat bath.
             let recorded = self.judge.as_ref().map(|_| self.taken.recorded().clone());

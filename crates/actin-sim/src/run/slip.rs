@@ -6,7 +6,7 @@
 //! the other, so that the straight lines beyond them overlap) the sum says nothing, and nothing is
 //! concluded.
 
-use super::{At, Record};
+use super::{At, Failure, HingeSlip, Record};
 use crate::scene::Slides;
 use crate::shape::{Ribbon, WHOLE, turn_of_ends};
 use crate::{Assembly, End};
@@ -54,6 +54,32 @@ impl fmt::Display for Slip {
              {:.0} deg; more segments or smaller steps may help",
             self.filament, self.link_turns, self.found_turns, self.joint_s_nm, self.joint_deg
         )
+    }
+}
+
+/// How a filament lost turns.
+#[derive(Clone, Debug)]
+pub(super) enum Lost {
+    /// Through itself or a joint between ends that are held.
+    Twist(Slip),
+    /// Through the spring of an end.
+    Hinge(HingeSlip),
+}
+
+impl Lost {
+    pub(super) fn at(&self) -> At {
+        match self {
+            Self::Twist(slip) => slip.at,
+            Self::Hinge(slip) => slip.at,
+        }
+    }
+
+    /// As the failure of a run; `place` says when, or in which stage.
+    pub(super) fn failure(self, place: String) -> Failure {
+        match self {
+            Self::Twist(slip) => Failure::TwistLost { place, slip },
+            Self::Hinge(slip) => Failure::HingeSlipped { place, slip },
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! How many time steps a motion takes and how many lie between its records.
 
 use super::Estimate;
-use crate::scene::{Dynamics, SceneProblem, Task};
+use crate::scene::{Dynamics, Scene, SceneProblem, Task};
 use actin_integrate::Drag;
 
 /// Records of a run, unless the scene says otherwise.
@@ -188,6 +188,23 @@ impl Estimate {
                 "task.record_every_ns = {asked:?}: records are {every:.6} ns apart, because no step \
                  of about {:.2e} ns makes up both that interval and the duration of {duration:?} ns",
                 self.time_step_ns
+            )
+        })
+    }
+
+    /// The note on means of what a scene observes in a heat bath, where they are of one record or none.
+    pub(super) fn note_on_means(&self, scene: &Scene) -> Option<String> {
+        let from = scene.burn_in().filter(|_| !scene.observe.is_empty())?;
+        let interval = self.steps_between_records as f64 * self.time_step_ns;
+        let first = (from / interval * (1.0 - ROUND_OFF)).ceil();
+        let last = (self.steps / self.steps_between_records) as f64;
+        // The end is recorded as well.
+        let is_beyond = !self.steps.is_multiple_of(self.steps_between_records);
+        let records = (last - first + 1.0).max(0.0) + f64::from(u8::from(is_beyond));
+        (records < 2.0).then(|| {
+            format!(
+                "observe: means are of {records} record(s), those from burn_in_ns = {from:?} on, and have no \
+                 error: a longer duration_ns or a shorter record_every_ns gives more"
             )
         })
     }

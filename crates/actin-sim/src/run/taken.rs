@@ -1,6 +1,7 @@
 //! The records of a run as they are taken: what is known of them without keeping them.
 
-use super::slip::{LinkWatch, Slip};
+use super::hinge::slip_between;
+use super::slip::{LinkWatch, Lost};
 use super::{At, Plan, Progress, Record, RunPosition, Sink};
 use crate::assembly::{RangeWatch, TwistRecords, worst_of};
 use crate::observe::{Memory, View};
@@ -104,7 +105,7 @@ pub(super) struct Taken<'a> {
     pub(super) sink: &'a mut dyn Sink,
     assembly: &'a Assembly,
     recorded: Recorded,
-    slip: Option<Slip>,
+    lost: Option<Lost>,
 }
 
 impl<'a> Taken<'a> {
@@ -118,18 +119,22 @@ impl<'a> Taken<'a> {
             sink,
             assembly,
             recorded: recorded.unwrap_or_else(|| Recorded::new(assembly)),
-            slip: None,
+            lost: None,
         }
     }
 
-    /// Takes a record and returns true, unless twist was lost since the one before.
+    /// Takes a record and returns true, unless turns were lost since the one before.
     pub(super) fn take(&mut self, record: Record) -> bool {
         let Recorded { carried, last } = &mut self.recorded;
         let good = carried.links.clone();
         let before = last.as_ref().map(|record| &record.state);
         let here = (&record.state, record.at);
-        self.slip = carried.links.slip(self.assembly, here, before);
-        if self.slip.is_some() {
+        let twist = carried.links.slip(self.assembly, here, before);
+        // In time, hinges are looked at more often.
+        let path = before.filter(|_| matches!(record.at, At::Path(_)));
+        let hinge = || slip_between(self.assembly, path?, here).map(Lost::Hinge);
+        self.lost = twist.map(Lost::Twist).or_else(hinge);
+        if self.lost.is_some() {
             carried.links = good;
             return false;
         }
@@ -160,14 +165,19 @@ impl<'a> Taken<'a> {
         &self.recorded
     }
 
-    /// Whether twist was lost.
-    pub(super) fn has_slipped(&self) -> bool {
-        self.slip.is_some()
+    /// Takes note of turns that were lost between records.
+    pub(super) fn lose(&mut self, lost: Lost) {
+        self.lost = Some(lost);
     }
 
-    /// How twist was lost, if it was.
-    pub(super) fn slip(&mut self) -> Option<Slip> {
-        self.slip.take()
+    /// Whether turns were lost.
+    pub(super) fn has_lost(&self) -> bool {
+        self.lost.is_some()
+    }
+
+    /// How turns were lost, if they were.
+    pub(super) fn lost(&mut self) -> Option<Lost> {
+        self.lost.take()
     }
 
     /// What is wrong with the states of all records.

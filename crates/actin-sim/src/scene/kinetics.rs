@@ -59,6 +59,11 @@ pub struct Catch {
 }
 
 /// Forming where the site is within reach of the other end; of several places at the one where it is strained least.
+///
+/// The rate within reach is constant, whatever the energy `U` of the linker where it forms. Detailed balance would need rates
+/// of forming and breaking in the ratio `exp(-U/kT)`, which neither a constant rate nor that of Bell has. So with `breaks` in
+/// a heat bath the filament settles in a steady state that is not thermal equilibrium, and these events exchange energy with
+/// it (`events_pn_nm`).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

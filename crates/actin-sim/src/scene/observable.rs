@@ -1,7 +1,7 @@
 //! What a scene observes as records are taken, what it writes of them, and the rules of both.
 
 use super::rules::{non_negative, positive, show};
-use super::{End, HeldEnds, Scene, SceneProblem, Task};
+use super::{End, HeldEnds, Linker, Scene, SceneProblem, Section, Task};
 use serde::{Deserialize, Serialize};
 
 /// Share of a motion that means leave out by default.
@@ -26,7 +26,8 @@ pub enum Observable {
         end: End,
     },
     /// Force and torque of a clamp on the filament, the torque about the clamped point:
-    /// `reaction[0]_start_force_x_pn`, `reaction[0]_start_torque_x_pn_nm`.
+    /// `reaction[0]_start_force_x_pn`, `reaction[0]_start_torque_x_pn_nm`. Along directions in which the end slides the
+    /// force is zero: what loads the end there is its own inertia and drag.
     EndReaction {
         /// Index of the filament.
         #[serde(default)]
@@ -75,7 +76,9 @@ pub enum Observable {
         filament: usize,
     },
     /// The centre line as a whole: `contour[0]_length_nm`, `contour[0]_gyration_radius_nm`,
-    /// `contour[0]_largest_distance_nm` (from the axis as built) and `contour[0]_twist_turns`.
+    /// `contour[0]_largest_distance_nm` and `contour[0]_twist_turns`. The distance is that from the axis as built; of a
+    /// filament with a `shape` it is that from the straight line through `at_nm` along `direction`, to which the
+    /// curve is a tangent at its start, and not from the curve.
     Contour {
         /// Index of the filament.
         #[serde(default)]
@@ -100,7 +103,8 @@ pub enum Observable {
     },
     /// Mean cosine of the angle between cross-sections a distance apart, over all such pairs of the filament:
     /// `tangent_correlation[0]_over_20nm`. In a heat bath `summary.json` has the persistence length that
-    /// follows, `-distance / ln(mean)`.
+    /// follows, `-distance / ln(mean)`, unless something else than heat bends or straightens the filament: loads,
+    /// linkers, walls, a second held end, a `shape`, curvature at rest.
     TangentCorrelation {
         /// Index of the filament.
         #[serde(default)]
@@ -273,6 +277,38 @@ fn check_burn_in(scene: &Scene) -> Result<(), SceneProblem> {
 }
 
 impl Scene {
+    /// What bends or straightens a filament besides heat, so that its tangents do not tell its persistence length.
+    pub(crate) fn bends_besides_heat(&self, filament: usize) -> Option<&'static str> {
+        let written = self.filament_at(filament)?;
+        let is_curved = |section: &Section| match section {
+            Section::Rod { altered, .. } => altered
+                .as_ref()
+                .is_some_and(|altered| altered.rest_curvature_per_nm != [0.0; 2]),
+            Section::Ellipsoids { .. } => false,
+        };
+        let held = self.clamps.iter().filter(|c| c.filament == filament);
+        let joins = |linker: &Linker| {
+            let to = linker.to.map(|site| site.filament);
+            linker.filament == filament || to == Some(filament)
+        };
+        let reasons = [
+            (
+                self.loads.iter().any(|load| load.filament() == filament),
+                "loads act on it",
+            ),
+            (held.count() > 1, "both its ends are held"),
+            (written.shape.is_some(), "it has a shape"),
+            (
+                written.sections.iter().any(is_curved),
+                "it is curved at rest",
+            ),
+            (self.linkers.iter().any(joins), "linkers hold it"),
+            (self.has_walls(), "walls repel it"),
+        ];
+        let mut true_ones = reasons.into_iter().filter(|(is_so, _)| *is_so);
+        true_ones.next().map(|(_, reason)| reason)
+    }
+
     /// Time that means leave out (ns): as written, or a fifth of the duration; none without thermal noise.
     pub(crate) fn burn_in(&self) -> Option<f64> {
         match &self.task {

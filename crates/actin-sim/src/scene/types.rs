@@ -101,9 +101,10 @@ pub enum Setting {
         filament: usize,
         /// Which end. It must be clamped.
         end: End,
-        /// Rotation vector in the lab frame; finite, of any length. Lab z is the axis of a filament
-        /// without a `direction`. In `Dynamics` an end that slides `AlongAxis` may only turn about its
-        /// axis, and one that slides `Freely` not at all.
+        /// Rotation vector in the lab frame; finite, of any length. Lab z is the axis of a filament without a
+        /// `direction`. With a `shape` each end has an axis of its own, the tangent of the curve there as built: a
+        /// turn about anything else tilts the end too. In `Dynamics` an end that slides `AlongAxis` may only turn
+        /// about its axis, and one that slides `Freely` not at all.
         turn_deg: [f64; 3],
     },
     /// Displacement of a linker's anchor from where the linker puts it, by the linker's index in
@@ -189,7 +190,8 @@ pub struct Clamp {
 
 /// A spring between the cross-section at a pinned end and a frame that a path may turn: energy
 /// `(k_b (theta_1^2 + theta_2^2) + k_t theta_3^2) / 2` of the rotation vector `theta` from one to the other, its third
-/// component along the filament. It is known below half a turn: a run whose path turns a hinge further fails, if the other end is held or hinged too.
+/// component along the filament. It is known
+/// below half a turn: a run in which a hinge is turned further fails.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -208,7 +210,8 @@ pub enum Slides {
     /// Not at all.
     #[default]
     Nowhere,
-    /// Along the axis of the filament as built, lab z unless it has a direction of its own.
+    /// Along the axis of the filament as built, lab z unless it has a direction of its own; with a `shape` along the
+    /// tangent of the curve at this end as built.
     AlongAxis,
     /// Along all three axes: the end is held in orientation only.
     Freely,

@@ -1,10 +1,11 @@
 //! The link of a filament whose ends are held: what twist and writhe have to add up to.
 
 use super::Ribbon;
+use super::ribbon::built_frame;
 use crate::assembly::StageTimes;
 use crate::scene::is_across;
 use crate::{Assembly, At, End};
-use actin_mechanics::{State, Vector3, rotation};
+use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 use std::f64::consts::PI;
 
 /// Link of filament 0 in turns: how far the end has been turned about the axis of the filament as
@@ -46,31 +47,66 @@ fn axis_of_ends(assembly: &Assembly, filament: usize) -> Option<Vector3> {
     span.shape.is_none().then(|| span.axis())
 }
 
-/// How far the end of a filament is turned against its start (turns), as the path prescribes:
-/// the link where the ends are parallel; elsewhere the angle that is left when the end's axis
-/// is carried back to that of the start by the smallest rotation, counted on from zero.
+/// A held end, of which the path turns the outermost frame; of a hinged end that behind its spring.
+struct TurnedEnd {
+    /// The frame as built, third axis along the filament (lab frame).
+    built: UnitQuaternion,
+    /// How the path turns it (rad, rotation vector in the lab frame).
+    turn: Vector3,
+}
+
+impl TurnedEnd {
+    fn of(assembly: &Assembly, filament: usize, end: End, parameter: f64) -> Option<Self> {
+        let clamp = assembly.held.turned_at(filament, end)?;
+        Some(Self {
+            built: built_frame(assembly, filament, end)?,
+            turn: assembly.drive.turn(clamp, parameter),
+        })
+    }
+
+    /// The filament's direction there as built.
+    fn axis(&self) -> Vector3 {
+        self.built * Vector3::z()
+    }
+
+    /// Whether it points elsewhere than as built, or did so on the way.
+    fn is_tilted(&self) -> bool {
+        is_across(self.turn, self.axis())
+    }
+
+    fn turned(&self) -> UnitQuaternion {
+        rotation::exp(self.turn) * self.built
+    }
+}
+
+/// How far the end of a filament has been turned against its start since it was built (turns), as the path
+/// prescribes. Where both ends point as built, it is the difference of their turns about their own axes.
+/// Elsewhere it is the angle that is left when the end's axis is carried back to that of the start by the
+/// smallest rotation, less that as built, counted on from zero.
 ///
-/// Of a hinged end the held frame behind its spring counts. None where an end is free, or tilted against
-/// the other by a right angle or more.
+/// Of a hinged end the held frame behind its spring counts. None where an end is free, or where an end was
+/// tilted and they point at right angles or further from each other, now or as built.
 pub(crate) fn turn_of_ends(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
     let parameter = path_parameter(assembly, at);
-    let axis = axis_of_ends(assembly, filament)?;
-    let turned = [End::Start, End::End].map(|end| {
-        let clamp = assembly.held.turned_at(filament, end)?;
-        Some(assembly.drive.turn(clamp, parameter))
-    });
-    let [Some(start), Some(end)] = turned else {
-        return None;
-    };
+    let held = |end| TurnedEnd::of(assembly, filament, end, parameter);
+    let (start, end) = (held(End::Start)?, held(End::End)?);
     // Carried on from turn to turn, of each end by itself; together to a whole number of turns.
-    let about = angle_about(end, axis) - angle_about(start, axis);
-    let between = rotation::exp(start).inverse() * rotation::exp(end);
-    if (between * axis).dot(&axis) <= 0.0 {
-        return None;
+    let about = angle_about(end.turn, end.axis()) - angle_about(start.turn, start.axis());
+    if !start.is_tilted() && !end.is_tilted() {
+        return Some(about / (2.0 * PI));
     }
-    let within_a_turn = 2.0 * between.imag().dot(&axis).atan2(between.w);
-    let whole = ((about - within_a_turn) / (2.0 * PI)).round();
-    Some(whole + within_a_turn / (2.0 * PI))
+    let before = angle_between(start.built, end.built)?;
+    let change = angle_between(start.turned(), end.turned())? - before;
+    let whole = ((about - change) / (2.0 * PI)).round();
+    Some(whole + change / (2.0 * PI))
+}
+
+/// Angle (rad, within a turn) of `end` against `start` about their third axes, the one carried to the other by
+/// the smallest rotation; none where they are at a right angle or further apart.
+fn angle_between(start: UnitQuaternion, end: UnitQuaternion) -> Option<f64> {
+    let between = start.inverse() * end;
+    let is_ahead = (between * Vector3::z()).z > 0.0;
+    is_ahead.then(|| 2.0 * between.k.atan2(between.w))
 }
 
 /// Twist plus writhe may differ from a whole number of turns by this (turns) and still tell it.
@@ -89,11 +125,12 @@ pub(crate) fn link_is_unknown(
     {
         return false;
     }
-    let sum = Ribbon::of(assembly, filament, state).linking();
-    let Some((sum, turn)) = sum.zip(turn_of_ends(assembly, filament, at)) else {
+    let sum = |state| Ribbon::of(assembly, filament, state).linking();
+    let change = sum(state).zip(sum(&assembly.rest));
+    let Some(((now, built), turn)) = change.zip(turn_of_ends(assembly, filament, at)) else {
         return true;
     };
-    let off = sum - turn;
+    let off = now - built - turn;
     (off - off.round()).abs() > WHOLE
 }
 

@@ -10,32 +10,32 @@ use super::writhe::triangle;
 use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
-/// Ends count as parallel if the cosine of their angle differs from one by less than this: their
-/// writhe then belongs to a closed curve, to 1e-4 of a turn.
+/// Unit vectors count as parallel if the cosine of their angle differs from one by less than this: the
+/// writhe between such ends belongs to a closed curve, to 1e-4 of a turn.
 const PARALLEL: f64 = 1e-8;
 /// Parallel lines this close (nm) count as one: far above round-off of places, far below any
 /// displacement that a scene asks for.
 const ONE_LINE_NM: f64 = 1e-6;
 
 impl Ribbon {
-    /// Twist plus writhe (turns): the link up to a whole number that depends on the way here.
+    /// Twist plus writhe (turns): the link up to a number that depends on the way here and on how the
+    /// filament was built.
     ///
     /// Where the ends are not parallel, the area between the tangents is closed by the shortest arc from
     /// the last to the first, and the link is the turn of the end carried back along that arc.
     ///
     /// Costs one pass where every edge points forward along the start; elsewhere the double sum of the
-    /// writhe. None where an end is free, where the ends are not parallel and an edge points backward,
-    /// where an end has passed the other, so that the straight lines beyond them overlap, and where the
-    /// writhe is not computed.
+    /// writhe. None where an end is free, where the ends are neither parallel nor as built and an edge points
+    /// backward, where the straight lines beyond the ends overlap, since one end has passed the other, or cross,
+    /// and where the writhe is not computed.
     pub(crate) fn linking(&self) -> Option<f64> {
         let (frames, tangents) = self.held_edges()?;
         let twist = angles(&frames, &tangents).iter().sum::<f64>() / (2.0 * PI);
-        let (first, last) = (tangents[0], tangents[tangents.len() - 1]);
+        let beyond = [tangents[0], tangents[tangents.len() - 1]];
         let backward = || {
-            let is_closed = 1.0 - first.dot(&last) <= PARALLEL && !self.extensions_overlap(first);
-            is_closed
-                .then(|| self.writhe_between([first, last]))
-                .flatten()
+            let is_known = is_parallel(beyond[0], beyond[1]) || self.points_as_built(beyond);
+            let is_closed = is_known && !self.extensions_meet(beyond);
+            is_closed.then(|| self.writhe_between(beyond)).flatten()
         };
         let writhe = forward_writhe(&tangents).or_else(backward)?;
         Some(twist + writhe)
@@ -48,12 +48,25 @@ impl Ribbon {
         tangents.iter().all(|t| t.dot(&tangents[0]) > 0.0)
     }
 
-    /// Whether the straight lines beyond both ends, along `axis`, overlap.
-    fn extensions_overlap(&self, axis: Vector3) -> bool {
+    /// Whether the straight lines beyond both ends, along these unit vectors, overlap or cross.
+    fn extensions_meet(&self, [first, last]: [Vector3; 2]) -> bool {
         let points = &self.points_nm;
         let whole = points[points.len() - 1] - points[0];
-        let along = whole.dot(&axis);
-        along <= 0.0 && (whole - along * axis).norm() <= ONE_LINE_NM
+        if is_parallel(first, last) {
+            let along = whole.dot(&first);
+            return along <= 0.0 && (whole - along * first).norm() <= ONE_LINE_NM;
+        }
+        let normal = first.cross(&last);
+        let square = normal.norm_squared();
+        // Ends that point opposite ways go off side by side.
+        if square <= PARALLEL {
+            return false;
+        }
+        // Where the lines are nearest, back along the one and on along the other.
+        let back = -whole.cross(&last).dot(&normal) / square;
+        let on = whole.cross(&first).dot(&normal) / square;
+        let apart = whole.dot(&normal).abs() / square.sqrt();
+        back >= 0.0 && on >= 0.0 && apart <= ONE_LINE_NM
     }
 
     /// Arc length (nm) and angle (rad) of the joint with the largest twist.
@@ -63,6 +76,11 @@ impl Ribbon {
         let largest = joints.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
         largest.unwrap_or_default()
     }
+}
+
+/// Whether two unit vectors point the same way.
+pub(super) fn is_parallel(one: Vector3, other: Vector3) -> bool {
+    1.0 - one.dot(&other) <= PARALLEL
 }
 
 /// Writhe of a curve with these unit vectors, where all point to the side of the first; None elsewhere.
@@ -170,6 +188,31 @@ mod tests {
         let whole = super::super::extended_writhe(&points, [Vector3::z(); 2]);
         assert!(whole > 0.1, "{whole}");
         assert!((forward_writhe(&all).unwrap() - whole).abs() < 1e-12);
+    }
+
+    /// Where the ends are not parallel, the area closed by the shortest arc between them and the double sum over the
+    /// filament and the lines beyond it agree, so that either may follow the other.
+    #[test]
+    fn both_ways_agree_between_ends_that_are_not_parallel() {
+        let mut noise = Xorshift::new(23);
+        for _ in 0..20 {
+            let first = noise.vector().normalize();
+            let mut tangents = vec![first];
+            while tangents.len() < 12 {
+                let next = (first + 2.0 * noise.vector()).normalize();
+                if next.dot(&first) > 0.0 {
+                    tangents.push(next);
+                }
+            }
+            let mut points = vec![Vector3::zeros()];
+            for edge in &tangents[1..11] {
+                points.push(points[points.len() - 1] + edge);
+            }
+            let whole = super::super::extended_writhe(&points, [first, tangents[11]]);
+            let forward = forward_writhe(&tangents).unwrap();
+            // Round-off of some hundred solid angles.
+            assert!((forward - whole).abs() < 1e-12, "{forward} {whole}");
+        }
     }
 
     /// A segment turned against its neighbours by 170 deg and then by 190 deg loses a turn, and that

@@ -1,8 +1,8 @@
 //! The centre line of a filament with a frame on each edge, whatever resolves it.
 
+use super::linking::is_parallel;
 use super::{extended_writhe, twist};
 use crate::{Assembly, End};
-use actin_cosserat::RodEnd;
 use actin_mechanics::{State, UnitQuaternion, Vector3};
 
 /// More vertices than this are not asked for their writhe, which costs their number squared: 5e7
@@ -59,6 +59,8 @@ pub struct Ribbon {
     /// Of each hinged end the held frame behind the spring and the cross-section before it, in the same
     /// axes.
     hinges: [Option<[UnitQuaternion; 2]>; 2],
+    /// Unit vectors along the filament at the outermost held frames as built; none at an end that turns.
+    built: [Option<Vector3>; 2],
     /// Distance of each vertex from the axis of the filament as built (nm).
     distance_nm: Vec<f64>,
 }
@@ -82,6 +84,8 @@ impl Ribbon {
             frames: Vec::new(),
             ends: [End::Start, End::End].map(|end| held_frame(assembly, filament, state, end)),
             hinges: [End::Start, End::End].map(|end| hinge_frames(assembly, filament, state, end)),
+            built: [End::Start, End::End]
+                .map(|end| built_frame(assembly, filament, end).map(|frame| frame * Vector3::z())),
             distance_nm: Vec::new(),
         };
         let sections = assembly.sections_of(filament);
@@ -178,6 +182,15 @@ impl Ribbon {
         Some((frames, tangents))
     }
 
+    /// Whether the filament goes on beyond its ends, along these unit vectors, as it was built.
+    pub(super) fn points_as_built(&self, beyond: [Vector3; 2]) -> bool {
+        let ends = beyond.iter().zip(&self.built);
+        let is_same = |(now, built): (&Vector3, &Option<Vector3>)| {
+            built.is_some_and(|built| is_parallel(*now, built))
+        };
+        ends.map(is_same).all(|same| same)
+    }
+
     /// Writhe of the filament, which goes on straight beyond both ends: see [`extended_writhe`].
     /// None of more than ten thousand vertices.
     pub fn writhe(&self) -> Option<f64> {
@@ -191,7 +204,8 @@ impl Ribbon {
         few.then(|| extended_writhe(&self.points_nm, beyond))
     }
 
-    /// Largest distance of the centre line from the axis of the filament as built (nm).
+    /// Largest distance of the centre line from the axis of the filament as built (nm); of a filament with a
+    /// shape from the straight line from its start along its direction.
     ///
     /// Taken as the top of the parabola through the vertex that is furthest and its neighbours: of
     /// a rod of segments `h` the vertices alone may miss `kappa h^2 / 8`, 0.25 nm at 0.02 rad/nm.
@@ -233,20 +247,8 @@ fn hinge_frames(
     state: &State,
     end: End,
 ) -> Option<[UnitQuaternion; 2]> {
-    let held = &assembly.held;
-    let clamp = held.turned_at(filament, end)?;
-    if held.fixed_at(filament, end) == Some(clamp) {
-        return None;
-    }
-    let sections = &assembly.filaments[filament].sections;
-    let (section, rod_end) = match end {
-        End::Start => (sections.start, RodEnd::Start),
-        End::End => (sections.end - 1, RodEnd::End),
-    };
-    let rod = assembly.rods.iter().find(|rod| rod.section == section)?;
-    let wall = rod.layout.wall(rod_end)?;
-    let behind = *assembly.clamps[clamp].frames.first()?;
-    Some([behind, wall].map(|frame| from_rest(assembly, state, frame)))
+    let frames = assembly.hinge_frames(filament, end)?;
+    Some(frames.map(|frame| from_rest(assembly, state, frame)))
 }
 
 /// The outermost frame that a clamp holds.
@@ -256,13 +258,32 @@ fn held_frame(
     state: &State,
     end: End,
 ) -> Option<(f64, UnitQuaternion)> {
-    let clamp = &assembly.clamps[assembly.held.fixed_at(filament, end)?];
-    let frame = match end {
-        End::Start => *clamp.frames.first()?,
-        End::End => *clamp.frames.last()?,
-    };
+    let clamp = assembly.held.fixed_at(filament, end)?;
+    let frame = outermost(assembly, clamp, end)?;
     let s_nm = assembly.frames[frame].s_nm;
     Some((s_nm, from_rest(assembly, state, frame)))
+}
+
+/// The axes in which the filament was built at the outermost held frame of an end, behind its spring if it is
+/// hinged; none where it is free or turns by itself.
+pub(super) fn built_frame(
+    assembly: &Assembly,
+    filament: usize,
+    end: End,
+) -> Option<UnitQuaternion> {
+    let clamp = assembly.held.turned_at(filament, end)?;
+    let frame = outermost(assembly, clamp, end)?;
+    let span = &assembly.filaments[filament];
+    Some(span.frame_at(assembly.frames[frame].s_nm))
+}
+
+/// The outermost of the frames that a clamp of an end holds.
+fn outermost(assembly: &Assembly, clamp: usize, end: End) -> Option<usize> {
+    let frames = &assembly.clamps[clamp].frames;
+    match end {
+        End::Start => frames.first().copied(),
+        End::End => frames.last().copied(),
+    }
 }
 
 #[cfg(test)]

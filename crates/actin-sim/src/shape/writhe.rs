@@ -11,6 +11,9 @@
 use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
+/// Angle (rad) below which rays go off the same way: that of a scene's six digits.
+const SAME_WAY: f64 = 1e-5;
+
 /// Writhe of the closed polygon through `points`; the last edge leads back to the first point.
 ///
 /// `Wr = 1/(4 pi) oint oint (dr1 x dr2) . (r1 - r2) / |r1 - r2|^3`: right-handed crossings are
@@ -75,8 +78,12 @@ fn edge_and_ray([a, b]: [Vector3; 2], c: Vector3, u: Vector3, sense: f64) -> f64
     sense * triangle(c - a, u, c - b)
 }
 
-/// The same from a ray that ends along `t` to one that begins `d` further and goes along `u`.
+/// The same from a ray that ends along `t` to one that begins `d` further and goes along `u`. Rays that go off
+/// the same way, to round-off, lie in a plane.
 fn ray_and_ray(t: Vector3, d: Vector3, u: Vector3) -> f64 {
+    if (t + u).norm() < SAME_WAY {
+        return 0.0;
+    }
     triangle(t, u, d)
 }
 
