@@ -136,66 +136,65 @@ fn heated(filament: &str, scene: &str, task: &str) -> String {
     )
 }
 
-/// Where something else than heat bends or straightens a filament, its tangents do not tell its persistence length: none is
-/// given, and a note says why.
+/// What else than heat bends or straightens a rod: keys of its filament and of its scene, and what a note says.
+const BENDS: [(&str, &str, &str); 6] = [
+    (
+        ")])",
+        "clamps: [Clamp(end: Start)], loads: [Force(end: End, force_pn: (0.0, 0.0, 5.0))],",
+        "loads act on it",
+    ),
+    (
+        ")])",
+        "clamps: [Clamp(end: Start), Clamp(end: End, hold: Pin, slides: AlongAxis)],",
+        "both its ends are held",
+    ),
+    (")], shape: Arc(radius_nm: 100.0))", "", "it has a shape"),
+    (
+        ", altered: (rest_curvature_per_nm: (0.0, 0.01)))])",
+        "",
+        "it is curved at rest",
+    ),
+    (
+        ")])",
+        "linkers: [Linker(at_nm: 60.0, displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0)],",
+        "linkers hold it",
+    ),
+    (
+        ")])",
+        "repulsion: Repulsion(planes: [(at_nm: (0.0, 0.0, -9.0), normal: (0.0, 0.0, 1.0))]),",
+        "walls repel it",
+    ),
+];
+
+/// Where something else than heat bends or straightens a filament, its tangents do not tell its persistence length: none
+/// is given, and a note says why. A clamp at one end and twist at rest do not.
 #[test]
 fn a_persistence_length_is_that_of_heat_alone() {
-    let clamp = "clamps: [Clamp(end: Start)],";
-    let task = "duration_ns: 0.2, record_every_ns: 0.02";
-    for (filament, scene, reason) in [
-        (")])", "", None),
-        (")])", clamp, None),
-        (", altered: (rest_twist_per_nm: 0.01))])", "", None),
-        (
-            ")])",
-            "clamps: [Clamp(end: Start)], loads: [Force(end: End, force_pn: (0.0, 0.0, 5.0))],",
-            Some("loads act on it"),
-        ),
-        (
-            ")])",
-            "clamps: [Clamp(end: Start), Clamp(end: End, hold: Pin, slides: AlongAxis)],",
-            Some("both its ends are held"),
-        ),
-        (
-            ")], shape: Arc(radius_nm: 100.0))",
-            "",
-            Some("it has a shape"),
-        ),
-        (
-            ", altered: (rest_curvature_per_nm: (0.0, 0.01)))])",
-            "",
-            Some("it is curved at rest"),
-        ),
-        (
-            ")])",
-            "linkers: [Linker(at_nm: 60.0, displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0)],",
-            Some("linkers hold it"),
-        ),
-        (
-            ")])",
-            "repulsion: Repulsion(planes: [(at_nm: (0.0, 0.0, -9.0), normal: (0.0, 0.0, 1.0))]),",
-            Some("walls repel it"),
-        ),
-    ] {
+    let told = |filament: &str, scene: &str| {
+        let task = "duration_ns: 0.2, record_every_ns: 0.02";
         let (_, _, summary) = run(&heated(filament, scene, task));
-        let mean = summary.observables["tangent_correlation[0]_over_30nm"]
-            .mean
-            .unwrap();
+        let column = summary.observables["tangent_correlation[0]_over_30nm"];
+        let mean = column.mean.unwrap();
+        assert!(mean.mean.is_some());
+        let is_of_it = |note: &String| note.starts_with("observe[0]: no persistence length");
+        let notes = summary.notes.into_iter().filter(is_of_it);
+        (mean.derived.is_some(), notes.collect::<Vec<_>>())
+    };
+    for (filament, scene, reason) in BENDS {
+        let (is_given, notes) = told(filament, scene);
+        assert!(!is_given && notes.len() == 1, "{reason}: {notes:?}");
+        assert!(notes[0].contains(reason), "{notes:?}");
+    }
+    for (filament, scene) in [
+        (")])", ""),
+        (")])", "clamps: [Clamp(end: Start)],"),
+        (", altered: (rest_twist_per_nm: 0.01))])", ""),
+    ] {
         assert_eq!(
-            mean.derived.is_some(),
-            reason.is_none(),
+            told(filament, scene),
+            (true, Vec::new()),
             "{filament} {scene}"
         );
-        assert!(mean.mean.is_some());
-        let notes = summary
-            .notes
-            .iter()
-            .filter(|note| note.starts_with("observe[0]: no persistence"));
-        let notes: Vec<_> = notes.collect();
-        assert_eq!(notes.len(), usize::from(reason.is_some()), "{notes:?}");
-        if let Some(reason) = reason {
-            assert!(notes[0].contains(reason), "{notes:?}");
-        }
     }
 }
 

@@ -220,54 +220,55 @@ fn twist_that_slips_in_an_arc_is_an_error() {
     assert!((trajectory.records.last().unwrap().at.value() - 6.0).abs() < 1e-12);
 }
 
-/// A rod that is free but for the hinge at its start. The spring can bear `pi k`, 62.8 pN nm about the rod; a couple of
-/// more, and a frame that is turned before the rod follows, turn it past half a turn, which ends the run however
-/// seldom it is recorded. Less does not, nor does a turn that the rod follows.
+/// A rod with a hinge at its start.
+fn hinged(load: &str, path: &str, end: &str) -> String {
+    format!(
+        "Scene(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+            clamps: [
+                Clamp(end: Start, hold: Pin, hinge: (bend_pn_nm_per_rad: 100.0, twist_pn_nm_per_rad: 20.0)),
+                {end}
+            ],
+            loads: [{load}], path: [{path}],
+            task: Dynamics(
+                duration_ns: 20.0, record_every_ns: 10.0,
+                drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+            ),
+        )"
+    )
+}
+
+/// A spring can bear `pi k`, 62.8 pN nm about the rod: a couple of more, and a frame that is turned before the rod
+/// follows, turn it past half a turn. That ends the run, whether the other end is free or pinned, however seldom it is
+/// recorded. Less does not, nor does a turn that the rod follows.
 #[test]
 fn a_hinge_past_half_a_turn_is_an_error_whatever_the_other_end_is() {
-    let run = |load: &str, path: &str, end: &str| {
-        moved_anyway(&format!(
-            "Scene(
-                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
-                clamps: [
-                    Clamp(end: Start, hold: Pin, hinge: (bend_pn_nm_per_rad: 100.0, twist_pn_nm_per_rad: 20.0)),
-                    {end}
-                ],
-                loads: [{load}], path: [{path}],
-                task: Dynamics(
-                    duration_ns: 20.0, record_every_ns: 10.0,
-                    drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
-                ),
-            )"
-        ))
-    };
     let couple = |size: f64| format!("Couple(end: End, couple_pn_nm: (0.0, 0.0, {size:?}))");
     let turn = |degrees: f64, duration: f64| {
         let set = format!("set: [Turn(end: Start, turn_deg: (0.0, 0.0, {degrees:?}))]");
         format!("Stage({set}, duration_ns: {duration:?})")
     };
-    let pin = "Clamp(end: End, hold: Pin, slides: AlongAxis),";
-    for (load, path, end, slips) in [
-        (couple(80.0), String::new(), "", true),
-        (couple(80.0), String::new(), pin, true),
-        (couple(40.0), String::new(), "", false),
-        (String::new(), turn(720.0, 0.1), "", true),
-        (String::new(), turn(720.0, 0.1), pin, true),
-        (String::new(), turn(180.0, 18.0), "", false),
+    for (load, path) in [
+        (couple(40.0), String::new()),
+        (String::new(), turn(180.0, 18.0)),
     ] {
-        let (_, ended) = run(&load, &path, end);
-        if !slips {
-            assert!(ended.is_ok(), "{load} {path}");
-            continue;
+        assert!(moved(&hinged(&load, &path, "")).is_ok(), "{load} {path}");
+    }
+    for (load, path) in [
+        (couple(80.0), String::new()),
+        (String::new(), turn(720.0, 0.1)),
+    ] {
+        for end in ["", "Clamp(end: End, hold: Pin, slides: AlongAxis),"] {
+            let (_, ended) = moved_anyway(&hinged(&load, &path, end));
+            let (Failure::HingeSlipped { place, slip }, report) = failure(ended) else {
+                panic!("{load} {path} {end} does not slip");
+            };
+            println!("{place}{slip}");
+            assert_eq!((slip.filament, slip.end), (0, End::Start));
+            // In a step it turns by a few degrees at the most.
+            let [angle, twist] = slip.turned_deg;
+            assert!((170.0..180.0).contains(&angle) && (twist.abs() - angle).abs() < 1e-6);
+            assert_eq!(report.status, Status::Failed);
         }
-        let (Failure::HingeSlipped { place, slip }, report) = failure(ended) else {
-            panic!("{load} {path} {end} does not slip");
-        };
-        println!("{place}{slip}");
-        assert_eq!((slip.filament, slip.end), (0, End::Start));
-        // In a step it turns by a few degrees at the most.
-        let [angle, twist] = slip.turned_deg;
-        assert!((170.0..180.0).contains(&angle) && (twist.abs() - angle).abs() < 1e-6);
-        assert_eq!(report.status, Status::Failed);
     }
 }

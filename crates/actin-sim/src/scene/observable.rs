@@ -283,7 +283,7 @@ impl Scene {
         let is_curved = |section: &Section| match section {
             Section::Rod { altered, .. } => altered
                 .as_ref()
-                .is_some_and(|altered| altered.rest_curvature_per_nm != [0.0; 2]),
+                .is_some_and(|altered| altered.rest_curvature_per_nm.iter().any(|k| k.abs() > 0.0)),
             Section::Ellipsoids { .. } => false,
         };
         let held = self.clamps.iter().filter(|c| c.filament == filament);

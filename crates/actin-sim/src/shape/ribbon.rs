@@ -2,7 +2,7 @@
 
 use super::linking::is_parallel;
 use super::{extended_writhe, twist};
-use crate::{Assembly, End};
+use crate::{Assembly, End, FilamentSpan};
 use actin_mechanics::{State, UnitQuaternion, Vector3};
 
 /// More vertices than this are not asked for their writhe, which costs their number squared: 5e7
@@ -31,6 +31,8 @@ fn is_summarised(assembly: &Assembly, filament: usize) -> bool {
     let own = assembly.filaments[filament].points.len();
     own * assembly.points.len() <= MOST_FOR_SUMMARY
 }
+
+const ENDS: [End; 2] = [End::Start, End::End];
 
 /// A filament as a polyline of `n + 1` vertices and `n` edges, each edge with a frame.
 ///
@@ -82,10 +84,9 @@ impl Ribbon {
             between_monomers: Vec::new(),
             frame_s_nm: Vec::new(),
             frames: Vec::new(),
-            ends: [End::Start, End::End].map(|end| held_frame(assembly, filament, state, end)),
-            hinges: [End::Start, End::End].map(|end| hinge_frames(assembly, filament, state, end)),
-            built: [End::Start, End::End]
-                .map(|end| built_frame(assembly, filament, end).map(|frame| frame * Vector3::z())),
+            ends: ENDS.map(|end| held_frame(assembly, filament, state, end)),
+            hinges: ENDS.map(|end| hinge_frames(assembly, filament, state, end)),
+            built: ENDS.map(|end| built_axis(assembly, filament, end)),
             distance_nm: Vec::new(),
         };
         let sections = assembly.sections_of(filament);
@@ -116,9 +117,7 @@ impl Ribbon {
                 ribbon.frames.push(from_rest(assembly, state, frame));
             }
         }
-        let span = &assembly.filaments[filament];
-        let seen = ribbon.points_nm.iter().map(|&p| span.seen_along_z(p));
-        ribbon.distance_nm = seen.map(|p| p.x.hypot(p.y)).collect();
+        ribbon.distance_nm = distances(&assembly.filaments[filament], &ribbon.points_nm);
         ribbon
     }
 
@@ -184,11 +183,11 @@ impl Ribbon {
 
     /// Whether the filament goes on beyond its ends, along these unit vectors, as it was built.
     pub(super) fn points_as_built(&self, beyond: [Vector3; 2]) -> bool {
-        let ends = beyond.iter().zip(&self.built);
+        let mut ends = beyond.iter().zip(&self.built);
         let is_same = |(now, built): (&Vector3, &Option<Vector3>)| {
             built.is_some_and(|built| is_parallel(*now, built))
         };
-        ends.map(is_same).all(|same| same)
+        ends.all(is_same)
     }
 
     /// Writhe of the filament, which goes on straight beyond both ends: see [`extended_writhe`].
@@ -218,6 +217,12 @@ impl Ribbon {
         let near = [top - 1, top, top + 1];
         top_of_parabola(near.map(|i| self.s_nm[i]), near.map(|i| distance[i]))
     }
+}
+
+/// Distance of each point (nm, lab frame) from the straight line along which a filament is built.
+fn distances(span: &FilamentSpan, points_nm: &[Vector3]) -> Vec<f64> {
+    let seen = points_nm.iter().map(|&p| span.seen_along_z(p));
+    seen.map(|p| p.x.hypot(p.y)).collect()
 }
 
 /// Largest value of the parabola through three points whose middle one is the highest.
@@ -275,6 +280,11 @@ pub(super) fn built_frame(
     let frame = outermost(assembly, clamp, end)?;
     let span = &assembly.filaments[filament];
     Some(span.frame_at(assembly.frames[frame].s_nm))
+}
+
+/// The filament's direction (lab frame) there.
+fn built_axis(assembly: &Assembly, filament: usize, end: End) -> Option<Vector3> {
+    built_frame(assembly, filament, end).map(|frame| frame * Vector3::z())
 }
 
 /// The outermost of the frames that a clamp of an end holds.
