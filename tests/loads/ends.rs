@@ -2,8 +2,8 @@
 
 use crate::common::{BEND, LENGTH, SHEAR, TWIST, build, cantilever, run};
 use crate::theory::{bisect, second_order_limit};
-use actin_mechanics::{Loads, Vector3, rotation};
-use actin_sim::{End, Failure, Plan, RunError, Scene};
+use actin_mechanics::{Loads, State, Vector3, rotation};
+use actin_sim::{Assembly, End, Failure, Plan, RunError, Scene};
 use std::f64::consts::PI;
 
 /// A rod between ends as written, pressed together by a force on its end (pN).
@@ -242,58 +242,60 @@ fn a_hinge_that_is_bent_past_half_a_turn_is_told() {
     assert!(angle > 150.0 && angle < 180.0 && twist.abs() < 1.0);
 }
 
-/// Along directions in which an end slides its clamp bears nothing, in motion either. The torque is then that about
-/// the centre of the held bodies, the force about which has no moment.
+/// The loads in the middle of a motion of an arc under a force, whose end slides.
+fn sliding(sections: &str, slides: &str) -> (Assembly, State, Loads) {
+    let (assembly, trajectory) = run(&format!(
+        "Scene(
+            filament: Filament(sections: [{sections}], shape: Arc(radius_nm: 60.0)),
+            clamps: [Clamp(end: Start), Clamp(end: End, slides: {slides})],
+            loads: [Force(at_nm: 40.0, force_pn: (20.0, 30.0, 10.0))],
+            task: Dynamics(duration_ns: 0.2, drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0)),
+        )"
+    ));
+    let state = trajectory.records[50].state.clone();
+    let mut loads = Loads::zeros(&state);
+    for interaction in assembly.system.interactions() {
+        interaction.add_loads(&state, &mut loads);
+    }
+    (assembly, state, loads)
+}
+
+/// Along directions in which an end slides its clamp bears nothing, in motion either.
 #[test]
 fn what_slides_bears_nothing_along() {
-    for (sections, slides) in [
-        ("Rod(from_nm: 0.0, to_nm: 100.0)", "Freely"),
-        ("Rod(from_nm: 0.0, to_nm: 100.0)", "AlongAxis"),
-        ("Ellipsoids(from_nm: 0.0, to_nm: 60.0)", "Freely"),
-    ] {
-        let text = format!(
-            "Scene(
-                filament: Filament(sections: [{sections}], shape: Arc(radius_nm: 60.0)),
-                clamps: [Clamp(end: Start), Clamp(end: End, slides: {slides})],
-                loads: [Force(at_nm: 40.0, force_pn: (20.0, 30.0, 10.0))],
-                task: Dynamics(duration_ns: 0.2, drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0)),
-            )"
-        );
-        let (assembly, trajectory) = run(&text);
+    for slides in ["Freely", "AlongAxis"] {
+        let (assembly, state, loads) = sliding("Rod(from_nm: 0.0, to_nm: 100.0)", slides);
         let clamp = assembly.clamp_at(0, End::End).unwrap();
-        let record = &trajectory.records[50];
-        let state = &record.state;
-        let mut loads = Loads::zeros(state);
-        for interaction in assembly.system.interactions() {
-            interaction.add_loads(state, &mut loads);
-        }
-        let reaction = clamp.reaction(state, &loads);
         let felt: Vector3 = clamp.points.iter().map(|&i| loads.force.get(i)).sum();
-        let tangent = assembly.filaments[0].frame_at(assembly.length_nm()) * Vector3::z();
+        let tangent = assembly.filaments[0].frame_at(100.0) * Vector3::z();
         let free = match slides {
             "Freely" => felt,
             _ => tangent * tangent.dot(&felt),
         };
         // It moves: the loads along are not zero. (An arc alone would stay: it bears couples only.)
-        assert!(free.norm() > 1e-3, "{sections} {slides}: {}", free.norm());
-        let left = reaction.force_pn + felt - free;
-        assert!(left.norm() < 1e-12 * felt.norm(), "{sections} {slides}");
-        if slides != "Freely" {
-            continue;
-        }
-        let place = |i: usize| state.points.position.get(i);
-        let sum: Vector3 = clamp.points.iter().map(|&i| place(i)).sum();
-        let centre = sum / clamp.points.len() as f64;
-        let moments = clamp
-            .points
-            .iter()
-            .map(|&i| (place(i) - centre).cross(&loads.force.get(i)));
-        let turned = |i: usize| state.frames.orientation.get(i) * loads.torque.get(i);
-        let couples = clamp.frames.iter().map(|&i| turned(i));
-        let torque: Vector3 = moments.chain(couples).sum();
-        let off = (reaction.torque_pn_nm + torque).norm();
-        assert!(off < 1e-9 * torque.norm(), "{sections} {slides}: {off:e}");
+        assert!(free.norm() > 1e-3, "{slides}: {}", free.norm());
+        let left = clamp.reaction(&state, &loads).force_pn + felt - free;
+        assert!(left.norm() < 1e-12 * felt.norm(), "{slides}");
     }
+}
+
+/// The torque on two monomers that slide freely is that about their centre, about which what moves them has no moment.
+#[test]
+fn what_slides_has_no_moment() {
+    let (assembly, state, loads) = sliding("Ellipsoids(from_nm: 0.0, to_nm: 60.0)", "Freely");
+    let clamp = assembly.clamp_at(0, End::End).unwrap();
+    let place = |i: usize| state.points.position.get(i);
+    let sum: Vector3 = clamp.points.iter().map(|&i| place(i)).sum();
+    let centre = sum / clamp.points.len() as f64;
+    let points = clamp.points.iter();
+    let moments = points.map(|&i| (place(i) - centre).cross(&loads.force.get(i)));
+    let turned = |i: usize| state.frames.orientation.get(i) * loads.torque.get(i);
+    let couples = clamp.frames.iter().map(|&i| turned(i));
+    let torque: Vector3 = moments.chain(couples).sum();
+    let reaction = clamp.reaction(&state, &loads);
+    let off = (reaction.torque_pn_nm + torque).norm();
+    assert!(off < 1e-9 * torque.norm(), "{off:e}");
+    assert_eq!(reaction.force_pn, Vector3::zeros());
 }
 
 /// What pins cannot do is refused.
