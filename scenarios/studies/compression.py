@@ -37,9 +37,9 @@ def name(row):
 
 
 def force(run):
-    """Times (ns) and force on the moving end (pN)."""
-    time, pulled = study.observed(run, "reaction[0]_end_force_z_pn")
-    return time, -pulled
+    """Times (ns) and force (pN): the mean of both ends, which bear drag, one against the other for it."""
+    (time, pushed), (_, pulled) = (study.observed(run, f"reaction[0]_{end}_force_z_pn") for end in ("start", "end"))
+    return time, (pushed - pulled) / 2
 
 
 def main():
@@ -51,9 +51,7 @@ def main():
         time, pressed = force(run)
         panel.plot(time, pressed, "-" if "rod," in name(row) else "--", color=f"C{i}", label=name(row))
         at = lambda share: np.interp(share * time[-1], time, pressed)
-        end = study.summary(run)["end_reactions"]["end"]["force_pn"][2]
-        lines.append([name(row), *(f"{at(x):.2f}" for x in (0.2, 0.5, 0.8)), f"{-end:.2f}",
-                      f"{row['shape.largest_distance_nm']:.1f}", f"{abs(row['shape.twist_turns']):.3f}"])
+        lines.append([name(row), *(f"{at(x):.2f}" for x in (0.2, 0.5, 0.8, 1.0)), f"{row['shape.largest_distance_nm']:.1f}", f"{abs(row['shape.twist_turns']):.3f}"])
     way = np.linspace(0, 150, 200)
     panel.plot(time[-1] * way / 150, elastica(way), "k:", lw=1.0, label="elastica, B = 3.9e4 pN nm²")
     lines.append(["elastica", *(f"{elastica(x):.2f}" for x in (30, 75, 120, 150)), "", ""])

@@ -4,7 +4,6 @@ Needs numpy and matplotlib.
 """
 
 import csv
-import json
 import re
 from pathlib import Path
 
@@ -39,10 +38,6 @@ def number(cell):
 def vector(text):
     """Components of a vector as a table writes it: (0.0, 1.0, 0.0)."""
     return [float(x) for x in text.strip("()").split(",")]
-
-
-def summary(run):
-    return json.loads((Path(run) / "summary.json").read_text())
 
 
 def states(run):
