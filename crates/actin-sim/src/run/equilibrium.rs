@@ -50,6 +50,7 @@ pub(super) fn run(
     let mut state = assembly.system.state().clone();
     let mut follower = Follower::new(assembly, settings, saved, sink);
     let failure = follower.follow_to_the_end(&mut newton, &mut state)?;
+    let of_path = newton.work();
     let states = match failure {
         None => follower.look_around(&mut newton, &state)?,
         Some(_) => None,
@@ -74,7 +75,7 @@ pub(super) fn run(
         force_evaluations: work.evaluations,
         saddles_left: position.saddles_left,
         jumps: position.jumps,
-        equilibrium: report(position, lowest.flatten(), work)
+        equilibrium: report(position, lowest.flatten(), of_path)
             .map(|report| EquilibriumReport { states, ..report }),
         ..Outcome::new(status, clock.wall_s())
     }

@@ -46,6 +46,7 @@ pub(super) fn rest(case: &Case) -> Result<Outcome, String> {
             time_ns: last.at.value(),
             force_evaluations: report.force_evaluations,
         },
+        states: None,
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
         pose: Pose::of(&assembly, &last.state).without_linkers(),
     })

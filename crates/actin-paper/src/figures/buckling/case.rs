@@ -48,6 +48,8 @@ pub(super) struct Case {
 
 /// Largest step of a path in small steps, as a share of a stage.
 const SMALL_STEP: f64 = 0.04;
+/// Random starts from which other stable states are looked for.
+const STATES: usize = 16;
 
 impl Start {
     /// Twist first, pulled towards +x.
@@ -113,6 +115,12 @@ impl Case {
         Ok(scene)
     }
 
+    /// Whether other stable states are looked for: of the filaments that the figure shows, one sampling.
+    fn looks_around(&self) -> bool {
+        let is_shown = self.group == Group::main(self.group.figure);
+        is_shown && self.seed == 0 && self.start == Start::DEFAULT
+    }
+
     fn apply(&self, scene: &mut Scene) {
         scene.title = self.name();
         scene.filament.sections = self.sections();
@@ -129,8 +137,13 @@ impl Case {
             linker.displaced_nm = Some([cos * x - sin * y, sin * x + cos * y, z]);
         }
         scene.path = self.path(&scene.path);
-        if let (Task::Equilibrium(equilibrium), true) = (&mut scene.task, self.start.small_steps) {
-            equilibrium.largest_step = SMALL_STEP;
+        if let Task::Equilibrium(equilibrium) = &mut scene.task {
+            if self.start.small_steps {
+                equilibrium.largest_step = SMALL_STEP;
+            }
+            if self.looks_around() {
+                equilibrium.states = STATES;
+            }
         }
     }
 

@@ -5,7 +5,7 @@ use super::case::Case;
 use crate::figures::viewer::Pose;
 use crate::run::run_to_end;
 use actin_sim::shape::Ribbon;
-use actin_sim::{Assembly, End, Part};
+use actin_sim::{Assembly, End, Part, StableStates};
 
 /// A point in the lab frame (nm).
 pub(super) type Place = [f64; 3];
@@ -16,10 +16,35 @@ pub(super) struct Outcome {
     pub case: Case,
     pub measured: Measured,
     pub evidence: Evidence,
+    /// Stable states about it, where they were looked for.
+    pub states: Option<Others>,
     /// Residual force (pN) and torque (pN nm).
     pub residual: (f64, f64),
     /// The state, without the pull that breaks the symmetry.
     pub pose: Pose,
+}
+
+/// Stable states that were found from random starts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Others {
+    /// How many there are, this one included.
+    pub count: usize,
+    /// From how many starts.
+    pub starts: usize,
+    /// Energy of this one less that of the lowest (pN nm).
+    pub above_lowest_pn_nm: f64,
+}
+
+impl Others {
+    fn of(found: &StableStates) -> Self {
+        let starts = found.states.iter().map(|state| state.starts);
+        let lowest = found.states.first();
+        Self {
+            count: found.states.len(),
+            starts: found.lost + starts.sum::<usize>(),
+            above_lowest_pn_nm: lowest.map_or(0.0, |lowest| -lowest.above_result_pn_nm),
+        }
+    }
 }
 
 /// How a state was found.
@@ -109,6 +134,7 @@ pub(super) fn outcome(case: &Case, assembly: &mut Assembly) -> Result<Outcome, S
             iterations: found.newton_iterations,
             points: found.points,
         },
+        states: found.states.as_ref().map(Others::of),
         residual: (last.residual_force_pn, last.residual_torque_pn_nm),
         pose: Pose::of(assembly, &last.state).without_linkers(),
     })

@@ -22,8 +22,11 @@ pub(super) fn rows(plan: &Plan, results: &Results) -> Vec<Row> {
         if plan.started.contains(&turn) {
             let resolved = plan.resolved.iter();
             all.extend(
-                resolved.filter_map(|&resolved| distinct_row(plan, results, resolved, turn)),
+                resolved
+                    .clone()
+                    .filter_map(|&r| distinct_row(plan, results, r, turn)),
             );
+            all.extend(resolved.filter_map(|&r| lowest_row(plan, results, r, turn)));
         }
     }
     all
@@ -104,6 +107,28 @@ fn distinct_row(plan: &Plan, results: &Results, resolved: Resolved, turn: i32) -
     );
     let count = distinct.len() as f64;
     Some(Row::measured(plan.figure.id(), quantity, "", count, note))
+}
+
+/// How far above the lowest state found from random starts the one that the figure shows is.
+fn lowest_row(plan: &Plan, results: &Results, resolved: Resolved, turn: i32) -> Option<Row> {
+    let others = results
+        .of(Case::new(plan.main(), resolved, turn, 0))?
+        .states?;
+    let note = format!(
+        "energy of the state at the end of the path, seed 0, less that of the lowest of {} stable states from {} \
+         random starts",
+        others.count, others.starts
+    );
+    let (turn, resolved) = (Case::turn_name(turn), resolved.name());
+    let quantity = format!("above_lowest_state/{turn}/{resolved}");
+    let above = others.above_lowest_pn_nm;
+    Some(Row::measured(
+        plan.figure.id(),
+        quantity,
+        "pN nm",
+        above,
+        note,
+    ))
 }
 
 /// Groups equal equilibria, lowest energy first.
