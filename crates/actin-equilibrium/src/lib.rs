@@ -3,7 +3,8 @@
 //! [`relax`] moves a state to an equilibrium in one call. What it is made of can be used alone: a
 //! [`Layout`] says what may move and in what order unknowns stand. [`Newton`] minimises the
 //! potential energy of interactions over it, and certifies what it finds. [`Path`] does so
-//! along a path of controls.
+//! along a path of controls. [`ImplicitSolver`] is the linear solve of a time step that is implicit in
+//! the stiffness.
 //!
 //! This crate knows nothing of what the points and frames stand for. Units are nm, pN and rad.
 
@@ -26,6 +27,7 @@ mod evaluation;
 mod factor;
 mod group;
 mod history;
+mod implicit;
 mod layout;
 mod mode;
 mod motion;
@@ -45,6 +47,7 @@ mod ties;
 pub use certificate::{Certificate, Stability};
 pub use group::{Group, Pivot};
 pub use history::{Iteration, SolverWork, Verdict};
+pub use implicit::ImplicitSolver;
 pub use layout::{BodyOrder, Layout, LayoutError};
 pub use mode::Mode;
 pub use motion::StepSize;

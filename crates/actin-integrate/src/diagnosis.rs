@@ -109,19 +109,28 @@ pub(crate) fn blame(
         first_body(broken, |body| !body_is_finite(broken, body)).unwrap_or_else(|| fastest(broken));
     // Loads at positions that are not finite say nothing: those before still do.
     let sighted = if broken.is_finite() { broken } else { before };
+    (body, strongest_term(interactions, sighted, body))
+}
+
+/// The term with the largest load on a body; "none" if no term acts on it.
+pub(crate) fn strongest_term(
+    interactions: &[Box<dyn Interaction>],
+    state: &State,
+    body: Body,
+) -> &'static str {
     // One buffer for all terms, of which nothing but the load on this body is read: a buffer for each
     // would take the square of the number of terms.
-    let mut loads = Loads::zeros(sighted);
+    let mut loads = Loads::zeros(state);
     let strongest = interactions
         .iter()
         .map(|interaction| {
             clear_load(&mut loads, body);
-            interaction.add_loads(sighted, &mut loads);
+            interaction.add_loads(state, &mut loads);
             (interaction.term(), load_on(&loads, body).norm())
         })
         .filter(|(_, size)| *size > 0.0)
         .max_by(|a, b| a.1.total_cmp(&b.1));
-    (body, strongest.map_or("none", |(term, _)| term))
+    strongest.map_or("none", |(term, _)| term)
 }
 
 /// A system that looks at the loads of each term before each kick, to catch the first that is not

@@ -1,9 +1,9 @@
 //! A run in progress: advancing, checking, observing, and finding out what broke.
 
-use crate::diagnosis::{Probe, Watch, blame, broken_energy};
+use crate::diagnosis::{Probe, Watch, blame, broken_energy, strongest_term};
 use crate::{
     Body, Checkpoint, FailureKind, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome,
-    Snapshot,
+    Snapshot, StepFailure, Stepper,
 };
 use actin_mechanics::{Coordinates, Split, State, System};
 use std::ops::ControlFlow;
@@ -11,6 +11,8 @@ use std::ops::ControlFlow;
 /// A run in progress.
 pub(crate) struct Execution<'a, 'o> {
     run: &'a Run,
+    /// What makes the steps, if not the method of the run.
+    stepper: Option<&'a mut dyn Stepper>,
     system: &'a mut System,
     observers: &'a mut [&'o mut dyn Observer],
     watch: Watch,
@@ -25,6 +27,7 @@ pub(crate) struct Execution<'a, 'o> {
 impl<'a, 'o> Execution<'a, 'o> {
     pub(crate) fn new(
         run: &'a Run,
+        stepper: Option<&'a mut dyn Stepper>,
         system: &'a mut System,
         observers: &'a mut [&'o mut dyn Observer],
     ) -> Self {
@@ -34,29 +37,32 @@ impl<'a, 'o> Execution<'a, 'o> {
             last_good: start.clone(),
             here: start,
         };
-        Self::standing(run, &checkpoint, system, observers)
+        Self::standing(run, &checkpoint, stepper, system, observers)
     }
 
     /// The run where it was left.
     pub(crate) fn resume(
         run: &'a Run,
         checkpoint: &Checkpoint,
+        stepper: Option<&'a mut dyn Stepper>,
         system: &'a mut System,
         observers: &'a mut [&'o mut dyn Observer],
     ) -> Self {
         checkpoint.here.restore(system);
-        Self::standing(run, checkpoint, system, observers)
+        Self::standing(run, checkpoint, stepper, system, observers)
     }
 
     fn standing(
         run: &'a Run,
         checkpoint: &Checkpoint,
+        stepper: Option<&'a mut dyn Stepper>,
         system: &'a mut System,
         observers: &'a mut [&'o mut dyn Observer],
     ) -> Self {
         let here = &checkpoint.here;
         Self {
             run,
+            stepper,
             watch: Watch::new(run.h, run.kinetic_limit, here.largest_kinetic),
             step: here.step,
             last_good: checkpoint.last_good.clone(),
@@ -107,7 +113,9 @@ impl<'a, 'o> Execution<'a, 'o> {
     fn go_on(mut self, mut ended: Option<Reason>) -> Result<RunOutcome, RunFailure> {
         let end = self.end();
         while ended.is_none() {
-            self.advance_to(self.next_check(end));
+            if let Err(failure) = self.advance_to(self.next_check(end)) {
+                return Err(self.fail_step(failure));
+            }
             let is_shown = self.step == end || self.step.is_multiple_of(self.run.observe_every);
             self.check(is_shown)?;
             if is_shown {
@@ -135,9 +143,17 @@ impl<'a, 'o> Execution<'a, 'o> {
             .min((self.step + 1).next_power_of_two())
     }
 
-    fn advance_to(&mut self, step: u64) {
-        self.run.advance(self.system, self.step, step - self.step);
-        self.step = step;
+    fn advance_to(&mut self, step: u64) -> Result<(), StepFailure> {
+        let Some(stepper) = &mut self.stepper else {
+            self.run.advance(self.system, self.step, step - self.step);
+            self.step = step;
+            return Ok(());
+        };
+        while self.step < step {
+            stepper.step(self.system, self.step, self.run.h)?;
+            self.step += 1;
+        }
+        Ok(())
     }
 
     /// Fails if the state is unsound; of one that is `shown`, its whole energy counts.
@@ -277,6 +293,13 @@ impl<'a, 'o> Execution<'a, 'o> {
         }
     }
 
+    /// Puts the last good state back after a step that failed, and says what acts where it did.
+    fn fail_step(&mut self, failure: StepFailure) -> RunFailure {
+        self.step += 1;
+        let term = strongest_term(self.system.interactions(), &self.sound.1, failure.body);
+        self.put_back(failure.problem, failure.body, term)
+    }
+
     /// Finds the step, the body and the term to blame, and puts the last good state back.
     fn fail(&mut self, problem: FailureKind) -> RunFailure {
         let problem = match problem {
@@ -285,6 +308,11 @@ impl<'a, 'o> Execution<'a, 'o> {
         };
         let (problem, before) = self.replay(problem);
         let (body, term) = self.culprit(problem, &before);
+        self.put_back(problem, body, term)
+    }
+
+    /// Puts the last good state back, and tells observers.
+    fn put_back(&mut self, problem: FailureKind, body: Body, term: &'static str) -> RunFailure {
         self.last_good.restore(self.system);
         let last_good = Checkpoint {
             here: self.last_good.clone(),
@@ -331,7 +359,8 @@ impl<'a, 'o> Execution<'a, 'o> {
         self.step = self.last_good.step;
         self.mark_sound();
         while self.step < found_step {
-            self.advance_to(self.next_check(found_step));
+            // It has come this way before, so no step fails.
+            let _ = self.advance_to(self.next_check(found_step));
             if let Err(problem) = self.inspect_energy() {
                 return problem;
             }
@@ -351,7 +380,7 @@ impl<'a, 'o> Execution<'a, 'o> {
         let mut before = self.sound.1.clone();
         while self.step < found_step {
             before.clone_from(self.system.state());
-            self.advance_to(self.step + 1);
+            let _ = self.advance_to(self.step + 1);
             let broken = match found {
                 FailureKind::PassesThrough => self.passed().map(|_| found),
                 _ => self.inspect(whole).err(),
@@ -372,6 +401,9 @@ impl<'a, 'o> Execution<'a, 'o> {
             system: self.system,
             culprit: None,
         };
+        if self.stepper.is_some() {
+            return None;
+        }
         // A start that is unsound has no step before it.
         let step = self.step.saturating_sub(1);
         self.run.advance(&mut probe, step, 1);

@@ -41,6 +41,10 @@ pub enum FailureKind {
     /// A body has passed through another that an interaction keeps apart.
     #[error("bodies that are to stay apart pass through each other")]
     PassesThrough,
+    /// The equations of an implicit step were not solved: by how much (nm) its last iteration still
+    /// moved a body.
+    #[error("a step has not converged: its last iteration moved a body by {0:.3e} nm")]
+    NotConverged(f64),
 }
 
 fn too_much(energy: f64) -> String {

@@ -8,7 +8,8 @@
 //! synchronised states to [`Observer`]s, and ends by a [`StopRule`], at its last step, when an
 //! observer asks for it, or with a [`RunFailure`] that names what broke. At a [`Pause`] it can be left
 //! with a [`Checkpoint`], from which [`Run::resume`] goes on to the same bits. A system of one's own that is a
-//! [`Split`] runs with [`Run::execute_split`].
+//! [`Split`] runs with [`Run::execute_split`]; what makes the steps of a [`System`] in a way of its own is a
+//! [`Stepper`], with the same observers, checkpoints and rules.
 //!
 //! This crate knows nothing of what the bodies stand for, and never solves for an equilibrium.
 //! Times are in ns, lengths in nm, forces in pN, rates in 1/ns.
@@ -31,6 +32,7 @@ mod noise;
 mod observer;
 mod outcome;
 mod own_split;
+mod own_step;
 mod run;
 mod schemes;
 mod step;
@@ -45,9 +47,11 @@ pub use drag::{Drag, DragError};
 pub use error::IntegrationError;
 pub use failure::{Body, FailureKind, RunFailure};
 pub use frequency::{FrequencyError, KRYLOV_VECTORS, largest_frequency, largest_frequency_with};
+pub use noise::Noise;
 pub use observer::{Moment, Observer};
 pub use outcome::{Reason, RunOutcome};
 pub use own_split::{SplitMoment, SplitOutcome};
+pub use own_step::{StepFailure, Stepper};
 pub use run::{DEFAULT_CHECK_EVERY, DEFAULT_OBSERVE_EVERY, Run, RunSettingError};
 pub use schemes::{
     FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, SUZUKI_WEIGHT, UnknownScheme, VEFRL,

@@ -17,27 +17,43 @@ pub(crate) enum Half {
     After,
 }
 
-/// Deviates of one half step, one vector for every point and one for every frame.
+/// Deviates of one step or half step, one vector for every point and one for every frame.
 ///
-/// Each half step has a stream of `ChaCha8` of its own, whose number is twice the number of the
-/// step, plus one for the second half. The `i`-th point and the `i`-th frame, held ones included,
+/// Each has a stream of `ChaCha8` of its own. In a heat bath its number is twice the number of the step,
+/// plus one for the second half. The `i`-th point and the `i`-th frame, held ones included,
 /// take the `i`-th six 64-bit words of it: a fixed share, so that the words of one body do not
 /// depend on the values of another's.
+///
+/// ```
+/// use actin_integrate::Noise;
+/// let mut noise = Noise::of_purpose(*b"example\0", 1, (2, 0));
+/// noise.draw_stream(7, (1.0, 1.0));
+/// let first = noise.points.get(0);
+/// noise.draw_stream(8, (1.0, 1.0));
+/// noise.draw_stream(7, (2.0, 1.0));
+/// assert_eq!(noise.points.get(0), 2.0 * first);
+/// ```
 #[derive(Clone, Debug)]
-pub(crate) struct Noise {
+pub struct Noise {
     generator: ChaCha8Rng,
     /// For points: normal with mean zero and the standard deviation asked for.
-    pub(crate) points: Vectors,
+    pub points: Vectors,
     /// For frames.
-    pub(crate) frames: Vectors,
+    pub frames: Vectors,
 }
 
 impl Noise {
-    /// The noise of `seed` for so many points and frames.
-    pub(crate) fn new(seed: u64, (points, frames): (usize, usize)) -> Self {
+    /// The noise of a heat bath for so many points and frames.
+    pub(crate) fn new(seed: u64, bodies: (usize, usize)) -> Self {
+        Self::of_purpose(PURPOSE, seed, bodies)
+    }
+
+    /// The noise of `seed` for so many points and frames, or whatever has a vector in their place. Other
+    /// purposes have other noise.
+    pub fn of_purpose(purpose: [u8; 8], seed: u64, (points, frames): (usize, usize)) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
-        key[8..16].copy_from_slice(&PURPOSE);
+        key[8..16].copy_from_slice(&purpose);
         Self {
             generator: ChaCha8Rng::from_seed(key),
             points: Vectors::zeros(points),
@@ -48,8 +64,13 @@ impl Noise {
     /// Draws all deviates of a half step, with the standard deviations `spreads` of points and of
     /// frames.
     pub(crate) fn draw(&mut self, step: u64, half: Half, spreads: (f64, f64)) {
-        self.generator
-            .set_stream(2 * step + u64::from(half == Half::After));
+        self.draw_stream(2 * step + u64::from(half == Half::After), spreads);
+    }
+
+    /// Draws all deviates of the stream with this number, with the standard deviations `spreads` of
+    /// points and of frames.
+    pub fn draw_stream(&mut self, stream: u64, spreads: (f64, f64)) {
+        self.generator.set_stream(stream);
         self.generator.set_word_pos(0);
         for i in 0..self.points.len().max(self.frames.len()) {
             let [(a, b), (c, d), (e, f)] = std::array::from_fn(|_| self.pair());

@@ -248,7 +248,7 @@ impl Run {
         system: &mut System,
         observers: &mut [&mut dyn Observer],
     ) -> Result<RunOutcome, RunFailure> {
-        Execution::new(self, system, observers).run()
+        Execution::new(self, None, system, observers).run()
     }
 
     /// Goes on from `checkpoint`, which a [`Pause`](crate::Pause) of the same run of an equal system
@@ -267,7 +267,7 @@ impl Run {
         system: &mut System,
         observers: &mut [&mut dyn Observer],
     ) -> Result<RunOutcome, RunFailure> {
-        Execution::resume(self, checkpoint, system, observers).run_on()
+        Execution::resume(self, checkpoint, None, system, observers).run_on()
     }
 
     /// Advances `system` by `steps` steps, the first of which has the number `first_step`.

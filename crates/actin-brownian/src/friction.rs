@@ -1,0 +1,167 @@
+//! Friction of bodies in a fluid at rest, as dashpots: their forces, their blocks, and the noise that
+//! belongs to them.
+
+use actin_mechanics::{
+    Coordinates, Loads, Matrix3, SecondOrder, State, Stiffness, UnitQuaternion, Vector3, Vectors,
+};
+
+/// Friction of a place that goes with one or two points and is seen from a frame.
+///
+/// The place moves at `u = w_1 v_1 + w_2 v_2 + omega x arm`, and in axes of the frame `c` each component of `u`
+/// meets a force `-zeta_c u_c`. What acts on the bodies follows from the virtual work, so that Onsager's
+/// relations hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dashpot {
+    /// Points and their weights; a weight of zero stands for no point.
+    pub points: [(usize, f64); 2],
+    /// The frame.
+    pub frame: usize,
+    /// From the points to the place (nm, body frame).
+    pub arm: Vector3,
+    /// Friction along each axis of the frame (pN ns/nm); at least 0.
+    pub friction: Vector3,
+}
+
+/// Friction of a frame that turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurnDashpot {
+    /// The frame.
+    pub frame: usize,
+    /// Friction about each of its axes (pN nm ns); at least 0.
+    pub friction: Vector3,
+}
+
+impl Dashpot {
+    /// Friction `friction` (pN ns/nm, axes of `frame`) of a place that goes with `point` and `frame`.
+    pub fn of_body(point: usize, frame: usize, arm: Vector3, friction: Vector3) -> Self {
+        Self {
+            points: [(point, 1.0), (point, 0.0)],
+            frame,
+            arm,
+            friction,
+        }
+    }
+
+    /// Friction that is spread evenly between two points, as seen from `frame`: with the whole of it,
+    /// `friction` (pN ns/nm), at the middle, and a twelfth on the difference of the two velocities. For velocities
+    /// that are linear in between this is exact.
+    pub fn of_line([first, second]: [usize; 2], frame: usize, friction: Vector3) -> [Self; 2] {
+        let with = |points, friction| Self {
+            points,
+            frame,
+            arm: Vector3::zeros(),
+            friction,
+        };
+        [
+            with([(first, 0.5), (second, 0.5)], friction),
+            with([(first, -1.0), (second, 1.0)], friction / 12.0),
+        ]
+    }
+
+    fn points(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.points.into_iter().filter(|(_, weight)| *weight != 0.0)
+    }
+
+    fn has_arm(&self) -> bool {
+        self.arm != Vector3::zeros()
+    }
+}
+
+/// All friction of a system.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Friction {
+    /// Of places.
+    pub dashpots: Vec<Dashpot>,
+    /// Of turns.
+    pub turns: Vec<TurnDashpot>,
+}
+
+/// How bodies move over a step: velocities of points (lab frame), angular velocities of frames (body
+/// frame), and orientations in the middle of the step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Velocities {
+    pub(crate) points: Vectors,
+    pub(crate) frames: Vectors,
+    pub(crate) middle: Vec<UnitQuaternion>,
+}
+
+impl Friction {
+    /// Adds what friction does to bodies that move with `velocities`, and random forces that are `strength`
+    /// times the root of each friction times the deviates of each dashpot and each turn; all of it times
+    /// `factor`. Torques are in the body frames of the middle.
+    pub(crate) fn add_loads(
+        &self,
+        velocities: &Velocities,
+        (strength, places, turns): (f64, &Vectors, &Vectors),
+        factor: f64,
+        loads: &mut Loads,
+    ) {
+        for (k, dashpot) in self.dashpots.iter().enumerate() {
+            let q = velocities.middle[dashpot.frame];
+            let of_points = |(i, weight)| velocities.points.get(i) * weight;
+            let v: Vector3 = dashpot.points().map(of_points).sum();
+            let omega = velocities.frames.get(dashpot.frame);
+            let u = q.inverse_transform_vector(&v) + omega.cross(&dashpot.arm);
+            let force = factor * load(dashpot.friction, u, strength, places.get(k));
+            let in_lab = q * force;
+            for (i, weight) in dashpot.points() {
+                loads.force.add(i, in_lab * weight);
+            }
+            loads.torque.add(dashpot.frame, dashpot.arm.cross(&force));
+        }
+        for (k, turn) in self.turns.iter().enumerate() {
+            let omega = velocities.frames.get(turn.frame);
+            let torque = factor * load(turn.friction, omega, strength, turns.get(k));
+            loads.torque.add(turn.frame, torque);
+        }
+    }
+
+    /// The friction times `factor`, as blocks.
+    pub(crate) fn times(&self, factor: f64) -> Scaled<'_> {
+        let friction = self;
+        Scaled { friction, factor }
+    }
+}
+
+/// `-zeta u + s sqrt(zeta) xi`, component by component.
+fn load(friction: Vector3, u: Vector3, strength: f64, deviates: Vector3) -> Vector3 {
+    let random = friction.map(f64::sqrt).component_mul(&deviates);
+    random * strength - friction.component_mul(&u)
+}
+
+/// A multiple of the friction, as blocks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scaled<'a> {
+    friction: &'a Friction,
+    factor: f64,
+}
+
+impl SecondOrder for Scaled<'_> {
+    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        use Coordinates::{Frame, Point};
+        for dashpot in &self.friction.dashpots {
+            let own = Matrix3::from_diagonal(&(dashpot.friction * self.factor));
+            let q = state.frames.orientation.get(dashpot.frame);
+            let q = q.to_rotation_matrix().into_inner();
+            let in_lab = q * own * q.transpose();
+            let frame = Frame(dashpot.frame);
+            // omega x arm = A omega.
+            let a = -dashpot.arm.cross_matrix();
+            for (k, (i, weight)) in dashpot.points().enumerate() {
+                for (j, other) in dashpot.points().skip(k) {
+                    stiffness.push(Point(i), Point(j), in_lab * (weight * other));
+                }
+                if dashpot.has_arm() {
+                    stiffness.push(Point(i), frame, q * own * a * weight);
+                }
+            }
+            if dashpot.has_arm() {
+                stiffness.push(frame, frame, a.transpose() * own * a);
+            }
+        }
+        for turn in &self.friction.turns {
+            let own = Matrix3::from_diagonal(&(turn.friction * self.factor));
+            stiffness.push(Frame(turn.frame), Frame(turn.frame), own);
+        }
+    }
+}

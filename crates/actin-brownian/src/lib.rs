@@ -1,0 +1,28 @@
+//! Overdamped motion of points and frames in a fluid: friction, and steps that are implicit in the
+//! stiffness.
+//!
+//! [`Friction`] is made of [`Dashpot`]s between bodies and a fluid at rest; a [`Cylinder`] says how strong
+//! those of a slender body are. [`Brownian`] makes the steps of an `actin_integrate::Run`, with thermal noise or
+//! without. [`relaxation_rates`] says what it has to resolve.
+//!
+//! Fluid is felt locally: what moves does not drag anything else along.
+//!
+//! This crate knows nothing of what the bodies stand for. Units are nm, pN and ns; a viscosity of
+//! 1 mPa s is 1 pN ns/nm^2.
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+mod cylinder;
+mod friction;
+mod relaxation;
+mod stepper;
+
+pub use cylinder::{Cylinder, CylinderError};
+pub use friction::{Dashpot, Friction, TurnDashpot};
+pub use relaxation::relaxation_rates;
+pub use stepper::{Brownian, BrownianError, StepLimits};
+
+/// The crate of points, frames, loads and interactions that move.
+pub use actin_mechanics as mechanics;

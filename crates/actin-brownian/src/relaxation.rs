@@ -1,0 +1,126 @@
+//! How fast small displacements relax: eigenvalues of the stiffness over those of the friction.
+
+use crate::Friction;
+use actin_equilibrium::{ImplicitSolver, Layout, SolveError};
+use actin_mechanics::{Loads, System, Xorshift};
+use nalgebra::{DMatrix, SymmetricEigen};
+
+/// Iterations of the subspace: each gains at least the ratio of rates inside to those outside it.
+const ITERATIONS: usize = 60;
+
+/// Vectors of the subspace beyond those that are asked for.
+const BEYOND: usize = 8;
+
+/// What is added to all rates (1/ns) while systems are solved, so that motion without stiffness does not make
+/// them singular; far below what relaxes in a millisecond.
+const SHIFT: f64 = 1e-9;
+
+/// Seed of the vectors at the start.
+const SEED: u64 = 17;
+
+/// Relaxation rates (1/ns) of small displacements from the present state: the `count` lowest in ascending order, and the
+/// highest.
+///
+/// Solutions of `K v = rate Z v`, with the stiffness `K` as it stands and the friction `Z`. Motion that nothing
+/// resists has the rate zero to round-off, about 1e-13 of the highest; where the state is unstable, rates are negative.
+///
+/// # Errors
+/// Interactions without a potential or second derivatives.
+pub fn relaxation_rates(
+    system: &System,
+    layout: &Layout,
+    friction: &Friction,
+    count: usize,
+) -> Result<(Vec<f64>, f64), SolveError> {
+    ImplicitSolver::check(system.interactions())?;
+    let state = system.state();
+    let mut loads = Loads::zeros(state);
+    for interaction in system.interactions() {
+        interaction.add_loads(state, &mut loads);
+    }
+    let at = (state, &loads);
+    // The order of unknowns is settled once, for both matrices.
+    let mut stiffness = ImplicitSolver::new(layout.clone());
+    stiffness.factorize(at, system.interactions(), &friction.times(SHIFT));
+    let mut fluid = ImplicitSolver::new(stiffness.layout().clone());
+    fluid.factorize(at, &[], &friction.times(1.0));
+    let lowest = lowest(&mut stiffness, &fluid, count);
+    Ok((lowest, highest(&stiffness, &mut fluid)))
+}
+
+/// The lowest rates by inverse iteration of a subspace.
+fn lowest(stiffness: &mut ImplicitSolver, fluid: &ImplicitSolver, count: usize) -> Vec<f64> {
+    let n = stiffness.unknowns();
+    let size = (count + BEYOND).min(n);
+    let mut noise = Xorshift::new(SEED);
+    let mut vectors: Vec<Vec<f64>> = (0..size)
+        .map(|_| (0..n).map(|_| noise.sample()).collect())
+        .collect();
+    let mut rates = Vec::new();
+    for _ in 0..ITERATIONS {
+        for v in &mut vectors {
+            *v = fluid.times(v);
+            stiffness.solve(v);
+        }
+        orthonormalise(&mut vectors, fluid);
+        let images: Vec<Vec<f64>> = vectors.iter().map(|v| stiffness.times(v)).collect();
+        let projected = DMatrix::from_fn(size, size, |i, j| dot(&vectors[i], &images[j]));
+        let eigen = SymmetricEigen::new(projected);
+        let combined = (0..size).map(|k| {
+            let weights = eigen.eigenvectors.column(k);
+            let mut sum = vec![0.0; n];
+            for (v, weight) in vectors.iter().zip(weights.iter()) {
+                add_scaled(&mut sum, v, *weight);
+            }
+            sum
+        });
+        vectors = combined.collect();
+        rates = eigen.eigenvalues.iter().map(|rate| rate - SHIFT).collect();
+    }
+    rates.sort_by(f64::total_cmp);
+    rates.truncate(count);
+    rates
+}
+
+/// Makes vectors orthonormal in the metric of the friction, twice, so that round-off does not spoil it.
+fn orthonormalise(vectors: &mut [Vec<f64>], fluid: &ImplicitSolver) {
+    for k in 0..vectors.len() {
+        let (before, rest) = vectors.split_at_mut(k);
+        let own = &mut rest[0];
+        for _ in 0..2 {
+            let image = fluid.times(own);
+            let shares: Vec<f64> = before.iter().map(|v| dot(v, &image)).collect();
+            for (v, share) in before.iter().zip(shares) {
+                add_scaled(own, v, -share);
+            }
+            let norm = dot(own, &fluid.times(own)).sqrt();
+            own.iter_mut().for_each(|x| *x /= norm);
+        }
+    }
+}
+
+/// The highest rate by power iteration, from below, to about a hundredth.
+fn highest(stiffness: &ImplicitSolver, fluid: &mut ImplicitSolver) -> f64 {
+    let mut noise = Xorshift::new(SEED);
+    let mut v: Vec<f64> = (0..stiffness.unknowns()).map(|_| noise.sample()).collect();
+    let mut rate = 0.0;
+    for _ in 0..2 * ITERATIONS {
+        let norm = dot(&v, &fluid.times(&v)).sqrt();
+        v.iter_mut().for_each(|x| *x /= norm);
+        let image = stiffness.times(&v);
+        rate = dot(&v, &image);
+        v = image;
+        fluid.solve(&mut v);
+    }
+    rate - SHIFT
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn add_scaled(a: &mut [f64], b: &[f64], factor: f64) {
+    for (a, b) in a.iter_mut().zip(b) {
+        *a += factor * b;
+    }
+}

@@ -1,0 +1,90 @@
+//! Rods in a fluid, for all tests.
+#![allow(dead_code, reason = "each test uses some of it")]
+
+use actin_brownian::{Brownian, Dashpot, Friction, TurnDashpot};
+use actin_cosserat::{EnergyGradient, Rigidities, RodEnd, RodLayout, RodMaterial, StraightRod};
+use actin_equilibrium::{BodyOrder, Layout};
+use actin_integrate::Stepper;
+use actin_mechanics::{Interaction, State, System, Vector3};
+
+/// Friction per length of the tests (pN ns/nm^2, pN ns): along, across, about the axis, of tilt.
+pub(crate) const FRICTION: [f64; 4] = [1.5, 2.8, 150.0, 40.0];
+
+/// Rigidities of actin (pN, pN nm^2).
+pub(crate) fn rigidities() -> Rigidities {
+    Rigidities::table4()
+}
+
+/// The friction of a rod, evenly along it.
+pub(crate) fn friction_of(rod: &RodLayout) -> Friction {
+    let [along, across, about, tilt] = FRICTION;
+    let mut friction = Friction::default();
+    for (k, length) in rod.segment_lengths().iter().enumerate() {
+        let (first, frame) = (rod.points().start + k, rod.frames().start + k);
+        let of_line = Vector3::new(across, across, along) * *length;
+        friction
+            .dashpots
+            .extend(Dashpot::of_line([first, first + 1], frame, of_line));
+        let friction_of_turn = Vector3::new(tilt, tilt, about) * *length;
+        friction.turns.push(TurnDashpot {
+            frame,
+            friction: friction_of_turn,
+        });
+    }
+    friction
+}
+
+/// Places along a rod, for a banded matrix.
+pub(crate) fn layout_of(state: &State, rod: &RodLayout) -> Layout {
+    let point = |i: usize| i as f64 - rod.points().start as f64;
+    let frame = |i: usize| i as f64 - rod.frames().start as f64 + 0.5;
+    let order = BodyOrder {
+        points: (0..state.points.len()).map(point).collect(),
+        frames: (0..state.frames.len()).map(frame).collect(),
+    };
+    Layout::new(state, Some(&order), Vec::new()).unwrap()
+}
+
+/// The law of a rod.
+pub(crate) fn law(rod: &RodLayout) -> Box<dyn Interaction> {
+    let material = RodMaterial::new(rigidities()).unwrap();
+    Box::new(EnergyGradient::new(rod.clone(), material))
+}
+
+/// A free rod with further interactions, and its steps at the thermal energy `kT`.
+pub(crate) fn free_rod(
+    segments: usize,
+    length: f64,
+    (thermal_energy, seed): (f64, u64),
+    further: impl FnOnce(&mut State, &RodLayout) -> Vec<Box<dyn Interaction>>,
+) -> (System, Brownian, RodLayout) {
+    let mut state = State::default();
+    let rod = StraightRod::uniform(segments, length / segments as f64);
+    let rod = rod.push(&mut state).unwrap();
+    let mut interactions = vec![law(&rod)];
+    interactions.extend(further(&mut state, &rod));
+    let layout = layout_of(&state, &rod);
+    let system = System::new(state, interactions);
+    let noise = (thermal_energy, seed);
+    let steps = Brownian::new(&system, layout, friction_of(&rod), noise).unwrap();
+    (system, steps, rod)
+}
+
+/// Makes steps of `h` up to the number `end`, and looks at each.
+pub(crate) fn advance(
+    system: &mut System,
+    steps: &mut Brownian,
+    (first, end): (u64, u64),
+    h: f64,
+    mut look: impl FnMut(&System),
+) {
+    for step in first..end {
+        steps.step(system, step, h).expect("it converges");
+        look(system);
+    }
+}
+
+/// The point at the end of a rod.
+pub(crate) fn tip(rod: &RodLayout) -> usize {
+    rod.end_point(RodEnd::End)
+}

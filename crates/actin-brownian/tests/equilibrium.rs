@@ -1,0 +1,74 @@
+//! Equilibrium distributions.
+
+mod common;
+
+use actin_brownian::relaxation_rates;
+use actin_mechanics::{Interaction, PointLoad, Vector3};
+use common::{advance, free_rod, friction_of, layout_of, tip};
+
+/// Mean energies of the shear and of the bending elements of a free rod over `kT`, per component of
+/// strain, in steps of `ratio` times the fastest relaxation.
+fn energies_per_strain(kt: f64, ratio: f64, steps: u64) -> [f64; 2] {
+    const SEGMENTS: usize = 8;
+    let (mut system, mut stepper, rod) = free_rod(SEGMENTS, 160.0, (kt, 5), |_, _| Vec::new());
+    let layout = layout_of(system.state(), &rod);
+    let (_, fastest) = relaxation_rates(&system, &layout, &friction_of(&rod), 6).unwrap();
+    let h = ratio / fastest;
+    let warm = (10.0 * ratio) as u64;
+    advance(&mut system, &mut stepper, (0, warm), h, |_| ());
+    let mut sums = [0.0; 2];
+    let mut energies = [0.0; 2 * SEGMENTS - 1];
+    advance(&mut system, &mut stepper, (warm, warm + steps), h, |system| {
+        system.interactions()[0].write_energies(system.state(), &mut energies);
+        let (shear, bending) = energies.split_at(SEGMENTS);
+        sums[0] += shear.iter().sum::<f64>() / (3 * SEGMENTS) as f64;
+        sums[1] += bending.iter().sum::<f64>() / (3 * (SEGMENTS - 1)) as f64;
+    });
+    println!("{ratio}: {} iterations, h = {h}", stepper.iterations());
+    sums.map(|sum| sum / (kt * steps as f64))
+}
+
+/// Every component of strain of a free rod is a coordinate of its own, with the energy kT/2, at steps that
+/// exceed the fastest relaxation a hundred times. Friction or noise that is wrong for one kind of motion, a damped rule
+/// for stiff motion, or stretch that turns would show; the implicit Euler rule leaves 2 % of the stiffest strain.
+#[test]
+fn strains_have_their_share_of_energy_at_steps_of_a_hundred_relaxation_times() {
+    for kt in [0.0411, 4.11] {
+        let shares = energies_per_strain(kt, 100.0, 150_000);
+        println!("kT = {kt}: {shares:?}");
+        for share in shares {
+            assert!((share / 0.5 - 1.0).abs() < 0.01, "kT = {kt}: {shares:?}");
+        }
+    }
+}
+
+/// A stiff rod pulled apart at its ends by forces `F` turns into them: the mean cosine is
+/// `coth a - 1/a`, `a = F L/kT`. Friction is anisotropic and turns with the rod; noise read in the sense of Ito,
+/// with the friction at the start of a step, would drift.
+#[test]
+fn a_rod_in_a_field_has_the_distribution_of_langevin() {
+    let (length, kt, a) = (20.0, 4.11, 1.5);
+    let force = Vector3::x() * (a * kt / length);
+    let (mut system, mut stepper, rod) = free_rod(1, length, (kt, 9), |state, rod| {
+        let ends = [(tip(rod), 1.0), (rod.points().start, -1.0)];
+        let control = state.add_control(1.0);
+        let load = PointLoad::new(state, ends.to_vec(), force, control);
+        vec![Box::new(load) as Box<dyn Interaction>]
+    });
+    // Turning takes about zeta L^3/(24 kT) = 230 ns.
+    let (h, steps) = (20.0, 400_000);
+    let (mut sum, mut square) = (0.0, 0.0);
+    advance(&mut system, &mut stepper, (0, steps), h, |system| {
+        let x = &system.state().points.position;
+        let cosine = (x.get(tip(&rod)) - x.get(0)).normalize().x;
+        sum += cosine;
+        square += cosine * cosine;
+    });
+    let (mean, square) = (sum / steps as f64, square / steps as f64);
+    let langevin = 1.0 / f64::tanh(a) - 1.0 / a;
+    let of_square = 1.0 - 2.0 * langevin / a;
+    println!("{mean} against {langevin}, squares {square} against {of_square}");
+    // 8e6 ns are some 2e4 independent samples: standard errors of 0.004 and 0.002.
+    assert!((mean - langevin).abs() < 0.012);
+    assert!((square - of_square).abs() < 0.008);
+}

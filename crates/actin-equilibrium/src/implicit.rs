@@ -1,0 +1,152 @@
+//! The linear solve of a time step that is implicit in the stiffness: `(K + A) p = f`, with blocks `A`
+//! of the caller, such as friction over a time step.
+//!
+//! What the step is for, and whether it is good, is the caller's business.
+
+use crate::assemble::Assembly;
+use crate::direction::Solver;
+use crate::factor::Factor;
+use crate::layout::Layout;
+use crate::motion::StepSize;
+use crate::outcome::SolveError;
+use actin_mechanics::{Interaction, Loads, SecondOrder, State};
+
+/// A layout with the memory that its solves need.
+///
+/// Nothing but memory is carried from one solve to the next, so that each depends on its arguments
+/// alone. That includes the order of unknowns where the layout was given one; where it is still to be
+/// found, the first factorisation settles it.
+#[derive(Debug)]
+pub struct ImplicitSolver {
+    layout: Layout,
+    assembly: Assembly,
+    factor: Option<Factor>,
+    metric: Vec<f64>,
+    step: Vec<f64>,
+}
+
+impl ImplicitSolver {
+    /// A solver for what may move.
+    pub fn new(layout: Layout) -> Self {
+        Self {
+            layout,
+            assembly: Assembly::new(1.0),
+            factor: None,
+            metric: Vec::new(),
+            step: Vec::new(),
+        }
+    }
+
+    /// What may move.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Refuses interactions without a potential or without second derivatives.
+    ///
+    /// # Errors
+    /// The first such interaction.
+    pub fn check(interactions: &[Box<dyn Interaction>]) -> Result<(), SolveError> {
+        Solver::check(interactions)
+    }
+
+    /// Factorises the stiffness of `interactions` at `state`, under `loads`, with the blocks of `added`.
+    ///
+    /// The sum need not be positive definite. A pivot of zero is replaced by rounding.
+    pub fn factorize(
+        &mut self,
+        (state, loads): (&State, &Loads),
+        interactions: &[Box<dyn Interaction>],
+        added: &dyn SecondOrder,
+    ) {
+        let at = (state, loads);
+        let assembly = &mut self.assembly;
+        if assembly.update_with(interactions, &[added], at, &mut self.layout) {
+            self.factor = Some(Factor::new(assembly.pattern()));
+            self.metric = vec![0.0; self.layout.unknowns()];
+        }
+        let factor = self.factor.as_mut().expect("made with the pattern");
+        let upper = assembly.pattern().symbolic.as_ref();
+        factor.factorize(upper, &assembly.values, &self.metric, 0.0);
+    }
+
+    /// Number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.layout.unknowns()
+    }
+
+    /// The matrix last factorised times `v`.
+    ///
+    /// # Panics
+    /// If nothing has been factorised, or `v` has not one number per unknown.
+    pub fn times(&self, v: &[f64]) -> Vec<f64> {
+        assert_eq!(v.len(), self.unknowns(), "one number per unknown");
+        let mut product = vec![0.0; v.len()];
+        self.assembly.multiply(v, &mut product);
+        product
+    }
+
+    /// Solves with the matrix last factorised, in place.
+    ///
+    /// # Panics
+    /// As [`times`](Self::times).
+    pub fn solve(&mut self, b: &mut [f64]) {
+        assert_eq!(b.len(), self.unknowns(), "one number per unknown");
+        let factor = self.factor.as_mut().expect("factorised before");
+        factor.solve(b);
+    }
+
+    /// Moves the bodies of `state` by the solution for `loads`, the generalised loads of which are taken
+    /// at `state`; one that turns a body by more than `largest_turn` (rad) is shortened to that. Returns
+    /// how far the solution goes.
+    ///
+    /// # Panics
+    /// If nothing has been factorised.
+    pub fn advance(&mut self, state: &mut State, loads: &Loads, largest_turn: f64) -> StepSize {
+        self.step.resize(self.layout.unknowns(), 0.0);
+        self.layout.reduce(state, loads, &mut self.step);
+        let factor = self.factor.as_mut().expect("factorised before");
+        factor.solve(&mut self.step);
+        let extent = self.layout.step_extent(&self.step);
+        let scale = (largest_turn / extent.rotation).min(1.0);
+        self.layout.apply(state, &self.step, scale);
+        extent
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use actin_mechanics::{Coordinates, Matrix3, Point, Stiffness, Vector3};
+
+    /// Adds 4 to the diagonal of each point.
+    struct Four;
+
+    impl SecondOrder for Four {
+        fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+            for i in (0..state.points.len()).map(Coordinates::Point) {
+                stiffness.push(i, i, Matrix3::identity() * 4.0);
+            }
+        }
+    }
+
+    /// A load of 2 on a body with 4 on its diagonal moves it by a half; a held one stays.
+    #[test]
+    fn a_solve_moves_what_is_free() {
+        let mut state = State::default();
+        for _ in 0..2 {
+            let position = Vector3::zeros();
+            state.points.push(Point { position, mass: 1.0 });
+        }
+        state.points.hold(1);
+        let mut loads = Loads::zeros(&state);
+        loads.force.set(0, Vector3::x() * 2.0);
+        loads.force.set(1, Vector3::x() * 2.0);
+        let mut solver = ImplicitSolver::new(Layout::free(&state));
+        solver.factorize((&state, &loads), &[], &Four);
+        let extent = solver.advance(&mut state, &loads, 1.0);
+        assert_eq!(state.points.position.get(0), Vector3::x() * 0.5);
+        assert_eq!(state.points.position.get(1), Vector3::zeros());
+        assert!((extent.displacement - 0.5).abs() < 1e-15);
+    }
+}
