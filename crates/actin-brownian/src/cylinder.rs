@@ -123,10 +123,11 @@ impl Cylinder {
     }
 
     /// Friction across the axis at each end (pN ns/nm): `3 Z_r/L^2 - Z_t/4` with the friction `Z_r` of
-    /// [`end_over_end`](Self::end_over_end) and `Z_t` across of the whole cylinder.
+    /// [`end_over_end`](Self::end_over_end), less that of [`tilt`](Self::tilt), and `Z_t` across of the whole cylinder.
     pub fn at_ends(&self) -> f64 {
         let of_whole = self.across() * self.length;
-        3.0 * self.end_over_end() / (self.length * self.length) - 0.25 * of_whole
+        let turning = self.end_over_end() - self.tilt() * self.length;
+        3.0 * turning / (self.length * self.length) - 0.25 * of_whole
     }
 
     /// Friction across the axis between the ends, per length (pN ns/nm^2).
@@ -151,7 +152,7 @@ mod tests {
             let across = c.between_ends() * length + 2.0 * c.at_ends();
             assert!((across / (c.across() * length) - 1.0).abs() < 1e-12);
             let (evenly, arm) = (c.between_ends() * length.powi(3) / 12.0, 0.5 * length);
-            let turning = evenly + 2.0 * c.at_ends() * arm * arm;
+            let turning = evenly + 2.0 * c.at_ends() * arm * arm + c.tilt() * length;
             assert!((turning / c.end_over_end() - 1.0).abs() < 1e-12);
             assert!(c.between_ends() > 0.0 && c.at_ends() > 0.0, "{length}: {c:?}");
         }

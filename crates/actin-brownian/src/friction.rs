@@ -2,7 +2,7 @@
 //! belongs to them.
 
 use actin_mechanics::{
-    Coordinates, Loads, Matrix3, SecondOrder, State, Stiffness, UnitQuaternion, Vector3, Vectors,
+    Coordinates, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3, Vectors,
 };
 
 /// Friction of a place that goes with one or two points and is seen from a frame.
@@ -76,33 +76,29 @@ pub struct Friction {
     pub turns: Vec<TurnDashpot>,
 }
 
-/// How bodies move over a step: velocities of points (lab frame), angular velocities of frames (body
-/// frame), and orientations in the middle of the step.
+/// How bodies move: velocities of points (lab frame) and angular velocities of frames (body frame).
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Velocities {
     pub(crate) points: Vectors,
     pub(crate) frames: Vectors,
-    pub(crate) middle: Vec<UnitQuaternion>,
 }
 
 impl Friction {
-    /// Adds what friction does to bodies that move with `velocities`, and random forces that are `strength`
-    /// times the root of each friction times the deviates of each dashpot and each turn; all of it times
-    /// `factor`. Torques are in the body frames of the middle.
+    /// Adds what friction does to the bodies of a state that move with these velocities, and random forces that
+    /// are `strength` times the root of each friction times the deviates of each dashpot and each turn.
     pub(crate) fn add_loads(
         &self,
-        velocities: &Velocities,
+        (state, velocities): (&State, &Velocities),
         (strength, places, turns): (f64, &Vectors, &Vectors),
-        factor: f64,
         loads: &mut Loads,
     ) {
         for (k, dashpot) in self.dashpots.iter().enumerate() {
-            let q = velocities.middle[dashpot.frame];
+            let q = state.frames.orientation.get(dashpot.frame);
             let of_points = |(i, weight)| velocities.points.get(i) * weight;
             let v: Vector3 = dashpot.points().map(of_points).sum();
             let omega = velocities.frames.get(dashpot.frame);
             let u = q.inverse_transform_vector(&v) + omega.cross(&dashpot.arm);
-            let force = factor * load(dashpot.friction, u, strength, places.get(k));
+            let force = load(dashpot.friction, u, strength, places.get(k));
             let in_lab = q * force;
             for (i, weight) in dashpot.points() {
                 loads.force.add(i, in_lab * weight);
@@ -111,7 +107,7 @@ impl Friction {
         }
         for (k, turn) in self.turns.iter().enumerate() {
             let omega = velocities.frames.get(turn.frame);
-            let torque = factor * load(turn.friction, omega, strength, turns.get(k));
+            let torque = load(turn.friction, omega, strength, turns.get(k));
             loads.torque.add(turn.frame, torque);
         }
     }

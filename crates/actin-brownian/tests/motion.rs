@@ -17,8 +17,8 @@ fn pose(system: &System, rod: &RodLayout) -> (Vector3, Vector3, UnitQuaternion) 
 }
 
 /// Mean squares over a lag of what a rod does along, across (per axis), about its axis and end over end
-/// (per axis), against `2 kT t / Z` with the friction of the whole: `zeta L`, and `zeta L^3/12` end over end, exact for any
-/// number of segments.
+/// (per axis), against `2 kT t / Z` with the friction of the whole: `zeta L`, and `zeta L^3/12` with that of tilt end over
+/// end, exact for any number of segments.
 #[test]
 fn a_rod_diffuses_with_its_friction() {
     let (length, kt) = (60.0, 4.11);
@@ -42,12 +42,12 @@ fn a_rod_diffuses_with_its_friction() {
             ];
             squares.iter_mut().zip(own).for_each(|(sum, one)| *sum += one);
         }
-        let [along, across, about, _] = FRICTION;
+        let [along, across, about, tilt] = FRICTION;
         let whole = [
             along * length,
             across * length,
             about * length,
-            across * length.powi(3) / 12.0,
+            across * length.powi(3) / 12.0 + tilt * length,
         ];
         let time = lag as f64 * h;
         let ratios: Vec<f64> = squares
@@ -66,31 +66,50 @@ fn a_rod_diffuses_with_its_friction() {
     }
 }
 
-/// Roots of `cos x cosh x = s` and `tan x = tanh x` of rods: free at both ends, pinned, and clamped at one.
-const FREE: [f64; 5] = [4.730_041, 7.853_205, 10.995_608, 14.137_165, 17.278_760];
-const CLAMPED: [f64; 5] = [1.875_104, 4.694_091, 7.854_757, 10.995_541, 14.137_168];
+/// How a rod is held.
+#[derive(Clone, Copy, Debug)]
+enum Hold {
+    Free,
+    Pinned,
+    Clamped,
+}
+
+impl Hold {
+    /// Wave numbers of the first modes times the length: of rods that are free or pinned at both ends, or clamped
+    /// at one.
+    fn roots(self) -> [f64; 5] {
+        match self {
+            Self::Free => [4.730_041, 7.853_205, 10.995_608, 14.137_165, 17.278_760],
+            Self::Pinned => [1.0, 2.0, 3.0, 4.0, 5.0].map(|n| n * std::f64::consts::PI),
+            Self::Clamped => [1.875_104, 4.694_091, 7.854_757, 10.995_541, 14.137_168],
+        }
+    }
+}
 
 /// The first five relaxation rates of bending are `B (x_n/L)^4 / zeta_across`, each twice, for the two directions.
 /// Segments of a hundredth of the length, shear and the turning of cross-sections take 0.6 % of the fifth.
 #[test]
 fn bending_relaxes_as_that_of_slender_rods() {
     let length = 3000.0;
-    for (clamp, roots) in [(None, FREE), (Some(RodClamp::Wall), CLAMPED)] {
+    for hold in [Hold::Free, Hold::Pinned, Hold::Clamped] {
         let mut state = State::default();
         let straight = StraightRod::uniform(100, length / 100.0);
-        let rod = match clamp {
-            None => straight.push(&mut state),
-            Some(clamp) => straight.push_clamped(clamp, RodEnd::Start, &mut state),
+        let rod = match hold {
+            Hold::Clamped => straight.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state),
+            Hold::Free | Hold::Pinned => straight.push(&mut state),
         };
         let rod = rod.unwrap();
+        if matches!(hold, Hold::Pinned) {
+            [0, tip(&rod)].map(|i| state.points.hold(i));
+        }
         let layout = layout_of(&state, &rod);
         let system = System::new(state, vec![law(&rod)]);
         let (rates, _) = relaxation_rates(&system, &layout, &friction_of(&rod), 20).unwrap();
         let theory = |root: f64| rigidities().bend.x * (root / length).powi(4) / FRICTION[1];
-        for root in roots {
+        for root in hold.roots() {
             let near = |rate: &&f64| (*rate / theory(root) - 1.0).abs() < 0.01;
             let found: Vec<&f64> = rates.iter().filter(near).collect();
-            println!("{clamp:?}, {root}: {:?} against {}", found, theory(root));
+            println!("{hold:?}, {root}: {:?} against {}", found, theory(root));
             assert_eq!(found.len(), 2, "{root}: {rates:?}");
         }
     }

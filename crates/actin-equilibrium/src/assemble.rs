@@ -47,28 +47,20 @@ impl Assembly {
         loads: &Loads,
         layout: &mut Layout,
     ) -> bool {
-        let is_new = self.update_with(interactions, &[], (state, loads), layout);
-        if is_new {
-            self.ties = Ties::new(self.blocks.blocks(), self.turn_length, layout);
-            let (points, frames) = (state.points.len(), state.frames.len());
-            self.chain = Chain::new(layout, &self.ties, points, frames);
-            self.tie_places.clear();
-        }
-        self.tie_lengths = self.ties.lengths(state);
-        is_new
+        self.update_with(interactions, None, (state, loads), layout)
     }
 
-    /// The same with blocks of `others` added to those of interactions, and without ties.
+    /// The same with blocks of `other` added to those of interactions.
     pub(crate) fn update_with(
         &mut self,
         interactions: &[Box<dyn Interaction>],
-        others: &[&dyn SecondOrder],
+        other: Option<&dyn SecondOrder>,
         (state, loads): (&State, &Loads),
         layout: &mut Layout,
     ) -> bool {
         self.blocks.clear();
         let of_interactions = interactions.iter().filter_map(|i| i.second_order());
-        for second_order in of_interactions.chain(others.iter().copied()) {
+        for second_order in of_interactions.chain(other) {
             second_order.add_stiffness(state, &mut self.blocks);
         }
         let is_new = !self
@@ -77,7 +69,12 @@ impl Assembly {
             .is_some_and(|pattern| pattern.fits(&self.blocks));
         if is_new {
             self.pattern = Some(Pattern::new(&self.blocks, layout));
+            self.ties = Ties::new(self.blocks.blocks(), self.turn_length, layout);
+            let (points, frames) = (state.points.len(), state.frames.len());
+            self.chain = Chain::new(layout, &self.ties, points, frames);
+            self.tie_places.clear();
         }
+        self.tie_lengths = self.ties.lengths(state);
         let pattern = self.pattern.as_ref().expect("it has just been made");
         let mut target = Target::new(&mut self.values, pattern, layout);
         target.add_all(state, &self.blocks, &pattern.places);

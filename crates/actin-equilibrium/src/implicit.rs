@@ -6,10 +6,12 @@
 use crate::assemble::Assembly;
 use crate::direction::Solver;
 use crate::factor::Factor;
-use crate::layout::Layout;
+use crate::layout::{Layout, Node};
 use crate::motion::StepSize;
 use crate::outcome::SolveError;
-use actin_mechanics::{Interaction, Loads, SecondOrder, State};
+use actin_mechanics::{
+    Interaction, Loads, SecondOrder, State, UnitQuaternion,
+};
 
 /// A layout with the memory that its solves need.
 ///
@@ -61,7 +63,7 @@ impl ImplicitSolver {
     ) {
         let at = (state, loads);
         let assembly = &mut self.assembly;
-        if assembly.update_with(interactions, &[added], at, &mut self.layout) {
+        if assembly.update_with(interactions, Some(added), at, &mut self.layout) {
             self.factor = Some(Factor::new(assembly.pattern()));
             self.metric = vec![0.0; self.layout.unknowns()];
         }
@@ -112,6 +114,32 @@ impl ImplicitSolver {
         self.layout.apply(state, &self.step, scale);
         extent
     }
+
+    /// Moves the free bodies of `middle` as far again as they have come from `start`: points straight, frames by
+    /// the same turn.
+    pub fn go_on(&self, start: &State, middle: &mut State) {
+        for (node, _) in self.layout.nodes() {
+            match node {
+                Node::Point(i) => go_on(start, middle, i),
+                Node::Frame(i) => {
+                    let q = middle.frames.orientation.get(i);
+                    let half = start.frames.orientation.get(i).inverse() * q;
+                    let turned = UnitQuaternion::new_normalize((q * half).into_inner());
+                    middle.frames.orientation.set(i, turned);
+                }
+                Node::Group(g) => {
+                    let group = &self.layout.groups()[g];
+                    group.points.iter().for_each(|&i| go_on(start, middle, i));
+                }
+            }
+        }
+    }
+}
+
+/// Moves point `i` of `middle` as far again as it has come from `start`.
+fn go_on(start: &State, middle: &mut State, i: usize) {
+    let half = middle.points.position.get(i) - start.points.position.get(i);
+    middle.points.position.add(i, half);
 }
 
 #[cfg(test)]
