@@ -71,7 +71,11 @@ impl Cylinder {
     /// # Errors
     /// A number that is not positive and finite, a length below two diameters.
     pub fn new(viscosity: f64, length: f64, radius: f64) -> Result<Self, CylinderError> {
-        let numbers = [("viscosity", viscosity), ("length", length), ("radius", radius)];
+        let numbers = [
+            ("viscosity", viscosity),
+            ("length", length),
+            ("radius", radius),
+        ];
         for (name, value) in numbers {
             if !(value.is_finite() && value > 0.0) {
                 return Err(CylinderError::Number(name, value));
@@ -154,7 +158,10 @@ mod tests {
             let (evenly, arm) = (c.between_ends() * length.powi(3) / 12.0, 0.5 * length);
             let turning = evenly + 2.0 * c.at_ends() * arm * arm + c.tilt() * length;
             assert!((turning / c.end_over_end() - 1.0).abs() < 1e-12);
-            assert!(c.between_ends() > 0.0 && c.at_ends() > 0.0, "{length}: {c:?}");
+            assert!(
+                c.between_ends() > 0.0 && c.at_ends() > 0.0,
+                "{length}: {c:?}"
+            );
         }
     }
 

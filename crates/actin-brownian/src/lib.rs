@@ -3,7 +3,7 @@
 //!
 //! [`Friction`] is made of [`Dashpot`]s between bodies and a fluid at rest; a [`Cylinder`] says how strong
 //! those of a slender body are. [`Brownian`] makes the steps of an `actin_integrate::Run`, with thermal noise or
-//! without. [`relaxation_rates`] says what it has to resolve.
+//! without. [`Relaxation`] says what it has to resolve.
 //!
 //! Fluid is felt locally: what moves does not drag anything else along.
 //!
@@ -21,7 +21,7 @@ mod stepper;
 
 pub use cylinder::{Cylinder, CylinderError};
 pub use friction::{Dashpot, Friction, TurnDashpot};
-pub use relaxation::relaxation_rates;
+pub use relaxation::Relaxation;
 pub use stepper::{Brownian, BrownianError, StepLimits};
 
 /// The crate of points, frames, loads and interactions that move.

@@ -18,34 +18,45 @@ const SHIFT: f64 = 1e-9;
 /// Seed of the vectors at the start.
 const SEED: u64 = 17;
 
-/// Relaxation rates (1/ns) of small displacements from the present state: the `count` lowest in ascending order, and the
-/// highest.
-///
-/// Solutions of `K v = rate Z v`, with the stiffness `K` as it stands and the friction `Z`. Motion that nothing
-/// resists has the rate zero to round-off, about 1e-13 of the highest; where the state is unstable, rates are negative.
-///
-/// # Errors
-/// Interactions without a potential or second derivatives.
-pub fn relaxation_rates(
-    system: &System,
-    layout: &Layout,
-    friction: &Friction,
-    count: usize,
-) -> Result<(Vec<f64>, f64), SolveError> {
-    ImplicitSolver::check(system.interactions())?;
-    let state = system.state();
-    let mut loads = Loads::zeros(state);
-    for interaction in system.interactions() {
-        interaction.add_loads(state, &mut loads);
+/// Relaxation of small displacements from a state: solutions of `K v = rate Z v`, with the stiffness `K` as it stands
+/// and the friction `Z`.
+#[derive(Debug)]
+pub struct Relaxation {
+    stiffness: ImplicitSolver,
+    fluid: ImplicitSolver,
+}
+
+impl Relaxation {
+    /// That from the present state of `system`, with what `layout` lets move.
+    ///
+    /// # Errors
+    /// Interactions without a potential or second derivatives.
+    pub fn new(system: &System, layout: Layout, friction: &Friction) -> Result<Self, SolveError> {
+        ImplicitSolver::check(system.interactions())?;
+        let state = system.state();
+        let mut loads = Loads::zeros(state);
+        for interaction in system.interactions() {
+            interaction.add_loads(state, &mut loads);
+        }
+        let at = (state, &loads);
+        // The order of unknowns is settled once, for both matrices.
+        let mut stiffness = ImplicitSolver::new(layout);
+        stiffness.factorize(at, system.interactions(), &friction.times(SHIFT));
+        let mut fluid = ImplicitSolver::new(stiffness.layout().clone());
+        fluid.factorize(at, &[], &friction.times(1.0));
+        Ok(Self { stiffness, fluid })
     }
-    let at = (state, &loads);
-    // The order of unknowns is settled once, for both matrices.
-    let mut stiffness = ImplicitSolver::new(layout.clone());
-    stiffness.factorize(at, system.interactions(), &friction.times(SHIFT));
-    let mut fluid = ImplicitSolver::new(stiffness.layout().clone());
-    fluid.factorize(at, &[], &friction.times(1.0));
-    let lowest = lowest(&mut stiffness, &fluid, count);
-    Ok((lowest, highest(&stiffness, &mut fluid)))
+
+    /// The `count` lowest rates (1/ns), in ascending order. Motion that nothing resists has the rate zero to round-off,
+    /// about 1e-13 of the highest; where the state is unstable, rates are negative.
+    pub fn lowest_rates(&mut self, count: usize) -> Vec<f64> {
+        lowest(&mut self.stiffness, &self.fluid, count)
+    }
+
+    /// The highest rate (1/ns), from below, to about a hundredth.
+    pub fn highest_rate(&mut self) -> f64 {
+        highest(&self.stiffness, &mut self.fluid)
+    }
 }
 
 /// The lowest rates by inverse iteration of a subspace.
@@ -99,7 +110,7 @@ fn orthonormalise(vectors: &mut [Vec<f64>], fluid: &ImplicitSolver) {
     }
 }
 
-/// The highest rate by power iteration, from below, to about a hundredth.
+/// The highest rate by power iteration.
 fn highest(stiffness: &ImplicitSolver, fluid: &mut ImplicitSolver) -> f64 {
     let mut noise = Xorshift::new(SEED);
     let mut v: Vec<f64> = (0..stiffness.unknowns()).map(|_| noise.sample()).collect();

@@ -48,9 +48,7 @@ use crate::Friction;
 use crate::friction::Velocities;
 use actin_equilibrium::{ImplicitSolver, Layout, SolveError, StepSize};
 use actin_integrate::{Body, FailureKind, Noise, StepFailure, Stepper};
-use actin_mechanics::{
-    Loads, Split, State, System, Thermostat, Vector3, Vectors, rotation,
-};
+use actin_mechanics::{Loads, Split, State, System, Thermostat, Vector3, Vectors, rotation};
 use thiserror::Error;
 
 /// Parts the key of this noise from other uses of the same seed.

@@ -2,7 +2,7 @@
 
 mod common;
 
-use actin_brownian::{Brownian, relaxation_rates};
+use actin_brownian::{Brownian, Relaxation};
 use actin_cosserat::{EnergyGradient, Rigidities, RodMaterial, StraightRod};
 use actin_mechanics::{PointLoad, State, System, Vector3};
 use common::{advance, free_rod, friction_of, layout_of, rigidities, tip};
@@ -13,18 +13,24 @@ fn energies_per_strain(kt: f64, ratio: f64, steps: u64) -> [f64; 2] {
     const SEGMENTS: usize = 8;
     let (mut system, mut stepper, rod) = free_rod(SEGMENTS, 160.0, (kt, 5), |_, _| Vec::new());
     let layout = layout_of(system.state(), &rod);
-    let (_, fastest) = relaxation_rates(&system, &layout, &friction_of(&rod), 6).unwrap();
-    let h = ratio / fastest;
+    let relaxation = Relaxation::new(&system, layout, &friction_of(&rod));
+    let h = ratio / relaxation.unwrap().highest_rate();
     let warm = (10.0 * ratio) as u64;
     advance(&mut system, &mut stepper, (0, warm), h, |_| ());
     let mut sums = [0.0; 2];
     let mut energies = [0.0; 2 * SEGMENTS - 1];
-    advance(&mut system, &mut stepper, (warm, warm + steps), h, |system| {
-        system.interactions()[0].write_energies(system.state(), &mut energies);
-        let (shear, bending) = energies.split_at(SEGMENTS);
-        sums[0] += shear.iter().sum::<f64>() / (3 * SEGMENTS) as f64;
-        sums[1] += bending.iter().sum::<f64>() / (3 * (SEGMENTS - 1)) as f64;
-    });
+    advance(
+        &mut system,
+        &mut stepper,
+        (warm, warm + steps),
+        h,
+        |system| {
+            system.interactions()[0].write_energies(system.state(), &mut energies);
+            let (shear, bending) = energies.split_at(SEGMENTS);
+            sums[0] += shear.iter().sum::<f64>() / (3 * SEGMENTS) as f64;
+            sums[1] += bending.iter().sum::<f64>() / (3 * (SEGMENTS - 1)) as f64;
+        },
+    );
     println!("{ratio}: {} iterations, h = {h}", stepper.iterations());
     sums.map(|sum| sum / (kt * steps as f64))
 }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use actin_brownian::relaxation_rates;
+use actin_brownian::Relaxation;
 use actin_cosserat::{RodClamp, RodEnd, RodLayout, StraightRod};
 use actin_mechanics::{State, System, UnitQuaternion, Vector3};
 use common::{FRICTION, advance, free_rod, friction_of, law, layout_of, rigidities, tip};
@@ -40,7 +40,10 @@ fn a_rod_diffuses_with_its_friction() {
                 about * about,
                 0.5 * turned.cross(&axis).norm_squared(),
             ];
-            squares.iter_mut().zip(own).for_each(|(sum, one)| *sum += one);
+            squares
+                .iter_mut()
+                .zip(own)
+                .for_each(|(sum, one)| *sum += one);
         }
         let [along, across, about, tilt] = FRICTION;
         let whole = [
@@ -61,7 +64,10 @@ fn a_rod_diffuses_with_its_friction() {
         let least_free = if segments == 1 { 0.03 } else { 0.05 };
         for (k, ratio) in ratios.iter().enumerate() {
             let is_of_parts = segments > 1 && k >= 2;
-            assert!(is_of_parts || (ratio - 1.0).abs() < least_free, "{k}: {ratio}");
+            assert!(
+                is_of_parts || (ratio - 1.0).abs() < least_free,
+                "{k}: {ratio}"
+            );
         }
     }
 }
@@ -100,11 +106,13 @@ fn bending_relaxes_as_that_of_slender_rods() {
         };
         let rod = rod.unwrap();
         if matches!(hold, Hold::Pinned) {
-            [0, tip(&rod)].map(|i| state.points.hold(i));
+            state.points.hold(0);
+            state.points.hold(tip(&rod));
         }
         let layout = layout_of(&state, &rod);
         let system = System::new(state, vec![law(&rod)]);
-        let (rates, _) = relaxation_rates(&system, &layout, &friction_of(&rod), 20).unwrap();
+        let relaxation = Relaxation::new(&system, layout, &friction_of(&rod));
+        let rates = relaxation.unwrap().lowest_rates(20);
         let theory = |root: f64| rigidities().bend.x * (root / length).powi(4) / FRICTION[1];
         for root in hold.roots() {
             let near = |rate: &&f64| (*rate / theory(root) - 1.0).abs() < 0.01;

@@ -2,7 +2,7 @@
 
 use crate::SceneArguments;
 use crate::failure::{Failure, Opened};
-use actin_sim::{Assembly, Estimate, Resolution, SectionSpan, Task};
+use actin_sim::{Assembly, Estimate, RelaxationTimes, Resolution, SectionSpan, Task};
 
 /// Validates a scene and prints it with every default, its counts and its cost.
 ///
@@ -20,7 +20,10 @@ pub(crate) fn check(source: &SceneArguments) -> Result<(), Failure> {
         println!("// note: {note}");
     }
     if let Some(estimate) = plan.estimate() {
-        print_step(estimate);
+        match plan.relaxation_times() {
+            None => print_step(estimate),
+            Some(times) => print_relaxation(&times, estimate),
+        }
     }
     for note in plan.notes() {
         println!("// note: {note}");
@@ -112,5 +115,21 @@ fn print_step(estimate: &Estimate) {
         estimate.time_step_ns,
         estimate.steps,
         estimate.record_every_ns
+    );
+}
+
+fn print_relaxation(times: &RelaxationTimes, estimate: &Estimate) {
+    let slowest = times.slowest_ns.iter().take(5);
+    let slowest: Vec<String> = slowest.map(|time| format!("{time:.4e}")).collect();
+    println!(
+        "// relaxation of small displacements from the state as built: slowest in {} ns, fastest in {:.4e} ns; {} \
+         motions meet no resistance",
+        slowest.join(", "),
+        times.fastest_ns,
+        times.unresisted
+    );
+    println!(
+        "// time step {:.4e} ns, {} steps, a record every {:.6} ns",
+        estimate.time_step_ns, estimate.steps, estimate.record_every_ns
     );
 }

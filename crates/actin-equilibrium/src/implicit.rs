@@ -9,9 +9,7 @@ use crate::factor::Factor;
 use crate::layout::{Layout, Node};
 use crate::motion::StepSize;
 use crate::outcome::SolveError;
-use actin_mechanics::{
-    Interaction, Loads, SecondOrder, State, UnitQuaternion,
-};
+use actin_mechanics::{Interaction, Loads, SecondOrder, State, UnitQuaternion};
 
 /// A layout with the memory that its solves need.
 ///
@@ -164,7 +162,10 @@ mod tests {
         let mut state = State::default();
         for _ in 0..2 {
             let position = Vector3::zeros();
-            state.points.push(Point { position, mass: 1.0 });
+            state.points.push(Point {
+                position,
+                mass: 1.0,
+            });
         }
         state.points.hold(1);
         let mut loads = Loads::zeros(&state);

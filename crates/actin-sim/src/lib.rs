@@ -50,7 +50,7 @@ pub use results::{
 };
 pub use run::{
     Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, MotionPosition,
-    Outcome, PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records, Row, RowIter,
+    Outcome, PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records, RelaxationTimes, Row, RowIter,
     RunError, RunPosition, SaddlePush, Saved, Sink, Slip, StableState, StableStates, Status,
     Trajectory, solver,
 };
@@ -58,13 +58,13 @@ pub use scene::fitted::laws as fitted_laws;
 #[cfg(feature = "schema")]
 pub use scene::schema;
 pub use scene::{
-    Acceleration, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking, Catch,
-    Clamp, Couple, CouplePerLength, DragRates, Drawn, Dynamics, End, Equilibrium, Factor, Filament,
-    Force, ForceLaw, ForcePerLength, Forming, Hinge, Hold, Imperfection, Integrator, JunctionModel,
-    JunctionWeight, Kinetics, Linker, LinkerSite, Load, Material, Monomers, Observable, Output,
-    Override, Pace, Plane, Point, Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene,
-    SceneError, SceneProblem, SceneText, Section, Setting, Shape, ShearLaw, Slides, Sphere,
-    SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise,
-    TwistStretchLaw,
+    Acceleration, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking, Brownian,
+    Catch, Clamp, Couple, CouplePerLength, DragRates, Drawn, Dynamics, End, Equilibrium, Factor,
+    Filament, Fluid, Force, ForceLaw, ForcePerLength, Forming, Hinge, Hold, Imperfection,
+    Integrator, JunctionModel, JunctionWeight, Kinetics, Linker, LinkerSite, Load, Material,
+    Monomers, Observable, Output, Override, Pace, Plane, Point, Repulsion, RodLaw, RodLaws,
+    RodModel, RotaryInertia, Scene, SceneError, SceneProblem, SceneText, Section, Setting, Shape,
+    ShearLaw, Slides, Sphere, SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Task,
+    Thermal, TwistLaw, TwistRise, TwistStretchLaw,
 };
 pub use scene::{Readings, read_all, read_ron};

@@ -48,7 +48,7 @@ impl Each {
     fn of(self, task: &Task) -> f64 {
         match task {
             Task::Dynamics(_) => self.motion,
-            Task::Equilibrium(_) => self.statics,
+            Task::Equilibrium(_) | Task::Brownian(_) => self.statics,
         }
     }
 }

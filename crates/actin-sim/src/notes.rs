@@ -114,7 +114,7 @@ impl Outcome {
     pub(crate) fn notes(&self, assembly: &Assembly, last: &Record) -> Vec<String> {
         let mut notes = unknown_twist(assembly, last);
         notes.extend(assembly.note_on_rates(&last.state));
-        let is_motion = matches!(assembly.scene.task, Task::Dynamics(_));
+        let is_motion = !matches!(assembly.scene.task, Task::Equilibrium(_));
         if is_motion && self.has_converged() && self.at_rest.is_none() {
             notes.push(
                 "the stop rule was met, but it is not known whether the state at rest is stable: no \

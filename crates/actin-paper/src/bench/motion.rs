@@ -83,7 +83,7 @@ fn plan(assembly: &Assembly, steps: u64) -> Result<Run, String> {
 fn integrator(assembly: &Assembly) -> Result<Integrator, String> {
     match &assembly.scene.task {
         Task::Dynamics(dynamics) => Ok(dynamics.integrator),
-        Task::Equilibrium(_) => Err("an equilibrium has no integrator".to_owned()),
+        Task::Equilibrium(_) | Task::Brownian(_) => Err("the task has no integrator".to_owned()),
     }
 }
 

@@ -29,6 +29,7 @@ pub(super) fn is_like(scene: &Scene, measured: &Scene) -> bool {
 fn comes_to_rest(task: &Task) -> bool {
     match task {
         Task::Equilibrium(_) => true,
+        Task::Brownian(_) => false,
         Task::Dynamics(dynamics) => dynamics.stop.is_some() && dynamics.thermal.is_none(),
     }
 }

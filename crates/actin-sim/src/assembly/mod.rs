@@ -10,6 +10,7 @@ mod build;
 mod built;
 mod describe;
 mod drive;
+mod friction;
 mod hinge;
 mod imperfection;
 mod kinetics;

@@ -89,13 +89,12 @@ impl Cost {
     /// Of an assembled scene; `estimate` is that of its motion, none of an equilibrium.
     pub fn of(assembly: &Assembly, estimate: Option<&Estimate>) -> Self {
         let elements = Elements::of(assembly);
-        let (evaluations, equilibria, records) =
-            if let (Task::Dynamics(_), Some(estimate)) = (&assembly.scene.task, estimate) {
-                (estimate.force_evaluations, 0, estimate.records())
-            } else {
-                let (steps, equilibria) = newton::steps(assembly);
-                (steps, equilibria, equilibria as f64)
-            };
+        let (evaluations, equilibria, records) = if let Some(estimate) = estimate {
+            (estimate.force_evaluations, 0, estimate.records())
+        } else {
+            let (steps, equilibria) = newton::steps(assembly);
+            (steps, equilibria, equilibria as f64)
+        };
         let solve = match (&assembly.scene.task, estimate) {
             (Task::Dynamics(dynamics), Some(estimate)) => {
                 evaluations as f64 * elements.seconds_of_evaluation()

@@ -58,7 +58,7 @@ use crate::{Assembly, Task};
 /// What records are counted by: time (ns), or the path of equilibria, which counts stages.
 fn clock(assembly: &Assembly) -> &'static str {
     match assembly.scene.task {
-        Task::Dynamics(_) => "time_ns",
+        Task::Dynamics(_) | Task::Brownian(_) => "time_ns",
         Task::Equilibrium(_) => "path",
     }
 }

@@ -51,7 +51,7 @@ fn stays(load: &Load) -> bool {
 fn thermal_energy(assembly: &Assembly) -> f64 {
     match &assembly.scene.task {
         Task::Dynamics(dynamics) => dynamics.thermal.map_or(0.0, |t| t.energy_pn_nm()),
-        Task::Equilibrium(_) => 0.0,
+        Task::Brownian(_) | Task::Equilibrium(_) => 0.0,
     }
 }
 

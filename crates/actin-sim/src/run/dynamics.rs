@@ -16,9 +16,9 @@ use actin_mechanics::{Split, System};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// Largest frequency of the built filament (rad/ns); where shear stiffens its rods, at least
-    /// that with constant rigidities.
+    /// that with constant rigidities. Zero of overdamped motion, which does not oscillate.
     pub largest_frequency_rad_per_ns: f64,
-    /// Largest stable time step of the chosen integrator (ns).
+    /// Largest stable time step of the chosen integrator (ns); infinite of overdamped motion.
     pub stability_limit_ns: f64,
     /// Time step that will be taken (ns).
     pub time_step_ns: f64,
@@ -28,8 +28,10 @@ pub struct Estimate {
     pub steps_between_records: u64,
     /// Time between two records (ns).
     pub record_every_ns: f64,
-    /// Load evaluations in these steps.
+    /// Load evaluations in these steps; of overdamped motion three iterations a step are counted.
     pub force_evaluations: u64,
+    /// Fastest relaxation of the built filament in its fluid (ns), about; none of motion with inertia.
+    pub fastest_relaxation_ns: Option<f64>,
 }
 
 impl Integrator {
@@ -52,6 +54,7 @@ impl Integrator {
 pub(super) fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, SceneProblem> {
     match &assembly.scene.task {
         Task::Dynamics(dynamics) => estimate_of(assembly, dynamics).map(Some),
+        Task::Brownian(brownian) => super::brownian::estimate(assembly, brownian).map(Some),
         Task::Equilibrium(settings) => {
             assembly.check_slip()?;
             check_points(assembly, settings).map(|()| None)
@@ -112,6 +115,7 @@ pub(crate) fn estimate_at(
         steps_between_records: steps.between_records,
         record_every_ns: steps.record_every_ns,
         force_evaluations: steps.count * scheme.force_evaluations_per_step() as u64,
+        fastest_relaxation_ns: None,
     })
 }
 
@@ -147,7 +151,7 @@ fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Sc
 }
 
 /// Refuses records that would not fit into memory.
-fn check_records(
+pub(super) fn check_records(
     assembly: &Assembly,
     dynamics: &Dynamics,
     steps: &Steps,
@@ -222,15 +226,24 @@ pub(super) fn run(
         ..Outcome::new(Status::Failed, wall_s)
     }
     .with(recorder.taken.into_remarks());
-    let (mut outcome, failure) = conclude(assembly, dynamics, ending, outcome);
-    // Where it failed, what happened later belongs to no record.
-    let steps = outcome.steps;
-    outcome.events.retain(|event| event.step <= steps);
-    Ok((outcome, failure))
+    Ok(conclude(assembly, dynamics, ending, outcome))
 }
 
 /// How a motion ended, added to what is known of it.
-fn conclude(
+pub(super) fn conclude(
+    assembly: &Assembly,
+    dynamics: &Dynamics,
+    ending: Ending,
+    outcome: Outcome,
+) -> (Outcome, Option<Failure>) {
+    let (mut outcome, failure) = ended(assembly, dynamics, ending, outcome);
+    // Where it failed, what happened later belongs to no record.
+    let steps = outcome.steps;
+    outcome.events.retain(|event| event.step <= steps);
+    (outcome, failure)
+}
+
+fn ended(
     assembly: &Assembly,
     dynamics: &Dynamics,
     ending: Ending,
@@ -336,9 +349,12 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
 impl Estimate {
     /// Writes the time step and the interval of records that a motion will have into its scene.
     pub(super) fn resolve(&self, scene: &mut Scene) {
-        if let Task::Dynamics(dynamics) = &mut scene.task {
-            dynamics.time_step_ns = Some(self.time_step_ns);
-            dynamics.record_every_ns = Some(self.record_every_ns);
-        }
+        let (step, every) = match &mut scene.task {
+            Task::Dynamics(task) => (&mut task.time_step_ns, &mut task.record_every_ns),
+            Task::Brownian(task) => (&mut task.time_step_ns, &mut task.record_every_ns),
+            Task::Equilibrium(_) => return,
+        };
+        *step = Some(self.time_step_ns);
+        *every = Some(self.record_every_ns);
     }
 }

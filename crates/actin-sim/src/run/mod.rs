@@ -1,6 +1,7 @@
 //! Running a scene: an equilibrium or a motion in time, with records on the way.
 
 mod bound;
+mod brownian;
 mod dynamics;
 mod equilibrium;
 mod hinge;
@@ -17,6 +18,7 @@ mod steps;
 mod taken;
 mod unknowns;
 
+pub use brownian::RelaxationTimes;
 pub use dynamics::Estimate;
 pub(crate) use dynamics::estimate_at;
 pub use equilibrium::EquilibriumReport;
@@ -76,8 +78,13 @@ impl Plan<'_> {
             (Task::Dynamics(dynamics), Some(estimate)) => {
                 dynamics::run(assembly, dynamics, estimate, saved, sink)?
             }
+            (Task::Brownian(task), Some(estimate)) => {
+                brownian::run(assembly, task, estimate, saved, sink)?
+            }
             (Task::Equilibrium(settings), _) => equilibrium::run(assembly, settings, saved, sink)?,
-            (Task::Dynamics(_), None) => unreachable!("the plan of a motion has an estimate"),
+            (Task::Dynamics(_) | Task::Brownian(_), None) => {
+                unreachable!("the plan of a motion has an estimate")
+            }
         };
         let is_of_use = outcome.beyond_use.is_empty() || outcome.status == Status::Interrupted;
         let failure = failure

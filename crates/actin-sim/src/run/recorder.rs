@@ -10,7 +10,9 @@ use crate::assembly::{Log, Ramp};
 use crate::scene::Dynamics;
 use crate::{Assembly, LinkerEvent};
 use actin_equilibrium::Certificate;
-use actin_integrate::{Checkpoint, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome};
+use actin_integrate::{
+    Checkpoint, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome, Stepper,
+};
 use actin_mechanics::System;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -121,6 +123,19 @@ impl<'a> Recorder<'a> {
         let mut events = self.events();
         events.retain(|event| event.step <= step);
         events
+    }
+
+    /// Executes the run, or what is left of it, with the steps of `stepper`.
+    pub(super) fn execute_steps(
+        &mut self,
+        run: &Run,
+        stepper: &mut dyn Stepper,
+        system: &mut System,
+    ) -> Result<RunOutcome, RunFailure> {
+        match self.position.take() {
+            None => run.execute_steps(stepper, system, &mut [self]),
+            Some(checkpoint) => run.resume_steps(&checkpoint, stepper, system, &mut [self]),
+        }
     }
 
     /// Executes the run, or what is left of it.

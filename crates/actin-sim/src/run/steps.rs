@@ -130,9 +130,10 @@ impl Estimate {
     /// they are not those that were asked for, and what strong drag does to what is recorded. One
     /// sentence each.
     pub fn notes(&self, task: &Task) -> Vec<String> {
-        let Task::Dynamics(dynamics) = task else {
+        let Some(motion) = task.motion() else {
             return Vec::new();
         };
+        let dynamics = motion.as_ref();
         let notes = [
             self.note_on_step(dynamics),
             self.note_on_records(dynamics),
@@ -247,7 +248,7 @@ mod tests {
         );
         match Scene::from_ron(&text).unwrap().task {
             Task::Dynamics(dynamics) => dynamics,
-            Task::Equilibrium(_) => unreachable!("the text above is a motion"),
+            _ => unreachable!("the text above is a motion"),
         }
     }
 
@@ -298,6 +299,7 @@ mod tests {
             time_step_ns: steps.length_ns,
             steps: steps.count,
             steps_between_records: steps.between_records,
+            fastest_relaxation_ns: None,
             record_every_ns: steps.record_every_ns,
             force_evaluations: 0,
         }

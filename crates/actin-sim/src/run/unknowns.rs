@@ -26,14 +26,7 @@ const DISPLACEMENT: f64 = 0.5;
 pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneProblem> {
     let refused =
         |key: &str, error: &dyn std::error::Error| SceneProblem::new(key, "", error.to_string());
-    let layout = Layout::new(&assembly.rest, Some(&order(assembly)), Vec::new())
-        .map_err(|error| refused("filament", &error))?;
-    let loose = loose_pairs(assembly);
-    let layout = if loose.is_empty() && assembly.repelled.is_none() {
-        layout
-    } else {
-        layout.with_least_fill().with_loose(loose)
-    };
+    let layout = layout(assembly)?;
     let options = NewtonOptions {
         tolerance: Residual {
             force: settings.force_pn,
@@ -57,6 +50,17 @@ pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneP
             Ok(newton)
         }
     }
+}
+
+/// What may move, and in which order.
+pub(super) fn layout(assembly: &Assembly) -> Result<Layout, SceneProblem> {
+    let layout = Layout::new(&assembly.rest, Some(&order(assembly)), Vec::new())
+        .map_err(|error| SceneProblem::new("filament", "", error.to_string()))?;
+    let loose = loose_pairs(assembly);
+    if loose.is_empty() && assembly.repelled.is_none() {
+        return Ok(layout);
+    }
+    Ok(layout.with_least_fill().with_loose(loose))
 }
 
 /// Bodies that linkers join and nothing else does: those of different filaments, or far apart in one.

@@ -4,6 +4,7 @@
 //! [`validate`] then checks what numbers may be. Both report line and column.
 
 mod brackets;
+mod brownian;
 mod curve;
 mod factor;
 pub(crate) mod fitted;
@@ -42,6 +43,7 @@ mod types;
 mod validate;
 mod written;
 
+pub use brownian::{Brownian, Fluid};
 pub(crate) use curve::{Curve, swept};
 pub use factor::Factor;
 pub(crate) use factor::smooth;

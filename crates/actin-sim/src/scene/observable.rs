@@ -1,7 +1,7 @@
 //! What a scene observes as records are taken, what it writes of them, and the rules of both.
 
 use super::rules::{non_negative, positive, show};
-use super::{End, HeldEnds, Linker, Scene, SceneProblem, Section, Task};
+use super::{End, HeldEnds, Linker, Scene, SceneProblem, Section};
 use serde::{Deserialize, Serialize};
 
 /// Share of a motion that means leave out by default.
@@ -235,12 +235,12 @@ fn check_linker(scene: &Scene, key: &str, linker: usize) -> Result<(), SceneProb
 
 fn check_lag(scene: &Scene, key: &str, lag_ns: f64) -> Result<(), SceneProblem> {
     positive(key, lag_ns)?;
-    let rule = match &scene.task {
-        Task::Equilibrium(_) => "Equilibrium knows no time: leave it out".to_owned(),
-        Task::Dynamics(dynamics) if lag_ns >= dynamics.duration_ns => {
-            format!("must be below the duration, {:?}", dynamics.duration_ns)
+    let rule = match scene.task.motion() {
+        None => "Equilibrium knows no time: leave it out".to_owned(),
+        Some(motion) if lag_ns >= motion.duration_ns => {
+            format!("must be below the duration, {:?} ns", motion.duration_ns)
         }
-        Task::Dynamics(_) => return Ok(()),
+        Some(_) => return Ok(()),
     };
     Err(SceneProblem::new(key, show(lag_ns), rule))
 }
@@ -263,15 +263,15 @@ fn check_burn_in(scene: &Scene) -> Result<(), SceneProblem> {
         return Ok(());
     };
     non_negative("burn_in_ns", burn_in)?;
-    let rule = match &scene.task {
-        Task::Dynamics(dynamics) if dynamics.thermal.is_none() => {
+    let rule = match scene.task.motion() {
+        Some(motion) if motion.thermal.is_none() => {
             "means are of thermal motion: leave it out, or write thermal".to_owned()
         }
-        Task::Dynamics(dynamics) if burn_in >= dynamics.duration_ns => {
-            format!("must be below the duration, {:?}", dynamics.duration_ns)
+        Some(motion) if burn_in >= motion.duration_ns => {
+            format!("must be below the duration, {:?} ns", motion.duration_ns)
         }
-        Task::Dynamics(_) => return Ok(()),
-        Task::Equilibrium(_) => "Equilibrium has no means: leave it out".to_owned(),
+        Some(_) => return Ok(()),
+        None => "Equilibrium has no means: leave it out".to_owned(),
     };
     Err(SceneProblem::new("burn_in_ns", show(burn_in), rule))
 }
@@ -311,12 +311,8 @@ impl Scene {
 
     /// Time that means leave out (ns): as written, or a fifth of the duration; none without thermal noise.
     pub(crate) fn burn_in(&self) -> Option<f64> {
-        match &self.task {
-            Task::Dynamics(dynamics) if dynamics.thermal.is_some() => {
-                let default = BURN_IN * dynamics.duration_ns;
-                Some(self.burn_in_ns.unwrap_or(default))
-            }
-            _ => None,
-        }
+        let motion = self.task.motion()?;
+        let default = BURN_IN * motion.duration_ns;
+        motion.thermal.map(|_| self.burn_in_ns.unwrap_or(default))
     }
 }

@@ -40,6 +40,10 @@ impl Scene {
                     let thermal = dynamics.thermal.iter_mut();
                     thermal.map(|thermal| thermal.seed = seed).count()
                 }
+                Task::Brownian(brownian) => {
+                    brownian.seed = seed;
+                    usize::from(brownian.thermal().is_some())
+                }
                 Task::Equilibrium(_) => 0,
             },
             Drawn::Imperfections => {

@@ -36,10 +36,11 @@ impl Thermal {
 }
 
 impl Scene {
-    /// The thermal noise of a motion in a heat bath; none without one.
-    pub fn thermal(&self) -> Option<&Thermal> {
+    /// The thermal noise of a motion in a heat bath or a fluid; none without one.
+    pub fn thermal(&self) -> Option<Thermal> {
         match &self.task {
-            Task::Dynamics(dynamics) => dynamics.thermal.as_ref(),
+            Task::Dynamics(dynamics) => dynamics.thermal,
+            Task::Brownian(brownian) => brownian.thermal(),
             Task::Equilibrium(_) => None,
         }
     }

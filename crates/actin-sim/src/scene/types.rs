@@ -2,7 +2,7 @@
 
 use super::model::{JunctionModel, Monomers, RodModel};
 use super::{
-    Imperfection, Linker, Load, Observable, Output, Repulsion, Section, Shape, Thermal,
+    Brownian, Imperfection, Linker, Load, Observable, Output, Repulsion, Section, Shape, Thermal,
     written::Written,
 };
 use serde::{Deserialize, Serialize};
@@ -241,6 +241,8 @@ pub enum Hold {
 pub enum Task {
     /// Motion in time.
     Dynamics(Dynamics),
+    /// Overdamped motion in a fluid.
+    Brownian(Brownian),
     /// A state at rest by Newton's method, along the path if there is one. Rods need `EnergyGradient`.
     Equilibrium(Equilibrium),
 }
@@ -350,7 +352,7 @@ pub enum Integrator {
     Suzuki,
 }
 
-/// Mass-proportional drag: velocities decay as `exp(-rate t)`.
+/// Numerical damping, proportional to mass: velocities decay as `exp(-rate t)`. No fluid has such rates: see `Brownian`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -6,8 +6,8 @@ use super::rules::{
 use super::support::{check_support, check_swings};
 use super::{
     Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Resultant, Scene,
-    SceneProblem, Slides, StopTolerances, Task, imperfection, kinetics, linker, load_rules,
-    magnitude, observable, repulsion, saddles, section_rules, shape, stage, thermal,
+    SceneProblem, Slides, StopTolerances, Task, brownian, imperfection, kinetics, linker,
+    load_rules, magnitude, observable, repulsion, saddles, section_rules, shape, stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 
@@ -60,6 +60,7 @@ pub(super) fn problems(scene: &Scene) -> Vec<SceneProblem> {
     observable::check_all(scene, &held, &mut note);
     note(match &scene.task {
         Task::Dynamics(dynamics) => check_dynamics(dynamics),
+        Task::Brownian(brownian) => brownian::check(brownian),
         Task::Equilibrium(equilibrium) => check_equilibrium(equilibrium),
     });
     if found.is_empty() {
@@ -92,6 +93,11 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
             stop.map_or(Ok(()), |s| {
                 check_tolerance(scene, "task.stop", (s.force_pn, s.torque_pn_nm))
             })
+        }
+        Task::Brownian(task) => {
+            stage::check_durations(scene, task.as_motion().duration_ns)?;
+            check_swings(scene, held)?;
+            brownian::check_whole(scene, task)
         }
         Task::Equilibrium(equilibrium) => {
             for (i, one) in scene.filaments().enumerate() {

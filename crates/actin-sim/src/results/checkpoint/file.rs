@@ -62,7 +62,7 @@ impl Identity {
                 columns: assembly.observers.columns().len(),
                 has_states: assembly.scene.output.needs_states(),
             },
-            is_motion: matches!(assembly.scene.task, Task::Dynamics(_)),
+            is_motion: !matches!(assembly.scene.task, Task::Equilibrium(_)),
         }
     }
 

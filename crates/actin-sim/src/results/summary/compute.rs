@@ -13,7 +13,7 @@ impl Summary {
     /// The summary of an assembly as built, before anything is computed: which keys that of its run has.
     pub fn as_built(assembly: &Assembly) -> Self {
         let at = match assembly.scene.task {
-            Task::Dynamics(_) => At::Time(0.0),
+            Task::Dynamics(_) | Task::Brownian(_) => At::Time(0.0),
             Task::Equilibrium(_) => At::Path(0.0),
         };
         let mut record = Record {

@@ -235,7 +235,9 @@ impl Summary {
                 .into_iter()
                 .filter_map(|(k, v)| Some((k.to_owned(), v?))),
         );
-        let thermal = self.thermal.map(|thermal| thermal.kinetic_temperature_k);
+        let thermal = self
+            .thermal
+            .and_then(|thermal| thermal.kinetic_temperature_k);
         let key = "thermal.kinetic_temperature_k".to_owned();
         scalars.extend(thermal.map(|kelvin| (key, kelvin)));
         scalars.extend(self.shape.scalars());

@@ -1,7 +1,7 @@
 //! What a summary says of thermal motion.
 
 use crate::Assembly;
-use crate::scene::{BOLTZMANN_PN_NM_PER_K, Thermal};
+use crate::scene::{BOLTZMANN_PN_NM_PER_K, Task, Thermal};
 use serde::{Deserialize, Serialize};
 
 /// The temperature that was asked for and the one that was met.
@@ -13,8 +13,8 @@ pub struct ThermalSummary {
     pub seed: u64,
     /// Temperature of the motion (K): `2 K / (n k_B)` with the kinetic energy `K` of the `n`
     /// degrees of freedom, the mean over the second half of a run's records (that of the last
-    /// record in a summary computed alone). Of one record it scatters by `sqrt(2/n)`.
-    pub kinetic_temperature_k: f64,
+    /// record in a summary computed alone). Of one record it scatters by `sqrt(2/n)`. None of overdamped motion.
+    pub kinetic_temperature_k: Option<f64>,
 }
 
 impl ThermalSummary {
@@ -24,12 +24,14 @@ impl ThermalSummary {
         let Thermal {
             temperature_k,
             seed,
-        } = *assembly.scene.thermal()?;
+        } = assembly.scene.thermal()?;
+        let has_inertia = matches!(assembly.scene.task, Task::Dynamics(_));
         let degrees = (assembly.counts().dofs * late.records).max(1) as f64;
         Some(Self {
             temperature_k,
             seed,
-            kinetic_temperature_k: 2.0 * late.sum_pn_nm / (degrees * BOLTZMANN_PN_NM_PER_K),
+            kinetic_temperature_k: has_inertia
+                .then_some(2.0 * late.sum_pn_nm / (degrees * BOLTZMANN_PN_NM_PER_K)),
         })
     }
 }
@@ -71,7 +73,6 @@ mod tests {
     use super::*;
     use crate::Scene;
     use crate::results::fixture;
-    use crate::scene::Task;
 
     /// Three records with 5, 1 and 3 pN nm: the later two count, which is 2 for each of the
     /// degrees of freedom. A scene without a temperature has none to report.
@@ -102,6 +103,6 @@ mod tests {
         let summary = ThermalSummary::new(&warm, &late).unwrap();
         assert_eq!((summary.temperature_k, summary.seed), (300.0, u64::MAX));
         let expected = 2.0 * 2.0 / (warm.counts().dofs as f64 * BOLTZMANN_PN_NM_PER_K);
-        assert!((summary.kinetic_temperature_k / expected - 1.0).abs() < 1e-14);
+        assert!((summary.kinetic_temperature_k.unwrap() / expected - 1.0).abs() < 1e-14);
     }
 }

@@ -1,0 +1,132 @@
+//! Overdamped motion: the friction of an assembly, its time step, and the run.
+
+use super::dynamics::{check_records, conclude};
+use super::recorder::Recorder;
+use super::sink::{Saved, Sink};
+use super::steps::Steps;
+use super::unknowns::layout;
+use super::{Estimate, Failure, Outcome, Plan, Status};
+use crate::Assembly;
+use crate::scene::{Brownian as Task, SceneProblem, Task as AnyTask};
+use actin_brownian::{Brownian, Relaxation};
+use actin_integrate::{POSITION_VERLET, Run, Split};
+
+/// The default time step over the fastest relaxation.
+const DEFAULT_RATIO: f64 = 50.0;
+
+/// Iterations of a step, about.
+const ITERATIONS: u64 = 3;
+
+/// Slowest motions that are looked for; up to six of each free filament meet no resistance.
+const SLOWEST: usize = 24;
+
+/// A rate below this share of the highest is zero to round-off.
+const UNRESISTED: f64 = 1e-12;
+
+/// How small displacements relax from the state as built.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RelaxationTimes {
+    /// The shortest time (ns).
+    pub fastest_ns: f64,
+    /// The longest times (ns) in descending order, times of equal size named once.
+    pub slowest_ns: Vec<f64>,
+    /// Motions among the slowest that nothing resists, or that are unstable.
+    pub unresisted: usize,
+}
+
+impl Plan<'_> {
+    /// How filaments relax in the fluid of the task; none of other tasks. Takes the time of some hundred steps.
+    pub fn relaxation_times(&self) -> Option<RelaxationTimes> {
+        let AnyTask::Brownian(task) = &self.scene().task else {
+            return None;
+        };
+        let mut relaxation = relaxation(self.assembly(), task).ok()?;
+        let highest = relaxation.highest_rate();
+        let rates = relaxation.lowest_rates(SLOWEST);
+        let (unresisted, resisted): (Vec<f64>, Vec<f64>) = rates
+            .iter()
+            .partition(|rate| **rate <= UNRESISTED * highest);
+        let mut slowest_ns: Vec<f64> = resisted.iter().map(|rate| 1.0 / rate).collect();
+        // Of bending in two directions one is named.
+        slowest_ns.dedup_by(|next, kept| *next > 0.99 * *kept);
+        Some(RelaxationTimes {
+            fastest_ns: 1.0 / highest,
+            slowest_ns,
+            unresisted: unresisted.len(),
+        })
+    }
+}
+
+/// How fast small displacements of an assembly relax in the fluid of its task.
+fn relaxation(assembly: &Assembly, task: &Task) -> Result<Relaxation, SceneProblem> {
+    let friction = assembly.friction(&task.drag)?;
+    let layout = layout(assembly)?;
+    Relaxation::new(&assembly.system, layout, &friction)
+        .map_err(|error| SceneProblem::new("task", "", error.to_string()))
+}
+
+/// The time step of overdamped motion and the number of steps.
+pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, SceneProblem> {
+    assembly.check_slip()?;
+    let motion = task.as_motion();
+    let mut relaxing = relaxation(assembly, task)?;
+    let fastest_ns = 1.0 / relaxing.highest_rate();
+    if !(fastest_ns.is_finite() && fastest_ns > 0.0) {
+        let rule = "has no stiffness by which a time step could be set: write time_step_ns";
+        if task.time_step_ns.is_none() {
+            return Err(SceneProblem::new("filament", "", rule));
+        }
+    }
+    let wanted = task.time_step_ns.unwrap_or(DEFAULT_RATIO * fastest_ns);
+    let steps = Steps::of(&motion, wanted.min(motion.duration_ns))?;
+    check_records(assembly, &motion, &steps)?;
+    assembly.check_rates(steps.length_ns)?;
+    Ok(Estimate {
+        largest_frequency_rad_per_ns: 0.0,
+        stability_limit_ns: f64::INFINITY,
+        time_step_ns: steps.length_ns,
+        steps: steps.count,
+        steps_between_records: steps.between_records,
+        record_every_ns: steps.record_every_ns,
+        force_evaluations: steps.count * ITERATIONS,
+        fastest_relaxation_ns: Some(fastest_ns),
+    })
+}
+
+/// Runs the motion.
+pub(super) fn run(
+    assembly: &Assembly,
+    task: &Task,
+    estimate: &Estimate,
+    saved: Option<Saved>,
+    sink: &mut dyn Sink,
+) -> Result<(Outcome, Option<Failure>), SceneProblem> {
+    let refused = |error: &dyn std::error::Error| SceneProblem::new("task", "", error.to_string());
+    let motion = task.as_motion();
+    let mut system = assembly.system.in_state(assembly.system.state().clone());
+    let friction = assembly.friction(&task.drag)?;
+    let noise = motion
+        .thermal
+        .map_or((0.0, 0), |t| (t.energy_pn_nm(), t.seed));
+    // The order of unknowns is that of the state as built, wherever a run is resumed.
+    let mut stepper = Brownian::new(&system, layout(assembly)?, friction, noise)
+        .map_err(|error| refused(&error))?;
+    let mut recorder = Recorder::new(assembly, &motion, saved, sink);
+    // The method is not looked at: the stepper makes the steps.
+    let run = Run::new(&POSITION_VERLET, estimate.time_step_ns, estimate.steps)
+        .and_then(|run| run.observing_every(estimate.steps_between_records))
+        .map_err(|error| refused(&error))?
+        .stopping_from(recorder.drive(&mut system));
+    recorder.let_happen(&mut system);
+    let ending = recorder.execute_steps(&run, &mut stepper, &mut system);
+    let ending = recorder.end(ending, &mut system);
+    let wall_s = recorder.wall_s();
+    let outcome = Outcome {
+        force_evaluations: system.force_evaluations(),
+        time_step_ns: Some(estimate.time_step_ns),
+        events: recorder.events(),
+        ..Outcome::new(Status::Failed, wall_s)
+    }
+    .with(recorder.taken.into_remarks());
+    Ok(conclude(assembly, &motion, ending, outcome))
+}

@@ -1,0 +1,159 @@
+//! Overdamped motion in a fluid, as a scene writes it, and its rules.
+
+use super::rules::{non_negative, positive};
+use super::{DragRates, Dynamics, Integrator, Scene, SceneProblem, Task, Thermal, rules};
+use actin_brownian::Cylinder;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
+/// Nanoseconds in a millisecond.
+const NS_PER_MS: f64 = 1e6;
+
+/// Overdamped motion in a fluid, thermal or athermal, by steps that are implicit in the stiffness. Inertia plays no part:
+/// velocities are recorded as zero. Rods need `EnergyGradient`; loads that turn with the filament are refused.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Brownian {
+    /// Simulated time; positive, at least what the path takes.
+    pub duration_ms: f64,
+    /// Temperature of the fluid; at least 0. At 0 filaments relax without noise.
+    pub temperature_k: f64,
+    /// Seed of the noise.
+    #[serde(default)]
+    pub seed: u64,
+    /// The fluid, and what it does to a filament.
+    #[serde(default)]
+    pub drag: Fluid,
+    /// Longest time step; positive. By default 50 times the fastest relaxation of the filaments as built, at which all
+    /// strains have their thermal energy to 1 % on segments of 20 nm or more. Steps are shortened so that whole ones
+    /// make up the duration and the interval of records.
+    #[serde(default)]
+    pub time_step_ns: Option<f64>,
+    /// Time between recorded states; positive. By default about a hundredth of the duration.
+    #[serde(default)]
+    pub record_every_ns: Option<f64>,
+}
+
+/// A fluid and the drag in it. Rates of `Dynamics` are numerical damping; this follows from a viscosity.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub enum Fluid {
+    /// A viscous fluid at rest, felt locally, along, across and about each piece of filament: a cylinder of the filament's
+    /// length shares its drag out evenly (Tirado, Lopez Martinez and Garcia de la Torre 1984).
+    Water {
+        /// Viscosity; positive. By default that of water at 25 degrees C.
+        #[serde(default = "water")]
+        viscosity_mpa_s: f64,
+        /// Radius of the cylinder; positive, at most a quarter of the length of each filament.
+        #[serde(default = "radius")]
+        radius_nm: f64,
+        /// Whether part of the drag across acts at the ends, so that straight filaments turn end over end as fast as they
+        /// should.
+        #[serde(default = "yes")]
+        at_ends: bool,
+    },
+}
+
+fn water() -> f64 {
+    0.89
+}
+
+/// That of a circle of 38.5 nm^2, the cross-section of rods.
+fn radius() -> f64 {
+    3.5
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl Default for Fluid {
+    fn default() -> Self {
+        Self::Water {
+            viscosity_mpa_s: water(),
+            radius_nm: radius(),
+            at_ends: yes(),
+        }
+    }
+}
+
+impl Brownian {
+    /// What it has in common with motion that has inertia: times, records and temperature.
+    pub(crate) fn as_motion(&self) -> Dynamics {
+        Dynamics {
+            duration_ns: self.duration_ms * NS_PER_MS,
+            integrator: Integrator::default(),
+            time_step_ns: self.time_step_ns,
+            step_safety: actin_integrate::SAFETY,
+            allow_unstable_step: false,
+            drag: DragRates::default(),
+            thermal: self.thermal(),
+            stop: None,
+            leave_saddles: 0,
+            record_every_ns: self.record_every_ns,
+        }
+    }
+
+    /// Its noise; none at temperature 0.
+    pub(crate) fn thermal(&self) -> Option<Thermal> {
+        (self.temperature_k > 0.0).then_some(Thermal {
+            temperature_k: self.temperature_k,
+            seed: self.seed,
+        })
+    }
+}
+
+impl Task {
+    /// The motion in time that it asks for, with inertia or, as far as they have it in common, without; none of an
+    /// equilibrium.
+    pub(crate) fn motion(&self) -> Option<Cow<'_, Dynamics>> {
+        match self {
+            Self::Dynamics(dynamics) => Some(Cow::Borrowed(dynamics)),
+            Self::Brownian(brownian) => Some(Cow::Owned(brownian.as_motion())),
+            Self::Equilibrium(_) => None,
+        }
+    }
+}
+
+/// Checks the numbers of the task.
+pub(super) fn check(brownian: &Brownian) -> Result<(), SceneProblem> {
+    positive("task.duration_ms", brownian.duration_ms)?;
+    non_negative("task.temperature_k", brownian.temperature_k)?;
+    for (key, value) in [
+        ("task.time_step_ns", brownian.time_step_ns),
+        ("task.record_every_ns", brownian.record_every_ns),
+    ] {
+        value.map_or(Ok(()), |value| positive(key, value))?;
+    }
+    let Fluid::Water {
+        viscosity_mpa_s,
+        radius_nm,
+        ..
+    } = brownian.drag;
+    positive("task.drag.viscosity_mpa_s", viscosity_mpa_s)?;
+    positive("task.drag.radius_nm", radius_nm)
+}
+
+/// Checks what the task asks of the rest of the scene: potentials, and filaments that are slender.
+pub(super) fn check_whole(scene: &Scene, brownian: &Brownian) -> Result<(), SceneProblem> {
+    for (i, one) in scene.filaments().enumerate() {
+        rules::check_potential(one).map_err(|p| p.with_filament(&scene.filament_key(i)))?;
+        let Fluid::Water {
+            viscosity_mpa_s,
+            radius_nm,
+            ..
+        } = brownian.drag;
+        Cylinder::new(viscosity_mpa_s, one.length_nm(), radius_nm).map_err(|error| {
+            let key = "task.drag.radius_nm";
+            SceneProblem::new(key, format!("{radius_nm:?}"), error.to_string())
+        })?;
+    }
+    let follows = scene.loads.iter().position(super::Load::follows);
+    follows.map_or(Ok(()), |i| {
+        let rule = "a load that turns with the filament has no stiffness in which Brownian could be implicit: \
+                    Dynamics takes it";
+        Err(SceneProblem::new(format!("loads[{i}].follows"), true, rule))
+    })
+}
