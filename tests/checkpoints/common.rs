@@ -136,6 +136,15 @@ impl Choice {
         ))
     }
 
+    /// The scene as overdamped motion of 0.3 ns in 30 steps.
+    pub(crate) fn brownian(&self) -> Scene {
+        let (temperature, seed) = self.noise.map_or((0.0, 0), |seed| (298.0, seed));
+        self.scene(&format!(
+            "Brownian(duration_ms: 3e-7, temperature_k: {temperature:?}, seed: {seed},
+                time_step_ns: 0.01, record_every_ns: 0.05)"
+        ))
+    }
+
     /// The scene as equilibria along its path, or as a single one.
     pub(crate) fn statics(&self) -> Scene {
         self.scene("Equilibrium(largest_step: 0.1, lowest_eigenvalue: true)")

@@ -247,3 +247,27 @@ fn linkers_go_on_to_the_same_bits() {
         compare(&scene, &[2, 3, 5]);
     }
 }
+
+/// Overdamped motion of rods, mixed and joined filaments, thermal and not, along paths.
+#[test]
+fn overdamped_motions_go_on_to_the_same_bits() {
+    for (filament, held, noise) in [
+        (0, 0, Some(3)),
+        (1, 1, None),
+        (1, 3, Some(5)),
+        (3, 2, Some(7)),
+        (4, 0, Some(1)),
+    ] {
+        let choice = Choice {
+            filament,
+            held,
+            integrator: 0,
+            drag: 0.0,
+            stops: false,
+            noise,
+            record_every_ns: 0.05,
+            duration_ns: 0.3,
+        };
+        compare(&choice.brownian(), &[3, 2]);
+    }
+}

@@ -2,6 +2,7 @@
 //!
 //! The tables of `docs/measured/motion.md` are what these tests print with `--nocapture`.
 
+mod brownian;
 mod contact;
 mod damped;
 mod energy;

@@ -6,13 +6,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The crates that can be used alone.
-const LIBRARIES: [&str; 9] = [
+const LIBRARIES: [&str; 10] = [
     "actin-mechanics",
     "actin-ellipsoid",
     "actin-cosserat",
     "actin-coupling",
     "actin-integrate",
     "actin-equilibrium",
+    "actin-brownian",
     "actin-fit",
     "actin-sim",
     "actin-sweep",

@@ -24,5 +24,13 @@ pub use friction::{Dashpot, Friction, TurnDashpot};
 pub use relaxation::Relaxation;
 pub use stepper::{Brownian, BrownianError, StepLimits};
 
+pub use actin_equilibrium::{BodyOrder, Layout};
+/// The crate of the run loop.
+pub use actin_integrate as integrate;
+pub use actin_integrate::Stepper;
 /// The crate of points, frames, loads and interactions that move.
 pub use actin_mechanics as mechanics;
+pub use actin_mechanics::{
+    Frame, Inertia, Interaction, Loads, Point, Spring, Springs, State, System, UnitQuaternion,
+    Vector3,
+};

@@ -4,13 +4,18 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::path::Path;
 
 /// Each crate and the crates of ours that it may depend on.
-const ALLOWED: [(&str, &[&str]); 13] = [
+const ALLOWED: [(&str, &[&str]); 14] = [
     ("actin-mechanics", &[]),
     ("actin-ellipsoid", &["actin-mechanics"]),
     ("actin-cosserat", &["actin-mechanics"]),
     ("actin-coupling", &["actin-mechanics", "actin-cosserat"]),
     ("actin-integrate", &["actin-mechanics"]),
     ("actin-equilibrium", &["actin-mechanics"]),
+    // Steps in time, with the run loop of all others and the stiffness of statics.
+    (
+        "actin-brownian",
+        &["actin-mechanics", "actin-integrate", "actin-equilibrium"],
+    ),
     ("actin-fit", &[]),
     ("actin-draw", &[]),
     (
@@ -22,6 +27,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
             "actin-coupling",
             "actin-integrate",
             "actin-equilibrium",
+            "actin-brownian",
         ],
     ),
     (

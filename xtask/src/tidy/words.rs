@@ -1,7 +1,7 @@
 //! Words that a crate must not know.
 
 /// Crates, and words that none of their lines may hold.
-const FORBIDDEN: [(&str, &[&str]); 5] = [
+const FORBIDDEN: [(&str, &[&str]); 6] = [
     (
         "crates/actin-mechanics/src",
         &["monomer", "filament", "cosserat", "helix", "bond"],
@@ -13,6 +13,10 @@ const FORBIDDEN: [(&str, &[&str]); 5] = [
     (
         "crates/actin-equilibrium/src",
         &["monomer", "actin ", "cosserat", "helix"],
+    ),
+    (
+        "crates/actin-brownian/src",
+        &["monomer", "filament", "cosserat", "helix", "linker"],
     ),
     (
         "crates/actin-fit/src",

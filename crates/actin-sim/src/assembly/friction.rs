@@ -144,3 +144,45 @@ impl FilamentDrag<'_> {
         Dashpot::of_body(point, frame, self.to_axis(), friction)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+
+    /// A filament that moves along or across has the drag of the cylinder, however it is resolved: to a rise, by which
+    /// monomers at ends and junctions miss or exceed its length.
+    #[test]
+    fn resolutions_have_the_same_drag() {
+        for (sections, tolerance) in [
+            ("Rod(from_nm: 0.0, to_nm: 120.0, segments: 2)", 1e-12),
+            ("Rod(from_nm: 0.0, to_nm: 120.0)", 1e-12),
+            ("Ellipsoids(from_nm: 0.0, to_nm: 120.0)", 0.025),
+            (
+                "Rod(from_nm: 0.0, to_nm: 50.0), Ellipsoids(from_nm: 50.0, to_nm: 120.0)",
+                0.025,
+            ),
+        ] {
+            let text = format!(
+                "Scene(filament: Filament(sections: [{sections}]),
+                    task: Brownian(duration_ms: 1.0, temperature_k: 298.0))"
+            );
+            let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+            let friction = assembly.friction(&Fluid::default()).unwrap();
+            let cylinder = Cylinder::new(0.89, assembly.length_nm(), 3.5).unwrap();
+            let mut total = Vector3::zeros();
+            for dashpot in &friction.dashpots {
+                let weight: f64 = dashpot.points.iter().map(|(_, weight)| weight).sum();
+                total += dashpot.friction * (weight * weight);
+            }
+            let length = assembly.length_nm();
+            let expected = [cylinder.across() * length, cylinder.along() * length];
+            for (total, expected) in [(total.x, expected[0]), (total.z, expected[1])] {
+                assert!(
+                    (total / expected - 1.0).abs() < tolerance,
+                    "{sections}: {total} {expected}"
+                );
+            }
+        }
+    }
+}
