@@ -7,30 +7,20 @@ use actin_brownian::{
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A body along z that is ten times as hard to move across as along, and hardly turns.
-    let mut state = State::default();
-    let (position, mass) = (Vector3::zeros(), 1.0);
+    let (mut state, mass, arm) = (State::default(), 1.0, Vector3::zeros());
+    let position = Vector3::zeros();
     let point = state.points.push(Point { position, mass });
-    let (orientation, inertia) = (
-        UnitQuaternion::identity(),
-        Inertia::from_moments([1.0, 1.0, 1.0])?,
-    );
+    let inertia = Inertia::from_moments([1.0, 1.0, 1.0])?;
+    let orientation = UnitQuaternion::identity();
     let frame = state.frames.push(Frame {
         orientation,
         inertia,
     });
-    let along_and_across = Vector3::new(100.0, 100.0, 10.0);
-    let friction = Friction {
-        dashpots: vec![Dashpot::of_body(
-            point,
-            frame,
-            Vector3::zeros(),
-            along_and_across,
-        )],
-        turns: vec![TurnDashpot {
-            frame,
-            friction: Vector3::repeat(1e9),
-        }],
-    };
+    let of_place = Vector3::new(100.0, 100.0, 10.0);
+    let dashpots = vec![Dashpot::of_body(point, frame, arm, of_place)];
+    let friction = Vector3::repeat(1e9);
+    let turns = vec![TurnDashpot { frame, friction }];
+    let friction = Friction { dashpots, turns };
 
     let (thermal_energy, seed, h, steps) = (4.11, 1, 1.0, 20_000);
     let mut system = System::new(state, vec![]);
@@ -48,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "across {:.4}, along {:.4} nm^2/ns",
         diffusion.x, diffusion.z
     );
-    println!("kT/zeta is {:.4} and {:.4}", 4.11 / 100.0, 4.11 / 10.0);
+    println!("kT/zeta: {:.4} and {:.4} nm^2/ns", 0.0411, 0.411);
     assert!((diffusion.z / 0.411 - 1.0).abs() < 0.05);
     Ok(())
 }

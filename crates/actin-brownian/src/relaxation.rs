@@ -105,7 +105,7 @@ fn orthonormalise(vectors: &mut [Vec<f64>], fluid: &ImplicitSolver) {
                 add_scaled(own, v, -share);
             }
             let norm = dot(own, &fluid.times(own)).sqrt();
-            own.iter_mut().for_each(|x| *x /= norm);
+            scale(own, 1.0 / norm);
         }
     }
 }
@@ -117,7 +117,7 @@ fn highest(stiffness: &ImplicitSolver, fluid: &mut ImplicitSolver) -> f64 {
     let mut rate = 0.0;
     for _ in 0..2 * ITERATIONS {
         let norm = dot(&v, &fluid.times(&v)).sqrt();
-        v.iter_mut().for_each(|x| *x /= norm);
+        scale(&mut v, 1.0 / norm);
         let image = stiffness.times(&v);
         rate = dot(&v, &image);
         v = image;
@@ -133,5 +133,11 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 fn add_scaled(a: &mut [f64], b: &[f64], factor: f64) {
     for (a, b) in a.iter_mut().zip(b) {
         *a += factor * b;
+    }
+}
+
+fn scale(a: &mut [f64], factor: f64) {
+    for a in a {
+        *a *= factor;
     }
 }

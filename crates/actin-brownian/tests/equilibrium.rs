@@ -15,7 +15,7 @@ fn energies_per_strain(kt: f64, ratio: f64, steps: u64) -> [f64; 2] {
     let layout = layout_of(system.state(), &rod);
     let relaxation = Relaxation::new(&system, layout, &friction_of(&rod));
     let h = ratio / relaxation.unwrap().highest_rate();
-    let warm = (10.0 * ratio) as u64;
+    let warm = 1000;
     advance(&mut system, &mut stepper, (0, warm), h, |_| ());
     let mut sums = [0.0; 2];
     let mut energies = [0.0; 2 * SEGMENTS - 1];
@@ -31,7 +31,10 @@ fn energies_per_strain(kt: f64, ratio: f64, steps: u64) -> [f64; 2] {
             sums[1] += bending.iter().sum::<f64>() / (3 * (SEGMENTS - 1)) as f64;
         },
     );
-    println!("{ratio}: {} iterations, h = {h}", stepper.iterations());
+    println!(
+        "{ratio} times: {} iterations, h = {h}",
+        stepper.iterations()
+    );
     sums.map(|sum| sum / (kt * steps as f64))
 }
 

@@ -62,10 +62,11 @@ impl ImplicitSolver {
         let at = (state, loads);
         let assembly = &mut self.assembly;
         if assembly.update_with(interactions, Some(added), at, &mut self.layout) {
-            self.factor = Some(Factor::new(assembly.pattern()));
+            self.factor = None;
             self.metric = vec![0.0; self.layout.unknowns()];
         }
-        let factor = self.factor.as_mut().expect("made with the pattern");
+        let pattern = assembly.pattern();
+        let factor = self.factor.get_or_insert_with(|| Factor::new(pattern));
         let upper = assembly.pattern().symbolic.as_ref();
         factor.factorize(upper, &assembly.values, &self.metric, 0.0);
     }

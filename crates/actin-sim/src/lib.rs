@@ -50,9 +50,9 @@ pub use results::{
 };
 pub use run::{
     Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, MotionPosition,
-    Outcome, PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records, RelaxationTimes, Row, RowIter,
-    RunError, RunPosition, SaddlePush, Saved, Sink, Slip, StableState, StableStates, Status,
-    Trajectory, solver,
+    Outcome, PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records, RelaxationTimes,
+    Row, RowIter, RunError, RunPosition, SaddlePush, Saved, Sink, Slip, StableState, StableStates,
+    Status, Trajectory, solver,
 };
 pub use scene::fitted::laws as fitted_laws;
 #[cfg(feature = "schema")]
