@@ -78,3 +78,41 @@ fn what_has_no_sense_is_refused() {
     let follower = refused(&follower.replace("EndForce(end", "Force(follows: true, end"));
     assert!(follower.contains("loads[0].follows"), "{follower}");
 }
+
+/// Steps at which strains would be too warm are told; the default ones, and any without heat, are not.
+#[test]
+fn long_steps_are_told() {
+    let notes = |temperature: f64, step: &str| {
+        let task = format!("Brownian(duration_ms: 1e-5, temperature_k: {temperature:?}{step})");
+        let assembly = Assembly::build(&Scene::from_ron(&cantilever(SECTIONS[0], &task)).unwrap());
+        Plan::new(&assembly.unwrap()).unwrap().notes()
+    };
+    let told = |notes: &[String]| {
+        notes
+            .iter()
+            .any(|note| note.contains("more than their thermal energy"))
+    };
+    assert!(!told(&notes(298.0, "")));
+    assert!(told(&notes(298.0, ", time_step_ns: 1.0")));
+    assert!(!told(&notes(0.0, ", time_step_ns: 1.0")));
+}
+
+/// Nothing passes through a filament, whatever steps and records are.
+#[test]
+fn what_passes_through_a_filament_fails() {
+    let text = "Scene(
+        filaments: [
+            Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+            Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], at_nm: (12.0, -30.0, 30.0),
+                direction: (0.0, 1.0, 0.0)),
+        ],
+        clamps: [Clamp(end: Start), Clamp(end: End)],
+        loads: [ForcePerLength(filament: 1, from_nm: 0.0, to_nm: 60.0, force_pn_per_nm: (-30.0, 0.0, 0.0))],
+        repulsion: Repulsion(stiffness_pn_per_nm: 1.0),
+        task: Brownian(duration_ms: 1e-5, temperature_k: 0.0, time_step_ns: 0.2),
+    )";
+    let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
+    let result = Plan::new(&assembly).unwrap().run().map(drop);
+    let failure = result.unwrap_err().to_string();
+    assert!(failure.contains("pass through each other"), "{failure}");
+}

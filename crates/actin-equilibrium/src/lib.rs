@@ -60,7 +60,7 @@ pub use path_observer::{PathCheckpoint, PathObserver, PathPoint};
 pub use path_options::{Jumps, PathOptions, Saddles};
 pub use relax::{EquilibriumError, relax};
 pub use saddle::Push;
-pub use search::{Distinct, Found, Search, SearchObserver};
+pub use search::{Distinct, Found, Known, Search, SearchObserver};
 
 /// The crate of points, frames, loads and interactions whose equilibria are found.
 pub use actin_mechanics as mechanics;

@@ -5,7 +5,8 @@
 //! shows only where the others are known. Starts are drawn as heat would spread bodies about a known
 //! equilibrium if its stiffness were the same everywhere: soft modes go far, stiff ones hardly move, and
 //! nothing is torn on the way. Each is scaled to a largest turn, of which there are several sizes in
-//! turn, and minimised.
+//! turn, and minimised. A third of them are drawn about a state of reference instead, such as one that is
+//! straight still: between two states that lean either way.
 //!
 //! What is not found may still be there: the search says what there is, not that there is nothing else.
 
@@ -31,6 +32,18 @@ pub struct Search {
     pub starts: usize,
     /// Seed of the starts; each is the same whatever the number of them.
     pub seed: u64,
+}
+
+/// What a search begins with.
+#[derive(Clone, Copy, Debug)]
+pub struct Known<'a> {
+    /// An equilibrium.
+    pub state: &'a State,
+    /// What is known of it.
+    pub equilibrium: &'a Equilibrium,
+    /// Another state, in equilibrium or not, about which starts are drawn, too: with held bodies and
+    /// controls as in that equilibrium. The equilibrium itself, if there is none.
+    pub reference: &'a State,
 }
 
 /// A stable equilibrium among several.
@@ -74,23 +87,23 @@ impl Newton {
     /// Looks for stable equilibria besides the `known` one of `state`.
     ///
     /// Held bodies and controls stay as they are. Two equilibria are the same if the way between them would
-    /// cost less than 4e-3 pN nm at the stiffness of one of them. Bodies that nothing keeps from
-    /// moving as a whole have no others but themselves: their drift outweighs all else.
+    /// cost less than 4e-3 pN nm at the stiffness of one of them, or if it is not known that all directions
+    /// have stiffness and their energies are as near: what can be moved without effort is one state.
     ///
     /// # Errors
     /// [`Interrupted`](SolveError::Interrupted) if the observer ends it; an interaction without a potential
     /// or second derivatives; a stiffness that cannot be factorised.
     pub fn search(
         &mut self,
-        (state, known): (&State, Equilibrium),
+        known: &Known<'_>,
         interactions: &[Box<dyn Interaction>],
         search: &Search,
         observer: &mut dyn SearchObserver,
     ) -> Result<Found, SolveError> {
         let mut found = Found {
             states: vec![Distinct {
-                state: state.clone(),
-                equilibrium: known,
+                state: known.state.clone(),
+                equilibrium: known.equilibrium.clone(),
                 found: 1,
                 is_known: true,
             }],
@@ -104,9 +117,12 @@ impl Newton {
                     .wrapping_add(1 << 32)
                     .wrapping_mul(start as u64 + 1),
             );
-            let turn = TURNS[start / 2 % TURNS.len()];
-            let about = found.states[start % found.states.len()].state.clone();
-            let mut trial = self.drawn(&about, interactions, (&mut noise, turn, start % 2 == 0))?;
+            let turn = TURNS[start / 3 % TURNS.len()];
+            let about = match start % 3 {
+                2 => known.reference.clone(),
+                _ => found.states[start % found.states.len()].state.clone(),
+            };
+            let mut trial = self.drawn(&about, interactions, (&mut noise, turn, start % 3 == 0))?;
             let solved = self.minimize_observed(&mut trial, interactions, SADDLES, &mut |step| {
                 observer.iterate(step)
             });
@@ -174,11 +190,14 @@ impl Newton {
         self.solver.prepare(&state, interactions)?;
         let layout = &self.solver.layout;
         let mut product = vec![0.0; layout.unknowns()];
+        let is_free = equilibrium.certificate.is_none_or(|c| c.unresolved > 0);
         for one in &mut found.states {
             let way = layout.difference(&state, &one.state);
             self.solver.assembly.multiply(&way, &mut product);
             let cost: f64 = 0.5 * way.iter().zip(&product).map(|(d, f)| d * f).sum::<f64>();
-            if cost.abs() < SAME && self.solver.layout.step_extent(&way).rotation < TURNS[0] {
+            let is_near = self.solver.layout.step_extent(&way).rotation < TURNS[0];
+            let apart = (equilibrium.energy - one.equilibrium.energy).abs();
+            if cost.abs() < SAME && is_near || is_free && apart < SAME {
                 one.found += 1;
                 if equilibrium.energy < one.equilibrium.energy && !one.is_known {
                     one.state = state;

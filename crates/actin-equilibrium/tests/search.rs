@@ -3,7 +3,7 @@
 mod common;
 
 use actin_equilibrium::{
-    Found, Iteration, Newton, NewtonOptions, Search, SearchObserver, SolveError,
+    Equilibrium, Found, Iteration, Known, Newton, NewtonOptions, Search, SearchObserver, SolveError,
 };
 use actin_mechanics::{Interaction, PointLoad, State, Vector3, Xorshift, perturb};
 use common::{ACTIN, Rod};
@@ -30,6 +30,14 @@ fn column(share: f64) -> (State, Vec<Box<dyn Interaction>>, Newton) {
     (state, terms, newton)
 }
 
+fn of<'a>(state: &'a State, equilibrium: &'a Equilibrium) -> Known<'a> {
+    Known {
+        state,
+        equilibrium,
+        reference: state,
+    }
+}
+
 const SEARCH: Search = Search {
     starts: 16,
     seed: 1,
@@ -39,7 +47,7 @@ fn searched(share: f64, search: &Search) -> Found {
     let (mut state, terms, mut newton) = column(share);
     let known = newton.minimize(&mut state, &terms, 8).unwrap();
     newton
-        .search((&state, known), &terms, search, &mut ())
+        .search(&of(&state, &known), &terms, search, &mut ())
         .unwrap()
 }
 
@@ -93,10 +101,10 @@ fn an_observer_rules() {
     }
     let (mut state, terms, mut newton) = column(1.2);
     let known = newton.minimize(&mut state, &terms, 8).unwrap();
-    let ended = newton.search((&state, known.clone()), &terms, &SEARCH, &mut Ends(10));
+    let ended = newton.search(&of(&state, &known), &terms, &SEARCH, &mut Ends(10));
     assert_eq!(ended.unwrap_err(), SolveError::Interrupted);
     let found = newton
-        .search((&state, known), &terms, &SEARCH, &mut Right)
+        .search(&of(&state, &known), &terms, &SEARCH, &mut Right)
         .unwrap();
     let counted: usize = found.states.iter().map(|s| s.found).sum();
     assert!(

@@ -13,9 +13,10 @@ use std::f64::consts::PI;
 /// in every step.
 const LARGEST_GROWTH: f64 = 1e8;
 
-/// Kinetic energy (pN nm) that counts as rest: far above what rounding moves where nothing
-/// else does (1e-26), far below any motion of interest.
-const STILL: f64 = 1e-12;
+/// Kinetic energy (pN nm) that counts as rest. A motion that begins late goes from what rounding moves
+/// (1e-26) to whatever its loads give it between two checks, so that growth tells nothing before it has
+/// reached 1e4 pN nm, far more than a load or heat gives a few bodies at once.
+const STILL: f64 = 1e-4;
 
 /// Watches over the states of one run.
 #[derive(Clone, Copy, Debug)]

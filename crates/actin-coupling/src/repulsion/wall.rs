@@ -272,8 +272,8 @@ impl Interaction for WallContact {
         Some(self)
     }
 
-    /// An axis that comes within half the radius of a sphere that it is to stay out of may come out on
-    /// the other side. Behind other walls there is no way out but back.
+    /// An axis that comes into a sphere that it is to stay out of may come out on the other side. Behind
+    /// other walls there is no way out but back.
     fn passes_through(&self, from: &State, to: &State) -> Option<Coordinates> {
         let Wall::Sphere {
             centre,
@@ -286,7 +286,7 @@ impl Interaction for WallContact {
         let still = [centre; 2];
         let passes = |capsule: &&Capsule| {
             let ways = [from, to].map(|state| [capsule.ends(state), still]);
-            comes_within(0.5 * radius, ways[0], ways[1])
+            comes_within(radius, ways[0], ways[1])
         };
         self.capsules.iter().find(passes).map(Capsule::body)
     }

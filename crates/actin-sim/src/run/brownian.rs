@@ -3,16 +3,13 @@
 use super::dynamics::{check_records, conclude};
 use super::recorder::Recorder;
 use super::sink::{Saved, Sink};
-use super::steps::Steps;
+use super::steps::{LONGEST_RATIO, Steps};
 use super::unknowns::layout;
 use super::{Estimate, Failure, Outcome, Plan, Status};
 use crate::Assembly;
 use crate::scene::{Brownian as Task, SceneProblem, Task as AnyTask};
 use actin_brownian::{Brownian, Relaxation};
 use actin_integrate::{POSITION_VERLET, Run, Split};
-
-/// The default time step over the fastest relaxation.
-const DEFAULT_RATIO: f64 = 50.0;
 
 /// Iterations of a step, about.
 const ITERATIONS: u64 = 3;
@@ -77,7 +74,7 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
             return Err(SceneProblem::new("filament", "", rule));
         }
     }
-    let wanted = task.time_step_ns.unwrap_or(DEFAULT_RATIO * fastest_ns);
+    let wanted = task.time_step_ns.unwrap_or(LONGEST_RATIO * fastest_ns);
     let steps = Steps::of(&motion, wanted.min(motion.duration_ns))?;
     check_records(assembly, &motion, &steps)?;
     assembly.check_rates(steps.length_ns)?;
@@ -115,6 +112,8 @@ pub(super) fn run(
     // The method is not looked at: the stepper makes the steps.
     let run = Run::new(&POSITION_VERLET, estimate.time_step_ns, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))
+        // Steps are so long that filaments could pass through each other in a few.
+        .and_then(|run| run.checking_every(1))
         .map_err(|error| refused(&error))?
         .stopping_from(recorder.drive(&mut system));
     recorder.let_happen(&mut system);

@@ -3,7 +3,7 @@
 use super::taken::Taken;
 use super::{At, Record};
 use crate::Assembly;
-use actin_equilibrium::{Found, Iteration, Newton, Search, SearchObserver, SolveError};
+use actin_equilibrium::{Found, Iteration, Known, Newton, Search, SearchObserver, SolveError};
 use actin_mechanics::State;
 use std::ops::ControlFlow;
 
@@ -48,17 +48,27 @@ pub(super) fn search(
     let equilibrium = result.map_err(|failure| failure.cause)?;
     let energy = equilibrium.energy;
     let search = Search { starts, seed: SEED };
+    // As built, with the ends where the path has led them.
+    let mut reference = assembly.rest.clone();
+    reference.controls.clone_from(&known.controls);
+    if !assembly.drive.is_still() {
+        assembly.drive.place(&mut reference, at.value());
+    }
+    let known = Known {
+        state: &known,
+        equilibrium: &equilibrium,
+        reference: &reference,
+    };
     let mut watch = Watch {
         assembly,
         taken,
         at,
     };
-    let Found { states, lost } =
-        match newton.search((&known, equilibrium), interactions, &search, &mut watch) {
-            Ok(found) => found,
-            Err(SolveError::Interrupted) => return Ok(None),
-            Err(error) => return Err(error),
-        };
+    let Found { states, lost } = match newton.search(&known, interactions, &search, &mut watch) {
+        Ok(found) => found,
+        Err(SolveError::Interrupted) => return Ok(None),
+        Err(error) => return Err(error),
+    };
     let states = states.into_iter().map(|one| StableState {
         record: super::equilibrium::record(&assembly.system, at.value(), &one.state),
         above_result_pn_nm: one.equilibrium.energy - energy,

@@ -20,6 +20,9 @@ const MOST_PERIOD: u64 = 1000;
 /// To what a quotient counts as whole, relative.
 const WHOLE: f64 = 1e-9;
 
+/// The default time step of overdamped motion over the fastest relaxation, above which strains are too warm.
+pub(super) const LONGEST_RATIO: f64 = 50.0;
+
 /// Round-off of a quotient that is whole, which shall not cost a step.
 const ROUND_OFF: f64 = 1e-12;
 
@@ -138,6 +141,7 @@ impl Estimate {
             self.note_on_step(dynamics),
             self.note_on_records(dynamics),
             self.note_on_drag(dynamics),
+            self.note_on_long_steps(dynamics),
         ];
         notes.into_iter().flatten().collect()
     }
@@ -152,6 +156,20 @@ impl Estimate {
         let theta = translation.max(rotation) * self.largest_frequency_rad_per_ns * step;
         let scheme = dynamics.integrator.composition();
         scheme.configurational_temperature(theta)
+    }
+
+    /// Overdamped steps that are so long that fast modes are too warm.
+    fn note_on_long_steps(&self, dynamics: &Dynamics) -> Option<String> {
+        let fastest = self.fastest_relaxation_ns?;
+        let ratio = self.time_step_ns / fastest;
+        let is_warm = dynamics.thermal.is_some() && ratio > LONGEST_RATIO * (1.0 + WHOLE);
+        is_warm.then(|| {
+            format!(
+                "steps are {ratio:.0} times the fastest relaxation time of {fastest:.1e} ns: beyond \
+                 {LONGEST_RATIO} times stretch and shear hold more than their thermal energy, the more the shorter \
+                 segments are"
+            )
+        })
     }
 
     fn note_on_step(&self, dynamics: &Dynamics) -> Option<String> {

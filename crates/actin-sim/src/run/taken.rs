@@ -130,10 +130,10 @@ impl<'a> Taken<'a> {
         let before = last.as_ref().map(|record| &record.state);
         let here = (&record.state, record.at);
         let twist = carried.links.slip(self.assembly, here, before);
-        // In time, hinges are looked at more often.
+        // In time, hinges are looked at more often. A turn that a hinge has lost the filament lacks, too.
         let path = before.filter(|_| matches!(record.at, At::Path(_)));
-        let hinge = || slip_between(self.assembly, path?, here).map(Lost::Hinge);
-        self.lost = twist.map(Lost::Twist).or_else(hinge);
+        let hinge = path.and_then(|path| slip_between(self.assembly, path, here));
+        self.lost = hinge.map(Lost::Hinge).or(twist.map(Lost::Twist));
         if self.lost.is_some() {
             carried.links = good;
             return false;

@@ -5,6 +5,9 @@ use crate::{Assembly, Outcome, StableState};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
+/// Energy (pN nm) by which equal states may differ.
+const ROUNDING: f64 = 1e-3;
+
 /// Stable states that were looked for, that of least energy first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StatesSummary {
@@ -57,11 +60,11 @@ impl fmt::Display for StatesSummary {
         let starts = lost + self.found.iter().map(|state| state.starts).sum::<usize>();
         write!(
             f,
-            "{found} stable state(s) from {starts} starts, of which {lost} led nowhere: the result is "
+            "{found} stable state(s) from {starts} random starts, of which {lost} led nowhere; of those found the result is "
         )?;
         match self.result_above_lowest_pn_nm() {
-            above if above > 0.0 => write!(f, "{above:.4} pN nm above the lowest of them"),
-            _ => write!(f, "the lowest of them"),
+            above if above > ROUNDING => write!(f, "{above:.4} pN nm above the lowest"),
+            _ => write!(f, "the lowest"),
         }
     }
 }
