@@ -19,6 +19,8 @@ use crate::ties::Ties;
 use actin_mechanics::{State, Vectors, rotation};
 use std::collections::BTreeMap;
 
+mod turning;
+
 /// A body that follows another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Link {
