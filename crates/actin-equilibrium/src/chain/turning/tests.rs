@@ -152,9 +152,8 @@ fn the_stiffness_is_the_second_derivative_along_carried_steps() {
                 }
                 Evaluation::new(&terms, &moved).energy_above(&here)
             };
-            let second = |is_carried| {
-                derivative(1e-2, |s| derivative(1e-2, |t| energy(s + t, is_carried)))
-            };
+            let second =
+                |is_carried| derivative(1e-2, |s| derivative(1e-2, |t| energy(s + t, is_carried)));
             let along = |assembly: &Assembly| {
                 let mut product = vec![0.0; step.len()];
                 assembly.multiply(&step, &mut product);
