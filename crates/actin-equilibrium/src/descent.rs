@@ -182,7 +182,7 @@ impl Descent {
             return Ok(Some(found));
         }
         let mut plain = solver.factorize(0.0);
-        if self.composed.begins(solver, &plain) {
+        if self.composed.begins(solver) {
             if let Some(found) = self.compose(solver, interactions) {
                 return Ok(Some(found));
             }

@@ -260,6 +260,12 @@ impl Solver {
         self.largest_diagonal() / self.metric.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
+    /// Number of directions in which the matrix last factorised has next to no stiffness.
+    pub(crate) fn floppy(&self) -> usize {
+        let factor = self.factor.as_ref().expect("the stiffness is assembled");
+        factor.floppy()
+    }
+
     /// The growth of the last factor.
     pub(crate) fn growth(&self) -> f64 {
         let factor = self.factor.as_ref().expect("the stiffness is assembled");

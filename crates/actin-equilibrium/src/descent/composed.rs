@@ -12,13 +12,13 @@
 
 use super::{Descent, Taken, taken};
 use crate::direction::{Direction, Solver};
-use crate::factor::Inertia;
+use crate::history::Verdict;
 use crate::options::NewtonOptions;
 use actin_mechanics::Interaction;
 
 /// Starts of fewer bodies and groups than this are near enough.
 const FEWEST: usize = 400;
-/// Pivots without stiffness, as a share of bodies, that make a start floppy.
+/// Directions without stiffness, as a share of bodies, that make a start floppy.
 const FLOPPY: f64 = 1.0 / 16.0;
 /// How often a step may be shortened.
 const ATTEMPTS: usize = 4;
@@ -52,14 +52,14 @@ impl Composed {
         }
     }
 
-    /// Decides, once, by the stiffness at the start; returns whether that has just been done in favour.
-    pub(super) fn begins(&mut self, solver: &Solver, plain: &Inertia) -> bool {
+    /// Decides, once, by the stiffness at the start, which has just been factorised; returns whether that has
+    /// just been done in favour.
+    pub(super) fn begins(&mut self, solver: &Solver) -> bool {
         if self.is_used.is_some() {
             return false;
         }
         let bodies = solver.layout.len();
-        let soft = plain.negative.max(plain.doubtful) as f64;
-        let is_floppy = bodies >= FEWEST && soft >= FLOPPY * bodies as f64;
+        let is_floppy = bodies >= FEWEST && solver.floppy() as f64 >= FLOPPY * bodies as f64;
         let is_used = is_floppy && solver.layout.groups().is_empty();
         self.is_used = Some(is_used);
         is_used
@@ -126,9 +126,14 @@ impl Descent {
             chain.carry(&self.state, &velocities, fraction, &mut self.trial);
             self.there.follow(interactions, (&self.state, &self.trial));
             solver.work.evaluations += 1;
-            if let Some(verdict) = self.judge(solver, direction, fraction) {
-                self.accept();
-                return Some(taken(direction, fraction, verdict));
+            match self.judge(solver, direction, fraction) {
+                Some(Verdict::Decrease) => {
+                    self.accept();
+                    return Some(taken(direction, fraction, Verdict::Decrease));
+                }
+                // Where the energy says nothing any more, the other way knows when to end.
+                Some(_) => return None,
+                None => {}
             }
             fraction *= self.next_factor(direction, fraction).max(SHORTEN);
         }
