@@ -79,6 +79,14 @@ impl Ties {
         self.ties.iter().flat_map(of)
     }
 
+    /// Pairs of tied points that no frame sees.
+    pub(crate) fn points(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.ties.iter().filter_map(|tie| match *tie {
+            Tie::Points(i, j) => Some((i, j)),
+            Tie::Seen(..) | Tie::Frames(..) => None,
+        })
+    }
+
     /// Pairs of tied points with a frame from which they are seen.
     pub(crate) fn seen(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
         self.ties.iter().filter_map(|tie| match *tie {

@@ -7,10 +7,14 @@
 //! their own stiffness across is negative, times one factor for all and that as small as it may be: a multiple
 //! of the unit matrix would hold back what moves far, and one stiffness for all ties those that need none.
 //!
+//! Where ends meet again, as in a filament held at both or linked to another, what is carried along does not
+//! arrive, and straight steps are better.
+//!
 //! Each step lowers the energy. One that does not, however short, is left to the other way, which then has
 //! some steps to itself.
 
 use super::{Descent, Taken, taken};
+use crate::chain::is_open;
 use crate::direction::{Direction, Solver};
 use crate::history::Verdict;
 use crate::options::NewtonOptions;
@@ -60,7 +64,9 @@ impl Composed {
         }
         let bodies = solver.layout.len();
         let is_floppy = bodies >= FEWEST && solver.floppy() as f64 >= FLOPPY * bodies as f64;
-        let is_used = is_floppy && solver.layout.groups().is_empty();
+        let is_used = is_floppy
+            && solver.layout.groups().is_empty()
+            && is_open(&solver.layout, solver.assembly.ties());
         self.is_used = Some(is_used);
         is_used
     }

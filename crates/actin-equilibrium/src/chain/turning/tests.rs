@@ -168,3 +168,22 @@ fn the_stiffness_is_the_second_derivative_along_carried_steps() {
         }
     }
 }
+
+/// Held at one end or nowhere it is open; at both ends, or with bodies that are coupled across, it is not.
+#[test]
+fn a_chain_held_at_one_end_is_open() {
+    let seen = |layout: &mut Layout, state: &State, terms: &[Box<dyn Interaction>]| {
+        let mut assembly = Assembly::new(1.0);
+        assembly.update(terms, state, &Loads::zeros(state), layout);
+        crate::chain::is_open(layout, assembly.ties())
+    };
+    for held in [true, false] {
+        let (mut state, terms, mut layout) = chain(held);
+        assert!(seen(&mut layout, &state, &terms));
+        let mut across = layout.clone().with_loose([[Point(0), Point(6)]]);
+        assert!(!seen(&mut across, &state, &terms));
+        state.points.hold(6);
+        let mut other_end = Layout::new(&state, None, Vec::new()).unwrap();
+        assert_eq!(seen(&mut other_end, &state, &terms), !held);
+    }
+}
