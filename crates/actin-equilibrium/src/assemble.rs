@@ -9,6 +9,7 @@ use actin_mechanics::{
     Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
 };
 use nalgebra::{Matrix3x6, Matrix6};
+use std::collections::BTreeMap;
 
 /// The stiffness in the unknowns of a layout, upper triangle by columns.
 #[derive(Debug, Default)]
@@ -25,6 +26,8 @@ pub(crate) struct Assembly {
     tie_places: Vec<Place>,
     /// Values of the matrix of the ties last asked for.
     pub(crate) tie_values: Vec<f64>,
+    turning_blocks: Stiffness,
+    turning_places: Vec<Place>,
     turn_length: f64,
 }
 
@@ -73,6 +76,7 @@ impl Assembly {
             let (points, frames) = (state.points.len(), state.frames.len());
             self.chain = Chain::new(layout, &self.ties, points, frames);
             self.tie_places.clear();
+            self.turning_places.clear();
         }
         self.tie_lengths = self.ties.lengths(state);
         let pattern = self.pattern.as_ref().expect("it has just been made");
@@ -80,6 +84,43 @@ impl Assembly {
         target.add_all(state, &self.blocks, &pattern.places);
         target.add_turning_of_groups(state, loads);
         is_new
+    }
+
+    /// Adds what the chart of the chain adds to the stiffness of the last update, at its state and loads.
+    pub(crate) fn add_turning(&mut self, state: &State, loads: &Loads, layout: &Layout) {
+        let pattern = self.pattern.as_ref().expect("the stiffness is assembled");
+        self.turning_blocks.clear();
+        self.chain
+            .add_turning(state, loads, &mut self.turning_blocks);
+        if self.turning_places.is_empty() {
+            self.turning_places = pattern.places_of(&self.turning_blocks, layout);
+        }
+        let mut target = Target::onto(&mut self.values, pattern, layout);
+        target.add_all(state, &self.turning_blocks, &self.turning_places);
+    }
+
+    /// By how much each tie gives way (pN/nm): the stiffness between its points in the direction in which it is
+    /// most negative, without its sign; zero where it is positive. Between frames, that of points seen from
+    /// them. At the state of the last update.
+    pub(crate) fn giving_way(&self) -> Vec<f64> {
+        let mut between = BTreeMap::<(usize, usize), Matrix3>::new();
+        for &(a, b, block) in self.blocks.blocks() {
+            if let (Coordinates::Point(i), Coordinates::Point(j)) = (a, b)
+                && i != j
+            {
+                *between.entry((i.min(j), i.max(j))).or_default() -= block;
+            }
+        }
+        let negative = |block: Matrix3| {
+            let symmetric = 0.5 * (block + block.transpose());
+            (-symmetric.symmetric_eigenvalues().min()).max(0.0)
+        };
+        let negative: BTreeMap<_, _> = between
+            .into_iter()
+            .map(|(pair, block)| (pair, negative(block)))
+            .collect();
+        let of = |i: usize, j: usize| negative.get(&(i.min(j), i.max(j))).copied();
+        self.ties.spread(|i, j| of(i, j).unwrap_or(0.0))
     }
 
     /// The matrix of the ties with a stiffness for each, at the state of the last update.
@@ -190,6 +231,11 @@ impl<'a> Target<'a> {
     fn new(values: &'a mut Vec<f64>, pattern: &'a Pattern, layout: &'a Layout) -> Self {
         values.clear();
         values.resize(pattern.symbolic.row_idx().len(), 0.0);
+        Self::onto(values, pattern, layout)
+    }
+
+    /// A matrix that is there.
+    fn onto(values: &'a mut [f64], pattern: &'a Pattern, layout: &'a Layout) -> Self {
         Self {
             values,
             columns: pattern.symbolic.col_ptr(),

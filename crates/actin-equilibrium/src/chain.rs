@@ -19,6 +19,11 @@ use crate::ties::Ties;
 use actin_mechanics::{State, Vectors, rotation};
 use std::collections::BTreeMap;
 
+mod open;
+mod turning;
+
+pub(crate) use open::is_open;
+
 /// A body that follows another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Link {

@@ -1,5 +1,7 @@
 //! How far to go along a direction, and whether to accept where it leads.
 
+mod composed;
+
 use crate::direction::{Direction, Solver};
 use crate::evaluation::Evaluation;
 use crate::history::Verdict;
@@ -7,6 +9,7 @@ use crate::motion::StepSize;
 use crate::options::NewtonOptions;
 use crate::outcome::SolveError;
 use actin_mechanics::{Interaction, State};
+use composed::Composed;
 
 /// Part of the predicted decrease that is enough (Armijo).
 const ENOUGH: f64 = 1e-4;
@@ -82,6 +85,8 @@ pub(crate) struct Descent {
     is_cut: bool,
     /// Twice the steps of which that is so, less those of which it is not.
     blocked: usize,
+    /// Steps of a far start.
+    composed: Composed,
     options: NewtonOptions,
 }
 
@@ -108,6 +113,7 @@ impl Descent {
             cubic: 0.0,
             is_cut: false,
             blocked: 0,
+            composed: Composed::new(options),
             options: *options,
         }
     }
@@ -172,7 +178,18 @@ impl Descent {
         solver: &mut Solver,
         interactions: &[Box<dyn Interaction>],
     ) -> Result<Option<(Direction, Taken)>, SolveError> {
-        let direction = self.direction(solver, self.cubic)?;
+        if let Some(found) = self.compose(solver, interactions) {
+            return Ok(Some(found));
+        }
+        let mut plain = solver.factorize(0.0);
+        if self.composed.begins(solver) {
+            if let Some(found) = self.compose(solver, interactions) {
+                return Ok(Some(found));
+            }
+            plain = solver.factorize(0.0);
+        }
+        let limits = (self.options.largest_strain, self.cubic);
+        let direction = solver.direction(&self.state, plain, limits)?;
         if let Some(taken) = self.attempt(solver, interactions, &direction) {
             return Ok(Some((direction, taken)));
         }
@@ -194,10 +211,6 @@ impl Descent {
         self.cubic = (STIFFER * self.cubic).max(solver.least_cubic());
         let taken = self.shorten(solver, interactions, &direction, fraction);
         Ok(taken.map(|taken| (direction, taken)))
-    }
-
-    fn direction(&self, solver: &mut Solver, cubic: f64) -> Result<Direction, SolveError> {
-        solver.direction(&self.state, self.options.largest_strain, cubic)
     }
 
     /// The step along `direction`, within the limits, if it is good enough.

@@ -29,6 +29,17 @@ const ROUNDS: usize = 2;
 const STIFFNESS_CHANGE: f64 = 0.3;
 /// The least regularisation, in roundings of the largest diagonal entry.
 const LEAST_ROUNDINGS: f64 = 4.0;
+/// Ties that do not give way are stiffened by this share of the stiffest one, so that one factor makes any
+/// stiffness definite.
+const LEAST_SHARE: f64 = 0.01;
+/// The least that counts as giving way, as a part of the largest diagonal entry.
+const SOFTEST: f64 = 1e-6;
+/// The least stiffening of the tie that gives way most, as a part of that.
+const LEAST_STIFFENING: f64 = 0.03;
+/// Part of the last stiffening with which the next search begins.
+const STIFFEST_DROP: f64 = 0.3;
+/// Growth of a stiffening that was too small.
+const STIFFEST_GROWTH: f64 = 3.0;
 
 /// The linear algebra of one layout.
 #[derive(Debug)]
@@ -249,6 +260,12 @@ impl Solver {
         self.largest_diagonal() / self.metric.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
+    /// Number of directions in which the matrix last factorised has next to no stiffness.
+    pub(crate) fn floppy(&self) -> usize {
+        let factor = self.factor.as_ref().expect("the stiffness is assembled");
+        factor.floppy()
+    }
+
     /// The growth of the last factor.
     pub(crate) fn growth(&self) -> f64 {
         let factor = self.factor.as_ref().expect("the stiffness is assembled");
@@ -272,7 +289,8 @@ impl Solver {
         )
     }
 
-    /// The Newton direction at the last assembly, which was made at `state`.
+    /// The Newton direction at the last assembly, which was made at `state` and has just been factorised:
+    /// `plain` is what its pivots say.
     ///
     /// The stiffness is made positive definite, unless the loads meet no negative curvature. Where that leaves a step that strains
     /// neighbours by much more than `strain`, or where `cubic` asks for it, ties are stiffened
@@ -280,10 +298,9 @@ impl Solver {
     pub(crate) fn direction(
         &mut self,
         state: &State,
-        strain: f64,
-        cubic: f64,
+        plain: Inertia,
+        (strain, cubic): (f64, f64),
     ) -> Result<Direction, SolveError> {
-        let plain = self.factorize(0.0);
         let lengths = self.assembly.tie_lengths();
         let limits: Vec<f64> = lengths.iter().map(|length| strain * length).collect();
         if cubic > 0.0 && !plain.is_positive() {
@@ -331,6 +348,46 @@ impl Solver {
             }
             guess = shift / GUESS;
             round += 1;
+        }
+    }
+
+    /// The Newton direction at the last assembly, which was made at `state`, with ties stiffened where they
+    /// give way: in proportion to that, and by no more than makes the stiffness positive definite, or nearly
+    /// so. The search begins with a part of the `stiffest` tie (pN/nm) of the last such direction. `None` if
+    /// there is none.
+    pub(crate) fn composed_direction(
+        &mut self,
+        state: &State,
+        stiffest: &mut f64,
+    ) -> Option<Direction> {
+        let plain = self.factorize(0.0);
+        if plain.is_positive() {
+            return Some(self.solve_direction(state, plain, 0.0, &[]));
+        }
+        let mut shares = self.assembly.giving_way();
+        let most = shares.iter().copied().fold(0.0, f64::max);
+        let most = most.max(SOFTEST * self.largest_diagonal());
+        for share in &mut shares {
+            *share = (*share / most).max(LEAST_SHARE);
+        }
+        let limit = LIMIT * self.largest_diagonal() / LEAST_SHARE;
+        *stiffest = (STIFFEST_DROP * *stiffest).max(LEAST_STIFFENING * most);
+        loop {
+            let weights: Vec<f64> = shares.iter().map(|share| share * *stiffest).collect();
+            self.assembly.assemble_ties(state, &self.layout, &weights);
+            if self.factorize_with_ties(0.0).is_positive() {
+                let direction = self.solve_direction(state, plain, 0.0, &weights);
+                return Some(Direction {
+                    regularization: *stiffest,
+                    ..direction
+                });
+            }
+            *stiffest *= STIFFEST_GROWTH;
+            // Written so that what is not a number ends this.
+            let is_worth_trying = *stiffest <= limit;
+            if !is_worth_trying {
+                return None;
+            }
         }
     }
 

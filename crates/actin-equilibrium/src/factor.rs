@@ -27,6 +27,9 @@ const PIVOT_ROUNDINGS: f64 = 8.0;
 /// 1e-12.
 const UNSEEN: f64 = 1e-24;
 
+/// A pivot below this share of its diagonal entry is one of a direction without stiffness.
+const FLOPPY: f64 = 1e-10;
+
 /// What the pivots say about the shifted matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Inertia {
@@ -201,6 +204,14 @@ impl Factor {
             inertia.doubtful += usize::from(is_none || pivot.abs() <= rounding);
         }
         inertia
+    }
+
+    /// Number of pivots that are as good as zero: directions without stiffness, as those of floppy bodies at
+    /// rest, whatever rounding makes of them.
+    pub(crate) fn floppy(&self) -> usize {
+        let diagonal = self.diagonal.iter().enumerate();
+        let is_floppy = |&(column, own): &(usize, &f64)| self.pivot(column).abs() <= FLOPPY * own;
+        diagonal.filter(is_floppy).count()
     }
 
     fn pivot(&self, column: usize) -> f64 {

@@ -24,9 +24,10 @@ pub struct Iteration {
     pub energy: f64,
     /// Residual before the step.
     pub residual: Residual,
-    /// Negative pivots of the unregularised stiffness before the step.
+    /// Negative pivots of the unregularised stiffness before the step, in the chart of the step.
     pub negative_pivots: usize,
-    /// Multiple of the metric that was added to the stiffness (pN/nm).
+    /// Multiple of the metric that was added to the stiffness (pN/nm); of steps in which bodies carry one
+    /// another along the largest stiffness that was added to a tie.
     pub regularization: f64,
     /// Stiffness added to each tie of neighbours per motion of that tie (pN/nm^2).
     pub stiffening: f64,

@@ -206,6 +206,11 @@ impl Layout {
         self
     }
 
+    /// Whether coupled bodies may be no neighbours.
+    pub(crate) fn has_loose(&self) -> bool {
+        self.loose_beyond.is_some() || !self.loose.is_empty()
+    }
+
     /// Whether two coupled bodies are no neighbours.
     pub(crate) fn is_loose(&self, a: Coordinates, b: Coordinates) -> bool {
         let are_apart = self.loose_beyond.as_ref().is_some_and(|(order, reach)| {

@@ -10,6 +10,10 @@
 //! stretched by the straight step relaxes in the next ones, which is far quicker than to follow
 //! a bend in small steps (the watchdog technique). An excursion that does not pay is taken back.
 //!
+//! A start of many bodies that is floppy, as a long filament may be at rest, is far from its
+//! equilibrium. From there each body is carried along in every step, with the second derivatives that belong
+//! to that, while such steps lower the energy (see `descent/composed`).
+//!
 //! The direction of a step is found in `direction`, its acceptance in `descent`.
 //!
 //! # Source

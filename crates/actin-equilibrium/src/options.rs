@@ -10,7 +10,7 @@ pub struct NewtonOptions {
     pub tolerance: Residual,
     /// Most Newton steps; 2000.
     pub iterations: usize,
-    /// Largest turn of a body in one step (rad); 0.5.
+    /// Largest turn of a body in one step (rad); 0.5. Not of steps in which bodies carry one another along.
     pub largest_rotation: f64,
     /// Largest relative motion of coupled bodies in one step: turn between two frames (rad), or
     /// relative displacement of two points over their distance; 0.3.

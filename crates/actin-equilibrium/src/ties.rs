@@ -14,7 +14,7 @@
 
 use crate::layout::Layout;
 use actin_mechanics::{Coordinates, Matrix3, State, Stiffness, Vector3, Vectors, rotation};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Points closer than this (nm) have no distance that a motion could be measured by.
 const COINCIDENT: f64 = 1e-9;
@@ -79,12 +79,36 @@ impl Ties {
         self.ties.iter().flat_map(of)
     }
 
+    /// Pairs of tied points that no frame sees.
+    pub(crate) fn points(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.ties.iter().filter_map(|tie| match *tie {
+            Tie::Points(i, j) => Some((i, j)),
+            Tie::Seen(..) | Tie::Frames(..) => None,
+        })
+    }
+
     /// Pairs of tied points with a frame from which they are seen.
     pub(crate) fn seen(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
         self.ties.iter().filter_map(|tie| match *tie {
             Tie::Seen(i, j, f) => Some((i, j, f)),
             Tie::Points(..) | Tie::Frames(..) => None,
         })
+    }
+
+    /// One number for each tie: that of its points as `of` has it, or the largest of those that are seen from
+    /// one of its frames.
+    pub(crate) fn spread(&self, of: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+        let mut seen_from = BTreeMap::<usize, f64>::new();
+        for (i, j, f) in self.seen() {
+            let largest = seen_from.entry(f).or_default();
+            *largest = largest.max(of(i, j));
+        }
+        let from = |f| seen_from.get(&f).copied().unwrap_or(0.0);
+        let of_tie = |tie: &Tie| match *tie {
+            Tie::Points(i, j) | Tie::Seen(i, j, _) => of(i, j),
+            Tie::Frames(a, b) => from(a).max(from(b)),
+        };
+        self.ties.iter().map(of_tie).collect()
     }
 
     /// Second derivatives of half the sum of weighted squared motions.
