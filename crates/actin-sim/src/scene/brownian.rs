@@ -46,7 +46,7 @@ pub enum Fluid {
         /// Viscosity; positive. By default that of water at 25 degrees C.
         #[serde(default = "water")]
         viscosity_mpa_s: f64,
-        /// Radius of the cylinder; positive, at most a quarter of the length of each filament.
+        /// Radius of the cylinder; positive, at most a sixth of the length of each filament.
         #[serde(default = "radius")]
         radius_nm: f64,
         /// Whether part of the drag across acts at the ends, so that straight filaments turn end over end as fast as they
