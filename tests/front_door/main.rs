@@ -20,10 +20,11 @@ const LIBRARIES: [&str; 10] = [
 ];
 
 /// Programs among the examples that measure something for the documents.
-const MEASUREMENTS: [&str; 7] = [
+const MEASUREMENTS: [&str; 8] = [
     "bond_rate",
     "elimination_order",
     "load_rate",
+    "newton_against_length",
     "persistence_length",
     "scaling",
     "statics_against_dynamics",

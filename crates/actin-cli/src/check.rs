@@ -121,12 +121,15 @@ fn print_step(estimate: &Estimate) {
 fn print_relaxation(times: &RelaxationTimes, estimate: &Estimate) {
     let slowest = times.slowest_ns.iter().take(5);
     let slowest: Vec<String> = slowest.map(|time| format!("{time:.4e}")).collect();
+    let slowest = if slowest.is_empty() {
+        "the slowest meet no resistance".to_owned()
+    } else {
+        let (slowest, unresisted) = (slowest.join(", "), times.unresisted);
+        format!("slowest in {slowest} ns; {unresisted} motions meet no resistance")
+    };
     println!(
-        "// relaxation of small displacements from the state as built: slowest in {} ns, fastest in {:.4e} ns; {} \
-         motions meet no resistance",
-        slowest.join(", "),
-        times.fastest_ns,
-        times.unresisted
+        "// relaxation of small displacements from the state as built: fastest in {:.4e} ns, {slowest}",
+        times.fastest_ns
     );
     println!(
         "// time step {:.4e} ns, {} steps, a record every {:.6} ns",
