@@ -179,3 +179,17 @@ fn passing_through_between_records_fails() {
     assert_eq!(records, 2);
     result.unwrap();
 }
+
+/// A load that begins late sets what rests in motion between two checks: no explosion, however seldom records are made.
+#[test]
+fn a_motion_that_begins_late_goes_on() {
+    let text = "Scene(
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], direction: (1.0, 1.0, 0.3)),
+        clamps: [Clamp(end: Start)],
+        loads: [Force(end: End, force_pn: (0.0, 0.0, 5.0), factor: Ramp(begin_ns: 0.21, duration_ns: 0.1))],
+        task: Dynamics(duration_ns: 0.8, record_every_ns: 0.8),
+    )";
+    let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
+    let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
+    assert!(trajectory.records[1].kinetic_pn_nm > 1e-4);
+}

@@ -84,3 +84,36 @@ fn a_run_directory_holds_other_states() {
     assert!(folder.join("other_states.npz").metadata().unwrap().len() > 10_000);
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+/// A rod that is softer one way leans to either side, alike in energy; where no direction is softer, and where nothing
+/// holds a rod, all that can be reached without effort is one state.
+#[test]
+fn states_that_cost_nothing_to_reach_are_one() {
+    let count = |ends: &str, law: &str| {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0{law})]),
+                {ends}
+                task: Equilibrium(states: 12),
+            )"
+        );
+        let (_, outcome) = solved(&text);
+        let all = &found(&outcome).states;
+        println!(
+            "{:?}",
+            all.iter().map(|s| s.above_result_pn_nm).collect::<Vec<_>>()
+        );
+        let lowest = all[0].above_result_pn_nm;
+        all.iter()
+            .filter(|s| s.above_result_pn_nm < lowest + 1e-3)
+            .count()
+    };
+    let pushed = "clamps: [Clamp(end: Start), Clamp(end: End)],
+        path: [Stage(set: [Shift(end: End, shift_nm: (0.0, 0.0, -12.0))])],";
+    let flat = ", altered: AlteredRod(material: Rigidities(shear_pn: (1.0e5, 1.0e5, 1.0e5),
+        bend_pn_nm2: (3.0e4, 6.0e4, 3.0e4)))";
+    assert_eq!(
+        (count("", ""), count(pushed, ""), count(pushed, flat)),
+        (1, 1, 2)
+    );
+}

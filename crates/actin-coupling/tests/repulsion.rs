@@ -356,6 +356,7 @@ fn passing_through_is_told() {
         side: Side::Outside,
     };
     let wall = WallContact::new(capsules, sphere, RADIUS, STIFFNESS).unwrap();
+    // Across its middle, near its pole (the sphere is 1 nm beside the axis), and past it.
     for (aside, passes) in [(0.0, true), (100.0, false)] {
         let [above, below] = [5.0, -5.0].map(|height| crossing(height, aside).0);
         assert_eq!(wall.passes_through(&above, &below).is_some(), passes);

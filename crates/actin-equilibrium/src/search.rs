@@ -190,14 +190,15 @@ impl Newton {
         self.solver.prepare(&state, interactions)?;
         let layout = &self.solver.layout;
         let mut product = vec![0.0; layout.unknowns()];
-        let is_free = equilibrium.certificate.is_none_or(|c| c.unresolved > 0);
+        let is_free = |e: &Equilibrium| e.certificate.is_none_or(|c| c.unresolved > 0);
         for one in &mut found.states {
             let way = layout.difference(&state, &one.state);
             self.solver.assembly.multiply(&way, &mut product);
             let cost: f64 = 0.5 * way.iter().zip(&product).map(|(d, f)| d * f).sum::<f64>();
             let is_near = self.solver.layout.step_extent(&way).rotation < TURNS[0];
             let apart = (equilibrium.energy - one.equilibrium.energy).abs();
-            if cost.abs() < SAME && is_near || is_free && apart < SAME {
+            let is_level = is_free(&equilibrium) || is_free(&one.equilibrium);
+            if cost.abs() < SAME && is_near || is_level && apart < SAME {
                 one.found += 1;
                 if equilibrium.energy < one.equilibrium.energy && !one.is_known {
                     one.state = state;
