@@ -1,5 +1,6 @@
 //! Overdamped motion of scenes: where it comes to rest, how fast, and its noise.
 
+use crate::contact::pushed_across;
 use actin_sim::{Assembly, End, Plan, Record, Scene};
 
 /// The records of a scene.
@@ -100,18 +101,9 @@ fn long_steps_are_told() {
 /// Nothing passes through a filament, whatever steps and records are.
 #[test]
 fn what_passes_through_a_filament_fails() {
-    let text = "Scene(
-        filaments: [
-            Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
-            Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], at_nm: (12.0, -30.0, 30.0),
-                direction: (0.0, 1.0, 0.0)),
-        ],
-        clamps: [Clamp(end: Start), Clamp(end: End)],
-        loads: [ForcePerLength(filament: 1, from_nm: 0.0, to_nm: 60.0, force_pn_per_nm: (-30.0, 0.0, 0.0))],
-        repulsion: Repulsion(stiffness_pn_per_nm: 1.0),
-        task: Brownian(duration_ms: 1e-5, temperature_k: 0.0, time_step_ns: 0.2),
-    )";
-    let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
+    let task = "Brownian(duration_ms: 1e-5, temperature_k: 0.0, time_step_ns: 0.2)";
+    let text = pushed_across("1.0", task);
+    let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
     let result = Plan::new(&assembly).unwrap().run().map(drop);
     let failure = result.unwrap_err().to_string();
     assert!(failure.contains("pass through each other"), "{failure}");

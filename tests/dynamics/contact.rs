@@ -143,23 +143,30 @@ fn the_time_step_knows_contact_before_it_happens() {
     }
 }
 
+/// A free rod that is pushed across another, which is clamped, with this stiffness (pN/nm) of their repulsion.
+pub(crate) fn pushed_across(stiffness: &str, task: &str) -> String {
+    format!(
+        "Scene(
+            filaments: [
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], at_nm: (12.0, -30.0, 30.0),
+                    direction: (0.0, 1.0, 0.0)),
+            ],
+            clamps: [Clamp(end: Start), Clamp(end: End)],
+            loads: [ForcePerLength(filament: 1, from_nm: 0.0, to_nm: 60.0, force_pn_per_nm: (-30.0, 0.0, 0.0))],
+            repulsion: Repulsion(stiffness_pn_per_nm: {stiffness}),
+            task: {task},
+        )"
+    )
+}
+
 /// What passes through another filament between two records ends the run, with the step, the body and the
 /// term, though at no record anything touches.
 #[test]
 fn passing_through_between_records_fails() {
-    let text = "Scene(
-        filaments: [
-            Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
-            Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], at_nm: (12.0, -30.0, 30.0),
-                direction: (0.0, 1.0, 0.0)),
-        ],
-        clamps: [Clamp(end: Start), Clamp(end: End)],
-        loads: [ForcePerLength(filament: 1, from_nm: 0.0, to_nm: 60.0, force_pn_per_nm: (-30.0, 0.0, 0.0))],
-        repulsion: Repulsion(stiffness_pn_per_nm: STIFFNESS),
-        task: Dynamics(duration_ns: 0.2, record_every_ns: 0.2),
-    )";
     let run = |stiffness: &str| {
-        let scene = Scene::from_ron(&text.replace("STIFFNESS", stiffness)).unwrap();
+        let task = "Dynamics(duration_ns: 0.2, record_every_ns: 0.2)";
+        let scene = Scene::from_ron(&pushed_across(stiffness, task)).unwrap();
         let assembly = Assembly::build(&scene).unwrap();
         let mut trajectory = Trajectory::default();
         let result = Plan::new(&assembly).unwrap().run_into(&mut trajectory);

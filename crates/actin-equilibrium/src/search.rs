@@ -10,6 +10,7 @@
 //!
 //! What is not found may still be there: the search says what there is, not that there is nothing else.
 
+use crate::direction::Solver;
 use crate::evaluation::{Evaluation, passes_through};
 use crate::history::Iteration;
 use crate::newton::Newton;
@@ -92,7 +93,7 @@ impl Newton {
     ///
     /// # Errors
     /// [`Interrupted`](SolveError::Interrupted) if the observer ends it; an interaction without a potential
-    /// or second derivatives; a stiffness that cannot be factorised.
+    /// or second derivatives.
     pub fn search(
         &mut self,
         known: &Known<'_>,
@@ -100,6 +101,7 @@ impl Newton {
         search: &Search,
         observer: &mut dyn SearchObserver,
     ) -> Result<Found, SolveError> {
+        Solver::check(interactions)?;
         let mut found = Found {
             states: vec![Distinct {
                 state: known.state.clone(),
@@ -119,10 +121,15 @@ impl Newton {
             );
             let turn = TURNS[start / 3 % TURNS.len()];
             let about = match start % 3 {
-                2 => known.reference.clone(),
-                _ => found.states[start % found.states.len()].state.clone(),
+                2 => known.reference,
+                _ => &found.states[start % found.states.len()].state,
             };
-            let mut trial = self.drawn(&about, interactions, (&mut noise, turn, start % 3 == 0))?;
+            let drawn = self.drawn(about, interactions, (&mut noise, turn, start % 3 == 0));
+            // A reference need not have a finite energy.
+            let Ok(mut trial) = drawn else {
+                found.lost += 1;
+                continue;
+            };
             let solved = self.minimize_observed(&mut trial, interactions, SADDLES, &mut |step| {
                 observer.iterate(step)
             });
