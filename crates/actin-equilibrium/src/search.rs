@@ -69,6 +69,21 @@ pub struct Found {
     pub lost: usize,
 }
 
+impl Found {
+    /// What is found before the first start.
+    fn beginning(known: &Known<'_>) -> Self {
+        Self {
+            states: vec![Distinct {
+                state: known.state.clone(),
+                equilibrium: known.equilibrium.clone(),
+                found: 1,
+                is_known: true,
+            }],
+            lost: 0,
+        }
+    }
+}
+
 /// What a caller says of the search while it goes on.
 pub trait SearchObserver {
     /// Sees each step of Newton's method; may end the search.
@@ -102,15 +117,7 @@ impl Newton {
         observer: &mut dyn SearchObserver,
     ) -> Result<Found, SolveError> {
         Solver::check(interactions)?;
-        let mut found = Found {
-            states: vec![Distinct {
-                state: known.state.clone(),
-                equilibrium: known.equilibrium.clone(),
-                found: 1,
-                is_known: true,
-            }],
-            lost: 0,
-        };
+        let mut found = Found::beginning(known);
         for start in 0..search.starts {
             // Each draws from a source of its own, about those that are known by then in turn.
             let mut noise = Xorshift::new(
