@@ -80,22 +80,62 @@ fn what_has_no_sense_is_refused() {
     assert!(follower.contains("loads[0].follows"), "{follower}");
 }
 
-/// Steps at which strains would be too warm are told; the default ones, and any without heat, are not.
+/// Steps at which some motion is too warm are told; the default ones, and any without heat, are not.
 #[test]
 fn long_steps_are_told() {
-    let notes = |temperature: f64, step: &str| {
+    let notes = |sections: &str, temperature: f64, step: &str| {
         let task = format!("Brownian(duration_ms: 1e-5, temperature_k: {temperature:?}{step})");
-        let assembly = Assembly::build(&Scene::from_ron(&cantilever(SECTIONS[0], &task)).unwrap());
+        let assembly = Assembly::build(&Scene::from_ron(&cantilever(sections, &task)).unwrap());
         Plan::new(&assembly.unwrap()).unwrap().notes()
     };
     let told = |notes: &[String]| {
-        notes
-            .iter()
-            .any(|note| note.contains("more than their thermal energy"))
+        notes.iter().any(|note| {
+            note.contains("more than its thermal") || note.contains("more than their thermal")
+        })
     };
-    assert!(!told(&notes(298.0, "")));
-    assert!(told(&notes(298.0, ", time_step_ns: 1.0")));
-    assert!(!told(&notes(0.0, ", time_step_ns: 1.0")));
+    for sections in SECTIONS {
+        assert!(!told(&notes(sections, 298.0, "")));
+        assert!(told(&notes(sections, 298.0, ", time_step_ns: 1.0")));
+        assert!(!told(&notes(sections, 0.0, ", time_step_ns: 1.0")));
+    }
+}
+
+/// Mean energy (kT) of a free rod of 120 nm in six segments over `steps` steps.
+fn mean_energy(law: &str, step_ns: f64, steps: u32) -> f64 {
+    let duration = f64::from(steps) * step_ns * 1e-6;
+    let text = format!(
+        "Scene(
+            filament: Filament(
+                sections: [Rod(from_nm: 0.0, to_nm: 120.0, segments: 6)],
+                rod: (law: {law}),
+            ),
+            task: Brownian(duration_ms: {duration:?}, temperature_k: 298.0, seed: 3,
+                time_step_ns: {step_ns:?}, record_every_ns: {step_ns:?}),
+        )"
+    );
+    let (assembly, records) = run(&text);
+    let energy = |record: &Record| -> f64 {
+        let interactions = assembly.system.interactions();
+        interactions.iter().map(|i| i.energy(&record.state)).sum()
+    };
+    let settled = &records[records.len() / 10..];
+    settled.iter().map(energy).sum::<f64>() / (settled.len() as f64 * 1.380_649e-2 * 298.0)
+}
+
+/// A free rod whose strains are 33 coordinates of their own has an energy of 16.5 kT in steps of up to 10,000 times the
+/// fastest relaxation, while stretch and shear relax in 0.01 ns and the slowest bending in 30 ns. Strains that are coupled or
+/// not linear, as of a potential, do not depend on the step either. Standard errors of 4000 states that remember some ten
+/// steps are 1 %; midpoint steps of 1 ns are 9 % too warm, and of 10 ns unsolved.
+#[test]
+fn rods_have_their_energy_in_long_steps() {
+    for step in [5.0, 50.0] {
+        let energy = mean_energy("Constant", step, 4000);
+        println!("Constant, {step} ns: {energy} kT");
+        assert!((energy / 16.5 - 1.0).abs() < 0.03, "{energy}");
+    }
+    let [short, long] = [5.0, 50.0].map(|step| mean_energy("HomogenisedAt298K", step, 4000));
+    println!("HomogenisedAt298K: {short} and {long} kT");
+    assert!((long / short - 1.0).abs() < 0.04);
 }
 
 /// Nothing passes through a filament, whatever steps and records are.

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The crates that can be used alone.
-const LIBRARIES: [&str; 10] = [
+const LIBRARIES: [&str; 11] = [
     "actin-mechanics",
     "actin-ellipsoid",
     "actin-cosserat",
@@ -17,6 +17,7 @@ const LIBRARIES: [&str; 10] = [
     "actin-fit",
     "actin-sim",
     "actin-sweep",
+    "actin-export",
 ];
 
 /// Programs among the examples that measure something for the documents.

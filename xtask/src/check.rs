@@ -45,8 +45,8 @@ const STEPS: [Step; 5] = [
     },
     Step {
         purpose: "random input",
-        // Of the whole workspace, so that what is built serves all tests.
-        arguments: &["test", "--workspace", "--lib", "extremes::fuzz"],
+        // All tests of the workspace, so that what is built serves them; `--lib` would build one for Python too.
+        arguments: &["test", "--workspace", "--tests", "extremes::fuzz"],
         variable: Some(("ACTIN_FUZZ_CASES", "100")),
     },
 ];

@@ -6,6 +6,7 @@ use anyhow::{Error, Result};
 use std::path::PathBuf;
 
 /// What is computed, and how.
+#[expect(clippy::struct_excessive_bools, reason = "flags of a command line")]
 #[derive(clap::Args, Clone, Debug)]
 pub(crate) struct Options {
     /// Which: fig1 to fig10, table1 to table5, law. All by default.
@@ -25,6 +26,9 @@ pub(crate) struct Options {
     /// Computes again also what an earlier run has finished.
     #[arg(long)]
     fresh: bool,
+    /// Writes every picture as PDF and PNG, too; needs a Chromium, in CHROME or on the path.
+    #[arg(long)]
+    print: bool,
     /// Colours of pictures and viewer.
     #[arg(long, value_enum, default_value_t)]
     palette: Palette,
@@ -49,6 +53,7 @@ pub(crate) fn run(options: Options) -> Result<()> {
         quick,
         threads: options.threads,
         fresh: options.fresh,
+        print: options.print,
         palette: match options.palette {
             Palette::Paper => figures::Palette::Paper,
             Palette::ColourBlind => figures::Palette::ColourBlind,

@@ -62,6 +62,15 @@ impl Dashpot {
         self.points.into_iter().filter(|(_, weight)| *weight != 0.0)
     }
 
+    /// Adds a force (axes of the frame) where the dashpot is.
+    fn add_force(&self, state: &State, force: Vector3, loads: &mut Loads) {
+        let in_lab = state.frames.orientation.get(self.frame) * force;
+        for (i, weight) in self.points() {
+            loads.force.add(i, in_lab * weight);
+        }
+        loads.torque.add(self.frame, self.arm.cross(&force));
+    }
+
     fn has_arm(&self) -> bool {
         self.arm != Vector3::zeros()
     }
@@ -84,45 +93,52 @@ pub(crate) struct Velocities {
 }
 
 impl Friction {
-    /// Adds what friction does to the bodies of a state that move with these velocities, and random forces that
-    /// are `strength` times the root of each friction times the deviates of each dashpot and each turn.
-    pub(crate) fn add_loads(
-        &self,
-        (state, velocities): (&State, &Velocities),
-        (strength, places, turns): (f64, &Vectors, &Vectors),
-        loads: &mut Loads,
-    ) {
-        for (k, dashpot) in self.dashpots.iter().enumerate() {
+    /// Adds what friction does to the bodies of a state that move with these velocities.
+    pub(crate) fn add_loads(&self, state: &State, velocities: &Velocities, loads: &mut Loads) {
+        for dashpot in &self.dashpots {
             let q = state.frames.orientation.get(dashpot.frame);
             let of_points = |(i, weight)| velocities.points.get(i) * weight;
             let v: Vector3 = dashpot.points().map(of_points).sum();
             let omega = velocities.frames.get(dashpot.frame);
             let u = q.inverse_transform_vector(&v) + omega.cross(&dashpot.arm);
-            let force = load(dashpot.friction, u, strength, places.get(k));
-            let in_lab = q * force;
-            for (i, weight) in dashpot.points() {
-                loads.force.add(i, in_lab * weight);
-            }
-            loads.torque.add(dashpot.frame, dashpot.arm.cross(&force));
+            dashpot.add_force(state, -dashpot.friction.component_mul(&u), loads);
         }
-        for (k, turn) in self.turns.iter().enumerate() {
+        for turn in &self.turns {
             let omega = velocities.frames.get(turn.frame);
-            let torque = load(turn.friction, omega, strength, turns.get(k));
+            let torque = -turn.friction.component_mul(&omega);
             loads.torque.add(turn.frame, torque);
         }
     }
 
-    /// The friction times `factor`, as blocks.
-    pub(crate) fn times(&self, factor: f64) -> Scaled<'_> {
-        let friction = self;
-        Scaled { friction, factor }
+    /// Adds random loads: `strength` times the root of each friction times the deviates of each dashpot and each turn.
+    pub(crate) fn add_noise(
+        &self,
+        state: &State,
+        strength: f64,
+        (places, turns): (&Vectors, &Vectors),
+        loads: &mut Loads,
+    ) {
+        let random = |friction: Vector3, deviates: Vector3| {
+            friction.map(f64::sqrt).component_mul(&deviates) * strength
+        };
+        for (k, dashpot) in self.dashpots.iter().enumerate() {
+            let force = random(dashpot.friction, places.get(k));
+            dashpot.add_force(state, force, loads);
+        }
+        for (k, turn) in self.turns.iter().enumerate() {
+            let torque = random(turn.friction, turns.get(k));
+            loads.torque.add(turn.frame, torque);
+        }
     }
-}
 
-/// `-zeta u + s sqrt(zeta) xi`, component by component.
-fn load(friction: Vector3, u: Vector3, strength: f64, deviates: Vector3) -> Vector3 {
-    let random = friction.map(f64::sqrt).component_mul(&deviates);
-    random * strength - friction.component_mul(&u)
+    /// The friction times `factor`, as blocks, in the axes of the state that they are asked for at.
+    pub(crate) fn times(&self, factor: f64) -> Scaled<'_> {
+        Scaled {
+            friction: self,
+            factor,
+            axes: None,
+        }
+    }
 }
 
 /// A multiple of the friction, as blocks.
@@ -130,6 +146,17 @@ fn load(friction: Vector3, u: Vector3, strength: f64, deviates: Vector3) -> Vect
 pub(crate) struct Scaled<'a> {
     friction: &'a Friction,
     factor: f64,
+    axes: Option<&'a State>,
+}
+
+impl<'a> Scaled<'a> {
+    /// The same in the axes of another state.
+    pub(crate) fn in_axes_of(self, state: &'a State) -> Self {
+        Self {
+            axes: Some(state),
+            ..self
+        }
+    }
 }
 
 impl SecondOrder for Scaled<'_> {
@@ -137,7 +164,8 @@ impl SecondOrder for Scaled<'_> {
         use Coordinates::{Frame, Point};
         for dashpot in &self.friction.dashpots {
             let own = Matrix3::from_diagonal(&(dashpot.friction * self.factor));
-            let q = state.frames.orientation.get(dashpot.frame);
+            let axes = self.axes.unwrap_or(state);
+            let q = axes.frames.orientation.get(dashpot.frame);
             let q = q.to_rotation_matrix().into_inner();
             let in_lab = q * own * q.transpose();
             let frame = Frame(dashpot.frame);

@@ -18,6 +18,7 @@ mod cylinder;
 mod friction;
 mod relaxation;
 mod stepper;
+mod stress;
 
 pub use cylinder::{Cylinder, CylinderError};
 pub use friction::{Dashpot, Friction, TurnDashpot};

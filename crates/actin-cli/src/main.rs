@@ -1,4 +1,4 @@
-//! The `actin` program: runs and checks scenes, and sweeps over them.
+//! The `actin` program: runs and checks scenes, sweeps over them, and shows runs.
 //!
 //! Exit codes: 0 done, 2 bad input, 3 numerical failure, 74 output that could not be written, 130
 //! interrupted with a checkpoint written. A closed pipe on standard output changes nothing.
@@ -8,11 +8,14 @@ mod streams;
 
 mod check;
 mod excerpt;
+mod export;
 mod failure;
+mod manual;
 mod progress;
 mod run;
 mod signals;
 mod sweep;
+mod view;
 
 use actin_sim::Override;
 use clap::{Args, Parser, Subcommand};
@@ -49,11 +52,28 @@ enum Command {
     /// Runs a scene for many values of its keys and many seeds, on all cores, into one table.
     #[command(after_help = sweep::EXIT_CODES)]
     Sweep(sweep::SweepArguments),
+    /// Writes a finished run as a file of another program.
+    #[command(after_help = export::EXIT_CODES)]
+    Export(export::ExportArguments),
+    /// Prints completions of commands and options for a shell.
+    #[command(hide = true)]
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+    /// Writes manual pages, one for each command, into a folder.
+    #[command(hide = true)]
+    Man {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// Validates a scene; prints every default, what it resolves to, its time step and cost. Runs nothing.
     Check {
         #[command(flatten)]
         source: SceneArguments,
     },
+    /// Writes a page that shows a run in three dimensions, plays through its records and draws its curves.
+    View(view::ViewArguments),
 }
 
 #[derive(Debug, Args)]
@@ -121,7 +141,11 @@ fn carry_out(command: Command) -> Result<(), Failure> {
     match command {
         Command::Run(arguments) => run::run(&arguments)?,
         Command::Sweep(arguments) => sweep::sweep(&arguments)?,
+        Command::Export(arguments) => export::export(&arguments)?,
+        Command::Completions { shell } => manual::completions(shell),
+        Command::Man { folder } => manual::pages(&folder)?,
         Command::Check { source } => check::check(&source)?,
+        Command::View(arguments) => view::view(&arguments)?,
     }
     streams::ending().map_err(Failure::Unwritten)
 }

@@ -47,3 +47,12 @@ impl Progress {
         self.bar.finish_and_clear();
     }
 }
+
+/// A bar of pictures; indicatif hides it where standard error is no terminal.
+pub(crate) fn pictures(count: usize) -> ProgressBar {
+    let bar = ProgressBar::new(count as u64);
+    let style = ProgressStyle::with_template("{bar:32} {pos} of {len} pictures  remaining {eta}")
+        .expect("the template names known fields only");
+    bar.set_style(style);
+    bar
+}

@@ -50,6 +50,7 @@ fn a_scene_runs_into_its_directory() {
         "profile.csv",
         "states.npz",
         "run.pvd",
+        "open_in_paraview.py",
     ] {
         assert!(place.path("results/a").join(name).is_file(), "{name}");
     }
@@ -373,5 +374,28 @@ fn check_tells_cost_and_advice() {
             "// cost: about 12 Newton steps to 1 equilibrium, each of 1428 bonds and 0 elements: ";
         assert!(printed.contains(cost), "{printed}");
         assert!(printed.contains(advice), "{printed}");
+    }
+}
+
+/// Completions and manual pages know every command that the help shows.
+#[test]
+fn completions_and_manual_pages_name_every_command() {
+    let place = Workplace::with("");
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let output = place.actin(&["completions", shell]);
+        assert_eq!(code(&output), 0);
+        for word in ["run", "sweep", "check", "export", "overwrite"] {
+            assert!(stdout(&output).contains(word), "{shell}: {word}");
+        }
+    }
+    assert_eq!(code(&place.actin(&["completions", "nothing"])), 2);
+    assert_eq!(code(&place.actin(&["man", "man1"])), 0);
+    for (page, line) in [
+        ("actin.1", "actin\\-export"),
+        ("actin-run.1", "resume"),
+        ("actin-export.1", "gsd"),
+    ] {
+        let text = std::fs::read_to_string(place.path("man1").join(page)).unwrap();
+        assert!(text.starts_with(".ie") && text.contains(line), "{page}");
     }
 }

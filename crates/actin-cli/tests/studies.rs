@@ -18,7 +18,7 @@ struct Study {
     set: &'static [&'static str],
 }
 
-const STUDIES: [Study; 5] = [
+const STUDIES: [Study; 6] = [
     Study {
         name: "extension",
         shorter: &[
@@ -49,6 +49,25 @@ const STUDIES: [Study; 5] = [
         set: &[
             "path[0].duration_ns=0.5",
             "path[0].set[0].shift_nm[2]=-0.05",
+            "task.duration_ns=0.5",
+            "task.record_every_ns=0.1",
+        ],
+    },
+    Study {
+        name: "subcell",
+        shorter: &[
+            ("duration_ns: 300.0", "duration_ns: 0.5"),
+            ("duration_ns: 1500.0", "duration_ns: 1.0"),
+            ("duration_ns: 1800.0", "duration_ns: 1.5"),
+            ("record_every_ns: 15.0", "record_every_ns: 0.25"),
+            ("-150.0", "-0.1"),
+            ("[0.0, 360.0]", "[0.0, 1.0]"),
+        ],
+        points: 14,
+        set: &[
+            "path[0].duration_ns=0.1",
+            "path[1].duration_ns=0.4",
+            "path[1].set[0].shift_nm[2]=-0.05",
             "task.duration_ns=0.5",
             "task.record_every_ns=0.1",
         ],

@@ -6,7 +6,8 @@
 
 use crate::{BendingElement, RodError, RodLayout, RodMaterial, ShearElement};
 use actin_mechanics::{
-    Interaction, Loads, SecondOrder, State, Stiffness, UnitQuaternion, Vector3, rotation,
+    Interaction, InternalCouple, InternalForce, Loads, RandomStress, SecondOrder, State, Stiffness,
+    UnitQuaternion, Vector3, correlate, rotation,
 };
 
 /// What resists stretch and shear between two points, in axes of a frame.
@@ -245,6 +246,88 @@ impl Interaction for RodElements {
     fn second_order(&self) -> Option<&dyn SecondOrder> {
         Some(self)
     }
+
+    fn random_stress(&self) -> Option<&dyn RandomStress> {
+        Some(self)
+    }
+}
+
+impl RodElements {
+    /// What the stresses act on: the force of each segment, then the couple of each joint.
+    fn internal(&self, stresses: &[f64]) -> (Vec<InternalForce>, Vec<InternalCouple>) {
+        let (vectors, _) = stresses.as_chunks::<3>();
+        let (forces, couples) = vectors.split_at(self.segments.len());
+        let forces = self.segments.iter().zip(forces);
+        let forces = forces.map(|(segment, force)| InternalForce {
+            points: segment.points,
+            frame: segment.frame,
+            force: Vector3::from(*force),
+        });
+        let couples = self.joints.iter().zip(couples).map(|(joint, couple)| {
+            let [a, b] = joint.offsets;
+            InternalCouple {
+                frames: joint.frames,
+                // The strain log((Qa oa)^T Qb ob) in other axes: log(ob oa^T Qa^T Qb) = ob log(...).
+                rest: a * b.inverse(),
+                couple: b * Vector3::from(*couple),
+            }
+        });
+        (forces.collect(), couples.collect())
+    }
+}
+
+impl RandomStress for RodElements {
+    fn components(&self) -> usize {
+        3 * self.elements()
+    }
+
+    fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]) {
+        let (vectors, _) = stresses.as_chunks_mut::<3>();
+        let (forces, couples) = vectors.split_at_mut(self.segments.len());
+        for (segment, force) in self.segments.iter().zip(forces) {
+            let (q, l) = segment.placed(state);
+            let tangent = (self.material).shear_tangent(segment.element().strain(q, l));
+            correlate(tangent * (thermal_energy / segment.rest_length), force);
+        }
+        let curvatures = self.curvatures(state).zip(&self.joints);
+        for ((curvature, joint), couple) in curvatures.zip(couples) {
+            let tangent = self.material.bending_tangent(curvature);
+            correlate(tangent * (thermal_energy / joint.rest_distance), couple);
+        }
+    }
+
+    fn balance(&self, state: &State, stresses: &mut [f64]) {
+        let (vectors, _) = stresses.as_chunks_mut::<3>();
+        let (forces, couples) = vectors.split_at_mut(self.segments.len());
+        for (segment, force) in self.segments.iter().zip(forces) {
+            let (q, l) = segment.placed(state);
+            let strain = segment.element().strain(q, l);
+            *force = self.material.shear_force(strain).into();
+        }
+        for (curvature, couple) in self.curvatures(state).zip(couples) {
+            *couple = self.material.bending_couple(curvature).into();
+        }
+    }
+
+    fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads) {
+        let (forces, couples) = self.internal(stresses);
+        for force in &forces {
+            force.add_loads(state, loads);
+        }
+        for couple in &couples {
+            couple.add_loads(state, loads);
+        }
+    }
+
+    fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
+        let (forces, couples) = self.internal(stresses);
+        for force in &forces {
+            force.add_stiffness(state, stiffness);
+        }
+        for couple in &couples {
+            couple.add_stiffness(state, stiffness);
+        }
+    }
 }
 
 impl SecondOrder for RodElements {
@@ -268,7 +351,7 @@ mod tests {
     use super::*;
     use crate::{EnergyGradient, Rigidities, RodClamp, RodEnd, StraightRod};
     use actin_mechanics::testing::{
-        assert_is_balanced, assert_is_gradient, assert_is_stiffness, loads_of,
+        assert_fluctuates, assert_is_balanced, assert_is_gradient, assert_is_stiffness, loads_of,
     };
     use actin_mechanics::{Xorshift, perturb};
 
@@ -299,6 +382,7 @@ mod tests {
         assert_is_gradient(&law, &state, 1e-3, 1e-8);
         assert_is_stiffness(&law, &state, 1e-3, 1e-7);
         assert_is_balanced(&law, &state, 1e-13);
+        assert_fluctuates(&[&law], &state, 1e-12);
     }
 
     /// A rod that is straight at rest is that of the energy gradient.

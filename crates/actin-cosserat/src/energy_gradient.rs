@@ -3,7 +3,7 @@
 use crate::extended::ExtendedSegments;
 use crate::fast::FastRod;
 use crate::{BendingElement, RodLayout, RodMaterial, SegmentCurvature, SegmentLaw, ShearElement};
-use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness};
+use actin_mechanics::{Interaction, Loads, RandomStress, SecondOrder, State, Stiffness};
 
 /// A rod whose loads are minus the gradient of its energy: term `rod`.
 ///
@@ -61,6 +61,13 @@ impl EnergyGradient {
     /// Its material.
     pub fn material(&self) -> &RodMaterial {
         &self.material
+    }
+}
+
+impl EnergyGradient {
+    /// The segments that curvature reaches.
+    pub(crate) fn extended(&self) -> Option<&ExtendedSegments> {
+        self.extended.as_ref()
     }
 }
 
@@ -181,6 +188,10 @@ impl Interaction for EnergyGradient {
             Some(segments) => segments.write_energies(self.rod(), state, shear),
         }
         write_bending_energies(layout, material, state, bending);
+    }
+
+    fn random_stress(&self) -> Option<&dyn RandomStress> {
+        Some(self)
     }
 
     fn second_order(&self) -> Option<&dyn SecondOrder> {

@@ -34,6 +34,7 @@ mod law;
 mod layout;
 mod material;
 mod paper_balance;
+mod random_stress;
 mod rigidities;
 mod shape;
 mod shear;

@@ -3,8 +3,8 @@
 use crate::site::{Site, ensure};
 use crate::{LinkerError, LinkerKey};
 use actin_mechanics::{
-    ControlId, Coordinates, Hooke, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness,
-    Vector3,
+    ControlId, Coordinates, Hooke, Interaction, Loads, Matrix3, RandomStress, SecondOrder, State,
+    Stiffness, Vector3, correlate,
 };
 
 /// A point outside of the filament that holds one end of a linker.
@@ -174,41 +174,23 @@ impl Linker {
         }
         slopes
     }
-}
 
-impl Interaction for Linker {
-    fn term(&self) -> &'static str {
-        "linker"
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
-        let force = self.force(state);
+    /// Adds the loads of a force on the filament at the site (pN, lab frame).
+    fn add_force(&self, force: Vector3, state: &State, loads: &mut Loads) {
         self.site.add_force(force, state, loads);
         if let LinkerEnd::Site(other) = &self.end {
             other.add_force(-force, state, loads);
         }
     }
 
-    fn elements(&self) -> usize {
-        1
-    }
-
-    fn write_energies(&self, state: &State, energies: &mut [f64]) {
-        assert_eq!(energies.len(), 1, "a linker is one element");
-        energies[0] = self.spring.energy(self.reach(state));
-    }
-
-    fn second_order(&self) -> Option<&dyn SecondOrder> {
-        Some(self)
-    }
-}
-
-impl SecondOrder for Linker {
-    /// `J^T K J` with `J` the derivative of the linker's vector by each coordinate, and for each
-    /// frame the part in which its force turns the arm.
-    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
-        let d = self.reach(state);
-        let (force, spring) = (self.spring.force(d), self.spring.tangent(d));
+    /// Pushes `J^T K J` with `J` the derivative of the linker's vector by each coordinate and `K` that of its force, and
+    /// for each frame the part in which the force turns the arm.
+    fn push_stiffness(
+        &self,
+        (force, spring): (Vector3, Matrix3),
+        state: &State,
+        stiffness: &mut Stiffness,
+    ) {
         let slopes = self.slopes(state);
         for (k, &(a, slope_a)) in slopes.iter().enumerate() {
             stiffness.push(a, a, symmetric(slope_a.transpose() * spring * slope_a));
@@ -230,6 +212,68 @@ impl SecondOrder for Linker {
         if let LinkerEnd::Site(other) = &self.end {
             geometric(other, force, stiffness);
         }
+    }
+}
+
+impl Interaction for Linker {
+    fn term(&self) -> &'static str {
+        "linker"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        self.add_force(self.force(state), state, loads);
+    }
+
+    fn elements(&self) -> usize {
+        1
+    }
+
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        assert_eq!(energies.len(), 1, "a linker is one element");
+        energies[0] = self.spring.energy(self.reach(state));
+    }
+
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        Some(self)
+    }
+
+    fn random_stress(&self) -> Option<&dyn RandomStress> {
+        Some(self)
+    }
+}
+
+impl SecondOrder for Linker {
+    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        let d = self.reach(state);
+        let of_spring = (self.spring.force(d), self.spring.tangent(d));
+        self.push_stiffness(of_spring, state, stiffness);
+    }
+}
+
+/// A force in the lab frame, conjugate to the linker's vector.
+impl RandomStress for Linker {
+    fn components(&self) -> usize {
+        3
+    }
+
+    fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]) {
+        let tangent = self.spring.tangent(self.reach(state));
+        for stress in stresses.as_chunks_mut().0 {
+            correlate(tangent * thermal_energy, stress);
+        }
+    }
+
+    fn balance(&self, state: &State, stresses: &mut [f64]) {
+        stresses.copy_from_slice(self.force(state).as_slice());
+    }
+
+    fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads) {
+        self.add_force(-Vector3::from_column_slice(stresses), state, loads);
+    }
+
+    fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
+        let force = -Vector3::from_column_slice(stresses);
+        self.push_stiffness((force, Matrix3::zeros()), state, stiffness);
     }
 }
 

@@ -2,7 +2,7 @@
 //! crate.
 
 use crate::Linker;
-use actin_mechanics::{ControlId, Interaction, Loads, SecondOrder, State, Stiffness};
+use actin_mechanics::{ControlId, Interaction, Loads, RandomStress, SecondOrder, State, Stiffness};
 
 /// A linker whose site is one of several places and which may have let go, as two controls say: term
 /// `linker`, one element.
@@ -96,6 +96,38 @@ impl Interaction for SwitchedLinker {
 
     fn second_order(&self) -> Option<&dyn SecondOrder> {
         Some(self)
+    }
+
+    fn random_stress(&self) -> Option<&dyn RandomStress> {
+        Some(self)
+    }
+}
+
+/// That of the linker at its place, while it holds.
+impl RandomStress for SwitchedLinker {
+    fn components(&self) -> usize {
+        self.places[0].components()
+    }
+
+    fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]) {
+        self.linker(state).draw(state, thermal_energy, stresses);
+    }
+
+    fn balance(&self, state: &State, stresses: &mut [f64]) {
+        self.linker(state).balance(state, stresses);
+    }
+
+    fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads) {
+        if self.is_bound(state) {
+            self.linker(state).add_stress_loads(state, stresses, loads);
+        }
+    }
+
+    fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
+        if self.is_bound(state) {
+            let linker = self.linker(state);
+            linker.add_stress_stiffness(state, stresses, stiffness);
+        }
     }
 }
 

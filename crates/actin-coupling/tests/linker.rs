@@ -3,8 +3,8 @@
 use actin_cosserat::{RodLayout, StraightRod};
 use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, LinkerKey, RodPlace, Site};
 use actin_mechanics::testing::{
-    assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness, loads_of,
-    resultant, stiffness_matrix,
+    assert_fluctuates, assert_is_balanced, assert_is_gradient, assert_is_invariant,
+    assert_is_stiffness, loads_of, resultant, stiffness_matrix,
 };
 use actin_mechanics::{Frame, Inertia, Interaction, Point, State, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
@@ -110,6 +110,9 @@ fn stiffness_is_the_derivative_of_the_loads() {
         for linker in all(&scene, rest_length) {
             // As above; the derivative of the loads is as smooth.
             assert_is_stiffness(&linker, &scene.state, 0.01, 1e-9);
+            if linker.extension(&scene.state) > 0.0 {
+                assert_fluctuates(&[&linker], &scene.state, 1e-12);
+            }
         }
     }
 }

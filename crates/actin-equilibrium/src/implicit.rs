@@ -4,6 +4,7 @@
 //! What the step is for, and whether it is good, is the caller's business.
 
 use crate::assemble::Assembly;
+use crate::chain::is_open;
 use crate::direction::Solver;
 use crate::factor::Factor;
 use crate::layout::{Layout, Node};
@@ -23,6 +24,10 @@ pub struct ImplicitSolver {
     factor: Option<Factor>,
     metric: Vec<f64>,
     step: Vec<f64>,
+    /// Whether bodies carry one another along, once that is known.
+    carries: Option<bool>,
+    /// Where a step starts from.
+    from: Option<State>,
 }
 
 impl ImplicitSolver {
@@ -34,6 +39,8 @@ impl ImplicitSolver {
             factor: None,
             metric: Vec::new(),
             step: Vec::new(),
+            carries: None,
+            from: None,
         }
     }
 
@@ -50,15 +57,16 @@ impl ImplicitSolver {
         Solver::check(interactions)
     }
 
-    /// Factorises the stiffness of `interactions` at `state`, under `loads`, with the blocks of `added`.
+    /// Factorises the stiffness of `interactions` at `state`, under `loads`, with the blocks of `added`; returns
+    /// whether the sum is positive definite.
     ///
-    /// The sum need not be positive definite. A pivot of zero is replaced by rounding.
+    /// It need not be. A pivot of zero is replaced by rounding.
     pub fn factorize(
         &mut self,
         (state, loads): (&State, &Loads),
         interactions: &[Box<dyn Interaction>],
         added: &dyn SecondOrder,
-    ) {
+    ) -> bool {
         let at = (state, loads);
         let assembly = &mut self.assembly;
         if assembly.update_with(interactions, Some(added), at, &mut self.layout) {
@@ -68,7 +76,8 @@ impl ImplicitSolver {
         let pattern = assembly.pattern();
         let factor = self.factor.get_or_insert_with(|| Factor::new(pattern));
         let upper = assembly.pattern().symbolic.as_ref();
-        factor.factorize(upper, &assembly.values, &self.metric, 0.0);
+        let pivots = factor.factorize(upper, &assembly.values, &self.metric, 0.0);
+        pivots.is_positive()
     }
 
     /// Number of unknowns.
@@ -111,6 +120,35 @@ impl ImplicitSolver {
         let extent = self.layout.step_extent(&self.step);
         let scale = (largest_turn / extent.rotation).min(1.0);
         self.layout.apply(state, &self.step, scale);
+        extent
+    }
+
+    /// The same, but where all hangs together at one place or at none, bodies carry one another along: the step changes strains
+    /// by as much as its velocities say, however far it turns what is carried.
+    ///
+    /// # Panics
+    /// If nothing has been factorised.
+    pub fn advance_together(
+        &mut self,
+        state: &mut State,
+        loads: &Loads,
+        largest_turn: f64,
+    ) -> StepSize {
+        let (layout, assembly) = (&self.layout, &self.assembly);
+        let carries = *self
+            .carries
+            .get_or_insert_with(|| layout.groups().is_empty() && is_open(layout, assembly.ties()));
+        if !carries {
+            return self.advance(state, loads, largest_turn);
+        }
+        let mut from = self.from.take().unwrap_or_else(|| state.clone());
+        from.copy_motion_from(state);
+        let extent = self.advance(state, loads, largest_turn);
+        let scale = (largest_turn / extent.rotation).min(1.0);
+        let velocities = self.layout.velocities(&from, &self.step);
+        let chain = self.assembly.chain();
+        chain.carry(&from, &velocities, scale, state);
+        self.from = Some(from);
         extent
     }
 

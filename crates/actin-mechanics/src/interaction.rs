@@ -1,6 +1,6 @@
 //! What acts on bodies.
 
-use crate::{Coordinates, Loads, SecondOrder, State};
+use crate::{Coordinates, Loads, RandomStress, SecondOrder, State};
 use std::fmt::Debug;
 
 /// A term of the model: some elements of one kind (springs, joints, loads).
@@ -32,6 +32,11 @@ pub trait Interaction: Debug + Send + Sync {
 
     /// The second derivatives of the energy, where the interaction knows them.
     fn second_order(&self) -> Option<&dyn SecondOrder> {
+        None
+    }
+
+    /// Random stress of its elements, where the interaction has strains.
+    fn random_stress(&self) -> Option<&dyn RandomStress> {
         None
     }
 

@@ -1,5 +1,6 @@
 //! Forces on points and torques on frames.
 
+use crate::vectors::add_product;
 use crate::{Residual, State, Vectors};
 
 /// The loads on a [`State`].
@@ -24,6 +25,12 @@ impl Loads {
     pub fn clear(&mut self) {
         self.force.clear_to_zero();
         self.torque.clear_to_zero();
+    }
+
+    /// Adds `other`, which has as many.
+    pub fn add(&mut self, other: &Self) {
+        add_product(&mut self.force, &other.force, 1.0);
+        add_product(&mut self.torque, &other.torque, 1.0);
     }
 
     /// Largest norm of a force on a free point and of a torque on a free frame; of sliding bodies

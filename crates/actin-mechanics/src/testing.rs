@@ -2,8 +2,10 @@
 //!
 //! With the feature `testing`, for tests of interactions of one's own.
 
+mod random_stress;
 mod second_order;
 
+pub use random_stress::assert_fluctuates;
 pub use second_order::{assert_are_second_derivatives, assert_is_stiffness, stiffness_matrix};
 
 use crate::wide::Arch;

@@ -44,15 +44,16 @@ pub use error::SimError;
 pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
 pub use results::{
     CheckpointError, Checkpoints, Damage, Difference, EndReaction, EndReactions, EnergySummary,
-    FilamentSummary, LinkerSummary, ResidualSummary, RunDirectory, RunDirectoryError, RunLock,
-    ShapeSummary, StabilitySummary, StateSummary, StatesSummary, Summary, ThermalSummary,
-    WorkSummary, first_difference, replace_file,
+    FilamentSummary, FinishedRun, FinishedRunError, FinishedStates, LinkerSummary, ResidualSummary,
+    RunDirectory, RunDirectoryError, RunLock, ShapeSummary, StabilitySummary, StateSummary,
+    StatesSummary, StoredStates, Summary, ThermalSummary, WorkSummary, first_difference,
+    replace_file,
 };
 pub use run::{
-    Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, MotionPosition,
-    Outcome, PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records, RelaxationTimes,
-    Row, RowIter, RunError, RunPosition, SaddlePush, Saved, Sink, Slip, StableState, StableStates,
-    Status, Trajectory, solver,
+    Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, LongestStep,
+    MotionPosition, Outcome, PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records,
+    RelaxationTimes, Row, RowIter, RunError, RunPosition, SaddlePush, Saved, Sink, Slip,
+    StableState, StableStates, Status, Trajectory, solver,
 };
 pub use scene::fitted::laws as fitted_laws;
 #[cfg(feature = "schema")]
@@ -63,8 +64,8 @@ pub use scene::{
     Filament, Fluid, Force, ForceLaw, ForcePerLength, Forming, Hinge, Hold, Imperfection,
     Integrator, JunctionModel, JunctionWeight, Kinetics, Linker, LinkerSite, Load, Material,
     Monomers, Observable, Output, Override, Pace, Plane, Point, Repulsion, RodLaw, RodLaws,
-    RodModel, RotaryInertia, Scene, SceneError, SceneProblem, SceneText, Section, Setting, Shape,
-    ShearLaw, Slides, Sphere, SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Task,
-    Thermal, TwistLaw, TwistRise, TwistStretchLaw,
+    RodModel, RotaryInertia, Scene, SceneError, SceneProblem, SceneText, SceneValue, Section,
+    Setting, Shape, ShearLaw, Slides, Sphere, SphereSide, Stage, Stepping, StopTolerances,
+    StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
 };
 pub use scene::{Readings, read_all, read_ron};

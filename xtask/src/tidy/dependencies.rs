@@ -4,7 +4,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::path::Path;
 
 /// Each crate and the crates of ours that it may depend on.
-const ALLOWED: [(&str, &[&str]); 14] = [
+const ALLOWED: [(&str, &[&str]); 17] = [
     ("actin-mechanics", &[]),
     ("actin-ellipsoid", &["actin-mechanics"]),
     ("actin-cosserat", &["actin-mechanics"]),
@@ -40,10 +40,28 @@ const ALLOWED: [(&str, &[&str]); 14] = [
             "actin-fit",
             "actin-sim",
             "actin-draw",
+            "actin-view",
         ],
     ),
+    ("actin-view", &["actin-sim", "actin-draw"]),
     ("actin-sweep", &["actin-sim"]),
-    ("actin-cli", &["actin-sim", "actin-sweep"]),
+    ("actin-export", &["actin-sim"]),
+    (
+        "actin-cli",
+        &["actin-sim", "actin-sweep", "actin-export", "actin-view"],
+    ),
+    (
+        "actin-python",
+        &[
+            "actin-mechanics",
+            "actin-cosserat",
+            "actin-integrate",
+            "actin-equilibrium",
+            "actin-fit",
+            "actin-sim",
+            "actin-sweep",
+        ],
+    ),
     // Scenes for the reference of their keys.
     (
         "xtask",

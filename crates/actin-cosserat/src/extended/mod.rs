@@ -16,5 +16,5 @@ pub use curvature::{JoinedElement, SegmentCurvature};
 pub use end_shear::{END_SHEAR_NM, EndShear};
 pub use law::SegmentLaw;
 pub(crate) use law::{MeanCurvature, SegmentJet};
-pub(crate) use segments::ExtendedSegments;
+pub(crate) use segments::{ExtendedSegments, SegmentAround};
 pub use twist_stability::TwistStability;

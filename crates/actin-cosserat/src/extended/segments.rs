@@ -43,12 +43,70 @@ impl Segment<'_> {
     }
 }
 
+/// What is around a segment.
+pub(crate) struct SegmentAround {
+    /// Its rest length (nm).
+    pub(crate) length: f64,
+    /// The mean curvature (rad/nm).
+    pub(crate) curvature: Vector3,
+    /// Share of its length that bending elements stand for.
+    pub(crate) covered: f64,
+    /// Whether there are elements on both sides.
+    pub(crate) has_two_sides: bool,
+}
+
+/// A bending element beside a segment.
+pub(crate) struct Beside {
+    /// 0 before the segment, 1 behind it.
+    pub(crate) side: usize,
+    pub(crate) frames: [usize; 2],
+    /// What a couple of the mean curvature, per length of the segment, is on the element's frames (nm/nm).
+    pub(crate) weight: f64,
+}
+
 impl ExtendedSegments {
+    /// Factors of the strains of segment `k`.
+    pub(crate) fn factors(&self, k: usize) -> Vector3 {
+        let across = self.curvature.shear_factor(k);
+        Vector3::new(across, across, 1.0)
+    }
+
+    /// The bending elements around segment `k`.
+    pub(crate) fn around(&self, k: usize, layout: &RodLayout) -> impl Iterator<Item = Beside> {
+        let frame = layout.frames().start + k;
+        let length = layout.segment_lengths()[k];
+        let around = self.curvature.around(k).iter();
+        around.map(move |around| Beside {
+            side: usize::from(around.frames[0] == frame),
+            frames: around.frames,
+            weight: length * around.share / around.element.rest_distance,
+        })
+    }
+
+    /// The derivatives of the energy of segment `k`, and where they were taken.
+    pub(crate) fn jet(
+        &self,
+        (layout, material): (&RodLayout, &RodMaterial),
+        k: usize,
+        state: &State,
+    ) -> (SegmentJet, SegmentAround) {
+        let segment = self.segment(k, layout, state);
+        let jet = self.law.jet(material, segment.strain(), segment.curvature);
+        let mut sides = self.around(k, layout).map(|beside| beside.side);
+        let first = sides.next();
+        let around = SegmentAround {
+            length: segment.element.rest_length,
+            curvature: segment.curvature.kappa,
+            covered: segment.curvature.covered,
+            has_two_sides: sides.any(|side| Some(side) != first),
+        };
+        (jet, around)
+    }
+
     #[inline]
     fn segment(&self, k: usize, layout: &RodLayout, state: &State) -> Segment<'_> {
         let (i, frame) = (layout.points().start + k, layout.frames().start + k);
         let x = &state.points.position;
-        let across = self.curvature.shear_factor(k);
         Segment {
             element: ShearElement::segment(layout.segment_lengths()[k]),
             points: [i, i + 1],
@@ -60,7 +118,7 @@ impl ExtendedSegments {
                 covered: self.curvature.covered(k),
             },
             around: self.curvature.around(k),
-            factors: Vector3::new(across, across, 1.0),
+            factors: self.factors(k),
         }
     }
 

@@ -1,9 +1,10 @@
 //! A page of pictures, tables and text as one HTML file without links to anything outside.
 //!
-//! A [`Page`] is filled in order and finished once. Pictures are SVG files whose colours follow the
-//! page, light or dark ([`on_dark`]); states to be turned are JSON files for a script of the caller's,
-//! which draws them with `raster.js`, part of every page. Rows come as tables with their verdicts, what
-//! was missed first, under its reason.
+//! A [`Page`] is filled in order and finished once. It begins with a contact sheet: the first picture of every
+//! artefact, small, leads to its section, where pictures stand side by side with their captions below. Pictures
+//! are SVG files whose colours follow the page, light or dark ([`on_dark`]); states to be turned are JSON files
+//! for a script of the caller's, which draws them with those of [`space`], part of every page. All verdicts are
+//! in one table at the end, what was missed first, under its reason.
 
 mod markdown;
 mod shades;
@@ -16,14 +17,14 @@ pub use tables::{Explained, Misses, breakable, significant};
 pub use verdicts::Verdicts;
 
 use crate::report::{Artefact, Picture, View};
+use crate::space;
 use maud::{DOCTYPE, PreEscaped, html};
 use shades::Shades;
 use std::fs;
 use std::path::Path;
-use tables::Among;
 
-const STYLE: &str = include_str!("style.css");
-const RASTER: &str = include_str!("raster.js");
+/// The style of pages: colours, light and dark, tables, views.
+pub const STYLE: &str = include_str!("style.css");
 
 /// A page under construction.
 ///
@@ -42,6 +43,7 @@ const RASTER: &str = include_str!("raster.js");
 /// let mut page = Page::new("A report", "0.1.0");
 /// page.header(&maud::html! { h1 id="summary" { "A report" } });
 /// page.artefact(&artefact, &Misses::default(), ".".as_ref())?;
+/// page.verdicts(&maud::html! {});
 /// let html = page.finish();
 /// assert!(html.contains("<h2>Table 1: One number</h2>") && html.contains("agrees"));
 /// # Ok::<(), String>(())
@@ -51,8 +53,10 @@ pub struct Page<'a> {
     title: &'a str,
     version: &'a str,
     header: String,
+    sheet: String,
     contents: String,
     main: String,
+    judged: String,
     scripts: String,
     shades: Shades,
 }
@@ -64,12 +68,15 @@ impl<'a> Page<'a> {
             title,
             version,
             header: String::new(),
+            sheet: String::new(),
             contents: String::new(),
             main: String::new(),
+            judged: String::new(),
             scripts: String::new(),
             shades: Shades::default(),
         };
-        page.script(RASTER);
+        page.script(space::SOLIDS);
+        page.script(space::SPACE);
         page
     }
 
@@ -83,8 +90,9 @@ impl<'a> Page<'a> {
         self.header.push_str(&html.0);
     }
 
-    /// Adds a section with states to be turned, pictures, settings and rows, whose files are in
-    /// `folder`; `misses` are the rows that were missed.
+    /// Adds a section with states to be turned, pictures, settings and rows that are not judged, whose files are
+    /// in `folder`; what is judged goes into the table of [`verdicts`](Self::verdicts), where `misses` are the
+    /// rows that were missed.
     ///
     /// # Errors
     /// A file that cannot be read.
@@ -95,37 +103,62 @@ impl<'a> Page<'a> {
         folder: &Path,
     ) -> Result<(), String> {
         let (id, title) = (artefact.id, artefact.title);
+        let counted = Verdicts::of(&artefact.rows);
         let line = html! {
-            li {
+            li class="artefact" {
                 a href={ "#" (id) } { (name(id)) ": " (title) }
-                " " small { (Verdicts::of(&artefact.rows).in_words()) }
+                " " small { (counted.in_words()) }
             }
         };
         let views = artefact.views.iter().map(|view| viewer(view, folder));
         let views: Vec<Markup> = views.collect::<Result<_, _>>()?;
         let shades = &mut self.shades;
-        let pictures = artefact
-            .pictures
-            .iter()
-            .map(|one| picture(shades, one, folder));
+        let pictures = artefact.pictures.iter().enumerate();
+        let pictures = pictures.map(|(k, one)| picture(shades, one, &anchor(id, k), folder));
         let pictures: Vec<Markup> = pictures.collect::<Result<_, _>>()?;
         let section = html! {
             section id=(id) {
                 h2 { (name(id)) ": " (title) }
                 @for view in views { (view) }
-                @for picture in pictures { (picture) }
-                h3 { "How it was made" }
-                dl {
-                    dt { "Settings" } dd { (artefact.settings) }
-                    dt { "Version" } dd { (self.version) }
-                    dt { "Computed in" } dd { (format!("{:.1} s", artefact.wall_s)) }
+                div class="panels" { @for picture in pictures { (picture) } }
+                @if counted.compared() > 0 {
+                    p { a href={ "#verdicts-" (id) } { (counted.in_words()) } " " (counted.bar()) }
                 }
-                (tables::numbers(&artefact.rows, misses))
+                details {
+                    summary { "How it was made" }
+                    dl {
+                        dt { "Settings" } dd { (artefact.settings) }
+                        dt { "Version" } dd { (self.version) }
+                        dt { "Computed in" } dd { (format!("{:.1} s", artefact.wall_s)) }
+                    }
+                }
+                (tables::measured(&artefact.rows))
             }
+        };
+        let card = card(artefact, counted, folder)?;
+        self.sheet.push_str(&card.0);
+        self.contents.push_str(&line.0);
+        self.main.push_str(&section.0);
+        self.judged.push_str(&tables::judged(artefact, misses).0);
+        Ok(())
+    }
+
+    /// Adds a section with the verdicts on all artefacts in one table, below `lead`.
+    pub fn verdicts(&mut self, lead: &Markup) {
+        let line = html! { li { a href="#verdicts" { "Verdicts" } } };
+        let section = html! {
+            section id="verdicts" { h2 { "Verdicts" } (lead) (tables::verdicts(&self.judged)) }
         };
         self.contents.push_str(&line.0);
         self.main.push_str(&section.0);
-        Ok(())
+    }
+
+    /// Adds a section of text; `title` is its line in the contents and its heading.
+    pub fn section(&mut self, id: &str, title: &str, text: &Markup) {
+        let line = html! { li { a href={ "#" (id) } { (title) } } };
+        let section = html! { section id=(id) { h2 { (title) } (text) } };
+        self.contents.push_str(&line.0);
+        self.main.push_str(&section.0);
     }
 
     /// Adds a section of Markdown, its headings one level lower; `title` is its line in the contents.
@@ -146,7 +179,7 @@ impl<'a> Page<'a> {
         self.scripts.insert_str(0, &data.0);
     }
 
-    /// Adds a script; `raster.js` stands ahead of it.
+    /// Adds a script; those of [`space`] stand ahead of it.
     pub fn script(&mut self, text: &str) {
         let script = html! { script { (PreEscaped(text)) } };
         self.scripts.push_str(&script.0);
@@ -169,11 +202,16 @@ impl<'a> Page<'a> {
                     nav id="contents" {
                         h2 { "Contents" }
                         ol {
-                            li { a href="#summary" { "Summary" } }
+                            li { a href="#summary" { "All figures" } }
                             (PreEscaped(self.contents))
                         }
                     }
-                    main { (PreEscaped(self.main)) }
+                    main {
+                        @if !self.sheet.is_empty() {
+                            ul class="sheet" { (PreEscaped(self.sheet)) }
+                        }
+                        (PreEscaped(self.main))
+                    }
                     noscript {
                         p { "The views that can be turned need JavaScript; all else does not." }
                     }
@@ -185,11 +223,6 @@ impl<'a> Page<'a> {
     }
 }
 
-/// What was missed in all artefacts, each row with the name of its artefact.
-pub fn missed(misses: &Misses<'_>) -> Markup {
-    tables::missed(misses, Among::All)
-}
-
 /// `Figure 4` for `fig4`, `Table 1` for `table1`.
 pub fn name(id: &str) -> String {
     let known = [("fig", "Figure"), ("table", "Table")];
@@ -199,35 +232,90 @@ pub fn name(id: &str) -> String {
     known.unwrap_or_else(|| id.to_owned())
 }
 
-/// Least share of its own width to which a picture shrinks: letters of 14 pixels stay above 10.
-/// Narrower screens scroll it in a box of its own.
+/// Share of its own width that a picture has on a narrow screen once it is touched: letters of 14 pixels are
+/// above 10 then, and its box scrolls. Before, it is seen whole.
 const SMALLEST: f64 = 0.74;
 
-fn picture(shades: &mut Shades, picture: &Picture, folder: &Path) -> Result<Markup, String> {
-    let path = folder.join(&picture.file);
-    let svg = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-    let caption = &picture.caption;
-    let tag = html! { svg role="img" aria-label=(caption) {} };
-    // The tag is given attributes and ends where its own go on.
-    let named = tag.0.replacen("></svg>", " ", 1);
-    let least = SMALLEST * width(&svg).unwrap_or(900.0);
-    let svg = shades.embed(&svg).replacen("<svg ", &named, 1);
+/// The name of picture `k` of an artefact on the page.
+fn anchor(id: &str, k: usize) -> String {
+    format!("{id}-picture-{k}")
+}
+
+/// The entry of an artefact on the contact sheet: its first picture, drawn again from its place on the page.
+fn card(artefact: &Artefact, verdicts: Verdicts, folder: &Path) -> Result<Markup, String> {
+    let first = artefact.pictures.first();
+    let size = first.map(|one| read(one, folder).map(|svg| size(&svg).unwrap_or([900.0, 560.0])));
+    let size = size.transpose()?;
+    let id = artefact.id;
     Ok(html! {
-        figure {
-            div class="scroll" tabindex="0" {
-                div class="picture" style=(format!("min-width:{least:.0}px")) { (PreEscaped(svg)) }
+        li {
+            a href={ "#" (id) } {
+                @if let Some([width, height]) = size {
+                    svg viewBox=(format!("0 0 {width} {height}")) aria-hidden="true" {
+                        use href={ "#" (anchor(id, 0)) } width=(width) height=(height) {}
+                    }
+                }
+                strong { (name(id)) } " " span { (artefact.title) }
             }
-            figcaption { (caption) }
+            small { (verdicts.in_words()) } (verdicts.bar())
         }
     })
 }
 
-/// Width of a picture in pixels, as it says of itself.
-fn width(svg: &str) -> Option<f64> {
+fn read(picture: &Picture, folder: &Path) -> Result<String, String> {
+    let path = folder.join(&picture.file);
+    fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+/// Kinds of files in which a picture may lie beside the page.
+const KINDS: [(&str, &str); 3] = [("svg", "SVG"), ("pdf", "PDF"), ("png", "PNG")];
+
+fn picture(
+    shades: &mut Shades,
+    picture: &Picture,
+    anchor: &str,
+    folder: &Path,
+) -> Result<Markup, String> {
+    let svg = read(picture, folder)?;
+    let caption = &picture.caption;
+    let tag = html! { svg id=(anchor) role="img" aria-label=(caption) {} };
+    // The tag is given attributes and ends where its own go on.
+    let named = tag.0.replacen("></svg>", " ", 1);
+    let [width, height] = size(&svg).unwrap_or([900.0, 560.0]);
+    let least = SMALLEST * width;
+    let svg = shades.embed(&svg).replacen("<svg ", &named, 1);
+    let there = KINDS.map(|(ending, name)| (Path::new(&picture.file).with_extension(ending), name));
+    let there = there
+        .into_iter()
+        .filter(|(file, _)| folder.join(file).exists());
+    let class = if width > WIDE * height { "wide" } else { "" };
+    Ok(html! {
+        figure class=(class) {
+            div class="scroll" tabindex="0" {
+                div class="picture" style=(format!("--least:{least:.0}px")) { (PreEscaped(svg)) }
+            }
+            figcaption {
+                (caption)
+                span class="files" {
+                    @for (file, name) in there { " " a href=(file.display()) { (name) } }
+                }
+            }
+        }
+    })
+}
+
+/// Pictures so much wider than high take the whole width of the page.
+const WIDE: f64 = 2.4;
+
+/// Width and height of an SVG picture in pixels, as it says of itself.
+pub fn size(svg: &str) -> Option<[f64; 2]> {
     let tag = &svg[svg.find("<svg")?..];
     let tag = &tag[..tag.find('>')?];
-    let value = &tag[tag.find(" width=\"")? + " width=\"".len()..];
-    value[..value.find('"')?].parse().ok()
+    let side = |name: &str| -> Option<f64> {
+        let value = &tag[tag.find(name)? + name.len()..];
+        value[..value.find('"')?].parse().ok()
+    };
+    Some([side(" width=\"")?, side(" height=\"")?])
 }
 
 fn viewer(view: &View, folder: &Path) -> Result<Markup, String> {
@@ -253,7 +341,7 @@ fn viewer(view: &View, folder: &Path) -> Result<Markup, String> {
 }
 
 /// JSON that cannot end the element that it stands in.
-fn in_script(json: &str) -> PreEscaped<String> {
+pub fn in_script(json: &str) -> PreEscaped<String> {
     PreEscaped(json.replace('<', "\\u003c"))
 }
 
@@ -276,7 +364,7 @@ mod tests {
         assert_eq!(name("fig10"), "Figure 10");
         assert_eq!(name("table3"), "Table 3");
         let svg = "<?xml?><svg height=\"5\" width=\"1040\" viewBox=\"0 0 1 1\"><rect width=\"3\"/>";
-        assert_eq!(width(svg), Some(1040.0));
-        assert_eq!(width("<svg><rect width=\"3\"/></svg>"), None);
+        assert_eq!(size(svg), Some([1040.0, 5.0]));
+        assert_eq!(size("<svg><rect width=\"3\"/></svg>"), None);
     }
 }

@@ -1,18 +1,12 @@
-//! Numbers as tables: what is expected and by whom, ours, difference, verdict; what was missed first,
-//! under its reason.
+//! Numbers as tables: what is expected and by whom, ours, difference, verdict. All verdicts are in one table,
+//! part by part; what was missed comes first, under its reason.
 
-use crate::report::Row;
-use maud::{Markup, html};
+use super::Verdicts;
+use crate::report::{Artefact, Row};
+use maud::{Markup, PreEscaped, html};
 
-/// Longer tables are folded away, unless they show what was missed.
-const LONG: usize = 12;
-
-/// Whether a row stands among others of its artefact, or names its artefact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Among {
-    Own,
-    All,
-}
+/// Columns of the table of verdicts.
+const COLUMNS: usize = 9;
 
 /// Missed rows, sorted by the reason that they share.
 #[derive(Clone, Debug, Default)]
@@ -38,124 +32,111 @@ pub struct Explained<'a> {
     pub rows: Vec<&'a Row>,
 }
 
-/// The rows of an artefact in up to four tables, those that are missed under their reasons.
-pub(super) fn numbers(rows: &[Row], misses: &Misses<'_>) -> Markup {
-    // The second says of rows without a verdict whether a number stands beside them.
+/// The rows of an artefact that are not judged, folded away; nothing if there are none.
+pub(super) fn measured(rows: &[Row]) -> Markup {
     let groups = [
-        (Some(false), None, "Missed"),
-        (Some(true), None, "Agree"),
-        (None, Some(true), "Shown beside another number, not judged"),
-        (None, Some(false), "Measured"),
+        (true, "Shown beside another number, not judged"),
+        (false, "Measured"),
     ];
     html! {
-        h3 { "Numbers" }
-        @for (verdict, beside, title) in groups {
-            (group(rows, verdict, beside, title, misses))
-        }
-    }
-}
-
-/// The rows with this verdict, if there are any.
-fn group(
-    rows: &[Row],
-    verdict: Option<bool>,
-    beside: Option<bool>,
-    title: &str,
-    misses: &Misses<'_>,
-) -> Markup {
-    let is_in = |row: &&Row| {
-        row.pass == verdict && beside.is_none_or(|beside| row.paper.is_some() == beside)
-    };
-    let chosen: Vec<&Row> = rows.iter().filter(is_in).collect();
-    if chosen.is_empty() {
-        return Markup::default();
-    }
-    let is_missed = verdict == Some(false);
-    html! {
-        details open[is_missed || chosen.len() <= LONG] {
-            summary class=(class(verdict)) { (title) ": " (chosen.len()) }
-            @if is_missed {
-                (missed(misses, Among::Own))
-            } @else {
-                (table(&chosen, Among::Own))
-            }
-        }
-    }
-}
-
-/// What was missed: each reason, with the rows that it explains.
-pub(super) fn missed(misses: &Misses<'_>, among: Among) -> Markup {
-    html! {
-        @for one in &misses.explained {
-            (explained(one, among))
-        }
-        @if !misses.open.is_empty() {
-            p class="why" { strong { "Not looked into." } " " (misses.open_note) }
-            (table(&misses.open, among))
-        }
-    }
-}
-
-/// Rows beyond this number are folded away below their reason.
-const MANY: usize = 6;
-
-fn explained(reason: &Explained<'_>, among: Among) -> Markup {
-    let rows = &reason.rows;
-    if rows.is_empty() {
-        return Markup::default();
-    }
-    html! {
-        p class="why" { strong { (reason.title) "." } " " (reason.text) }
-        @if rows.len() <= MANY {
-            (table(rows, among))
-        } @else {
-            details {
-                summary class="miss" { (rows.len()) " rows of " (super::name(reason.artefact)) }
-                (table(rows, among))
-            }
-        }
-    }
-}
-
-/// One table of rows.
-fn table(rows: &[&Row], among: Among) -> Markup {
-    html! {
-        table {
-            thead {
-                tr {
-                    @if among == Among::All { th { "where" } }
-                    th { "quantity" }
-                    th class="n" { "expected" }
-                    th { "by" }
-                    th class="n" { "ours" }
-                    th class="n" { "difference" }
-                    th class="n" { "tolerance" }
-                    th { "unit" }
-                    th { "verdict" }
-                    th { "note" }
-                }
-            }
-            tbody {
-                @for row in rows {
-                    (line(row, among))
+        @for (beside, title) in groups {
+            @let chosen: Vec<&Row> = rows
+                .iter()
+                .filter(|row| row.pass.is_none() && row.paper.is_some() == beside)
+                .collect();
+            @if !chosen.is_empty() {
+                details {
+                    summary class="open" { (title) ": " (chosen.len()) }
+                    table { (head()) tbody { @for row in chosen { (line(row)) } } }
                 }
             }
         }
     }
 }
 
-fn line(row: &Row, among: Among) -> Markup {
+/// The judged rows of an artefact as a part of the table of verdicts: those that are missed first, under their
+/// reasons. Nothing if none is judged.
+pub(super) fn judged(artefact: &Artefact, misses: &Misses<'_>) -> Markup {
+    let verdicts = Verdicts::of(&artefact.rows);
+    if verdicts.compared() == 0 {
+        return Markup::default();
+    }
+    let id = artefact.id;
+    let agree = artefact.rows.iter().filter(|row| row.pass == Some(true));
+    let told = misses.explained.iter().filter(|one| !one.rows.is_empty());
+    html! {
+        tbody id={ "verdicts-" (id) } {
+            tr class="group" {
+                th colspan=(COLUMNS) {
+                    a href={ "#" (id) } { (super::name(id)) } ": " (artefact.title)
+                    " " small { (verdicts.in_words()) } " " (verdicts.bar())
+                }
+            }
+            @for one in told {
+                (reason(one.title, one.text))
+                @for row in &one.rows { (line(row)) }
+            }
+            @if !misses.open.is_empty() {
+                (reason("Not looked into", misses.open_note))
+                @for row in &misses.open { (line(row)) }
+            }
+            @for row in agree { (line(row)) }
+        }
+    }
+}
+
+/// The table of verdicts, with buttons for what is shown of it.
+pub(super) fn verdicts(parts: &str) -> Markup {
+    let choices = [
+        ("all", "all"),
+        ("missed", "what was missed"),
+        ("agree", "what agrees"),
+    ];
+    html! {
+        div class="judged" {
+            p class="choose" {
+                @for (id, name) in choices {
+                    input type="radio" name="judged" id={ "only-" (id) } checked[id == "all"];
+                    label for={ "only-" (id) } { (name) }
+                }
+            }
+            table { (head()) (PreEscaped(parts)) }
+        }
+    }
+}
+
+/// The reason of the rows that follow.
+fn reason(title: &str, text: &str) -> Markup {
+    html! {
+        tr class="why" { td colspan=(COLUMNS) class="wide" { strong { (title) "." } " " (text) } }
+    }
+}
+
+fn head() -> Markup {
+    html! {
+        thead {
+            tr {
+                th { "quantity" }
+                th class="n" { "expected" }
+                th { "by" }
+                th class="n" { "ours" }
+                th class="n" { "difference" }
+                th class="n" { "tolerance" }
+                th { "unit" }
+                th { "verdict" }
+                th { "note" }
+            }
+        }
+    }
+}
+
+fn line(row: &Row) -> Markup {
     let (by_class, by) = row
         .origin
         .map_or(("none", "–"), |origin| ("by", origin.name()));
     let unit_class = if row.unit.is_empty() { "none" } else { "unit" };
     html! {
-        tr {
-            @if among == Among::All {
-                td data-label="where" class="where" {
-                    a href={ "#" (row.artefact) } { (super::name(row.artefact)) }
-                }
-            }
+        tr class=(class(row.pass)) {
             td class="path" { code { (breakable(&row.quantity)) } }
             (number("expected", row.paper))
             td data-label="by" class=(by_class) { (by) }
@@ -252,24 +233,36 @@ mod tests {
         assert_eq!(significant(0.0), "0");
     }
 
-    /// What was missed without a known reason comes first and is never folded away; a long list of what
-    /// agrees is.
+    /// What was missed comes first, under its reason, and every judged row is there once; what is only
+    /// measured is folded away elsewhere.
     #[test]
-    fn misses_come_first_and_long_tables_are_folded() {
+    fn misses_come_first_and_every_row_is_there_once() {
         let row = |i: usize| Row::measured("fig1", format!("q/{i}"), "nm", 1.0, "a < b");
         let mut rows: Vec<Row> = (0..40).map(|i| row(i).against(1.0, 0.1)).collect();
         rows.extend((40..60).map(|i| row(i).against(3.0, 0.1)));
+        rows.extend((60..63).map(row));
+        let artefact = Artefact {
+            id: "fig1",
+            title: "",
+            settings: String::new(),
+            rows,
+            pictures: Vec::new(),
+            views: Vec::new(),
+            wall_s: 0.0,
+        };
         let misses = Misses {
-            open: rows[40..].iter().collect(),
+            open: artefact.rows[40..60].iter().collect(),
+            open_note: "nobody looked",
             ..Misses::default()
         };
-        let page = numbers(&rows, &misses).into_string();
-        let place = |text: &str| page.find(text).unwrap();
-        assert!(place("Missed: 20") < place("Agree: 40"));
-        assert!(page.contains("<details open><summary class=\"miss\">Missed"));
-        assert!(page.contains("<details><summary class=\"pass\">Agree"));
-        assert_eq!(page.matches("<tr><td").count(), rows.len());
-        assert_eq!(page.matches("✗ missed").count(), 20);
-        assert!(page.contains("a &lt; b") && !page.contains("Measured"));
+        let part = judged(&artefact, &misses).into_string();
+        let place = |text: &str| part.find(text).unwrap();
+        assert!(place("nobody looked") < place("✗ missed"));
+        assert!(part.rfind("✗ missed").unwrap() < place("✓ agrees"));
+        assert_eq!(part.matches("✗ missed").count(), 20);
+        assert_eq!(part.matches("✓ agrees").count(), 40);
+        assert!(part.contains("a &lt; b") && part.contains("40 agree, 20 missed"));
+        let rest = measured(&artefact.rows).into_string();
+        assert!(rest.contains("Measured: 3") && !rest.contains("agrees"));
     }
 }

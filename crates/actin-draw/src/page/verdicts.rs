@@ -1,6 +1,7 @@
 //! How many numbers agree, how many do not, and how many have nothing to be compared with.
 
 use crate::report::Row;
+use maud::{Markup, html};
 use std::iter::Sum;
 use std::ops::Add;
 
@@ -37,6 +38,26 @@ impl Verdicts {
             (0, 0) => format!("{} measured", self.measured),
             (agree, 0) => format!("{agree} agree"),
             (agree, missed) => format!("{agree} agree, {missed} missed"),
+        }
+    }
+}
+
+impl Verdicts {
+    /// Shares of what agrees and what does not, as a bar; nothing where nothing is compared.
+    pub(super) fn bar(self) -> Markup {
+        if self.compared() == 0 {
+            return Markup::default();
+        }
+        let width = |count: usize| {
+            let share = 100.0 * count as f64 / self.compared() as f64;
+            format!("width:{share:.1}%")
+        };
+        let label = format!("{} of {} agree", self.agree, self.compared());
+        html! {
+            span class="bar" role="img" aria-label=(label) {
+                span class="good" style=(width(self.agree)) {}
+                span class="bad" style=(width(self.missed)) {}
+            }
         }
     }
 }

@@ -1,7 +1,9 @@
 //! The argument for second derivatives: they are the differences of the loads.
 
 use super::{derivative, loads_of};
-use crate::{Coordinates, Interaction, Matrix3, State, Stiffness, Vector3, Vectors, rotation};
+use crate::{
+    Coordinates, Interaction, Loads, Matrix3, State, Stiffness, Vector3, Vectors, rotation,
+};
 use crate::{Xorshift, perturb};
 use nalgebra::{DMatrix, DVector};
 
@@ -62,13 +64,18 @@ pub fn assert_are_second_derivatives(
 /// # Panics
 /// If the interaction offers no second derivatives.
 pub fn stiffness_matrix(interaction: &dyn Interaction, state: &State) -> DMatrix<f64> {
+    dense(&stiffness_of(interaction, state), state)
+}
+
+/// Blocks as a whole matrix.
+pub(super) fn dense(stiffness: &Stiffness, state: &State) -> DMatrix<f64> {
     let first = |c: Coordinates| match c {
         Coordinates::Point(i) => 3 * i,
         Coordinates::Frame(i) => 3 * (state.points.len() + i),
     };
     let n = 3 * (state.points.len() + state.frames.len());
     let mut matrix = DMatrix::zeros(n, n);
-    for &(a, b, block) in stiffness_of(interaction, state).blocks() {
+    for &(a, b, block) in stiffness.blocks() {
         let mut place = matrix.fixed_view_mut::<3, 3>(first(a), first(b));
         place += block;
         if a != b {
@@ -134,7 +141,7 @@ fn stiffness_by_differences(interaction: &dyn Interaction, state: &State, h: f64
         let slope = derivative(h, |step| {
             let mut moved = state.clone();
             move_coordinate(&mut moved, c, step);
-            all_loads(interaction, &moved)
+            all_loads(&loads_of(interaction, &moved))
         });
         column.copy_from(&-slope);
     }
@@ -163,8 +170,7 @@ fn move_coordinate(state: &mut State, coordinate: usize, step: f64) {
 }
 
 /// All loads in the order of the coordinates.
-fn all_loads(interaction: &dyn Interaction, state: &State) -> DVector<f64> {
-    let loads = loads_of(interaction, state);
+pub(super) fn all_loads(loads: &Loads) -> DVector<f64> {
     let flat = |v: &Vectors| v.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<_>>();
     let (forces, torques) = (flat(&loads.force), flat(&loads.torque));
     DVector::from_vec([forces, torques].concat())
@@ -173,7 +179,7 @@ fn all_loads(interaction: &dyn Interaction, state: &State) -> DVector<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Frame, Inertia, Loads, Point, SecondOrder};
+    use crate::{Frame, Inertia, Point, SecondOrder};
     use Coordinates::{Frame as F, Point as P};
 
     /// A spring of stiffness 2 from the origin to a point of a body: energy `(x + Q b)^2`.

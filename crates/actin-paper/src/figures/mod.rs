@@ -15,11 +15,11 @@ mod html;
 mod kept;
 mod law;
 pub(crate) mod linked;
+mod print;
 mod progress;
 mod schematics;
 mod settles;
 mod tables;
-mod viewer;
 
 pub use crate::palette::Palette;
 pub(crate) use html::unexplained;
@@ -44,6 +44,8 @@ pub struct Options {
     pub threads: Option<usize>,
     /// Computes again also what an earlier run has finished.
     pub fresh: bool,
+    /// Writes every picture as PDF and PNG, too.
+    pub print: bool,
     /// Colours of pictures and viewer.
     pub palette: Palette,
 }
@@ -107,6 +109,10 @@ pub fn reproduce(options: &Options, tell: Tell<'_>) -> Result<Vec<Row>, String> 
     let artefacts = on_threads(options.threads, || artefacts(&RECIPES, options, tell))?;
     let out = &options.out;
     report::write(&artefacts, out)?;
+    if options.print {
+        let count = on_threads(options.threads, || print::write(&artefacts, out))?;
+        tell(format_args!("printed: {count} pictures as PDF and PNG"));
+    }
     html::write(&artefacts, out, options.quick)?;
     tell(format_args!(
         "written: {}",

@@ -32,6 +32,7 @@ fn a_run_of_its_own() {
         quick: true,
         threads: Some(threads.parse().unwrap()),
         fresh: false,
+        print: false,
         palette: Palette::default(),
     };
     reproduce(&options, &|line| println!("{line}")).unwrap();

@@ -68,6 +68,7 @@ fn options(out: &Path) -> Options {
         quick: true,
         threads: None,
         fresh: false,
+        print: false,
         palette: Palette::default(),
     }
 }
@@ -111,6 +112,7 @@ fn what_is_amiss_is_computed_again() {
     assert_eq!(all(), [None, None]);
     let fresh = Options {
         fresh: true,
+        print: false,
         ..options.clone()
     };
     assert_eq!(

@@ -189,6 +189,21 @@ impl Assembly {
         self.filaments.partition_point(|f| f.points.end <= point)
     }
 
+    /// The frame to be drawn at a point: a monomer's own, of a node that of the segment which begins there, at
+    /// the end of a rod of the last; none of a node without a segment.
+    ///
+    /// # Panics
+    /// If there is no such point.
+    pub fn frame_of_point(&self, point: usize) -> Option<usize> {
+        self.points[point].frame.or_else(|| {
+            let behind = |s: &SectionSpan| s.points.end <= point;
+            let section = self.sections.get(self.sections.partition_point(behind))?;
+            let begins_there = section.frames.start + point.checked_sub(section.points.start)?;
+            let last = section.frames.clone().next_back()?;
+            Some(begins_there.min(last))
+        })
+    }
+
     /// The filament that a frame belongs to.
     pub fn filament_of_frame(&self, frame: usize) -> usize {
         self.filaments.partition_point(|f| f.frames.end <= frame)
@@ -257,6 +272,16 @@ impl Assembly {
     pub fn monomers_of(&self, filament: usize) -> &Monomers {
         let filament = self.scene.filament_at(filament);
         &filament.expect("the scene has this filament").monomers
+    }
+
+    /// The controls of the factors of its loads, in the order of the scene.
+    pub fn load_controls(&self) -> &[ControlId] {
+        &self.loads
+    }
+
+    /// Names of what the scene observes, in the order of the numbers of a record.
+    pub fn observed(&self) -> &[String] {
+        self.observers.columns()
     }
 
     /// Turns every filament as it stands about the axis along which it is built, by `angle` (rad):

@@ -1,8 +1,9 @@
 //! The path of a scene in time, smooth ramps from stage to stage, and the factors of its loads.
 
 use super::{Assembly, Drive};
+use crate::At;
 use crate::scene::{Factor, Pace, smooth};
-use actin_mechanics::{ControlId, State};
+use actin_mechanics::{ControlId, State, Vector3};
 
 /// A [`Drive`] whose stages take their durations one after the other; behind the last, controls
 /// stay where they are.
@@ -99,6 +100,31 @@ impl actin_mechanics::Drive for Ramp {
             };
             state.controls[*control] = of_path * factor.at(time);
         }
+    }
+}
+
+impl Assembly {
+    /// Puts factors of loads, anchors and held bodies where the scene has them at that time or place of its
+    /// path.
+    pub fn place_controls(&self, state: &mut State, at: At) {
+        match at {
+            At::Path(parameter) => self.drive.place(state, parameter),
+            At::Time(time_ns) => {
+                if let Some(ramp) = Ramp::of(self) {
+                    actin_mechanics::Drive::place(&ramp, state, time_ns);
+                }
+            }
+        }
+    }
+
+    /// Where linker `i` begins and ends in `state` (nm, lab frame), and whether it holds.
+    ///
+    /// # Panics
+    /// If there is no such linker.
+    pub fn linker_ends(&self, i: usize, state: &State) -> ([Vector3; 2], bool) {
+        let (linker, holds) = self.linker_in(i, state);
+        let ends = [linker.site().position(state), linker.end_position(state)];
+        (ends, holds)
     }
 }
 

@@ -8,6 +8,7 @@
 //! To add one: a variant of [`Observable`] with its rules; a type here that names its columns and computes them;
 //! a line in `build`.
 
+mod buckling;
 mod chain;
 mod displacement;
 mod energies;
@@ -134,6 +135,9 @@ fn build(one: Observable, scene: &Scene, energies: &EnergyNames) -> Box<dyn Obse
         Observable::Strain { filament, at_nm } => Box::new(local::Strain { filament, at_nm }),
         Observable::EndToEnd { filament } => Box::new(tip::EndToEnd { filament }),
         Observable::Contour { filament } => Box::new(chain::Contour { filament }),
+        Observable::Buckling { filament, points } => {
+            Box::new(buckling::Buckling { filament, points })
+        }
         Observable::Energies => Box::new(energies::Energies::new(energies.clone())),
         Observable::SquaredDisplacement {
             filament,
@@ -166,6 +170,13 @@ fn end_name(end: crate::End) -> &'static str {
     match end {
         crate::End::Start => "start",
         crate::End::End => "end",
+    }
+}
+
+impl Assembly {
+    /// Names of what the scene observes, the columns of `observables.csv`.
+    pub fn observed_columns(&self) -> &[String] {
+        self.observers.columns()
     }
 }
 

@@ -82,7 +82,11 @@ pub fn replace_file(
         out.get_ref().sync_all()
     })?;
     publish_or_remove(unfinished, path)?;
-    path.parent().map_or(Ok(()), sync)
+    // That of a name without a folder is the empty path, which stands for the working directory.
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    sync(folder.unwrap_or(Path::new(".")))
 }
 
 fn publish_or_remove(unfinished: &Path, path: &Path) -> io::Result<()> {

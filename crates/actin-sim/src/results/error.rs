@@ -104,6 +104,14 @@ pub enum RunDirectoryError {
     /// A record of the run could not be read back.
     #[error("a record cannot be read back: {0}")]
     Unreadable(io::Error),
+    /// A file of results that is not what a run has written.
+    #[error("{} is damaged: {reason}", .path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// A number that is not finite.
     #[error("{file}: {quantity}{} is {value}: only finite numbers are written", place(.index))]
     NotFinite {

@@ -9,6 +9,7 @@
 //! | `states.npz` | every record's state | numpy |
 //! | `other_states.npz` | stable states that were looked for, as `states.npz`; in place of the path it counts | numpy |
 //! | `vtk/NNNN.vtp`, `run.pvd` | every record as a picture | `ParaView`, pyvista |
+//! | `open_in_paraview.py` | monomers as ellipsoids, rods as tubes | `ParaView` |
 //! | `summary.json` | the last record in numbers | anything |
 //! | `records.bin` | the records of a run that has not ended, from which the rest is written | `actin run --resume` |
 //! | `checkpoint.bin` | where such a run stands | `actin run --resume` |
@@ -26,6 +27,7 @@ mod directory;
 mod energies;
 mod error;
 mod events;
+mod finished;
 mod finite;
 #[cfg(test)]
 mod fixture;
@@ -37,6 +39,7 @@ mod profile;
 mod review;
 mod staged;
 mod states;
+mod stored;
 mod summary;
 mod vtk;
 mod write;
@@ -46,7 +49,9 @@ pub use checkpoint::{CheckpointError, Checkpoints, Damage};
 pub use difference::{Difference, first_difference};
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;
+pub use finished::{FinishedRun, FinishedRunError, FinishedStates};
 pub use lock::RunLock;
+pub use stored::StoredStates;
 pub use summary::{
     EndReaction, EndReactions, EnergySummary, FilamentSummary, LinkerSummary, ResidualSummary,
     ShapeSummary, StabilitySummary, StateSummary, StatesSummary, Summary, ThermalSummary,

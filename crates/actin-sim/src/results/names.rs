@@ -9,6 +9,7 @@ pub(super) const PROFILE: &str = "profile.csv";
 pub(super) const STATES: &str = "states.npz";
 pub(super) const OTHER_STATES: &str = "other_states.npz";
 pub(super) const COLLECTION: &str = "run.pvd";
+pub(super) const MACRO: &str = "open_in_paraview.py";
 pub(super) const CHECKPOINT: &str = "checkpoint.bin";
 pub(super) const RECORDS: &str = "records.bin";
 /// The folder of the pictures.
@@ -18,7 +19,7 @@ pub(super) const PICTURES: &str = "vtk";
 pub(super) const MANIFEST: &str = "actin-run.json";
 
 /// Everything that a run writes, beside its pictures, its manifest and its lock.
-pub(super) const FILES: [&str; 11] = [
+pub(super) const FILES: [&str; 12] = [
     SCENE,
     SUMMARY,
     ENERGIES,
@@ -28,6 +29,7 @@ pub(super) const FILES: [&str; 11] = [
     STATES,
     OTHER_STATES,
     COLLECTION,
+    MACRO,
     CHECKPOINT,
     RECORDS,
 ];

@@ -4,12 +4,12 @@ use super::atomic;
 use super::directory::RunDirectory;
 use super::manifest::Manifest;
 use super::names::{
-    COLLECTION, ENERGIES, EVENTS, OBSERVABLES, OTHER_STATES, PICTURES, PROFILE, SCENE, STATES,
-    SUMMARY, picture_name,
+    COLLECTION, ENERGIES, EVENTS, MACRO, OBSERVABLES, OTHER_STATES, PICTURES, PROFILE, SCENE,
+    STATES, SUMMARY, picture_name,
 };
 use super::review::{Review, Tables};
 use super::staged::Staged;
-use super::vtk::{Drawing, write_collection};
+use super::vtk::{self, Drawing, write_collection};
 use super::{RunDirectoryError, Summary, ThermalSummary, events, profile};
 use crate::shape::{self, ProfilePoint};
 use crate::{Assembly, At, LinkerEvent, Outcome, Plan, Record, Records, Scene, Status, Trajectory};
@@ -103,7 +103,7 @@ impl RunDirectory {
         }
         manifest.add(results.others.as_ref().map(|_| OTHER_STATES));
         if output.vtk {
-            manifest.add([COLLECTION]);
+            manifest.add([COLLECTION, MACRO]);
             manifest.add((0..results.records.count()).map(picture_name));
         }
         manifest.add(results.events.as_ref().map(|_| EVENTS));
@@ -138,6 +138,34 @@ fn others(outcome: &Outcome) -> Option<Trajectory> {
     })
 }
 
+impl Summary {
+    /// The summary of a whole run, which [`RunDirectory::write`] writes: with means over its records, and the worst
+    /// of them all.
+    ///
+    /// # Errors
+    /// No record, or records of another assembly.
+    pub fn of_run(
+        assembly: &Assembly,
+        records: &dyn Records,
+        outcome: &Outcome,
+    ) -> Result<Self, RunDirectoryError> {
+        let review = Review::of(assembly, records, &Tables::new(assembly))?;
+        let last = review.last.as_ref().ok_or(RunDirectoryError::NoRecord)?;
+        Ok(reviewed(assembly, &review, (last, outcome)))
+    }
+}
+
+/// The summary of a run whose records were looked at.
+fn reviewed(assembly: &Assembly, review: &Review, (last, outcome): (&Record, &Outcome)) -> Summary {
+    Summary {
+        beyond_range: outcome.beyond_range.clone(),
+        unstable_twist: outcome.unstable_twist.clone(),
+        observables: review.observables.clone(),
+        thermal: ThermalSummary::new(assembly, &review.kinetic),
+        ..Summary::new(assembly, last, outcome)
+    }
+}
+
 impl<'a> Results<'a> {
     fn new(
         plan: &Plan<'a>,
@@ -146,15 +174,9 @@ impl<'a> Results<'a> {
     ) -> Result<Self, RunDirectoryError> {
         let assembly = plan.assembly();
         let tables = Tables::new(assembly);
-        let review = Review::of(assembly, records, &tables)?;
-        let last = review.last.ok_or(RunDirectoryError::NoRecord)?;
-        let summary = Summary {
-            beyond_range: outcome.beyond_range.clone(),
-            unstable_twist: outcome.unstable_twist.clone(),
-            observables: review.observables,
-            thermal: ThermalSummary::new(assembly, &review.kinetic),
-            ..Summary::new(assembly, &last, outcome)
-        };
+        let mut review = Review::of(assembly, records, &tables)?;
+        let last = review.last.take().ok_or(RunDirectoryError::NoRecord)?;
+        let summary = reviewed(assembly, &review, (&last, outcome));
         summary.ensure_finite(SUMMARY)?;
         review.are_finite?;
         let filaments = 0..assembly.filaments.len();
@@ -197,6 +219,7 @@ impl<'a> Results<'a> {
         if output.vtk {
             self.stage_pictures(staged)?;
             staged.file(COLLECTION, |out| self.write_collection(out))?;
+            staged.file(MACRO, |out| out.write_all(vtk::MACRO.as_bytes()))?;
         }
         staged.file(SUMMARY, |out| {
             serde_json::to_writer_pretty(&mut *out, &self.summary)?;
@@ -286,7 +309,8 @@ mod tests {
         assert_eq!(
             all_names(folder.path()),
             [
-                LOCK, MANIFEST, ENERGIES, PROFILE, COLLECTION, SCENE, STATES, SUMMARY, PICTURES
+                LOCK, MANIFEST, ENERGIES, MACRO, PROFILE, COLLECTION, SCENE, STATES, SUMMARY,
+                PICTURES
             ]
         );
         assert_eq!(all_names(&folder.path().join(PICTURES)).len(), 3);

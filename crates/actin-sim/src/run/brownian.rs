@@ -3,7 +3,7 @@
 use super::dynamics::{check_records, conclude};
 use super::recorder::Recorder;
 use super::sink::{Saved, Sink};
-use super::steps::{LONGEST_RATIO, Steps};
+use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
 use super::{Estimate, Failure, Outcome, Plan, Status};
 use crate::Assembly;
@@ -12,7 +12,10 @@ use actin_brownian::{Brownian, Relaxation};
 use actin_integrate::{POSITION_VERLET, Run, Split};
 
 /// Iterations of a step, about.
-const ITERATIONS: u64 = 3;
+const ITERATIONS: u64 = 4;
+
+/// The default time step over the fastest relaxation, beyond which strains of midpoint steps are too warm.
+const OF_FASTEST: f64 = 50.0;
 
 /// Slowest motions that are looked for; up to six of each free filament meet no resistance.
 const SLOWEST: usize = 24;
@@ -31,13 +34,8 @@ pub struct RelaxationTimes {
     pub unresisted: usize,
 }
 
-impl Plan<'_> {
-    /// How filaments relax in the fluid of the task; none of other tasks. Takes the time of some hundred steps.
-    pub fn relaxation_times(&self) -> Option<RelaxationTimes> {
-        let AnyTask::Brownian(task) = &self.scene().task else {
-            return None;
-        };
-        let mut relaxation = relaxation(self.assembly(), task).ok()?;
+impl RelaxationTimes {
+    fn of(relaxation: &mut Relaxation) -> Self {
         let highest = relaxation.highest_rate();
         let rates = relaxation.lowest_rates(SLOWEST);
         let (unresisted, resisted): (Vec<f64>, Vec<f64>) = rates
@@ -46,11 +44,22 @@ impl Plan<'_> {
         let mut slowest_ns: Vec<f64> = resisted.iter().map(|rate| 1.0 / rate).collect();
         // Of bending in two directions one is named.
         slowest_ns.dedup_by(|next, kept| *next > 0.99 * *kept);
-        Some(RelaxationTimes {
+        Self {
             fastest_ns: 1.0 / highest,
             slowest_ns,
             unresisted: unresisted.len(),
-        })
+        }
+    }
+}
+
+impl Plan<'_> {
+    /// How filaments relax in the fluid of the task; none of other tasks. Takes the time of some hundred steps.
+    pub fn relaxation_times(&self) -> Option<RelaxationTimes> {
+        let AnyTask::Brownian(task) = &self.scene().task else {
+            return None;
+        };
+        let mut relaxation = relaxation(self.assembly(), task).ok()?;
+        Some(RelaxationTimes::of(&mut relaxation))
     }
 }
 
@@ -66,15 +75,16 @@ fn relaxation(assembly: &Assembly, task: &Task) -> Result<Relaxation, SceneProbl
 pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
     let motion = task.as_motion();
-    let mut relaxing = relaxation(assembly, task)?;
-    let fastest_ns = 1.0 / relaxing.highest_rate();
+    let times = RelaxationTimes::of(&mut relaxation(assembly, task)?);
+    let fastest_ns = times.fastest_ns;
     if !(fastest_ns.is_finite() && fastest_ns > 0.0) {
         let rule = "has no stiffness by which a time step could be set: write time_step_ns";
         if task.time_step_ns.is_none() {
             return Err(SceneProblem::new("filament", "", rule));
         }
     }
-    let wanted = task.time_step_ns.unwrap_or(LONGEST_RATIO * fastest_ns);
+    let longest_sound = OF_FASTEST * fastest_ns;
+    let wanted = task.time_step_ns.unwrap_or(longest_sound);
     let steps = Steps::of(&motion, wanted.min(motion.duration_ns))?;
     check_records(assembly, &motion, &steps)?;
     assembly.check_rates(steps.length_ns)?;
@@ -86,7 +96,10 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
         steps_between_records: steps.between_records,
         record_every_ns: steps.record_every_ns,
         force_evaluations: steps.count * ITERATIONS,
-        fastest_relaxation_ns: Some(fastest_ns),
+        longest_sound_step: motion.thermal.map(|_| LongestStep {
+            ns: longest_sound,
+            has_monomers: assembly.counts().monomers > 0,
+        }),
     })
 }
 
@@ -108,6 +121,9 @@ pub(super) fn run(
     // The order of unknowns is that of the state as built, wherever a run is resumed.
     let mut stepper = Brownian::new(&system, layout(assembly)?, friction, noise)
         .map_err(|error| refused(&error))?;
+    if !estimate.has_random_stress() {
+        stepper = stepper.by_midpoints();
+    }
     let mut recorder = Recorder::new(assembly, &motion, saved, sink);
     // The method is not looked at: the stepper makes the steps.
     let run = Run::new(&POSITION_VERLET, estimate.time_step_ns, estimate.steps)

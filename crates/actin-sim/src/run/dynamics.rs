@@ -5,7 +5,7 @@ use super::points::check_points;
 use super::recorder::{Ending, Recorder};
 use super::rest::{is_saddle, saddle};
 use super::sink::{Saved, Sink};
-use super::steps::Steps;
+use super::steps::{LongestStep, Steps};
 use super::{Failure, Outcome, Status};
 use crate::scene::{Dynamics, Integrator, RodLaw, Scene, SceneProblem, StopTolerances, Task};
 use crate::{Assembly, memory};
@@ -30,8 +30,8 @@ pub struct Estimate {
     pub record_every_ns: f64,
     /// Load evaluations in these steps; of overdamped motion three iterations a step are counted.
     pub force_evaluations: u64,
-    /// Fastest relaxation of the built filament in its fluid (ns), about; none of motion with inertia.
-    pub fastest_relaxation_ns: Option<f64>,
+    /// Up to which step all of overdamped thermal motion has its energy; none of other motion.
+    pub longest_sound_step: Option<LongestStep>,
 }
 
 impl Integrator {
@@ -115,7 +115,7 @@ pub(crate) fn estimate_at(
         steps_between_records: steps.between_records,
         record_every_ns: steps.record_every_ns,
         force_evaluations: steps.count * scheme.force_evaluations_per_step() as u64,
-        fastest_relaxation_ns: None,
+        longest_sound_step: None,
     })
 }
 

@@ -30,6 +30,7 @@ pub use rest::SaddlePush;
 pub use sink::{Arrival, MotionPosition, PathPosition, Progress, RunPosition, Saved, Sink};
 pub use slip::Slip;
 pub use states::{StableState, StableStates};
+pub use steps::LongestStep;
 pub(crate) use taken::Carried;
 pub use taken::Recorded;
 pub use unknowns::newton as solver;

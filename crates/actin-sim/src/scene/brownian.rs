@@ -26,8 +26,9 @@ pub struct Brownian {
     #[serde(default)]
     pub drag: Fluid,
     /// Longest time step; positive. By default 50 times the fastest relaxation of the filaments as built, at which all
-    /// strains have their thermal energy to 1 % on segments of 20 nm or more. Steps are shortened so that whole ones
-    /// make up the duration and the interval of records.
+    /// strains have their thermal energy to 1 % on segments of 20 nm or more. In longer steps of rods at a temperature what is
+    /// faster is drawn anew; long bending is then too warm by some per cent. Steps are shortened so that whole ones make up
+    /// the duration and the interval of records.
     #[serde(default)]
     pub time_step_ns: Option<f64>,
     /// Time between recorded states; positive. By default about a hundredth of the duration.

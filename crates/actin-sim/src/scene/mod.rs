@@ -41,6 +41,7 @@ mod thermal;
 mod trace;
 mod types;
 mod validate;
+mod value;
 mod written;
 
 pub use brownian::{Brownian, Fluid};
@@ -77,3 +78,4 @@ pub use types::{
     Setting, Slides, Stage, StopTolerances, Task,
 };
 pub(crate) use validate::MOST_COUNTED;
+pub use value::SceneValue;

@@ -84,6 +84,18 @@ pub enum Observable {
         #[serde(default)]
         filament: usize,
     },
+    /// How far, how evenly and how flat the filament has buckled, from points at equal lengths along its centre line:
+    /// `buckling[0]_50_points_contour_nm`, `_mean_distance_nm` from the line through the ends, `_peak_asymmetry`,
+    /// `_non_coplanarity`, `_bend`, `_normals_rad_per_nm`, `_supertwist_deg`. Defined at
+    /// `actin_sim::shape::Buckle`.
+    Buckling {
+        /// Index of the filament.
+        #[serde(default)]
+        filament: usize,
+        /// Number of points; from 4 to 10,000.
+        #[serde(default = "fifty")]
+        points: usize,
+    },
     /// Energies of all: `energy_potential_pn_nm`, `energy_kinetic_pn_nm`; and of each section and junction:
     /// `energy_section_0_pn_nm`.
     Energies,
@@ -122,6 +134,10 @@ pub enum Point {
     Tip,
     /// The centre of its centre line.
     Centre,
+}
+
+fn fifty() -> usize {
+    50
 }
 
 fn last() -> End {
@@ -166,6 +182,7 @@ impl Observable {
             | Self::Strain { filament, .. }
             | Self::EndToEnd { filament }
             | Self::Contour { filament }
+            | Self::Buckling { filament, .. }
             | Self::SquaredDisplacement { filament, .. }
             | Self::TangentCorrelation { filament, .. } => Some(filament),
             Self::Linker { .. } | Self::Energies => None,
@@ -199,6 +216,10 @@ impl Observable {
             Self::EndReaction { filament, end } if !held.is_held(filament, end) => {
                 let rule = "this end is free: nothing holds it";
                 Err(SceneProblem::new(key("end"), show(end), rule))
+            }
+            Self::Buckling { points, .. } if !(4..=10_000).contains(&points) => {
+                let rule = "must be from 4 to 10000";
+                Err(SceneProblem::new(key("points"), points, rule))
             }
             Self::Linker { linker } => check_linker(scene, &key("linker"), linker),
             Self::Curvature { at_nm, .. }

@@ -172,7 +172,7 @@ fn explain(error: &SpannedError, text: &str, name: &str) -> SceneError {
 }
 
 /// The key or choice that is close to one which is not known.
-fn meant(error: &RonError) -> Option<String> {
+pub(super) fn meant(error: &RonError) -> Option<String> {
     let (RonError::NoSuchStructField {
         expected, found, ..
     }
@@ -214,7 +214,7 @@ fn next_character(text: &str, (line, column): (usize, usize)) -> (usize, usize) 
 }
 
 /// Errors that name what they are about; none for those that do not.
-fn in_words(error: &RonError, file: &str) -> Option<String> {
+pub(super) fn in_words(error: &RonError, file: &str) -> Option<String> {
     let of = |outer: &Option<String>| outer.as_ref().map_or(String::new(), |o| format!(" in {o}"));
     Some(match error {
         RonError::NoSuchStructField {

@@ -1,6 +1,6 @@
 //! The text of a scene, and values that keys of it are given from outside.
 
-use super::locate::without_mark;
+use super::locate::{path_at, without_mark};
 use super::outline::{Outline, Step, line_and_column, place, steps};
 use super::{Scene, SceneError, SceneProblem, mistakes};
 use ron::value::RawValue;
@@ -193,6 +193,15 @@ impl SceneText {
         };
         let line_end = text[at..].find('\n').map_or(text.len(), |line| at + line);
         at..end.min(line_end)
+    }
+
+    /// Path of the key or list element that a mistake is about; empty outside of all, and the key of the override
+    /// where one is to blame.
+    pub fn key(&self, error: &SceneError) -> String {
+        match error.set.as_ref().and_then(|set| set.split_once('=')) {
+            Some((key, _)) => key.to_owned(),
+            None => path_at(&self.written, (error.line, error.column)),
+        }
     }
 
     /// Places a problem: in an override that sets its key, or something above or below it, or in the text.

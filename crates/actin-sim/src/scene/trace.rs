@@ -50,7 +50,7 @@ impl SceneText {
 }
 
 /// The points of a file.
-fn points(path: &Path) -> Result<Vec<[f64; 3]>, String> {
+pub(super) fn points(path: &Path) -> Result<Vec<[f64; 3]>, String> {
     let text = std::fs::read_to_string(path).map_err(|error| format!("cannot be read: {error}"))?;
     let mut points = Vec::new();
     for (i, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {

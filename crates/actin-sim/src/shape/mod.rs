@@ -3,6 +3,7 @@
 //! Everything is a function of a [`Ribbon`]: the centre line as a polyline with a frame on each of
 //! its edges, the same for monomers, rods and both. Nothing here knows files.
 
+mod buckle;
 mod link;
 mod linking;
 mod profile;
@@ -10,6 +11,7 @@ mod ribbon;
 mod twist;
 mod writhe;
 
+pub use buckle::{Buckle, equally_spaced};
 pub(crate) use link::{WHOLE, link_at, link_is_unknown, path_parameter, turn_of_ends};
 pub use link::{link, link_of};
 pub use profile::{ProfilePoint, profile, profile_of};

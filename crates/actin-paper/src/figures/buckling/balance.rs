@@ -5,10 +5,10 @@ use super::case::Case;
 use super::dynamics::{STOP, dynamics};
 use super::group::{Group, Rods};
 use super::outcome::{Evidence, Outcome, measure};
-use crate::figures::viewer::Pose;
 use crate::run::run_to_end;
 use actin_draw::report::Row;
 use actin_sim::{Assembly, DragRates, Task};
+use actin_view::Pose;
 
 /// Longest time (ns).
 const LONGEST_NS: f64 = 1000.0;

@@ -2,10 +2,10 @@
 //! plane in which the filament happens to buckle.
 
 use super::case::Case;
-use crate::figures::viewer::Pose;
 use crate::run::run_to_end;
 use actin_sim::shape::Ribbon;
 use actin_sim::{Assembly, End, Part, StableStates};
+use actin_view::Pose;
 
 /// A point in the lab frame (nm).
 pub(super) type Place = [f64; 3];

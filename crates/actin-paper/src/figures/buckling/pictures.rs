@@ -8,10 +8,10 @@ use super::outcome::{Outcome, Place};
 use super::plane::in_own_plane;
 use super::resolved::Resolved;
 use super::results::{OBSERVABLES, Observable, Results};
-use crate::figures::viewer::{self, Attitude, Shown};
 use crate::palette;
 use actin_draw::report::{Picture, View};
 use actin_draw::{Chart, Series};
+use actin_view::{Attitude, Shown, states};
 use std::path::Path;
 
 /// Draws all pictures.
@@ -140,7 +140,7 @@ pub(super) fn view_in_space(plan: &Plan, results: &Results, out: &Path) -> Resul
         stripe along rods is their first axis and shows the twist. The weak pull that breaks the \
         symmetry is left out.";
     let id = plan.figure.id();
-    viewer::write(id, Attitude::LYING, &shown, caption.into(), out)
+    states::write(id, Attitude::LYING, &shown, caption.into(), out)
 }
 
 fn view(

@@ -2,11 +2,11 @@
 
 use super::ringdown::{self, RingDown};
 use super::variant::Variant;
-use crate::figures::viewer::Pose;
 use crate::run::{run_to_end, scenario};
 use actin_sim::{
     Assembly, DragRates, End, Equilibrium, ForceLaw, Outcome, Record, Scene, Section, Task,
 };
+use actin_view::Pose;
 
 /// Which scene of `scenarios/figure-4` a case starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

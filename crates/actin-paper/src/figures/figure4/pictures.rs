@@ -3,10 +3,10 @@
 
 use super::case::{ROD_SEGMENTS, Resolved, Result4};
 use super::variant::Variant;
-use crate::figures::viewer::{self, Attitude, Shown};
 use crate::palette;
 use actin_draw::report::{Picture, View};
 use actin_draw::{Chart, Colour, Series};
+use actin_view::{Attitude, Shown, states};
 use std::path::Path;
 
 /// Draws all panels.
@@ -52,7 +52,7 @@ pub(super) fn view_in_space(results: &[Result4], out: &Path) -> Result<View, Str
     let caption = "Where the damped motions came to rest, in space: monomers with their own \
         semi-axes and orientations, the rod with a stripe along its first axis. The force acts at \
         the tip.";
-    viewer::write("fig4", Attitude::LYING, &shown, caption.into(), out)
+    states::write("fig4", Attitude::LYING, &shown, caption.into(), out)
 }
 
 const X_LABEL: &str = "x (nm); the force pulls towards -x";

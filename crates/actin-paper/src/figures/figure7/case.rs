@@ -1,9 +1,9 @@
 //! One filament turned in its middle: its scene, and what its two halves store.
 
-use crate::figures::viewer::Pose;
 use crate::run::{run_to_end, scenario};
 use actin_sim::shape::{ProfilePoint, Ribbon, profile};
 use actin_sim::{Assembly, Hold, Monomers, Part, RodLaw, Scene, Slides};
+use actin_view::Pose;
 
 /// What resolves the filament.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

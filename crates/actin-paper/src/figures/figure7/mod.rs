@@ -7,11 +7,11 @@ mod case;
 mod rows;
 
 use super::Run;
-use super::viewer::{self, Attitude, Shown};
 use crate::palette;
 use actin_draw::report::{Artefact, Picture, View};
 use actin_draw::{Chart, Colour, Series};
 use actin_sim::Hold;
+use actin_view::{Attitude, Shown, states};
 use case::{Case, Halves, Resolved, Sliding};
 use rayon::prelude::*;
 use std::path::Path;
@@ -175,7 +175,7 @@ fn view(results: &[Halves], out: &Path) -> Result<View, String> {
         })
         .collect();
     let caption = "The equilibria in space, with the linker that turns the middle.";
-    viewer::write("fig7", Attitude::LYING, &shown, caption.into(), out)
+    states::write("fig7", Attitude::LYING, &shown, caption.into(), out)
 }
 
 /// Mean over profiles that are known at the same places, within the mirror image.

@@ -1,133 +1,23 @@
 //! The page in headless Chromium, light and dark: nothing fails, every picture is there and follows
 //! the page's colours, every view is drawn and turns, and nothing reaches beyond a phone's screen.
 //!
-//! Needs a browser: `CHROME`, or one of [`NAMES`] on the path. Without one the tests say loudly that
-//! they were skipped; where `ACTIN_REQUIRE_BROWSER` is set, as `.ci/run` does, they fail.
+//! Needs a browser, as said in `chromium`.
 
+#[path = "../../../../actin-view/tests/chromium/mod.rs"]
+mod chromium;
+
+use chromium::{Mode, browser, count};
 use serde_json::Value;
-use std::fs::{self, File};
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::fs;
+use std::path::Path;
 
-const NAMES: [&str; 4] = [
-    "chromium",
-    "chromium-browser",
-    "google-chrome",
-    "google-chrome-stable",
-];
 const PROBE: &str = include_str!("probe.js");
-/// Widths at which the page is looked at (pixels): a phone, a tablet, a laptop.
-const WIDTHS: [u32; 3] = [360, 800, 1280];
-/// Far longer than a browser takes on a busy machine.
-const LIMIT: Duration = Duration::from_mins(8);
-
-/// The browser; nothing, told loudly, if there is none and none is required.
-fn browser() -> Option<PathBuf> {
-    let found = find_browser();
-    if found.is_none() {
-        assert!(
-            std::env::var_os("ACTIN_REQUIRE_BROWSER").is_none(),
-            "ACTIN_REQUIRE_BROWSER is set and there is no browser"
-        );
-        eprintln!("SKIPPED: no Chromium on the path: the page was NOT tested in a browser");
-    }
-    found
-}
-
-fn find_browser() -> Option<PathBuf> {
-    if let Some(named) = std::env::var_os("CHROME") {
-        return Some(named.into());
-    }
-    let path = std::env::var_os("PATH")?;
-    let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
-    let candidates = NAMES
-        .iter()
-        .flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
-    candidates.into_iter().find(|file| file.is_file())
-}
-
-/// What a reader has asked the system for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Mode {
-    Light,
-    Dark,
-}
+/// Widths at which the page is looked at (pixels): a phone, a laptop.
+const WIDTHS: [u32; 2] = [360, 1280];
 
 /// What the probe finds in `page` at each width.
 fn probed(browser: &Path, page: &str, mode: Mode, folder: &Path) -> Vec<Value> {
-    let probe = format!("<script>\n{PROBE}</script>");
-    let copy = page.replacen("<head>", &format!("<head>{probe}"), 1);
-    fs::write(folder.join("copy.html"), copy).unwrap();
-    fs::write(folder.join("around.html"), around()).unwrap();
-    let text = dumped(browser, mode, folder);
-    let found = WIDTHS.iter().map(|width| {
-        let begin = format!("<pre id=\"w{width}\">");
-        let place = text.find(&begin).expect("the page around has its place") + begin.len();
-        let json = &text[place..place + text[place..].find("</pre>").unwrap()];
-        serde_json::from_str(json).unwrap_or_else(|e| panic!("{width}: {e}: `{json}`"))
-    });
-    found.collect()
-}
-
-/// A page that shows the copy in a frame of each width and keeps what the probes tell it. A window
-/// itself cannot be as narrow as a phone.
-fn around() -> String {
-    let mut left = 0;
-    let frames = WIDTHS.map(|width| {
-        let frame = format!(
-            "<pre id=\"w{width}\"></pre><iframe name=\"w{width}\" src=\"copy.html\" \
-             style=\"position:fixed;top:0;left:{left}px;width:{width}px;height:900px;border:0\"></iframe>",
-        );
-        left += width + 10;
-        frame
-    });
-    format!(
-        "<!doctype html><meta charset=\"utf-8\"><script>\
-         window.addEventListener('message', ({{ data }}) => {{\
-         const json = JSON.stringify(data.found).replace(/[<>&]/g, (c) => '\\\\u00' + \
-         c.charCodeAt(0).toString(16));\
-         document.getElementById(data.name).textContent = json; }});</script>{}",
-        frames.concat()
-    )
-}
-
-/// The page around, as it stands when all that it waits for has happened.
-fn dumped(browser: &Path, mode: Mode, folder: &Path) -> String {
-    let dump = folder.join("dump.html");
-    // Blink counts: 0 is dark, 1 light.
-    let scheme = u8::from(mode == Mode::Light);
-    let mut child = Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--dump-dom"])
-        .args(["--virtual-time-budget=240000", "--window-size=2500,1000"])
-        .arg(format!("--blink-settings=preferredColorScheme={scheme}"))
-        .args(["--no-first-run", "--disable-dev-shm-usage"])
-        .arg(format!(
-            "--user-data-dir={}",
-            folder.join("profile").display()
-        ))
-        .arg(format!("file://{}", folder.join("around.html").display()))
-        .stdout(File::create(&dump).unwrap())
-        .stderr(Stdio::null())
-        .spawn()
-        .expect("the browser starts");
-    let began = Instant::now();
-    while child.try_wait().unwrap().is_none() && began.elapsed() < LIMIT {
-        std::thread::sleep(Duration::from_millis(50));
-    }
-    let ended = child.try_wait().unwrap().is_some();
-    if !ended {
-        child.kill().unwrap();
-    }
-    child.wait().unwrap();
-    assert!(ended, "the browser did not end within {LIMIT:?}");
-    fs::read_to_string(dump).unwrap()
-}
-
-fn count(value: &Value) -> u64 {
-    value
-        .as_u64()
-        .unwrap_or_else(|| panic!("no count: {value}"))
+    chromium::probed(browser, (page, PROBE), &WIDTHS, mode, folder)
 }
 
 /// Artefacts of every kind, by the command's own code: three-dimensional pictures with views,
@@ -150,6 +40,7 @@ fn the_page_works_in_a_browser() {
         quick: true,
         threads: None,
         fresh: false,
+        print: false,
         palette: crate::figures::Palette::default(),
     };
     crate::figures::reproduce(&options, &|line| println!("{line}")).unwrap();

@@ -1,7 +1,7 @@
 //! `report.html`: one page without links to anything outside itself.
 //!
 //! Here is the order of the page. Its parts are in files of their own: the summary with its score and
-//! findings, reasons for what was missed. The viewer is `viewer.js`.
+//! findings, reasons for what was missed. The views are those of `actin-view`.
 
 #[cfg(test)]
 mod browser;
@@ -14,26 +14,29 @@ pub(crate) use reasons::unexplained;
 
 use crate::palette;
 use crate::workspace_root;
-use actin_draw::page::{Page, on_dark};
+use actin_draw::page::Page;
 use actin_draw::report::{Artefact, save};
 use std::fs;
 use std::path::Path;
 
-const VIEWER: &str = include_str!("viewer.js");
 const TITLE: &str = "Actin at two resolutions: the paper's figures and tables, computed again";
 
 /// Writes the page, with everything that it shows inside it.
 pub(super) fn write(artefacts: &[Artefact], out: &Path, quick: bool) -> Result<(), String> {
     let version = version();
     let mut page = Page::new(TITLE, &version);
+    page.header(&summary::head(artefacts, quick, &version));
     for artefact in artefacts {
         page.artefact(artefact, &reasons::misses(artefact.rows.iter()), out)?;
     }
-    let header = summary::html(&mut page, artefacts, quick, &version);
-    page.header(&header);
+    page.section("words", "In words", &summary::words(artefacts));
+    let reading = summary::how_to_read(&mut page);
+    page.section("reading", "How to read this page", &reading);
     page.markdown("errata", "Errata of the paper", &errata()?);
-    page.data("palette", &colours()?);
-    page.script(VIEWER);
+    page.verdicts(&summary::verdicts(artefacts));
+    page.data("palette", &palette::chosen().json());
+    page.script(actin_view::BODIES);
+    page.script(actin_view::STATES);
     save(out, "report.html", &page.finish())
 }
 
@@ -55,17 +58,6 @@ fn version() -> String {
 fn errata() -> Result<String, String> {
     let path = workspace_root().join("docs/errata.md");
     fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))
-}
-
-/// The colours of the viewer on a light and on a dark page, as JSON.
-fn colours() -> Result<String, String> {
-    let palette = palette::chosen();
-    let colours = |shade: fn([u8; 3]) -> [u8; 3]| {
-        let stops: Vec<_> = palette.ramp().stops().iter().copied().map(shade).collect();
-        serde_json::json!({ "stops": stops, "things": palette.things().map(shade) })
-    };
-    let colours = serde_json::json!({ "light": colours(|c| c), "dark": colours(on_dark) });
-    serde_json::to_string(&colours).map_err(|e| e.to_string())
 }
 
 #[cfg(test)]

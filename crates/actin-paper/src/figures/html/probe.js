@@ -30,11 +30,12 @@
     for (let i = 3; i < data.length; i += 4) if (data[i] > 0) count += 1;
     return count;
   };
+  // A browser that reads a canvas back goes on without the graphics card, which rounds otherwise by one step.
   const differing = (a, b) => {
     if (a.length !== b.length) return -1;
     let count = 0;
     for (let i = 0; i < a.length; i += 4) {
-      if (a[i] !== b[i] || a[i + 1] !== b[i + 1] || a[i + 2] !== b[i + 2] || a[i + 3] !== b[i + 3]) count += 1;
+      if ([0, 1, 2, 3].some((k) => Math.abs(a[i + k] - b[i + k]) > 2)) count += 1;
     }
     return count;
   };
@@ -61,8 +62,11 @@
     for (let i = 0; i < 100 && !canvas.dataset.drawn; i += 1) await wait(20);
     const first = pixels(canvas);
     const turned = await redrawn(canvas, () => drag(canvas, 60, 30));
-    const zoomed = await redrawn(canvas, () => canvas.dispatchEvent(
-      new WheelEvent('wheel', { deltaY: -40, ctrlKey: true, cancelable: true })));
+    // About the middle: about a place far away it would lose what is seen.
+    const box = canvas.getBoundingClientRect();
+    const zoomed = await redrawn(canvas, () => canvas.dispatchEvent(new WheelEvent('wheel', {
+      deltaY: -40, ctrlKey: true, cancelable: true,
+      clientX: box.left + box.width / 2, clientY: box.top + box.height / 2 })));
     const keyed = await redrawn(canvas, () => canvas.dispatchEvent(
       new KeyboardEvent('keydown', { key: 'ArrowRight', cancelable: true })));
     const buttons = [...figure.querySelectorAll('button')];

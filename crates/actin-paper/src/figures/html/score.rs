@@ -35,7 +35,7 @@ pub(super) fn html(artefacts: &[Artefact]) -> Markup {
         return Markup::default();
     }
     html! {
-        h2 { "What agrees" }
+        h3 { "What agrees" }
         p {
             "One rule decides in all figures and tables. A printed number is met within half a unit of \
              its last digit and, where bonds are drawn, twice the standard deviation of a single \

@@ -1,25 +1,22 @@
-//! What a reader sees first: how many printed numbers agree, what stands and what does not, how to read the
-//! page, and every number that does not agree, with its reason.
+//! The texts of the page: its head, what is found, how to read it, and what stands above the verdicts.
 
-use super::{TITLE, findings, reasons, score};
+use super::{TITLE, findings, score};
 use crate::palette;
-use actin_draw::page::{Page, Verdicts, missed, name};
+use actin_draw::page::{Page, Verdicts};
 use actin_draw::report::Artefact;
 use maud::{Markup, html};
 
-/// Title, counts, misses, and how to read the page.
-pub(super) fn html(
-    page: &mut Page<'_>,
-    artefacts: &[Artefact],
-    quick: bool,
-    version: &str,
-) -> Markup {
-    let stops = palette::chosen().ramp().stops().iter();
-    let stops: Vec<String> = stops.map(|&stop| page.colour(stop)).collect();
+/// Title and origin, in two lines: figures follow.
+pub(super) fn head(artefacts: &[Artefact], quick: bool, version: &str) -> Markup {
+    let all: Verdicts = artefacts.iter().map(|a| Verdicts::of(&a.rows)).sum();
     html! {
         h1 id="summary" { (TITLE) }
         p class="soft" {
-            "Gunaratne, Floyd, Ni, Papoian and Erban, arXiv 2203.01284. Version " (version) "."
+            "Gunaratne, Floyd, Ni, Papoian and Erban, arXiv 2203.01284. Version " (version) ". "
+            @if all.compared() > 0 {
+                (all.agree) " of " (all.compared()) " numbers that are judged agree: "
+                a href="#verdicts" { "verdicts" } "."
+            }
         }
         @if quick {
             p class="quick" {
@@ -28,13 +25,31 @@ pub(super) fn html(
                  was missed, and the numbers in them, are those of the full run."
             }
         }
+    }
+}
+
+/// What is found, in words, and what was chosen beforehand.
+pub(super) fn words(artefacts: &[Artefact]) -> Markup {
+    html! { (findings::html(artefacts)) (judged(artefacts)) (choices()) }
+}
+
+/// How to read the page.
+pub(super) fn how_to_read(page: &mut Page<'_>) -> Markup {
+    let stops = palette::chosen().ramp().stops().iter();
+    let stops: Vec<String> = stops.map(|&stop| page.colour(stop)).collect();
+    reading(&stops)
+}
+
+/// What stands above the table of verdicts.
+pub(super) fn verdicts(artefacts: &[Artefact]) -> Markup {
+    html! {
         (score::html(artefacts))
-        (findings::html(artefacts))
-        (judged(artefacts))
-        (choices())
-        (counts(artefacts))
-        (reading(&stops))
-        (misses(artefacts))
+        p {
+            "Every number that is judged, figure by figure: first what was missed, under its reason. The \
+             reasons, and the numbers in them, are those of the full run of this version. The note of a row \
+             says how its number came about; the " a href="#errata" { "errata" }
+            " say where the paper is open or contradicts itself."
+        }
     }
 }
 
@@ -74,88 +89,15 @@ fn choices() -> Markup {
     }
 }
 
-fn counts(artefacts: &[Artefact]) -> Markup {
-    html! {
-        h2 { "Verdicts" }
-        table class="verdicts" {
-            thead {
-                tr {
-                    th { "figure or table" } th class="n" { "agree" } th class="n" { "missed" }
-                    th class="n" { "measured only" } th class="n" { "time (s)" } th {}
-                }
-            }
-            tbody { @for artefact in artefacts { (count(artefact)) } }
-        }
-    }
-}
-
-fn count(artefact: &Artefact) -> Markup {
-    let verdicts = Verdicts::of(&artefact.rows);
-    let class = |count: usize, class| if count > 0 { class } else { "open" };
-    html! {
-        tr {
-            td class="wide" {
-                a href={ "#" (artefact.id) } { (name(artefact.id)) } ": " (artefact.title)
-            }
-            td class={ "n " (class(verdicts.agree, "pass")) } data-label="agree" {
-                (verdicts.agree)
-            }
-            td class={ "n " (class(verdicts.missed, "miss")) } data-label="missed" {
-                (verdicts.missed)
-            }
-            td class="n" data-label="measured only" { (verdicts.measured) }
-            td class="n" data-label="time (s)" { (format!("{:.1}", artefact.wall_s)) }
-            td class="wide" { (bar(verdicts)) }
-        }
-    }
-}
-
-/// Shares of what agrees and what does not; nothing where nothing is compared.
-fn bar(verdicts: Verdicts) -> Markup {
-    if verdicts.compared() == 0 {
-        return Markup::default();
-    }
-    let width = |count: usize| {
-        let share = 100.0 * count as f64 / verdicts.compared() as f64;
-        format!("width:{share:.1}%")
-    };
-    let label = format!("{} of {} agree", verdicts.agree, verdicts.compared());
-    html! {
-        div class="bar" role="img" aria-label=(label) {
-            div class="good" style=(width(verdicts.agree)) {}
-            div class="bad" style=(width(verdicts.missed)) {}
-        }
-    }
-}
-
-fn misses(artefacts: &[Artefact]) -> Markup {
-    let none = artefacts.iter().all(|a| Verdicts::of(&a.rows).missed == 0);
-    html! {
-        h2 { "What was missed, and why" }
-        @if none {
-            p { "Nothing that was compared." }
-        } @else {
-            p {
-                "Every comparison that failed, under its reason. The reasons, and the numbers in them, \
-                 are those of the full run of this version. The note of a row says how its number came \
-                 about; the " a href="#errata" { "errata" }
-                " say where the paper is open or contradicts itself."
-            }
-            (missed(&reasons::misses(artefacts.iter().flat_map(|a| &a.rows))))
-        }
-    }
-}
-
 fn reading(stops: &[String]) -> Markup {
     let ramp = format!("background:linear-gradient(to right,{})", stops.join(","));
     html! {
-        h2 { "How to read this page" }
         p {
             "A row agrees if ours differs from the expected number by no more than the tolerance; where \
              no number is expected, the tolerance is the bound itself, and the note says on which side \
              of it to be. Who expects the number or sets the bound stands under " em { "by" }
-            ". Units are nm, pN, ns and rad; a row without one is a ratio or a count. On a narrow screen \
-             wide pictures are scrolled sideways. Colour is resolution, the share of the filament that \
+            ". Units are nm, pN, ns and rad; a row without one is a ratio or a count. On a narrow screen a \
+             picture grows when it is touched. Colour is resolution, the share of the filament that \
              is rod:"
         }
         div class="ramp" style=(ramp) {}

@@ -3,10 +3,10 @@
 use super::case::{FULL, Figure, MEAN, Variant};
 use super::solve::{Motion, Outcome};
 use super::{is_drawn, is_mean};
-use crate::figures::viewer::{self, Attitude, Shown};
 use crate::palette;
 use actin_draw::report::{Picture, View};
 use actin_draw::{Chart, Colour, Series};
+use actin_view::{Attitude, Shown, states};
 use std::path::Path;
 
 /// Energies are drawn from where they have come down to this multiple of the highest limit.
@@ -62,7 +62,7 @@ pub(super) fn view_in_space(
         .collect();
     let caption = "The certified equilibria in space, with their linkers and the fixed anchors. \
         The stripe along the rod is its first axis.";
-    viewer::write(figure.id, Attitude::LYING, &shown, caption.into(), out)
+    states::write(figure.id, Attitude::LYING, &shown, caption.into(), out)
 }
 
 fn views(figure: &Figure, chosen: &[&Outcome], out: &Path) -> Result<Vec<Picture>, String> {

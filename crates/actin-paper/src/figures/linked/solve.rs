@@ -2,9 +2,9 @@
 
 use super::case::Case;
 use super::centre_line::CentreLine;
-use crate::figures::viewer::Pose;
 use crate::run::run_to_end;
 use actin_sim::{Assembly, Equilibrium, Failure, Plan, Record, RunError, Scene, Task, Trajectory};
+use actin_view::Pose;
 
 /// Turns of the built filament about its axis from which equilibria are sought (deg).
 const STARTS_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];

@@ -100,11 +100,13 @@ fn panel(solved: &Solved, title: &str, place: [f64; 4], view: View) -> Panel {
     if solved.assembly.clamps.is_empty() {
         items.extend(drawn.linkers());
     }
-    let forces = drawn.forces().into_iter().map(|(at, force)| Label {
-        at: at + force * (0.5 * NM_PER_PN),
-        text: format!("{} pN", force.norm()),
-        offset: [-14.0, 0.0],
-    });
+    let forces = actin_view::bodies::forces(drawn.assembly, drawn.state)
+        .into_iter()
+        .map(|(at, force)| Label {
+            at: at + force * (0.5 * NM_PER_PN),
+            text: format!("{} pN", force.norm()),
+            offset: [-14.0, 0.0],
+        });
     Panel {
         title: title.into(),
         place,

@@ -3,12 +3,13 @@
 
 use super::style;
 use actin_draw::scene3d::{Item, Solid, Stroke};
-use actin_mechanics::{Matrix3, State, UnitQuaternion, Vector3};
-use actin_sim::{Assembly, BodyKind, End, JunctionBond, Load};
+use actin_mechanics::{Matrix3, State, Vector3};
+use actin_sim::{Assembly, BodyKind, End};
+use actin_view::bodies;
 
 /// The filaments of an assembly in a state, to be drawn.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::figures) struct Drawn<'a> {
+pub(super) struct Drawn<'a> {
     pub assembly: &'a Assembly,
     pub state: &'a State,
     /// Arc lengths between which bodies are drawn (nm).
@@ -33,20 +34,12 @@ impl<'a> Drawn<'a> {
         }
     }
 
-    /// Whole filaments in another state.
-    pub(in crate::figures) fn in_state(assembly: &'a Assembly, state: &'a State) -> Self {
-        Self {
-            state,
-            ..Self::whole(assembly)
-        }
-    }
-
     fn shows(&self, s_nm: f64) -> bool {
         (self.range_nm[0]..=self.range_nm[1]).contains(&s_nm)
     }
 
     /// Position of a point (nm, lab frame).
-    pub(in crate::figures) fn place(&self, point: usize) -> Vector3 {
+    pub(super) fn place(&self, point: usize) -> Vector3 {
         self.state.points.position.get(point)
     }
 
@@ -56,7 +49,7 @@ impl<'a> Drawn<'a> {
     }
 
     /// Points of a kind that are shown.
-    pub(in crate::figures) fn points(&self, kind: BodyKind) -> Vec<usize> {
+    pub(super) fn points(&self, kind: BodyKind) -> Vec<usize> {
         let points = self.assembly.points.iter().enumerate();
         let shown = points.filter(|(_, info)| info.kind == kind && self.shows(info.s_nm));
         shown.map(|(i, _)| i).collect()
@@ -103,15 +96,9 @@ impl<'a> Drawn<'a> {
         drawn
     }
 
-    /// Radius of the circle that has the area of the rod's cross-section (nm).
-    pub(in crate::figures) fn rod_radius_nm() -> f64 {
-        let area = actin_sim::rod_constants::CROSS_SECTION_AREA;
-        (area / std::f64::consts::PI).sqrt()
-    }
-
     /// Segments as cylinders of the rod's cross-section, their centre line and their nodes.
     pub(super) fn rods(&self, opacity: f64) -> Vec<Item> {
-        let radius = Self::rod_radius_nm();
+        let radius = bodies::rod_radius_nm();
         let mut items = Vec::new();
         for ends in self.segments() {
             let cylinder = Item::new(Solid::Cylinder { ends, radius }, style::rod());
@@ -170,11 +157,6 @@ impl<'a> Drawn<'a> {
         [0, 1, 2].map(axis).into()
     }
 
-    /// Both ends of a bond of a junction: the monomer's centre, the rod's end (nm, lab frame).
-    pub(in crate::figures) fn ends_of(&self, bond: &JunctionBond) -> [Vector3; 2] {
-        [bond.monomer, bond.node].map(|i| self.place(i))
-    }
-
     /// Bonds of all junctions.
     pub(super) fn junction_bonds(&self, width: f64) -> Vec<Item> {
         let bonds = self.assembly.junction_bonds().into_iter();
@@ -182,7 +164,7 @@ impl<'a> Drawn<'a> {
         let core = Stroke::solid(style::of(|t| t.junction), width);
         bonds
             .flat_map(|bond| {
-                let ends = self.ends_of(&bond);
+                let ends = bodies::ends_of(&bond, self.state);
                 let nearer = style::INSIDE_NM;
                 [
                     Item::line(ends, edge).nearer(nearer),
@@ -192,54 +174,15 @@ impl<'a> Drawn<'a> {
             .collect()
     }
 
-    /// Corners of a plate at each clamped end, across the filament's axis there (nm, lab frame).
-    pub(in crate::figures) fn plates(&self, half_nm: f64) -> Vec<[Vector3; 4]> {
-        let clamps = self.assembly.clamps.iter();
-        clamps
-            .map(|clamp| {
-                let about = clamp.point_nm(self.state);
-                let built = self.assembly.filaments[clamp.filament].rotation;
-                let turn = self.turn_from_rest(clamp.frames[0]) * built;
-                let corner = |(x, y): (f64, f64)| about + turn * Vector3::new(x, y, 0.0) * half_nm;
-                [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner)
-            })
-            .collect()
-    }
-
     /// Walls at clamped ends.
     pub(super) fn walls(&self, half_nm: f64) -> Vec<Item> {
-        let plates = self.plates(half_nm).into_iter();
+        let plates = bodies::plates(self.assembly, self.state, half_nm).into_iter();
         plates
             .map(|corners| {
                 let plate = Solid::Plate {
                     corners: corners.into(),
                 };
                 Item::new(plate, style::of(|t| t.clamp)).with_opacity(0.75)
-            })
-            .collect()
-    }
-
-    /// How a frame has turned since it was built.
-    fn turn_from_rest(&self, frame: usize) -> UnitQuaternion {
-        let rest = self.assembly.rest.frames.orientation.get(frame);
-        self.state.frames.orientation.get(frame) * rest.inverse()
-    }
-
-    /// Where the force of an end acts, and the force (nm, pN, lab frame).
-    pub(in crate::figures) fn forces(&self) -> Vec<(Vector3, Vector3)> {
-        let loads = self.assembly.scene.loads.iter();
-        loads
-            .filter_map(|load| {
-                let Load::EndForce {
-                    filament,
-                    end,
-                    force_pn,
-                } = load
-                else {
-                    return None;
-                };
-                let at = self.assembly.tip_of(*filament, self.state, *end);
-                Some((at, (*force_pn).into()))
             })
             .collect()
     }
@@ -262,18 +205,9 @@ impl<'a> Drawn<'a> {
 
     /// Forces as arrows that begin where they act.
     pub(super) fn arrows(&self, nm_per_pn: f64) -> Vec<Item> {
-        let forces = self.forces().into_iter();
+        let forces = bodies::forces(self.assembly, self.state).into_iter();
         forces
             .map(|(at, force)| style::arrow([at, at + force * nm_per_pn]))
-            .collect()
-    }
-
-    /// Fixed or moved points that linkers pull towards (nm, lab frame).
-    pub(in crate::figures) fn anchors(&self) -> Vec<Vector3> {
-        let linkers = self.assembly.linkers.iter().enumerate();
-        let anchored = linkers.filter(|(i, _)| self.assembly.linked_to(*i).is_none());
-        anchored
-            .map(|(_, linker)| linker.end_position(self.state))
             .collect()
     }
 
@@ -334,12 +268,15 @@ mod tests {
         assert_eq!(drawn.bonds(1.0).items.len(), counts.bonds);
         // A line and what it ends on at either side.
         assert_eq!(drawn.linkers().len(), 3 * assembly.linkers.len());
-        assert!(drawn.anchors().is_empty());
-        for (plate, axis_x) in drawn.plates(6.0).iter().zip([0.0, 12.0, 24.0]) {
+        assert!(bodies::anchors(&assembly, assembly.system.state()).is_empty());
+        for (plate, axis_x) in bodies::plates(&assembly, drawn.state, 6.0)
+            .iter()
+            .zip([0.0, 12.0, 24.0])
+        {
             let middle = plate.iter().sum::<Vector3>() / 4.0;
             assert!((middle - Vector3::new(axis_x, 0.0, 0.0)).norm() < 1e-9);
         }
-        let [(at, force)] = drawn.forces()[..] else {
+        let [(at, force)] = bodies::forces(&assembly, drawn.state)[..] else {
             panic!("one force");
         };
         assert!((at.x - 24.0).abs() < 1e-9 && (force.x + 2.0).abs() < 1e-12);

@@ -126,7 +126,7 @@ fn frames(drawn: &Drawn<'_>) -> Vec<Item> {
     let bonds = numbered(drawn).into_iter();
     bonds
         .flat_map(|(_, bond)| {
-            let [monomer, node] = drawn.ends_of(&bond);
+            let [monomer, node] = actin_view::bodies::ends_of(&bond, drawn.state);
             drawn.frame(bond.frame, 0.5 * (monomer + node), AXIS_NM)
         })
         .collect()
@@ -137,7 +137,7 @@ fn names(drawn: &Drawn<'_>) -> Vec<Label> {
     let mut labels = Vec::new();
     let mut name = |at, text: String, offset| labels.push(Label { at, text, offset });
     for (k, bond) in numbered(drawn) {
-        let [monomer, node] = drawn.ends_of(&bond);
+        let [monomer, node] = actin_view::bodies::ends_of(&bond, drawn.state);
         let [monomer_offset, frame_offset] = OFFSETS[k - 1];
         name(monomer, format!("monomer {k}"), monomer_offset);
         let text = format!("frame {k} (Q_MR)");
@@ -158,7 +158,7 @@ fn rows(solved: &Solved) -> Vec<Row> {
     };
     for (k, bond) in numbered(&drawn) {
         let length = |drawn: &Drawn<'_>| {
-            let [monomer, node] = drawn.ends_of(&bond);
+            let [monomer, node] = actin_view::bodies::ends_of(&bond, drawn.state);
             (node - monomer).norm()
         };
         let turned = solved

@@ -13,11 +13,9 @@ pub(super) use examples::reproduce as figure3;
 pub(super) use joint::reproduce as figure2;
 pub(super) use models::reproduce as figure1;
 
-pub(in crate::figures) use filament::Drawn;
-
-use super::viewer::{self, Attitude, Pose, Shown};
 use actin_draw::report::{Artefact, Picture, Row, save};
 use actin_draw::scene3d::Sheet;
+use actin_view::{Attitude, Pose, Shown, states};
 use solved::Solved;
 use std::path::Path;
 use std::time::Instant;
@@ -38,7 +36,7 @@ fn artefact(
     } else {
         Attitude::LYING
     };
-    let view = viewer::write(id, attitude, &shown, VIEW.into(), out)?;
+    let view = states::write(id, attitude, &shown, VIEW.into(), out)?;
     Ok(Artefact {
         id,
         title,

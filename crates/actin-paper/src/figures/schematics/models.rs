@@ -70,11 +70,13 @@ fn filament(solved: &Solved, title: &str, left: f64) -> Panel {
     items.extend(drawn.segment_frames(AXIS_NM));
     items.extend(drawn.junction_bonds(3.0));
     items.extend(drawn.arrows(NM_PER_PN));
-    let force = drawn.forces().into_iter().map(|(at, force)| Label {
-        at: at + force * NM_PER_PN,
-        text: format!("{} pN", force.norm()),
-        offset: [0.0, -16.0],
-    });
+    let force = actin_view::bodies::forces(drawn.assembly, drawn.state)
+        .into_iter()
+        .map(|(at, force)| Label {
+            at: at + force * NM_PER_PN,
+            text: format!("{} pN", force.norm()),
+            offset: [0.0, -16.0],
+        });
     Panel {
         title: title.into(),
         place: [left, 6.0, 230.0, 540.0],

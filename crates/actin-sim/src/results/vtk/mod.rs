@@ -2,7 +2,7 @@
 //!
 //! In `ParaView`, a glyph "3D Glyphs" of a sphere of radius 1 with orientation mode Quaternion,
 //! orientation array `orientation` and scale array `semi_axes_nm` (by vector components) draws
-//! the monomers as the ellipsoids that they are. The field array `kind_names` tells what the codes of `kind`
+//! the monomers as the ellipsoids that they are, and a tube the rods: [`MACRO`] does both. The field array `kind_names` tells what the codes of `kind`
 //! stand for.
 
 mod poly_data;
@@ -13,6 +13,9 @@ use crate::{Assembly, BodyKind};
 use actin_mechanics::{State, UnitQuaternion, Vector3};
 use poly_data::{Array, PolyData, Values};
 use std::io::{self, Write};
+
+/// The Python script that shows a run in `ParaView`.
+pub(super) const MACRO: &str = include_str!("open_in_paraview.py");
 
 /// What does not change between the pictures of one run.
 #[derive(Debug)]
@@ -32,12 +35,8 @@ impl<'a> Drawing<'a> {
         for (index, span) in assembly.sections.iter().enumerate() {
             section[span.points.clone()].fill(Some(index));
         }
-        let frame = (0..assembly.points.len())
-            .map(|i| {
-                let own = assembly.points[i].frame;
-                own.or_else(|| section[i].and_then(|s| segment_at(assembly, s, i)))
-            })
-            .collect();
+        let points = 0..assembly.points.len();
+        let frame = points.map(|i| assembly.frame_of_point(i)).collect();
         Self {
             assembly,
             section,
@@ -166,14 +165,6 @@ impl Picture {
     pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
         self.0.write(out)
     }
-}
-
-/// The segment at node `point` of rod `section`: the one that begins there, or the last.
-fn segment_at(assembly: &Assembly, section: usize, point: usize) -> Option<usize> {
-    let span = &assembly.sections[section];
-    let last = span.frames.end.checked_sub(1)?;
-    let begins_there = span.frames.start + (point - span.points.start);
-    (!span.frames.is_empty()).then(|| begins_there.min(last))
 }
 
 /// Orientation as a quaternion (w, x, y, z; body to lab) and as the body axes in the lab frame.

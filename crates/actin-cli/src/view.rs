@@ -1,0 +1,166 @@
+//! `actin view`: a page that shows a run, or a film of it.
+
+use crate::failure::Failure;
+use crate::progress;
+use actin_view::{Film, Limits, Palette, Run, is_page};
+use std::fs;
+use std::io::Write;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// What is shown, and where to.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ViewArguments {
+    /// The run directory, of a run that has ended, goes on or was interrupted.
+    directory: PathBuf,
+    /// The page to write; by default `view.html` in the run directory. An existing file is replaced only if
+    /// it is such a page.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Opens the page in the browser.
+    #[arg(long)]
+    open: bool,
+    /// Writes pictures 00001.png, 00002.png, ... into this folder, which is new or empty, in place of the
+    /// page.
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["out", "open"])]
+    film: Option<PathBuf>,
+    /// Width and height of the pictures in pixels, each at most 8192.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size, requires = "film")]
+    size: [usize; 2],
+    /// By how much the camera goes around in the film; without --pictures in 120 pictures at least.
+    #[arg(
+        long,
+        value_name = "DEGREES",
+        default_value_t = 0.0,
+        requires = "film",
+        allow_negative_numbers = true
+    )]
+    turn: f64,
+    /// Number of pictures, by default that of the records; some are shown twice or left out if it is another.
+    #[arg(long, value_name = "N", requires = "film")]
+    pictures: Option<NonZero<usize>>,
+}
+
+/// Most pixels of a side of a picture.
+const WIDEST: usize = 8192;
+/// Pictures of a turn around a run with fewer records.
+const OF_A_TURN: usize = 120;
+
+fn size(text: &str) -> Result<[usize; 2], String> {
+    let sides = text.split_once('x').ok_or("not WxH, as in 1280x720")?;
+    let side = |text: &str| match text.parse() {
+        Ok(side) if (16..=WIDEST).contains(&side) => Ok(side),
+        _ => Err(format!(
+            "{text:?}: each side is a whole number from 16 to {WIDEST}"
+        )),
+    };
+    Ok([side(sides.0)?, side(sides.1)?])
+}
+
+/// Writes the page or the film of a run.
+pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
+    let run = Run::open(&arguments.directory, Limits::default());
+    let run = run.map_err(|error| Failure::Input(error.to_string()))?;
+    for remark in run.remarks() {
+        println!("{remark}");
+    }
+    match &arguments.film {
+        Some(folder) => film(arguments, &run, folder),
+        None => page(arguments, &run),
+    }
+}
+
+/// Writes the pictures of a film.
+fn film(arguments: &ViewArguments, run: &Run, folder: &Path) -> Result<(), Failure> {
+    let refused = |reason: &str| Failure::Input(format!("{}: {reason}", folder.display()));
+    let is_empty = match fs::read_dir(folder) {
+        Ok(mut entries) => entries.next().is_none(),
+        Err(error) if folder.exists() => return Err(refused(&error.to_string())),
+        Err(_) => true,
+    };
+    if !is_empty {
+        return Err(refused(
+            "is not empty: pictures are never overwritten; name another folder",
+        ));
+    }
+    if !arguments.turn.is_finite() {
+        return Err(Failure::Input("--turn: must be a finite number".into()));
+    }
+    let least = if arguments.turn == 0.0 { 0 } else { OF_A_TURN };
+    let film = Film {
+        size: arguments.size,
+        pictures: Some(match arguments.pictures {
+            Some(number) => number.get(),
+            None => Film::default().count(run).max(least),
+        }),
+        turn: arguments.turn.to_radians(),
+        ..Film::default()
+    };
+    let bar = progress::pictures(film.count(run));
+    let written = film.write(run, folder, &|ready| bar.set_position(ready as u64));
+    bar.finish_and_clear();
+    written.map_err(|error| Failure::Unwritten(format!("{}: {error}", folder.display())))?;
+    println!(
+        "{} pictures written to {}",
+        film.count(run),
+        folder.display()
+    );
+    Ok(())
+}
+
+/// Writes the page.
+fn page(arguments: &ViewArguments, run: &Run) -> Result<(), Failure> {
+    let out = arguments.out.clone();
+    let out = out.unwrap_or_else(|| arguments.directory.join("view.html"));
+    refuse_foreign(&out)?;
+    let page = run.page(Palette::default());
+    let unfinished = out.with_extension("html.unfinished");
+    let written =
+        actin_sim::replace_file(&out, &unfinished, |file| file.write_all(page.as_bytes()));
+    written.map_err(|error| Failure::Unwritten(format!("{}: {error}", out.display())))?;
+    let (shown, all) = run.shown();
+    println!(
+        "{shown} of {all} records, {:.1} MB",
+        1e-6 * page.len() as f64
+    );
+    println!("written to {}", out.display());
+    if arguments.open {
+        open(&out)?;
+    }
+    Ok(())
+}
+
+/// Refuses to replace a file that is no page of a run.
+fn refuse_foreign(out: &Path) -> Result<(), Failure> {
+    let refused = |reason: String| Err(Failure::Input(format!("{}: {reason}", out.display())));
+    match fs::symlink_metadata(out) {
+        Err(_) => return Ok(()),
+        Ok(data) if !data.is_file() => return refused("not a regular file: left alone".into()),
+        Ok(_) => {}
+    }
+    match fs::read(out) {
+        Ok(bytes) if is_page(&bytes) => Ok(()),
+        Ok(_) => refused("exists and is no page of a run: left alone; name another file".into()),
+        Err(error) => refused(error.to_string()),
+    }
+}
+
+/// Opens a file with the program of the system for it.
+fn open(page: &Path) -> Result<(), Failure> {
+    let program = if cfg!(target_os = "macos") {
+        "open"
+    } else if cfg!(target_os = "windows") {
+        "explorer"
+    } else {
+        "xdg-open"
+    };
+    let mut command = Command::new(program);
+    command
+        .arg(page)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    let opened = command.spawn().map(drop);
+    opened
+        .map_err(|error| Failure::Input(format!("--open: {program}: {error}; the page is written")))
+}

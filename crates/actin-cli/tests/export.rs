@@ -1,0 +1,146 @@
+//! Runs as files of other programs, each opened by the reader of the program that it is for.
+//!
+//! The readers are packages of Python: gsd, `MDAnalysis`, ovito and simulariumio, in the interpreter that
+//! `ACTIN_READERS` names, or python3. Where one is missing its test says so and skips, unless
+//! `ACTIN_REQUIRE_READERS` lists it.
+
+mod workplace;
+
+use std::env;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use workplace::{Workplace, code, stderr, stdout};
+
+/// Two filaments with monomers of two shapes, a rod, a junction, a linker between them and one to a place.
+const SCENE: &str = "Scene(
+    title: \"two <filaments>\",
+    filaments: [
+        Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 20.0), Rod(from_nm: 20.0, to_nm: 50.0)]),
+        Filament(
+            sections: [Ellipsoids(from_nm: 0.0, to_nm: 30.0)],
+            monomers: Monomers(semi_axes_nm: (2.0, 2.5, 2.5)),
+            at_nm: (12.0, 0.0, 0.0),
+        ),
+    ],
+    clamps: [Clamp(end: Start), Clamp(filament: 1, end: Start)],
+    loads: [EndForce(end: End, force_pn: (-1.0, 0.5, 0.0))],
+    linkers: [
+        Linker(at_nm: 15.0, to: Site(filament: 1, at_nm: 15.0), stiffness_pn_per_nm: 10.0),
+        Linker(at_nm: 40.0, displaced_nm: (0.3, 0.4, 0.0), stiffness_pn_per_nm: 10.0),
+    ],
+    output: (vtk: false),
+    task: Dynamics(duration_ns: 0.4, record_every_ns: 0.1),
+)";
+
+/// A folder with the run of the scene in `run`.
+fn ran(scene: &str) -> Workplace {
+    let place = Workplace::with(scene);
+    let output = place.actin(&["run", "scene.ron", "--out", "run"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    place
+}
+
+/// Runs a script of `tests/readers` in the folder, with a Python that has the packages.
+fn read(place: &Workplace, script: &str, packages: &[&str]) {
+    let python = env::var("ACTIN_READERS").unwrap_or_else(|_| "python3".to_owned());
+    for package in packages {
+        let import = Command::new(&python)
+            .args(["-c", &format!("import {package}")])
+            .output();
+        if !import.is_ok_and(|output| output.status.success()) {
+            let required = env::var("ACTIN_REQUIRE_READERS").unwrap_or_default();
+            let message = format!("{python} has no {package}: {script} is NOT TESTED");
+            assert!(
+                !required.split(',').any(|name| name == *package),
+                "{message}"
+            );
+            eprintln!("SKIPPED: {message}");
+            return;
+        }
+    }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/readers");
+    let output = Command::new(&python)
+        .arg(folder.join(script))
+        .current_dir(place.path(""))
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{script}: {}", stderr(&output));
+    println!("{script}: {}", stdout(&output).trim());
+}
+
+fn export(place: &Workplace, arguments: &[&str]) {
+    let output = place.actin(&[&["export", "run"], arguments].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+}
+
+#[test]
+fn gsd_is_read_by_its_own_package_mdanalysis_and_ovito() {
+    let place = ran(SCENE);
+    export(&place, &["--to", "gsd"]);
+    read(&place, "gsd_file.py", &["gsd.hoomd", "numpy"]);
+    read(&place, "mdanalysis_file.py", &["MDAnalysis", "gsd.hoomd"]);
+    read(&place, "ovito_file.py", &["ovito", "numpy"]);
+}
+
+#[test]
+fn simularium_is_read_by_its_own_package() {
+    let place = ran(SCENE);
+    export(&place, &["--to", "simularium"]);
+    read(&place, "simularium_file.py", &["simulariumio", "scipy"]);
+}
+
+#[test]
+fn mistakes_are_told() {
+    let place = ran(&SCENE.replace("vtk: false", "vtk: false, states: false"));
+    let refused = |arguments: &[&str], message: &str| {
+        let output = place.actin(arguments);
+        assert_eq!(code(&output), 2, "{arguments:?}");
+        assert!(stderr(&output).contains(message), "{}", stderr(&output));
+    };
+    let to_gsd = |run| ["export", run, "--to", "gsd"];
+    refused(
+        &to_gsd("nowhere"),
+        "nowhere is not a run directory: it has no scene.ron",
+    );
+    refused(&to_gsd("run"), "run has no states.npz");
+    refused(
+        &["export", "run", "--to", "pdb"],
+        "possible values: gsd, simularium",
+    );
+}
+
+/// Nothing is replaced unless that is asked for, and nothing is left of what failed.
+#[test]
+fn files_stay() {
+    let place = ran(SCENE);
+    export(&place, &["--to", "gsd"]);
+    let before = fs::read(place.path("run.gsd")).unwrap();
+    let again = place.actin(&["export", "run/", "--to", "gsd"]);
+    assert_eq!(code(&again), 2);
+    assert!(stderr(&again).contains("run.gsd exists: files are never overwritten"));
+    export(&place, &["--to", "gsd", "--overwrite"]);
+    assert_eq!(
+        fs::read(place.path("run.gsd")).unwrap(),
+        before,
+        "the same bytes"
+    );
+    let into_folder = place.actin(&["export", "run", "--to", "gsd", "--out", "run"]);
+    assert_eq!(code(&into_folder), 2);
+    let nowhere = place.actin(&["export", "run", "--to", "gsd", "--out", "none/a.gsd"]);
+    assert_eq!(code(&nowhere), 74, "{}", stderr(&nowhere));
+    // A damaged array, found half way.
+    let bytes = fs::read(place.path("run/states.npz")).unwrap();
+    fs::write(place.path("run/states.npz"), &bytes[..bytes.len() - 1]).unwrap();
+    let damaged = place.actin(&["export", "run", "--to", "gsd", "--out", "b.gsd"]);
+    assert_eq!(code(&damaged), 2, "{}", stderr(&damaged));
+    assert!(
+        stderr(&damaged).contains("states.npz"),
+        "{}",
+        stderr(&damaged)
+    );
+    let left = fs::read_dir(place.path("")).unwrap();
+    let mut left: Vec<_> = left.map(|entry| entry.unwrap().file_name()).collect();
+    left.sort();
+    assert_eq!(left, ["run", "run.gsd", "scene.ron"]);
+}

@@ -1,0 +1,240 @@
+//! `actin view`: its page in a browser, its films, and what it says of directories that are not whole.
+
+mod workplace;
+
+#[path = "../../actin-view/tests/chromium/mod.rs"]
+mod chromium;
+
+use chromium::{Mode, browser, count, probed};
+use serde_json::{Value, json};
+use std::fs;
+use workplace::{Workplace, code, stderr, stdout};
+
+const PROBE: &str = include_str!("view_probe.js");
+/// A phone and a laptop (pixels).
+const WIDTHS: [u32; 2] = [390, 1280];
+
+/// Monomers, a junction, a rod and a linker, in motion, observed.
+const MOTION: &str = "Scene(
+    title: \"Seen & <turned>\",
+    filament: Filament(sections: [
+        Ellipsoids(from_nm: 0.0, to_nm: 40.0),
+        Rod(from_nm: 40.0, to_nm: 100.0, segments: 6),
+    ]),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (-3.0, 0.0, 0.0))],
+    linkers: [Linker(at_nm: 70.0, displaced_nm: (8.0, 0.0, 0.0), stiffness_pn_per_nm: 0.2)],
+    observe: [Tip()],
+    task: Dynamics(
+        duration_ns: 12.0, record_every_ns: 0.5,
+        drag: (translational_per_ns: 0.3, rotational_per_ns: 0.3),
+    ),
+)";
+
+/// One equilibrium of two filaments.
+const PAIR: &str = "Scene(
+    filaments: [
+        Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+        Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 60.0)], at_nm: (15.0, 0.0, 0.0)),
+    ],
+    clamps: [Clamp(end: Start), Clamp(filament: 1, end: Start)],
+    linkers: [Linker(at_nm: 40.0, to: Site(filament: 1, at_nm: 40.0), stiffness_pn_per_nm: 1.0)],
+    loads: [EndForce(end: End, force_pn: (-1.0, 0.0, 0.0))],
+    task: Equilibrium(),
+)";
+
+/// A path of equilibria.
+const PATH: &str = "Scene(
+    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0, segments: 10)]),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+    path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)])],
+    task: Equilibrium(largest_step: 0.1),
+)";
+
+fn ran(scene: &str) -> Workplace {
+    let place = Workplace::with(scene);
+    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    place
+}
+
+fn page(place: &Workplace) -> String {
+    let output = place.actin(&["view", "a"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    fs::read_to_string(place.path("a/view.html")).unwrap()
+}
+
+/// Symptoms of the plausible bugs: a shader that does not compile, a blank canvas, a slider that moves nothing, a
+/// cursor that stays, a table that pushes a phone's page aside.
+#[test]
+fn pages_work_in_a_browser() {
+    let Some(browser) = browser() else {
+        return;
+    };
+    for (scene, mode) in [
+        (MOTION, Mode::Light),
+        (PATH, Mode::Dark),
+        (PAIR, Mode::Light),
+    ] {
+        let place = ran(scene);
+        let page = page(&place);
+        let folder = tempfile::tempdir().unwrap();
+        let found = probed(&browser, (&page, PROBE), &WIDTHS, mode, folder.path());
+        for (found, width) in found.iter().zip(WIDTHS) {
+            assert_works(found, width);
+        }
+    }
+}
+
+fn assert_works(found: &Value, width: u32) {
+    assert_eq!(found["errors"], json!([]), "{width}");
+    assert_eq!(found["beyond"], json!([]), "{width}");
+    assert!(count(&found["scrollWidth"]) <= u64::from(width), "{found}");
+    assert_eq!(found["remarks"], json!([]));
+    let pixels: u64 = found["size"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(count)
+        .product();
+    // A filament with its axes and scale bar.
+    let some = pixels / 200..pixels * 9 / 10;
+    assert!(some.contains(&count(&found["painted"])), "{width}: {found}");
+    for act in ["turned", "along", "zoomed"] {
+        assert!(count(&found[act]) > 1000, "{width}, {act}: {found}");
+    }
+    assert_eq!(found["after_reset"], 0, "{width}: {found}");
+    let tints = found["tints"].as_array().unwrap();
+    assert!(tints.len() >= 3, "{found}");
+    assert!(tints.iter().all(|tint| count(&tint[1]) > 500), "{found}");
+    assert!(count(&found["legend"]) >= 2 && count(&found["charts"]) >= 1);
+    let records = count(&found["records"]);
+    if records > 1 {
+        assert_plays(found, records);
+    }
+}
+
+/// The picture changes, cursors follow, and playing ends at the last record with the picture of before.
+fn assert_plays(found: &Value, records: u64) {
+    assert!(count(&found["moved"]) > 1000, "{found}");
+    assert_eq!(found["after_play"], 0, "{found}");
+    assert_eq!(found["ended"], (records - 1).to_string(), "{found}");
+    assert!(count(&found["played"]) >= 3, "{found}");
+    let cursors = ["at_first", "at_last"].map(|when| found[when].as_array().unwrap().clone());
+    let [first, last] = cursors;
+    let moved = first.iter().zip(&last).filter(|(a, b)| a != b);
+    assert!(moved.count() >= 3, "{found}");
+    // Near the left end of the chart.
+    assert!(count(&found["picked"]) <= records / 4, "{found}");
+}
+
+/// A page is replaced by a newer one; any other file is left alone.
+#[test]
+fn only_pages_are_replaced() {
+    let place = ran(PATH);
+    page(&place);
+    page(&place);
+    fs::write(place.path("mine.html"), "<!doctype html>mine").unwrap();
+    let output = place.actin(&["view", "a", "--out", "mine.html"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("mine.html: exists and is no page of a run"));
+    assert_eq!(
+        fs::read_to_string(place.path("mine.html")).unwrap(),
+        "<!doctype html>mine"
+    );
+    let output = place.actin(&["run", "scene.ron", "--out", "a", "--overwrite"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+}
+
+/// What is no run is refused with 2; what is damaged or missing is said, and the rest is shown.
+#[test]
+fn directories_that_are_not_whole() {
+    let place = ran(MOTION);
+    let refused = |what: &str, reason: &str| {
+        let output = place.actin(&["view", what]);
+        assert_eq!(code(&output), 2, "{}", stdout(&output));
+        assert!(stderr(&output).contains(reason), "{}", stderr(&output));
+    };
+    refused("absent", "absent: No such file");
+    refused("scene.ron", "not a directory");
+    fs::create_dir(place.path("empty")).unwrap();
+    refused("empty", "no scene.ron in it");
+    let states = fs::read(place.path("a/states.npz")).unwrap();
+    let told = |remark: &str| {
+        let page = page(&place);
+        assert!(page.contains(remark), "{remark}");
+    };
+    fs::write(place.path("a/states.npz"), &states[..states.len() / 3]).unwrap();
+    told("states.npz is damaged");
+    fs::remove_file(place.path("a/states.npz")).unwrap();
+    told("There is no states.npz: filaments are shown as built.");
+    fs::write(
+        place.path("a/energies.csv"),
+        "time_ns,total_pn_nm\n0.0,what\n",
+    )
+    .unwrap();
+    told("energies.csv is damaged: row 1, total_pn_nm: &quot;what&quot; is no number.");
+    fs::write(place.path("a/summary.json"), "{}").unwrap();
+    told("summary.json is damaged");
+    fs::remove_file(place.path("a/summary.json")).unwrap();
+    told("There is no summary.json that can be read: the run has not ended");
+    fs::write(place.path("a/scene.ron"), "Scene(\n    nothing: 1)").unwrap();
+    refused("a", "scene.ron:2:");
+}
+
+/// Pictures of the size that is asked for, each with bodies on white; nothing goes over another file.
+#[test]
+fn films_are_pictures_in_order() {
+    let place = ran(PATH);
+    let film = ["view", "a", "--film", "film", "--size", "320x200"];
+    let output = place.actin(&film);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let mut names: Vec<_> = fs::read_dir(place.path("film"))
+        .unwrap()
+        .collect::<Result<_, _>>()
+        .unwrap();
+    names.sort_by_key(std::fs::DirEntry::file_name);
+    assert!(names.len() >= 5, "{}", names.len());
+    let mut before = Vec::new();
+    for (k, entry) in names.iter().enumerate() {
+        assert_eq!(entry.file_name(), format!("{:05}.png", k + 1).as_str());
+        let bytes = fs::read(entry.path()).unwrap();
+        assert_eq!(bytes[..8], *b"\x89PNG\r\n\x1a\n");
+        let side = |at: usize| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap());
+        assert_eq!((side(16), side(20)), (320, 200));
+        assert_ne!(bytes, before, "picture {k} is that before it");
+        before = bytes;
+    }
+    let output = place.actin(&film);
+    assert_eq!(code(&output), 2);
+    assert!(
+        stderr(&output).contains("film: is not empty"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+/// The camera goes around, and what is no size or number is refused.
+#[test]
+fn films_that_turn_and_arguments_that_are_refused() {
+    let place = ran(PATH);
+    let turn = [
+        "view",
+        "a",
+        "--film",
+        "turn",
+        "--size",
+        "64x48",
+        "--turn",
+        "360",
+        "--pictures",
+        "4",
+    ];
+    assert_eq!(code(&place.actin(&turn)), 0);
+    assert_eq!(fs::read_dir(place.path("turn")).unwrap().count(), 4);
+    for bad in [["--size", "5x9"], ["--size", "640"], ["--pictures", "0"]] {
+        let output = place.actin(&[&["view", "a", "--film", "b"][..], &bad].concat());
+        assert_eq!(code(&output), 2);
+    }
+}

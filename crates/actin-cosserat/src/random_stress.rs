@@ -1,0 +1,314 @@
+//! Random stress of rods: forces that shift strains at rest, and couples that shift curvatures.
+//!
+//! Without extension a segment has the energy `-L n . sigma`, three numbers `n`, and a bending element `-Dhat m . kappa`,
+//! three numbers `m`; they stand segments first.
+//!
+//! Where the curvature around a segment reaches its energy, the two cannot be drawn apart. There the bending
+//! energies on both sides of a segment count with it, by half of its length each: with the mean curvature
+//! `kappa_1`, `kappa_2` of either side, `kappa` their mean and `U''` the tangent of bending,
+//!
+//! `L/2 (U(kappa_1) + U(kappa_2)) = L U(kappa) + L/2 U''((kappa_2 - kappa_1)/2) + ...`,
+//!
+//! so that all blocks are those of positive energies: one of `sigma` and `kappa` together, one of the difference. The energy of
+//! the stress is `-L (n . sigma + w_1 m_1 . kappa_1 + w_2 m_2 . kappa_2)`, `w` 1/2 or, for a segment with one side, 1.
+//! Nine numbers a segment, none for bending elements.
+
+use crate::extended::{ExtendedSegments, SegmentAround, SegmentJet};
+use crate::{BendingElement, EnergyGradient, RodLayout, RodMaterial, ShearElement};
+use actin_mechanics::{
+    InternalCouple, InternalForce, Loads, Matrix3, RandomStress, State, Stiffness, UnitQuaternion,
+    Vector3, correlate,
+};
+use nalgebra::SMatrix;
+
+/// Numbers of a vector.
+const VECTOR: usize = 3;
+/// Numbers of a segment that curvature reaches: `n`, `m_1`, `m_2`.
+const EXTENDED: usize = 9;
+
+/// Deviates, made such of covariance `c`.
+fn drawn(c: Matrix3, deviates: &[f64]) -> Vector3 {
+    let mut values = [deviates[0], deviates[1], deviates[2]];
+    correlate(c, &mut values);
+    values.into()
+}
+
+/// Six deviates, made such of the covariance `scale` times the second derivatives by strain and curvature.
+fn drawn_together(jet: &SegmentJet, scale: f64, deviates: &[f64]) -> [Vector3; 2] {
+    let mut c = SMatrix::<f64, 6, 6>::zeros();
+    c.fixed_view_mut::<3, 3>(0, 0).copy_from(&jet.by_strain);
+    c.fixed_view_mut::<3, 3>(3, 0)
+        .copy_from(&jet.mixed.transpose());
+    c.fixed_view_mut::<3, 3>(3, 3).copy_from(&jet.by_curvature);
+    let mut values: [f64; 6] = std::array::from_fn(|k| deviates[k]);
+    correlate(c * scale, &mut values);
+    let [a, b, c, d, e, f] = values;
+    [Vector3::new(a, b, c), Vector3::new(d, e, f)]
+}
+
+fn vector(values: &[f64]) -> Vector3 {
+    Vector3::new(values[0], values[1], values[2])
+}
+
+/// What the stresses of a rod act on.
+struct Parts<'a> {
+    rod: &'a EnergyGradient,
+    stresses: &'a [f64],
+}
+
+impl Parts<'_> {
+    /// Of segments, and of bending elements.
+    fn split(&self) -> (&[f64], &[f64]) {
+        self.stresses
+            .split_at(stride(self.rod) * self.rod.layout().segments())
+    }
+
+    fn forces(&self) -> impl Iterator<Item = InternalForce> {
+        let layout = self.rod.layout();
+        let bodies = layout.points().zip(layout.frames());
+        let stresses = self.split().0.chunks_exact(stride(self.rod)).zip(bodies);
+        stresses.enumerate().map(|(k, (stress, (i, frame)))| {
+            let extended = self.rod.extended();
+            let factors = extended.map_or_else(|| Vector3::repeat(1.0), |e| e.factors(k));
+            InternalForce {
+                points: [i, i + 1],
+                frame,
+                force: vector(stress).component_mul(&factors),
+            }
+        })
+    }
+
+    fn couples(&self) -> impl Iterator<Item = InternalCouple> {
+        let layout = self.rod.layout();
+        let own = self.split().1.chunks_exact(VECTOR);
+        let own = own.zip(layout.bending_chain()).map(|(stress, a)| {
+            let couple = vector(stress);
+            InternalCouple {
+                frames: [a, a + 1],
+                rest: UnitQuaternion::identity(),
+                couple,
+            }
+        });
+        let extended = self.rod.extended().into_iter();
+        let sides = extended.flat_map(move |extended| {
+            (0..layout.segments()).flat_map(move |k| {
+                extended.around(k, layout).map(move |around| {
+                    let stress = &self.stresses[EXTENDED * k + VECTOR * (1 + around.side)..];
+                    InternalCouple {
+                        frames: around.frames,
+                        rest: UnitQuaternion::identity(),
+                        couple: vector(stress) * around.weight,
+                    }
+                })
+            })
+        });
+        own.chain(sides)
+    }
+}
+
+/// Numbers of each segment.
+fn stride(rod: &EnergyGradient) -> usize {
+    if rod.extended().is_some() {
+        EXTENDED
+    } else {
+        VECTOR
+    }
+}
+
+/// The strain of each segment.
+fn strains<'a>(
+    layout: &'a RodLayout,
+    state: &'a State,
+) -> impl Iterator<Item = (Vector3, f64)> + 'a {
+    let bodies = layout.points().zip(layout.frames());
+    let lengths = layout.segment_lengths().iter();
+    lengths.zip(bodies).map(|(&length, (i, frame))| {
+        let l = state.points.position.get(i + 1) - state.points.position.get(i);
+        let q = state.frames.orientation.get(frame);
+        (ShearElement::segment(length).strain(q, l), length)
+    })
+}
+
+/// The curvature of each bending element.
+fn curvatures<'a>(
+    layout: &'a RodLayout,
+    state: &'a State,
+) -> impl Iterator<Item = (Vector3, f64)> + 'a {
+    let q = &state.frames.orientation;
+    let elements = layout.voronoi_lengths().iter().zip(layout.bending_chain());
+    elements.map(|(&rest_distance, a)| {
+        let element = BendingElement { rest_distance };
+        (element.curvature(q.get(a), q.get(a + 1)), rest_distance)
+    })
+}
+
+/// Writes what `force` and `couple` make of each strain, each curvature, the length of either, and what stands in
+/// their places.
+fn write_separate(
+    rod: &EnergyGradient,
+    state: &State,
+    stresses: &mut [f64],
+    force: impl Fn(&RodMaterial, Vector3, f64, &[f64]) -> Vector3,
+    couple: impl Fn(&RodMaterial, Vector3, f64, &[f64]) -> Vector3,
+) {
+    let (layout, material) = (rod.layout(), rod.material());
+    let (forces, couples) = stresses.split_at_mut(VECTOR * layout.segments());
+    for (stress, (sigma, length)) in forces.chunks_exact_mut(VECTOR).zip(strains(layout, state)) {
+        let value = force(material, sigma, length, stress);
+        stress.copy_from_slice(value.as_slice());
+    }
+    let elements = couples.chunks_exact_mut(VECTOR);
+    for (stress, (kappa, length)) in elements.zip(curvatures(layout, state)) {
+        let value = couple(material, kappa, length, stress);
+        stress.copy_from_slice(value.as_slice());
+    }
+}
+
+/// The same for segments that curvature reaches.
+fn write_extended(
+    (extended, rod): (&ExtendedSegments, &EnergyGradient),
+    state: &State,
+    stresses: &mut [f64],
+    of: impl Fn(&SegmentJet, &RodMaterial, &SegmentAround, &[f64]) -> [Vector3; 3],
+) {
+    let (layout, material) = (rod.layout(), rod.material());
+    for (k, stress) in stresses.chunks_exact_mut(EXTENDED).enumerate() {
+        let (jet, around) = extended.jet((layout, material), k, state);
+        let values = of(&jet, material, &around, stress);
+        for (place, value) in stress.chunks_exact_mut(VECTOR).zip(values) {
+            place.copy_from_slice(value.as_slice());
+        }
+    }
+}
+
+impl RandomStress for EnergyGradient {
+    fn components(&self) -> usize {
+        let bending = if self.extended().is_some() { 0 } else { VECTOR };
+        let layout = self.layout();
+        stride(self) * layout.segments() + bending * layout.voronoi_lengths().len()
+    }
+
+    fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]) {
+        let kt = thermal_energy;
+        let Some(extended) = self.extended() else {
+            return write_separate(
+                self,
+                state,
+                stresses,
+                |material, sigma, length, xi| {
+                    drawn(material.shear_tangent(sigma) * (kt / length), xi)
+                },
+                |material, kappa, length, xi| {
+                    drawn(material.bending_tangent(kappa) * (kt / length), xi)
+                },
+            );
+        };
+        write_extended(
+            (extended, self),
+            state,
+            stresses,
+            |jet, material, around, xi| {
+                let bending = material.bending_tangent(around.curvature);
+                let mut jet = *jet;
+                jet.by_curvature += bending * around.covered;
+                let scale = kt / around.length;
+                let [force, couple] = drawn_together(&jet, scale, xi);
+                let difference = if around.has_two_sides {
+                    drawn(bending * scale, &xi[2 * VECTOR..])
+                } else {
+                    Vector3::zeros()
+                };
+                [force, couple - difference, couple + difference]
+            },
+        );
+    }
+
+    fn balance(&self, state: &State, stresses: &mut [f64]) {
+        let Some(extended) = self.extended() else {
+            return write_separate(
+                self,
+                state,
+                stresses,
+                |material, sigma, _, _| material.shear_force(sigma),
+                |material, kappa, _, _| material.bending_couple(kappa),
+            );
+        };
+        write_extended(
+            (extended, self),
+            state,
+            stresses,
+            |jet, material, around, _| {
+                let bending = material.bending_couple(around.curvature) * around.covered;
+                let couple = jet.couple + bending;
+                [jet.force, couple, couple]
+            },
+        );
+    }
+
+    fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads) {
+        let parts = Parts {
+            rod: self,
+            stresses,
+        };
+        parts
+            .forces()
+            .for_each(|force| force.add_loads(state, loads));
+        parts
+            .couples()
+            .for_each(|couple| couple.add_loads(state, loads));
+    }
+
+    fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
+        let parts = Parts {
+            rod: self,
+            stresses,
+        };
+        parts
+            .forces()
+            .for_each(|force| force.add_stiffness(state, stiffness));
+        parts
+            .couples()
+            .for_each(|couple| couple.add_stiffness(state, stiffness));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Homogenised, Rigidities, RodClamp, RodEnd, StraightRod};
+    use actin_mechanics::testing::assert_fluctuates;
+    use actin_mechanics::{Xorshift, perturb};
+
+    fn clamped() -> (State, RodLayout) {
+        let mut state = State::default();
+        let rod = StraightRod::uniform(4, 10.0);
+        let layout = rod.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state);
+        (state, layout.unwrap())
+    }
+
+    #[test]
+    fn stress_of_separate_strains_has_the_covariance_of_the_stiffness() {
+        let (mut state, layout) = clamped();
+        let law = EnergyGradient::new(layout, RodMaterial::new(Rigidities::table4()).unwrap());
+        perturb(&mut state, &mut Xorshift::new(8), 0.05, 0.05);
+        assert_fluctuates(&[&law], &state, 1e-12);
+    }
+
+    /// Under tension, so that shear is stiff; a wall on one side, a free end on the other. Curvature that is drawn apart from
+    /// strain would lack the blocks between them, and fluctuate a fifth too much.
+    #[test]
+    fn stress_of_strains_that_know_of_curvature_has_the_covariance_of_the_stiffness() {
+        for law in [
+            Homogenised::mean_filament(),
+            Homogenised::mean_filament_at_298_k(),
+        ] {
+            let (mut state, layout) = clamped();
+            let law = EnergyGradient::new(layout.clone(), RodMaterial::homogenised(law));
+            for i in layout.points() {
+                let x = state.points.position.get(i);
+                state.points.position.set(i, x * 1.001);
+            }
+            assert_fluctuates(&[&law], &state, 1e-12);
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! What the bodies of a run are to a program that knows particles and bonds.
+
+use actin_sim::mechanics::{State, UnitQuaternion, Vector3};
+use actin_sim::{Assembly, BodyKind, rod_constants::CROSS_SECTION_AREA};
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// Radius of the circle that has the area of the cross-section of rods (nm).
+pub(crate) fn rod_radius_nm() -> f64 {
+    (CROSS_SECTION_AREA / PI).sqrt()
+}
+
+/// Radius at which ends of linkers are drawn (nm).
+pub(crate) const LINKER_RADIUS_NM: f64 = 0.5;
+
+/// The shape of a particle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// Semi-axes (nm) along the axes of the particle's frame.
+    Ellipsoid([f64; 3]),
+    /// Radius (nm).
+    Sphere(f64),
+}
+
+impl Shape {
+    /// The largest distance of its surface from its centre (nm).
+    pub fn radius_nm(self) -> f64 {
+        match self {
+            Self::Ellipsoid(semi_axes) => semi_axes.into_iter().fold(0.0, f64::max),
+            Self::Sphere(radius) => radius,
+        }
+    }
+}
+
+/// Particles of one name and shape.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Species {
+    /// Name: `monomer`, `node` of a rod, `linker` for the ends of linkers; further shapes of monomers are
+    /// `monomer_1` and so on.
+    pub name: String,
+    /// Shape.
+    pub shape: Shape,
+}
+
+/// What joins two particles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BondKind {
+    /// Monomers i and i + 1.
+    Lateral,
+    /// Monomers i and i + 2.
+    Longitudinal,
+    /// Neighbouring nodes of a rod.
+    Segment,
+    /// A monomer and the end of a rod.
+    Junction,
+    /// The ends of a linker.
+    Linker,
+}
+
+impl BondKind {
+    /// All kinds.
+    pub const ALL: [Self; 5] = [
+        Self::Lateral,
+        Self::Longitudinal,
+        Self::Segment,
+        Self::Junction,
+        Self::Linker,
+    ];
+
+    /// The name that files give it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lateral => "lateral",
+            Self::Longitudinal => "longitudinal",
+            Self::Segment => "segment",
+            Self::Junction => "junction",
+            Self::Linker => "linker",
+        }
+    }
+}
+
+/// Two particles that are joined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bond {
+    /// By what.
+    pub kind: BondKind,
+    /// Their indices.
+    pub between: [usize; 2],
+}
+
+/// The particles of a run: its monomers and nodes in their order, then both ends of each linker.
+///
+/// Linkers with `kinetics` come and go and are left out.
+#[derive(Debug)]
+pub struct Particles<'a> {
+    assembly: &'a Assembly,
+    /// What sorts there are.
+    pub species: Vec<Species>,
+    /// Index of the sort of each particle.
+    pub sort: Vec<usize>,
+    /// What joins them.
+    pub bonds: Vec<Bond>,
+    /// For each point the frame that turns it.
+    frame: Vec<Option<usize>>,
+    /// Indices of the linkers that are shown.
+    pub(crate) linkers: Vec<usize>,
+}
+
+impl<'a> Particles<'a> {
+    /// The particles of an assembly.
+    pub fn new(assembly: &'a Assembly) -> Self {
+        let linkers = assembly.scene.linkers.iter().enumerate();
+        let lasting = linkers.filter(|(_, linker)| linker.kinetics.is_none());
+        let points = 0..assembly.points.len();
+        let mut particles = Self {
+            assembly,
+            species: Vec::new(),
+            sort: Vec::new(),
+            bonds: bonds(assembly),
+            frame: points.map(|i| assembly.frame_of_point(i)).collect(),
+            linkers: lasting.map(|(i, _)| i).collect(),
+        };
+        for i in 0..assembly.points.len() {
+            let (name, shape) = particles.of_point(i);
+            particles.push(name, shape);
+        }
+        for _ in 0..particles.linkers.len() {
+            let first = particles.sort.len();
+            particles.bonds.push(Bond {
+                kind: BondKind::Linker,
+                between: [first, first + 1],
+            });
+            particles.push("linker", Shape::Sphere(LINKER_RADIUS_NM));
+            particles.push("linker", Shape::Sphere(LINKER_RADIUS_NM));
+        }
+        particles
+    }
+
+    /// Number of particles.
+    pub fn count(&self) -> usize {
+        self.sort.len()
+    }
+
+    /// The assembly that they are of.
+    pub fn assembly(&self) -> &'a Assembly {
+        self.assembly
+    }
+
+    fn of_point(&self, i: usize) -> (&'static str, Shape) {
+        match self.assembly.points[i].kind {
+            BodyKind::Monomer => {
+                let filament = self.assembly.filament_of_point(i);
+                let semi_axes = self.assembly.monomers_of(filament).semi_axes_nm;
+                ("monomer", Shape::Ellipsoid(semi_axes))
+            }
+            _ => ("node", Shape::Sphere(rod_radius_nm())),
+        }
+    }
+
+    /// Adds a particle to the species of its name and shape.
+    fn push(&mut self, name: &str, shape: Shape) {
+        let alike = |s: &Species| s.shape == shape && s.name.starts_with(name);
+        let found = self.species.iter().position(alike);
+        let sort = found.unwrap_or_else(|| {
+            let namesakes = self.species.iter().filter(|s| s.name.starts_with(name));
+            let name = match namesakes.count() {
+                0 => name.to_owned(),
+                others => format!("{name}_{others}"),
+            };
+            self.species.push(Species { name, shape });
+            self.species.len() - 1
+        });
+        self.sort.push(sort);
+    }
+
+    /// Places of all particles (nm, lab frame).
+    pub fn places(&self, state: &State) -> Vec<Vector3> {
+        let mut places: Vec<Vector3> = state.points.position.iter().collect();
+        for &i in &self.linkers {
+            places.extend(self.linker(i, state));
+        }
+        places
+    }
+
+    /// Both ends of a linker (nm, lab frame).
+    pub(crate) fn linker(&self, i: usize, state: &State) -> [Vector3; 2] {
+        let linker = &self.assembly.linkers[i];
+        [linker.site().position(state), linker.end_position(state)]
+    }
+
+    /// The turn of each particle, body to lab; none of ends of linkers.
+    pub fn turns(&self, state: &State) -> Vec<UnitQuaternion> {
+        let turn = |frame: &Option<usize>| {
+            frame.map_or_else(UnitQuaternion::identity, |f| {
+                state.frames.orientation.get(f)
+            })
+        };
+        let mut turns: Vec<_> = self.frame.iter().map(turn).collect();
+        turns.resize(self.count(), UnitQuaternion::identity());
+        turns
+    }
+
+    /// Velocities of all particles (nm/ns, lab frame); zero of ends of linkers.
+    pub fn velocities(&self, state: &State) -> Vec<Vector3> {
+        let mut velocities: Vec<Vector3> = state.points.velocity.iter().collect();
+        velocities.resize(self.count(), Vector3::zeros());
+        velocities
+    }
+}
+
+/// Runs of monomers, across sections that are bonded to each other, and the rods, as points.
+pub(crate) fn runs(assembly: &Assembly) -> Vec<(BodyKind, Range<usize>)> {
+    let mut runs: Vec<(BodyKind, Range<usize>)> = Vec::new();
+    for filament in &assembly.filaments {
+        let first = runs.len();
+        for section in &assembly.sections[filament.sections.clone()] {
+            let points = section.points.clone();
+            let bonded = runs[first..].last_mut().filter(|(kind, run)| {
+                *kind == BodyKind::Monomer && section.is_ellipsoids() && run.end == points.start
+            });
+            match bonded {
+                Some((_, run)) => run.end = points.end,
+                None if section.is_ellipsoids() => runs.push((BodyKind::Monomer, points)),
+                None => runs.push((BodyKind::Node, points)),
+            }
+        }
+    }
+    runs
+}
+
+fn bonds(assembly: &Assembly) -> Vec<Bond> {
+    let mut bonds = Vec::new();
+    let mut join = |kind, points: &Range<usize>, reach: usize| {
+        let firsts = points.start..points.end.saturating_sub(reach);
+        bonds.extend(firsts.map(|i| Bond {
+            kind,
+            between: [i, i + reach],
+        }));
+    };
+    for (kind, points) in runs(assembly) {
+        if kind == BodyKind::Monomer {
+            join(BondKind::Lateral, &points, 1);
+            join(BondKind::Longitudinal, &points, 2);
+        } else {
+            join(BondKind::Segment, &points, 1);
+        }
+    }
+    bonds.extend(assembly.junction_bonds().iter().map(|bond| Bond {
+        kind: BondKind::Junction,
+        between: [bond.monomer, bond.node],
+    }));
+    bonds
+}

@@ -1,0 +1,206 @@
+//! The JSON file of the Simularium viewer: trajectory info version 3, spatial data version 1.
+//!
+//! Each monomer is an agent with a mesh, each rod a fibre through its nodes, each linker a fibre between its
+//! ends. The format has no ellipsoid: [`simularium_meshes`] gives a Wavefront OBJ for each species of monomers,
+//! of largest semi-axis 1, which the radius of its agents scales. The viewer takes it when it is opened
+//! together with the file, and draws spheres of that radius without it. Rotations are angles about x, y and z,
+//! `R = Rx Ry Rz`.
+//!
+//! # Source
+//! File format of simulariumio (simularium/simulariumio, `file_format.md`).
+
+mod angles;
+mod mesh;
+
+use crate::particles::{LINKER_RADIUS_NM, rod_radius_nm, runs};
+use crate::{ExportError, FinishedRun, Particles, Shape, extent};
+use actin_sim::mechanics::{State, Vector3};
+use actin_sim::{At, BodyKind};
+use serde_json::json;
+use std::io::Write;
+
+/// Kinds of agents.
+const WITH_GEOMETRY: f32 = 1000.0;
+const FIBRE: f32 = 1001.0;
+
+/// Meshes of the ellipsoids of a run: names of files that begin with `prefix`, and what they hold.
+pub fn simularium_meshes(run: &FinishedRun, prefix: &str) -> Vec<(String, String)> {
+    let particles = Particles::new(run.assembly());
+    let meshes = particles.species.iter().filter_map(|s| match s.shape {
+        Shape::Ellipsoid(semi_axes) => {
+            let largest = s.shape.radius_nm();
+            let unit = semi_axes.map(|axis| axis / largest);
+            Some((mesh_name(prefix, &s.name), mesh::ellipsoid(unit)))
+        }
+        Shape::Sphere(_) => None,
+    });
+    meshes.collect()
+}
+
+fn mesh_name(prefix: &str, species: &str) -> String {
+    format!("{prefix}_{species}.obj")
+}
+
+/// Writes a run as Simularium JSON that names meshes by `prefix`, as [`simularium_meshes`] does.
+///
+/// # Errors
+/// States that cannot be read, or `out` refuses.
+pub fn write_simularium(
+    run: &FinishedRun,
+    prefix: &str,
+    out: &mut impl Write,
+) -> Result<(), ExportError> {
+    let agents = Agents::new(run, prefix);
+    let edges = extent::edges_nm(run, &agents.particles)?;
+    // No longer than it has to be for a viewer that knows no periods.
+    let info = info(run, &agents, edges.map(|edge| 0.5 * edge));
+    write!(out, "{{\"trajectoryInfo\":{info},\"spatialData\":")?;
+    let count = run.count();
+    write!(
+        out,
+        "{{\"version\":1,\"msgType\":1,\"bundleStart\":0,\"bundleSize\":{count},\"bundleData\":["
+    )?;
+    for (i, state) in run.states()?.enumerate() {
+        let data = agents.frame(&state?);
+        let frame = json!({ "frameNumber": i, "time": run.at(i).value(), "data": data });
+        let comma = if i == 0 { "" } else { "," };
+        write!(out, "{comma}\n{frame}")?;
+    }
+    writeln!(out, "\n]}},\"plotData\":{{\"version\":1,\"data\":[]}}}}")?;
+    Ok(out.flush()?)
+}
+
+/// What the viewer has to know before the first frame.
+fn info(run: &FinishedRun, agents: &Agents<'_>, size: [f64; 3]) -> serde_json::Value {
+    let step = match run.times() {
+        [first, second, ..] => second - first,
+        _ => 0.0,
+    };
+    let unit = match run.at(0) {
+        At::Time(_) => "ns",
+        At::Path(_) => "stages",
+    };
+    let [x, y, z] = size;
+    let far = size.into_iter().fold(0.0, f64::max);
+    let place = |x: f64, y: f64, z: f64| json!({ "x": x, "y": y, "z": z });
+    let kinds = agents.kinds.iter().enumerate();
+    let types: serde_json::Map<_, _> = kinds
+        .map(|(i, kind)| (i.to_string(), kind.clone()))
+        .collect();
+    json!({
+        "version": 3,
+        "timeUnits": { "magnitude": 1.0, "name": unit },
+        "timeStepSize": step,
+        "totalSteps": run.count(),
+        "spatialUnits": { "magnitude": 1.0, "name": "nm" },
+        "size": place(x, y, z),
+        // From the side, the filament as built upright.
+        "cameraDefault": {
+            "position": place(0.0, -far, 0.0),
+            "lookAtPosition": place(0.0, 0.0, 0.0),
+            "upVector": place(0.0, 0.0, 1.0),
+            "fovDegrees": 75.0,
+        },
+        "typeMapping": types,
+        "trajectoryTitle": run.assembly().scene.title,
+    })
+}
+
+/// The agents of a run.
+struct Agents<'a> {
+    particles: Particles<'a>,
+    /// How each type of agents is named and drawn.
+    kinds: Vec<serde_json::Value>,
+    /// Number of the type of rods, behind those of the species; linkers have the next.
+    rod: usize,
+}
+
+impl<'a> Agents<'a> {
+    fn new(run: &'a FinishedRun, prefix: &str) -> Self {
+        let particles = Particles::new(run.assembly());
+        let drawn = |name: &str, display: &str, url: String| json!({ "name": name, "geometry": { "displayType": display, "url": url, "color": "" } });
+        let species = particles.species.iter().map(|s| match s.shape {
+            Shape::Ellipsoid(_) => drawn(&s.name, "OBJ", mesh_name(prefix, &s.name)),
+            Shape::Sphere(_) => drawn(&s.name, "SPHERE", String::new()),
+        });
+        let mut kinds: Vec<_> = species.collect();
+        let rod = kinds.len();
+        kinds.push(drawn("rod", "FIBER", String::new()));
+        kinds.push(drawn("linker", "FIBER", String::new()));
+        Self {
+            particles,
+            kinds,
+            rod,
+        }
+    }
+
+    /// The numbers of all agents in a state.
+    fn frame(&self, state: &State) -> Vec<f32> {
+        let mut buffer = Buffer::default();
+        let assembly = self.particles.assembly();
+        let turns = self.particles.turns(state);
+        for (kind, points) in runs(assembly) {
+            if kind == BodyKind::Monomer {
+                for i in points {
+                    let sort = self.particles.sort[i];
+                    let radius = self.particles.species[sort].shape.radius_nm();
+                    let place = state.points.position.get(i);
+                    buffer.push(
+                        (WITH_GEOMETRY, sort),
+                        (place, angles::of(&turns[i])),
+                        radius,
+                    );
+                    buffer.numbers.push(0.0);
+                }
+            } else {
+                let nodes = points.map(|i| state.points.position.get(i));
+                buffer.push_fibre(self.rod, rod_radius_nm(), nodes);
+            }
+        }
+        for &i in &self.particles.linkers {
+            let ends = self.particles.linker(i, state);
+            buffer.push_fibre(self.rod + 1, LINKER_RADIUS_NM, ends.into_iter());
+        }
+        buffer.numbers
+    }
+}
+
+/// The numbers of a frame, agent after agent.
+#[derive(Default)]
+struct Buffer {
+    numbers: Vec<f32>,
+    agents: usize,
+}
+
+impl Buffer {
+    /// All numbers of an agent but those of its further points.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "digits enough for a picture"
+    )]
+    fn push(
+        &mut self,
+        (kind, sort): (f32, usize),
+        (place, turn): (Vector3, [f64; 3]),
+        radius: f64,
+    ) {
+        self.numbers.extend([kind, self.agents as f32, sort as f32]);
+        let place = place.iter().chain(&turn).chain([&radius]);
+        self.numbers.extend(place.map(|&number| number as f32));
+        self.agents += 1;
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "digits enough for a picture"
+    )]
+    fn push_fibre(&mut self, sort: usize, radius: f64, points: impl Iterator<Item = Vector3>) {
+        self.push((FIBRE, sort), (Vector3::zeros(), [0.0; 3]), radius);
+        let points: Vec<f32> = points
+            .flat_map(<[f64; 3]>::from)
+            .map(|number| number as f32)
+            .collect();
+        self.numbers.push(points.len() as f32);
+        self.numbers.extend(points);
+    }
+}

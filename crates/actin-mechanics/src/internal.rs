@@ -1,0 +1,172 @@
+//! Constant internal forces and couples: they follow the frames that they are seen from.
+
+use crate::{Coordinates, Loads, Matrix3, State, Stiffness, UnitQuaternion, Vector3, rotation};
+
+/// A force between two points that is constant in the axes of a frame: the energy `-n . Q^T (x_b - x_a)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InternalForce {
+    /// The points `a` and `b`.
+    pub points: [usize; 2],
+    /// The frame `Q`.
+    pub frame: usize,
+    /// The force on `b` (its axes).
+    pub force: Vector3,
+}
+
+/// A couple between two frames that is constant as seen from their difference: the energy
+/// `-m . log(O^T Qa^T Qb)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InternalCouple {
+    /// The frames `a` and `b`.
+    pub frames: [usize; 2],
+    /// `O`: where `b` stands in `a` at rest.
+    pub rest: UnitQuaternion,
+    /// The couple, conjugate to the logarithm.
+    pub couple: Vector3,
+}
+
+impl InternalForce {
+    fn seen(&self, state: &State) -> (Matrix3, Vector3) {
+        let axes = axes(state, self.frame);
+        let [a, b] = self.points.map(|i| state.points.position.get(i));
+        (axes, axes.tr_mul(&(b - a)))
+    }
+
+    /// Adds its loads: `-Q n` and `Q n` on the points, `n x y` on the frame, with `y = Q^T (x_b - x_a)`.
+    pub fn add_loads(&self, state: &State, loads: &mut Loads) {
+        let (axes, y) = self.seen(state);
+        let force = axes * self.force;
+        loads.force.add(self.points[0], -force);
+        loads.force.add(self.points[1], force);
+        loads.torque.add(self.frame, self.force.cross(&y));
+    }
+
+    /// Adds the second derivatives of its energy.
+    pub fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        let (axes, y) = self.seen(state);
+        let n = self.force;
+        let [a, b] = self.points.map(Coordinates::Point);
+        let frame = Coordinates::Frame(self.frame);
+        let mixed = axes * n.cross_matrix();
+        let half = 0.5 * n * y.transpose();
+        let turn = Matrix3::from_diagonal_element(n.dot(&y)) - half - half.transpose();
+        stiffness.push(a, frame, -mixed);
+        stiffness.push(b, frame, mixed);
+        stiffness.push(frame, frame, turn);
+    }
+}
+
+impl InternalCouple {
+    /// `log(O^T Qa^T Qb)`.
+    pub fn strain(&self, state: &State) -> Vector3 {
+        let [a, b] = self.frames.map(|i| state.frames.orientation.get(i));
+        rotation::log((a * self.rest).inverse() * b)
+    }
+
+    /// Adds its loads: `J_r(theta)^-T m` on `b`, and the opposite in the axes of `a` on `a`.
+    pub fn add_loads(&self, state: &State, loads: &mut Loads) {
+        let theta = self.strain(state);
+        let inverse = rotation::right_jacobian_inverse(theta);
+        let [a, b] = self.frames;
+        loads.torque.add(b, inverse.tr_mul(&self.couple));
+        // J_l(theta) = J_r(theta)^T.
+        loads.torque.add(a, -(self.rest * (inverse * self.couple)));
+    }
+
+    /// Adds the second derivatives of its energy: with `D` the derivative of `J_r(theta)^-T m` by `theta`, the block of `b` is
+    /// `K = -sym(D J_r^-1)`, and as the energy depends on `R = O^T Qa^T Qb` alone, the others are
+    /// `R K R^T` and `R (-[J_r^-T m]x / 2 - K)`, turned into the axes of `a`.
+    pub fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        let theta = self.strain(state);
+        let inverse = rotation::right_jacobian_inverse(theta);
+        let slope = rotation::right_jacobian_inverse_transpose_slope(theta, self.couple) * inverse;
+        let second = -0.5 * (slope + slope.transpose());
+        let r = (self.rest * rotation::exp(theta)).to_rotation_matrix();
+        let r = r.into_inner();
+        let first = r * second * r.transpose();
+        let turned = inverse.tr_mul(&self.couple).cross_matrix();
+        let [a, b] = self.frames.map(Coordinates::Frame);
+        stiffness.push(a, a, 0.5 * (first + first.transpose()));
+        stiffness.push(a, b, r * (-0.5 * turned - second));
+        stiffness.push(b, b, second);
+    }
+}
+
+fn axes(state: &State, frame: usize) -> Matrix3 {
+    let q = state.frames.orientation.get(frame);
+    q.to_rotation_matrix().into_inner()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{assert_is_balanced, assert_is_gradient, assert_is_stiffness};
+    use crate::{Frame, Inertia, Interaction, Point, SecondOrder, Xorshift, perturb};
+
+    /// Both between two bodies, as an interaction.
+    #[derive(Debug)]
+    struct Both(InternalForce, InternalCouple);
+
+    impl Interaction for Both {
+        fn term(&self) -> &'static str {
+            "internal"
+        }
+        fn elements(&self) -> usize {
+            2
+        }
+        fn add_loads(&self, state: &State, loads: &mut Loads) {
+            self.0.add_loads(state, loads);
+            self.1.add_loads(state, loads);
+        }
+        fn write_energies(&self, state: &State, energies: &mut [f64]) {
+            let (_, y) = self.0.seen(state);
+            energies[0] = -self.0.force.dot(&y);
+            energies[1] = -self.1.couple.dot(&self.1.strain(state));
+        }
+        fn second_order(&self) -> Option<&dyn SecondOrder> {
+            Some(self)
+        }
+    }
+
+    impl SecondOrder for Both {
+        fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+            self.0.add_stiffness(state, stiffness);
+            self.1.add_stiffness(state, stiffness);
+        }
+    }
+
+    /// Loads and blocks are derivatives of the energy, for frames that stand at any angle; a wrong side of the
+    /// frame at rest or a wrong sign of what is geometric would show.
+    #[test]
+    fn internal_loads_are_the_gradient_of_their_energy() {
+        let mut state = State::default();
+        for k in 0..2 {
+            let position = Vector3::z() * f64::from(k);
+            state.points.push(Point {
+                position,
+                mass: 1.0,
+            });
+            state.frames.push(Frame {
+                orientation: rotation::exp(Vector3::new(0.3, 0.1, 2.8) * f64::from(k)),
+                inertia: Inertia::from_moments([1.0; 3]).unwrap(),
+            });
+        }
+        let rest = rotation::exp(Vector3::new(0.25, 0.1, 2.7));
+        perturb(&mut state, &mut Xorshift::new(3), 0.1, 0.2);
+        let both = Both(
+            InternalForce {
+                points: [0, 1],
+                frame: 0,
+                force: Vector3::new(1.0, -2.0, 0.5),
+            },
+            InternalCouple {
+                frames: [0, 1],
+                rest,
+                couple: Vector3::new(0.4, 1.5, -2.0),
+            },
+        );
+        assert_is_gradient(&both, &state, 1e-4, 1e-8);
+        assert_is_stiffness(&both, &state, 1e-4, 1e-7);
+        assert_is_balanced(&both, &state, 1e-13);
+    }
+}

@@ -1,0 +1,58 @@
+//! Random stress of the elements of an interaction: what keeps strains in thermal motion in time steps
+//! that are longer than strains remember.
+
+use crate::{Loads, State, Stiffness};
+use nalgebra::SMatrix;
+
+/// Elements whose energy depends on strains `e(x)`, under a random stress that adds the energy `-s . e(x)`.
+///
+/// Drawn with the covariance `kT C`, `C` the second derivatives of the energy with respect to strains, a stress
+/// shifts its element's strain at rest by as much as thermal motion does.
+///
+/// Stresses of all elements stand one after the other in one slice of
+/// [`components`](RandomStress::components) numbers; their units are those of the elements.
+pub trait RandomStress {
+    /// Number of components of all elements together.
+    fn components(&self) -> usize;
+
+    /// Turns independent deviates of mean 0 and variance 1 into stresses of the covariance
+    /// `thermal_energy` times the stiffness of the strains at `state`. Directions of negative stiffness have none.
+    fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]);
+
+    /// Writes the stresses that balance the elements' own at `state`: both together act on nothing, and have
+    /// no second derivatives but those that strains have where they are linear.
+    fn balance(&self, state: &State, stresses: &mut [f64]);
+
+    /// Adds the loads of these stresses, `s . de/dx`.
+    fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads);
+
+    /// Adds the second derivatives of the energy `-s . e(x)`.
+    fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness);
+}
+
+/// Turns `N` independent deviates of mean 0 and variance 1 into some of covariance `c` (symmetric), by its Cholesky
+/// factor. A direction of negative variance, up to those before it, has none.
+///
+/// ```
+/// use actin_mechanics::correlate;
+/// let mut deviates = [1.0, 1.0];
+/// correlate(nalgebra::Matrix2::new(4.0, 2.0, 2.0, 10.0), &mut deviates);
+/// assert_eq!(deviates, [2.0, 4.0]);
+/// ```
+pub fn correlate<const N: usize>(mut c: SMatrix<f64, N, N>, deviates: &mut [f64; N]) {
+    let mut sums = [0.0; N];
+    for k in 0..N {
+        let pivot = c[(k, k)];
+        if pivot <= 0.0 {
+            continue;
+        }
+        let factors: [f64; N] = std::array::from_fn(|i| c[(i, k)] / pivot.sqrt());
+        for i in k..N {
+            sums[i] += factors[i] * deviates[k];
+            for j in k + 1..=i {
+                c[(i, j)] -= factors[i] * factors[j];
+            }
+        }
+    }
+    *deviates = sums;
+}

@@ -1,0 +1,35 @@
+"""Actin filaments at two resolutions: rigid ellipsoid monomers and Cosserat rods.
+
+Scenes: `Scene`, `equilibrium`, `run`, `sweep`, `load`. By hand, with a scene or without: `System`. Least squares:
+`fit`, `fit_linear`. Lengths are in nm, forces in pN, times in ns; what has no unit in its name takes any that fit
+together.
+"""
+
+from actin._actin import Progress, Rod, Scene, System, __version__, fit, fit_linear, run
+from actin._equilibrium import equilibrium
+from actin._sweep import Sweep, sweep
+from actin.errors import ActinError, Interrupted, RunFailed, SceneError
+from actin.results import Certificate, Equilibrium, Fit, Run, load
+
+__all__ = [
+    "ActinError",
+    "Certificate",
+    "Equilibrium",
+    "Fit",
+    "Interrupted",
+    "Progress",
+    "Rod",
+    "Run",
+    "RunFailed",
+    "Scene",
+    "SceneError",
+    "Sweep",
+    "System",
+    "__version__",
+    "equilibrium",
+    "fit",
+    "fit_linear",
+    "load",
+    "run",
+    "sweep",
+]

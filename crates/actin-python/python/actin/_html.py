@@ -1,0 +1,17 @@
+"""What notebooks show of scenes and runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from html import escape
+
+
+def of_scene(title: str, ron: str) -> str:
+    """A scene: what it is, and its text with every default behind a click."""
+    return f"<details><summary><code>{escape(title)}</code></summary><pre>{escape(ron)}</pre></details>"
+
+
+def table(caption: str, rows: Iterable[tuple[str, str]]) -> str:
+    """Names and values below a caption."""
+    cells = (f"<tr><th style='text-align:left'>{escape(name)}</th><td>{escape(value)}</td></tr>" for name, value in rows)
+    return f"<table><caption>{escape(caption)}</caption>{''.join(cells)}</table>"

@@ -1,0 +1,57 @@
+"""What shows how far a run is: a bar on a terminal, nothing elsewhere, or a function of the caller."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from actin._actin import Progress
+
+WIDTH = 32
+
+
+class Bar:
+    """A line on standard error that is written again and again."""
+
+    def __init__(self) -> None:
+        self.shown = 0
+
+    def __call__(self, progress: Progress) -> None:
+        full = int(WIDTH * progress.share)
+        left = progress.seconds * (1.0 - progress.share) / progress.share if progress.share > 0.0 else 0.0
+        numbers = f"{progress.at:.2f} of {progress.end:.0f} {progress.unit}"
+        if progress.unit != "runs" and progress.seconds > 0.0:
+            rate = progress.steps / progress.seconds
+            numbers += f", {rate:.0f} steps/s, residual {progress.residual_force_pn:.1e} pN"
+        line = f"{'█' * full}{'░' * (WIDTH - full)} {100.0 * progress.share:3.0f} %  {numbers}  remaining {left:.0f} s"
+        sys.stderr.write("\r" + line.ljust(self.shown))
+        sys.stderr.flush()
+        self.shown = len(line)
+
+    def finish(self) -> None:
+        """Takes the line away."""
+        if self.shown:
+            sys.stderr.write("\r" + " " * self.shown + "\r")
+            sys.stderr.flush()
+            self.shown = 0
+
+
+def callback(progress: Callable[[Progress], object] | bool | None) -> Callable[[Progress], object] | None:
+    """What is told: the bar for `True`, and for `None` where standard error is a terminal."""
+    if progress is None:
+        progress = sys.stderr is not None and sys.stderr.isatty()
+    if progress is True:
+        return Bar()
+    if progress is False:
+        return None
+    if not callable(progress):
+        raise TypeError(f"progress must be True, False, None or a function, not {progress!r}")
+    return progress
+
+
+def finish(progress: object) -> None:
+    """Takes a bar away; other functions are let alone."""
+    if isinstance(progress, Bar):
+        progress.finish()

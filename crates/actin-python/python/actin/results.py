@@ -1,0 +1,400 @@
+"""What runs, solves and fits give: numbers and arrays.
+
+Arrays are not to be written to; they are the buffers that were filled, and every access gives the same one.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from actin import _html
+from actin._actin import Scene
+
+if TYPE_CHECKING:
+    import pyvista
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What the eigenvalues of the stiffness say of an equilibrium."""
+
+    negative_eigenvalues: int
+    """More than none is a saddle."""
+    unresolved_eigenvalues: int
+    """How many cannot be told from zero: floppy modes, rigid motions of what floats."""
+    resolution: float
+    """Below this magnitude eigenvalues cannot be told from zero (pN/nm)."""
+    residual_force: float
+    """Largest force left on a free point."""
+    residual_torque: float
+    """Largest torque left on a free frame."""
+    iterations: int
+    """Newton's steps."""
+
+    @property
+    def stable(self) -> bool:
+        """Whether all eigenvalues are positive beyond doubt: a minimum of the energy."""
+        return self.negative_eigenvalues == 0 and self.unresolved_eigenvalues == 0
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A fit by least squares."""
+
+    parameters: Array
+    errors: Array
+    """Standard errors; NaN where the data do not determine a parameter."""
+    covariance: Array
+    residuals: Array
+    """Observations less model."""
+    statuses: list[str]
+    """Of each parameter: `Determined`, `Weak`, `Undetermined`, `AtLowerBound`, `AtUpperBound`, `Held`."""
+    chi_squared: float
+    degrees_of_freedom: int
+    condition: float
+    """By how much relative errors of data can grow."""
+    agreeing_starts: int
+    """Starts that led to the same minimum."""
+    starts: int
+
+    def _repr_html_(self) -> str:
+        rows = zip(self.parameters, self.errors, self.statuses)
+        shown = [(f"p[{i}]", f"{p:.6g} ± {error:.2g} ({status})") for i, (p, error, status) in enumerate(rows)]
+        freedom = f"{self.chi_squared:.4g} for {self.degrees_of_freedom} degrees of freedom"
+        return _html.table("Fit", [*shown, ("chi squared", freedom)])
+
+
+class Run:
+    """A run in numbers: arrays over its records, and its summary. `T` records, `n` points, `m` frames."""
+
+    scene: Scene
+    """The scene as it ran, with every default."""
+    summary: dict[str, Any]
+    """The keys of `summary.json`."""
+
+    def __init__(
+        self, *, scene: Scene, summary: dict[str, Any], arrays: dict[str, Array], bodies: dict[str, Any]
+    ) -> None:
+        self.scene = scene
+        self.summary = summary
+        self._arrays = arrays
+        self._bodies = bodies
+
+    @property
+    def status(self) -> str:
+        """`converged`, `completed`, `interrupted` or `failed`."""
+        return self.summary["status"]
+
+    @property
+    def certificate(self) -> Certificate | None:
+        """What the stiffness says of the last record; none of one that is no equilibrium."""
+        found = self.summary["stability"]
+        if found is None:
+            return None
+        return Certificate(
+            negative_eigenvalues=found["negative_eigenvalues"],
+            unresolved_eigenvalues=found["unresolved_eigenvalues"],
+            resolution=found["resolution_pn_per_nm"],
+            residual_force=self.summary["residual"]["force_pn"],
+            residual_torque=self.summary["residual"]["torque_pn_nm"],
+            iterations=self.summary["work"]["newton_iterations"],
+        )
+
+    @property
+    def notes(self) -> list[str]:
+        """What to know of the scene and the run beside their numbers."""
+        return self.summary["notes"]
+
+    @property
+    def time_ns(self) -> Array:
+        """Time of each record, `[T]`; only of a motion."""
+        if self.scene.task == "Equilibrium":
+            raise AttributeError("an equilibrium has no time: its records are in path")
+        return self._arrays["at"]
+
+    @property
+    def path(self) -> Array:
+        """Stages of the path that each record has passed, `[T]`; only of equilibria."""
+        if self.scene.task != "Equilibrium":
+            raise AttributeError("a motion has no path: its records are in time_ns")
+        return self._arrays["at"]
+
+    @property
+    def position_nm(self) -> Array:
+        """Places of points, `[T, n, 3]`, lab frame."""
+        return self._arrays["position_nm"]
+
+    @property
+    def centre_line_nm(self) -> Array:
+        """Points brought to the axis, `[T, n, 3]`: nodes of rods as they are, monomers moved inward."""
+        return self._arrays["centre_line_nm"]
+
+    @property
+    def velocity_nm_per_ns(self) -> Array:
+        """Velocities of points, `[T, n, 3]`."""
+        return self._arrays["velocity_nm_per_ns"]
+
+    @property
+    def quaternion(self) -> Array:
+        """Orientations of frames, `[T, m, 4]`: w, x, y, z; body to lab."""
+        return self._arrays["quaternion"]
+
+    @property
+    def angular_momentum(self) -> Array:
+        """Angular momenta of frames, `[T, m, 3]`, body axes (pN nm ns)."""
+        return self._arrays["angular_momentum"]
+
+    @property
+    def s_nm(self) -> Array:
+        """Arc length of points at rest, `[n]`."""
+        return self._bodies["s_nm"]
+
+    @property
+    def kind(self) -> Indices:
+        """Kind of each point, `[n]`, an index of `kind_names`."""
+        return self._bodies["kind"]
+
+    @property
+    def kind_names(self) -> list[str]:
+        """What numbers of kinds stand for."""
+        return self._bodies["kind_names"]
+
+    @property
+    def filament(self) -> Indices:
+        """Filament of each point, `[n]`."""
+        return self._bodies["filament"]
+
+    @property
+    def frame_s_nm(self) -> Array:
+        """Arc length of frames at rest, `[m]`."""
+        return self._bodies["frame_s_nm"]
+
+    @property
+    def frame_kind(self) -> Indices:
+        """Kind of each frame, `[m]`."""
+        return self._bodies["frame_kind"]
+
+    @property
+    def frame_filament(self) -> Indices:
+        """Filament of each frame, `[m]`."""
+        return self._bodies["frame_filament"]
+
+    @property
+    def kinetic_pn_nm(self) -> Array:
+        """Kinetic energy of each record, `[T]`."""
+        return self._arrays["kinetic_pn_nm"]
+
+    @property
+    def residual_force_pn(self) -> Array:
+        """Largest force on a free point of each record, `[T]`."""
+        return self._arrays["residual_force_pn"]
+
+    @property
+    def residual_torque_pn_nm(self) -> Array:
+        """Largest torque on a free frame of each record, `[T]`."""
+        return self._arrays["residual_torque_pn_nm"]
+
+    @cached_property
+    def energies_pn_nm(self) -> dict[str, Array]:
+        """Energy of each kind of term over the records, `[T]` each."""
+        all_of: dict[str, Array] = {}
+        for k, name in enumerate(self._bodies["terms"]):
+            energy = self._arrays["energies"][:, k]
+            all_of[name] = all_of[name] + energy if name in all_of else energy
+        return all_of
+
+    @property
+    def observables(self) -> dict[str, Array]:
+        """What the scene observes, `[T]` each; NaN where there is nothing yet."""
+        return {name: self._arrays["observed"][:, k] for k, name in enumerate(self._bodies["columns"])}
+
+    @property
+    def tip_nm(self) -> Array:
+        """Place of the tip of filament 0 in the last record."""
+        return np.array(self.summary["tip_nm"])
+
+    def to_pyvista(self, record: int = -1) -> pyvista.MultiBlock:
+        """A record for PyVista: `rod` (lines through nodes) and `monomers` (ellipsoids), as far as there are any."""
+        from actin._pyvista import of_record
+
+        return of_record(self, record)
+
+    def __len__(self) -> int:
+        return len(self._arrays["at"])
+
+    def __repr__(self) -> str:
+        counts = self.summary["counts"]
+        return (
+            f"Run({self.status}, {len(self)} record{'' if len(self) == 1 else 's'}, {counts['monomers']} monomers, "
+            f"{counts['segments']} segments)"
+        )
+
+    def _repr_html_(self) -> str:
+        return _html.table(repr(self), _rows(self))
+
+
+def _vector(v: list[float]) -> str:
+    return "(" + ", ".join(f"{x:.4f}" for x in v) + ")"
+
+
+def _rows(run: Run) -> list[tuple[str, str]]:
+    """What is shown of a run."""
+    summary, energy = run.summary, run.summary["energy_pn_nm"]
+    rows = [
+        ("scene", summary["scene"] or "untitled"),
+        ("tip displacement", f"{_vector(summary['tip_displacement_nm'])} nm"),
+        ("energy", f"{energy['total']:.6g} pN nm, of it elastic {energy['elastic']:.6g}"),
+        ("residual", f"{summary['residual']['force_pn']:.1e} pN, {summary['residual']['torque_pn_nm']:.1e} pN nm"),
+    ]
+    certificate = run.certificate
+    if certificate is not None:
+        negative, unresolved = certificate.negative_eigenvalues, certificate.unresolved_eigenvalues
+        words = "stable" if certificate.stable else f"{negative} negative, {unresolved} unresolved eigenvalues"
+        rows.append(("certificate", words))
+    if summary.get("failure"):
+        rows.append(("failure", summary["failure"]))
+    rows += [("note", note) for note in run.notes]
+    return [*rows, ("time", f"{summary['wall_s']:.2f} s")]
+
+
+class Equilibrium:
+    """A state at rest: the last record of a run of equilibria."""
+
+    run: Run
+    """The whole path."""
+    certificate: Certificate
+    """What the stiffness says of the state."""
+
+    def __init__(self, run: Run) -> None:
+        certificate = run.certificate
+        if certificate is None:
+            raise ValueError("the run has no certificate: it is no equilibrium")
+        self.run = run
+        self.certificate = certificate
+
+    @property
+    def position_nm(self) -> Array:
+        """Places of points, `[n, 3]`, lab frame."""
+        return self.run.position_nm[-1]
+
+    @property
+    def centre_line_nm(self) -> Array:
+        """Points brought to the axis, `[n, 3]`."""
+        return self.run.centre_line_nm[-1]
+
+    @property
+    def quaternion(self) -> Array:
+        """Orientations of frames, `[m, 4]`: w, x, y, z; body to lab."""
+        return self.run.quaternion[-1]
+
+    @property
+    def s_nm(self) -> Array:
+        """Arc length of points at rest, `[n]`."""
+        return self.run.s_nm
+
+    @property
+    def tip_nm(self) -> Array:
+        """Place of the tip of filament 0."""
+        return self.run.tip_nm
+
+    @property
+    def tip_displacement_nm(self) -> Array:
+        """Displacement of that tip from the state as built."""
+        return np.array(self.run.summary["tip_displacement_nm"])
+
+    @property
+    def energy_pn_nm(self) -> float:
+        """Energy of all terms, loads included."""
+        return self.run.summary["energy_pn_nm"]["potential"]
+
+    @property
+    def elastic_pn_nm(self) -> float:
+        """Energy of all terms but loads."""
+        return self.run.summary["energy_pn_nm"]["elastic"]
+
+    @property
+    def lowest_eigenvalue(self) -> float | None:
+        """Lowest eigenvalue of the stiffness (pN/nm), if the task asks for `lowest_eigenvalue`."""
+        return self.run.summary["lowest_stiffness_eigenvalue"]
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """The keys of `summary.json`."""
+        return self.run.summary
+
+    def to_pyvista(self) -> pyvista.MultiBlock:
+        """The state for PyVista, as `Run.to_pyvista` gives it."""
+        return self.run.to_pyvista()
+
+    def __repr__(self) -> str:
+        words = "stable" if self.certificate.stable else "not known to be stable"
+        return f"Equilibrium({words}, energy {self.energy_pn_nm:.6g} pN nm)"
+
+    def _repr_html_(self) -> str:
+        return _html.table(repr(self), _rows(self.run))
+
+
+def load(path: str | os.PathLike[str]) -> Run:
+    """Reads a run directory that `run` or the program has written.
+
+    Energies are by the columns of `energies.csv`. Raises `OSError` where a file is missing.
+    """
+    folder = Path(path)
+    summary = json.loads((folder / "summary.json").read_text())
+    scene = Scene.from_file(folder / "scene.ron")
+    arrays: dict[str, Array] = {}
+    bodies: dict[str, Any] = {}
+    if (folder / "states.npz").exists():
+        with np.load(folder / "states.npz") as states:
+            read = {name: states[name] for name in states.files}
+        for name in ("position_nm", "velocity_nm_per_ns", "centre_line_nm", "quaternion", "angular_momentum"):
+            arrays[name] = read[name]
+        for name in ("s_nm", "frame_s_nm"):
+            bodies[name] = read[name]
+        for name in ("kind", "filament", "frame_kind", "frame_filament"):
+            bodies[name] = read[name].astype(np.int64)
+        bodies["kind_names"] = [str(name) for name in read["kind_names"]]
+        bodies |= _monomers(scene, bodies)
+    clock, table = _table(folder / "energies.csv")
+    arrays["at"] = clock
+    for name in ("kinetic_pn_nm", "residual_force_pn", "residual_torque_pn_nm"):
+        arrays[name] = table.pop(name)
+    bodies["terms"] = [name.removesuffix("_pn_nm") for name in table]
+    arrays["energies"] = np.stack(list(table.values()), axis=1)
+    observed = _table(folder / "observables.csv")[1] if (folder / "observables.csv").exists() else {}
+    bodies["columns"] = list(observed)
+    arrays["observed"] = np.stack(list(observed.values()), axis=1) if observed else np.empty((len(clock), 0))
+    for array in arrays.values():
+        array.flags.writeable = False
+    return Run(scene=scene, summary=summary, arrays=arrays, bodies=bodies)
+
+
+def _table(path: Path) -> tuple[Array, dict[str, Array]]:
+    """The first column of a CSV file, and the others by their names."""
+    with path.open(newline="") as lines:
+        names, *rows = csv.reader(lines)
+    columns = np.array([[float(x) if x else np.nan for x in row] for row in rows]).reshape(len(rows), len(names))
+    return columns[:, 0], dict(zip(names[1:], columns.T[1:]))
+
+
+def _monomers(scene: Scene, bodies: dict[str, Any]) -> dict[str, Any]:
+    """The frame of each point, -1 of nodes, and the semi-axes of monomers."""
+    monomer = bodies["kind_names"].index("monomer")
+    frame = np.full(len(bodies["kind"]), -1)
+    frame[bodies["kind"] == monomer] = np.flatnonzero(bodies["frame_kind"] == monomer)
+    keys = scene.to_dict()
+    filaments = keys["filaments"] if "filaments" in keys else [keys["filament"]]
+    axes = np.array([filament["monomers"]["semi_axes_nm"] for filament in filaments])
+    return {"frame": frame, "semi_axes_nm": axes[bodies["filament"]]}

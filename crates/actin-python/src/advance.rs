@@ -1,0 +1,234 @@
+//! How a `System` goes on: by steps in time, or to an equilibrium.
+
+use crate::errors;
+use crate::system::System;
+use crate::watch::Watch;
+use actin_equilibrium::{
+    Equilibrium, Layout, Newton, NewtonFailure, NewtonOptions, Residual, SolveError,
+};
+use actin_integrate::{
+    Bath, Drag, Moment, Observer, Pause, Run, RunFailure, largest_frequency, stable_step,
+};
+use actin_sim::{Task, solver};
+use pyo3::exceptions::{PyArithmeticError, PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::ops::ControlFlow;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Saddles that are left on the way to an equilibrium, as by default in scenes.
+const SADDLES: usize = 8;
+
+/// Ends steps when Python wants them to, or when a function of Python has raised something.
+struct Looker {
+    watch: Watch,
+    raised: Arc<Mutex<Option<PyErr>>>,
+    /// Steps made.
+    step: u64,
+}
+
+impl Looker {
+    fn has_raised(&self) -> bool {
+        let raised = self.raised.lock();
+        raised.unwrap_or_else(PoisonError::into_inner).is_some()
+    }
+}
+
+impl Observer for Looker {
+    fn observe(&mut self, _moment: &mut Moment<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
+        self.step = pause.step;
+        if self.has_raised() || self.watch.is_interrupted() {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+#[pymethods]
+impl System {
+    /// Makes steps in time of length `h`, by default the longest stable one with some room.
+    ///
+    /// `drag` are the rates at which velocities and angular momenta decay, `thermal_energy` (k T) makes noise to go
+    /// with them. What is set stays for later steps. Raises `RunFailed` where numbers explode; the system then is
+    /// where it last was sound, which `steps` and `time` tell. Ctrl-C ends the steps.
+    #[pyo3(signature = (number = 1, *, h = None, scheme = None, drag = None, thermal_energy = None, seed = 1))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn step(
+        &mut self,
+        py: Python<'_>,
+        number: u64,
+        h: Option<f64>,
+        scheme: Option<&str>,
+        drag: Option<[f64; 2]>,
+        thermal_energy: Option<f64>,
+        seed: u64,
+    ) -> PyResult<()> {
+        if let Some(drag) = drag {
+            self.settings.drag = drag;
+        }
+        if let Some(energy) = thermal_energy {
+            self.settings.bath = (energy > 0.0).then_some((energy, seed));
+        }
+        self.settings.scheme = self.scheme(scheme)?;
+        let h = match h.or(self.settings.step) {
+            Some(h) => h,
+            None => self.stable_step(None, actin_integrate::SAFETY)?,
+        };
+        self.settings.step = Some(h);
+        let run = self.plan(h, number)?;
+        let watch = Watch::new(None);
+        let mut looker = Looker {
+            watch,
+            raised: Arc::clone(&self.error),
+            step: self.steps,
+        };
+        let mechanics = &mut self.mechanics;
+        let ended = py.detach(|| run.execute(mechanics, &mut [&mut looker]));
+        self.raise()?;
+        let before = self.steps;
+        match ended {
+            Ok(outcome) => {
+                self.steps = outcome.steps;
+                self.time += (self.steps - before) as f64 * h;
+                looker.watch.into_error().map_or(Ok(()), Err)
+            }
+            Err(failure) => {
+                self.steps = failure.last_good_step;
+                self.time += (self.steps - before) as f64 * h;
+                Err(self.failed(py, &failure))
+            }
+        }
+    }
+
+    /// The longest stable time step of a method at the present stiffness, times `safety`.
+    #[pyo3(signature = (scheme = None, safety = actin_integrate::SAFETY))]
+    fn stable_step(&self, scheme: Option<&str>, safety: f64) -> PyResult<f64> {
+        let scheme = self.scheme(scheme)?;
+        let frequency = largest_frequency(&self.mechanics);
+        self.raise()?;
+        let frequency = frequency.map_err(errors::value)?;
+        stable_step(scheme, frequency, safety).map_err(errors::value)
+    }
+
+    /// Moves the system to a stable equilibrium near it, at rest, by Newton's method.
+    ///
+    /// `force` and `torque` are the largest loads left on free bodies; a turn of 1 rad counts as a displacement by
+    /// `turn_length`. A scene that asks for an equilibrium has its own settings. Raises `RunFailed`.
+    #[pyo3(signature = (*, force = 1e-8, torque = 1e-8, iterations = 2000, turn_length = 1.0))]
+    fn equilibrium(
+        &mut self,
+        py: Python<'_>,
+        force: f64,
+        torque: f64,
+        iterations: usize,
+        turn_length: f64,
+    ) -> PyResult<Py<PyAny>> {
+        let options = NewtonOptions {
+            tolerance: Residual { force, torque },
+            iterations,
+            turn_length,
+            ..NewtonOptions::default()
+        };
+        let mut newton = self.newton(options)?;
+        let mut state = self.state().clone();
+        let mut watch = Watch::new(None);
+        let interactions = self.mechanics.interactions();
+        let solved = py.detach(|| {
+            newton.minimize_observed(&mut state, interactions, SADDLES, &mut |_| {
+                if watch.is_interrupted() {
+                    return ControlFlow::Break(());
+                }
+                ControlFlow::Continue(())
+            })
+        });
+        self.raise()?;
+        state.stop();
+        self.mechanics.state_mut().copy_motion_from(&state);
+        match solved {
+            Ok(found) => certificate(py, &found),
+            Err(failure) => Err(unsolved(py, &failure, watch.into_error())),
+        }
+    }
+}
+
+impl System {
+    /// The run of so many steps from here on.
+    fn plan(&self, h: f64, number: u64) -> PyResult<Run> {
+        let [translational, rotational] = self.settings.drag;
+        let drag = Drag::new(translational, rotational).map_err(errors::value)?;
+        let run = Run::new(self.settings.scheme, h, number).map_err(errors::value)?;
+        let run = run.continuing_from(self.steps);
+        match self.settings.bath {
+            None => Ok(run.with_drag(drag)),
+            Some((energy, seed)) => {
+                let bath = Bath::new(drag, energy, seed).map_err(errors::value)?;
+                Ok(run.with_bath(bath))
+            }
+        }
+    }
+
+    /// The solver of what may move here.
+    fn newton(&self, options: NewtonOptions) -> PyResult<Newton> {
+        if let Some(assembly) = &self.assembly
+            && self.state().points.len() == assembly.points.len()
+            && let Task::Equilibrium(settings) = &assembly.scene.task
+        {
+            return solver(assembly, settings).map_err(errors::value);
+        }
+        Newton::new(Layout::free(self.state()), options).map_err(errors::value)
+    }
+
+    /// The exception of steps that went wrong.
+    fn failed(&self, py: Python<'_>, failure: &RunFailure) -> PyErr {
+        let body = match &self.assembly {
+            Some(assembly) => assembly.describe(failure.body),
+            None => failure.body.to_string(),
+        };
+        let attributes = PyDict::new(py);
+        let set = attributes
+            .set_item("step", failure.step)
+            .and_then(|()| attributes.set_item("time_ns", failure.time))
+            .and_then(|()| attributes.set_item("body", body))
+            .and_then(|()| attributes.set_item("term", failure.term));
+        match set {
+            Ok(()) => errors::raise(py, "RunFailed", &failure.to_string(), &attributes),
+            Err(error) => error,
+        }
+    }
+}
+
+/// What is known of an equilibrium.
+fn certificate(py: Python<'_>, found: &Equilibrium) -> PyResult<Py<PyAny>> {
+    let Some(counts) = found.certificate else {
+        return Err(PyValueError::new_err("the stiffness was not looked at"));
+    };
+    let arguments = PyDict::new(py);
+    arguments.set_item("negative_eigenvalues", counts.negative)?;
+    arguments.set_item("unresolved_eigenvalues", counts.unresolved)?;
+    arguments.set_item("resolution", counts.resolution)?;
+    arguments.set_item("residual_force", found.residual.force)?;
+    arguments.set_item("residual_torque", found.residual.torque)?;
+    arguments.set_item("iterations", found.work.iterations)?;
+    let class = py.import("actin.results")?.getattr("Certificate")?;
+    Ok(class.call((), Some(&arguments))?.unbind())
+}
+
+/// The exception of a solve that failed or was interrupted.
+fn unsolved(py: Python<'_>, failure: &NewtonFailure, interrupted: Option<PyErr>) -> PyErr {
+    match (&failure.cause, interrupted) {
+        (SolveError::Interrupted, Some(error)) => error,
+        (SolveError::Interrupted, None) => PyKeyboardInterrupt::new_err("interrupted"),
+        _ => {
+            let attributes = PyDict::new(py);
+            let message = failure.to_string();
+            match attributes.set_item("step", failure.history.len()) {
+                Ok(()) => errors::raise(py, "RunFailed", &message, &attributes),
+                Err(_) => PyArithmeticError::new_err(message),
+            }
+        }
+    }
+}

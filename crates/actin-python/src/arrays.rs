@@ -1,0 +1,98 @@
+//! Arrays of numpy: buffers that Rust has filled are handed over as they are, and arrays that Python passes are read.
+
+use numpy::{
+    PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods, ToPyArray,
+};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// Numbers in the order of C, on their way to Python.
+#[derive(Debug)]
+pub(crate) struct Block {
+    pub(crate) values: Vec<f64>,
+    pub(crate) shape: Vec<usize>,
+    /// The order in which Python sees the axes; none as they are.
+    pub(crate) axes: Option<Vec<usize>>,
+}
+
+impl Block {
+    pub(crate) fn new(values: Vec<f64>, shape: &[usize]) -> Self {
+        Self {
+            values,
+            shape: shape.to_vec(),
+            axes: None,
+        }
+    }
+
+    /// Hands the numbers over, not to be written to. Nothing is copied.
+    pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        let array = PyArray1::from_vec(py, self.values).reshape(self.shape)?;
+        let seen = match self.axes {
+            None => array.into_any(),
+            Some(axes) => array.call_method1("transpose", (axes,))?,
+        };
+        seen.getattr("flags")?.setattr("writeable", false)?;
+        Ok(seen.unbind())
+    }
+}
+
+/// One number for each body and record, as an array that is not to be written to.
+pub(crate) fn column(py: Python<'_>, values: Vec<f64>) -> PyResult<Py<PyAny>> {
+    let length = values.len();
+    Block::new(values, &[length]).into_python(py)
+}
+
+/// Whole numbers.
+pub(crate) fn indices(py: Python<'_>, values: &[i64]) -> PyResult<Py<PyAny>> {
+    let array = values.to_pyarray(py).into_any();
+    array.getattr("flags")?.setattr("writeable", false)?;
+    Ok(array.unbind())
+}
+
+/// Numbers from Python, in the order of C, whatever they come as: an array of any kind, or lists.
+pub(crate) fn read(
+    object: &Bound<'_, PyAny>,
+    name: &str,
+    shape: &[Option<usize>],
+) -> PyResult<(Vec<f64>, Vec<usize>)> {
+    let numpy = object.py().import("numpy")?;
+    let made = numpy.call_method1("ascontiguousarray", (object, "float64"))?;
+    let array = made.cast::<PyArrayDyn<f64>>()?;
+    let found: PyReadonlyArrayDyn<'_, f64> = array.readonly();
+    let given = found.shape().to_vec();
+    let fits = given.len() == shape.len()
+        && given
+            .iter()
+            .zip(shape)
+            .all(|(n, rule)| rule.is_none_or(|rule| rule == *n));
+    if !fits {
+        let wanted = shape
+            .iter()
+            .map(|n| n.map_or("any".into(), |n| n.to_string()));
+        let wanted: Vec<String> = wanted.collect();
+        return Err(PyValueError::new_err(format!(
+            "{name} must have shape ({}), not {given:?}",
+            wanted.join(", ")
+        )));
+    }
+    let values = found.as_slice()?.to_vec();
+    if let Some(place) = values.iter().position(|value| !value.is_finite()) {
+        return Err(PyValueError::new_err(format!(
+            "{name} must be finite, but element {place} is {}",
+            values[place]
+        )));
+    }
+    Ok((values, given))
+}
+
+/// Three numbers.
+pub(crate) fn vector(object: &Bound<'_, PyAny>, name: &str) -> PyResult<[f64; 3]> {
+    let (values, _) = read(object, name, &[Some(3)])?;
+    Ok([values[0], values[1], values[2]])
+}
+
+/// Rows of three numbers.
+pub(crate) fn vectors(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<[f64; 3]>> {
+    let (values, _) = read(object, name, &[None, Some(3)])?;
+    Ok(values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect())
+}

@@ -1,0 +1,105 @@
+//! Held bodies that are moved as Python prescribes: straight from one place and turn to the next.
+
+use actin_mechanics::{Drive, Matrix3, State, UnitQuaternion, Vector3, rotation};
+use actin_sim::Assembly;
+use std::sync::Arc;
+
+/// Bodies that move as one.
+#[derive(Clone, Debug)]
+pub(crate) struct Motion {
+    /// Held points, and where they began.
+    pub(crate) points: Vec<(usize, Vector3)>,
+    /// Held frames, and how they began.
+    pub(crate) frames: Vec<(usize, UnitQuaternion)>,
+    /// What they turn about, as it began.
+    pub(crate) about: Vector3,
+    /// Times, ascending from 0.
+    pub(crate) times: Vec<f64>,
+    /// Displacements at these times.
+    pub(crate) displacements: Vec<Vector3>,
+    /// Rotation vectors at these times (rad, lab axes).
+    pub(crate) rotations: Vec<Vector3>,
+    /// Unit vectors along which the points are not moved but slide.
+    pub(crate) free: Vec<Vector3>,
+}
+
+/// What all moved bodies do.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Motions(pub(crate) Vec<Motion>);
+
+/// A matrix that crosses a vector with another.
+fn cross(v: Vector3) -> Matrix3 {
+    Matrix3::new(0.0, -v.z, v.y, v.z, 0.0, -v.x, -v.y, v.x, 0.0)
+}
+
+/// Angular velocity (lab axes) of what turns by a rotation vector that changes at a rate.
+fn angular_velocity(rotation: Vector3, rate: Vector3) -> Vector3 {
+    let (angle, k) = (rotation.norm(), cross(rotation));
+    // Below this the next term of the series is lost in rounding.
+    if angle < 1e-5 {
+        return rate + k * rate * 0.5;
+    }
+    let (sin, cos) = angle.sin_cos();
+    rate + k * rate * ((1.0 - cos) / (angle * angle))
+        + k * (k * rate) * ((angle - sin) / angle.powi(3))
+}
+
+impl Motion {
+    /// The interval of a time, how far in it, and how long it is; none behind the last.
+    fn interval(&self, time: f64) -> (usize, f64, Option<f64>) {
+        let last = self.times.len() - 1;
+        if time >= self.times[last] {
+            return (last - 1, 1.0, None);
+        }
+        let i = self.times.partition_point(|t| *t <= time).max(1) - 1;
+        let length = self.times[i + 1] - self.times[i];
+        (i, (time - self.times[i]) / length, Some(length))
+    }
+
+    /// The part of a vector that is prescribed, and of the other what is free.
+    fn held(&self, prescribed: Vector3, actual: Vector3) -> Vector3 {
+        let free: Vector3 = self
+            .free
+            .iter()
+            .map(|d| d * d.dot(&(actual - prescribed)))
+            .sum();
+        prescribed + free
+    }
+
+    fn place(&self, state: &mut State, time: f64) {
+        let (i, share, length) = self.interval(time);
+        let between = |all: &[Vector3]| all[i] + (all[i + 1] - all[i]) * share;
+        let rate =
+            |all: &[Vector3]| length.map_or_else(Vector3::zeros, |l| (all[i + 1] - all[i]) / l);
+        let (displacement, rotation) = (between(&self.displacements), between(&self.rotations));
+        let turn = rotation::exp(rotation);
+        let velocity = rate(&self.displacements);
+        let omega = angular_velocity(rotation, rate(&self.rotations));
+        for &(i, start) in &self.points {
+            let arm = turn * (start - self.about);
+            let target = self.about + displacement + arm;
+            let place = self.held(target, state.points.position.get(i));
+            state.points.position.set(i, place);
+            let moving = self.held(velocity + omega.cross(&arm), state.points.velocity.get(i));
+            state.points.velocity.set(i, moving);
+        }
+        for &(i, start) in &self.frames {
+            let q = turn * start;
+            state.frames.orientation.set(i, q);
+            let body = q.inverse_transform_vector(&omega);
+            let momentum = body.component_div(&state.frames.inverse_moments(i));
+            state.frames.angular_momentum.set(i, momentum);
+        }
+    }
+}
+
+impl Drive for Motions {
+    fn place(&self, state: &mut State, time: f64) {
+        self.0.iter().for_each(|motion| motion.place(state, time));
+    }
+}
+
+/// Where the path of a scene puts what it moves, at a place on it.
+pub(crate) fn along_path(assembly: &Arc<Assembly>, state: &mut State, u: f64) {
+    assembly.drive.place(state, u);
+}

@@ -1,0 +1,106 @@
+//! Rust's errors as the exceptions of `actin/errors.py`, with the attributes that say what they are about.
+
+use actin_sim::{RunDirectoryError, SceneError, SceneProblem, SceneText};
+use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+/// An exception of the module of errors, with attributes.
+pub(crate) fn raise(
+    py: Python<'_>,
+    class: &str,
+    message: &str,
+    attributes: &Bound<'_, PyDict>,
+) -> PyErr {
+    let made = py
+        .import("actin.errors")
+        .and_then(|errors| errors.getattr(class))
+        .and_then(|class| class.call1((message,)))
+        .and_then(|error| {
+            for (name, value) in attributes {
+                error.setattr(name.cast_into::<pyo3::types::PyString>()?, value)?;
+            }
+            Ok(error)
+        });
+    made.map_or_else(|error| error, PyErr::from_value)
+}
+
+/// A mistake of a scene that is no text.
+pub(crate) fn problem(py: Python<'_>, problem: &SceneProblem) -> PyErr {
+    let attributes = PyDict::new(py);
+    let set = attributes
+        .set_item("key", &problem.key)
+        .and_then(|()| attributes.set_item("value", &problem.value))
+        .and_then(|()| attributes.set_item("rule", &problem.rule));
+    match set {
+        Ok(()) => raise(py, "SceneError", &problem.to_string(), &attributes),
+        Err(error) => error,
+    }
+}
+
+/// A mistake of a scene, placed in its text if it has one.
+pub(crate) fn placed(py: Python<'_>, text: Option<&SceneText>, found: &SceneProblem) -> PyErr {
+    let Some(text) = text else {
+        return problem(py, found);
+    };
+    let error = text.locate(found);
+    let attributes = PyDict::new(py);
+    let set = attributes
+        .set_item("key", &found.key)
+        .and_then(|()| attributes.set_item("value", &found.value))
+        .and_then(|()| attributes.set_item("rule", &found.rule))
+        .and_then(|()| attributes.set_item("line", error.line))
+        .and_then(|()| attributes.set_item("column", error.column));
+    match set {
+        Ok(()) => raise(py, "SceneError", &error.to_string(), &attributes),
+        Err(error) => error,
+    }
+}
+
+/// Every mistake of a text, of which one is known: an exception about the first, which lists all.
+pub(crate) fn mistakes(py: Python<'_>, text: &SceneText, first: SceneError) -> PyErr {
+    let mut all = text.mistakes();
+    if all.is_empty() {
+        all.push(first);
+    }
+    let lines: Vec<String> = all.iter().map(ToString::to_string).collect();
+    let each = all
+        .iter()
+        .map(|mistake| of_text(py, text, mistake, &mistake.to_string()));
+    let each: Vec<PyErr> = each.collect();
+    let whole = of_text(py, text, &all[0], &lines.join("\n"));
+    let list = PyList::new(py, each.iter().map(|error| error.value(py)));
+    match list.and_then(|list| whole.value(py).setattr("mistakes", list)) {
+        Ok(()) => whole,
+        Err(error) => error,
+    }
+}
+
+/// Bytes that are no text.
+pub(crate) fn unread(py: Python<'_>, mistake: &SceneError) -> PyErr {
+    of_text(py, &SceneText::new(""), mistake, &mistake.to_string())
+}
+
+fn of_text(py: Python<'_>, text: &SceneText, mistake: &SceneError, message: &str) -> PyErr {
+    let attributes = PyDict::new(py);
+    let set = attributes
+        .set_item("key", text.key(mistake))
+        .and_then(|()| attributes.set_item("rule", &mistake.message))
+        .and_then(|()| attributes.set_item("line", mistake.line))
+        .and_then(|()| attributes.set_item("column", mistake.column))
+        .and_then(|()| attributes.set_item("meant", mistake.meant.as_deref()));
+    match set {
+        Ok(()) => raise(py, "SceneError", message, &attributes),
+        Err(error) => error,
+    }
+}
+
+/// A directory that is refused, or a file that cannot be read or written.
+pub(crate) fn directory(error: &RunDirectoryError) -> PyErr {
+    PyOSError::new_err(error.to_string())
+}
+
+/// An argument that makes no sense.
+pub(crate) fn value(error: impl std::fmt::Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}

@@ -1,0 +1,43 @@
+//! The native half of the Python package `actin`: scenes, runs, sweeps, systems by hand, fits.
+//!
+//! What Python calls is in the modules below, one for each thing; exceptions, results and pictures are Python, in
+//! `python/actin`. Models and files are the business of the crates that this one joins.
+
+mod advance;
+mod arrays;
+mod driven;
+mod errors;
+mod fit;
+mod look;
+mod records;
+mod rod;
+mod run;
+mod scene;
+mod sweep;
+mod system;
+mod terms;
+mod value;
+mod watch;
+
+/// The native half of the package `actin`.
+#[pyo3::pymodule]
+mod _actin {
+    #[pymodule_export]
+    use crate::fit::{fit, fit_linear};
+    #[pymodule_export]
+    use crate::rod::Rod;
+    #[pymodule_export]
+    use crate::run::run;
+    #[pymodule_export]
+    use crate::scene::Scene;
+    #[pymodule_export]
+    use crate::sweep::carry_out;
+    #[pymodule_export]
+    use crate::system::System;
+    #[pymodule_export]
+    use crate::watch::Progress;
+
+    #[pymodule_export]
+    #[allow(non_upper_case_globals, reason = "the name that Python knows")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

@@ -1,0 +1,314 @@
+//! Runs of scenes, in memory or into a run directory.
+
+use crate::errors;
+use crate::records::{Gathered, bodies};
+use crate::scene::Scene;
+use crate::watch::{Watch, callback, finish};
+use actin_sim::{
+    Assembly, CheckpointError, Checkpoints, FailedRun, Failure, Outcome, Plan, Progress, Record,
+    Recorded, Records, RunDirectory, RunError, RunLock, RunPosition, Saved, Sink, Status, Summary,
+    Trajectory,
+};
+use pyo3::exceptions::{PyRuntimeWarning, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::ffi::CString;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+/// Where records go, and what looks on.
+struct Observed<'a, S> {
+    inner: &'a mut S,
+    watch: Watch,
+}
+
+impl<S: Sink> Sink for Observed<'_, S> {
+    fn record(&mut self, record: &Record) {
+        self.inner.record(record);
+    }
+
+    fn progress(&mut self, progress: &Progress) {
+        self.inner.progress(progress);
+        self.watch.progress(progress);
+    }
+
+    fn is_interrupted(&mut self) -> bool {
+        self.inner.is_interrupted() || self.watch.is_interrupted()
+    }
+
+    fn is_checkpoint_due(&mut self) -> bool {
+        self.inner.is_checkpoint_due()
+    }
+
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+        self.inner.checkpoint(position, recorded, wall_s);
+    }
+}
+
+/// A scene on its way through a run.
+struct Job<'a> {
+    scene: &'a Scene,
+    assembly: &'a Assembly,
+    plan: &'a Plan<'a>,
+    progress: Option<Py<PyAny>>,
+}
+
+/// How a run ended: its outcome, why it failed if it did, and what interrupted it.
+struct Ended {
+    outcome: Outcome,
+    failure: Option<Failure>,
+    error: Option<PyErr>,
+}
+
+impl Job<'_> {
+    /// Runs it into a sink, without Python.
+    fn advance<S: Sink + Send>(
+        &self,
+        py: Python<'_>,
+        saved: Option<Saved>,
+        sink: &mut S,
+    ) -> PyResult<Ended> {
+        let progress = self
+            .progress
+            .as_ref()
+            .map(|progress| progress.clone_ref(py));
+        let watch = Watch::new(progress);
+        let mut observed = Observed { inner: sink, watch };
+        let plan = self.plan;
+        let result = py.detach(|| match saved {
+            None => plan.run_into(&mut observed),
+            Some(saved) => plan.resume_into(saved, &mut observed),
+        });
+        finish(py, self.progress.as_ref())?;
+        let error = observed.watch.into_error();
+        match result {
+            Ok(outcome) => Ok(Ended {
+                outcome,
+                failure: None,
+                error,
+            }),
+            Err(RunError::Failed(failed)) => {
+                let FailedRun { failure, outcome } = *failed;
+                Ok(Ended {
+                    outcome,
+                    failure: Some(failure),
+                    error,
+                })
+            }
+            Err(RunError::Refused(problem)) => Err(self.scene.refuse(py, &problem)),
+        }
+    }
+
+    /// What Python gets: the run, or an exception that has it.
+    fn conclude(
+        &self,
+        py: Python<'_>,
+        ended: Ended,
+        records: &dyn Records,
+        summary: Option<Summary>,
+    ) -> PyResult<Py<PyAny>> {
+        let Ended {
+            outcome,
+            failure,
+            error,
+        } = ended;
+        let run = if records.count() > 0 {
+            Some(self.run(py, &outcome, records, summary)?)
+        } else {
+            None
+        };
+        if outcome.status == Status::Interrupted {
+            return Err(interrupted(py, error, run));
+        }
+        match failure {
+            None => run.ok_or_else(|| PyValueError::new_err("the run has no record")),
+            Some(failure) => Err(failed(py, &failure, run)),
+        }
+    }
+
+    /// Runs a scene: in memory, or into the run directory `out`.
+    ///
+    /// `overwrite` replaces an earlier run there, `resume` continues one that was interrupted, to the same bits.
+    /// `progress` shows a bar (`True`, and by default on a terminal), nothing (`False`), or calls a function with a
+    /// `Progress`.
+    ///
+    /// Raises `SceneError`; `RunFailed`, and on Ctrl-C `Interrupted`, with what was recorded; `OSError` for the
+    /// directory.
+    fn run(
+        &self,
+        py: Python<'_>,
+        outcome: &Outcome,
+        records: &dyn Records,
+        summary: Option<Summary>,
+    ) -> PyResult<Py<PyAny>> {
+        let of_run = || Summary::of_run(self.assembly, records, outcome);
+        let summary = summary.map_or_else(of_run, Ok);
+        let summary = summary.map_err(|error| errors::directory(&error))?;
+        let summary = serde_json::to_string(&summary).map_err(errors::value)?;
+        let summary = py.import("json")?.call_method1("loads", (summary,))?;
+        let scene = Scene {
+            inner: self.plan.scene().clone(),
+            text: None,
+        };
+        let arrays = Gathered::of(self.assembly, records)?.into_python(py, self.assembly)?;
+        let arguments = PyDict::new(py);
+        arguments.set_item("scene", scene)?;
+        arguments.set_item("summary", summary)?;
+        arguments.set_item("arrays", arrays)?;
+        arguments.set_item("bodies", bodies(py, self.assembly)?)?;
+        let class = py.import("actin.results")?.getattr("Run")?;
+        Ok(class.call((), Some(&arguments))?.unbind())
+    }
+}
+
+/// The exception of an interrupted run, which has what was recorded.
+fn interrupted(py: Python<'_>, error: Option<PyErr>, run: Option<Py<PyAny>>) -> PyErr {
+    let by_callback =
+        error.filter(|error| !error.is_instance_of::<pyo3::exceptions::PyKeyboardInterrupt>(py));
+    if let Some(error) = by_callback {
+        return error;
+    }
+    let attributes = PyDict::new(py);
+    match attributes.set_item("run", run) {
+        Ok(()) => errors::raise(py, "Interrupted", "the run was interrupted", &attributes),
+        Err(error) => error,
+    }
+}
+
+/// The exception of a run that failed: where, when, and what was recorded before.
+fn failed(py: Python<'_>, failure: &Failure, run: Option<Py<PyAny>>) -> PyErr {
+    let attributes = PyDict::new(py);
+    let mut set = attributes.set_item("run", run);
+    if let Failure::Diverged { failure, body } = failure {
+        set = set
+            .and_then(|()| attributes.set_item("step", failure.step))
+            .and_then(|()| attributes.set_item("time_ns", failure.time))
+            .and_then(|()| attributes.set_item("body", body))
+            .and_then(|()| attributes.set_item("term", failure.term));
+    }
+    match set {
+        Ok(()) => errors::raise(py, "RunFailed", &failure.to_string(), &attributes),
+        Err(error) => error,
+    }
+}
+
+/// Where a run is written to, and how.
+#[derive(Debug)]
+struct Target {
+    path: PathBuf,
+    overwrite: bool,
+    resume: bool,
+    every: Duration,
+}
+
+/// Runs a scene into memory, or into a directory.
+#[pyfunction]
+#[pyo3(signature = (scene, out = None, *, overwrite = false, resume = false, checkpoint_every_s = 60.0, progress = None))]
+pub(crate) fn run(
+    py: Python<'_>,
+    scene: &Bound<'_, Scene>,
+    out: Option<PathBuf>,
+    overwrite: bool,
+    resume: bool,
+    checkpoint_every_s: f64,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Py<PyAny>> {
+    let scene = scene.get();
+    let every = Duration::try_from_secs_f64(checkpoint_every_s).map_err(errors::value)?;
+    if overwrite && resume {
+        return Err(PyValueError::new_err(
+            "a run is resumed or overwritten, not both",
+        ));
+    }
+    let assembly = scene.build(py)?;
+    let plan = py.detach(|| Plan::new(&assembly));
+    let plan = plan.map_err(|problem| scene.refuse(py, &problem))?;
+    let job = Job {
+        scene,
+        assembly: &assembly,
+        plan: &plan,
+        progress: callback(py, progress)?,
+    };
+    match out {
+        None => {
+            let mut records = Trajectory::default();
+            let ended = job.advance(py, None, &mut records)?;
+            job.conclude(py, ended, &records, None)
+        }
+        Some(path) => into_directory(
+            py,
+            &job,
+            &Target {
+                path,
+                overwrite,
+                resume,
+                every,
+            },
+        ),
+    }
+}
+
+fn into_directory(py: Python<'_>, job: &Job<'_>, target: &Target) -> PyResult<Py<PyAny>> {
+    let refused = |error| errors::directory(&error);
+    let directory = RunDirectory::existing(&target.path);
+    let is_kept = directory.has_checkpoint();
+    let has_ended = || directory.ending(job.plan).map_err(errors::value);
+    if target.resume && !is_kept && has_ended()?.is_some() {
+        let load = py.import("actin.results")?.getattr("load")?;
+        return Ok(load.call1((&target.path,))?.unbind());
+    }
+    let mut checkpoints = Checkpoints::new(
+        &directory,
+        job.plan,
+        target.every,
+        Arc::new(AtomicBool::new(false)),
+        warn,
+    );
+    let (saved, _lock) = begin(&directory, job, &mut checkpoints, target)?;
+    let ended = job.advance(py, saved, &mut checkpoints)?;
+    let is_interrupted = ended.outcome.status == Status::Interrupted;
+    let mut summary = None;
+    if checkpoints.count() > 0 {
+        let written = py.detach(|| directory.write(job.plan, &checkpoints, &ended.outcome));
+        summary = Some(written.map_err(refused)?);
+    }
+    let concluded = job.conclude(py, ended, &checkpoints, summary);
+    if !is_interrupted {
+        directory.remove_checkpoint().map_err(refused)?;
+    }
+    concluded
+}
+
+/// Opens the directory of a run: what it goes on from, and what keeps others out.
+fn begin(
+    directory: &RunDirectory,
+    job: &Job<'_>,
+    checkpoints: &mut Checkpoints,
+    target: &Target,
+) -> PyResult<(Option<Saved>, RunLock)> {
+    let refused = |error| errors::directory(&error);
+    if target.resume && directory.has_checkpoint() {
+        let lock = RunLock::take(&target.path).map_err(refused)?;
+        let saved = checkpoints.resume(job.plan).map_err(errors::value)?;
+        directory.reopen().map_err(refused)?;
+        return Ok((Some(saved), lock));
+    }
+    let over = target.overwrite || (target.resume && directory.is_unfinished());
+    let (_, lock) = RunDirectory::create_locked(&target.path, over).map_err(refused)?;
+    directory.write_scene(job.plan.scene()).map_err(refused)?;
+    Ok((None, lock))
+}
+
+/// Tells of a checkpoint that could not be written, as a warning of Python.
+fn warn(error: &CheckpointError) {
+    let message = CString::new(format!("no checkpoint: {error}; the run continues"));
+    Python::attach(|py| {
+        let warning = py.get_type::<PyRuntimeWarning>();
+        // Where warnings are errors, this one still does not end the run.
+        if let Ok(message) = message {
+            let _ = PyErr::warn(py, &warning, &message, 2);
+        }
+    });
+}

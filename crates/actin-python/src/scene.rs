@@ -1,0 +1,205 @@
+//! `Scene`: read from RON, dictionaries or keywords, changed, checked.
+
+use crate::errors;
+use crate::value::{from_python, to_python};
+use actin_sim::{Assembly, Drawn, Plan, Scene as Inner, SceneProblem, SceneText, SceneValue};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyMapping};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Filaments, what holds, loads and links them, and what is computed.
+///
+/// Keys and rules are those of scene files. In dictionaries a choice with keys is a dictionary of one (`{"Rod":
+/// {"from_nm": 0.0, "to_nm": 40.0}}`), one without is a string (`"Start"`). Scenes do not change: `set` and
+/// `reseed` return others. Everything that reads one raises `SceneError`.
+#[pyclass(module = "actin", frozen, eq)]
+#[derive(Debug)]
+pub(crate) struct Scene {
+    pub(crate) inner: Inner,
+    /// The text that it was read from, to place later problems in.
+    pub(crate) text: Option<SceneText>,
+}
+
+impl PartialEq for Scene {
+    fn eq(&self, other: &Self) -> bool {
+        self.inner == other.inner
+    }
+}
+
+impl Scene {
+    fn of_value(py: Python<'_>, value: &SceneValue, folder: Option<&Path>) -> PyResult<Self> {
+        let inner = Inner::from_value(value, folder).map_err(|p| errors::problem(py, &p))?;
+        Ok(Self { inner, text: None })
+    }
+
+    fn of_text(py: Python<'_>, text: &str, folder: Option<&Path>) -> PyResult<Self> {
+        let mut text = SceneText::new(text);
+        if let Some(folder) = folder {
+            let read = text.read_points(folder);
+            read.map_err(|error| errors::mistakes(py, &text, error))?;
+        }
+        let inner = text.scene();
+        let inner = inner.map_err(|error| errors::mistakes(py, &text, error))?;
+        let text = Some(text);
+        Ok(Self { inner, text })
+    }
+
+    /// A problem that showed when the scene was built or run.
+    pub(crate) fn refuse(&self, py: Python<'_>, problem: &SceneProblem) -> PyErr {
+        errors::placed(py, self.text.as_ref(), problem)
+    }
+
+    /// Bodies and interactions.
+    pub(crate) fn build(&self, py: Python<'_>) -> PyResult<Arc<Assembly>> {
+        let built = py.detach(|| Assembly::build(&self.inner));
+        built.map(Arc::new).map_err(|p| self.refuse(py, &p))
+    }
+}
+
+#[pymethods]
+impl Scene {
+    #[new]
+    #[pyo3(signature = (**keys))]
+    fn new(py: Python<'_>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let value = match keys {
+            Some(keys) => from_python(keys.as_any())?,
+            None => SceneValue::Keys(Vec::new()),
+        };
+        Self::of_value(py, &value, Some(Path::new("")))
+    }
+
+    /// A scene from a dictionary; `folder` is where its files of points are.
+    #[staticmethod]
+    #[pyo3(signature = (keys, folder = PathBuf::new()))]
+    fn from_dict(py: Python<'_>, keys: &Bound<'_, PyMapping>, folder: PathBuf) -> PyResult<Self> {
+        Self::of_value(py, &from_python(keys.as_any())?, Some(&folder))
+    }
+
+    /// A scene from its text, as files have it.
+    #[staticmethod]
+    #[pyo3(signature = (text, folder = PathBuf::new()))]
+    fn from_ron(py: Python<'_>, text: &str, folder: PathBuf) -> PyResult<Self> {
+        Self::of_text(py, text, Some(&folder))
+    }
+
+    /// A scene from its file.
+    #[staticmethod]
+    fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        // With its kind, by which Python has a class for it.
+        let named =
+            |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
+        let bytes = std::fs::read(&path).map_err(named)?;
+        let text = Inner::text(bytes).map_err(|error| errors::unread(py, &error))?;
+        Self::of_text(py, &text, path.parent())
+    }
+
+    /// Its text, with every default.
+    fn to_ron(&self) -> String {
+        self.inner.to_ron()
+    }
+
+    /// Its keys, with every default that is not left out.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &self.inner.to_value())
+    }
+
+    /// The scene with a value at the path of a key: `scene.set("loads[0].force_pn[0]", -1.0)`.
+    fn set(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let mut all = self.inner.to_value();
+        let set = all.set(key, from_python(value)?);
+        set.map_err(|problem| errors::problem(py, &problem))?;
+        Self::of_value(py, &all, Some(Path::new("")))
+    }
+
+    /// The scene with another seed of everything that it draws.
+    fn reseed(&self, py: Python<'_>, seed: u64) -> PyResult<Self> {
+        let mut inner = self.inner.clone();
+        let drawn: usize = Drawn::ALL
+            .iter()
+            .map(|&what| inner.reseed(what, seed))
+            .sum();
+        if drawn == 0 {
+            let rule = "the scene draws nothing: no bonds, thermal noise, imperfections or events of linkers";
+            let problem = SceneProblem::new("seed", seed, rule);
+            return Err(errors::problem(py, &problem));
+        }
+        Ok(Self { inner, text: None })
+    }
+
+    /// What the scene resolves to and costs: `scene` (with time step), `counts`, `time_step_ns` and `steps` of a
+    /// motion, `seconds`, `cost`, `advice`, `notes`. Nothing runs.
+    fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let assembly = self.build(py)?;
+        let plan = py.detach(|| Plan::new(&assembly));
+        let plan = plan.map_err(|problem| self.refuse(py, &problem))?;
+        let found = PyDict::new(py);
+        let counts = assembly.counts();
+        let numbers = PyDict::new(py);
+        for (name, number) in [
+            ("monomers", counts.monomers),
+            ("bonds", counts.bonds),
+            ("segments", counts.segments),
+            ("junctions", counts.junctions),
+            ("dofs", counts.dofs),
+        ] {
+            numbers.set_item(name, number)?;
+        }
+        let scene = Self {
+            inner: plan.scene().clone(),
+            text: None,
+        };
+        found.set_item("scene", scene)?;
+        found.set_item("counts", numbers)?;
+        if let Some(estimate) = plan.estimate() {
+            found.set_item("time_step_ns", estimate.time_step_ns)?;
+            found.set_item("steps", estimate.steps)?;
+        }
+        found.set_item("seconds", plan.cost().seconds.total())?;
+        found.set_item("cost", plan.cost().to_string())?;
+        found.set_item("advice", plan.advice().to_string())?;
+        found.set_item("notes", [assembly.notes(), plan.notes()].concat())?;
+        Ok(found)
+    }
+
+    /// What the scene shows, in words.
+    #[getter]
+    fn title(&self) -> &str {
+        &self.inner.title
+    }
+
+    /// What is computed.
+    #[getter]
+    pub(crate) fn task(&self) -> &'static str {
+        match self.inner.task {
+            actin_sim::Task::Dynamics(_) => "Dynamics",
+            actin_sim::Task::Brownian(_) => "Brownian",
+            actin_sim::Task::Equilibrium(_) => "Equilibrium",
+        }
+    }
+
+    fn __repr__(&self) -> String {
+        let filaments = self.inner.filaments().count();
+        let title = match self.inner.title.as_str() {
+            "" => String::new(),
+            title => format!("{title:?}, "),
+        };
+        let plural = if filaments == 1 { "" } else { "s" };
+        format!(
+            "Scene({title}{filaments} filament{plural}, {})",
+            self.task()
+        )
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        let html = py.import("actin._html")?;
+        html.call_method1("of_scene", (self.__repr__(), self.to_ron()))?
+            .extract()
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        let read = py.get_type::<Self>().getattr("from_ron")?;
+        Ok((read, (self.to_ron(),)))
+    }
+}

@@ -1,0 +1,112 @@
+//! Sweeps: all runs of a design on all cores, into a directory.
+
+use crate::errors;
+use crate::scene::Scene;
+use crate::watch::{Watch, callback, finish};
+use actin_sweep::{Axis, Ended, Opened, Ron, Samples, Settings, Sweep, SweepDirectory, SweepError};
+use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Duration;
+
+/// Time between two looks at how far the runs are.
+const LOOK: Duration = Duration::from_millis(50);
+
+fn refused(py: Python<'_>, error: &SweepError) -> PyErr {
+    match error {
+        SweepError::Io { .. } | SweepError::Run(_) => PyOSError::new_err(error.to_string()),
+        SweepError::Refused { mistakes, .. } => {
+            let lines: Vec<String> = mistakes.iter().map(ToString::to_string).collect();
+            errors::raise(py, "SceneError", &lines.join("\n"), &PyDict::new(py))
+        }
+        _ => PyValueError::new_err(error.to_string()),
+    }
+}
+
+/// Makes the runs of a sweep in a directory; returns how many there are and how many failed.
+#[pyfunction]
+#[pyo3(signature = (scene, out, vary, results, samples, first_seed, jobs, resume, progress))]
+#[expect(clippy::too_many_arguments, reason = "called by the package alone")]
+pub(crate) fn carry_out(
+    py: Python<'_>,
+    scene: &Bound<'_, Scene>,
+    out: PathBuf,
+    vary: Vec<(Vec<String>, Vec<Vec<String>>)>,
+    results: Vec<String>,
+    samples: usize,
+    first_seed: u64,
+    jobs: Option<NonZeroUsize>,
+    resume: bool,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(usize, usize)> {
+    let scene = scene.get();
+    let axis = |(keys, rows): (Vec<String>, Vec<Vec<String>>)| Axis::Rows {
+        keys,
+        rows: rows
+            .into_iter()
+            .map(|row| row.into_iter().map(Ron).collect())
+            .collect(),
+    };
+    let sweep = Sweep {
+        title: scene.inner.title.clone(),
+        scene: "scene.ron".to_owned(),
+        results,
+        set: Vec::new(),
+        vary: vary.into_iter().map(axis).collect(),
+        samples: (samples > 0).then(|| Samples {
+            number: samples,
+            first_seed,
+            of: actin_sim::Drawn::ALL.to_vec(),
+        }),
+    };
+    let opened = py.detach(|| Opened::new(sweep, scene.inner.to_ron()));
+    let opened = opened.map_err(|problem| errors::problem(py, &problem))?;
+    let directory = SweepDirectory::create(&out, &opened, resume);
+    let directory = directory.map_err(|error| refused(py, &error))?;
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let settings = Settings {
+        jobs,
+        interrupted: Arc::clone(&interrupted),
+        ..Settings::default()
+    };
+    let progress = callback(py, progress)?;
+    let watch = Watch::new(progress.as_ref().map(|progress| progress.clone_ref(py)));
+    let (ended, error) = py.detach(|| make(&directory, &opened, &settings, watch));
+    finish(py, progress.as_ref())?;
+    let ended = ended.map_err(|error| refused(py, &error))?;
+    match error {
+        Some(error) if ended.is_interrupted() => Err(error),
+        _ => Ok((ended.of, ended.failed)),
+    }
+}
+
+/// Makes the runs on threads of their own, while this one looks on: signals come to it alone.
+fn make(
+    directory: &SweepDirectory,
+    opened: &Opened,
+    settings: &Settings,
+    mut watch: Watch,
+) -> (Result<Ended, SweepError>, Option<PyErr>) {
+    let (done, of) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let note = |progress: actin_sweep::Progress| {
+        of.store(progress.of, Ordering::Relaxed);
+        done.store(progress.ended, Ordering::Relaxed);
+    };
+    let ended = std::thread::scope(|scope| {
+        let runs = scope.spawn(|| directory.carry_out(opened, settings, &note));
+        while !runs.is_finished() {
+            std::thread::sleep(LOOK);
+            watch.runs(done.load(Ordering::Relaxed), of.load(Ordering::Relaxed));
+            if watch.is_interrupted() {
+                settings.interrupted.store(true, Ordering::Relaxed);
+            }
+        }
+        runs.join()
+    });
+    let ended = ended.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+    (ended, watch.into_error())
+}

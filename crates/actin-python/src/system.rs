@@ -1,0 +1,498 @@
+//! `System`: points, frames and interactions that are put together, moved and looked at by hand, with a scene or
+//! without. How it is advanced and solved is in `advance.rs`.
+
+use crate::arrays::{read, vector, vectors};
+use crate::driven::{Motion, Motions, along_path};
+use crate::errors;
+use crate::rod::{Rod, RodArguments};
+use crate::scene::Scene;
+use crate::terms::{Applied, Field, Term};
+use actin_integrate::Composition;
+use actin_mechanics::{
+    Interaction, Point, PointLoad, Slider, Spring, Springs, State, System as Mechanics, Vector3,
+    Weight,
+};
+use actin_sim::{Assembly, Plan, Task};
+use pyo3::exceptions::{PyIndexError, PyValueError};
+use pyo3::prelude::*;
+use std::sync::{Arc, Mutex};
+
+/// How a system is advanced unless its caller says otherwise.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Settings {
+    pub(crate) scheme: &'static Composition,
+    /// Time step; found from the stiffness where there is none.
+    pub(crate) step: Option<f64>,
+    /// Rates of drag, translational and rotational.
+    pub(crate) drag: [f64; 2],
+    /// Thermal energy and seed.
+    pub(crate) bath: Option<(f64, u64)>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            scheme: &actin_integrate::PEFRL,
+            step: None,
+            drag: [0.0; 2],
+            bath: None,
+        }
+    }
+}
+
+/// Points, frames and interactions that are put together, moved and looked at by hand.
+///
+/// Points have places `[n, 3]` and velocities, frames have orientations `[m, 4]` (w, x, y, z; body to lab) and
+/// angular momenta (body axes). Units are any that fit together; those of a scene are nm, pN and ns. Arrays are
+/// snapshots: those that are got do not change with the system and are not to be written to; set a whole array to
+/// change it.
+#[pyclass(module = "actin")]
+#[derive(Debug)]
+pub(crate) struct System {
+    pub(crate) mechanics: Mechanics,
+    pub(crate) terms: Vec<Term>,
+    pub(crate) applied: Arc<Applied>,
+    pub(crate) motions: Motions,
+    pub(crate) settings: Settings,
+    /// The scene that it is made of.
+    pub(crate) assembly: Option<Arc<Assembly>>,
+    /// Controls of the loads that were added here, or of those of the scene.
+    factors: Vec<actin_mechanics::ControlId>,
+    /// Steps made.
+    pub(crate) steps: u64,
+    pub(crate) time: f64,
+    /// What a function of Python has raised within a step.
+    pub(crate) error: Arc<Mutex<Option<PyErr>>>,
+}
+
+impl System {
+    fn of(state: State, terms: Vec<Term>) -> Self {
+        let mut system = Self {
+            mechanics: Mechanics::new(State::default(), Vec::new()),
+            terms,
+            applied: Arc::default(),
+            motions: Motions::default(),
+            settings: Settings::default(),
+            assembly: None,
+            factors: Vec::new(),
+            steps: 0,
+            time: 0.0,
+            error: Arc::default(),
+        };
+        system.terms.push(Term::Own(system.applied.clone()));
+        system.renew(state);
+        system
+    }
+
+    /// Goes on in another state, which may have more bodies, under the terms as they are now.
+    pub(crate) fn renew(&mut self, state: State) {
+        let terms = self.terms.iter().cloned();
+        let terms = terms.map(|term| -> Box<dyn Interaction> { Box::new(term) });
+        let time = state.time;
+        self.mechanics = Mechanics::new(state, terms.collect());
+        if !self.motions.0.is_empty() {
+            self.mechanics.set_drive(Box::new(self.motions.clone()));
+            self.mechanics.state_mut().time = time;
+        }
+    }
+
+    /// Adds a term that `make` puts on the state.
+    fn add<T>(
+        &mut self,
+        make: impl FnOnce(&mut State) -> PyResult<(Option<Term>, T)>,
+    ) -> PyResult<T> {
+        let mut state = self.mechanics.state().clone();
+        let (term, made) = make(&mut state)?;
+        self.terms.extend(term);
+        self.renew(state);
+        Ok(made)
+    }
+
+    pub(crate) fn state(&self) -> &State {
+        self.mechanics.state()
+    }
+
+    pub(crate) fn point(&self, i: usize) -> PyResult<usize> {
+        let count = self.state().points.len();
+        let error = || PyIndexError::new_err(format!("there are {count} points, but no point {i}"));
+        if i < count { Ok(i) } else { Err(error()) }
+    }
+
+    pub(crate) fn frame(&self, i: usize) -> PyResult<usize> {
+        let count = self.state().frames.len();
+        let error = || PyIndexError::new_err(format!("there are {count} frames, but no frame {i}"));
+        if i < count { Ok(i) } else { Err(error()) }
+    }
+}
+
+fn settings_of(assembly: &Assembly, plan: &Plan<'_>) -> PyResult<Settings> {
+    let step = plan.estimate().map(|estimate| estimate.time_step_ns);
+    match &assembly.scene.task {
+        Task::Equilibrium(_) => Ok(Settings::default()),
+        Task::Dynamics(task) => Ok(Settings {
+            scheme: task.integrator.composition(),
+            step,
+            drag: [task.drag.translational_per_ns, task.drag.rotational_per_ns],
+            bath: task
+                .thermal
+                .map(|thermal| (thermal.energy_pn_nm(), thermal.seed)),
+        }),
+        Task::Brownian(_) => Err(PyValueError::new_err(
+            "steps of Brownian motion are made by actin.run: a System moves with inertia",
+        )),
+    }
+}
+
+/// Times of a motion.
+fn read_times(times: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let (times, _) = read(times, "times", &[None])?;
+    let ascend = times.windows(2).all(|pair| pair[0] < pair[1]);
+    if times.len() < 2 || times[0] != 0.0 || !ascend {
+        let rule = "times must ascend from 0 and be two at least";
+        return Err(PyValueError::new_err(rule));
+    }
+    Ok(times)
+}
+
+/// A vector for each time, zero where none is given.
+fn read_along(
+    object: Option<&Bound<'_, PyAny>>,
+    name: &str,
+    times: usize,
+) -> PyResult<Vec<Vector3>> {
+    let Some(object) = object else {
+        return Ok(vec![Vector3::zeros(); times]);
+    };
+    let (values, _) = read(object, name, &[Some(times), Some(3)])?;
+    let rows = values.chunks_exact(3);
+    Ok(rows.map(Vector3::from_column_slice).collect())
+}
+
+fn read_scheme(name: &str) -> PyResult<&'static Composition> {
+    Composition::by_name(name).map_err(errors::value)
+}
+
+#[pymethods]
+impl System {
+    #[new]
+    fn new() -> Self {
+        Self::of(State::default(), Vec::new())
+    }
+
+    /// The bodies and interactions of a scene as built, with the method, time step, drag and heat of its task.
+    #[staticmethod]
+    fn from_scene(py: Python<'_>, scene: &Bound<'_, Scene>) -> PyResult<Self> {
+        let scene = scene.get();
+        let assembly = scene.build(py)?;
+        if scene
+            .inner
+            .linkers
+            .iter()
+            .any(|linker| linker.kinetics.is_some())
+        {
+            let rule = "linkers that break, form or step do so in actin.run alone";
+            return Err(errors::problem(
+                py,
+                &actin_sim::SceneProblem::new("linkers", "", rule),
+            ));
+        }
+        let plan = py.detach(|| Plan::new(&assembly));
+        let plan = plan.map_err(|problem| scene.refuse(py, &problem))?;
+        let settings = settings_of(&assembly, &plan)?;
+        let count = assembly.system.interactions().len();
+        let terms = (0..count).map(|i| Term::OfScene(Arc::clone(&assembly), i));
+        let mut system = Self::of(assembly.system.state().clone(), terms.collect());
+        system.settings = settings;
+        system.factors = assembly.load_controls().to_vec();
+        system.assembly = Some(assembly);
+        Ok(system)
+    }
+
+    /// Adds points at rest, `[k, 3]`, with a mass for all or for each; returns the index of the first.
+    fn add_points(
+        &mut self,
+        position: &Bound<'_, PyAny>,
+        mass: &Bound<'_, PyAny>,
+    ) -> PyResult<usize> {
+        let places = vectors(position, "position")?;
+        let masses = match mass.extract::<f64>() {
+            Ok(mass) => vec![mass; places.len()],
+            Err(_) => read(mass, "mass", &[Some(places.len())])?.0,
+        };
+        if let Some(mass) = masses.iter().find(|m| !(m.is_normal() && **m > 0.0)) {
+            return Err(PyValueError::new_err(format!(
+                "mass must be positive, not {mass}"
+            )));
+        }
+        self.add(|state| {
+            let first = state.points.len();
+            for (place, mass) in places.into_iter().zip(masses) {
+                let position = place.into();
+                state.points.push(Point { position, mass });
+            }
+            Ok((None, first))
+        })
+    }
+
+    /// Adds a Cosserat rod along nodes `[k + 1, 3]`: k segments, each with a frame.
+    ///
+    /// `shear` are the rigidities S1, S2 (shear) and S3 (stretch), forces; `bend` B1, B2 (bending) and B3 (twist),
+    /// forces times areas. Segments have rest `lengths`, those between the nodes by default. The first axis of each
+    /// frame begins near `normal` and is carried along the nodes without twist. With `rest_shape="placed"` the rod
+    /// is at rest as it is placed. `rigid_segments` adds the inertia of segments that turn as rigid pieces, which
+    /// allows longer steps.
+    #[pyo3(signature = (
+        nodes, *, shear, bend, mass_per_length, area, lengths = None, normal = None, start = None, end = None,
+        rest_shape = "straight", rigid_segments = false,
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn add_rod(
+        &mut self,
+        nodes: &Bound<'_, PyAny>,
+        shear: &Bound<'_, PyAny>,
+        bend: &Bound<'_, PyAny>,
+        mass_per_length: f64,
+        area: f64,
+        lengths: Option<&Bound<'_, PyAny>>,
+        normal: Option<&Bound<'_, PyAny>>,
+        start: Option<&str>,
+        end: Option<&str>,
+        rest_shape: &str,
+        rigid_segments: bool,
+    ) -> PyResult<Rod> {
+        let arguments = RodArguments {
+            nodes: vectors(nodes, "nodes")?,
+            shear: vector(shear, "shear")?,
+            bend: vector(bend, "bend")?,
+            section: [mass_per_length, area],
+            lengths: lengths
+                .map(|lengths| read(lengths, "lengths", &[None]).map(|(values, _)| values))
+                .transpose()?,
+            normal: normal.map(|normal| vector(normal, "normal")).transpose()?,
+            clamps: [start, end],
+            rest_shape,
+            rigid_segments,
+        };
+        self.add(|state| arguments.put(state))
+    }
+
+    /// Adds springs between pairs of points.
+    fn add_springs(
+        &mut self,
+        pairs: Vec<[usize; 2]>,
+        stiffness: f64,
+        rest_length: f64,
+    ) -> PyResult<()> {
+        let spring = |points| Spring {
+            points,
+            stiffness,
+            rest_length,
+        };
+        self.add(|state| {
+            let springs = Springs::new(state, pairs.into_iter().map(spring).collect());
+            let springs = springs.map_err(errors::value)?;
+            Ok((Some(Term::Own(Arc::new(springs))), ()))
+        })
+    }
+
+    /// Adds the weight of all points; returns the index of its factor.
+    fn add_weight(&mut self, acceleration: &Bound<'_, PyAny>) -> PyResult<usize> {
+        let acceleration = vector(acceleration, "acceleration")?;
+        let control = self.add(|state| {
+            let weight = Weight::new(state, acceleration.into());
+            let control = weight.control();
+            Ok((Some(Term::Own(Arc::new(weight))), control))
+        })?;
+        self.factors.push(control);
+        Ok(self.factors.len() - 1)
+    }
+
+    /// Adds a force that points share and that keeps its direction; returns the index of its factor.
+    fn add_force(&mut self, points: Vec<usize>, force: &Bound<'_, PyAny>) -> PyResult<usize> {
+        let force = vector(force, "force")?;
+        if points.is_empty() {
+            return Err(PyValueError::new_err("points must name at least one"));
+        }
+        points.iter().try_for_each(|&i| self.point(i).map(drop))?;
+        let control = self.add(|state| {
+            let load = PointLoad::shared(state, &points, force.into());
+            let control = load.control();
+            Ok((Some(Term::Own(Arc::new(load))), control))
+        })?;
+        self.factors.push(control);
+        Ok(self.factors.len() - 1)
+    }
+
+    /// Adds forces on points that a function of all places gives, `[n, 3]` to `[n, 3]`, and their energy.
+    #[pyo3(signature = (force, energy = None))]
+    fn add_field(&mut self, force: Py<PyAny>, energy: Option<Py<PyAny>>) -> PyResult<()> {
+        let field = Field::new(force, energy, Arc::clone(&self.error));
+        self.add(|_| Ok((Some(Term::Own(Arc::new(field))), ())))
+    }
+
+    /// Forces on points, `[n, 3]`, beside all others until they are set again.
+    fn apply_force(&mut self, force: &Bound<'_, PyAny>) -> PyResult<()> {
+        let count = self.state().points.len();
+        let (values, _) = read(force, "force", &[Some(count), Some(3)])?;
+        let rows = values.chunks_exact(3).map(|f| [f[0], f[1], f[2]]);
+        self.applied.set_force(rows.collect());
+        self.mechanics.state_mut();
+        Ok(())
+    }
+
+    /// Torques on frames in lab axes, `[m, 3]`, beside all others until they are set again.
+    fn apply_torque(&mut self, torque: &Bound<'_, PyAny>) -> PyResult<()> {
+        let count = self.state().frames.len();
+        let (values, _) = read(torque, "torque", &[Some(count), Some(3)])?;
+        let rows = values.chunks_exact(3).map(|t| [t[0], t[1], t[2]]);
+        self.applied.set_torque(rows.collect());
+        self.mechanics.state_mut();
+        Ok(())
+    }
+
+    /// Holds points and frames where they are.
+    #[pyo3(signature = (points = Vec::new(), frames = Vec::new()))]
+    fn hold(&mut self, points: Vec<usize>, frames: Vec<usize>) -> PyResult<()> {
+        points.iter().try_for_each(|&i| self.point(i).map(drop))?;
+        frames.iter().try_for_each(|&i| self.frame(i).map(drop))?;
+        let state = self.mechanics.state_mut();
+        for i in points {
+            state.points.hold(i);
+        }
+        for i in frames {
+            state.frames.hold(i);
+        }
+        Ok(())
+    }
+
+    /// Lets held points and frames go, from rest.
+    #[pyo3(signature = (points = Vec::new(), frames = Vec::new()))]
+    fn release(&mut self, points: Vec<usize>, frames: Vec<usize>) -> PyResult<()> {
+        points.iter().try_for_each(|&i| self.point(i).map(drop))?;
+        frames.iter().try_for_each(|&i| self.frame(i).map(drop))?;
+        let state = self.mechanics.state_mut();
+        for i in points {
+            state.points.release(i);
+        }
+        for i in frames {
+            state.frames.release(i);
+        }
+        Ok(())
+    }
+
+    /// Holds bodies and moves them as one: at each of `times`, which ascend from 0, they have a `displacement` `[t,
+    /// 3]` and are turned by a `rotation` vector `[t, 3]` (rad, lab axes) from where they are now, about a place
+    /// that moves along (that of the first point by default). Between times both change at constant rates; behind
+    /// the last all stands still. Along `slides` the points are not moved but slide freely as one body.
+    #[pyo3(signature = (times, *, points = Vec::new(), frames = Vec::new(), displacement = None, rotation = None,
+        about = None, slides = None))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn drive(
+        &mut self,
+        times: &Bound<'_, PyAny>,
+        points: Vec<usize>,
+        frames: Vec<usize>,
+        displacement: Option<&Bound<'_, PyAny>>,
+        rotation: Option<&Bound<'_, PyAny>>,
+        about: Option<&Bound<'_, PyAny>>,
+        slides: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let times = read_times(times)?;
+        let displacements = read_along(displacement, "displacement", times.len())?;
+        let rotations = read_along(rotation, "rotation", times.len())?;
+        self.hold(points.clone(), frames.clone())?;
+        let first = points.first().map(|&i| self.state().points.position.get(i));
+        let about = about
+            .map(|about| vector(about, "about").map(Vector3::from))
+            .transpose()?;
+        let free = match slides {
+            None => Vec::new(),
+            Some(slides) => self.slide(&points, vector(slides, "slides")?.into())?,
+        };
+        let state = self.mechanics.state();
+        let motion = Motion {
+            about: about.or(first).unwrap_or_else(Vector3::zeros),
+            points: points
+                .iter()
+                .map(|&i| (i, state.points.position.get(i)))
+                .collect(),
+            frames: frames
+                .iter()
+                .map(|&i| (i, state.frames.orientation.get(i)))
+                .collect(),
+            times,
+            displacements,
+            rotations,
+            free,
+        };
+        self.motions.0.push(motion);
+        let mut state = self.mechanics.state().clone();
+        state.time = self.time;
+        self.renew(state);
+        Ok(())
+    }
+
+    /// Puts loads and held ends of a scene where its path has them after `u` stages.
+    fn set_path(&mut self, u: f64) -> PyResult<()> {
+        let assembly = self.assembly.clone();
+        let Some(assembly) = assembly.filter(|assembly| !assembly.drive.is_still()) else {
+            return Err(PyValueError::new_err(
+                "only a System of a scene with a path has one",
+            ));
+        };
+        let stages = assembly.drive.stages() as f64;
+        if !(0.0..=stages).contains(&u) {
+            return Err(PyValueError::new_err(format!(
+                "u must be from 0 to {stages}, not {u}"
+            )));
+        }
+        along_path(&assembly, self.mechanics.state_mut(), u);
+        Ok(())
+    }
+
+    /// Sets the factor of a load: by its index in the scene, or as it was returned.
+    fn set_factor(&mut self, load: usize, factor: f64) -> PyResult<()> {
+        let count = self.factors.len();
+        let control = self.factors.get(load).copied();
+        let control = control.ok_or_else(|| {
+            PyIndexError::new_err(format!(
+                "there are {count} loads with factors, but no load {load}"
+            ))
+        })?;
+        self.mechanics.state_mut().controls[control] = factor;
+        Ok(())
+    }
+}
+
+impl System {
+    /// Lets points, which are held, slide along a direction as one body; returns the unit vector.
+    fn slide(&mut self, points: &[usize], direction: Vector3) -> PyResult<Vec<Vector3>> {
+        let unit = direction.try_normalize(0.0);
+        let unit = unit.ok_or_else(|| PyValueError::new_err("slides must have a direction"))?;
+        if points.is_empty() {
+            return Err(PyValueError::new_err("slides takes points: there are none"));
+        }
+        let mut state = self.mechanics.state().clone();
+        state.sliders.push(Slider {
+            points: points.to_vec(),
+            directions: vec![unit],
+            mass: points.iter().map(|&i| state.points.mass(i)).sum(),
+        });
+        self.renew(state);
+        Ok(vec![unit])
+    }
+
+    /// What a function of Python has raised since the last look.
+    pub(crate) fn raise(&self) -> PyResult<()> {
+        let mut error = self
+            .error
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        error.take().map_or(Ok(()), Err)
+    }
+
+    /// The method of a name, or the one that is set.
+    pub(crate) fn scheme(&self, name: Option<&str>) -> PyResult<&'static Composition> {
+        name.map_or(Ok(self.settings.scheme), read_scheme)
+    }
+}

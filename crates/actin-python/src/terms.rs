@@ -1,0 +1,218 @@
+//! Interactions that Python adds to a system: terms that are shared, loads that are set, forces of a function.
+
+use crate::arrays::Block;
+use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3, Vectors};
+use actin_sim::Assembly;
+use pyo3::prelude::*;
+use std::sync::{Arc, Mutex, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
+
+/// A term that several systems share: its interaction stays where it is.
+#[derive(Clone, Debug)]
+pub(crate) enum Term {
+    /// One of its own.
+    Own(Arc<dyn Interaction>),
+    /// One of a scene, by its index.
+    OfScene(Arc<Assembly>, usize),
+}
+
+impl Term {
+    fn inner(&self) -> &dyn Interaction {
+        match self {
+            Self::Own(term) => term.as_ref(),
+            Self::OfScene(assembly, i) => assembly.system.interactions()[*i].as_ref(),
+        }
+    }
+}
+
+impl Interaction for Term {
+    fn term(&self) -> &'static str {
+        self.inner().term()
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        self.inner().add_loads(state, loads);
+    }
+
+    fn elements(&self) -> usize {
+        self.inner().elements()
+    }
+
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        self.inner().write_energies(state, energies);
+    }
+
+    fn is_conservative(&self) -> bool {
+        self.inner().is_conservative()
+    }
+
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        self.inner().second_order()
+    }
+
+    fn passes_through(&self, from: &State, to: &State) -> Option<actin_mechanics::Coordinates> {
+        self.inner().passes_through(from, to)
+    }
+}
+
+/// Forces and torques as they are set; none on bodies beyond their ends.
+#[derive(Debug, Default)]
+struct Set {
+    force: Vec<[f64; 3]>,
+    torque: Vec<[f64; 3]>,
+}
+
+/// Forces on points and torques on frames, both in lab axes, as they are set: terms `applied`.
+#[derive(Debug, Default)]
+pub(crate) struct Applied {
+    loads: RwLock<Set>,
+}
+
+impl Applied {
+    fn read(&self) -> RwLockReadGuard<'_, Set> {
+        self.loads.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn write(&self) -> RwLockWriteGuard<'_, Set> {
+        self.loads.write().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Sets the force on each point; none on those that are not listed.
+    pub(crate) fn set_force(&self, force: Vec<[f64; 3]>) {
+        self.write().force = force;
+    }
+
+    /// Sets the torque on each frame.
+    pub(crate) fn set_torque(&self, torque: Vec<[f64; 3]>) {
+        self.write().torque = torque;
+    }
+}
+
+impl Interaction for Applied {
+    fn term(&self) -> &'static str {
+        "applied"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        let Set { force, torque } = &*self.read();
+        for (i, &f) in force.iter().enumerate() {
+            loads.force.add(i, f.into());
+        }
+        for (i, &t) in torque.iter().enumerate() {
+            let q = state.frames.orientation.get(i);
+            loads.torque.add(i, q.inverse_transform_vector(&t.into()));
+        }
+    }
+
+    fn elements(&self) -> usize {
+        1
+    }
+
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        let Set { force, .. } = &*self.read();
+        let work = force.iter().enumerate().map(|(i, &f)| {
+            let f: Vector3 = f.into();
+            f.dot(&state.points.position.get(i))
+        });
+        energies[0] = -work.sum::<f64>();
+    }
+
+    /// Dead forces have a potential, torques of constant direction have none.
+    fn is_conservative(&self) -> bool {
+        let Set { torque, .. } = &*self.read();
+        torque.iter().flatten().all(|t| *t == 0.0)
+    }
+
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        Some(self)
+    }
+}
+
+impl SecondOrder for Applied {
+    /// Dead forces have no stiffness.
+    fn add_stiffness(&self, _state: &State, _stiffness: &mut Stiffness) {}
+}
+
+/// Forces on points that a Python function gives: term `field`.
+#[derive(Debug)]
+pub(crate) struct Field {
+    force: Py<PyAny>,
+    energy: Option<Py<PyAny>>,
+    error: Arc<Mutex<Option<PyErr>>>,
+}
+
+impl Field {
+    /// `force(position) -> force`, both `[n, 3]`, and `energy(position) -> float`. What they raise goes to `error`.
+    pub(crate) fn new(
+        force: Py<PyAny>,
+        energy: Option<Py<PyAny>>,
+        error: Arc<Mutex<Option<PyErr>>>,
+    ) -> Self {
+        Self {
+            force,
+            energy,
+            error,
+        }
+    }
+
+    fn note(&self, error: PyErr) {
+        let mut first = self.error.lock().unwrap_or_else(PoisonError::into_inner);
+        first.get_or_insert(error);
+    }
+}
+
+/// Vectors as an array of a row each, a snapshot that is not to be written to: what is written there would be lost.
+pub(crate) fn rows<'py>(py: Python<'py>, vectors: &Vectors) -> PyResult<Bound<'py, PyAny>> {
+    let values: Vec<f64> = vectors.iter().flat_map(|v| [v.x, v.y, v.z]).collect();
+    let rows = Block::new(values, &[vectors.len(), 3]).into_python(py)?;
+    Ok(rows.into_bound(py))
+}
+
+impl Interaction for Field {
+    fn term(&self) -> &'static str {
+        "field"
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        let found = Python::attach(|py| {
+            let force = self
+                .force
+                .bind(py)
+                .call1((rows(py, &state.points.position)?,))?;
+            let shape = [Some(state.points.len()), Some(3)];
+            crate::arrays::read(&force, "the force of a field", &shape)
+        });
+        match found {
+            Ok((force, _)) => {
+                for (i, f) in force.chunks_exact(3).enumerate() {
+                    loads.force.add(i, Vector3::new(f[0], f[1], f[2]));
+                }
+            }
+            Err(error) => self.note(error),
+        }
+    }
+
+    fn elements(&self) -> usize {
+        1
+    }
+
+    fn write_energies(&self, state: &State, energies: &mut [f64]) {
+        let Some(energy) = &self.energy else {
+            energies[0] = 0.0;
+            return;
+        };
+        let found = Python::attach(|py| {
+            let energy = energy
+                .bind(py)
+                .call1((rows(py, &state.points.position)?,))?;
+            energy.extract::<f64>()
+        });
+        match found {
+            Ok(energy) => energies[0] = energy,
+            Err(error) => self.note(error),
+        }
+    }
+
+    fn is_conservative(&self) -> bool {
+        self.energy.is_some()
+    }
+}

@@ -1,0 +1,150 @@
+//! What looks on while something runs: Ctrl-C, and who is told of the progress.
+//!
+//! A run goes on without Python; a look at its signals every twentieth of a second costs nothing.
+
+use actin_sim::{At, Progress as Inner};
+use pyo3::prelude::*;
+use std::time::{Duration, Instant};
+
+/// Time between two looks at signals.
+const SIGNALS: Duration = Duration::from_millis(50);
+/// Time between two calls of what is told of the progress.
+const SHOWN: Duration = Duration::from_millis(100);
+
+/// How far a run is.
+#[pyclass(module = "actin", frozen)]
+#[derive(Debug)]
+pub(crate) struct Progress {
+    /// Share of the run that is done, from 0 to 1.
+    #[pyo3(get)]
+    share: f64,
+    /// Time (ns), stages of a path, or runs of a sweep.
+    #[pyo3(get)]
+    at: f64,
+    /// What `at` will be at the end.
+    #[pyo3(get)]
+    end: f64,
+    /// What `at` counts: `ns`, `stages` or `runs`.
+    #[pyo3(get)]
+    unit: &'static str,
+    /// Steps made.
+    #[pyo3(get)]
+    steps: u64,
+    /// Largest force on a free point (pN).
+    #[pyo3(get)]
+    residual_force_pn: f64,
+    /// Time since the run began (s).
+    #[pyo3(get)]
+    seconds: f64,
+}
+
+#[pymethods]
+impl Progress {
+    fn __repr__(&self) -> String {
+        let (percent, at, end, unit) = (100.0 * self.share, self.at, self.end, self.unit);
+        format!("Progress({percent:.0} %, {at:.4} of {end:.4} {unit})")
+    }
+}
+
+/// Looks on.
+#[derive(Debug)]
+pub(crate) struct Watch {
+    started: Instant,
+    signals: Instant,
+    shown: Option<Instant>,
+    progress: Option<Py<PyAny>>,
+    /// What ends the run: `KeyboardInterrupt`, or what the callback has raised.
+    error: Option<PyErr>,
+}
+
+impl Watch {
+    /// Calls `progress` with how far the run has come.
+    pub(crate) fn new(progress: Option<Py<PyAny>>) -> Self {
+        let now = Instant::now();
+        Self {
+            started: now,
+            signals: now,
+            shown: None,
+            progress,
+            error: None,
+        }
+    }
+
+    /// Whether the run is to end.
+    pub(crate) fn is_interrupted(&mut self) -> bool {
+        if self.error.is_none() && self.signals.elapsed() >= SIGNALS {
+            self.error = signals().err();
+            self.signals = Instant::now();
+        }
+        self.error.is_some()
+    }
+
+    /// Tells how far a run has come.
+    pub(crate) fn progress(&mut self, at: &Inner) {
+        let unit = match at.at {
+            At::Time(_) => "ns",
+            At::Path(_) => "stages",
+        };
+        let place = at.at.value();
+        self.tell((place, at.end, unit), at.steps, at.residual_force_pn);
+    }
+
+    /// Tells how many of several runs are done.
+    pub(crate) fn runs(&mut self, ended: usize, of: usize) {
+        self.tell((ended as f64, of as f64, "runs"), ended as u64, 0.0);
+    }
+
+    fn tell(&mut self, (at, end, unit): (f64, f64, &'static str), steps: u64, residual: f64) {
+        let is_new = self.shown.is_none_or(|last| last.elapsed() >= SHOWN);
+        let Some(callback) = self.progress.as_ref().filter(|_| is_new || at >= end) else {
+            return;
+        };
+        self.shown = Some(Instant::now());
+        let share = if end > 0.0 { at / end } else { 1.0 };
+        let progress = Progress {
+            share: share.clamp(0.0, 1.0),
+            at,
+            end,
+            unit,
+            steps,
+            residual_force_pn: residual,
+            seconds: self.started.elapsed().as_secs_f64(),
+        };
+        let told = Python::attach(|py| callback.call1(py, (progress,)).map(drop));
+        if let Err(error) = told {
+            self.error.get_or_insert(error);
+        }
+    }
+
+    /// What has ended the run, if something has.
+    pub(crate) fn into_error(self) -> Option<PyErr> {
+        self.error
+    }
+}
+
+/// What Python's handlers of signals say.
+fn signals() -> PyResult<()> {
+    Python::attach(|py| {
+        py.check_signals()?;
+        Ok(())
+    })
+}
+
+/// What is called with the progress of a run: the bar of a terminal for `None`, nothing for `False`.
+pub(crate) fn callback(py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Option<Py<PyAny>>> {
+    let chosen = py
+        .import("actin._progress")?
+        .call_method1("callback", (progress,))?;
+    Ok((!chosen.is_none()).then(|| chosen.unbind()))
+}
+
+/// Lets the bar of a terminal go.
+pub(crate) fn finish(py: Python<'_>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+    match progress {
+        Some(progress) => py
+            .import("actin._progress")?
+            .call_method1("finish", (progress,))
+            .map(drop),
+        None => Ok(()),
+    }
+}

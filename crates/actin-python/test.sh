@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Tests the Python package: pytest, types, stubs. Without an argument on the library of the development profile, which
+# `cargo test --workspace` shares; with `release` on the wheel to give away, whose size it says, installed into an environment of
+# its own. All below `target`; says how long each part took.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+tools="$PWD/target/tools/python"
+wheels="$PWD/target/wheels"
+site="$PWD/target/python"
+most_bytes=6000000
+
+python="${PYTHON:-python3}"
+"$python" -c 'import sys; sys.exit(sys.version_info < (3, 10))'
+[ -x "$tools/bin/python" ] || "$python" -m venv "$tools"
+"$tools/bin/pip" install --quiet 'numpy>=1.24' pytest mypy nbclient ipykernel matplotlib cosseratbench
+echo "environment: $SECONDS s"
+
+SECONDS=0
+if [ "${1:-}" = release ]; then
+  "$tools/bin/pip" install --quiet 'maturin>=1.9,<2'
+  rm -rf "$wheels"
+  "$tools/bin/maturin" build --quiet --release --locked \
+    --manifest-path crates/actin-python/Cargo.toml --interpreter "$tools/bin/python" --out "$wheels"
+  wheel=$(ls "$wheels"/actin-*-cp310-abi3-*.whl)
+  bytes=$(wc -c < "$wheel")
+  echo "wheel: $SECONDS s, $(basename "$wheel"), $bytes bytes"
+  [ "$bytes" -lt "$most_bytes" ] || { echo "the wheel has more than $most_bytes bytes"; exit 1; }
+  "$tools/bin/pip" install --quiet --force-reinstall --no-deps "$wheel"
+else
+  # All that the tests of the workspace build, so that crates have the same features.
+  cargo build --quiet --workspace --lib --bins --tests --examples
+  rm -rf "$site"
+  version=$(cargo pkgid -p actin-python | sed 's/.*[@#]//')
+  mkdir -p "$site/actin-$version.dist-info"
+  cp -r crates/actin-python/python/actin "$site/"
+  cp target/debug/libactin_python.so "$site/actin/_actin.abi3.so"
+  printf 'Metadata-Version: 2.1\nName: actin\nVersion: %s\n' "$version" > "$site/actin-$version.dist-info/METADATA"
+  printf '[cosseratbench.solvers]\nactin = actin.cosseratbench:ActinSolver\n' > "$site/actin-$version.dist-info/entry_points.txt"
+  export PYTHONPATH="$site"
+fi
+echo "library: $SECONDS s"
+
+SECONDS=0
+cd crates/actin-python
+"$tools/bin/python" -m pytest -q tests
+MYPYPATH=python "$tools/bin/python" -m mypy
+"$tools/bin/python" -m mypy.stubtest actin._actin --mypy-config-file pyproject.toml
+echo "tests: $SECONDS s"

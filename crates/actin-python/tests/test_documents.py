@@ -1,0 +1,36 @@
+"""What the documents show is run: the notebook, and the Python blocks of the pages about this package."""
+
+import re
+import subprocess
+import sys
+
+import pytest
+
+PAGES = ["crates/actin-python/README.md", "docs/how-to/use-from-python.md"]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_blocks_of_a_page_run(root, tmp_path, page):
+    pytest.importorskip("matplotlib")
+    text = (root / page).read_text()
+    blocks = re.findall(r"^```python\n(.*?)^```", text, flags=re.MULTILINE | re.DOTALL)
+    assert blocks
+    code = "import matplotlib\nmatplotlib.use('Agg')\n" + "\n".join(blocks)
+    subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=True)
+    figures = re.findall(r'savefig\("(.*?)"\)', text)
+    assert all((tmp_path / figure).stat().st_size > 1000 for figure in figures)
+
+
+def test_the_notebook_runs(root, tmp_path):
+    nbformat = pytest.importorskip("nbformat")
+    nbclient = pytest.importorskip("nbclient")
+    pytest.importorskip("ipykernel")
+    pytest.importorskip("matplotlib")
+    notebook = nbformat.read(root / "docs/python.ipynb", as_version=4)
+    nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": tmp_path}}).execute()
+    outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
+    figures = [output for output in outputs if "image/png" in output.get("data", {})]
+    assert len(figures) == 4
+    # What is kept in the repository has no outputs, so that it is what was run here.
+    kept = nbformat.read(root / "docs/python.ipynb", as_version=4)
+    assert not any(cell.get("outputs") for cell in kept.cells)

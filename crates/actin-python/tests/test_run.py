@@ -1,0 +1,237 @@
+"""Runs: arrays, certificates, directories, failures, interrupts, progress, sweeps."""
+
+import os
+import signal
+import threading
+import time
+
+import actin
+import numpy as np
+import pytest
+
+
+def test_equilibrium_with_certificate(scene):
+    found = actin.equilibrium(scene, lowest_eigenvalue=True)
+    assert found.certificate.stable and found.certificate.negative_eigenvalues == 0
+    assert found.certificate.residual_force < 1e-7 and found.certificate.iterations > 3
+    assert found.lowest_eigenvalue > found.certificate.resolution
+    assert found.position_nm.shape == (25, 3) and found.quaternion.shape == (26, 4)
+    assert np.allclose(found.tip_nm, found.position_nm[-1])
+    assert np.linalg.norm(found.quaternion, axis=1) == pytest.approx(1.0)
+    # Work of a dead load is twice the elastic energy of a linear beam, less of one that stiffens.
+    assert 0.0 < found.elastic_pn_nm < -found.energy_pn_nm
+
+
+def test_a_motion_is_solved_for_its_equilibrium(scene, motion):
+    direct, instead = actin.equilibrium(scene), actin.equilibrium(motion)
+    assert np.array_equal(direct.position_nm, instead.position_nm)
+
+
+def test_arrays_are_handed_over_once_and_not_to_be_written_to(motion):
+    run = actin.run(motion)
+    assert run.position_nm is run.position_nm
+    with pytest.raises(ValueError, match="read-only"):
+        run.position_nm[0, 0, 0] = 1.0
+    # The buffer that was filled, seen through a change of axes: numpy owns it and has copied nothing.
+    assert run.position_nm.base is not None and not run.position_nm.flags.owndata
+    assert run.position_nm.strides == (25 * 3 * 8, 8, 25 * 8)
+    assert run.position_nm.shape == run.velocity_nm_per_ns.shape == run.centre_line_nm.shape == (11, 25, 3)
+    assert run.quaternion.shape == (11, 26, 4) and run.angular_momentum.shape == (11, 26, 3)
+    assert run.s_nm.shape == run.kind.shape == run.filament.shape == (25,)
+    assert run.kind_names[run.kind[0]] == "monomer" and run.kind_names[run.kind[-1]] == "node"
+
+
+def test_energy_of_a_motion_is_kept(motion):
+    run = actin.run(motion)
+    total = sum(run.energies_pn_nm.values()) + run.kinetic_pn_nm
+    assert run.kinetic_pn_nm.max() > 0.1
+    assert np.abs(total - total[0]).max() < 1e-4 * run.kinetic_pn_nm.max()
+    assert np.allclose(run.time_ns, np.arange(11) * 0.1)
+    with pytest.raises(AttributeError, match="no path"):
+        run.path
+
+
+def test_what_is_observed_has_a_column(motion):
+    run = actin.run(motion.set("observe", [{"Tip": {}}]))
+    assert list(run.observables) == ["tip[0]_x_nm", "tip[0]_y_nm", "tip[0]_z_nm"]
+    last = [column[-1] for column in run.observables.values()]
+    assert last == pytest.approx(run.tip_nm)
+    assert all(column.shape == run.time_ns.shape for column in run.observables.values())
+
+
+def test_a_directory_is_written_and_read_back(motion, tmp_path):
+    out = tmp_path / "run"
+    run = actin.run(motion.set("observe", [{"Tip": {}}]), out)
+    back = actin.load(out)
+    assert {"summary.json", "states.npz", "energies.csv", "scene.ron"} <= set(os.listdir(out))
+    assert back.summary == run.summary and back.scene == run.scene
+    for name in ("position_nm", "quaternion", "centre_line_nm", "time_ns", "kinetic_pn_nm", "frame_s_nm", "filament"):
+        assert np.array_equal(getattr(back, name), getattr(run, name)), name
+    assert back.observables.keys() == run.observables.keys()
+    with pytest.raises(OSError, match="not empty"):
+        actin.run(motion, out)
+    again = actin.run(motion, out, overwrite=True)
+    assert np.array_equal(again.position_nm, run.position_nm)
+    finished = actin.run(motion, out, resume=True)
+    assert np.array_equal(finished.position_nm, run.position_nm)
+    with pytest.raises(OSError):
+        actin.load(tmp_path / "none")
+
+
+def test_a_run_that_breaks_says_where(motion):
+    wild = motion.set("task.time_step_ns", 1.0).set("task.allow_unstable_step", True)
+    with pytest.raises(actin.RunFailed) as caught:
+        actin.run(wild)
+    error = caught.value
+    assert error.step is not None and error.step > 0 and error.time_ns > 0.0
+    assert "nm" in error.body and error.term in {"bonds", "rod", "junction"}
+    assert error.run.status == "failed" and len(error.run) >= 1
+    assert isinstance(error, ArithmeticError)
+
+
+def test_a_problem_of_a_plan_has_its_line(text):
+    spoilt = text.replace("Equilibrium()", "Dynamics(duration_ns: 1.0,\n        time_step_ns: 1.0)")
+    with pytest.raises(actin.SceneError, match="stability limit") as caught:
+        actin.run(actin.Scene.from_ron(spoilt))
+    assert (caught.value.key, caught.value.line) == ("task.time_step_ns", 12)
+
+
+def interrupt_soon(seconds: float) -> None:
+    threading.Timer(seconds, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+
+
+def test_ctrl_c_ends_a_run_that_keeps_its_records(long_motion, tmp_path):
+    interrupt_soon(0.5)
+    started = time.monotonic()
+    with pytest.raises(actin.Interrupted) as caught:
+        actin.run(long_motion)
+    assert time.monotonic() - started < 5.0
+    assert isinstance(caught.value, KeyboardInterrupt)
+    assert caught.value.run.status == "interrupted" and len(caught.value.run) > 1
+
+
+def test_an_interrupted_run_is_resumed_to_the_same_bits(scene, tmp_path):
+    task = {"Dynamics": {"duration_ns": 60.0, "record_every_ns": 5.0}}
+    motion, out = scene.set("task", task), tmp_path / "run"
+    whole = actin.run(motion)
+
+    def stop_half_way(progress: actin.Progress) -> None:
+        if progress.share > 0.4:
+            raise KeyboardInterrupt
+
+    with pytest.raises(actin.Interrupted):
+        actin.run(motion, out, progress=stop_half_way)
+    resumed = actin.run(motion, out, resume=True)
+    assert resumed.status == "completed"
+    assert np.array_equal(resumed.position_nm, whole.position_nm)
+
+
+def test_other_threads_go_on_during_a_run(scene):
+    """The lock of the interpreter is free while Rust computes."""
+    ticks = []
+    ended = threading.Event()
+
+    def tick() -> None:
+        while not ended.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.005)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    started = time.monotonic()
+    actin.run(scene.set("task", {"Dynamics": {"duration_ns": 100.0, "record_every_ns": 100.0}}))
+    seconds = time.monotonic() - started
+    ended.set()
+    thread.join()
+    assert len(ticks) > 10 * seconds
+
+
+def test_progress_is_told_and_may_end_a_run(scene, long_motion):
+    seen = []
+    actin.run(scene.set("task", {"Dynamics": {"duration_ns": 5.0, "record_every_ns": 0.01}}), progress=seen.append)
+    assert seen[-1].share == 1.0 and seen[-1].unit == "ns" and seen[-1].end == 5.0
+    assert all(a.share <= b.share for a, b in zip(seen, seen[1:]))
+
+    def refuse(progress: actin.Progress) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        actin.run(long_motion, progress=refuse)
+    with pytest.raises(TypeError, match="progress must be"):
+        actin.run(scene, progress=3)
+
+
+def test_the_bar_is_drawn_and_taken_away(motion, capsys):
+    actin.run(motion, progress=True)
+    shown = capsys.readouterr().err
+    assert "100 %" in shown and "of 1 ns" in shown and shown.endswith("\r")
+    actin.run(motion)
+    assert capsys.readouterr().err == ""
+
+
+def test_sweep(scene, tmp_path):
+    forces = [-0.5, -1.0, -2.0]
+    table = actin.sweep(scene, {"loads[0].force_pn[0]": forces}, ["tip_displacement_nm[0]"], jobs=2)
+    assert len(table) == 3 and table.failed == 0
+    assert np.array_equal(table["loads[0].force_pn[0]"], forces)
+    alone = actin.equilibrium(scene.set("loads[0].force_pn[0]", -1.0))
+    assert table["tip_displacement_nm[0]"][1] == pytest.approx(alone.tip_displacement_nm[0], rel=1e-12)
+
+    together = {("loads[0].force_pn", "filament.rod.law"): [((0.0, -1.0, 0.0), "Constant"), ((0.0, -2.0, 0.0), "Fitted")]}
+    kept = actin.sweep(scene, together, ["tip_displacement_nm[1]"], out=tmp_path / "sweep")
+    assert (tmp_path / "sweep" / "runs" / "1" / "summary.json").exists()
+    assert kept["tip_displacement_nm[1]"][1] < kept["tip_displacement_nm[1]"][0] < 0.0
+    with pytest.raises(ValueError, match="resume"):
+        actin.sweep(scene, together, ["tip_displacement_nm[1]"], out=tmp_path / "sweep")
+    actin.sweep(scene, together, ["tip_displacement_nm[1]"], out=tmp_path / "sweep", resume=True)
+
+
+def test_sweeps_name_what_is_wrong(scene):
+    with pytest.raises(actin.SceneError) as caught:
+        actin.sweep(scene, {"loads[0].forse_pn": [(0.0, 0.0, 1.0)]}, ["tip_nm[0]"])
+    assert caught.value.key == "vary[0].rows[0][0]" and "force_pn" in caught.value.rule
+    with pytest.raises(actin.SceneError) as caught:
+        actin.sweep(scene, {}, ["tip_nm[7]"])
+    assert caught.value.key == "results[0]"
+    failing = actin.sweep(scene, {"loads[0].force_pn[0]": [-1.0, 1e9]}, ["tip_nm[0]"])
+    assert failing.failed == 1 and np.isnan(failing["tip_nm[0]"][1]) and failing["failure"][1]
+
+
+def test_ctrl_c_ends_a_sweep_that_can_be_resumed(scene, tmp_path):
+    short = {"Dynamics": {"duration_ns": 30.0, "record_every_ns": 10.0}}
+    vary, results = {"loads[0].force_pn[0]": [-0.5, -1.0, -1.5, -2.0]}, ["tip_nm[0]"]
+    interrupt_soon(0.2)
+    started = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        actin.sweep(scene.set("task", {"Dynamics": {"duration_ns": 1e5}}), vary, results, jobs=2)
+    assert time.monotonic() - started < 10.0
+
+    def stop(progress: actin.Progress) -> None:
+        if progress.at >= 1:
+            raise KeyboardInterrupt
+
+    out = tmp_path / "sweep"
+    with pytest.raises(KeyboardInterrupt):
+        actin.sweep(scene.set("task", short), vary, results, jobs=1, out=out, progress=stop)
+    resumed = actin.sweep(scene.set("task", short), vary, results, jobs=1, out=out, resume=True)
+    whole = actin.sweep(scene.set("task", short), vary, results, jobs=2)
+    assert np.array_equal(resumed["tip_nm[0]"], whole["tip_nm[0]"])
+
+
+def test_what_is_shown(scene, motion):
+    found = actin.equilibrium(scene)
+    assert repr(found).startswith("Equilibrium(stable, energy -")
+    assert "certificate" in found._repr_html_() and "stable" in found._repr_html_()
+    assert repr(actin.run(motion)) == "Run(completed, 11 records, 16 monomers, 8 segments)"
+
+
+def test_pyvista_gets_lines_and_ellipsoids(scene):
+    pytest.importorskip("pyvista")
+    found = actin.equilibrium(scene)
+    blocks = found.to_pyvista()
+    assert blocks["rod"].n_points == 9 and blocks["rod"].n_cells == 1
+    monomers = blocks["monomers"]
+    axes = scene.to_dict()["filament"]["monomers"]["semi_axes_nm"]
+    each = monomers.volume / 16
+    # A faceted ellipsoid has a little less volume than a smooth one.
+    assert 0.93 < each / (4 / 3 * np.pi * np.prod(axes)) < 1.0

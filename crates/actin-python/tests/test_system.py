@@ -1,0 +1,202 @@
+"""Systems by hand: rods, points, fields, drives, steps and equilibria without scenes; scenes by hand."""
+
+import actin
+import numpy as np
+import pytest
+
+BEND, SHEAR, TWIST = 3.9e4, 1.0e4, 1.3e4
+
+
+def rod(system, segments=32, length=160.0, **keys):
+    nodes = np.zeros((segments + 1, 3))
+    nodes[:, 0] = np.linspace(0.0, length, segments + 1)
+    keys = {"start": "Wall"} | keys
+    return system.add_rod(
+        nodes, shear=(SHEAR, SHEAR, 3.4e4), bend=(BEND, BEND, TWIST), mass_per_length=0.026, area=38.5, **keys
+    )
+
+
+def test_a_cantilever_bends_as_theory_says():
+    """Euler and Bernoulli: F L^3 / 3 B; Timoshenko adds F L / S."""
+    system = actin.System()
+    beam = rod(system)
+    system.add_force([beam.points[1] - 1], (0.0, 0.0, -0.001))
+    found = system.equilibrium()
+    assert found.stable and found.residual_force < 1e-8
+    theory = 0.001 * 160.0**3 / (3 * BEND) + 0.001 * 160.0 / SHEAR
+    # The mesh's error is of order (h/L)^2.
+    assert -system.position[-1, 2] == pytest.approx(theory, rel=1e-3)
+    curvature = system.curvature(beam)
+    assert np.linalg.norm(curvature[0]) == pytest.approx(0.001 * 160.0 / BEND, rel=0.03)
+    assert np.abs(curvature[:, 2]).max() < 1e-12
+    assert system.strain(beam).shape == (32, 3)
+
+
+def test_twist_of_a_driven_end_reaches_the_other():
+    """A rod clamped at both ends, one of which turns: twist is shared by all joints."""
+    system = actin.System()
+    beam = rod(system, segments=8, length=80.0, end="Wall")
+    behind = beam.points[1] - 1
+    system.drive([0.0, 5.0], points=[behind], frames=[beam.end_wall], rotation=[(0, 0, 0), (0.5, 0, 0)])
+    h = system.stable_step()
+    system.step(int(np.ceil(5.5 / h)), h=h, drag=(2.0, 2.0))
+    system.equilibrium()
+    twist = system.curvature(beam)[:, 2]
+    assert twist == pytest.approx(0.5 / 80.0, rel=1e-9)
+    assert system.energies()["rod"] == pytest.approx(0.5 * TWIST * 0.5**2 / 80.0, rel=1e-9)
+
+
+def test_a_rod_that_is_placed_at_rest_stays():
+    angle = np.linspace(0.0, np.pi / 2, 17)
+    arc = 100.0 * np.stack([np.sin(angle), np.zeros(17), 1.0 - np.cos(angle)], axis=1)
+    keys = dict(shear=(SHEAR, SHEAR, 3.4e4), bend=(BEND, BEND, TWIST), mass_per_length=0.026, area=38.5)
+    straight, placed = actin.System(), actin.System()
+    straight.add_rod(arc, **keys)
+    placed.add_rod(arc, rest_shape="placed", **keys)
+    length = np.linalg.norm(np.diff(arc, axis=0), axis=1).sum()
+    # 15 of 16 segments lie between joints.
+    assert straight.energies()["rod"] == pytest.approx(BEND * length * 15 / 16 / (2 * 100.0**2), rel=2e-2)
+    assert placed.energies()["rod"] < 1e-20
+
+
+@pytest.mark.parametrize(("scheme", "order"), [("position-verlet", 2), ("pefrl", 4)])
+def test_integrators_have_their_order_on_a_field_of_python(scheme, order):
+    def error(h):
+        system = actin.System()
+        system.add_points([(1.0, 0.0, 0.0)], 1.0)
+        system.velocity = [(0.0, 0.8, 0.0)]
+        system.add_field(lambda x: -x / np.linalg.norm(x) ** 3, lambda x: float(-1.0 / np.linalg.norm(x)))
+        energy = system.kinetic_energy + system.potential_energy
+        system.step(round(2.0 / h), h=h, scheme=scheme)
+        assert system.kinetic_energy + system.potential_energy == pytest.approx(energy, abs=1e-3)
+        return system.position[0]
+
+    exact = error(0.002)
+    coarse, fine = (np.linalg.norm(error(h) - exact) for h in (0.04, 0.02))
+    assert np.log2(coarse / fine) == pytest.approx(order, abs=0.3)
+
+
+def test_a_field_that_raises_ends_the_steps():
+    system = actin.System()
+    system.add_points([(1.0, 0.0, 0.0)], 1.0)
+    system.add_field(lambda x: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        system.step(1000, h=0.1)
+    shapes = actin.System()
+    shapes.add_points(np.zeros((2, 3)), [1.0, 2.0])
+    shapes.add_field(lambda x: np.zeros(3))
+    with pytest.raises(ValueError, match="force of a field must have shape"):
+        shapes.loads()
+
+
+def test_springs_weight_and_applied_loads():
+    system = actin.System()
+    first = system.add_points([(0, 0, 0), (0, 0, -1.0)], [1.0, 2.0])
+    system.hold([first])
+    system.add_springs([(0, 1)], stiffness=10.0, rest_length=1.0)
+    weight = system.add_weight((0, 0, -5.0))
+    assert system.equilibrium().residual_force < 1e-8
+    assert system.position[1, 2] == pytest.approx(-2.0)
+    system.set_factor(weight, 0.0)
+    system.apply_force([(0, 0, 0), (0, 0, -20.0)])
+    system.equilibrium()
+    assert system.position[1, 2] == pytest.approx(-3.0)
+    force, torque = system.loads()
+    assert np.allclose(force[1], 0.0, atol=1e-8) and force[0, 2] == pytest.approx(-20.0) and torque.shape == (0, 3)
+
+
+def test_an_end_slides_under_its_load():
+    system = actin.System()
+    beam = rod(system, segments=8, length=80.0, end="Wall")
+    tip = beam.points[1] - 1
+    still = np.zeros((2, 3))
+    system.drive([0.0, 1.0], points=[tip], frames=[beam.end_wall], displacement=still, slides=(1, 0, 0))
+    system.add_force([tip], (34.0, 0.0, 0.0))
+    system.equilibrium()
+    # A strain of F / S3.
+    assert system.position[-1, 0] == pytest.approx(80.0 * (1 + 34.0 / 3.4e4))
+
+
+def test_a_scene_by_hand_moves_as_its_run_does(motion):
+    """Same scheme, step and forces: the same places to rounding."""
+    run = actin.run(motion)
+    system = actin.System.from_scene(motion)
+    assert np.array_equal(system.position, run.position_nm[0])
+    system.step(motion.check()["steps"])
+    assert system.time == pytest.approx(1.0)
+    assert np.abs(system.position - run.position_nm[-1]).max() < 1e-9
+    assert system.energies()["rod"] == pytest.approx(run.energies_pn_nm["rod"][-1], rel=1e-9)
+
+
+def test_a_scene_by_hand_finds_its_equilibrium(scene):
+    system = actin.System.from_scene(scene)
+    assert system.equilibrium().stable
+    assert np.abs(system.position - actin.equilibrium(scene).position_nm).max() < 1e-6
+    system.set_factor(0, 0.5)
+    system.equilibrium()
+    half = actin.equilibrium(scene.set("loads[0].force_pn[0]", -1.0))
+    assert np.abs(system.position - half.position_nm).max() < 1e-6
+
+
+def test_steps_that_explode_say_where(motion):
+    system = actin.System.from_scene(motion)
+    before = system.position
+    with pytest.raises(actin.RunFailed) as caught:
+        system.step(1000, h=1.0)
+    assert caught.value.step > 0 and "nm" in caught.value.body
+    assert np.array_equal(system.position, before) and system.steps == 0
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "match"),
+    [
+        (lambda s: s.add_points([(0, 0)], 1.0), ValueError, "position must have shape"),
+        (lambda s: s.add_points([(0, 0, np.nan)], 1.0), ValueError, "must be finite"),
+        (lambda s: s.add_points([(0, 0, 0)], 0.0), ValueError, "mass must be positive"),
+        (lambda s: s.add_springs([(0, 9)], 1.0, 1.0), ValueError, "must be two different ones"),
+        (lambda s: s.add_force([9], (0, 0, 1)), IndexError, "no point 9"),
+        (lambda s: s.set_factor(3, 1.0), IndexError, "no load 3"),
+        (lambda s: s.step(1, h=0.1, scheme="euler"), ValueError, "known are"),
+        (lambda s: s.step(1, h=-0.1), ValueError, "time step"),
+        (lambda s: s.drive([1.0, 2.0], points=[0]), ValueError, "ascend from 0"),
+        (lambda s: s.set_path(0.5), ValueError, "with a path"),
+        (lambda s: setattr(s, "position", np.zeros((3, 3))), ValueError, "must have 1 rows"),
+        (lambda s: rod(s, start="Nail"), ValueError, "no clamp is called"),
+        (lambda s: rod(s, lengths=[1.0]), ValueError, "32 segments"),
+        (lambda s: rod(s, normal=(1, 0, 0)), ValueError, "normal"),
+    ],
+)
+def test_arguments_that_make_no_sense_are_refused(call, error, match):
+    system = actin.System()
+    system.add_points([(0.0, 0.0, 0.0)], 1.0)
+    with pytest.raises(error, match=match):
+        call(system)
+
+
+def test_writing_into_a_snapshot_is_refused():
+    """It would be lost without a word."""
+    system = actin.System()
+    system.add_points(np.zeros((2, 3)), 1.0)
+    for name in ("position", "velocity", "quaternion", "angular_momentum"):
+        assert not getattr(system, name).flags.writeable
+    with pytest.raises(ValueError, match="read-only"):
+        system.position[0, 0] = 1.0
+    system.position = system.position + 1.0
+    assert system.position[1, 2] == 1.0
+
+
+def test_quaternions_have_unit_length():
+    system = actin.System()
+    rod(system, segments=2, length=10.0)
+    system.quaternion = system.quaternion
+    with pytest.raises(ValueError, match="length 1"):
+        system.quaternion = 2.0 * system.quaternion
+
+
+def test_heat_has_its_temperature():
+    """Equipartition: 3 k T / 2 for each point, within four standard errors of 500 points."""
+    system = actin.System()
+    system.add_points(np.zeros((500, 3)), 1.0)
+    system.step(200, h=0.1, drag=(1.0, 1.0), thermal_energy=4.1, seed=3)
+    expected = 1.5 * 500 * 4.1
+    assert abs(system.kinetic_energy - expected) < 4 * 4.1 * np.sqrt(1.5 * 500)

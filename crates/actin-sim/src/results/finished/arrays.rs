@@ -1,0 +1,122 @@
+//! Arrays of `states.npz`, each read from its own place in the file, number by number.
+
+use super::FinishedRunError;
+use npyz::{NpyFile, Order};
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom, Take};
+use std::path::{Path, PathBuf};
+use zip::{CompressionMethod, ZipArchive};
+
+/// The archive.
+#[derive(Debug)]
+pub(super) struct Arrays {
+    path: PathBuf,
+    archive: std::cell::RefCell<ZipArchive<BufReader<File>>>,
+}
+
+impl Arrays {
+    /// Opens the archive.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is no archive.
+    pub(super) fn open(path: PathBuf) -> Result<Self, FinishedRunError> {
+        let file = File::open(&path).map_err(FinishedRunError::io(&path))?;
+        let archive = ZipArchive::new(BufReader::new(file))
+            .map_err(|error| FinishedRunError::io(&path)(error.into()))?;
+        let archive = std::cell::RefCell::new(archive);
+        Ok(Self { path, archive })
+    }
+
+    /// Opens an array of `records` (any number where it is not given) times `shape` numbers.
+    ///
+    /// # Errors
+    /// An array that is not there, is compressed, is of another type or has another shape.
+    pub(super) fn open_array(
+        &self,
+        name: &str,
+        records: Option<usize>,
+        shape: &[usize],
+    ) -> Result<Array, FinishedRunError> {
+        let refused = |reason: String| refusal(&self.path, name, reason);
+        let (start, size) = self.place(name)?;
+        let open = || -> std::io::Result<_> {
+            let mut file = File::open(&self.path)?;
+            file.seek(SeekFrom::Start(start))?;
+            NpyFile::new(BufReader::new(file).take(size))
+        };
+        let array = open().map_err(|error| refused(error.to_string()))?;
+        let found = array.shape().to_vec();
+        let shape = shape.iter().map(|&n| n as u64);
+        let records = records.map_or_else(|| found.first().copied().unwrap_or(0), |n| n as u64);
+        let expected: Vec<u64> = std::iter::once(records).chain(shape).collect();
+        if found != expected || array.order() != Order::C {
+            return Err(refused(format!(
+                "has the shape {found:?} where the scene has {expected:?}"
+            )));
+        }
+        let values = array
+            .data::<f64>()
+            .map_err(|error| refused(error.to_string()))?;
+        Ok(Array {
+            path: self.path.clone(),
+            name: name.to_owned(),
+            values,
+        })
+    }
+
+    /// Where the bytes of an array begin, and how many they are.
+    fn place(&self, name: &str) -> Result<(u64, u64), FinishedRunError> {
+        let refused = |reason: String| refusal(&self.path, name, reason);
+        let mut archive = self.archive.borrow_mut();
+        let entry = archive.by_name(&format!("{name}.npy"));
+        let entry = entry.map_err(|error| refused(error.to_string()))?;
+        match (entry.compression(), entry.data_start()) {
+            (CompressionMethod::Stored, Some(start)) => Ok((start, entry.size())),
+            _ => Err(refused("is compressed, which no run does".to_owned())),
+        }
+    }
+}
+
+fn refusal(path: &Path, name: &str, reason: String) -> FinishedRunError {
+    FinishedRunError::Array {
+        path: path.to_owned(),
+        name: name.to_owned(),
+        reason,
+    }
+}
+
+/// One array, as far as it has been read.
+pub(super) struct Array {
+    path: PathBuf,
+    name: String,
+    values: npyz::NpyReader<f64, Take<BufReader<File>>>,
+}
+
+impl Array {
+    /// The next number.
+    ///
+    /// # Errors
+    /// The end of the array, or a file that cannot be read.
+    pub(super) fn next(&mut self) -> Result<f64, FinishedRunError> {
+        let cut = || Err(std::io::ErrorKind::UnexpectedEof.into());
+        let value = self.values.next().unwrap_or_else(cut);
+        value.map_err(|error| refusal(&self.path, &self.name, error.to_string()))
+    }
+
+    /// All numbers that are left.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub(super) fn read_all(mut self) -> Result<Vec<f64>, FinishedRunError> {
+        (0..self.values.len()).map(|_| self.next()).collect()
+    }
+}
+
+impl std::fmt::Debug for Array {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Array")
+            .field("path", &self.path)
+            .field("name", &self.name)
+            .finish_non_exhaustive()
+    }
+}

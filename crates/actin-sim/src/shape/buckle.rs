@@ -1,0 +1,260 @@
+//! How far, how evenly and how flat a filament has buckled: numbers of a centre line that simulators are
+//! compared by.
+//!
+//! # Source
+//! Definitions of simularium/subcell-pipeline (Allen Institute for Cell Science, 2024), written anew.
+
+use actin_mechanics::Vector3;
+use nalgebra::Matrix3;
+
+/// Vectors shorter than this (nm) have no direction.
+const LEAST_NM: f64 = 1e-6;
+
+/// Numbers of a centre line that has buckled between its ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Buckle {
+    /// Length of the polyline (nm).
+    pub contour_nm: f64,
+    /// Mean distance of its points from the line through its ends (nm).
+    pub mean_distance_nm: f64,
+    /// Where the point farthest from that line stands along it, as a share of the distance of the ends, less a
+    /// half; in size.
+    pub peak_asymmetry: f64,
+    /// Share of the variance of the points along the direction in which they vary least: 0 in a plane, at most
+    /// 1/3.
+    pub non_coplanarity: f64,
+    /// Mean of `1 - cos` of the angle between successive edges.
+    pub bend: f64,
+    /// Sum of the angles between successive normals (cross products of successive edges), in size, by length
+    /// (rad/nm).
+    pub normals_rad_per_nm: f64,
+    /// Supertwist (deg): the angle between the first edge and the last one reversed, both seen along the axis,
+    /// with the sign of most turns from edge to edge; positive for right-handed coils.
+    ///
+    /// Where ends are clamped these two edges run along the axis but for what is left of the helix of monomers
+    /// and of the spacing of points. The angle is then theirs, and no measure of the shape
+    /// (`docs/studies/subcell.md`).
+    pub supertwist_deg: f64,
+}
+
+impl Buckle {
+    /// Those of a polyline along the unit vector `axis`.
+    ///
+    /// # Panics
+    /// If there are fewer than three points.
+    pub fn of(points: &[Vector3], axis: Vector3) -> Self {
+        assert!(points.len() > 2, "a curve that bends has three points");
+        let edges: Vec<Vector3> = points.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let contour_nm = edges.iter().map(Vector3::norm).sum();
+        let (mean_distance_nm, peak_asymmetry) = distances(points);
+        Self {
+            contour_nm,
+            mean_distance_nm,
+            peak_asymmetry,
+            non_coplanarity: non_coplanarity(points),
+            bend: bend(&edges),
+            normals_rad_per_nm: turn_of_normals(&edges) / contour_nm,
+            supertwist_deg: supertwist(&edges, axis).to_degrees(),
+        }
+    }
+}
+
+/// Points of a polyline at equal lengths along it, both ends among them.
+///
+/// # Panics
+/// If there are fewer than two points, of either.
+pub fn equally_spaced(points: &[Vector3], count: usize) -> Vec<Vector3> {
+    assert!(points.len() > 1 && count > 1, "a polyline has two ends");
+    let edge = |i: usize| (points[i + 1] - points[i]).norm();
+    let total: f64 = (0..points.len() - 1).map(edge).sum();
+    let (mut i, mut before) = (0, 0.0);
+    let mut at = |length: f64| {
+        while i + 2 < points.len() && before + edge(i) < length {
+            before += edge(i);
+            i += 1;
+        }
+        let share = if edge(i) > 0.0 {
+            (length - before) / edge(i)
+        } else {
+            0.0
+        };
+        points[i] + (points[i + 1] - points[i]) * share
+    };
+    let inner = (0..count - 1).map(|k| at(total * k as f64 / (count - 1) as f64));
+    let mut spaced: Vec<Vector3> = inner.collect();
+    spaced.push(points[points.len() - 1]);
+    spaced
+}
+
+/// Mean distance from the line through the ends, and how far off its middle the farthest point is.
+fn distances(points: &[Vector3]) -> (f64, f64) {
+    let first = points[0];
+    let line = points[points.len() - 1] - first;
+    let length = line.norm();
+    let along = if length < LEAST_NM {
+        Vector3::zeros()
+    } else {
+        line / length
+    };
+    let (mut sum, mut farthest, mut asymmetry) = (0.0, LEAST_NM, 0.0);
+    for point in points {
+        let arm = point - first;
+        let place = arm.dot(&along);
+        let distance = (arm - along * place).norm();
+        sum += distance;
+        if distance > farthest {
+            (farthest, asymmetry) = (distance, (place / length - 0.5).abs());
+        }
+    }
+    (sum / points.len() as f64, asymmetry)
+}
+
+fn non_coplanarity(points: &[Vector3]) -> f64 {
+    let centre = points.iter().sum::<Vector3>() / points.len() as f64;
+    let spread = |m: Matrix3<f64>, p: &Vector3| m + (p - centre) * (p - centre).transpose();
+    let covariance = points.iter().fold(Matrix3::zeros(), spread);
+    let variances = covariance.symmetric_eigenvalues();
+    // Round-off of a plane curve may be negative.
+    variances.min().max(0.0) / variances.sum()
+}
+
+fn bend(edges: &[Vector3]) -> f64 {
+    let turns = edges
+        .windows(2)
+        .map(|pair| 1.0 - pair[0].angle(&pair[1]).cos());
+    turns.sum::<f64>() / (edges.len() - 1) as f64
+}
+
+fn turn_of_normals(edges: &[Vector3]) -> f64 {
+    let normals: Vec<Vector3> = edges
+        .windows(2)
+        .map(|pair| pair[0].cross(&pair[1]))
+        .collect();
+    normals.windows(2).map(|pair| pair[0].angle(&pair[1])).sum()
+}
+
+/// The supertwist (rad).
+fn supertwist(edges: &[Vector3], axis: Vector3) -> f64 {
+    let across = |edge: &Vector3| {
+        let seen = edge - axis * edge.dot(&axis);
+        let length = seen.norm();
+        if length < LEAST_NM {
+            Vector3::zeros()
+        } else {
+            seen / length
+        }
+    };
+    let seen: Vec<Vector3> = edges.iter().map(across).collect();
+    let (first, last) = (seen[0], -seen[seen.len() - 1]);
+    let turns = seen
+        .windows(2)
+        .map(|pair| axis.dot(&pair[0].cross(&pair[1])));
+    let majority: f64 = turns
+        .map(|turn| if turn == 0.0 { 0.0 } else { turn.signum() })
+        .sum();
+    let sign = if majority == 0.0 {
+        0.0
+    } else {
+        majority.signum()
+    };
+    let (sine, cosine) = (first.cross(&last).norm(), first.dot(&last));
+    sign * sine.atan2(cosine)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// Points of a curve over a parameter from 0 to 1.
+    fn curve(count: usize, at: impl Fn(f64) -> [f64; 3]) -> Vec<Vector3> {
+        let share = |i: usize| i as f64 / (count - 1) as f64;
+        (0..count).map(|i| at(share(i)).into()).collect()
+    }
+
+    /// An arc of radius R and half angle a: length 2 R a, mean distance from its chord R (sin a / a - cos a),
+    /// the top in the middle. It lies in a plane: ends that mirror each other make no supertwist.
+    #[test]
+    fn an_arc_is_flat_and_even() {
+        let (radius, a, n) = (100.0, 1.2_f64, 1201);
+        let arc = curve(n, |t| {
+            let angle = a * (2.0 * t - 1.0);
+            [
+                0.6 * radius * angle.cos(),
+                0.8 * radius * angle.cos(),
+                radius * angle.sin(),
+            ]
+        });
+        let buckle = Buckle::of(&arc, Vector3::z());
+        // Chords are shorter than arcs by (2 a / n)^2 / 24.
+        assert!((buckle.contour_nm - 2.0 * radius * a).abs() < 1e-4);
+        let distance = radius * (a.sin() / a - a.cos());
+        // Ends count half in the integral.
+        assert!((buckle.mean_distance_nm - distance).abs() < 2.0 * distance / n as f64);
+        assert!(buckle.peak_asymmetry < 1e-12 && buckle.non_coplanarity < 1e-14);
+        assert!(buckle.supertwist_deg.abs() < 1e-6 && buckle.normals_rad_per_nm < 1e-6);
+        let between = 2.0 * a / (n - 1) as f64;
+        assert!((buckle.bend - (1.0 - between.cos())).abs() < 1e-12);
+    }
+
+    /// A helix that turns by less than half a turn: its ends make 180 deg less that, positive for the right
+    /// hand along the axis, and the other way round where the axis points against it.
+    #[test]
+    fn supertwist_has_the_sign_of_the_hand() {
+        for (turn, hand) in [(1.9, 1.0), (1.9, -1.0), (0.3, 1.0)] {
+            let n = 400;
+            let helix = curve(n, |t| {
+                let angle = turn * t;
+                [10.0 * angle.cos(), hand * 10.0 * angle.sin(), 40.0 * t]
+            });
+            let between = turn * (n - 2) as f64 / (n - 1) as f64;
+            let expected = hand * (PI - between).to_degrees();
+            let found = Buckle::of(&helix, Vector3::z()).supertwist_deg;
+            assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+            let mirrored = Buckle::of(&helix, -Vector3::z()).supertwist_deg;
+            assert!((mirrored + expected).abs() < 1e-6, "{mirrored}");
+        }
+    }
+
+    /// A helix of whole turns about a long axis: half of the variance across it lies in each of two directions,
+    /// `R^2 / 2` against `H^2 / 12` along it. Its normals turn by `2 pi` times the sine of its pitch per turn.
+    #[test]
+    fn a_coil_is_not_flat() {
+        let (radius, height, turns, n) = (5.0, 200.0, 8.0, 8001);
+        let coil = curve(n, |t| {
+            let angle = 2.0 * PI * turns * t;
+            [radius * angle.cos(), radius * angle.sin(), height * t]
+        });
+        let buckle = Buckle::of(&coil, Vector3::z());
+        let (across, along) = (radius * radius / 2.0, height * height / 12.0);
+        // The sine that goes on along the axis correlates with it: 6 / (2 pi turns)^2 of the smaller variance.
+        let exact = across / (2.0 * across + along);
+        assert!((buckle.non_coplanarity / exact - 1.0).abs() < 0.01);
+        let pitch = height / turns;
+        let edge = (pitch * pitch + (2.0 * PI * radius).powi(2)).sqrt();
+        let torsion = 2.0 * PI * pitch / (edge * edge);
+        // Differences of second order, and one normal fewer at each end.
+        assert!((buckle.normals_rad_per_nm / torsion - 1.0).abs() < 1e-3);
+    }
+
+    /// The peak of a triangle is where it is; points at equal lengths keep its length.
+    #[test]
+    fn points_are_spaced_by_length() {
+        let corners = [
+            [0.0, 0.0, 0.0],
+            [30.0, 0.0, 40.0],
+            [30.0, 0.0, 40.0],
+            [0.0, 0.0, 80.0],
+        ];
+        let spaced = equally_spaced(&corners.map(Vector3::from), 101);
+        assert_eq!(spaced.len(), 101);
+        for pair in spaced.windows(2) {
+            assert!(((pair[1] - pair[0]).norm() - 1.0).abs() < 1e-9);
+        }
+        let buckle = Buckle::of(&spaced, Vector3::z());
+        assert!((buckle.contour_nm - 100.0).abs() < 1e-9 && buckle.peak_asymmetry < 1e-9);
+        assert!((buckle.mean_distance_nm - 30.0 * 50.0 / 101.0).abs() < 1e-9);
+        let lopsided = [[0.0, 0.0, 0.0], [3.0, 0.0, 20.0], [0.0, 0.0, 80.0]].map(Vector3::from);
+        assert!((Buckle::of(&lopsided, Vector3::z()).peak_asymmetry - 0.25).abs() < 1e-12);
+    }
+}

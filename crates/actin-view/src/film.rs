@@ -1,0 +1,320 @@
+//! Films of a run: one PNG picture after the other, without a graphics card.
+//!
+//! Pictures have the place, scale and colours of the page's first view; the camera stands still, or goes around
+//! once it is told to. Every picture has its time and a scale bar.
+
+use crate::pose::{PLATE_NM, bodies};
+use crate::{Attitude, Palette, Run, Things};
+use actin_draw::raster::{Camera, Canvas, Look, Picture};
+use actin_draw::scene3d::Matrix3;
+use actin_sim::Assembly;
+use actin_sim::mechanics::{State, Vector3};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::num::NonZero;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+/// What is seen through bodies counts so much nearer (nm).
+const THROUGH_NM: f64 = 8.0;
+/// Below so many pixels per nm, monomers are drawn with a line through them.
+const FAR: f64 = 0.8;
+/// Room around all bodies (nm).
+const MARGIN_NM: f64 = 7.0;
+/// Height of the strip of scale bar and clock (pixels).
+const FOOT: f64 = 44.0;
+/// Height of letters (pixels).
+const LETTERS: f64 = 15.0;
+/// Length of arrows of forces (pixels).
+const ARROW: f64 = 56.0;
+const PAPER: [u8; 3] = [255; 3];
+const INK: [u8; 3] = [20; 3];
+
+/// How a film is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Film {
+    /// Width and height of pictures (pixels).
+    pub size: [usize; 2],
+    /// Number of pictures; that of the records shown if it is not given.
+    pub pictures: Option<usize>,
+    /// By how much the camera goes around the vertical axis of the picture (rad).
+    pub turn: f64,
+    /// From where it looks at first.
+    pub attitude: Attitude,
+    /// Colours.
+    pub palette: Palette,
+}
+
+impl Default for Film {
+    fn default() -> Self {
+        Self {
+            size: [1280, 720],
+            pictures: None,
+            turn: 0.0,
+            attitude: Attitude::LYING,
+            palette: Palette::default(),
+        }
+    }
+}
+
+impl Film {
+    /// How many pictures there are of a run.
+    pub fn count(&self, run: &Run) -> usize {
+        self.pictures.unwrap_or(run.states.len())
+    }
+
+    /// Writes the pictures `00001.png`, `00002.png`, ... into a folder; `told` hears how many are ready.
+    ///
+    /// # Errors
+    /// A refusal of the file system.
+    pub fn write(&self, run: &Run, folder: &Path, told: &(dyn Fn(usize) + Sync)) -> io::Result<()> {
+        fs::create_dir_all(folder)?;
+        let (count, next, ready) = (self.count(run), AtomicUsize::new(0), AtomicUsize::new(0));
+        let camera = self.camera(run);
+        let work = || {
+            loop {
+                let k = next.fetch_add(1, Ordering::Relaxed);
+                if k >= count {
+                    return Ok(());
+                }
+                let path = folder.join(format!("{:05}.png", k + 1));
+                let mut out = BufWriter::new(File::create(path)?);
+                self.picture(run, (k, count), camera).write_png(&mut out)?;
+                out.flush()?;
+                told(ready.fetch_add(1, Ordering::Relaxed) + 1);
+            }
+        };
+        let threads = thread::available_parallelism().map_or(1, NonZero::get);
+        thread::scope(|scope| {
+            let all: Vec<_> = (0..threads.min(count)).map(|_| scope.spawn(work)).collect();
+            let ended = all.into_iter().map(thread::ScopedJoinHandle::join);
+            ended.into_iter().try_for_each(|one| one.unwrap_or(Ok(())))
+        })
+    }
+
+    /// The camera that sees all records.
+    fn camera(&self, run: &Run) -> Camera {
+        let [width, height] = self.size.map(|n| n as f64);
+        let places: Vec<Vector3> = run
+            .states
+            .iter()
+            .flat_map(|state| state.points.position.iter())
+            .collect();
+        let Attitude { towards, up } = self.attitude;
+        Camera::fitted(
+            [towards.into(), up.into()],
+            &places,
+            MARGIN_NM,
+            [width, height, FOOT],
+        )
+    }
+
+    /// Picture `k` of `count`.
+    fn picture(&self, run: &Run, (k, count): (usize, usize), camera: Camera) -> Picture {
+        let share = |most: usize| {
+            if count < 2 {
+                most
+            } else {
+                (k * most + (count - 1) / 2) / (count - 1)
+            }
+        };
+        let record = share(run.states.len() - 1);
+        let angle = self.turn * k as f64 / count as f64;
+        let camera = camera.turned(self.attitude.up.into(), angle);
+        let mut scene = Scene {
+            canvas: Canvas::new(self.size, camera),
+            assembly: &run.assembly,
+            state: &run.states[record],
+            palette: self.palette,
+            things: self.palette.things(),
+        };
+        scene.paint();
+        let mut picture = scene.canvas.finish(PAPER);
+        self.write_clock(run, record, camera, &mut picture);
+        picture
+    }
+
+    /// Scale bar and clock.
+    fn write_clock(&self, run: &Run, record: usize, camera: Camera, picture: &mut Picture) {
+        let [width, height] = self.size.map(|n| n as f64);
+        let foot = height - 16.0;
+        let length = nice_length(0.16 * width / camera.per_nm());
+        let bar = length * camera.per_nm();
+        let corners = [
+            [16.0, foot - 5.0],
+            [16.0, foot],
+            [16.0 + bar, foot],
+            [16.0 + bar, foot - 5.0],
+        ];
+        picture.stroke(&corners, 2.0, INK);
+        let text = if length >= 1000.0 {
+            format!("{} µm", length / 1000.0)
+        } else {
+            format!("{length} nm")
+        };
+        picture.text([16.0, foot - 11.0], LETTERS, INK, &text);
+        if let Some(clock) = run.clock(record) {
+            picture.text(
+                [width - 0.75 * LETTERS * clock.len() as f64 - 30.0, foot],
+                LETTERS,
+                INK,
+                &clock,
+            );
+        }
+    }
+}
+
+impl Run {
+    /// Time or path of a record that is shown, with as many decimals as all need; nothing where there is but
+    /// one.
+    fn clock(&self, record: usize) -> Option<String> {
+        let (first, last): (f64, f64) = (self.at.first()?.value(), self.at.last()?.value());
+        let span = last - first;
+        if span <= 0.0 {
+            return None;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between 0 and 6"
+        )]
+        let decimals = (2.0 - span.log10().floor()).clamp(0.0, 6.0) as usize;
+        let at = self.at[record];
+        let value = at.value();
+        Some(match at.time_ns() {
+            Some(_) => format!("{value:.decimals$} ns"),
+            None => format!("path {value:.decimals$}"),
+        })
+    }
+}
+
+/// A state, being painted.
+struct Scene<'a> {
+    canvas: Canvas,
+    assembly: &'a Assembly,
+    state: &'a State,
+    palette: Palette,
+    things: &'a Things,
+}
+
+impl Scene<'_> {
+    fn paint(&mut self) {
+        for section in 0..self.assembly.sections.len() {
+            if self.assembly.sections[section].is_ellipsoids() {
+                self.monomers(section);
+            } else {
+                self.rod(section);
+            }
+        }
+        let (assembly, state) = (self.assembly, self.state);
+        for bond in assembly.junction_bonds() {
+            let ends = bodies::ends_of(&bond, state);
+            self.canvas
+                .line(&ends, (0.45, 2.0), self.things.junction, THROUGH_NM);
+        }
+        for i in 0..assembly.linkers.len() {
+            let (ends, holds) = assembly.linker_ends(i, state);
+            if holds {
+                self.canvas
+                    .line(&ends, (0.4, 2.0), self.things.linker, THROUGH_NM);
+            }
+            if assembly.linked_to(i).is_none() {
+                self.canvas
+                    .ball(ends[1], 1.3, self.things.anchor, THROUGH_NM);
+            }
+        }
+        for [a, b, c, d] in bodies::plates(assembly, state, PLATE_NM) {
+            self.canvas
+                .line(&[a, b, c, d, a], (0.5, 1.6), self.things.clamp, 0.0);
+        }
+        for (at, force) in bodies::forces(assembly, state) {
+            self.arrow(at, force);
+        }
+    }
+
+    fn monomers(&mut self, section: usize) {
+        let span = &self.assembly.sections[section];
+        let filament = self.assembly.filament_of_section(section);
+        let lengths = Vector3::from(self.assembly.monomers_of(filament).semi_axes_nm);
+        let colour = self.palette.ramp().at(0.0);
+        let both = [colour, colour.lighter(0.28)];
+        for (k, (point, frame)) in span.points.clone().zip(span.frames.clone()).enumerate() {
+            let axes = self.axes(frame) * Matrix3::from_diagonal(&lengths);
+            let centre = self.state.points.position.get(point);
+            self.canvas.ellipsoid(centre, axes, both[k % 2].0, 0.0);
+        }
+        if self.canvas.per_nm() < FAR {
+            let place = |i: usize| self.state.points.position.get(i);
+            let pairs = span.points.clone().zip(span.points.clone().skip(1));
+            let line: Vec<Vector3> = pairs.map(|(a, b)| 0.5 * (place(a) + place(b))).collect();
+            self.canvas.line(&line, (1.5, 2.6), colour.0, 0.0);
+        }
+    }
+
+    fn rod(&mut self, section: usize) {
+        let span = &self.assembly.sections[section];
+        let nodes = span
+            .points
+            .clone()
+            .map(|i| self.state.points.position.get(i));
+        let frames = span.frames.clone().map(|i| self.axes(i));
+        let (nodes, frames): (Vec<_>, Vec<_>) = (nodes.collect(), frames.collect());
+        let look = Look {
+            colour: self.palette.ramp().at(1.0).lighter(0.12).0,
+            stripe: 0.7,
+            seam: 0.55,
+        };
+        let least = 1.2 / self.canvas.per_nm();
+        self.canvas
+            .tube(&nodes, &frames, bodies::rod_radius_nm().max(least), look);
+    }
+
+    fn axes(&self, frame: usize) -> Matrix3 {
+        let turn = self.state.frames.orientation.get(frame);
+        turn.to_rotation_matrix().into_inner()
+    }
+
+    /// An arrow where a force acts; all are of one length.
+    fn arrow(&mut self, at: Vector3, force: Vector3) {
+        let per_nm = self.canvas.per_nm();
+        let along = force.normalize();
+        let tip = at + along * (ARROW / per_nm);
+        let aside = self.canvas.towards_viewer().cross(&along);
+        let aside = aside.try_normalize(1e-6).unwrap_or_default();
+        let head = |side: f64| tip - (along * 11.0 - aside * (side * 6.0)) / per_nm;
+        let width = (0.0, 3.0);
+        self.canvas
+            .line(&[at, tip], width, self.things.force, 4.0 * THROUGH_NM);
+        let head = [head(1.0), tip, head(-1.0)];
+        self.canvas
+            .line(&head, width, self.things.force, 4.0 * THROUGH_NM);
+    }
+}
+
+/// The largest of 1, 2, 5, 10, ... that is not longer.
+fn nice_length(most: f64) -> f64 {
+    let power = 10_f64.powf(most.log10().floor());
+    let digit = [5.0, 2.0, 1.0]
+        .into_iter()
+        .find(|digit| digit * power <= most);
+    power * digit.unwrap_or(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nice_length;
+
+    #[test]
+    fn bars_have_nice_lengths() {
+        for (most, nice) in [
+            (0.7, 0.5),
+            (1.0, 1.0),
+            (3.9, 2.0),
+            (19.0, 10.0),
+            (5000.0, 5000.0),
+        ] {
+            assert!((nice_length(most) / nice - 1.0_f64).abs() < 1e-12, "{most}");
+        }
+    }
+}

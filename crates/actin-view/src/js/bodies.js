@@ -1,0 +1,206 @@
+// Bodies of a pose as solids: monomers, rods with their frames, junctions, linkers, held ends, forces.
+//
+// A pose holds flat arrays in nm, in the lab frame:
+//   strands   { lengths, places 3n, turns 4n, tint n or null, filament, first, per_interface, bonds }
+//   rods      { radius, nodes 3(n + 1), frames 4n, tint n + 1 or null, filament }
+//   junctions, linkers [6 numbers], anchors [3], clamps [12], forces [6]
+// Colours are those of the element #palette, light or dark with the page.
+
+const Bodies = (() => {
+  'use strict';
+
+  const PALETTE = JSON.parse(document.getElementById('palette').textContent);
+  const THROUGH = 8; // what is seen through bodies counts so much nearer (nm)
+  const ON_SURFACE = 1.2; // what lies between bodies counts so much nearer (nm)
+  const AXIS = 5; // length of the axes of segments (nm)
+  const DARK = window.matchMedia('(prefers-color-scheme: dark)');
+  const { axesOf } = Solids;
+
+  // ---- colours
+
+  // Colours of the page as it is now: the element holds those of both, so that a view and a picture
+  // show one thing in one colour.
+  const shades = () => (DARK.matches ? PALETTE.dark : PALETTE.light);
+  const lighter = (rgb, share) => rgb.map((v) => v + share * (255 - v));
+  const css = (rgb) => `rgb(${rgb.map(Math.round).join(',')})`;
+
+  // The colour at a share of the way along stops.
+  function along(stops, share) {
+    const place = Math.min(1, Math.max(0, share)) * (stops.length - 1);
+    const i = Math.min(Math.floor(place), stops.length - 2), t = place - i;
+    return stops[i].map((v, k) => v + t * (stops[i + 1][k] - v));
+  }
+
+  // The colour of a share of rod.
+  const resolution = (share) => along(shades().stops, share);
+
+  // What stands for what; evaluated at every drawing, since the page may change to dark.
+  function colours() {
+    const { things } = shades(), rod = resolution(1), monomer = resolution(0);
+    return {
+      monomer, other: lighter(monomer, 0.28), rod: lighter(rod, 0.12), ...things,
+      line: rod.map((v) => 0.45 * v), edge: things.junction.map((v) => 0.45 * v), ink: things.force,
+    };
+  }
+
+  // ---- from a file of states
+
+  const flat = (rows, from, to) => Float32Array.from(rows.flatMap((row) => row.slice(from, to)));
+
+  // A state of a file as a pose.
+  function pose(state) {
+    return {
+      ...state,
+      strands: state.strands.map(({ semi_axes: lengths, monomers, ...strand }) => (
+        { ...strand, lengths, places: flat(monomers, 0, 3), turns: flat(monomers, 3, 7) })),
+      rods: state.rods.map(({ nodes, frames }) => (
+        { radius: state.rod_radius, nodes: flat(nodes, 0, 3), frames: flat(frames, 0, 4) })),
+    };
+  }
+
+  // ---- solids
+
+  const at = (places, i) => places.subarray(3 * i, 3 * i + 3);
+
+  // Puts a pose into a view. `tintOf(part, i)` is the colour of monomer or node i of a strand or rod, where
+  // colours stand for something; `bonds` are those of the file, `has` what else is to be seen.
+  function put(space, from, { bonds = [], tintOf = null, has = () => true } = {}) {
+    const palette = colours(), { batch, fine, far } = space;
+    for (const one of [batch, fine, far]) one.clear();
+    for (const strand of from.strands) putStrand(space, strand, { palette, bonds, tintOf, has });
+    for (const rod of from.rods) putRod(space, rod, { palette, tintOf, has });
+    for (const bond of from.junctions) {
+      const ends = [bond.slice(0, 3), bond.slice(3, 6)];
+      batch.line(ends, 0.55, palette.edge, THROUGH, 3.2);
+      batch.line(ends, 0.32, palette.junction, THROUGH + 0.5, 1.8);
+    }
+    if (has('linkers')) {
+      for (const ends of from.linkers) {
+        batch.line([ends.slice(0, 3), ends.slice(3, 6)], 0.3, palette.linker, THROUGH, 1.8);
+        for (const k of [0, 3]) batch.ball(ends.slice(k, k + 3), 0.7, palette.linker, THROUGH, 2);
+      }
+      for (const anchor of from.anchors) batch.ball(anchor, 1.3, palette.anchor, THROUGH, 3);
+    }
+    for (const c of from.clamps) {
+      const corners = [0, 3, 6, 9, 0].map((i) => [c[i], c[i + 1], c[i + 2]]);
+      batch.line(corners, 0.5, palette.clamp);
+    }
+    space.ink = () => colours().ink;
+    space.arrows = has('forces') ? from.forces.map((f) => [...f.slice(0, 6), `${short(Math.hypot(f[3], f[4], f[5]))} pN`]) : [];
+    space.draw();
+  }
+
+  // Monomers; from near, the bonds from each to the next and to the one after, which are kept in 0.01 nm in
+  // the frames of both; from far, a line.
+  function putStrand({ batch, fine, far }, strand, { palette, bonds, tintOf, has }) {
+    const { places, turns, lengths, first } = strand, count = places.length / 3, line = [];
+    const colourOf = (i) => (tintOf ? tintOf(strand, i) : i % 2 ? palette.other : palette.monomer);
+    for (let i = 0; i < count; i++) batch.ellipsoid(places, 3 * i, turns, 4 * i, lengths, colourOf(i));
+    for (let i = 0; i + 1 < count; i++) {
+      line.push([0, 1, 2].map((k) => (places[3 * i + k] + places[3 * i + 3 + k]) / 2));
+      if (i > 0) {
+        const [p, q] = line.slice(-2), u = Solids.unit([q[0] - p[0], q[1] - p[1], q[2] - p[2]]);
+        far.piece(p, q, u, u, [1, 0, 0, 0], [0, 0], [1.5, 2.6, 0], [colourOf(i), colourOf(i + 1)], [0, 1]);
+      }
+    }
+    const set = bonds[strand.bonds];
+    if (!set || !has('bonds')) return;
+    const frames = Array.from({ length: count }, (_, i) => axesOf(turns, 4 * i));
+    const place = (i, a) => [0, 1, 2].map((k) => places[3 * i + k] + 0.01
+      * (a[0] * frames[i][0][k] + a[1] * frames[i][1][k] + a[2] * frames[i][2][k]));
+    for (let i = 0; i < count; i++) {
+      (set[first + i] || []).forEach((ends, kind) => {
+        const upper = i + 1 + kind;
+        for (let k = 0; k < ends.length && upper < count; k += 6) {
+          const both = [place(i, ends.slice(k, k + 3)), place(upper, ends.slice(k + 3, k + 6))];
+          fine.line(both, 0.06, palette.bonds[kind], ON_SURFACE, 1.2);
+        }
+      });
+    }
+  }
+
+  // A rod with its stripe; through it its centre line and its nodes; from near, the axes of its segments.
+  function putRod({ batch, fine }, rod, { palette, tintOf, has }) {
+    const { nodes, frames, radius } = rod, count = nodes.length / 3;
+    const colourAt = (i) => (tintOf ? tintOf(rod, i) : palette.rod);
+    batch.rod(nodes, frames, radius, colourAt, [0.7, 0.55], 2.4);
+    if (!has('frames')) return;
+    for (let i = 0; i < count; i++) {
+      fine.ball(at(nodes, i), 0.45, palette.node, THROUGH - 0.5, 1.8);
+      if (i + 1 === count) continue;
+      const middle = [0, 1, 2].map((k) => (nodes[3 * i + k] + nodes[3 * i + 3 + k]) / 2);
+      fine.line([at(nodes, i), at(nodes, i + 1)], 0.15, palette.line, THROUGH - 1);
+      axesOf(frames, 4 * i).forEach((axis, k) => fine.line(
+        [middle, middle.map((v, j) => v + AXIS * axis[j])], 0.18, palette.axes[k], THROUGH - 0.8, 2));
+    }
+  }
+
+  // All places that a pose takes, to look at them.
+  function places(from) {
+    const ends = [...from.linkers, ...from.junctions].flatMap((l) => [l.slice(0, 3), l.slice(3, 6)]);
+    const clamps = from.clamps.flatMap((c) => [0, 3, 6, 9].map((i) => [...c.slice(i, i + 3)]));
+    const bodies = [...from.strands.map((s) => s.places), ...from.rods.map((r) => r.nodes)];
+    const loose = [...ends, ...clamps, ...from.anchors].flatMap((p) => [...p]);
+    const all = new Float32Array(bodies.reduce((sum, b) => sum + b.length, loose.length));
+    let to = 0;
+    for (const part of [...bodies, loose]) {
+      all.set(part, to);
+      to += part.length;
+    }
+    return all;
+  }
+
+  // What there is in a pose, by name and colour; `sample` says how many bonds are drawn.
+  function legend(from, { isFine, sample = '', isTinted = false, filaments = null }) {
+    const palette = colours(), near = Number(isFine), hasBonds = near * Number(sample !== '');
+    const kinds = isTinted ? [] : [
+      [from.strands.length, 'monomers, every other one lighter', palette.monomer],
+      [from.rods.length, 'rod', palette.rod],
+      [from.rods.length, 'd1 on its surface, both sides', lighter(palette.rod, 0.7)],
+    ];
+    return [
+      ...(filaments || kinds),
+      [hasBonds * from.strands.length, `lateral bonds, ${sample}`, palette.bonds[0]],
+      [hasBonds * from.strands.length, `longitudinal bonds, ${sample}`, palette.bonds[1]],
+      [near * from.rods.length, 'its centre line', palette.line],
+      [near * from.rods.length, 'nodes', palette.node],
+      ...['d1', 'd2', 'd3'].map((name, k) => [near * from.rods.length, `${name} of segments`, palette.axes[k]]),
+      [from.junctions.length, 'bonds of the junction', palette.junction],
+      [from.linkers.length, 'linkers', palette.linker],
+      [from.anchors.length, 'anchors', palette.anchor],
+      [from.clamps.length, 'held ends', palette.clamp],
+      [(1 - near) * Number(from.rods.length > 0 || sample !== ''),
+        'Bonds between monomers and axes of segments show from nearer.', null],
+    ].filter(([count]) => count > 0).map(([, ...entry]) => entry);
+  }
+
+  // Puts a legend into a list, if it is another than before.
+  function explain(list, entries) {
+    const text = JSON.stringify(entries);
+    if (text === list.dataset.text) return;
+    list.dataset.text = text;
+    list.replaceChildren(...entries.map(([name, colour]) => {
+      const item = document.createElement('li'), swatch = document.createElement('span');
+      if (colour) {
+        swatch.style.background = css(colour);
+        item.append(swatch);
+      }
+      item.append(name);
+      return item;
+    }));
+  }
+
+  // How many bonds of an interface are drawn.
+  function sample({ strands }, bonds) {
+    if (strands.length === 0) return '';
+    const [{ bonds: set, first, per_interface: all }] = strands;
+    if (!bonds[set]) return '';
+    const count = (bonds[set][first] || [[]])[0].length / 6;
+    return count < all ? `${count} of ${all} an interface` : 'all';
+  }
+
+  // Three digits.
+  const short = (x) => String(Number(x.toPrecision(3)));
+
+  return { pose, put, places, legend, explain, sample, resolution, along, colours, shades, css, lighter, short, DARK };
+})();

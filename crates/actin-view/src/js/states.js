@@ -1,0 +1,99 @@
+// Every <figure class="viewer"> of the page becomes a view of states that can be turned.
+//
+// A figure holds a <script type="application/json"> with `attitude` (towards the viewer, up),
+// `bonds` between monomers, and `states`: bodies as plain numbers in nm, in the lab frame (see
+// crates/actin-view/src/states.rs). Camera and input are in space.js, bodies in bodies.js.
+
+(() => {
+  'use strict';
+
+  class View {
+    constructor(figure) {
+      this.data = JSON.parse(figure.querySelector('script').textContent);
+      this.legend = figure.querySelector('.legend');
+      this.space = new Space(figure.querySelector('canvas'));
+      if (!this.space.isThere) return;
+      this.groups = [...new Set(this.data.states.map((s) => s.group))];
+      this.space.drawn = () => this.explain();
+      this.controls(figure);
+      this.choose(this.groups[0]);
+      this.space.reset();
+      Bodies.DARK.addEventListener('change', () => this.put());
+    }
+
+    // Menus and buttons; a menu with nothing to choose is left out.
+    controls(figure) {
+      const bar = figure.querySelector('.controls');
+      const add = (name, text, act) => {
+        const element = document.createElement(name);
+        element.textContent = text;
+        if (name === 'button') element.type = 'button';
+        element.addEventListener(name === 'select' ? 'change' : 'click', act);
+        bar.append(element);
+        return element;
+      };
+      this.groupMenu = add('select', '', () => this.choose(this.groupMenu.value));
+      this.groupMenu.setAttribute('aria-label', 'Setting');
+      this.groupMenu.append(...this.groups.map((g) => new Option(g, g)));
+      this.groupMenu.hidden = this.groups.length < 2;
+      this.stateMenu = add('select', '', () => {
+        this.state = this.members[this.stateMenu.selectedIndex];
+        this.put();
+      });
+      this.stateMenu.setAttribute('aria-label', 'Resolution');
+      this.compare = add('button', 'Compare', () => {
+        const on = this.compare.getAttribute('aria-pressed') !== 'true';
+        this.compare.setAttribute('aria-pressed', String(on));
+        this.put();
+      });
+      this.compare.setAttribute('aria-pressed', 'false');
+      add('button', '−', () => this.space.zoomBy(1 / 1.3)).setAttribute('aria-label', 'Smaller');
+      add('button', '+', () => this.space.zoomBy(1.3)).setAttribute('aria-label', 'Larger');
+      add('button', 'Reset', () => this.space.reset());
+    }
+
+    // Shows a group, and of its states the one of the name shown before, or the middle one.
+    choose(group) {
+      const before = this.state && this.state.name;
+      this.members = this.data.states.filter((s) => s.group === group);
+      this.stateMenu.replaceChildren(...this.members.map((s) => new Option(s.name)));
+      const same = this.members.findIndex((s) => s.name === before);
+      const index = same < 0 ? Math.floor(this.members.length / 2) : same;
+      this.state = this.members[index];
+      this.stateMenu.selectedIndex = index;
+      this.stateMenu.hidden = this.members.length < 2;
+      this.compare.hidden = this.members.length < 2;
+      // All states of the group as first seen, so that they are compared at one scale.
+      this.space.frame(this.data.attitude, this.members.flatMap((s) => [
+        ...s.lines.flat(), ...s.linkers.flatMap((l) => [l.slice(0, 3), l.slice(3)])]));
+      this.put();
+    }
+
+    get isCompared() {
+      return this.compare.getAttribute('aria-pressed') === 'true';
+    }
+
+    // Puts what is chosen into the view: a state, or the centre lines of the whole group.
+    put() {
+      this.pose = Bodies.pose(this.state);
+      Bodies.put(this.space, this.pose, { bonds: this.data.bonds });
+      if (!this.isCompared) return;
+      const { batch, fine, far } = this.space;
+      for (const one of [batch, fine, far]) one.clear();
+      for (const state of this.members) {
+        for (const line of state.lines) batch.line(line, 0.5, Bodies.resolution(state.share), 0, 2.4);
+      }
+    }
+
+    // The legend: what there is in the chosen state, or the states that are compared.
+    explain() {
+      const entries = this.isCompared
+        ? this.members.map((s) => [s.name, Bodies.resolution(s.share)])
+        : Bodies.legend(this.pose, {
+          isFine: this.space.isFine, sample: Bodies.sample(this.pose, this.data.bonds) });
+      Bodies.explain(this.legend, entries);
+    }
+  }
+
+  document.querySelectorAll('figure.viewer').forEach((figure) => new View(figure));
+})();

@@ -1,0 +1,91 @@
+//! Numbers of a run against its time or path: the columns of `energies.csv` and `observables.csv`.
+
+use super::thin;
+use std::path::Path;
+
+/// A column of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Curve {
+    /// As the file has it.
+    pub name: String,
+    /// Of the rows: time (ns) or path.
+    pub at: Vec<f64>,
+    /// NaN where a cell is empty.
+    pub values: Vec<f64>,
+}
+
+/// The columns of a CSV file whose first column is time or path.
+///
+/// # Errors
+/// A file that cannot be read, and what is no number, with row and column.
+pub(super) fn read(path: &Path) -> Result<Vec<Curve>, String> {
+    let mut reader = csv::Reader::from_path(path).map_err(|error| error.to_string())?;
+    let names = reader.headers().map_err(|error| error.to_string())?;
+    let names: Vec<String> = names.iter().map(str::to_owned).collect();
+    let mut columns = vec![Vec::new(); names.len()];
+    for (row, record) in reader.records().enumerate() {
+        let record = record.map_err(|error| error.to_string())?;
+        for ((cell, column), name) in record.iter().zip(&mut columns).zip(&names) {
+            let value = if cell.is_empty() {
+                f64::NAN
+            } else {
+                let no_number = |_| format!("row {}, {name}: {cell:?} is no number", row + 1);
+                cell.parse().map_err(no_number)?
+            };
+            column.push(value);
+        }
+    }
+    Ok(of_columns(names, columns))
+}
+
+/// Curves of columns, the first of which is time or path.
+pub(super) fn of_columns(names: Vec<String>, columns: Vec<Vec<f64>>) -> Vec<Curve> {
+    let mut columns = columns.into_iter();
+    let at = columns.next().unwrap_or_default();
+    let named = names.into_iter().skip(1).zip(columns);
+    named
+        .map(|(name, values)| Curve {
+            name,
+            at: at.clone(),
+            values,
+        })
+        .collect()
+}
+
+/// The same with at most so many rows, evenly chosen, and without what is zero throughout.
+pub(super) fn thinned(curves: Vec<Curve>, rows: usize) -> Vec<Curve> {
+    let says = |curve: &Curve| curve.values.iter().any(|v| !v.is_nan() && *v != 0.0);
+    let thin = |curve: Curve| {
+        let which = thin::evenly(curve.at.len(), rows);
+        Curve {
+            at: which.iter().map(|&i| curve.at[i]).collect(),
+            values: which.iter().map(|&i| curve.values[i]).collect(),
+            name: curve.name,
+        }
+    };
+    curves.into_iter().filter(says).map(thin).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_become_curves() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv");
+        std::fs::write(&path, "time_ns,a,b\n0.0,1.0,0.0\n1.5,,0.0\n2.0,3.0,0.0\n").unwrap();
+        let curves = read(&path).unwrap();
+        assert_eq!(curves[0].name, "a");
+        assert_eq!(curves[1].at, [0.0, 1.5, 2.0]);
+        assert!(curves[0].values[1].is_nan());
+        assert_eq!(curves[0].values[2..], [3.0]);
+        let shown = thinned(curves, 2);
+        assert_eq!(
+            (shown.len(), shown[0].at.as_slice()),
+            (1, [0.0, 2.0].as_slice())
+        );
+        std::fs::write(&path, "time_ns,a\n0.0,x\n").unwrap();
+        assert_eq!(read(&path).unwrap_err(), "row 1, a: \"x\" is no number");
+    }
+}

@@ -1,0 +1,230 @@
+//! What the page's script reads: states as arrays in base64, little-endian, and what they stand for.
+//!
+//! Of each record shown: places of all points (f32, nm), orientations of all frames (i16, 1/32767; w, x, y,
+//! z), what moves besides (f32), and fields on all points (u16, from the lowest to the
+//! highest of all records).
+
+use super::{Curve, Run};
+use crate::pose::{Bonds, PLATE_NM, bodies, share};
+use actin_sim::mechanics::{State, Vector3};
+use actin_sim::{Assembly, At};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::{Value, json};
+
+/// Fields on the points.
+const FIELDS: usize = 4;
+/// Most monomers whose bonds are put on a page: they take 500 bytes each.
+const MOST_WITH_BONDS: usize = 1000;
+
+/// Bytes of states that a record takes.
+pub(super) fn bytes_per_record(assembly: &Assembly) -> usize {
+    let besides =
+        7 * assembly.linkers.len() + 12 * assembly.clamps.len() + 6 * assembly.scene.loads.len();
+    (12 + 2 * FIELDS) * assembly.points.len() + 8 * assembly.frames.len() + 4 * besides + 1
+}
+
+impl Run {
+    /// The data of the page.
+    pub(super) fn data(&self) -> Value {
+        let Self {
+            assembly, states, ..
+        } = self;
+        let unit = match self.at.first() {
+            Some(At::Time(_)) => "ns",
+            _ => "",
+        };
+        let (strands, rods, bonds) = sections(assembly);
+        json!({
+            "unit": unit,
+            "at": self.at.iter().map(|at| at.value()).collect::<Vec<_>>(),
+            "record": self.which,
+            "records": self.records,
+            "points": assembly.points.len(),
+            "frames": assembly.frames.len(),
+            "filaments": assembly.filaments.len(),
+            "spans": assembly.filaments.iter().map(|f| &f.points).collect::<Vec<_>>(),
+            "arcs": floats(assembly.points.iter().map(|p| p.s_nm)),
+            "strands": strands,
+            "rods": rods,
+            "bonds": bonds,
+            "junctions": assembly.junction_bonds().iter().map(|b| [b.monomer, b.node]).collect::<Vec<_>>(),
+            "places": floats(states.iter().flat_map(|s| flat(s.points.position.iter()))),
+            "turns": turns(states),
+            "linkers": floats(states.iter().flat_map(|s| linkers(assembly, s))),
+            "anchored": (0..assembly.linkers.len()).map(|i| assembly.linked_to(i).is_none()).collect::<Vec<_>>(),
+            "clamps": floats(states.iter().flat_map(|s| {
+                bodies::plates(assembly, s, PLATE_NM).into_iter().flatten().flat_map(|v| [v.x, v.y, v.z])
+            })),
+            "held": assembly.clamps.len(),
+            "forces": states.iter().map(|s| forces(assembly, s)).collect::<Vec<_>>(),
+            "fields": fields(self),
+            "curves": self.curves.iter().map(curve).collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// Sections of monomers, rods, and the bonds between monomers.
+fn sections(assembly: &Assembly) -> (Vec<Value>, Vec<Value>, Vec<Bonds>) {
+    let (mut strands, mut rods, mut bonds) = (Vec::new(), Vec::new(), Vec::new());
+    let with_bonds = assembly.counts().monomers <= MOST_WITH_BONDS;
+    for (i, section) in assembly.sections.iter().enumerate() {
+        let filament = assembly.filament_of_section(i);
+        let own = (&section.points, &section.frames);
+        let Some((first, per_interface, drawn)) = Bonds::of(assembly, i) else {
+            rods.push(json!({
+                "radius": bodies::rod_radius_nm(), "points": own.0, "frames": own.1, "filament": filament,
+            }));
+            continue;
+        };
+        strands.push(json!({
+            "lengths": assembly.monomers_of(filament).semi_axes_nm, "points": own.0, "frames": own.1,
+            "filament": filament, "first": first, "per_interface": per_interface,
+            "bonds": with_bonds.then(|| share(&mut bonds, drawn)),
+        }));
+    }
+    (strands, rods, bonds)
+}
+
+fn flat(vectors: impl Iterator<Item = Vector3>) -> impl Iterator<Item = f64> {
+    vectors.flat_map(|v| [v.x, v.y, v.z])
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "pictures need no more than 24 bits"
+)]
+fn floats(values: impl Iterator<Item = f64>) -> String {
+    let bytes: Vec<u8> = values.flat_map(|x| (x as f32).to_le_bytes()).collect();
+    STANDARD.encode(bytes)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "components of unit quaternions"
+)]
+fn turns(states: &[State]) -> String {
+    let all = states.iter().flat_map(|s| s.frames.orientation.iter());
+    let components = all.flat_map(|q| [q.w, q.i, q.j, q.k]);
+    let bytes = components.flat_map(|x| ((x * 32767.0).round() as i16).to_le_bytes());
+    STANDARD.encode(bytes.collect::<Vec<u8>>())
+}
+
+/// Both ends of each linker, and whether it holds.
+fn linkers(assembly: &Assembly, state: &State) -> Vec<f64> {
+    let all = 0..assembly.linkers.len();
+    all.flat_map(|i| {
+        let ([a, b], holds) = assembly.linker_ends(i, state);
+        [a.x, a.y, a.z, b.x, b.y, b.z, f64::from(u8::from(holds))]
+    })
+    .collect()
+}
+
+/// Place and force of each load, rounded as far as a picture shows it.
+fn forces(assembly: &Assembly, state: &State) -> Vec<[f64; 6]> {
+    let all = bodies::forces(assembly, state).into_iter();
+    all.map(|(p, f)| [p.x, p.y, p.z, f.x, f.y, f.z].map(|x| (x * 1e4).round() / 1e4))
+        .collect()
+}
+
+/// A quantity on all points of all records.
+struct Field {
+    name: &'static str,
+    unit: &'static str,
+    /// Whether zero is the middle of its colours.
+    is_signed: bool,
+    values: Vec<f64>,
+}
+
+/// What the filament does at its points, for colours.
+fn fields(run: &Run) -> Vec<Value> {
+    let field = |name, unit, is_signed| Field {
+        name,
+        unit,
+        is_signed,
+        values: Vec::new(),
+    };
+    let mut all = [
+        field("curvature", "rad/µm", false),
+        field("twist beyond the helix", "rad/µm", true),
+        field("elastic energy per length", "pN", false),
+        field("moved since the first record", "nm", false),
+    ];
+    for state in &run.states {
+        let moved = moved(&run.assembly, &run.states[0], state);
+        for (i, moved) in local(&run.assembly, state).into_iter().zip(moved) {
+            for (field, value) in all.iter_mut().zip(i.into_iter().chain([moved])) {
+                field.values.push(value);
+            }
+        }
+    }
+    all.into_iter().filter_map(Field::encoded).collect()
+}
+
+/// Curvature and twist (rad/µm) and energy per length (pN) at each point, from the profile of its filament.
+fn local(assembly: &Assembly, state: &State) -> Vec<[f64; 3]> {
+    let mut all = Vec::with_capacity(assembly.points.len());
+    for (i, span) in assembly.filaments.iter().enumerate() {
+        let profile = actin_sim::shape::profile_of(assembly, i, state);
+        for point in &assembly.points[span.points.clone()] {
+            let next = profile.partition_point(|p| p.s_nm < point.s_nm);
+            let next = next.clamp(1, profile.len() - 1);
+            let [a, b] = [&profile[next - 1], &profile[next]];
+            let share = ((point.s_nm - a.s_nm) / (b.s_nm - a.s_nm)).clamp(0.0, 1.0);
+            let mix = |a: f64, b: f64| a + share * (b - a);
+            all.push([
+                1e3 * mix(a.curvature_rad_per_nm, b.curvature_rad_per_nm),
+                1e3 * mix(a.twist_rad_per_nm, b.twist_rad_per_nm),
+                mix(a.energy_per_length_pn, b.energy_per_length_pn),
+            ]);
+        }
+    }
+    all
+}
+
+/// How far each point is from where it was (nm).
+fn moved<'a>(
+    assembly: &'a Assembly,
+    first: &'a State,
+    state: &'a State,
+) -> impl Iterator<Item = f64> + 'a {
+    let points = 0..assembly.points.len();
+    points.map(|i| (state.points.position.get(i) - first.points.position.get(i)).norm())
+}
+
+impl Field {
+    /// As JSON; nothing if it is zero everywhere, to round-off of a nanometre's last digits.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 0 and 65535"
+    )]
+    fn encoded(self) -> Option<Value> {
+        let high = self
+            .values
+            .iter()
+            .fold(0.0, |most: f64, v| most.max(v.abs()));
+        if high < 1e-9 {
+            return None;
+        }
+        let low = if self.is_signed { -high } else { 0.0 };
+        let step = |v: &f64| (65535.0 * (v - low) / (high - low)).round() as u16;
+        let bytes: Vec<u8> = self
+            .values
+            .iter()
+            .flat_map(|v| step(v).to_le_bytes())
+            .collect();
+        Some(json!({
+            "name": self.name, "unit": self.unit, "low": low, "high": high, "signed": self.is_signed,
+            "values": STANDARD.encode(bytes),
+        }))
+    }
+}
+
+fn curve(curve: &Curve) -> Value {
+    json!({
+        "name": curve.name,
+        "at": floats(curve.at.iter().copied()),
+        "values": floats(curve.values.iter().copied()),
+    })
+}

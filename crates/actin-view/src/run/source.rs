@@ -1,0 +1,206 @@
+//! Where the records of a run come from: its results, its checkpoint, or nowhere.
+
+use super::curves::{self, Curve};
+use actin_sim::mechanics::State;
+use actin_sim::{
+    Assembly, At, Checkpoints, Plan, Records, Row, RunDirectory, Status, StoredStates, Summary,
+};
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+/// What was found in a run directory.
+pub(super) struct Source<'a> {
+    pub summary: Option<Summary>,
+    pub remarks: Vec<String>,
+    pub curves: Vec<Curve>,
+    /// When, or where on the path, each record was taken.
+    pub at: Vec<At>,
+    states: States<'a>,
+}
+
+enum States<'a> {
+    Stored(StoredStates<'a>),
+    Checkpoint(Vec<State>),
+    None,
+}
+
+impl<'a> Source<'a> {
+    /// Looks into a directory; what is missing or damaged becomes a remark.
+    pub(super) fn of(path: &Path, assembly: &'a Assembly) -> Self {
+        let mut source = Self {
+            summary: None,
+            remarks: Vec::new(),
+            curves: Vec::new(),
+            at: Vec::new(),
+            states: States::None,
+        };
+        source.read_summary(path);
+        let directory = RunDirectory::existing(path);
+        if source.summary.is_none() && directory.has_checkpoint() {
+            source.read_checkpoint(&directory, assembly);
+        } else {
+            source.read_results(path, &directory, assembly);
+        }
+        source
+    }
+
+    fn read_summary(&mut self, path: &Path) {
+        let path = path.join("summary.json");
+        let text = match fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return,
+            Err(error) => return self.remark(format!("summary.json cannot be read: {error}.")),
+        };
+        match serde_json::from_str::<Summary>(&text) {
+            Ok(summary) => {
+                if summary.status == Status::Interrupted {
+                    self.remark(
+                        "The run was interrupted: what follows is what it had got to.".into(),
+                    );
+                }
+                if !summary.failure.is_empty() {
+                    self.remark(format!("The run failed: {}.", summary.failure));
+                }
+                self.summary = Some(summary);
+            }
+            Err(error) => self.remark(format!("summary.json is damaged: {error}.")),
+        }
+    }
+
+    /// The results of a run that has ended.
+    fn read_results(&mut self, path: &Path, directory: &RunDirectory, assembly: &'a Assembly) {
+        if self.summary.is_none() {
+            self.remark(
+                "There is no summary.json that can be read: the run has not ended, or was stopped before its \
+                 first checkpoint."
+                    .into(),
+            );
+        }
+        for name in ["energies.csv", "observables.csv"] {
+            let file = path.join(name);
+            if !file.exists() {
+                continue;
+            }
+            match curves::read(&file) {
+                Ok(found) => self.curves.extend(found),
+                Err(error) => self.remark(format!("{name} is damaged: {error}.")),
+            }
+        }
+        match directory.stored_states(assembly) {
+            Ok(Some(stored)) => {
+                self.at = stored.at().to_vec();
+                self.states = States::Stored(stored);
+            }
+            Ok(None) if !assembly.scene.output.states => self.remark(
+                "The scene has output: (states: false), so that no states were kept: filaments are shown as \
+                 built."
+                    .into(),
+            ),
+            Ok(None) => self.remark("There is no states.npz: filaments are shown as built.".into()),
+            Err(error) => self.remark(format!("{error}. Filaments are shown as built.")),
+        }
+    }
+
+    /// The records of a run that has not ended, from its checkpoint.
+    fn read_checkpoint(&mut self, directory: &RunDirectory, assembly: &Assembly) {
+        match checkpointed(directory, assembly) {
+            Ok((at, states, curves)) => {
+                let last = at.last().map_or(0.0, |at| at.value());
+                let unit = match at.last() {
+                    Some(At::Time(_)) => " ns",
+                    _ => " of its path",
+                };
+                self.remark(format!(
+                    "The run has not ended: these are its {} records up to its last checkpoint, at {last:.6}{unit}.",
+                    at.len()
+                ));
+                (self.at, self.curves) = (at, curves);
+                self.states = States::Checkpoint(states);
+            }
+            Err(reason) => self.remark(format!(
+                "The run has not ended, and its checkpoint cannot be read: {reason}. Filaments are shown as built."
+            )),
+        }
+    }
+
+    /// The states of records `which`; none, with a remark, where they cannot be read.
+    pub(super) fn states(&mut self, which: &[usize]) -> Option<Vec<State>> {
+        match std::mem::replace(&mut self.states, States::None) {
+            States::Stored(stored) => match stored.read(which) {
+                Ok(states) => Some(states),
+                Err(error) => {
+                    self.remark(format!("{error}. Filaments are shown as built."));
+                    self.at.clear();
+                    None
+                }
+            },
+            States::Checkpoint(states) => {
+                let chosen = which.iter().filter_map(|&i| states.get(i).cloned());
+                let chosen: Vec<State> = chosen.collect();
+                (!chosen.is_empty()).then_some(chosen)
+            }
+            States::None => None,
+        }
+        .filter(|states| !states.is_empty())
+    }
+
+    fn remark(&mut self, text: String) {
+        self.remarks.push(text);
+    }
+}
+
+type Checkpointed = (Vec<At>, Vec<State>, Vec<Curve>);
+
+/// Times, states and curves of the records of a checkpoint; nothing is written.
+fn checkpointed(directory: &RunDirectory, assembly: &Assembly) -> Result<Checkpointed, String> {
+    let plan = Plan::new(assembly).map_err(|problem| problem.to_string())?;
+    let never = Arc::new(AtomicBool::new(false));
+    let mut sink = Checkpoints::new(directory, &plan, Duration::MAX, never, |_| {});
+    sink.resume(&plan).map_err(|error| error.to_string())?;
+    let (mut at, mut states) = (Vec::new(), Vec::new());
+    for record in sink.iter() {
+        let record = record.map_err(|error| error.to_string())?;
+        at.push(record.at);
+        states.push(record.state.clone());
+    }
+    let rows: Result<Vec<Row>, _> = sink.rows().collect();
+    let rows = rows.map_err(|error| error.to_string())?;
+    Ok((at, states, curves_of(assembly, &rows)))
+}
+
+/// The curves of rows: sums of energies, residuals, what is observed.
+fn curves_of(assembly: &Assembly, rows: &[Row]) -> Vec<Curve> {
+    let potential = |row: &Row| row.energies_pn_nm.iter().sum::<f64>();
+    let mut names: Vec<String> = [
+        "at",
+        "total_pn_nm",
+        "potential_pn_nm",
+        "kinetic_pn_nm",
+        "residual_force_pn",
+        "residual_torque_pn_nm",
+    ]
+    .map(str::to_owned)
+    .into();
+    names.extend(assembly.observed_columns().iter().cloned());
+    let numbers = |row: &Row| {
+        let first = [
+            row.at.value(),
+            potential(row) + row.kinetic_pn_nm,
+            potential(row),
+            row.kinetic_pn_nm,
+            row.residual_force_pn,
+            row.residual_torque_pn_nm,
+        ];
+        first
+            .into_iter()
+            .chain(row.observed.iter().copied())
+            .collect()
+    };
+    let table: Vec<Vec<f64>> = rows.iter().map(numbers).collect();
+    let column = |k: usize| table.iter().map(|row: &Vec<f64>| row[k]).collect();
+    let columns = (0..names.len()).map(column).collect();
+    curves::of_columns(names, columns)
+}

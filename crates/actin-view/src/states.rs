@@ -1,0 +1,258 @@
+//! States to be compared in a view of a page: which there are, and their file.
+//!
+//! The view itself is `js/states.js`. Colours are not stored: the page has those of its
+//! palette.
+
+use crate::pose::{Bonds, Pose};
+use actin_draw::report::{View, save};
+use serde::Serialize;
+use std::path::Path;
+
+/// A state to be looked at.
+#[derive(Clone, Debug, Serialize)]
+pub struct Shown {
+    /// States of one group are compared with one another.
+    pub group: String,
+    /// Name within the group.
+    pub name: String,
+    /// Share of rod, for the colour among the group.
+    pub share: f64,
+    #[serde(flatten)]
+    /// Its bodies.
+    pub pose: Pose,
+}
+
+/// From where a filament is seen first: towards the viewer, and what points upwards.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Attitude {
+    /// Towards the viewer.
+    pub towards: [f64; 3],
+    /// What points upwards.
+    pub up: [f64; 3],
+}
+
+impl Attitude {
+    /// Lab z to the right, lab x upwards, a little from above.
+    pub const LYING: Self = Self {
+        towards: [0.35, 1.0, 0.15],
+        up: [1.0, 0.0, 0.0],
+    };
+    /// Lab z upwards.
+    pub const STANDING: Self = Self {
+        towards: [-0.35, -1.0, 0.25],
+        up: [0.0, 0.0, 1.0],
+    };
+}
+
+#[derive(Serialize)]
+struct File {
+    attitude: Attitude,
+    /// Bonds between monomers, which states refer to by number.
+    bonds: Vec<Bonds>,
+    states: Vec<Shown>,
+}
+
+/// Writes the states of artefact `id` into the output folder.
+///
+/// # Errors
+/// No states, NaN or infinity, a file that cannot be written.
+pub fn write(
+    id: &str,
+    attitude: Attitude,
+    states: &[Shown],
+    caption: String,
+    out: &Path,
+) -> Result<View, String> {
+    let file = format!("{id}_view.json");
+    if states.is_empty() {
+        return Err(format!("{file}: no states to show"));
+    }
+    if let Some(bad) = states.iter().find(|s| !s.pose.is_finite()) {
+        return Err(format!("{file}: {} {} is not finite", bad.group, bad.name));
+    }
+    let (mut bonds, mut states) = (Vec::new(), states.to_vec());
+    for state in &mut states {
+        state.pose.share_bonds(&mut bonds);
+    }
+    let view = File {
+        attitude,
+        bonds,
+        states,
+    };
+    let text = serde_json::to_string(&view).map_err(|e| format!("{file}: {e}"))?;
+    save(out, &file, &text)?;
+    Ok(View { file, caption })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use actin_sim::mechanics::Vector3;
+    use actin_sim::{Assembly, BodyKind, Scene};
+
+    fn text(scene: &str) -> String {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios");
+        let path = Path::new(path).join(scene);
+        std::fs::read_to_string(path).unwrap()
+    }
+
+    fn assembled(text: &str) -> Assembly {
+        Assembly::build(&Scene::from_ron(text).unwrap()).unwrap()
+    }
+
+    fn built(scene: &str) -> Assembly {
+        assembled(&text(scene))
+    }
+
+    fn mixed() -> Assembly {
+        built("figure-5/linkers.ron")
+    }
+
+    fn shown(assembly: &Assembly) -> Shown {
+        Shown {
+            group: "a".into(),
+            name: "b".into(),
+            share: 0.5,
+            pose: Pose::of(assembly, assembly.system.state()),
+        }
+    }
+
+    fn monomers(pose: &Pose) -> Vec<[f64; 7]> {
+        let strands = pose.strands.iter();
+        strands.flat_map(|s| s.monomers.clone()).collect()
+    }
+
+    /// Every body is there once, where it is, of one filament and of three that are linked. Symptoms
+    /// of the plausible bugs: a rod one node short, monomers in the order of something else, a
+    /// quaternion with its scalar last, nothing but the first filament.
+    #[test]
+    fn a_pose_holds_the_bodies_of_the_assembly() {
+        for assembly in [mixed(), built("crosslinked.ron")] {
+            let pose = shown(&assembly).pose;
+            let counts = assembly.counts();
+            let monomers = monomers(&pose);
+            assert_eq!(monomers.len(), counts.monomers);
+            let segments: usize = pose.rods.iter().map(|rod| rod.frames.len()).sum();
+            assert_eq!(segments, counts.segments);
+            let mut rods = pose.rods.iter();
+            assert!(rods.all(|r| r.nodes.len() == r.frames.len() + 1));
+            assert_eq!(pose.junctions.len(), assembly.junction_bonds().len());
+            assert_eq!(pose.linkers.len(), assembly.linkers.len());
+            assert_eq!(pose.clamps.len(), assembly.clamps.len());
+            let lines: Vec<usize> = pose.lines.iter().map(Vec::len).collect();
+            let spans = assembly.filaments.iter().map(|f| f.points.len());
+            assert!(lines.into_iter().eq(spans));
+            let state = assembly.system.state();
+            let is_monomer = |i: &usize| assembly.points[*i].kind == BodyKind::Monomer;
+            let places = (0..assembly.points.len()).filter(is_monomer);
+            for (i, [x, y, z, w, ..]) in places.zip(&monomers) {
+                let place = Vector3::new(*x, *y, *z);
+                // Half a step of rounding in each of three components.
+                assert!((place - state.points.position.get(i)).norm() < 0.9e-2);
+                let frame = assembly.points[i].frame.unwrap();
+                assert!((state.frames.orientation.get(frame).w - w).abs() < 1e-4);
+            }
+            // What is built straight lies on its axis, each filament on its own.
+            for (line, filament) in pose.lines.iter().zip(&assembly.filaments) {
+                let off_axis = |p: &[f64; 3]| {
+                    let place = filament.seen_along_z(Vector3::from(*p));
+                    place.x.hypot(place.y)
+                };
+                assert!(line.iter().all(|p| off_axis(p) < 1e-2));
+            }
+        }
+    }
+
+    /// Linkers between filaments have no anchors; all filaments have the same weighted bonds, and each
+    /// drawn ones of its own.
+    #[test]
+    fn linked_filaments_keep_their_sites_and_bonds_apart() {
+        let assembly = built("crosslinked.ron");
+        let mut pose = shown(&assembly).pose;
+        assert!(pose.anchors.is_empty() && pose.linkers.len() == 4);
+        // The gaps of 8.4 nm between sites on neighbouring filaments.
+        for [ax, ay, az, bx, by, bz] in &pose.linkers {
+            let gap = Vector3::new(bx - ax, by - ay, bz - az).norm();
+            assert!((gap - 8.4).abs() < 0.02, "{gap}");
+        }
+        let sets = |pose: &mut Pose| -> Vec<usize> {
+            pose.share_bonds(&mut Vec::new());
+            pose.strands.iter().map(|s| s.bonds).collect()
+        };
+        assert_eq!(sets(&mut pose), [0; 5]);
+        let drawn = "monomers: Monomers(anchors: Independent), sections: [";
+        let drawn = assembled(&text("crosslinked.ron").replace("sections: [", drawn));
+        assert_eq!(sets(&mut shown(&drawn).pose), [0, 1, 1, 2, 2]);
+        let anchored = shown(&mixed()).pose;
+        assert_eq!(anchored.anchors.len(), anchored.linkers.len());
+    }
+
+    /// A bond that is drawn is one that acts: from its end on the lower monomer to that on the upper,
+    /// as the viewer puts them into space, it is as long as the model says it is at rest.
+    #[test]
+    fn bonds_of_the_viewer_are_those_that_act() {
+        let assembly = mixed();
+        let mut pose = shown(&assembly).pose;
+        let mut sets = Vec::new();
+        pose.share_bonds(&mut sets);
+        let strand = &pose.strands[0];
+        let to_lab = |k: usize, anchor: &[i16]| {
+            let [x, y, z, w, i, j, l] = strand.monomers[k];
+            let arm = Vector3::from_iterator(anchor.iter().map(|a| f64::from(*a) * 1e-2));
+            let axis = Vector3::new(i, j, l);
+            let aside = 2.0 * axis.cross(&arm);
+            Vector3::new(x, y, z) + arm + w * aside + axis.cross(&aside)
+        };
+        let section = assembly
+            .sections
+            .iter()
+            .position(actin_sim::SectionSpan::is_ellipsoids);
+        let model = assembly.bonds_of(section.unwrap()).unwrap();
+        let mut seen = 0;
+        for pair in model.pairs() {
+            let index = strand.first + i64::try_from(pair.lower).unwrap();
+            let both = sets[strand.bonds].at_monomer(index).unwrap();
+            let drawn = both[pair.upper - pair.lower - 1].chunks(6);
+            for (drawn, bond) in drawn.zip(model.bonds_of(pair)) {
+                let ends = [(pair.lower, &drawn[..3]), (pair.upper, &drawn[3..])];
+                let [lower, upper] = ends.map(|(k, anchor)| to_lab(k, anchor));
+                // Rounding of two centres, two anchors and two quaternions at 2.7 nm.
+                let length = (upper - lower).norm();
+                assert!((length - bond.rest_length).abs() < 0.04, "{pair:?}");
+                seen += 1;
+            }
+        }
+        assert_eq!(seen, 8 * model.pairs().len());
+    }
+
+    /// The file reads back as JSON without a null, which is what a number that is none becomes.
+    #[test]
+    fn a_file_of_states_is_finite_and_small() {
+        let folder = tempfile::tempdir().unwrap();
+        let shown = shown(&mixed());
+        let states = [shown.clone()];
+        let view = write("a", Attitude::LYING, &states, "c".into(), folder.path()).unwrap();
+        let text = std::fs::read_to_string(folder.path().join(&view.file)).unwrap();
+        let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let strand = &value["states"][0]["strands"][0];
+        let monomers = strand["monomers"].as_array().unwrap();
+        assert_eq!(monomers.len(), shown.pose.strands[0].monomers.len());
+        assert!(!text.contains("null"));
+        // A body takes 7 numbers, and 3 for its centre line, of at most 8 characters each; a monomer
+        // 16 bonds of 6 numbers of at most 5 characters, and as many names of its place.
+        let bodies = shown.pose.lines[0].len();
+        let all = value["states"][0]["strands"].as_array().unwrap().iter();
+        let all: usize = all.map(|s| s["monomers"].as_array().unwrap().len()).sum();
+        assert!(text.len() < 100 * bodies + 500 * all + 1000);
+        // A second state of the same monomers does not bring their bonds again.
+        let states = [shown.clone(), shown.clone()];
+        let view = write("b", Attitude::LYING, &states, "c".into(), folder.path()).unwrap();
+        let twice = std::fs::read_to_string(folder.path().join(&view.file)).unwrap();
+        assert!(twice.len() - text.len() < 100 * bodies + 1000);
+        let mut bad = shown;
+        bad.pose.strands[0].monomers[0][0] = f64::NAN;
+        let refused = write("a", Attitude::LYING, &[bad], "c".into(), folder.path());
+        assert!(refused.unwrap_err().contains("not finite"));
+        assert!(write("a", Attitude::LYING, &[], "c".into(), folder.path()).is_err());
+    }
+}
