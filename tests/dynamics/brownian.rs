@@ -1,6 +1,7 @@
 //! Overdamped motion of scenes: where it comes to rest, how fast, and its noise.
 
 use crate::contact::pushed_across;
+use actin_sim::mechanics::Vector3;
 use actin_sim::{Assembly, End, Plan, Record, Scene};
 
 /// The records of a scene.
@@ -62,6 +63,37 @@ fn noise_is_that_of_the_seed() {
     assert_eq!(tip(0.0, 1), tip(0.0, 2));
 }
 
+/// A free filament goes with a stream, and turns in a shear flow as a line of the fluid does, whatever resolves it: from across the
+/// flow by the angle whose tangent is rate times time.
+#[test]
+fn free_filaments_follow_a_flow() {
+    for sections in SECTIONS {
+        let moved = |flow: &str| {
+            let (assembly, records) = run(&format!(
+                "Scene(
+                    filament: Filament(sections: [{sections}]),
+                    task: Brownian(duration_ms: 1e-3, temperature_k: 0.0, time_step_ns: 1.0, flow: {flow}),
+                )"
+            ));
+            let ends = |record: &Record| {
+                [End::Start, End::End].map(|end| assembly.tip_nm(&record.state, end))
+            };
+            let [first, last] = [0, records.len() - 1].map(|k| ends(&records[k]));
+            (last[0] - first[0], last[1] - last[0])
+        };
+        let (drift, _) = moved("Stream(velocity_um_per_s: (2e3, -1e3, 5e2))");
+        assert!(
+            (drift - Vector3::new(2.0, -1.0, 0.5)).norm() < 1e-6,
+            "{drift:?}"
+        );
+        let (_, along) =
+            moved("Shear(rate_per_s: 5e5, along: (9.0, 0.0, 0.0), across: (0.0, 0.0, 1e-9))");
+        let tangent = along.x / along.z;
+        println!("{sections}: {tangent}");
+        assert!((tangent / 0.5 - 1.0).abs() < 0.01, "{tangent}");
+    }
+}
+
 /// What `Brownian` cannot do is refused with its key.
 #[test]
 fn what_has_no_sense_is_refused() {
@@ -78,6 +110,10 @@ fn what_has_no_sense_is_refused() {
     let follower = cantilever(rod, "Brownian(duration_ms: 1.0, temperature_k: 0.0)");
     let follower = refused(&follower.replace("EndForce(end", "Force(follows: true, end"));
     assert!(follower.contains("loads[0].follows"), "{follower}");
+    let shear = "Shear(rate_per_s: 1.0, along: (1.0, 0.0, 0.0), across: (1.0, 0.0, 1.0))";
+    let oblique = format!("Brownian(duration_ms: 1.0, temperature_k: 0.0, flow: {shear})");
+    let oblique = refused(&cantilever(rod, &oblique));
+    assert!(oblique.contains("task.flow.across"), "{oblique}");
 }
 
 /// Steps at which some motion is too warm are told; the default ones, and any without heat, are not.
@@ -89,9 +125,9 @@ fn long_steps_are_told() {
         Plan::new(&assembly.unwrap()).unwrap().notes()
     };
     let told = |notes: &[String]| {
-        notes.iter().any(|note| {
-            note.contains("more than its thermal") || note.contains("more than their thermal")
-        })
+        notes
+            .iter()
+            .any(|note| note.contains("drawn anew") || note.contains("more than their thermal"))
     };
     for sections in SECTIONS {
         assert!(!told(&notes(sections, 298.0, "")));

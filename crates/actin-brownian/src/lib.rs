@@ -1,7 +1,7 @@
 //! Overdamped motion of points and frames in a fluid: friction, and steps that are implicit in the
 //! stiffness.
 //!
-//! [`Friction`] is made of [`Dashpot`]s between bodies and a fluid at rest; a [`Cylinder`] says how strong
+//! [`Friction`] is made of [`Dashpot`]s between bodies and a fluid, at rest or in a [`Flow`]; a [`Cylinder`] says how strong
 //! those of a slender body are. [`Brownian`] makes the steps of an `actin_integrate::Run`, with thermal noise or
 //! without. [`Relaxation`] says what it has to resolve.
 //!
@@ -15,12 +15,14 @@
 struct Readme;
 
 mod cylinder;
+mod flow;
 mod friction;
 mod relaxation;
 mod stepper;
 mod stress;
 
 pub use cylinder::{Cylinder, CylinderError};
+pub use flow::Flow;
 pub use friction::{Dashpot, Friction, TurnDashpot};
 pub use relaxation::Relaxation;
 pub use stepper::{Brownian, BrownianError, StepLimits};

@@ -2,9 +2,9 @@
 
 mod common;
 
-use actin_brownian::Relaxation;
+use actin_brownian::{Flow, Relaxation};
 use actin_cosserat::{RodClamp, RodEnd, RodLayout, StraightRod};
-use actin_mechanics::{State, System, UnitQuaternion, Vector3};
+use actin_mechanics::{State, System, UnitQuaternion, Vector3, rotation};
 use common::{FRICTION, advance, free_rod, friction_of, law, layout_of, rigidities, tip};
 
 /// Middle, direction and mean frame of a short rod.
@@ -140,4 +140,41 @@ fn relaxation_is_of_second_order() {
     let orders: Vec<f64> = errors.windows(2).map(|e| (e[0] / e[1]).log2()).collect();
     println!("errors {errors:?}, orders {orders:?}");
     assert!(orders.iter().all(|order| (1.8..2.3).contains(order)));
+}
+
+/// In a stream a free rod goes along with it, whichever way it lies. In a shear flow its middle does, and it turns as a line
+/// of the fluid, `cot phi = cot phi_0 + rate t`, with noise that is too small to see or none.
+#[test]
+fn rods_follow_a_flow() {
+    const STEPS: u64 = 200;
+    let stream = Vector3::new(0.3, -0.2, 0.5);
+    let rate = 0.02;
+    let shear = Flow::shear(rate, Vector3::z(), Vector3::x());
+    for (flow, noise) in [(Flow::stream(stream), 0.0), (shear, 0.0), (shear, 1e-12)] {
+        let (mut system, stepper, rod) = free_rod(4, LENGTH, (noise, 1), |_, _| Vec::new());
+        let mut stepper = stepper.in_flow(flow);
+        // From nearly across the flow, in its plane.
+        let tilt = rotation::exp(Vector3::y() * 1.4);
+        let state = system.state_mut();
+        for i in 0..state.points.len() {
+            let place = tilt * state.points.position.get(i) - tilt * Vector3::z() * 0.5 * LENGTH;
+            state.points.position.set(i, place);
+        }
+        for i in 0..state.frames.len() {
+            let q = tilt * state.frames.orientation.get(i);
+            state.frames.orientation.set(i, q);
+        }
+        let before = pose(&system, &rod);
+        let h = 0.1;
+        advance(&mut system, &mut stepper, (0, STEPS), h, |_| ());
+        let after = pose(&system, &rod);
+        let time = h * STEPS as f64;
+        let drift = after.0 - before.0 - flow.velocity * time;
+        assert!(drift.norm() < 1e-4, "{drift:?}");
+        let cot = |axis: Vector3| axis.z / axis.x;
+        let grown = cot(after.1) - cot(before.1);
+        let expected = flow.gradient[(2, 0)] * time;
+        println!("{flow:?}: {grown}, {expected}");
+        assert!((grown - expected).abs() < 1e-3, "{grown}, {expected}");
+    }
 }

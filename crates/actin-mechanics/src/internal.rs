@@ -41,6 +41,15 @@ impl InternalForce {
         loads.torque.add(self.frame, self.force.cross(&y));
     }
 
+    /// Adds its loads but for the torque about the third axis of the frame.
+    pub fn add_loads_without_spin(&self, state: &State, loads: &mut Loads) {
+        let before = loads.torque.get(self.frame).z;
+        self.add_loads(state, loads);
+        let mut torque = loads.torque.get(self.frame);
+        torque.z = before;
+        loads.torque.set(self.frame, torque);
+    }
+
     /// Adds the second derivatives of its energy.
     pub fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         let (axes, y) = self.seen(state);
@@ -71,6 +80,22 @@ impl InternalCouple {
         loads.torque.add(b, inverse.tr_mul(&self.couple));
         // J_l(theta) = J_r(theta)^T.
         loads.torque.add(a, -(self.rest * (inverse * self.couple)));
+    }
+
+    /// Adds its loads with torques about the third axes of the frames that are those of a pure twist: what bends does not turn
+    /// frames about themselves.
+    pub fn add_loads_without_spin(&self, state: &State, loads: &mut Loads) {
+        let before = self.frames.map(|i| loads.torque.get(i).z);
+        self.add_loads(state, loads);
+        for (i, z) in self
+            .frames
+            .into_iter()
+            .zip([before[0] - self.couple.z, before[1] + self.couple.z])
+        {
+            let mut torque = loads.torque.get(i);
+            torque.z = z;
+            loads.torque.set(i, torque);
+        }
     }
 
     /// Adds the second derivatives of its energy: with `D` the derivative of `J_r(theta)^-T m` by `theta`, the block of `b` is

@@ -61,7 +61,7 @@ pub use scene::schema;
 pub use scene::{
     Acceleration, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking, Brownian,
     Catch, Clamp, Couple, CouplePerLength, DragRates, Drawn, Dynamics, End, Equilibrium, Factor,
-    Filament, Fluid, Force, ForceLaw, ForcePerLength, Forming, Hinge, Hold, Imperfection,
+    Filament, Flow, Fluid, Force, ForceLaw, ForcePerLength, Forming, Hinge, Hold, Imperfection,
     Integrator, JunctionModel, JunctionWeight, Kinetics, Linker, LinkerSite, Load, Material,
     Monomers, Observable, Output, Override, Pace, Plane, Point, Repulsion, RodLaw, RodLaws,
     RodModel, RotaryInertia, Scene, SceneError, SceneProblem, SceneText, SceneValue, Section,

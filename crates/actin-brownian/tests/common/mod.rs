@@ -17,11 +17,7 @@ pub(crate) fn rigidities() -> Rigidities {
 
 /// The friction of a rod, evenly along it.
 pub(crate) fn friction_of(rod: &RodLayout) -> Friction {
-    friction_with(rod, FRICTION)
-}
-
-/// The same with friction per length along, across, about the axis, of tilt.
-pub(crate) fn friction_with(rod: &RodLayout, [along, across, about, tilt]: [f64; 4]) -> Friction {
+    let [along, across, about, tilt] = FRICTION;
     let mut friction = Friction::default();
     for (k, length) in rod.segment_lengths().iter().enumerate() {
         let (first, frame) = (rod.points().start + k, rod.frames().start + k);
@@ -71,23 +67,6 @@ pub(crate) fn free_rod(
     let system = System::new(state, interactions);
     let noise = (thermal_energy, seed);
     let steps = Brownian::new(&system, layout, friction_of(&rod), noise).unwrap();
-    (system, steps, rod)
-}
-
-/// A free rod in a friction of its own.
-pub(crate) fn free_rod_with(
-    segments: usize,
-    length: f64,
-    (thermal_energy, seed): (f64, u64),
-    friction: impl FnOnce(&RodLayout) -> Friction,
-) -> (System, Brownian, RodLayout) {
-    let mut state = State::default();
-    let rod = StraightRod::uniform(segments, length / segments as f64);
-    let rod = rod.push(&mut state).unwrap();
-    let layout = layout_of(&state, &rod);
-    let system = System::new(state, vec![law(&rod)]);
-    let noise = (thermal_energy, seed);
-    let steps = Brownian::new(&system, layout, friction(&rod), noise).unwrap();
     (system, steps, rod)
 }
 

@@ -86,6 +86,7 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
     let longest_sound = OF_FASTEST * fastest_ns;
     let wanted = task.time_step_ns.unwrap_or(longest_sound);
     let steps = Steps::of(&motion, wanted.min(motion.duration_ns))?;
+    task.flow.check_step(steps.length_ns)?;
     check_records(assembly, &motion, &steps)?;
     assembly.check_rates(steps.length_ns)?;
     Ok(Estimate {
@@ -121,6 +122,7 @@ pub(super) fn run(
     // The order of unknowns is that of the state as built, wherever a run is resumed.
     let mut stepper = Brownian::new(&system, layout(assembly)?, friction, noise)
         .map_err(|error| refused(&error))?;
+    stepper = stepper.in_flow(task.flow.physical());
     if !estimate.has_random_stress() {
         stepper = stepper.by_midpoints();
     }

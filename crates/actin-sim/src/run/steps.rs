@@ -181,8 +181,7 @@ impl Estimate {
         let what = if longest.has_monomers {
             "stretch and shear then hold more than their thermal energy"
         } else {
-            "what relaxes within a step is then drawn anew in it; with segments of 40 nm bending over 400 nm was measured to \
-             have 1, 3, 6 % more than its thermal energy in steps of 100, 300, 1000 ns"
+            "what relaxes within a step is drawn anew in it, with its thermal energy and without memory"
         };
         self.exceeds(longest).then(|| {
             let (step, longest) = (self.time_step_ns, longest.ns);

@@ -8,6 +8,7 @@ mod brownian;
 mod curve;
 mod factor;
 pub(crate) mod fitted;
+mod flow;
 mod imperfection;
 mod kinetics;
 mod law;
@@ -48,6 +49,7 @@ pub use brownian::{Brownian, Fluid};
 pub(crate) use curve::{Curve, swept};
 pub use factor::Factor;
 pub(crate) use factor::smooth;
+pub use flow::Flow;
 pub use imperfection::Imperfection;
 pub use kinetics::{Breaking, Catch, Forming, Kinetics, Stepping};
 pub use law::{

@@ -50,6 +50,15 @@ pub(super) fn all_finite(key: &str, values: [f64; 3]) -> Result<(), SceneProblem
     Err(SceneProblem::new(key, show(values), "must be finite"))
 }
 
+/// A direction: three finite numbers, not all zero.
+pub(super) fn direction(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
+    all_finite(key, values)?;
+    if values.iter().any(|v| v.abs() > 0.0) {
+        return Ok(());
+    }
+    Err(SceneProblem::new(key, show(values), "must not be zero"))
+}
+
 /// Three finite numbers greater than zero.
 pub(super) fn each_positive(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
     if values.iter().all(|v| v.is_finite() && *v > 0.0) {

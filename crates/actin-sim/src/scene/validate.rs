@@ -113,15 +113,7 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
 
 fn check_place(filament: &Filament) -> Result<(), SceneProblem> {
     all_finite("filament.at_nm", filament.at_nm)?;
-    all_finite("filament.direction", filament.direction)?;
-    if filament.direction.iter().all(|d| d.abs() <= 0.0) {
-        let rule = "must not be zero";
-        return Err(SceneProblem::new(
-            "filament.direction",
-            show(filament.direction),
-            rule,
-        ));
-    }
+    rules::direction("filament.direction", filament.direction)?;
     finite("filament.roll_deg", filament.roll_deg)
 }
 

@@ -1,0 +1,55 @@
+//! A fluid that moves.
+
+use actin_mechanics::{Matrix3, UnitQuaternion, Vector3};
+
+/// A flow that is linear in place: `u(x) = velocity + gradient x` (lab frame).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Flow {
+    /// Velocity at the origin (nm/ns).
+    pub velocity: Vector3,
+    /// Velocity gradient, `du_i/dx_j` (1/ns).
+    pub gradient: Matrix3,
+}
+
+impl Flow {
+    /// The same velocity everywhere (nm/ns).
+    pub fn stream(velocity: Vector3) -> Self {
+        Self {
+            velocity,
+            ..Self::default()
+        }
+    }
+
+    /// A velocity in the direction `along` that grows by `rate` (1/ns) in the direction `across`, zero at the origin.
+    ///
+    /// ```
+    /// use actin_brownian::{Flow, Vector3};
+    /// let flow = Flow::shear(0.5, Vector3::x(), Vector3::y());
+    /// assert_eq!(flow.velocity_at(Vector3::new(7.0, 4.0, 0.0)), Vector3::x() * 2.0);
+    /// ```
+    pub fn shear(rate: f64, along: Vector3, across: Vector3) -> Self {
+        Self {
+            velocity: Vector3::zeros(),
+            gradient: along * across.transpose() * rate,
+        }
+    }
+
+    /// Velocity at a place (nm/ns).
+    pub fn velocity_at(&self, place: Vector3) -> Vector3 {
+        self.velocity + self.gradient * place
+    }
+
+    /// The angular velocity (rad/ns, axes of the body) at which a slender piece along the body's third axis turns with
+    /// the fluid: across as a line in it does, `t x G t`, about itself by half of the curl.
+    pub(crate) fn turning(&self, q: UnitQuaternion) -> Vector3 {
+        let g = &self.gradient;
+        let curl = Vector3::new(
+            g[(2, 1)] - g[(1, 2)],
+            g[(0, 2)] - g[(2, 0)],
+            g[(1, 0)] - g[(0, 1)],
+        );
+        let axis = q * Vector3::z();
+        let turning = axis.cross(&(g * axis)) + axis * (0.5 * curl.dot(&axis));
+        q.inverse_transform_vector(&turning)
+    }
+}
