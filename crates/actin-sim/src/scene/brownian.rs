@@ -30,7 +30,7 @@ pub struct Brownian {
     pub flow: Flow,
     /// Longest time step; positive. By default 50 times the fastest relaxation of the filaments as built, at which all
     /// strains have their thermal energy to 1 % on segments of 20 nm or more. In longer steps of rods at a temperature what is
-    /// faster is drawn anew in each, bending within 1 % at 300 ns on segments of 40 nm. Steps are shortened so that whole ones
+    /// faster is drawn anew in each, bending to 1 % in 300 ns on segments of 40 nm. Steps are shortened so that whole ones
     /// make up the duration and the interval of records.
     #[serde(default)]
     pub time_step_ns: Option<f64>,

@@ -1,7 +1,7 @@
 //! The rules that numbers of a scene have to satisfy.
 
 use super::rules::{
-    all_finite, check_potential, each_positive, finite, non_negative, positive, show,
+    all_finite, check_potential, direction, each_positive, finite, non_negative, positive, show,
 };
 use super::support::{check_support, check_swings};
 use super::{
@@ -113,7 +113,7 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
 
 fn check_place(filament: &Filament) -> Result<(), SceneProblem> {
     all_finite("filament.at_nm", filament.at_nm)?;
-    rules::direction("filament.direction", filament.direction)?;
+    direction("filament.direction", filament.direction)?;
     finite("filament.roll_deg", filament.roll_deg)
 }
 
