@@ -128,14 +128,7 @@ impl Job<'_> {
         }
     }
 
-    /// Runs a scene: in memory, or into the run directory `out`.
-    ///
-    /// `overwrite` replaces an earlier run there, `resume` continues one that was interrupted, to the same bits.
-    /// `progress` shows a bar (`True`, and by default on a terminal), nothing (`False`), or calls a function with a
-    /// `Progress`.
-    ///
-    /// Raises `SceneError`; `RunFailed`, and on Ctrl-C `Interrupted`, with what was recorded; `OSError` for the
-    /// directory.
+    /// The run as Python has it.
     fn run(
         &self,
         py: Python<'_>,
@@ -203,7 +196,14 @@ struct Target {
     every: Duration,
 }
 
-/// Runs a scene into memory, or into a directory.
+/// Runs a scene: in memory, or into the run directory `out`.
+///
+/// `overwrite` replaces an earlier run there, `resume` continues one that was interrupted, to the same bits.
+/// `progress` shows a bar (`True`, and by default on a terminal), nothing (`False`), or calls a function with a
+/// `Progress`.
+///
+/// Raises `SceneError`; `RunFailed`, and on Ctrl-C `Interrupted`, with what was recorded; `OSError` for the
+/// directory.
 #[pyfunction]
 #[pyo3(signature = (scene, out = None, *, overwrite = false, resume = false, checkpoint_every_s = 60.0, progress = None))]
 pub(crate) fn run(
