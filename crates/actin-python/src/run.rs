@@ -175,11 +175,7 @@ fn failed(py: Python<'_>, failure: &Failure, run: Option<Py<PyAny>>) -> PyErr {
     let attributes = PyDict::new(py);
     let mut set = attributes.set_item("run", run);
     if let Failure::Diverged { failure, body } = failure {
-        set = set
-            .and_then(|()| attributes.set_item("step", failure.step))
-            .and_then(|()| attributes.set_item("time_ns", failure.time))
-            .and_then(|()| attributes.set_item("body", body))
-            .and_then(|()| attributes.set_item("term", failure.term));
+        set = set.and_then(|()| errors::locate(&attributes, failure, body));
     }
     match set {
         Ok(()) => errors::raise(py, "RunFailed", &failure.to_string(), &attributes),
