@@ -102,7 +102,7 @@ fn film(arguments: &ViewArguments, run: &Run, folder: &Path) -> Result<(), Failu
     bar.finish_and_clear();
     written.map_err(|error| Failure::Unwritten(format!("{}: {error}", folder.display())))?;
     println!(
-        "{} pictures written to {}",
+        "{} picture(s) written to {}",
         film.count(run),
         folder.display()
     );

@@ -55,6 +55,36 @@ fn an_interrupted_run_goes_on_to_the_same_bytes() {
     }
 }
 
+/// A run that was killed and has nothing but a checkpoint can be looked at: its records up to there, the last
+/// where no states are kept, and what was built where nothing can be read.
+#[test]
+fn a_killed_run_can_be_looked_at() {
+    let observed = observed();
+    for (scene, told) in [
+        (MOTION, "record(s) up to its last checkpoint, at "),
+        (
+            &observed,
+            "this is its last record before its last checkpoint",
+        ),
+    ] {
+        let place = Workplace::with(scene);
+        place.interrupted("a", "checkpoint.bin", &["-KILL"]);
+        assert!(!place.path("a/summary.json").exists());
+        let page = || {
+            let output = place.shell("actin view a");
+            assert_eq!(code(&output), 0, "{}", stderr(&output));
+            fs::read_to_string(place.path("a/view.html")).unwrap()
+        };
+        let before = contents(&place.path("a"));
+        assert!(page().contains(told), "{told}");
+        // Nothing that the run goes on from is touched.
+        fs::remove_file(place.path("a/view.html")).unwrap();
+        assert_eq!(before, contents(&place.path("a")));
+        fs::remove_file(place.path("a/records.bin")).unwrap();
+        assert!(page().contains("its checkpoint cannot be read"));
+    }
+}
+
 /// Both signals wait while the program is stopped: when it goes on, the second kills it at once.
 #[test]
 fn a_second_signal_kills() {

@@ -7,6 +7,7 @@
 //! - [`report`] holds rows of numbers with what they are compared with, and reads and writes them.
 //! - [`page`] puts pictures, rows and text into one HTML file without links to anything outside.
 //! - [`space`] has the scripts of views that a reader turns.
+//! - [`browser`](fn@browser) finds what prints and tests pages.
 //! - [`Ramp`] and the sets of [`lines`] are colours that keep their differences on white paper.
 //!
 //! Nothing here knows what is drawn: shapes, numbers and texts come from the caller.
@@ -15,6 +16,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod browser;
 mod colour;
 pub mod page;
 mod palette;
@@ -25,6 +27,7 @@ mod scatter;
 pub mod scene3d;
 pub mod space;
 
+pub use browser::browser;
 pub use colour::Colour;
 pub use nalgebra;
 pub use palette::{Ramp, lines};

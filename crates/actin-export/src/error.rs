@@ -1,6 +1,6 @@
 //! Why a run cannot be exported.
 
-use actin_sim::FinishedRunError;
+use actin_sim::{FinishedRunError, RunDirectoryError};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -12,6 +12,9 @@ pub enum ExportError {
     /// The run cannot be read.
     #[error(transparent)]
     Run(#[from] FinishedRunError),
+    /// Its states cannot be read.
+    #[error(transparent)]
+    States(#[from] RunDirectoryError),
     /// There is a file of that name.
     #[error(
         "{} exists: files are never overwritten unless that is asked for; name another, or ask to overwrite",

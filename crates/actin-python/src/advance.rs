@@ -189,12 +189,7 @@ impl System {
             None => failure.body.to_string(),
         };
         let attributes = PyDict::new(py);
-        let set = attributes
-            .set_item("step", failure.step)
-            .and_then(|()| attributes.set_item("time_ns", failure.time))
-            .and_then(|()| attributes.set_item("body", body))
-            .and_then(|()| attributes.set_item("term", failure.term));
-        match set {
+        match errors::locate(&attributes, failure, &body) {
             Ok(()) => errors::raise(py, "RunFailed", &failure.to_string(), &attributes),
             Err(error) => error,
         }

@@ -1,5 +1,6 @@
 //! Rust's errors as the exceptions of `actin/errors.py`, with the attributes that say what they are about.
 
+use actin_integrate::RunFailure;
 use actin_sim::{RunDirectoryError, SceneError, SceneProblem, SceneText};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
@@ -23,6 +24,18 @@ pub(crate) fn raise(
             Ok(error)
         });
     made.map_or_else(|error| error, PyErr::from_value)
+}
+
+/// When and where a run went wrong, as attributes of its exception.
+pub(crate) fn locate(
+    attributes: &Bound<'_, PyDict>,
+    failure: &RunFailure,
+    body: &str,
+) -> PyResult<()> {
+    attributes.set_item("step", failure.step)?;
+    attributes.set_item("time_ns", failure.time)?;
+    attributes.set_item("body", body)?;
+    attributes.set_item("term", failure.term)
 }
 
 /// A mistake of a scene that is no text.

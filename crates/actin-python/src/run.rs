@@ -128,14 +128,7 @@ impl Job<'_> {
         }
     }
 
-    /// Runs a scene: in memory, or into the run directory `out`.
-    ///
-    /// `overwrite` replaces an earlier run there, `resume` continues one that was interrupted, to the same bits.
-    /// `progress` shows a bar (`True`, and by default on a terminal), nothing (`False`), or calls a function with a
-    /// `Progress`.
-    ///
-    /// Raises `SceneError`; `RunFailed`, and on Ctrl-C `Interrupted`, with what was recorded; `OSError` for the
-    /// directory.
+    /// The run as Python has it.
     fn run(
         &self,
         py: Python<'_>,
@@ -182,11 +175,7 @@ fn failed(py: Python<'_>, failure: &Failure, run: Option<Py<PyAny>>) -> PyErr {
     let attributes = PyDict::new(py);
     let mut set = attributes.set_item("run", run);
     if let Failure::Diverged { failure, body } = failure {
-        set = set
-            .and_then(|()| attributes.set_item("step", failure.step))
-            .and_then(|()| attributes.set_item("time_ns", failure.time))
-            .and_then(|()| attributes.set_item("body", body))
-            .and_then(|()| attributes.set_item("term", failure.term));
+        set = set.and_then(|()| errors::locate(&attributes, failure, body));
     }
     match set {
         Ok(()) => errors::raise(py, "RunFailed", &failure.to_string(), &attributes),
@@ -203,7 +192,14 @@ struct Target {
     every: Duration,
 }
 
-/// Runs a scene into memory, or into a directory.
+/// Runs a scene: in memory, or into the run directory `out`.
+///
+/// `overwrite` replaces an earlier run there, `resume` continues one that was interrupted, to the same bits.
+/// `progress` shows a bar (`True`, and by default on a terminal), nothing (`False`), or calls a function with a
+/// `Progress`.
+///
+/// Raises `SceneError`; `RunFailed`, and on Ctrl-C `Interrupted`, with what was recorded; `OSError` for the
+/// directory.
 #[pyfunction]
 #[pyo3(signature = (scene, out = None, *, overwrite = false, resume = false, checkpoint_every_s = 60.0, progress = None))]
 pub(crate) fn run(

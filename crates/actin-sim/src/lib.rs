@@ -44,8 +44,8 @@ pub use error::SimError;
 pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
 pub use results::{
     CheckpointError, Checkpoints, Damage, Difference, EndReaction, EndReactions, EnergySummary,
-    FilamentSummary, FinishedRun, FinishedRunError, FinishedStates, LinkerSummary, ResidualSummary,
-    RunDirectory, RunDirectoryError, RunLock, ShapeSummary, StabilitySummary, StateSummary,
+    FilamentSummary, FinishedRun, FinishedRunError, LinkerSummary, ResidualSummary, RunDirectory,
+    RunDirectoryError, RunLock, ShapeSummary, StabilitySummary, StateIter, StateSummary,
     StatesSummary, StoredStates, Summary, ThermalSummary, WorkSummary, first_difference,
     replace_file,
 };

@@ -100,10 +100,7 @@ mod tests {
         let [towards, up] = [Vector3::y(), Vector3::x()];
         let camera = Camera::new(towards, up, Vector3::new(1.0, 2.0, 3.0), 5.0, 10.0);
         let seen = camera.see(Vector3::new(2.0, 4.0, 7.0));
-        assert!(
-            (seen - Vector3::new(-4.0, 1.0, 2.0)).norm() < 1e-15
-                || (seen - Vector3::new(4.0, 1.0, 2.0)).norm() < 1e-15
-        );
+        assert!((seen - Vector3::new(4.0, 1.0, 2.0)).norm() < 1e-15);
         let places = [Vector3::new(0.0, 0.0, -50.0), Vector3::new(3.0, 0.0, 70.0)];
         let camera = Camera::fitted([towards, up], &places, 5.0, [640.0, 480.0, 30.0]);
         assert!((camera.per_nm() - 640.0 / 130.0).abs() < 1e-12);

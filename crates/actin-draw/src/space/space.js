@@ -6,6 +6,7 @@
 // space.far        what is drawn besides from far
 // space.frame()    where the camera looks at first
 // space.arrows     arrows above the picture: [x, y, z, fx, fy, fz, text]
+// space.labels     words above the picture: [x, y, z, text]
 // space.draw()     asks for one drawing in the next frame
 
 const Space = (() => {
@@ -46,6 +47,7 @@ const Space = (() => {
       this.fine = new Solids.Batch();
       this.far = new Solids.Batch();
       this.arrows = [];
+      this.labels = [];
       this.ownsWheel = ownsWheel;
       this.foot = foot; // room for the scale bar (pixels)
       this.ink = () => [20, 20, 20];
@@ -252,6 +254,7 @@ const Space = (() => {
         strokeStyle: ink, fillStyle: ink, lineWidth: 2, lineCap: 'round', lineJoin: 'round',
         font: '13px system-ui, sans-serif', textBaseline: 'middle', textAlign: 'center',
       });
+      for (const one of this.labels) this.label(one);
       for (const one of this.arrows) this.arrow(one, w);
       context.lineWidth = 2;
       const length = niceLength(130 / this.perNm), bar = length * this.perNm, y = h - 14;
@@ -289,6 +292,19 @@ const Space = (() => {
       const half = context.measureText(text).width / 2 + 6;
       const inside = Math.min(w - half, Math.max(half, tip[0] + 30 * seen[0]));
       context.fillText(text, inside, tip[1] + 4 - 16 * seen[1]);
+      context.restore();
+    }
+
+    // Words beside a point, with the paper's colour around them.
+    label([x, y, z, text]) {
+      const { context } = this, [left, top] = this.pixel(this.see(x, y, z));
+      context.save();
+      Object.assign(context, {
+        font: '12px system-ui, sans-serif', textAlign: 'left', lineWidth: 3,
+        strokeStyle: getComputedStyle(this.canvas).backgroundColor,
+      });
+      context.strokeText(text, left + 6, top);
+      context.fillText(text, left + 6, top);
       context.restore();
     }
 

@@ -38,7 +38,7 @@ pub fn write_gsd(run: &FinishedRun, out: &mut (impl Write + Seek)) -> Result<(),
         }
         writer.write("configuration/step", &Chunk::U64(vec![i as u64]), 1)?;
         write_moving(&mut writer, &particles, &state)?;
-        let (name, at) = match run.at(i) {
+        let (name, at) = match run.at()[i] {
             At::Time(time) => ("log/time_ns", time),
             At::Path(path) => ("log/path", path),
         };

@@ -62,7 +62,7 @@ pub fn write_simularium(
     )?;
     for (i, state) in run.states()?.enumerate() {
         let data = agents.frame(&state?);
-        let frame = json!({ "frameNumber": i, "time": run.at(i).value(), "data": data });
+        let frame = json!({ "frameNumber": i, "time": run.at()[i].value(), "data": data });
         let comma = if i == 0 { "" } else { "," };
         write!(out, "{comma}\n{frame}")?;
     }
@@ -72,11 +72,11 @@ pub fn write_simularium(
 
 /// What the viewer has to know before the first frame.
 fn info(run: &FinishedRun, agents: &Agents<'_>, size: [f64; 3]) -> serde_json::Value {
-    let step = match run.times() {
-        [first, second, ..] => second - first,
+    let step = match run.at() {
+        [first, second, ..] => second.value() - first.value(),
         _ => 0.0,
     };
-    let unit = match run.at(0) {
+    let unit = match run.at()[0] {
         At::Time(_) => "ns",
         At::Path(_) => "stages",
     };

@@ -3,21 +3,14 @@
 //! A Chromium makes them, which draws the pictures as the report page shows them; it is looked for in `CHROME`
 //! and on the path.
 
+use actin_draw::browser;
 use actin_draw::report::{Artefact, Picture};
 use rayon::prelude::*;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// Names of the browser on the path.
-const NAMES: [&str; 4] = [
-    "chromium",
-    "chromium-browser",
-    "google-chrome",
-    "google-chrome-stable",
-];
-/// Pixels of a PNG file per pixel of the SVG file: 900 of these are 300 dpi on a column of 230 mm, twice as
-/// many are enough for any page.
+/// Pixels of a PNG file per pixel of the SVG file: a picture of 900 has 1800, which are 300 dpi on 152 mm.
 const FINER: u32 = 2;
 
 /// Writes PDF and PNG files beside the pictures of all artefacts.
@@ -33,18 +26,6 @@ pub(super) fn write(artefacts: &[Artefact], out: &Path) -> Result<usize, String>
         .par_iter()
         .try_for_each(|picture| print(&browser, &out.join(&picture.file)))?;
     Ok(pictures.len())
-}
-
-fn browser() -> Option<PathBuf> {
-    if let Some(named) = std::env::var_os("CHROME") {
-        return Some(named.into());
-    }
-    let path = std::env::var_os("PATH")?;
-    let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
-    let candidates = NAMES
-        .iter()
-        .flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
-    candidates.into_iter().find(|file| file.is_file())
 }
 
 /// One picture as PDF and as PNG.

@@ -126,6 +126,20 @@ impl Assembly {
         let ends = [linker.site().position(state), linker.end_position(state)];
         (ends, holds)
     }
+
+    /// The force with which linker `i` pulls its ends together in `state` (pN): negative where it pushes, zero where
+    /// it does not hold.
+    ///
+    /// # Panics
+    /// If there is no such linker.
+    pub fn linker_pull_pn(&self, i: usize, state: &State) -> f64 {
+        let (linker, holds) = self.linker_in(i, state);
+        let span = linker.end_position(state) - linker.site().position(state);
+        match span.try_normalize(0.0) {
+            Some(along) if holds => linker.force(state).dot(&along),
+            _ => 0.0,
+        }
+    }
 }
 
 #[cfg(test)]

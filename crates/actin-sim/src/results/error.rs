@@ -112,6 +112,14 @@ pub enum RunDirectoryError {
         /// What is wrong with it.
         reason: String,
     },
+    /// Results of other bodies than those of the scene beside them.
+    #[error("{} does not belong to the scene: {reason}", .path.display())]
+    OtherBodies {
+        /// The file.
+        path: PathBuf,
+        /// What differs.
+        reason: String,
+    },
     /// A number that is not finite.
     #[error("{file}: {quantity}{} is {value}: only finite numbers are written", place(.index))]
     NotFinite {

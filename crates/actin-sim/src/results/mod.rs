@@ -49,9 +49,9 @@ pub use checkpoint::{CheckpointError, Checkpoints, Damage};
 pub use difference::{Difference, first_difference};
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;
-pub use finished::{FinishedRun, FinishedRunError, FinishedStates};
+pub use finished::{FinishedRun, FinishedRunError};
 pub use lock::RunLock;
-pub use stored::StoredStates;
+pub use stored::{StateIter, StoredStates};
 pub use summary::{
     EndReaction, EndReactions, EnergySummary, FilamentSummary, LinkerSummary, ResidualSummary,
     ShapeSummary, StabilitySummary, StateSummary, StatesSummary, Summary, ThermalSummary,

@@ -3,7 +3,7 @@
 // A pose holds flat arrays in nm, in the lab frame:
 //   strands   { lengths, places 3n, turns 4n, tint n or null, filament, first, per_interface, bonds }
 //   rods      { radius, nodes 3(n + 1), frames 4n, tint n + 1 or null, filament }
-//   junctions, linkers [6 numbers], anchors [3], clamps [12], forces [6]
+//   junctions [6 numbers], linkers [6, or 7 with their pull in pN], anchors [3], clamps [12], forces [6]
 // Colours are those of the element #palette, light or dark with the page.
 
 const Bodies = (() => {
@@ -13,6 +13,7 @@ const Bodies = (() => {
   const THROUGH = 8; // what is seen through bodies counts so much nearer (nm)
   const ON_SURFACE = 1.2; // what lies between bodies counts so much nearer (nm)
   const AXIS = 5; // length of the axes of segments (nm)
+  const LABELLED = 30; // so many linkers have their pulls beside them
   const DARK = window.matchMedia('(prefers-color-scheme: dark)');
   const { axesOf } = Solids;
 
@@ -86,8 +87,16 @@ const Bodies = (() => {
       batch.line(corners, 0.5, palette.clamp);
     }
     space.ink = () => colours().ink;
-    space.arrows = has('forces') ? from.forces.map((f) => [...f.slice(0, 6), `${short(Math.hypot(f[3], f[4], f[5]))} pN`]) : [];
+    space.arrows = has('forces') ? from.forces.map((f) => [...f.slice(0, 6), `${force(Math.hypot(f[3], f[4], f[5]))} pN`]) : [];
+    space.labels = has('linkers') ? pulls(from.linkers) : [];
     space.draw();
+  }
+
+  // The pull of each linker, at its middle.
+  function pulls(linkers) {
+    if (linkers.length > LABELLED) return [];
+    const middle = (ends) => [0, 1, 2].map((k) => (ends[k] + ends[k + 3]) / 2);
+    return linkers.filter((ends) => ends.length > 6).map((ends) => [...middle(ends), `${force(ends[6])} pN`]);
   }
 
   // Monomers; from near, the bonds from each to the next and to the one after, which are kept in 0.01 nm in
@@ -166,7 +175,7 @@ const Bodies = (() => {
       [near * from.rods.length, 'nodes', palette.node],
       ...['d1', 'd2', 'd3'].map((name, k) => [near * from.rods.length, `${name} of segments`, palette.axes[k]]),
       [from.junctions.length, 'bonds of the junction', palette.junction],
-      [from.linkers.length, 'linkers', palette.linker],
+      [from.linkers.length, from.linkers[0]?.length > 6 ? 'linkers, with their pull' : 'linkers', palette.linker],
       [from.anchors.length, 'anchors', palette.anchor],
       [from.clamps.length, 'held ends', palette.clamp],
       [(1 - near) * Number(from.rods.length > 0 || sample !== ''),
@@ -199,6 +208,8 @@ const Bodies = (() => {
     return count < all ? `${count} of ${all} an interface` : 'all';
   }
 
+  // A force (pN), as far as it is not round-off.
+  const force = (pn) => (Math.abs(pn) < 1e-4 ? '0' : short(pn));
   // Three digits.
   const short = (x) => String(Number(x.toPrecision(3)));
 

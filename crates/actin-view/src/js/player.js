@@ -33,12 +33,12 @@
     const point = (i) => [...at(i, i + 1)];
     const many = (all, count, each) => Array.from({ length: count },
       (_, i) => [...all.subarray(each * (count * t + i), each * (count * t + i + 1))]);
-    const held = many(linkers, run.anchored.length, 7);
+    const held = many(linkers, run.anchored.length, 8);
     return {
       strands: run.strands.map((s) => ({ ...s, places: at(s.points.start, s.points.end), turns: turned(s.frames) })),
       rods: run.rods.map((r) => ({ ...r, nodes: at(r.points.start, r.points.end), frames: turned(r.frames) })),
       junctions: run.junctions.map(([a, b]) => [...point(a), ...point(b)]),
-      linkers: held.filter((l) => l[6] > 0).map((l) => l.slice(0, 6)),
+      linkers: held.filter((l) => l[6] > 0).map((l) => [...l.slice(0, 6), l[7]]),
       anchors: held.filter((l, i) => run.anchored[i]).map((l) => l.slice(3, 6)),
       clamps: many(clamps, run.held, 12),
       forces: run.forces[t],

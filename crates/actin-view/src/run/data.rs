@@ -20,7 +20,7 @@ const MOST_WITH_BONDS: usize = 1000;
 /// Bytes of states that a record takes.
 pub(super) fn bytes_per_record(assembly: &Assembly) -> usize {
     let besides =
-        7 * assembly.linkers.len() + 12 * assembly.clamps.len() + 6 * assembly.scene.loads.len();
+        8 * assembly.linkers.len() + 12 * assembly.clamps.len() + 6 * assembly.scene.loads.len();
     (12 + 2 * FIELDS) * assembly.points.len() + 8 * assembly.frames.len() + 4 * besides + 1
 }
 
@@ -110,12 +110,14 @@ fn turns(states: &[State]) -> String {
     STANDARD.encode(bytes.collect::<Vec<u8>>())
 }
 
-/// Both ends of each linker, and whether it holds.
+/// Both ends of each linker, whether it holds, and its pull (pN).
 fn linkers(assembly: &Assembly, state: &State) -> Vec<f64> {
     let all = 0..assembly.linkers.len();
     all.flat_map(|i| {
         let ([a, b], holds) = assembly.linker_ends(i, state);
-        [a.x, a.y, a.z, b.x, b.y, b.z, f64::from(u8::from(holds))]
+        let pull = assembly.linker_pull_pn(i, state);
+        let holds = f64::from(u8::from(holds));
+        [a.x, a.y, a.z, b.x, b.y, b.z, holds, pull]
     })
     .collect()
 }

@@ -86,7 +86,7 @@ impl Run {
         let mut source = Source::of(path, &assembly);
         let each = data::bytes_per_record(&assembly);
         let which = thin::evenly(source.at.len(), limits.bytes / each);
-        let states = source.states(&which);
+        let states = source.states(&assembly, &which);
         let (which, states) = match states {
             Some(states) => (which, states),
             None => (vec![0], vec![assembly.rest.clone()]),

@@ -99,9 +99,7 @@ impl Run {
             div class="facts" {
                 section { h2 { "End state" } (list(&results(summary))) }
                 section { h2 { "How it was made" } (list(&made(summary))) }
-                @if !summary.notes.is_empty() {
-                    section { h2 { "Notes of the run" } @for note in &summary.notes { p class="soft" { (note) } } }
-                }
+                (notes(summary))
             }
         }
     }
@@ -112,7 +110,7 @@ impl Run {
                 "Drag to turn, " kbd { "Shift" } " and drag to move, wheel or two fingers to zoom, arrow keys, "
                 kbd { "0" } " to reset, " kbd { "x" } " " kbd { "y" } " " kbd { "z" } " to look along an axis, "
                 kbd { "Space" } " to play, " kbd { "," } " and " kbd { "." } " for single records. Lengths are true \
-                 across the line of sight; arrows of forces are all of one length."
+                 across the line of sight; arrows of forces are all of one length; linkers have their pull beside them, negative where they push."
             }
             p {
                 "Made by " code { "actin view " (self.path.display()) } ", version " (env!("CARGO_PKG_VERSION")) "."
@@ -246,6 +244,19 @@ fn ending(summary: Option<&Summary>) -> Markup {
 
 fn list(entries: &[(&str, String)]) -> Markup {
     html! { dl { @for (name, value) in entries { dt { (name) } dd { (value) } } } }
+}
+
+/// What the run has to say, and what is not on the page.
+fn notes(summary: &Summary) -> Markup {
+    let others = summary.states.iter().map(|states| {
+        format!("{states}. The others are in other_states.npz; this page shows the result.")
+    });
+    let all: Vec<String> = summary.notes.iter().cloned().chain(others).collect();
+    html! {
+        @if !all.is_empty() {
+            section { h2 { "Notes of the run" } @for note in &all { p class="soft" { (note) } } }
+        }
+    }
 }
 
 /// Five digits.

@@ -12,24 +12,24 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// What was found in a run directory.
-pub(super) struct Source<'a> {
+pub(super) struct Source {
     pub summary: Option<Summary>,
     pub remarks: Vec<String>,
     pub curves: Vec<Curve>,
     /// When, or where on the path, each record was taken.
     pub at: Vec<At>,
-    states: States<'a>,
+    states: States,
 }
 
-enum States<'a> {
-    Stored(StoredStates<'a>),
+enum States {
+    Stored(StoredStates),
     Checkpoint(Vec<State>),
     None,
 }
 
-impl<'a> Source<'a> {
+impl Source {
     /// Looks into a directory; what is missing or damaged becomes a remark.
-    pub(super) fn of(path: &Path, assembly: &'a Assembly) -> Self {
+    pub(super) fn of(path: &Path, assembly: &Assembly) -> Self {
         let mut source = Self {
             summary: None,
             remarks: Vec::new(),
@@ -71,7 +71,7 @@ impl<'a> Source<'a> {
     }
 
     /// The results of a run that has ended.
-    fn read_results(&mut self, path: &Path, directory: &RunDirectory, assembly: &'a Assembly) {
+    fn read_results(&mut self, path: &Path, directory: &RunDirectory, assembly: &Assembly) {
         if self.summary.is_none() {
             self.remark(
                 "There is no summary.json that can be read: the run has not ended, or was stopped before its \
@@ -108,15 +108,7 @@ impl<'a> Source<'a> {
     fn read_checkpoint(&mut self, directory: &RunDirectory, assembly: &Assembly) {
         match checkpointed(directory, assembly) {
             Ok((at, states, curves)) => {
-                let last = at.last().map_or(0.0, |at| at.value());
-                let unit = match at.last() {
-                    Some(At::Time(_)) => " ns",
-                    _ => " of its path",
-                };
-                self.remark(format!(
-                    "The run has not ended: these are its {} records up to its last checkpoint, at {last:.6}{unit}.",
-                    at.len()
-                ));
+                self.remark(begun(&at, assembly.scene.output.states));
                 (self.at, self.curves) = (at, curves);
                 self.states = States::Checkpoint(states);
             }
@@ -127,9 +119,12 @@ impl<'a> Source<'a> {
     }
 
     /// The states of records `which`; none, with a remark, where they cannot be read.
-    pub(super) fn states(&mut self, which: &[usize]) -> Option<Vec<State>> {
+    pub(super) fn states(&mut self, assembly: &Assembly, which: &[usize]) -> Option<Vec<State>> {
         match std::mem::replace(&mut self.states, States::None) {
-            States::Stored(stored) => match stored.read(which) {
+            States::Stored(stored) => match stored
+                .states(assembly, which.iter().copied())
+                .and_then(Iterator::collect)
+            {
                 Ok(states) => Some(states),
                 Err(error) => {
                     self.remark(format!("{error}. Filaments are shown as built."));
@@ -150,6 +145,28 @@ impl<'a> Source<'a> {
     fn remark(&mut self, text: String) {
         self.remarks.push(text);
     }
+}
+
+/// What there is of a run that has not ended, by the records of its checkpoint.
+fn begun(at: &[At], has_states: bool) -> String {
+    let Some(last) = at.last() else {
+        return "The run has not ended, and has no record yet. Filaments are shown as built."
+            .into();
+    };
+    let place = match last {
+        At::Time(time) => format!("{time:.6} ns"),
+        At::Path(path) => format!("{path:.6} of its path"),
+    };
+    if has_states {
+        let count = at.len();
+        return format!(
+            "The run has not ended: these are its {count} record(s) up to its last checkpoint, at {place}."
+        );
+    }
+    format!(
+        "The run has not ended: this is its last record before its last checkpoint, at {place}. The scene has \
+         output: (states: false), so that no others are kept."
+    )
 }
 
 type Checkpointed = (Vec<At>, Vec<State>, Vec<Curve>);

@@ -1,7 +1,7 @@
 //! Pages in headless Chromium, for the tests of several crates: what a probe, put into a copy of a page, finds
 //! at each width, light and dark.
 //!
-//! Needs a browser: `CHROME`, or one of [`NAMES`] on the path. Without one the tests say loudly that
+//! Needs a browser: `CHROME`, or a Chromium on the path. Without one the tests say loudly that
 //! they were skipped; where `ACTIN_REQUIRE_BROWSER` is set, as `.ci/run` does, they fail.
 #![allow(dead_code, reason = "each test binary uses some of it")]
 
@@ -11,18 +11,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-const NAMES: [&str; 4] = [
-    "chromium",
-    "chromium-browser",
-    "google-chrome",
-    "google-chrome-stable",
-];
 /// Far longer than a browser takes on a busy machine.
 const LIMIT: Duration = Duration::from_mins(8);
 
 /// The browser; nothing, told loudly, if there is none and none is required.
 pub(crate) fn browser() -> Option<PathBuf> {
-    let found = find_browser();
+    let found = actin_view::draw::browser();
     if found.is_none() {
         assert!(
             std::env::var_os("ACTIN_REQUIRE_BROWSER").is_none(),
@@ -31,18 +25,6 @@ pub(crate) fn browser() -> Option<PathBuf> {
         eprintln!("SKIPPED: no Chromium on the path: the page was NOT tested in a browser");
     }
     found
-}
-
-fn find_browser() -> Option<PathBuf> {
-    if let Some(named) = std::env::var_os("CHROME") {
-        return Some(named.into());
-    }
-    let path = std::env::var_os("PATH")?;
-    let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
-    let candidates = NAMES
-        .iter()
-        .flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
-    candidates.into_iter().find(|file| file.is_file())
 }
 
 /// What a reader has asked the system for.

@@ -1,5 +1,6 @@
 //! Why the states of a run cannot be read.
 
+use super::super::RunDirectoryError;
 use super::super::names::{SCENE, STATES};
 use crate::{SceneError, SceneProblem};
 use std::io;
@@ -41,16 +42,9 @@ pub enum FinishedRunError {
         /// Why not.
         problem: SceneProblem,
     },
-    /// An array that is missing, damaged or of something else.
-    #[error("{}: {name}: {reason}", .path.display())]
-    Array {
-        /// The file.
-        path: PathBuf,
-        /// Name of the array.
-        name: String,
-        /// What is wrong with it.
-        reason: String,
-    },
+    /// States that cannot be read.
+    #[error(transparent)]
+    States(#[from] RunDirectoryError),
     /// The file system refused.
     #[error("{}: {source}", .path.display())]
     Io {

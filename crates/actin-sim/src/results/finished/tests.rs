@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::Plan;
-use crate::RunDirectory;
+use crate::results::names::STATES;
+use actin_mechanics::State;
 
 /// A bend that the path drives, with an anchor that it shifts; `task` and `stage` as the test has them.
 fn scene(task: &str, stage: &str) -> String {
@@ -48,7 +49,7 @@ fn states_come_back_as_they_were() {
         let mut anchors = Vec::new();
         for (i, (state, (at, was))) in states.zip(&was).enumerate() {
             let state = state.unwrap();
-            assert_eq!(finished.at(i).value().to_bits(), at.to_bits());
+            assert_eq!(finished.at()[i].value().to_bits(), at.to_bits());
             assert_eq!(state.points.position, was.points.position);
             assert_eq!(state.points.velocity, was.points.velocity);
             assert_eq!(state.frames.orientation, was.frames.orientation);
@@ -85,7 +86,7 @@ fn what_is_no_finished_run_is_refused() {
         "{message}"
     );
     let message = refusal(|folder| fs::write(folder.join(STATES), "no archive").unwrap());
-    assert!(message.contains("states.npz: "), "{message}");
+    assert!(message.contains("states.npz is damaged"), "{message}");
     // Scenes that were edited: as many bodies elsewhere, and others.
     let edited = |from: &'static str, to: &'static str| {
         refusal(move |folder| {
@@ -96,7 +97,7 @@ fn what_is_no_finished_run_is_refused() {
     };
     let message = edited("to_nm: 42.0", "to_nm: 62.0");
     assert!(
-        message.contains("s_nm: is not that of scene.ron"),
+        message.contains("s_nm is not that of scene.ron"),
         "{message}"
     );
     let message = refusal(|folder| {
@@ -108,7 +109,7 @@ fn what_is_no_finished_run_is_refused() {
         )
         .unwrap();
     });
-    assert!(message.contains("position_nm: has the shape"), "{message}");
+    assert!(message.contains("position_nm has the shape"), "{message}");
     let message = refusal(|folder| fs::write(folder.join(SCENE), "Scene(\n  nothing: 1)").unwrap());
     assert!(message.contains("scene.ron:2:"), "{message}");
 }

@@ -2,8 +2,8 @@
 
 use super::SceneValue;
 use serde::ser::{
-    Error as _, Serialize, SerializeMap, SerializeSeq, SerializeStruct, SerializeStructVariant,
-    SerializeTuple, SerializeTupleStruct, SerializeTupleVariant, Serializer,
+    Error as _, Impossible, Serialize, SerializeSeq, SerializeStruct, SerializeStructVariant,
+    SerializeTuple, Serializer,
 };
 use std::fmt;
 
@@ -25,19 +25,26 @@ impl serde::ser::Error for Unwritable {
     }
 }
 
+fn unwritable(what: &str) -> Unwritable {
+    Unwritable::custom(format!("no scene holds {what}"))
+}
+
 type Written = Result<SceneValue, Unwritable>;
 
 /// Makes a value of what it is given.
 #[derive(Clone, Copy)]
 pub(super) struct Writer;
 
-/// The elements of a list or of keys, and the choice that they belong to.
-pub(super) struct Elements<T> {
+/// The elements of a list.
+pub(super) struct Elements(Vec<SceneValue>);
+
+/// Keys with their values, and the choice that they belong to.
+pub(super) struct Keys {
     choice: Option<&'static str>,
-    all: Vec<T>,
+    all: Vec<(String, SceneValue)>,
 }
 
-impl<T> Elements<T> {
+impl Keys {
     fn of(choice: Option<&'static str>) -> Self {
         let all = Vec::new();
         Self { choice, all }
@@ -45,23 +52,20 @@ impl<T> Elements<T> {
 }
 
 /// A choice with what it holds.
-fn chosen(choice: Option<&'static str>, value: SceneValue) -> SceneValue {
-    match choice {
-        None => value,
-        Some(name) => SceneValue::Keys(vec![(name.to_owned(), value)]),
-    }
+fn chosen(name: &str, value: SceneValue) -> SceneValue {
+    SceneValue::Keys(vec![(name.to_owned(), value)])
 }
 
 impl Serializer for Writer {
     type Ok = SceneValue;
     type Error = Unwritable;
-    type SerializeSeq = Elements<SceneValue>;
-    type SerializeTuple = Elements<SceneValue>;
-    type SerializeTupleStruct = Elements<SceneValue>;
-    type SerializeTupleVariant = Elements<SceneValue>;
-    type SerializeMap = Elements<(String, SceneValue)>;
-    type SerializeStruct = Elements<(String, SceneValue)>;
-    type SerializeStructVariant = Elements<(String, SceneValue)>;
+    type SerializeSeq = Elements;
+    type SerializeTuple = Elements;
+    type SerializeTupleStruct = Impossible<SceneValue, Unwritable>;
+    type SerializeTupleVariant = Impossible<SceneValue, Unwritable>;
+    type SerializeMap = Impossible<SceneValue, Unwritable>;
+    type SerializeStruct = Keys;
+    type SerializeStructVariant = Keys;
 
     fn serialize_bool(self, v: bool) -> Written {
         Ok(SceneValue::Bool(v))
@@ -116,7 +120,7 @@ impl Serializer for Writer {
     }
 
     fn serialize_bytes(self, _v: &[u8]) -> Written {
-        Err(Unwritable::custom("scenes hold no bytes"))
+        Err(unwritable("bytes"))
     }
 
     fn serialize_none(self) -> Written {
@@ -154,23 +158,23 @@ impl Serializer for Writer {
         variant: &'static str,
         value: &T,
     ) -> Written {
-        Ok(chosen(Some(variant), value.serialize(self)?))
+        Ok(chosen(variant, value.serialize(self)?))
     }
 
     fn serialize_seq(self, _: Option<usize>) -> Result<Self::SerializeSeq, Unwritable> {
-        Ok(Elements::of(None))
+        Ok(Elements(Vec::new()))
     }
 
     fn serialize_tuple(self, _: usize) -> Result<Self::SerializeTuple, Unwritable> {
-        Ok(Elements::of(None))
+        Ok(Elements(Vec::new()))
     }
 
     fn serialize_tuple_struct(
         self,
-        _: &'static str,
+        name: &'static str,
         _: usize,
     ) -> Result<Self::SerializeTupleStruct, Unwritable> {
-        Ok(Elements::of(None))
+        Err(unwritable(name))
     }
 
     fn serialize_tuple_variant(
@@ -180,11 +184,11 @@ impl Serializer for Writer {
         variant: &'static str,
         _: usize,
     ) -> Result<Self::SerializeTupleVariant, Unwritable> {
-        Ok(Elements::of(Some(variant)))
+        Err(unwritable(variant))
     }
 
     fn serialize_map(self, _: Option<usize>) -> Result<Self::SerializeMap, Unwritable> {
-        Ok(Elements::of(None))
+        Err(unwritable("maps"))
     }
 
     fn serialize_struct(
@@ -192,7 +196,7 @@ impl Serializer for Writer {
         _: &'static str,
         _: usize,
     ) -> Result<Self::SerializeStruct, Unwritable> {
-        Ok(Elements::of(None))
+        Ok(Keys::of(None))
     }
 
     fn serialize_struct_variant(
@@ -202,22 +206,18 @@ impl Serializer for Writer {
         variant: &'static str,
         _: usize,
     ) -> Result<Self::SerializeStructVariant, Unwritable> {
-        Ok(Elements::of(Some(variant)))
+        Ok(Keys::of(Some(variant)))
     }
 }
 
-impl Elements<SceneValue> {
+impl Elements {
     fn push<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), Unwritable> {
-        self.all.push(value.serialize(Writer)?);
+        self.0.push(value.serialize(Writer)?);
         Ok(())
     }
-
-    fn list(self) -> SceneValue {
-        chosen(self.choice, SceneValue::List(self.all))
-    }
 }
 
-impl Elements<(String, SceneValue)> {
+impl Keys {
     /// Adds a key; what is left out is no key.
     fn push<T: ?Sized + Serialize>(&mut self, key: &str, value: &T) -> Result<(), Unwritable> {
         let value = value.serialize(Writer)?;
@@ -228,87 +228,41 @@ impl Elements<(String, SceneValue)> {
     }
 
     fn keys(self) -> SceneValue {
-        chosen(self.choice, SceneValue::Keys(self.all))
-    }
-}
-
-impl SerializeSeq for Elements<SceneValue> {
-    type Ok = SceneValue;
-    type Error = Unwritable;
-
-    fn serialize_element<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), Unwritable> {
-        self.push(value)
-    }
-
-    fn end(self) -> Written {
-        Ok(self.list())
-    }
-}
-
-impl SerializeTuple for Elements<SceneValue> {
-    type Ok = SceneValue;
-    type Error = Unwritable;
-
-    fn serialize_element<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), Unwritable> {
-        self.push(value)
-    }
-
-    fn end(self) -> Written {
-        Ok(self.list())
-    }
-}
-
-impl SerializeTupleStruct for Elements<SceneValue> {
-    type Ok = SceneValue;
-    type Error = Unwritable;
-
-    fn serialize_field<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), Unwritable> {
-        self.push(value)
-    }
-
-    fn end(self) -> Written {
-        Ok(self.list())
-    }
-}
-
-impl SerializeTupleVariant for Elements<SceneValue> {
-    type Ok = SceneValue;
-    type Error = Unwritable;
-
-    fn serialize_field<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), Unwritable> {
-        self.push(value)
-    }
-
-    fn end(self) -> Written {
-        Ok(self.list())
-    }
-}
-
-impl SerializeMap for Elements<(String, SceneValue)> {
-    type Ok = SceneValue;
-    type Error = Unwritable;
-
-    fn serialize_key<T: ?Sized + Serialize>(&mut self, key: &T) -> Result<(), Unwritable> {
-        let SceneValue::Text(key) = key.serialize(Writer)? else {
-            return Err(Unwritable::custom("keys are texts"));
-        };
-        self.all.push((key, SceneValue::None));
-        Ok(())
-    }
-
-    fn serialize_value<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), Unwritable> {
-        if let Some(last) = self.all.last_mut() {
-            last.1 = value.serialize(Writer)?;
+        let keys = SceneValue::Keys(self.all);
+        match self.choice {
+            None => keys,
+            Some(name) => chosen(name, keys),
         }
-        Ok(())
-    }
-
-    fn end(self) -> Written {
-        Ok(self.keys())
     }
 }
 
-impl SerializeStruct for Elements<(String, SceneValue)> {
+impl SerializeSeq for Elements {
+    type Ok = SceneValue;
+    type Error = Unwritable;
+
+    fn serialize_element<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), Unwritable> {
+        self.push(value)
+    }
+
+    fn end(self) -> Written {
+        Ok(SceneValue::List(self.0))
+    }
+}
+
+impl SerializeTuple for Elements {
+    type Ok = SceneValue;
+    type Error = Unwritable;
+
+    fn serialize_element<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), Unwritable> {
+        self.push(value)
+    }
+
+    fn end(self) -> Written {
+        Ok(SceneValue::List(self.0))
+    }
+}
+
+impl SerializeStruct for Keys {
     type Ok = SceneValue;
     type Error = Unwritable;
 
@@ -325,7 +279,7 @@ impl SerializeStruct for Elements<(String, SceneValue)> {
     }
 }
 
-impl SerializeStructVariant for Elements<(String, SceneValue)> {
+impl SerializeStructVariant for Keys {
     type Ok = SceneValue;
     type Error = Unwritable;
 

@@ -1,6 +1,6 @@
 //! Arrays of `states.npz`, each read from its own place in the file, number by number.
 
-use super::FinishedRunError;
+use super::super::RunDirectoryError;
 use npyz::{NpyFile, Order};
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom, Take};
@@ -19,12 +19,17 @@ impl Arrays {
     ///
     /// # Errors
     /// A file that cannot be read, or is no archive.
-    pub(super) fn open(path: PathBuf) -> Result<Self, FinishedRunError> {
-        let file = File::open(&path).map_err(FinishedRunError::io(&path))?;
+    pub(super) fn open(path: PathBuf) -> Result<Self, RunDirectoryError> {
+        let file = File::open(&path).map_err(RunDirectoryError::io(&path))?;
         let archive = ZipArchive::new(BufReader::new(file))
-            .map_err(|error| FinishedRunError::io(&path)(error.into()))?;
+            .map_err(|error| damaged(&path, error.to_string()))?;
         let archive = std::cell::RefCell::new(archive);
         Ok(Self { path, archive })
+    }
+
+    /// Where the archive is.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Opens an array of `records` (any number where it is not given) times `shape` numbers.
@@ -36,8 +41,8 @@ impl Arrays {
         name: &str,
         records: Option<usize>,
         shape: &[usize],
-    ) -> Result<Array, FinishedRunError> {
-        let refused = |reason: String| refusal(&self.path, name, reason);
+    ) -> Result<Array, RunDirectoryError> {
+        let refused = |reason: String| damaged(&self.path, format!("{name}: {reason}"));
         let (start, size) = self.place(name)?;
         let open = || -> std::io::Result<_> {
             let mut file = File::open(&self.path)?;
@@ -50,9 +55,10 @@ impl Arrays {
         let records = records.map_or_else(|| found.first().copied().unwrap_or(0), |n| n as u64);
         let expected: Vec<u64> = std::iter::once(records).chain(shape).collect();
         if found != expected || array.order() != Order::C {
-            return Err(refused(format!(
-                "has the shape {found:?} where the scene has {expected:?}"
-            )));
+            return Err(RunDirectoryError::OtherBodies {
+                path: self.path.clone(),
+                reason: format!("{name} has the shape {found:?} where the scene has {expected:?}"),
+            });
         }
         let values = array
             .data::<f64>()
@@ -65,8 +71,8 @@ impl Arrays {
     }
 
     /// Where the bytes of an array begin, and how many they are.
-    fn place(&self, name: &str) -> Result<(u64, u64), FinishedRunError> {
-        let refused = |reason: String| refusal(&self.path, name, reason);
+    fn place(&self, name: &str) -> Result<(u64, u64), RunDirectoryError> {
+        let refused = |reason: String| damaged(&self.path, format!("{name}: {reason}"));
         let mut archive = self.archive.borrow_mut();
         let entry = archive.by_name(&format!("{name}.npy"));
         let entry = entry.map_err(|error| refused(error.to_string()))?;
@@ -77,10 +83,9 @@ impl Arrays {
     }
 }
 
-fn refusal(path: &Path, name: &str, reason: String) -> FinishedRunError {
-    FinishedRunError::Array {
+fn damaged(path: &Path, reason: String) -> RunDirectoryError {
+    RunDirectoryError::Damaged {
         path: path.to_owned(),
-        name: name.to_owned(),
         reason,
     }
 }
@@ -96,18 +101,34 @@ impl Array {
     /// The next number.
     ///
     /// # Errors
-    /// The end of the array, or a file that cannot be read.
-    pub(super) fn next(&mut self) -> Result<f64, FinishedRunError> {
-        let cut = || Err(std::io::ErrorKind::UnexpectedEof.into());
-        let value = self.values.next().unwrap_or_else(cut);
-        value.map_err(|error| refusal(&self.path, &self.name, error.to_string()))
+    /// The end of the array, a number that is not finite, or a file that cannot be read.
+    pub(super) fn next(&mut self) -> Result<f64, RunDirectoryError> {
+        match self.values.next() {
+            Some(Ok(value)) if value.is_finite() => Ok(value),
+            Some(Ok(value)) => Err(self.damaged(&format!("holds {value}"))),
+            Some(Err(error)) => Err(self.damaged(&error.to_string())),
+            None => Err(self.damaged("ends too early")),
+        }
+    }
+
+    /// Goes over so many numbers.
+    ///
+    /// # Errors
+    /// As [`next`](Self::next).
+    pub(super) fn skip(&mut self, count: usize) -> Result<(), RunDirectoryError> {
+        (0..count).try_for_each(|_| self.next().map(drop))
+    }
+
+    /// What is wrong with the array.
+    pub(super) fn damaged(&self, reason: &str) -> RunDirectoryError {
+        damaged(&self.path, format!("{}: {reason}", self.name))
     }
 
     /// All numbers that are left.
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub(super) fn read_all(mut self) -> Result<Vec<f64>, FinishedRunError> {
+    pub(super) fn read_all(mut self) -> Result<Vec<f64>, RunDirectoryError> {
         (0..self.values.len()).map(|_| self.next()).collect()
     }
 }
