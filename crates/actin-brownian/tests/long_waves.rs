@@ -11,7 +11,7 @@ const BLOCKS: u64 = 20;
 
 /// Means of `1 - cos` over spans of so many segments, over their exact values, and the standard errors; the rod has `segments` of
 /// a length (nm) and makes steps of `h`.
-fn warmth((segments, segment): (usize, f64), h: f64, steps: u64, spans: &[i32]) -> Vec<(f64, f64)> {
+fn warmth((segments, segment): (usize, f64), h: f64, steps: u64, spans: &[u16]) -> Vec<(f64, f64)> {
     let length = segment * segments as f64;
     let (mut system, mut stepper, rod) = free_rod(segments, length, (KT, 1), |_, _| Vec::new());
     let (warm, each) = (steps / 50, steps / BLOCKS);
@@ -29,9 +29,9 @@ fn warmth((segments, segment): (usize, f64), h: f64, steps: u64, spans: &[i32]) 
                 let q = &system.state().frames.orientation;
                 let axis = |k: usize| q.get(rod.frames().start + k) * Vector3::z();
                 for (sum, &span) in sums.iter_mut().zip(spans) {
-                    let pairs = segments - span as usize;
+                    let pairs = segments - usize::from(span);
                     let cos: f64 = (0..pairs)
-                        .map(|k| axis(k).dot(&axis(k + span as usize)))
+                        .map(|k| axis(k).dot(&axis(k + usize::from(span))))
                         .sum();
                     *sum += 1.0 - cos / pairs as f64;
                 }
@@ -42,7 +42,7 @@ fn warmth((segments, segment): (usize, f64), h: f64, steps: u64, spans: &[i32]) 
     }
     let joint = rigidities().bend / (segment * KT);
     let cosine = mean_cosine(joint.x, joint.z);
-    let exact = spans.iter().map(|&span| 1.0 - cosine.powi(span));
+    let exact = spans.iter().map(|&span| 1.0 - cosine.powi(i32::from(span)));
     let found = means.iter().map(|means| mean_and_error(means)).zip(exact);
     found
         .map(|((mean, error), exact)| (mean / exact, error / exact))
