@@ -23,7 +23,8 @@ pub trait RandomStress {
     /// no second derivatives but those that strains have where they are linear.
     fn balance(&self, state: &State, stresses: &mut [f64]);
 
-    /// Adds the loads of these stresses, `s . de/dx`.
+    /// Adds the loads of these stresses, `s . de/dx`. Torques of these about the axes of slender bodies may be left out where
+    /// the elements themselves exert none: hardly anything resists such a turn, and bodies would turn to meet the stress.
     fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads);
 
     /// Adds the second derivatives of the energy `-s . e(x)`.
