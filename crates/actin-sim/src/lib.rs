@@ -13,6 +13,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+pub mod adapt;
 pub mod advice;
 mod assembly;
 pub mod cost;
@@ -43,11 +44,11 @@ pub use assembly::{
 pub use error::SimError;
 pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
 pub use results::{
-    CheckpointError, Checkpoints, Damage, Difference, EndReaction, EndReactions, EnergySummary,
-    FilamentSummary, FinishedRun, FinishedRunError, LinkerSummary, ResidualSummary, RunDirectory,
-    RunDirectoryError, RunLock, ShapeSummary, StabilitySummary, StateIter, StateSummary,
-    StatesSummary, StoredStates, Summary, ThermalSummary, WorkSummary, first_difference,
-    replace_file,
+    AccuracySummary, CheckpointError, Checkpoints, Damage, Difference, EndReaction, EndReactions,
+    EnergySummary, FilamentSummary, FinishedRun, FinishedRunError, LinkerSummary, ResidualSummary,
+    RunDirectory, RunDirectoryError, RunLock, ShapeSummary, StabilitySummary, StateIter,
+    StateSummary, StatesSummary, StoredStates, Summary, ThermalSummary, WorkSummary,
+    first_difference, replace_file,
 };
 pub use run::{
     Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, LongestStep,
@@ -59,13 +60,14 @@ pub use scene::fitted::laws as fitted_laws;
 #[cfg(feature = "schema")]
 pub use scene::schema;
 pub use scene::{
-    Acceleration, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking, Brownian,
-    Catch, Clamp, Couple, CouplePerLength, DragRates, Drawn, Dynamics, End, Equilibrium, Factor,
-    Filament, Flow, Fluid, Force, ForceLaw, ForcePerLength, Forming, Hinge, Hold, Imperfection,
-    Integrator, JunctionModel, JunctionWeight, Kinetics, Linker, LinkerSite, Load, Material,
-    Monomers, Observable, Output, Override, Pace, Plane, Point, Repulsion, RodLaw, RodLaws,
-    RodModel, RotaryInertia, Scene, SceneError, SceneProblem, SceneText, SceneValue, Section,
-    Setting, Shape, ShearLaw, Slides, Sphere, SphereSide, Stage, Stepping, StopTolerances,
-    StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
+    Acceleration, Adaptive, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking,
+    Brownian, Catch, Clamp, Couple, CouplePerLength, DragRates, Drawn, Dynamics, End, Equilibrium,
+    Factor, Filament, Flow, Fluid, Force, ForceLaw, ForcePerLength, Forming, Hinge, Hold,
+    Imperfection, Integrator, JunctionModel, JunctionWeight, Kinetics, Linker, LinkerSite, Load,
+    Material, Monomers, Observable, Output, Override, Pace, Plane, Point, Quantity, Repulsion,
+    RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError, SceneProblem, SceneText,
+    SceneValue, Section, Sections, Setting, Shape, ShearLaw, Slides, Sphere, SphereSide, Stage,
+    Stepping, StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
+    Want,
 };
 pub use scene::{Readings, read_all, read_ron};

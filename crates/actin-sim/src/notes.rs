@@ -4,6 +4,7 @@
 //! What can be said of a scene before it runs is added to [`Assembly::notes`]; what only a run can
 //! tell, to the `notes` of its summary.
 
+use crate::adapt::Chosen;
 use crate::assembly::Rod;
 use crate::scene::{Anchors, Filament, Material, Monomers, Observable, RodLaw, RodModel, Task};
 use crate::{Assembly, Outcome, Record, shape};
@@ -44,7 +45,7 @@ const COMMAND: &str = "cargo run --release -p actin-paper --example persistence_
 impl Assembly {
     /// Notes on this scene before it runs, a sentence or two each.
     pub fn notes(&self) -> Vec<String> {
-        let mut notes = Vec::new();
+        let mut notes: Vec<String> = self.chosen.iter().map(Chosen::note).collect();
         for filament in self.scene.filaments() {
             let sections = filament.sections.iter().filter(|s| !s.is_rod());
             for section in sections {
@@ -113,6 +114,10 @@ impl Outcome {
     /// Notes on what this run could not determine, a sentence each; `last` is its last record.
     pub(crate) fn notes(&self, assembly: &Assembly, last: &Record) -> Vec<String> {
         let mut notes = unknown_twist(assembly, last);
+        let error = self.equilibrium.as_ref().and_then(|e| e.error.as_ref());
+        if let Some(Err(problem)) = error {
+            notes.push(format!("its error is not known: {problem}"));
+        }
         notes.extend(assembly.note_on_rates(&last.state));
         let is_motion = !matches!(assembly.scene.task, Task::Equilibrium(_));
         if is_motion && self.has_converged() && self.at_rest.is_none() {

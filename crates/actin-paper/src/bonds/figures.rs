@@ -165,7 +165,8 @@ fn on_linkers(
         from_nm: 0.0,
         to_nm: length_nm,
         altered: None,
-    }];
+    }]
+    .into();
     scene.task = Task::Equilibrium(Equilibrium::default());
     let mut found = Vec::new();
     for turn in [0.0_f64, 90.0, 180.0, 270.0] {
@@ -188,7 +189,8 @@ fn all_monomers(variant: &Variant, seed: u64) -> Result<Scene, String> {
         from_nm: 0.0,
         to_nm: BUCKLED_NM,
         altered: None,
-    }];
+    }]
+    .into();
     for clamp in &mut scene.clamps {
         clamp.hold = Hold::Wall;
     }

@@ -11,6 +11,7 @@ pub mod table;
 
 pub use change::{Change, Expected, SLOW_MOTION};
 pub use setting::FilamentSetting;
+pub(crate) use setting::{sections_of, segments_of};
 pub use table::Measured;
 
 use crate::scene::{Scene, SceneProblem};

@@ -40,7 +40,8 @@ impl FilamentSetting {
         let mut scene = scene.clone();
         let filament = &mut scene.filament;
         let length = filament.sections.last().map_or(0.0, |s| s.span_nm().1);
-        filament.sections = self.sections(length);
+        let segments = |length| segments_of(length, self.segment_nm);
+        filament.sections = sections_of(length, &self.monomers, segments).into();
         filament.monomers.lateral_bonds = self.bonds;
         filament.monomers.longitudinal_bonds = self.bonds;
         filament.rod.law = self.law.clone();
@@ -53,33 +54,43 @@ impl FilamentSetting {
     pub fn monomers_nm(&self) -> f64 {
         self.monomers.iter().map(|[from, to]| to - from).sum()
     }
+}
 
-    fn sections(&self, length: f64) -> Vec<Section> {
-        let mut all = Vec::new();
-        let mut at = 0.0;
-        for &[from_nm, to_nm] in &self.monomers {
-            all.extend(self.rod(at, from_nm));
-            all.push(Section::Ellipsoids {
-                from_nm,
-                to_nm,
-                altered: None,
-            });
-            at = to_nm;
-        }
-        all.extend(self.rod(at, length));
-        all
+/// The sections of a filament: these stretches as monomers, in order and apart from each other, the rest rods of
+/// as many segments as `segments` gives their length (nm).
+pub(crate) fn sections_of(
+    length: f64,
+    monomers: &[[f64; 2]],
+    segments: impl Fn(f64) -> usize,
+) -> Vec<Section> {
+    // A rod, if there is any length for it.
+    let rod = |from_nm: f64, to_nm: f64| {
+        let segments = || Some(segments(to_nm - from_nm));
+        (to_nm > from_nm).then(|| Section::rod(from_nm, to_nm, segments()))
+    };
+    let mut all = Vec::new();
+    let mut at = 0.0;
+    for &[from_nm, to_nm] in monomers {
+        all.extend(rod(at, from_nm));
+        all.push(Section::Ellipsoids {
+            from_nm,
+            to_nm,
+            altered: None,
+        });
+        at = to_nm;
     }
+    all.extend(rod(at, length));
+    all
+}
 
-    /// A rod between two places, if there is any length between them.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "at least 1, and the conversion saturates"
-    )]
-    fn rod(&self, from_nm: f64, to_nm: f64) -> Option<Section> {
-        let segments = ((to_nm - from_nm) / self.segment_nm).round().max(1.0);
-        (to_nm > from_nm).then_some(Section::rod(from_nm, to_nm, Some(segments as usize)))
-    }
+/// Number of segments that makes them most nearly as long (nm), at least 1.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "at least 1, and the conversion saturates"
+)]
+pub(crate) fn segments_of(length_nm: f64, segment_nm: f64) -> usize {
+    (length_nm / segment_nm).round().max(1.0) as usize
 }
 
 #[cfg(test)]

@@ -17,6 +17,7 @@ use super::{
     Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Kinetics, Part, PointInfo, Repelled, Rod,
     SectionSpan, Term, imperfection,
 };
+use crate::adapt;
 use crate::observe::{EnergyNames, Observers};
 use crate::scene::{End, HeldEnds, Scene, SceneProblem, Section};
 use actin_coupling::Linker;
@@ -32,10 +33,20 @@ impl Assembly {
     /// length, `d_k` random directions across the axis, `A` such that the largest displacement is the
     /// amplitude: the same whatever resolves them, and zero with its slope at both ends.
     ///
+    /// Sections that are left to the program are [chosen](crate::adapt::choose) first.
+    ///
     /// # Errors
     /// What only shows when a filament is built: a section without room for its bodies, an
     /// interface that finds no bonds, more bodies than the memory of this machine holds.
     pub fn build(scene: &Scene) -> Result<Self, SceneProblem> {
+        if let Some(adaptive) = scene.filament.sections.adaptive() {
+            let (scene, chosen) = adapt::choose(scene, adaptive)?;
+            let built = Self::build(&scene)?;
+            return Ok(Self {
+                chosen: Some(chosen),
+                ..built
+            });
+        }
         let mut builder = Builder::new(scene)?;
         builder.push_filaments()?;
         builder.hold_ends()?;
@@ -171,6 +182,7 @@ impl<'a> Builder<'a> {
             repelled: self.repelled,
             spans,
             observers: Observers::default(),
+            chosen: None,
         };
         let energies = EnergyNames::of(&assembly);
         assembly.observers = Observers::new(&assembly.scene, &energies);

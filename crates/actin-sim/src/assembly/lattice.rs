@@ -5,7 +5,7 @@
 //! and 1. Which of the two holds depends on the clamps alone, not on what is resolved, so that
 //! resolving more does not move a monomer.
 
-use crate::scene::{Filament, MOST_COUNTED, SceneProblem, Section};
+use crate::scene::{End, Filament, HeldEnds, MOST_COUNTED, Scene, SceneProblem, Section};
 
 /// Monomers and places of one section.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,6 +83,20 @@ pub(super) fn resolve(
             check(i, &sections[i], resolved)
         })
         .collect()
+}
+
+/// The length (nm) nearest to `length_nm` that filament 0 has with every monomer resolved.
+pub(crate) fn whole_length_nm(scene: &Scene, length_nm: f64) -> Result<f64, SceneProblem> {
+    let held = HeldEnds::of(scene);
+    let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
+    let mut filament = scene.filament.clone();
+    filament.sections = vec![Section::Ellipsoids {
+        from_nm: 0.0,
+        to_nm: length_nm,
+        altered: None,
+    }]
+    .into();
+    resolve(&filament, is_held).map(|resolved| resolved[0].to_nm)
 }
 
 /// Refuses a boundary that more monomers reach than are told apart.

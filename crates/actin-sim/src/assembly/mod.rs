@@ -31,6 +31,8 @@ pub use bonded::JunctionBond;
 pub use drive::Drive;
 pub use kinetics::{Happening, LinkerEvent};
 pub(crate) use kinetics::{Kinetics, Log};
+pub(crate) use lattice::whole_length_nm;
+pub(crate) use models::ellipsoids;
 pub(crate) use parts::Rod;
 pub use parts::{
     BodyKind, Counts, FilamentSpan, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term,
@@ -43,6 +45,7 @@ pub(crate) use repelled::Repelled;
 pub use unstable_twist::UnstableTwist;
 pub(crate) use unstable_twist::{TwistRecords, TwistWatch};
 
+use crate::adapt::Chosen;
 use crate::observe::Observers;
 use crate::scene::{End, HeldEnds, Monomers, Scene};
 use actin_coupling::Linker;
@@ -91,6 +94,8 @@ pub struct Assembly {
     pub drive: Drive,
     /// The state as built, unloaded and at rest, without imperfections.
     pub rest: State,
+    /// How its sections were chosen, if the program chose them.
+    pub chosen: Option<Chosen>,
     /// Memory that the task takes but for its records, estimated (bytes).
     pub(crate) bytes: f64,
 }

@@ -73,7 +73,7 @@ impl From<&EllipsoidParameters> for Monomers {
 
 /// The monomers' model of filament `index`, whose bonds are sampled independently of those of
 /// other filaments; what it refuses is named by the scene's keys.
-pub(super) fn ellipsoids(
+pub(crate) fn ellipsoids(
     monomers: &Monomers,
     index: usize,
 ) -> Result<EllipsoidModel, SceneProblem> {

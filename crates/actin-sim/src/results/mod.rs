@@ -53,9 +53,9 @@ pub use finished::{FinishedRun, FinishedRunError};
 pub use lock::RunLock;
 pub use stored::{StateIter, StoredStates};
 pub use summary::{
-    EndReaction, EndReactions, EnergySummary, FilamentSummary, LinkerSummary, ResidualSummary,
-    ShapeSummary, StabilitySummary, StateSummary, StatesSummary, Summary, ThermalSummary,
-    WorkSummary,
+    AccuracySummary, EndReaction, EndReactions, EnergySummary, FilamentSummary, LinkerSummary,
+    ResidualSummary, ShapeSummary, StabilitySummary, StateSummary, StatesSummary, Summary,
+    ThermalSummary, WorkSummary,
 };
 
 use crate::{Assembly, Task};

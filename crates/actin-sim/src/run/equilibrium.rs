@@ -7,6 +7,7 @@ use super::taken::Taken;
 use super::unknowns::newton;
 use super::{At, Failure, Outcome, Progress, Record, Recorded, RunPosition, Status};
 use crate::Assembly;
+use crate::adapt::{ErrorEstimate, estimate};
 use crate::scene::{Equilibrium as Settings, Resultant, SceneProblem};
 use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure,
@@ -37,6 +38,8 @@ pub struct EquilibriumReport {
     pub history: Vec<Residual>,
     /// Stable states about it, if the scene asks for them.
     pub states: Option<StableStates>,
+    /// The error of the number that the scene asks for it, or why it is not known.
+    pub error: Option<Result<ErrorEstimate, SceneProblem>>,
 }
 
 /// Solves for the equilibrium, or follows the path.
@@ -65,6 +68,9 @@ pub(super) fn run(
     } = follower;
     let wanted = settings.lowest_eigenvalue && position.last.is_some() && !is_interrupted;
     let lowest = wanted.then(|| lowest_eigenvalue(&mut newton, &assembly.system, &state));
+    let is_done = failure.is_none() && !is_interrupted;
+    let judged = settings.error_of.filter(|_| is_done);
+    let error = judged.map(|quantity| estimate(assembly, &state, quantity));
     let work = newton.work();
     let status = match (&failure, is_interrupted) {
         (Some(_), _) => Status::Failed,
@@ -75,8 +81,7 @@ pub(super) fn run(
         force_evaluations: work.evaluations,
         saddles_left: position.saddles_left,
         jumps: position.jumps,
-        equilibrium: report(position, lowest.flatten(), of_path)
-            .map(|report| EquilibriumReport { states, ..report }),
+        equilibrium: report(position, lowest.flatten(), of_path, (states, error)),
         ..Outcome::new(status, clock.wall_s())
     }
     .with(taken.into_remarks());
@@ -452,6 +457,10 @@ fn report(
     position: PathPosition,
     lowest_eigenvalue: Option<f64>,
     work: SolverWork,
+    (states, error): (
+        Option<StableStates>,
+        Option<Result<ErrorEstimate, SceneProblem>>,
+    ),
 ) -> Option<EquilibriumReport> {
     let last = position.last?;
     last.certificate.map(|certificate| EquilibriumReport {
@@ -461,6 +470,7 @@ fn report(
         points: position.points,
         floor: last.floor,
         history: last.history,
-        states: None,
+        states,
+        error,
     })
 }

@@ -33,6 +33,7 @@ pub use states::{StableState, StableStates};
 pub use steps::LongestStep;
 pub(crate) use taken::Carried;
 pub use taken::Recorded;
+pub(crate) use unknowns::layout;
 pub use unknowns::newton as solver;
 
 use crate::scene::Task;

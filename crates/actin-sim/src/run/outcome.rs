@@ -2,9 +2,10 @@
 
 use super::taken::Remarks;
 use super::{EquilibriumReport, HingeSlip, SaddlePush, Slip};
+use crate::adapt::ErrorEstimate;
 use crate::scene::SceneProblem;
 use crate::{BeyondRange, BeyondUse, LinkerEvent, UnstableTwist};
-use actin_equilibrium::{Certificate, PathFailure};
+use actin_equilibrium::{Certificate, PathFailure, Residual};
 use actin_integrate::RunFailure;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -104,6 +105,21 @@ impl Outcome {
     /// Whether the equilibrium was reached, or the stop rule of a motion was met.
     pub fn has_converged(&self) -> bool {
         self.status == Status::Converged
+    }
+
+    /// Force and torque that rounding leaves of an equilibrium, where it ended there.
+    pub fn residual_floor(&self) -> Option<Residual> {
+        self.equilibrium.as_ref()?.floor
+    }
+
+    /// The lowest eigenvalue of the stiffness at an equilibrium, where the scene asks for it.
+    pub fn lowest_eigenvalue(&self) -> Option<f64> {
+        self.equilibrium.as_ref()?.lowest_eigenvalue
+    }
+
+    /// The error of the number that the scene asked for it, where it is known.
+    pub fn model_error(&self) -> Option<ErrorEstimate> {
+        self.equilibrium.as_ref()?.error.clone()?.ok()
     }
 
     /// What the stiffness says of the state in which the run ended, if that is an equilibrium.

@@ -53,7 +53,7 @@ pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneP
 }
 
 /// What may move, and in which order.
-pub(super) fn layout(assembly: &Assembly) -> Result<Layout, SceneProblem> {
+pub(crate) fn layout(assembly: &Assembly) -> Result<Layout, SceneProblem> {
     let layout = Layout::new(&assembly.rest, Some(&order(assembly)), Vec::new())
         .map_err(|error| SceneProblem::new("filament", "", error.to_string()))?;
     let loose = loose_pairs(assembly);

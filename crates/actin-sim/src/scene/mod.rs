@@ -32,6 +32,7 @@ mod saddles;
 mod schema;
 mod section;
 mod section_rules;
+mod sections;
 mod seeds;
 mod shape;
 mod stage;
@@ -70,6 +71,7 @@ pub use repulsion::{Plane, Repulsion, Sphere, SphereSide};
 #[cfg(feature = "schema")]
 pub use schema::schema;
 pub use section::{Altered, AlteredRod, Section};
+pub use sections::{Adaptive, Quantity, Sections, Want};
 pub use seeds::Drawn;
 pub use shape::Shape;
 pub(crate) use support::is_across;

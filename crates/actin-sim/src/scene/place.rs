@@ -12,7 +12,7 @@ impl Filament {
     /// A filament of these sections along lab +z from the origin, every parameter the default.
     pub fn new(sections: Vec<Section>) -> Self {
         Self {
-            sections,
+            sections: sections.into(),
             monomers: Monomers::default(),
             rod: RodModel::default(),
             junction: JunctionModel::default(),

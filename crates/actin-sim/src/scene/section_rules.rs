@@ -1,6 +1,7 @@
 //! The rules of the sections of a filament.
 
 use super::rules::{check_curvature, each_positive, finite, non_negative, positive, show};
+use super::sections::check_adaptive;
 use super::validate::check_bonds;
 use super::{AlteredRod, Filament, Material, SceneProblem, Section};
 
@@ -9,6 +10,10 @@ const BOUNDARY_TOLERANCE_NM: f64 = 1e-9;
 
 /// Checks the sections of a filament, each of which may break a rule.
 pub(super) fn check(filament: &Filament, note: &mut impl FnMut(Result<(), SceneProblem>)) {
+    if let Some(adaptive) = filament.sections.adaptive() {
+        note(check_adaptive(adaptive));
+        return;
+    }
     let sections = &filament.sections;
     if sections.is_empty() {
         let rule = "a filament has at least one section";

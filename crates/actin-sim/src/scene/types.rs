@@ -2,8 +2,8 @@
 
 use super::model::{JunctionModel, Monomers, RodModel};
 use super::{
-    Brownian, Imperfection, Linker, Load, Observable, Output, Repulsion, Section, Shape, Thermal,
-    written::Written,
+    Brownian, Imperfection, Linker, Load, Observable, Output, Quantity, Repulsion, Sections, Shape,
+    Thermal, written::Written,
 };
 use serde::{Deserialize, Serialize};
 
@@ -123,8 +123,9 @@ pub enum Setting {
 #[serde(deny_unknown_fields)]
 pub struct Filament {
     /// Sections in order of arc length, at least one. The first starts at 0, each other where the one
-    /// before it ends; neighbours are of different kinds, or `altered` differently.
-    pub sections: Vec<Section>,
+    /// before it ends; neighbours are of different kinds, or `altered` differently. Or `Adaptive(..)`: the program
+    /// chooses them.
+    pub sections: Sections,
     /// Parameters of the monomers; sections may be `altered`.
     #[serde(default)]
     pub monomers: Monomers,
@@ -273,6 +274,9 @@ pub struct Equilibrium {
     /// end and about those that are found; at most 10000. `summary.json` lists them by energy,
     /// `other_states.npz` holds them. States that lost a turn on the way do not count.
     pub states: usize,
+    /// A number of the result whose error is estimated, against every monomer resolved: `model_error` in
+    /// `summary.json`. Of a single straight filament.
+    pub error_of: Option<Quantity>,
 }
 
 impl Default for Equilibrium {
@@ -287,6 +291,7 @@ impl Default for Equilibrium {
             accept_jumps: false,
             lowest_eigenvalue: false,
             states: 0,
+            error_of: None,
         }
     }
 }

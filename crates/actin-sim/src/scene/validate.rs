@@ -82,6 +82,9 @@ fn filaments(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
 
 /// The rules between parts of a scene that are sound each.
 fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
+    if let Some(adaptive) = scene.filament.sections.adaptive() {
+        crate::adapt::check(scene, adaptive.want.quantity())?;
+    }
     match &scene.task {
         Task::Dynamics(dynamics) => {
             stage::check_durations(scene, dynamics.duration_ns)?;
@@ -100,6 +103,9 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
             brownian::check_whole(scene, task)
         }
         Task::Equilibrium(equilibrium) => {
+            if let Some(quantity) = equilibrium.error_of {
+                crate::adapt::check(scene, quantity)?;
+            }
             for (i, one) in scene.filaments().enumerate() {
                 check_potential(one).map_err(|p| p.with_filament(&scene.filament_key(i)))?;
             }

@@ -123,7 +123,7 @@ impl Case {
 
     fn apply(&self, scene: &mut Scene) {
         scene.title = self.name();
-        scene.filament.sections = self.sections();
+        scene.filament.sections = self.sections().into();
         self.group.apply(scene, self.seed);
         let hold = match self.resolved {
             Resolved::Ellipsoids => Hold::Wall,

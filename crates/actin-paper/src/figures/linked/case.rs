@@ -208,7 +208,7 @@ impl Case {
     /// The scene of the figure, resolved as this case says.
     pub(super) fn scene(&self) -> Result<Scene, String> {
         let mut scene = scenario(self.figure.file)?;
-        scene.filament.sections = self.sections();
+        scene.filament.sections = self.sections().into();
         scene.filament.monomers.seed = self.seed;
         if self.variant.mean {
             scene.filament.monomers = Monomers::default();

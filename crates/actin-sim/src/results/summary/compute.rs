@@ -1,8 +1,9 @@
 //! The numbers of a summary, from the last record of a run.
 
 use super::{
-    EndReactions, EnergySummary, FilamentSummary, LateKinetic, LinkerSummary, ResidualSummary,
-    ShapeSummary, StabilitySummary, StatesSummary, Summary, ThermalSummary, WorkSummary,
+    AccuracySummary, EndReactions, EnergySummary, FilamentSummary, LateKinetic, LinkerSummary,
+    ResidualSummary, ShapeSummary, StabilitySummary, StatesSummary, Summary, ThermalSummary,
+    WorkSummary,
 };
 use crate::observe::{Averages, View};
 use crate::{Assembly, At, End, Outcome, Record, Status, Task, shape};
@@ -35,7 +36,6 @@ impl Summary {
 
     /// The summary of a run of `assembly` that ended with the record `last`.
     pub fn new(assembly: &Assembly, last: &Record, outcome: &Outcome) -> Self {
-        let equilibrium = outcome.equilibrium.as_ref();
         let filaments = FilamentSummary::all(assembly, last);
         let first = &filaments[0];
         Self {
@@ -65,10 +65,11 @@ impl Summary {
             smallest_gap_nm: assembly.smallest_gap_nm(&last.state),
             shape: first.shape,
             residual: ResidualSummary::of(last),
-            residual_floor: equilibrium.and_then(|e| e.floor).map(Into::into),
+            residual_floor: outcome.residual_floor().map(Into::into),
             thermal: ThermalSummary::new(assembly, &kinetic_of(last)),
-            lowest_stiffness_eigenvalue: equilibrium.and_then(|e| e.lowest_eigenvalue),
+            lowest_stiffness_eigenvalue: outcome.lowest_eigenvalue(),
             states: StatesSummary::of(assembly, outcome),
+            accuracy: AccuracySummary::new(assembly, outcome),
             work: WorkSummary::new(outcome),
             wall_s: outcome.wall_s,
             version: env!("CARGO_PKG_VERSION").to_owned(),

@@ -20,7 +20,11 @@ pub(super) use thermal::LateKinetic;
 pub use thermal::ThermalSummary;
 
 use super::{RunDirectoryError, finite::ensure_finite};
-use crate::{BeyondRange, BeyondUse, Counts, ObservableSummary, SaddlePush, Status, UnstableTwist};
+use crate::adapt::{Chosen, ErrorEstimate};
+use crate::{
+    Assembly, BeyondRange, BeyondUse, Counts, ObservableSummary, Outcome, SaddlePush, Status,
+    UnstableTwist,
+};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -116,6 +120,9 @@ pub struct Summary {
     /// Stable states, where an equilibrium was asked for others; no key where it was not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub states: Option<StatesSummary>,
+    /// What is known of the error of the resolution.
+    #[serde(flatten)]
+    pub accuracy: AccuracySummary,
     /// What the run cost in work.
     pub work: WorkSummary,
     /// What the run cost in time (s).
@@ -188,6 +195,26 @@ struct CountKeys {
     segments: usize,
     junctions: usize,
     dofs: usize,
+}
+
+/// What is known of the error of the resolution.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AccuracySummary {
+    /// The error of the number that an equilibrium was asked for it; no key where it was not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model_error: Option<ErrorEstimate>,
+    /// How sections were chosen; no key where the scene has them, also after it was resumed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<Chosen>,
+}
+
+impl AccuracySummary {
+    fn new(assembly: &Assembly, outcome: &Outcome) -> Self {
+        Self {
+            model_error: outcome.model_error(),
+            resolution: assembly.chosen.clone(),
+        }
+    }
 }
 
 impl Summary {

@@ -1,0 +1,291 @@
+//! What is wanted of an equilibrium, and how the loads in a filament change with it.
+//!
+//! A stretch that is longer, more bent or more twisted by `delta` than its model says moves a tip by
+//! `delta . dw / dF`, with `w` the couple and force that the stretch carries and `F` a force on the tip along its
+//! displacement; it changes what a clamp bears by `-delta . dw / dc`, with `c` the motion of the clamp. Both
+//! derivatives come from one linear solve with the stiffness of the equilibrium.
+
+use super::section_loads::SectionLoads;
+use crate::scene::{Quantity, SceneProblem};
+use crate::shape::Ribbon;
+use crate::{Assembly, End};
+use actin_ellipsoid::SixVector;
+use actin_equilibrium::ImplicitSolver;
+use actin_mechanics::{
+    Coordinates, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3, rotation,
+};
+
+/// Largest displacement (nm) or turn (rad) of a body, or of a clamp, in a difference; what follows it may move by
+/// this share of the length of the filament.
+const STEP: f64 = 1e-4;
+/// What is added to the stiffness (pN/nm, pN nm/rad) where directions have none.
+const SHIFT: f64 = 1e-9;
+
+/// A wanted number about one equilibrium.
+#[derive(Clone, Copy, Debug)]
+enum Goal {
+    /// The displacement of the tip along a direction.
+    Tip(Vector3),
+    /// The largest distance from the axis.
+    Height,
+    /// What the clamp at the end bears along and about the filament.
+    Clamp { along: Vector3, about: Vector3 },
+}
+
+impl Goal {
+    fn of(quantity: Quantity, assembly: &Assembly, state: &State) -> Self {
+        let axis = assembly.filaments[0].axis();
+        let zero = Vector3::zeros();
+        match quantity {
+            Quantity::Tip => {
+                let moved = tip_displacement(assembly, state);
+                Self::Tip(moved.try_normalize(0.0).unwrap_or_else(Vector3::x))
+            }
+            Quantity::Height => Self::Height,
+            Quantity::EndForce => Self::Clamp {
+                along: axis,
+                about: zero,
+            },
+            Quantity::EndCouple => Self::Clamp {
+                along: zero,
+                about: axis,
+            },
+        }
+    }
+
+    fn value(&self, assembly: &Assembly, state: &State) -> f64 {
+        match self {
+            Self::Tip(direction) => tip_displacement(assembly, state).dot(direction),
+            Self::Height => Ribbon::new(assembly, state).largest_distance_nm(),
+            Self::Clamp { along, about } => {
+                let clamp = assembly.clamp_at(0, End::End).expect("checked before");
+                let reaction = clamp.reaction(state, &all_loads(assembly, state));
+                reaction.force_pn.dot(along) + reaction.torque_pn_nm.dot(about)
+            }
+        }
+    }
+
+    /// Bodies on whose places the value depends, but for those of a clamp: points, frames.
+    fn bodies(&self, assembly: &Assembly, state: &State) -> (Vec<usize>, Vec<usize>) {
+        match self {
+            Self::Tip(_) => (assembly.tip_points(End::End).to_vec(), Vec::new()),
+            Self::Height => about_the_top(assembly, state),
+            Self::Clamp { .. } => (Vec::new(), Vec::new()),
+        }
+    }
+}
+
+fn tip_displacement(assembly: &Assembly, state: &State) -> Vector3 {
+    assembly.tip_nm(state, End::End) - assembly.tip_nm(&assembly.rest, End::End)
+}
+
+fn all_loads(assembly: &Assembly, state: &State) -> Loads {
+    let mut loads = Loads::zeros(state);
+    for interaction in assembly.system.interactions() {
+        interaction.add_loads(state, &mut loads);
+    }
+    loads
+}
+
+/// The bodies about the vertex that is furthest from the axis.
+fn about_the_top(assembly: &Assembly, state: &State) -> (Vec<usize>, Vec<usize>) {
+    let ribbon = Ribbon::new(assembly, state);
+    let span = &assembly.filaments[0];
+    let distance = |i: usize| {
+        let seen = span.seen_along_z(ribbon.points_nm[i]);
+        seen.x.hypot(seen.y)
+    };
+    let vertices = 0..ribbon.points_nm.len();
+    let top = vertices.max_by(|&i, &j| distance(i).total_cmp(&distance(j)));
+    let top = top.unwrap_or_default();
+    let last = ribbon.s_nm.len() - 1;
+    let rise = assembly.monomers_of(0).rise_nm;
+    let from = ribbon.s_nm[top.saturating_sub(1)] - rise;
+    let to = ribbon.s_nm[(top + 1).min(last)] + rise;
+    let near = |s_nm: f64| (from..=to).contains(&s_nm);
+    (
+        span.points
+            .clone()
+            .filter(|&i| near(assembly.points[i].s_nm))
+            .collect(),
+        span.frames
+            .clone()
+            .filter(|&i| near(assembly.frames[i].s_nm))
+            .collect(),
+    )
+}
+
+/// The wanted number, and what the loads in the filament have to do with it.
+#[derive(Debug)]
+pub(super) struct Adjoint {
+    /// The number.
+    pub value: f64,
+    ahead: SectionLoads,
+    behind: SectionLoads,
+    /// Of the parameter that the loads are differentiated by.
+    step: f64,
+    sign: f64,
+}
+
+impl Adjoint {
+    /// That of an equilibrium.
+    ///
+    /// # Errors
+    /// Bodies that the solver refuses.
+    pub(super) fn of(
+        quantity: Quantity,
+        assembly: &Assembly,
+        state: &State,
+    ) -> Result<Self, SceneProblem> {
+        let goal = Goal::of(quantity, assembly, state);
+        let loads = match goal {
+            Goal::Tip(_) | Goal::Height => gradient(&goal, assembly, state),
+            Goal::Clamp { along, about } => {
+                let ahead = all_loads(
+                    assembly,
+                    &moved_end(assembly, state, along, about * STEP, STEP),
+                );
+                let behind = moved_end(assembly, state, along, about * -STEP, -STEP);
+                scaled(&ahead, &all_loads(assembly, &behind), (2.0 * STEP).recip())
+            }
+        };
+        let mut solver = factorised(assembly, state)?;
+        let extent = solver.advance(&mut state.clone(), &loads, f64::INFINITY);
+        let is_clamp = matches!(goal, Goal::Clamp { .. });
+        let own = if is_clamp { 1.0 } else { f64::MIN_POSITIVE };
+        let moved = extent.displacement / assembly.length_nm().max(1.0);
+        let step = STEP / extent.rotation.max(moved).max(own);
+        let mut at = |step: f64| {
+            let mut moved = match goal {
+                Goal::Clamp { along, about } => {
+                    moved_end(assembly, state, along, about * step, step)
+                }
+                _ => state.clone(),
+            };
+            solver.advance(
+                &mut moved,
+                &scaled(&loads, &Loads::zeros(state), step),
+                f64::INFINITY,
+            );
+            SectionLoads::of(assembly, &moved)
+        };
+        Ok(Self {
+            value: goal.value(assembly, state),
+            ahead: at(step),
+            behind: at(-step),
+            step,
+            sign: if is_clamp { -1.0 } else { 1.0 },
+        })
+    }
+
+    /// The number alone.
+    pub(super) fn value_of(quantity: Quantity, assembly: &Assembly, state: &State) -> f64 {
+        Goal::of(quantity, assembly, state).value(assembly, state)
+    }
+
+    /// By how much the number changes per strain of a stretch at an arc length (nm) beyond what its model says, in
+    /// body axes: per turn, then per displacement.
+    pub(super) fn weight(&self, s_nm: f64) -> SixVector {
+        (self.ahead.at(s_nm) - self.behind.at(s_nm)) * (self.sign / (2.0 * self.step))
+    }
+}
+
+/// The stiffness at a state, factorised; with a little more where directions have none.
+fn factorised(assembly: &Assembly, state: &State) -> Result<ImplicitSolver, SceneProblem> {
+    let mut solver = ImplicitSolver::new(crate::run::layout(assembly)?);
+    let loads = all_loads(assembly, state);
+    let interactions = assembly.system.interactions();
+    if !solver.factorize((state, &loads), interactions, &Shift(0.0)) {
+        solver.factorize((state, &loads), interactions, &Shift(SHIFT));
+    }
+    Ok(solver)
+}
+
+/// `factor (a - b)`.
+fn scaled(a: &Loads, b: &Loads, factor: f64) -> Loads {
+    let mut difference = a.clone();
+    for i in 0..a.force.len() {
+        difference
+            .force
+            .set(i, (a.force.get(i) - b.force.get(i)) * factor);
+    }
+    for i in 0..a.torque.len() {
+        difference
+            .torque
+            .set(i, (a.torque.get(i) - b.torque.get(i)) * factor);
+    }
+    difference
+}
+
+/// The state with its clamped end moved by `step` along a direction and turned about its point.
+fn moved_end(
+    assembly: &Assembly,
+    state: &State,
+    along: Vector3,
+    turn: Vector3,
+    step: f64,
+) -> State {
+    let clamp = assembly.clamp_at(0, End::End).expect("checked before");
+    let centre = clamp.point_nm(state);
+    let turn = rotation::exp(turn);
+    let mut moved = state.clone();
+    for &i in &clamp.points {
+        let arm = state.points.position.get(i) - centre;
+        moved
+            .points
+            .position
+            .set(i, centre + turn * arm + along * step);
+    }
+    for &i in &clamp.frames {
+        moved
+            .frames
+            .orientation
+            .set(i, turn * state.frames.orientation.get(i));
+    }
+    moved
+}
+
+/// Derivative of a goal by the places of bodies, as loads.
+fn gradient(goal: &Goal, assembly: &Assembly, state: &State) -> Loads {
+    let mut loads = Loads::zeros(state);
+    let (points, frames) = goal.bodies(assembly, state);
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let slope = |change: &dyn Fn(&mut State, f64)| {
+        let at = |step: f64| {
+            let mut moved = state.clone();
+            change(&mut moved, step);
+            goal.value(assembly, &moved)
+        };
+        (at(STEP) - at(-STEP)) / (2.0 * STEP)
+    };
+    for i in points {
+        let by = axes.map(|axis| slope(&|state, step| state.points.position.add(i, axis * step)));
+        loads.force.set(i, Vector3::from(by));
+    }
+    for i in frames {
+        let by = axes.map(|axis| {
+            slope(&|state, step| {
+                let q = state.frames.orientation.get(i) * rotation::exp(axis * step);
+                state.frames.orientation.set(i, q);
+            })
+        });
+        loads.torque.set(i, Vector3::from(by));
+    }
+    loads
+}
+
+/// The same stiffness against every motion of every free body.
+struct Shift(f64);
+
+impl SecondOrder for Shift {
+    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        let points = (0..state.points.len()).filter(|&i| state.points.is_free(i));
+        let frames = (0..state.frames.len()).filter(|&i| state.frames.is_free(i));
+        let bodies = points
+            .map(Coordinates::Point)
+            .chain(frames.map(Coordinates::Frame));
+        for body in bodies {
+            stiffness.push(body, body, Matrix3::identity() * self.0);
+        }
+    }
+}

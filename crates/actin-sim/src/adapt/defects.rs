@@ -1,0 +1,231 @@
+//! What a stretch of filament does otherwise than monomers under the same loads would: law, junctions.
+
+use super::adjoint::Adjoint;
+use super::axis::CrossSection;
+use super::ideal::{Ideal, MeanFilament, PERIOD};
+use super::section_loads::{SectionLoads, Segment, linear, rotational, segments, six};
+use crate::assembly::BodyKind;
+use crate::{Assembly, SectionSpan};
+use actin_ellipsoid::SixVector;
+use actin_mechanics::{State, Vector3, rotation};
+
+/// Segments of one rod under whose loads a cell is relaxed; defects in between are linear.
+const SAMPLES: usize = 16;
+/// How far into a rod a junction is looked at (nm).
+const INTO_ROD_NM: f64 = 20.0;
+/// Cells on the way across a junction.
+const ACROSS: u32 = 5;
+
+/// Part of an error, and the stretch that it comes from (nm).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    pub span_nm: [f64; 2],
+    pub error: f64,
+}
+
+/// An equilibrium that is looked at.
+pub(super) struct Look<'a> {
+    pub assembly: &'a Assembly,
+    pub state: &'a State,
+    pub loads: &'a SectionLoads,
+    pub adjoint: &'a Adjoint,
+    pub mean: &'a MeanFilament,
+}
+
+impl Look<'_> {
+    /// What the law of a rod makes of each segment, against monomers under the same couple and force.
+    ///
+    /// Cells are relaxed where most of the wanted number comes from. None where one finds no minimum.
+    pub(super) fn law(&self, rod: &SectionSpan) -> Option<Vec<Part>> {
+        let all = segments(self.assembly, self.state, rod);
+        let share = |segment: &Segment| {
+            let weight = self.adjoint.weight(segment.s_nm);
+            let strain = segment.strain.component_mul(&weight);
+            segment.length_nm * strain.abs().sum()
+        };
+        let shares: Vec<f64> = all.iter().map(share).collect();
+        let mut known: Vec<(f64, SixVector)> = Vec::new();
+        let mut last = None;
+        for i in sampled(&shares, SAMPLES) {
+            let segment = &all[i];
+            let response = self
+                .mean
+                .under(&self.loads.at(segment.s_nm), last.as_ref())?;
+            known.push((segment.s_nm, response.strain - segment.strain));
+            last = Some(response);
+        }
+        let part = |segment: &Segment| {
+            let defect = interpolated(&known, segment.s_nm);
+            let half = 0.5 * segment.length_nm;
+            Part {
+                span_nm: [segment.s_nm - half, segment.s_nm + half],
+                error: segment.length_nm * defect.dot(&self.adjoint.weight(segment.s_nm)),
+            }
+        };
+        Some(all.iter().map(part).collect())
+    }
+
+    /// What a junction makes of the stretch about it, but for the law of its rod.
+    ///
+    /// From about ten monomers before it (the mean of 13) to 20 nm into the rod, against monomers under the same
+    /// loads.
+    pub(super) fn junction(&self, monomers: &SectionSpan, rod: &SectionSpan) -> Option<Part> {
+        let out = if rod.from_nm >= monomers.to_nm {
+            1.0
+        } else {
+            -1.0
+        };
+        let joint = if out > 0.0 { rod.from_nm } else { rod.to_nm };
+        let rise = self.assembly.monomers_of(0).rise_nm;
+        let into = (0.5 * (monomers.to_nm - monomers.from_nm)).min(10.0 * rise);
+        let from = joint - out * into;
+        let along = (0.5 * (rod.to_nm - rod.from_nm)).min(INTO_ROD_NM);
+        let to = self.node_near(rod, joint + out * along);
+        let ideal = Ideal::along(
+            self.mean,
+            |s| self.loads.at(s),
+            [from - out * 6.0 * rise, to],
+            ACROSS,
+        )?;
+        let base = self.loads.cross_section(from);
+        let at = |s_nm: f64| ideal.carry(base, [from, s_nm]);
+        let (turn, shift) = mean_motion((self.assembly, self.state), from, at);
+        let base = (base.0 + shift, rotation::exp(turn) * base.1);
+        let (place, axes) = ideal.carry(base, [from, to]);
+        let (place_here, axes_here) = self.loads.cross_section(to);
+        let all = (
+            rotation::log(axes * axes_here.inverse()),
+            place - place_here,
+        );
+        let here = (self.assembly, self.state, self.loads);
+        let law = of_law(here, rod, &ideal, [joint, to]);
+        let body = axes_here.inverse();
+        let defect = six(body * (all.0 - law.0), body * (all.1 - law.1)) * out;
+        Some(Part {
+            span_nm: [from.min(to), from.max(to)],
+            error: defect.dot(&self.adjoint.weight(to)),
+        })
+    }
+
+    fn node_near(&self, rod: &SectionSpan, s_nm: f64) -> f64 {
+        let nodes = rod.points.clone().map(|i| self.assembly.points[i].s_nm);
+        let nearest = nodes.min_by(|a, b| (a - s_nm).abs().total_cmp(&(b - s_nm).abs()));
+        nearest.unwrap_or(s_nm)
+    }
+}
+
+/// By how much more an ideal stretch turns and moves the cross-section at `to` than the segments of a rod do from
+/// `from` on; to first order, lab frame.
+pub(super) fn of_law(
+    (assembly, state, loads): (&Assembly, &State, &SectionLoads),
+    rod: &SectionSpan,
+    ideal: &Ideal,
+    [from, to]: [f64; 2],
+) -> (Vector3, Vector3) {
+    let direction = (to - from).signum();
+    let (low, high) = (from.min(to), from.max(to));
+    let place_to = loads.cross_section(to).0;
+    let (mut turn, mut shift) = (Vector3::zeros(), Vector3::zeros());
+    for segment in segments(assembly, state, rod) {
+        let half = 0.5 * segment.length_nm;
+        let (a, b) = (
+            (segment.s_nm - half).max(low),
+            (segment.s_nm + half).min(high),
+        );
+        if b <= a {
+            continue;
+        }
+        let middle = 0.5 * (a + b);
+        let defect = (ideal.strain(middle) - segment.strain) * ((b - a) * direction);
+        let (place, axes) = loads.cross_section(middle);
+        let turned = axes * rotational(&defect);
+        turn += turned;
+        shift += axes * linear(&defect) + turned.cross(&(place_to - place));
+    }
+    (turn, shift)
+}
+
+/// Mean turn, and mean displacement at `centre`, of the 13 monomers about it against those that stand rigidly on
+/// cross-sections (lab frame).
+pub(super) fn mean_motion(
+    (assembly, state): (&Assembly, &State),
+    centre: f64,
+    at: impl Fn(f64) -> CrossSection,
+) -> (Vector3, Vector3) {
+    let span = &assembly.filaments[0];
+    let far = |i: &usize| (assembly.points[*i].s_nm - centre).abs();
+    let is_monomer = |i: &usize| assembly.points[*i].kind == BodyKind::Monomer;
+    let mut near: Vec<usize> = span.points.clone().filter(is_monomer).collect();
+    near.sort_by(|a, b| far(a).total_cmp(&far(b)));
+    near.truncate(PERIOD);
+    let pivot = at(centre).0;
+    let (mut turn, mut shift) = (Vector3::zeros(), Vector3::zeros());
+    for &i in &near {
+        let s_nm = assembly.points[i].s_nm;
+        let (place, axes) = at(s_nm);
+        let turned = axes * span.rotation.inverse();
+        let arm = assembly.rest.points.position.get(i) - span.axis_place(s_nm);
+        let frame = assembly.points[i].frame.expect("a monomer has a frame");
+        let stands = turned * assembly.rest.frames.orientation.get(frame);
+        let own = rotation::log(state.frames.orientation.get(frame) * stands.inverse());
+        let moved = state.points.position.get(i) - (place + turned * arm);
+        turn += own;
+        shift += moved - own.cross(&(place - pivot));
+    }
+    let n = near.len() as f64;
+    (turn / n, shift / n)
+}
+
+/// At most `n` indices, ascending and with both ends, between which about the same sums of `shares` lie.
+fn sampled(shares: &[f64], n: usize) -> Vec<usize> {
+    if shares.len() <= n {
+        return (0..shares.len()).collect();
+    }
+    // A part that does not depend on the shares keeps gaps bounded.
+    let even = shares.iter().sum::<f64>() / shares.len() as f64;
+    let total = shares.iter().map(|share| share + even).sum::<f64>();
+    let mut chosen = vec![0];
+    let mut sum = 0.0;
+    for (i, share) in shares.iter().enumerate() {
+        sum += share + even;
+        if sum >= total * chosen.len() as f64 / (n - 1) as f64 && i > 0 {
+            chosen.push(i);
+        }
+    }
+    let last = shares.len() - 1;
+    if *chosen.last().expect("the first") != last {
+        chosen.push(last);
+    }
+    chosen
+}
+
+/// Linear between the two known values about a place.
+fn interpolated(known: &[(f64, SixVector)], s_nm: f64) -> SixVector {
+    if known.len() == 1 {
+        return known[0].1;
+    }
+    let after = known
+        .partition_point(|k| k.0 < s_nm)
+        .clamp(1, known.len() - 1);
+    let (a, b) = (&known[after - 1], &known[after]);
+    let t = ((s_nm - a.0) / (b.0 - a.0)).clamp(0.0, 1.0);
+    a.1 * (1.0 - t) + b.1 * t
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where all comes from one place, samples crowd there; both ends are among them.
+    #[test]
+    fn samples_follow_the_shares() {
+        assert_eq!(sampled(&[1.0; 5], 8), [0, 1, 2, 3, 4]);
+        let mut shares = vec![0.0; 100];
+        shares[..10].fill(1.0);
+        let chosen = sampled(&shares, 11);
+        assert_eq!((chosen[0], *chosen.last().unwrap()), (0, 99));
+        assert!(chosen.len() <= 12, "{chosen:?}");
+        let crowded = chosen.iter().filter(|&&i| i < 10).count();
+        assert!(crowded >= 5, "{chosen:?}");
+    }
+}

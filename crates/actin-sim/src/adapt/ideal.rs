@@ -1,0 +1,116 @@
+//! An endless filament of monomers under the loads that a filament carries: what a stretch of it would do.
+
+use super::axis::CrossSection;
+use super::section_loads::{linear, rotational};
+use crate::assembly::ellipsoids;
+use crate::scene::{Anchors, Monomers, SceneProblem};
+use actin_ellipsoid::{Cell, CellResponse, Control, Hold, SixVector};
+use actin_mechanics::{Vector3, rotation};
+
+/// Monomers of a cell: one period of the helix.
+pub(super) const PERIOD: usize = 13;
+/// Longest step along an ideal stretch (nm).
+const STEP_NM: f64 = 1.5;
+
+/// The monomers of the mean filament: those of a scene, with weighted bonds for drawn ones.
+pub(super) fn mean(monomers: &Monomers) -> Monomers {
+    let mut mean = monomers.clone();
+    if mean.anchors != Anchors::Cubature {
+        mean.anchors = Anchors::Cubature;
+        mean.lateral_bonds = Anchors::Cubature.usual_bonds();
+        mean.longitudinal_bonds = Anchors::Cubature.usual_bonds();
+    }
+    mean
+}
+
+/// The mean filament of some monomers: weighted bonds, uniformly strained cells.
+#[derive(Debug)]
+pub(super) struct MeanFilament {
+    cell: Cell,
+}
+
+impl MeanFilament {
+    /// # Errors
+    /// Monomers whose helix does not close after 13.
+    pub(super) fn of(monomers: &Monomers) -> Result<Self, SceneProblem> {
+        let model = ellipsoids(&mean(monomers), 0)?;
+        let cell = Cell::new(&model, PERIOD, Hold::Means);
+        let cell = cell.map_err(|error| {
+            let rule =
+                format!("errors are known for helices of 13 monomers a period only: {error}");
+            SceneProblem::new("filament.monomers", "", rule)
+        })?;
+        Ok(Self { cell })
+    }
+
+    /// Curvature and shear strain under couple and force (body axes), found from a cell under similar ones.
+    pub(super) fn under(
+        &self,
+        load: &SixVector,
+        near: Option<&CellResponse>,
+    ) -> Option<CellResponse> {
+        let controls = std::array::from_fn(|k| Control::Load(load[k]));
+        self.cell.relax_under(&controls, near).ok()
+    }
+}
+
+/// Strains of the mean filament along a stretch, between samples linear.
+#[derive(Clone, Debug)]
+pub(super) struct Ideal {
+    samples: Vec<(f64, SixVector)>,
+}
+
+impl Ideal {
+    /// Of the stretch between two arc lengths (nm) under the loads of `load`, from evenly spaced samples; none where
+    /// a cell finds no minimum.
+    pub(super) fn along(
+        filament: &MeanFilament,
+        load: impl Fn(f64) -> SixVector,
+        [from, to]: [f64; 2],
+        samples: u32,
+    ) -> Option<Self> {
+        let (from, to) = (from.min(to), from.max(to));
+        let spacing = (to - from) / f64::from(samples);
+        let mut last = None;
+        let samples = (0..samples).map(|k| {
+            let s_nm = from + (f64::from(k) + 0.5) * spacing;
+            last = Some(filament.under(&load(s_nm), last.as_ref())?);
+            last.as_ref().map(|response| (s_nm, response.strain))
+        });
+        samples
+            .collect::<Option<_>>()
+            .map(|samples| Self { samples })
+    }
+
+    pub(super) fn strain(&self, s_nm: f64) -> SixVector {
+        let samples = &self.samples;
+        if samples.len() == 1 {
+            return samples[0].1;
+        }
+        let after = samples.partition_point(|sample| sample.0 < s_nm);
+        let after = after.clamp(1, samples.len() - 1);
+        let (a, b) = (&samples[after - 1], &samples[after]);
+        let t = (s_nm - a.0) / (b.0 - a.0);
+        a.1 * (1.0 - t) + b.1 * t
+    }
+
+    /// Where the cross-section at `to` is if that at `from` is at `base`.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at least 1, and the conversion saturates"
+    )]
+    pub(super) fn carry(&self, base: CrossSection, [from, to]: [f64; 2]) -> CrossSection {
+        let steps = ((to - from).abs() / STEP_NM).ceil().max(1.0) as u32;
+        let step = (to - from) / f64::from(steps);
+        let (mut place, mut axes) = base;
+        for k in 0..steps {
+            let strain = self.strain(from + (f64::from(k) + 0.5) * step);
+            let half = rotation::exp(rotational(&strain) * (0.5 * step));
+            axes *= half;
+            place += axes * (linear(&strain) + Vector3::z()) * step;
+            axes *= half;
+        }
+        (place, axes)
+    }
+}

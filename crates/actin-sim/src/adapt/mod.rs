@@ -1,0 +1,270 @@
+//! How wrong a result is for the resolution that it was computed with, and a resolution that is good enough.
+//!
+//! [`estimate`] is what to call first: the error of one number of an equilibrium against the same filament with
+//! every monomer resolved, which is not computed. What the laws of rods, junctions and walls do otherwise than
+//! monomers under the same loads is found from periods of monomers (`ideal.rs`, `defects.rs`) and two short
+//! filaments at each wall (`wall.rs`); what that does to the number follows from one linear solve (`adjoint.rs`). The
+//! part of the segments' lengths comes from halving them. [`choose`] resolves as monomers what the number needs.
+//!
+//! # Source
+//! Dual-weighted residuals: R. Becker and R. Rannacher, Acta Numerica 10 (2001) 1. Of model errors: J. T. Oden and
+//! S. Prudhomme, J. Comput. Phys. 182 (2002) 496.
+
+mod adjoint;
+mod axis;
+mod choose;
+mod defects;
+mod ideal;
+mod section_loads;
+mod wall;
+
+pub use choose::{Chosen, choose};
+
+use crate::scene::{Equilibrium, Quantity, Scene, SceneProblem, Section, Slides, Task};
+use crate::{Assembly, End, Plan, RunError};
+use actin_mechanics::State;
+use adjoint::Adjoint;
+use defects::{Look, Part};
+use ideal::MeanFilament;
+use section_loads::SectionLoads;
+use serde::{Deserialize, Serialize};
+
+/// Of an error of order 2 in the length of segments, what halving them leaves.
+const LEFT_BY_HALVING: f64 = 0.25;
+
+/// How far a number of an equilibrium is from that of the same filament with every monomer resolved.
+///
+/// To first order in what rods and junctions do wrong. Monomers are those of the mean filament: filaments with drawn
+/// bonds scatter about it. Left out are how the force of a linker or a load enters the monomers about its place, and
+/// errors of the second order: those of laws without twist-stretch coupling (`Constant`) may be as large as the first.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ErrorEstimate {
+    /// Of what.
+    pub quantity: Quantity,
+    /// Its value (nm, pN or pN nm).
+    pub value: f64,
+    /// What is to be added to it: the sum of the parts.
+    pub error: f64,
+    /// From the laws of rods.
+    pub law: f64,
+    /// From the lengths of segments.
+    pub segments: f64,
+    /// From junctions.
+    pub junctions: f64,
+    /// From walls that hold rods.
+    pub walls: f64,
+}
+
+impl ErrorEstimate {
+    /// The value with the error added.
+    pub fn corrected(&self) -> f64 {
+        self.value + self.error
+    }
+
+    /// The size of the error over that of the corrected value.
+    pub fn relative(&self) -> f64 {
+        (self.error / self.corrected()).abs()
+    }
+}
+
+/// The same, with where the parts come from.
+#[derive(Clone, Debug)]
+struct Located {
+    total: ErrorEstimate,
+    /// Of laws and walls.
+    parts: Vec<Part>,
+}
+
+/// The error of a number of an equilibrium of `assembly`, in whose scene everything stands for itself: `state` is the
+/// equilibrium that its task leads to.
+///
+/// ```
+/// use actin_sim::adapt::estimate;
+/// use actin_sim::{Assembly, Plan, Quantity, Scene};
+/// let text = "Scene(
+///     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 160.2)], rod: RodModel(law: Constant)),
+///     clamps: [Clamp(end: Start)],
+///     loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+///     task: Equilibrium(),
+/// )";
+/// let assembly = Assembly::build(&Scene::from_ron(text)?)?;
+/// let (trajectory, _) = Plan::new(&assembly)?.run()?;
+/// let error = estimate(&assembly, &trajectory.records[0].state, Quantity::Tip)?;
+/// // Monomers give 62.99 nm.
+/// assert!((error.value - 61.73).abs() < 0.01 && (error.corrected() - 62.99).abs() < 0.2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// Scenes of which errors are not known: several filaments, filaments built along a curve or altered, a heat bath, a
+/// quantity that the scene does not have; and where a short filament or a period of monomers finds no equilibrium.
+pub fn estimate(
+    assembly: &Assembly,
+    state: &State,
+    quantity: Quantity,
+) -> Result<ErrorEstimate, SceneProblem> {
+    located(assembly, state, quantity).map(|located| located.total)
+}
+
+fn located(
+    assembly: &Assembly,
+    state: &State,
+    quantity: Quantity,
+) -> Result<Located, SceneProblem> {
+    check(&assembly.scene, quantity)?;
+    let look = Look {
+        assembly,
+        state,
+        loads: &SectionLoads::of(assembly, state),
+        adjoint: &Adjoint::of(quantity, assembly, state)?,
+        mean: &MeanFilament::of(assembly.monomers_of(0))?,
+    };
+    let mut parts = Vec::new();
+    let rods = assembly.sections_of(0).iter();
+    for rod in rods.filter(|section| !section.is_ellipsoids()) {
+        parts.extend(look.law(rod).ok_or_else(wall::no_cell)?);
+    }
+    let law = sum(&parts);
+    let junctions = sum(&look.junctions()?);
+    let at_walls = look.walls()?;
+    let walls = sum(&at_walls);
+    parts.extend(at_walls);
+    let value = look.adjoint.value;
+    let segments = of_segments(assembly, quantity, value)?;
+    let total = ErrorEstimate {
+        quantity,
+        value,
+        error: law + segments + junctions + walls,
+        law,
+        segments,
+        junctions,
+        walls,
+    };
+    Ok(Located { total, parts })
+}
+
+impl Look<'_> {
+    fn junctions(&self) -> Result<Vec<Part>, SceneProblem> {
+        let sections = self.assembly.sections_of(0);
+        let pairs = sections.windows(2).map(|pair| {
+            let (monomers, rod) = if pair[0].is_ellipsoids() {
+                (&pair[0], &pair[1])
+            } else {
+                (&pair[1], &pair[0])
+            };
+            self.junction(monomers, rod).ok_or_else(wall::no_cell)
+        });
+        pairs.collect()
+    }
+
+    fn walls(&self) -> Result<Vec<Part>, SceneProblem> {
+        let sections = self.assembly.sections_of(0);
+        let ends = [(End::Start, sections.first()), (End::End, sections.last())];
+        let walls = ends.into_iter().filter_map(|(end, section)| {
+            self.assembly.clamp_at(0, end)?;
+            let rod = section.filter(|section| !section.is_ellipsoids())?;
+            Some(self.wall(end, rod))
+        });
+        walls.collect()
+    }
+}
+
+fn sum(parts: &[Part]) -> f64 {
+    parts.iter().fold(0.0, |sum, part| sum + part.error)
+}
+
+/// What halving all segments changes, and what that leaves.
+fn of_segments(assembly: &Assembly, quantity: Quantity, value: f64) -> Result<f64, SceneProblem> {
+    let mut scene = assembly.scene.clone();
+    let spans = assembly.sections_of(0).iter();
+    let mut rods = 0;
+    for (section, span) in scene.filament.sections.iter_mut().zip(spans) {
+        if let Section::Rod { segments, .. } = section {
+            *segments = Some(2 * (span.points.len() - 1));
+            rods += 1;
+        }
+    }
+    if rods == 0 {
+        return Ok(0.0);
+    }
+    let (halved, state) = equilibrium(&scene)?;
+    let halved = Adjoint::value_of(quantity, &halved, &state);
+    Ok((halved - value) / (1.0 - LEFT_BY_HALVING))
+}
+
+/// The equilibrium that a scene leads to.
+fn equilibrium(scene: &Scene) -> Result<(Assembly, State), SceneProblem> {
+    let assembly = Assembly::build(&at_rest(scene))?;
+    let run = Plan::new(&assembly)?.run();
+    let (trajectory, _) = run.map_err(|error| match error {
+        RunError::Refused(problem) => problem,
+        RunError::Failed(failed) => {
+            let rule = format!("finds no equilibrium to judge it by: {}", failed.failure);
+            SceneProblem::new("filament.sections", "", rule)
+        }
+    })?;
+    let last = trajectory
+        .records
+        .last()
+        .expect("a run that ended well has one");
+    let state = last.state.clone();
+    Ok((assembly, state))
+}
+
+/// The scene, asked for its equilibrium and for nothing else.
+fn at_rest(scene: &Scene) -> Scene {
+    let mut rest = scene.clone();
+    rest.observe.clear();
+    rest.burn_in_ns = None;
+    rest.task = Task::Equilibrium(match &scene.task {
+        Task::Equilibrium(settings) => Equilibrium {
+            states: 0,
+            lowest_eigenvalue: false,
+            error_of: None,
+            ..settings.clone()
+        },
+        _ => Equilibrium::default(),
+    });
+    rest
+}
+
+/// Refuses scenes of which errors are not known.
+pub(crate) fn check(scene: &Scene, quantity: Quantity) -> Result<(), SceneProblem> {
+    let refused = |key: &str, rule: &str| Err(SceneProblem::new(key, "", rule));
+    if !scene.further.is_empty() {
+        return refused("filaments", "errors are known of a single filament only");
+    }
+    if scene.filament.shape.is_some() {
+        return refused(
+            "filament.shape",
+            "errors are known of filaments that are built straight only",
+        );
+    }
+    if scene.filament.sections.iter().any(Section::is_altered) {
+        return refused(
+            "filament.sections",
+            "errors are not known where sections are altered",
+        );
+    }
+    if scene.thermal().is_some() || matches!(scene.task, Task::Brownian(_)) {
+        return refused(
+            "task",
+            "errors are known of states at rest only, without heat",
+        );
+    }
+    let end = scene.clamps.iter().find(|clamp| clamp.end == End::End);
+    let needs = matches!(quantity, Quantity::EndForce | Quantity::EndCouple);
+    match end {
+        Some(clamp) if quantity == Quantity::Tip && clamp.slides == Slides::Nowhere => {
+            refused("clamps", "the tip at the end is wanted, but it is clamped")
+        }
+        None if needs => refused("clamps", "what the end bears is wanted, but it is free"),
+        Some(clamp) if quantity == Quantity::EndForce && clamp.slides != Slides::Nowhere => {
+            refused(
+                "clamps",
+                "the force on the end is wanted, along which it slides",
+            )
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,137 @@
+//! Resolutions that the program chooses.
+
+use crate::{CANTILEVER, LONG_CANTILEVER, TWIST, scene, solved};
+use actin_sim::adapt::estimate;
+use actin_sim::{Assembly, Quantity, RodLaw, Scene, Section};
+
+fn adaptive(length: f64, want: &str, rest: &str) -> Scene {
+    scene(
+        &format!("Adaptive(length_nm: {length:?}, want: {want})"),
+        rest,
+    )
+}
+
+/// True relative error of a chosen resolution.
+fn true_error(chosen: &Assembly, quantity: Quantity) -> f64 {
+    let value = |scene: &Scene| {
+        let assembly = solved(scene);
+        estimate(&assembly, assembly.system.state(), quantity)
+            .unwrap()
+            .value
+    };
+    let to_nm = chosen.length_nm();
+    let mut whole = chosen.scene.clone();
+    let altered = None;
+    whole.filament.sections = vec![Section::Ellipsoids {
+        from_nm: 0.0,
+        to_nm,
+        altered,
+    }]
+    .into();
+    let truth = value(&whole);
+    ((value(&chosen.scene) - truth) / truth).abs()
+}
+
+/// What is wanted is met, and a scene that needs no monomers builds none and draws no bonds.
+#[test]
+fn the_wanted_error_is_met() {
+    for (error, length, rest) in [
+        (0.02, 160.0, CANTILEVER),
+        (0.05, 1600.0, LONG_CANTILEVER),
+        (0.02, 1600.0, LONG_CANTILEVER),
+    ] {
+        let scene = adaptive(length, &format!("Tip(error: {error:?})"), rest);
+        let assembly = Assembly::build(&scene).unwrap();
+        let chosen = assembly.chosen.clone().unwrap();
+        let off = true_error(&assembly, Quantity::Tip);
+        assert!(off < error, "{error}: {off}, {chosen:?}");
+        let counts = assembly.counts();
+        if chosen.monomers_nm.is_empty() {
+            assert_eq!((counts.monomers, counts.bonds), (0, 0));
+        }
+        assert!(counts.monomers < 250, "{chosen:?}");
+        assert_eq!(assembly.scene.filament.rod.law, RodLaw::Homogenised);
+        assert!(assembly.scene.filament.sections.adaptive().is_none());
+    }
+}
+
+/// The tip needs the wall and not the tip; where junctions cost more than they gain, every monomer is resolved.
+#[test]
+fn monomers_go_where_the_number_comes_from() {
+    let of = |want: &str, length, rest| {
+        let assembly = Assembly::build(&adaptive(length, want, rest)).unwrap();
+        assembly.chosen.unwrap()
+    };
+    let chosen = of("Tip(error: 0.02)", 1600.0, LONG_CANTILEVER);
+    let [[from, to]] = chosen.monomers_nm[..] else {
+        panic!("one stretch: {chosen:?}");
+    };
+    assert!(from < 1e-9 && to < 600.0, "{chosen:?}");
+    assert!(chosen.estimate.unwrap().relative() < 0.02);
+    let chosen = of("EndCouple(error: 0.001)", 74.0, TWIST);
+    assert_eq!((chosen.monomers_nm.len(), chosen.estimate), (1, None));
+}
+
+/// The text of a scene keeps what is to be chosen; what was chosen is written out, and is the same scene.
+#[test]
+fn scenes_keep_what_is_asked() {
+    let scene = adaptive(160.0, "Tip(error: 0.01)", CANTILEVER);
+    let again = Scene::from_ron(&scene.to_ron()).unwrap();
+    assert_eq!(again, scene);
+    let assembly = Assembly::build(&scene).unwrap();
+    let written = Scene::from_ron(&assembly.scene.to_ron()).unwrap();
+    assert_eq!(written, assembly.scene);
+    assert!(assembly.notes()[0].starts_with("sections chosen for Tip within 1 %: a rod"));
+}
+
+/// A motion is resolved by the equilibrium under its loads.
+#[test]
+fn a_motion_is_resolved_too() {
+    let rest =
+        "clamps: [Clamp(end: Start)], loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+        task: Dynamics(duration_ns: 1.0)";
+    let assembly = Assembly::build(&adaptive(160.0, "Tip(error: 0.05)", rest)).unwrap();
+    assert_eq!(assembly.counts().monomers, 0);
+}
+
+/// What errors are not known of is refused when the scene is read.
+#[test]
+fn what_is_not_known_is_refused() {
+    let refused = |sections: &str, rest: &str| {
+        let text = format!("Scene(filament: Filament(sections: {sections}), {rest})");
+        Scene::from_ron(&text).unwrap_err().to_string()
+    };
+    let tip = "Adaptive(length_nm: 160.0, want: Tip(error: 0.01))";
+    let bath = "clamps: [Clamp(end: Start)], task: Dynamics(
+        duration_ns: 1.0, drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0),
+        thermal: Thermal(temperature_k: 298.0, seed: 1))";
+    let clamped = "clamps: [Clamp(end: Start), Clamp(end: End)], task: Equilibrium()";
+    for (sections, rest, rule) in [
+        (tip, bath, "without heat"),
+        (tip, clamped, "it is clamped"),
+        (
+            "Adaptive(length_nm: 160.0, want: EndForce(error: 0.01))",
+            CANTILEVER,
+            "it is free",
+        ),
+        (
+            "Adaptive(length_nm: 160.0, want: Tip(error: 1.0))",
+            CANTILEVER,
+            "below 1",
+        ),
+        (
+            "Adaptive(length_nm: 0.0, want: Tip(error: 0.1))",
+            CANTILEVER,
+            "greater than 0",
+        ),
+        ("Adaptive(length_nm: 160.0)", CANTILEVER, "want"),
+        (
+            "Adaptive(length_nm: 160.0, want: Tip(error: 0.1), monomers: 3)",
+            CANTILEVER,
+            "monomers",
+        ),
+    ] {
+        let message = refused(sections, rest);
+        assert!(message.contains(rule), "{message}");
+    }
+}

@@ -1,0 +1,113 @@
+//! Estimates beside the truth.
+
+use crate::{CANTILEVER, LONG_CANTILEVER, PULLED_ASIDE, TWIST, scene, solved};
+use actin_sim::adapt::estimate;
+use actin_sim::{Quantity, RodLaw, Section};
+
+/// A filament, and what is wanted of it.
+struct Case {
+    length: f64,
+    rest: &'static str,
+    quantity: Quantity,
+}
+
+/// Estimated over true error, and the true one over the value.
+fn effectivity(case: &Case, law: &RodLaw, stretches: &[[f64; 2]]) -> (f64, f64) {
+    let whole = format!("[Ellipsoids(from_nm: 0.0, to_nm: {:?})]", case.length);
+    let mut scene = scene(&whole, case.rest);
+    let fine = solved(&scene);
+    let of_fine = estimate(&fine, fine.system.state(), case.quantity).unwrap();
+    assert!(
+        of_fine.error.abs() < f64::MIN_POSITIVE,
+        "nothing is wrong with all monomers"
+    );
+    let mut sections = Vec::new();
+    let mut at = 0.0;
+    for &[from_nm, to_nm] in stretches {
+        if from_nm > at {
+            sections.push(Section::rod(at, from_nm, None));
+        }
+        let altered = None;
+        sections.push(Section::Ellipsoids {
+            from_nm,
+            to_nm,
+            altered,
+        });
+        at = to_nm;
+    }
+    sections.push(Section::rod(at, case.length, None));
+    scene.filament.sections = sections.into();
+    scene.filament.rod.law = law.clone();
+    let rod = solved(&scene);
+    let found = estimate(&rod, rod.system.state(), case.quantity).unwrap();
+    let error = of_fine.value - found.value;
+    (found.error / error, error / of_fine.value)
+}
+
+/// Bounds as the issue of this work set them, before anything was measured: 0.5 to 2. True errors are 0.6 to 10 %.
+#[test]
+fn estimates_are_within_a_factor_of_two() {
+    let (rise, whole) = (71.2 / 26.0, [].as_slice());
+    let tip = Case {
+        length: 58.5 * rise,
+        rest: CANTILEVER,
+        quantity: Quantity::Tip,
+    };
+    let long = Case {
+        length: 584.5 * rise,
+        rest: LONG_CANTILEVER,
+        quantity: Quantity::Tip,
+    };
+    let twist = Case {
+        length: 27.0 * rise,
+        rest: TWIST,
+        quantity: Quantity::EndCouple,
+    };
+    let pulled = Case {
+        length: 73.0 * rise,
+        rest: PULLED_ASIDE,
+        quantity: Quantity::EndForce,
+    };
+    let laws = [RodLaw::Homogenised, RodLaw::Fitted, RodLaw::Constant];
+    let [homogenised, fitted, _] = &laws;
+    let mut rows = Vec::new();
+    for case in [&tip, &long] {
+        rows.extend(laws.iter().map(|law| effectivity(case, law, whole)));
+    }
+    for case in [&twist, &pulled] {
+        rows.extend([homogenised, fitted].map(|law| effectivity(case, law, whole)));
+    }
+    rows.push(effectivity(&tip, homogenised, &[[60.0, 100.0]]));
+    rows.push(effectivity(&long, homogenised, &[[0.0, 40.0]]));
+    for (effectivity, error) in &rows {
+        assert!(error.abs() > 0.005, "{rows:?}");
+        assert!((0.5..2.0).contains(effectivity), "{rows:?}");
+    }
+}
+
+/// Of a filament that may roll about its axis, the walls are taken at four azimuths; over-twisted and pushed
+/// together its couple is 2.4 % too large as a rod.
+#[test]
+fn a_buckled_filament_is_judged() {
+    let rest = "clamps: [Clamp(end: Start), Clamp(end: End)],
+        linkers: [Linker(at_nm: 150.6153846153846, displaced_nm: (100.0, 0.0, 0.0), stiffness_pn_per_nm: 1e-5)],
+        path: [
+            Stage(set: [
+                Turn(end: Start, turn_deg: (0.0, 0.0, -180.0)), Turn(end: End, turn_deg: (0.0, 0.0, 180.0)),
+            ]),
+            Stage(set: [
+                Shift(end: Start, shift_nm: (0.0, 0.0, 7.5)), Shift(end: End, shift_nm: (0.0, 0.0, -7.5)),
+            ]),
+        ],
+        task: Equilibrium(leave_saddles: 20, accept_jumps: true)";
+    let length = 110.0 * 71.2 / 26.0;
+    for quantity in [Quantity::EndCouple, Quantity::EndForce] {
+        let case = Case {
+            length,
+            rest,
+            quantity,
+        };
+        let (effectivity, error) = effectivity(&case, &RodLaw::Homogenised, &[]);
+        assert!((0.5..2.0).contains(&effectivity), "{effectivity} {error}");
+    }
+}
