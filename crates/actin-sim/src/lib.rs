@@ -60,12 +60,12 @@ pub use scene::fitted::laws as fitted_laws;
 pub use scene::schema;
 pub use scene::{
     Acceleration, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking, Brownian,
-    Catch, Clamp, Couple, CouplePerLength, DragRates, Drawn, Dynamics, End, Equilibrium, Factor,
-    Filament, Flow, Fluid, Force, ForceLaw, ForcePerLength, Forming, Hinge, Hold, Imperfection,
-    Integrator, JunctionModel, JunctionWeight, Kinetics, Linker, LinkerSite, Load, Material,
-    Monomers, Observable, Output, Override, Pace, Plane, Point, Repulsion, RodLaw, RodLaws,
-    RodModel, RotaryInertia, Scene, SceneError, SceneProblem, SceneText, SceneValue, Section,
-    Setting, Shape, ShearLaw, Slides, Sphere, SphereSide, Stage, Stepping, StopTolerances,
+    Catch, Clamp, Couple, CouplePerLength, DragModel, DragRates, Drawn, Dynamics, End, Equilibrium,
+    Factor, Filament, Flow, Fluid, Force, ForceLaw, ForcePerLength, Forming, Hinge, Hold,
+    Imperfection, Integrator, JunctionModel, JunctionWeight, Kinetics, Linker, LinkerSite, Load,
+    Material, Monomers, Observable, Output, Override, Pace, Plane, Point, Repulsion, RodLaw,
+    RodLaws, RodModel, RotaryInertia, Scene, SceneError, SceneProblem, SceneText, SceneValue,
+    Section, Setting, Shape, ShearLaw, Slides, Sphere, SphereSide, Stage, Stepping, StopTolerances,
     StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
 };
 pub use scene::{Readings, read_all, read_ron};

@@ -7,7 +7,7 @@ use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
 use super::{Estimate, Failure, Outcome, Plan, Status};
 use crate::Assembly;
-use crate::scene::{Brownian as Task, SceneProblem, Task as AnyTask};
+use crate::scene::{Brownian as Task, Fluid, SceneProblem, Task as AnyTask};
 use actin_brownian::{Brownian, Relaxation};
 use actin_integrate::{POSITION_VERLET, Run, Split};
 
@@ -55,17 +55,19 @@ impl RelaxationTimes {
 impl Plan<'_> {
     /// How filaments relax in the fluid of the task; none of other tasks. Takes the time of some hundred steps.
     pub fn relaxation_times(&self) -> Option<RelaxationTimes> {
-        let AnyTask::Brownian(task) = &self.scene().task else {
-            return None;
+        let fluid = match &self.scene().task {
+            AnyTask::Brownian(task) => &task.drag,
+            AnyTask::Dynamics(dynamics) => dynamics.drag.fluid()?,
+            AnyTask::Equilibrium(_) => return None,
         };
-        let mut relaxation = relaxation(self.assembly(), task).ok()?;
+        let mut relaxation = relaxation(self.assembly(), fluid).ok()?;
         Some(RelaxationTimes::of(&mut relaxation))
     }
 }
 
 /// How fast small displacements of an assembly relax in the fluid of its task.
-fn relaxation(assembly: &Assembly, task: &Task) -> Result<Relaxation, SceneProblem> {
-    let friction = assembly.friction(&task.drag)?;
+fn relaxation(assembly: &Assembly, fluid: &Fluid) -> Result<Relaxation, SceneProblem> {
+    let friction = assembly.friction(fluid)?;
     let layout = layout(assembly)?;
     Relaxation::new(&assembly.system, layout, &friction)
         .map_err(|error| SceneProblem::new("task", "", error.to_string()))
@@ -75,7 +77,7 @@ fn relaxation(assembly: &Assembly, task: &Task) -> Result<Relaxation, SceneProbl
 pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
     let motion = task.as_motion();
-    let times = RelaxationTimes::of(&mut relaxation(assembly, task)?);
+    let times = RelaxationTimes::of(&mut relaxation(assembly, &task.drag)?);
     let fastest_ns = times.fastest_ns;
     if !(fastest_ns.is_finite() && fastest_ns > 0.0) {
         let rule = "has no stiffness by which a time step could be set: write time_step_ns";

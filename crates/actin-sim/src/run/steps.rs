@@ -155,7 +155,11 @@ impl Estimate {
     /// Temperature of the positions of the fastest mode in a heat bath, relative to that of the bath, as
     /// the integrator leaves it.
     pub fn warmth_of_the_fastest_mode(&self, dynamics: &Dynamics) -> f64 {
-        let (rates, step) = (dynamics.drag, self.time_step_ns);
+        if dynamics.drag.fluid().is_some() {
+            // Steps in a fluid leave no linear mode too cold.
+            return 1.0;
+        }
+        let (rates, step) = (dynamics.drag.rates(), self.time_step_ns);
         let drag = Drag::new(rates.translational_per_ns, rates.rotational_per_ns);
         let (translation, rotation) = drag.unwrap_or(Drag::NONE).time_rescaling(step);
         // Of points and frames: the mode is either's, and nearer to the truth where drag is stronger.
@@ -250,7 +254,7 @@ impl Estimate {
         if dynamics.thermal.is_some() {
             return None;
         }
-        let rates = dynamics.drag;
+        let rates = dynamics.drag.rates();
         let drag = Drag::new(rates.translational_per_ns, rates.rotational_per_ns).ok()?;
         let step = self.time_step_ns;
         let (translation, rotation) = drag.recorded_drift(step);

@@ -42,6 +42,11 @@ impl Refusal {
         self
     }
 
+    /// What is refused, wherever.
+    pub(in crate::scene) fn into_code(self) -> RonError {
+        self.code
+    }
+
     /// The path of the key, as in `filament.sections[1].to_nm`.
     pub(super) fn path(&self) -> String {
         let mut path = String::new();
