@@ -29,8 +29,8 @@ pub use beyond_use::BeyondUse;
 pub(crate) use beyond_use::worst as worst_of;
 pub use bonded::JunctionBond;
 pub use drive::Drive;
+pub(crate) use kinetics::{COARSEST, Kinetics, Log};
 pub use kinetics::{Happening, LinkerEvent};
-pub(crate) use kinetics::{Kinetics, Log};
 pub(crate) use parts::Rod;
 pub use parts::{
     BodyKind, Counts, FilamentSpan, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term,

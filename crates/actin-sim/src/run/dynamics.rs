@@ -32,9 +32,9 @@ pub struct Estimate {
     pub steps_between_records: u64,
     /// Time between two records (ns).
     pub record_every_ns: f64,
-    /// Load evaluations in these steps; of overdamped motion three iterations a step are counted.
+    /// Load evaluations in these steps; of overdamped motion the usual iterations of each step.
     pub force_evaluations: u64,
-    /// Up to which step all of overdamped thermal motion has its energy; none of other motion.
+    /// Up to which step overdamped thermal motion shows what it should; none of other motion.
     pub longest_sound_step: Option<LongestStep>,
 }
 

@@ -28,9 +28,10 @@ pub struct Brownian {
     /// How the fluid moves. Drag pulls filaments along with it.
     #[serde(default)]
     pub flow: Flow,
-    /// Longest time step; positive. By default 50 times the fastest relaxation of the filaments as built, at which all
-    /// strains have their thermal energy to 1 % on segments of 20 nm or more. In longer steps of rods at a temperature what is
-    /// faster is drawn anew in each, bending to 1 % in 300 ns on segments of 40 nm. Steps are shortened so that whole ones
+    /// Longest time step; positive. By default of rods at a temperature the time in which the drag of a segment bends it, 180 ns on
+    /// 40 nm: what is faster is drawn anew in each step, means are right to 1 %. It is shorter where stages, loads, rates,
+    /// shear or records need it. Of monomers, with `repulsion` and without heat it is 50 times the fastest relaxation, at which
+    /// all strains have their thermal energy to 1 % on segments of 20 nm or more. Steps are shortened so that whole ones
     /// make up the duration and the interval of records.
     #[serde(default)]
     pub time_step_ns: Option<f64>,

@@ -4,7 +4,6 @@ use super::brownian::Fluid;
 use super::rules::non_negative;
 use super::value::SceneValue;
 use super::{Dynamics, Integrator, SceneProblem};
-use ron::error::Error as RonError;
 use serde::de::{Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt;
@@ -103,17 +102,7 @@ impl<'de> Deserialize<'de> for DragModel {
                 ));
             }
         };
-        read.map_err(|refusal| match refusal.into_code() {
-            RonError::NoSuchStructField {
-                expected, found, ..
-            } => D::Error::unknown_field(&found, expected),
-            RonError::NoSuchEnumVariant {
-                expected, found, ..
-            } => D::Error::unknown_variant(&found, expected),
-            RonError::MissingStructField { field, .. } => D::Error::missing_field(field),
-            RonError::DuplicateStructField { field, .. } => D::Error::duplicate_field(field),
-            other => D::Error::custom(other),
-        })
+        read.map_err(|refusal| D::Error::custom(refusal.rule()))
     }
 }
 
@@ -222,7 +211,7 @@ mod tests {
     #[test]
     fn mistakes_are_told() {
         for (drag, told) in [
-            ("Oil(viscosity_mpa_s: 1.0)", "unknown"),
+            ("Oil(viscosity_mpa_s: 1.0)", "unknown Fluid Oil"),
             ("Water(viscosity: 1.0)", "write viscosity_mpa_s"),
             ("Water(viscosity_mpa_s: -1.0)", "task.drag.viscosity_mpa_s"),
             ("Water(radius_nm: 20.0)", "task.drag.radius_nm"),
@@ -231,10 +220,13 @@ mod tests {
                 "(translational_per_ns: 1.0)",
                 "missing key rotational_per_ns",
             ),
-            ("(viscosity_mpa_s: 1.0)", "unknown key viscosity_mpa_s"),
+            (
+                "(viscosity_mpa_s: 1.0)",
+                "unknown key viscosity_mpa_s in Drag",
+            ),
             (
                 "(translational_per_ns: 1.0, translational_per_ns: 1.0, rotational_per_ns: 1.0)",
-                "twice",
+                "duplicate",
             ),
             ("()", "missing key translational_per_ns"),
             ("5.0", "Water(viscosity_mpa_s: ..)"),
