@@ -150,7 +150,8 @@ fn default_steps_resolve_what_happens() {
         (hard / (0.02 * (1.0 + x) / (x * x)) - 1.0).abs() < 0.1,
         "{hard}"
     );
-    let stage = "path: [(set: [Shift(end: Start, shift_nm: (1.0, 0.0, 0.0))], duration_ns: 100.0)],";
+    let stage =
+        "path: [(set: [Shift(end: Start, shift_nm: (1.0, 0.0, 0.0))], duration_ns: 100.0)],";
     let staged = default_step(stage, "");
     assert!(staged <= 1.0 && staged > 0.1, "{staged}");
     let recorded = default_step("", ", record_every_ns: 2.0");
