@@ -91,10 +91,10 @@ impl Chain {
 
     /// Means of the Legendre polynomials of the cosine of a joint's bend.
     fn joint_moments(&self) -> Vec<f64> {
-        let bend = rigidities().bend / (self.length * KT);
-        assert_eq!(bend.x, bend.y);
-        let (mut sums, mut weight) = (vec![0.0; DEGREES], 0.0);
         const N: i32 = 30;
+        let bend = rigidities().bend / (self.length * KT);
+        assert!((bend.x - bend.y).abs() < 1e-12 * bend.x);
+        let (mut sums, mut weight) = (vec![0.0; DEGREES], 0.0);
         let width = 6.0 / f64::from(N);
         let at = |k: i32| (f64::from(k) + 0.5) * width;
         for (i, j) in (0..N).flat_map(|i| (-N..N).map(move |j| (i, j))) {
@@ -139,7 +139,9 @@ impl Chain {
                 *f = w * p.iter().zip(&moments).map(|(p, m)| p * m).sum::<f64>();
             }
             let largest = f.iter().copied().fold(0.0, f64::max);
-            f.iter_mut().for_each(|f| *f /= largest);
+            for f in &mut f {
+                *f /= largest;
+            }
             log += largest.ln();
         }
         let last: f64 = f.iter().zip(&places).map(|(f, (_, w))| f * w).sum();
@@ -282,4 +284,29 @@ fn distances_of_the_ends() {
         println!("{from:.2} to {to:.2} nm: {share:.4} +- {error:.4}");
     }
     println!("chi^2 {chi:.1} of ten parts");
+}
+
+/// Prints what a force of 10 pN does to steps of several lengths.
+#[test]
+#[ignore = "takes minutes and asserts nothing; for the numbers of the documents"]
+fn tension_and_step() {
+    let chain = Chain {
+        segments: 8,
+        length: 40.0,
+        force: 10.0,
+    };
+    let exact = chain.extension();
+    for (h, steps) in [
+        (1.0, 400_000),
+        (8.0, 200_000),
+        (31.0, 100_000),
+        (180.0, 50_000),
+    ] {
+        let (mean, error) = mean_and_error(&chain.run(h, steps)[1], |x| x);
+        println!(
+            "{h} ns: {:.4} +- {error:.4} of {:.4} nm",
+            chain.contour() - mean,
+            chain.contour() - exact
+        );
+    }
 }

@@ -46,7 +46,9 @@ fn of_whole(mobility: &DMatrix<f64>, length: f64) -> [f64; 2] {
 /// So many beads that they move across as the cylinder does.
 fn number_of_beads(cylinder: &Cylinder) -> usize {
     let whole = cylinder.across() * cylinder.length();
-    let usual = (0.5 * cylinder.length() / RADIUS) as usize;
+    let usual = (1..)
+        .find(|n| 2.0 * RADIUS * *n as f64 >= cylinder.length())
+        .unwrap_or(1);
     let miss = |n: &usize| {
         let length = cylinder.length();
         (of_whole(&across_of_beads(*n, length), length)[0] / whole - 1.0).abs()

@@ -2,7 +2,7 @@
 
 mod common;
 
-use actin_brownian::{Brownian, Langevin};
+use actin_brownian::Langevin;
 use actin_cosserat::StraightRod;
 use actin_integrate::{POSITION_VERLET, Stepper, largest_frequency, stable_step};
 use actin_mechanics::{PointLoad, State, System, Vector3};
@@ -166,10 +166,8 @@ fn inertia_hardly_shows_in_water() {
                 .unwrap();
         }
         for k in 0..coarse {
-            let step: &mut Brownian = &mut without;
-            let number = u64::from(part * coarse + k);
-            step.step(&mut slow, number, 1.0 / f64::from(coarse))
-                .unwrap();
+            let (step, h) = (u64::from(part * coarse + k), 1.0 / f64::from(coarse));
+            without.step(&mut slow, step, h).unwrap();
         }
         bows.push([bow(&system), bow(&slow)]);
     }

@@ -201,10 +201,9 @@ mod tests {
         }
         let water = Fluid::default();
         assert_eq!(read("Water()"), Ok(DragModel::Fluid(water)));
-        let Fluid::Water {
-            viscosity_mpa_s, ..
-        } = *read("Water(viscosity_mpa_s: 2)").unwrap().fluid().unwrap();
-        assert_eq!(viscosity_mpa_s, 2.0);
+        let thick = read("Water(viscosity_mpa_s: 2)").unwrap();
+        assert_eq!(read("Water(viscosity_mpa_s: 2.0)"), Ok(thick));
+        assert_ne!(thick, DragModel::Fluid(water));
     }
 
     /// What is neither is refused in the words of the rest of the scene, with its line.
