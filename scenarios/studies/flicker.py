@@ -150,7 +150,9 @@ def main():
     panels[2].set_ylabel("falls to 1/e in (ms)")
     for panel in panels[1:]:
         panel.set_xlabel("mode")
-        panel.legend(fontsize=6)
+        panel.set_xticks(MODES, map(str, MODES))
+        panel.minorticks_off()
+        panel.legend(fontsize=6, loc="lower left")
     study.save(figure, f"{options.figures}/flicker.svg")
     study.put_table(options.page, ["mode", "variance (nm)", "of the exact chain (nm)", "persistence length from it (um)",
                                    "falls to 1/e in (ms)", "small bends (ms)"], lines)
