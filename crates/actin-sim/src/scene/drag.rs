@@ -38,6 +38,12 @@ impl Default for DragModel {
     }
 }
 
+impl From<DragRates> for [f64; 2] {
+    fn from(rates: DragRates) -> Self {
+        [rates.translational_per_ns, rates.rotational_per_ns]
+    }
+}
+
 impl From<DragRates> for DragModel {
     fn from(rates: DragRates) -> Self {
         Self::Rates(rates)
