@@ -46,7 +46,7 @@ fn of_whole(mobility: &DMatrix<f64>, length: f64) -> [f64; 2] {
 /// So many beads that they move across as the cylinder does.
 fn number_of_beads(cylinder: &Cylinder) -> usize {
     let whole = cylinder.across() * cylinder.length();
-    let usual = (1..)
+    let usual = (1..2000)
         .find(|n| 2.0 * RADIUS * *n as f64 >= cylinder.length())
         .unwrap_or(1);
     let miss = |n: &usize| {
