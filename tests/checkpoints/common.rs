@@ -145,6 +145,16 @@ impl Choice {
         ))
     }
 
+    /// The scene as motion with inertia in water.
+    pub(crate) fn in_water(&self) -> Scene {
+        let thermal = self.noise.map_or(String::new(), |seed| {
+            format!(", thermal: (temperature_k: 298.0, seed: {seed})")
+        });
+        self.scene(&format!(
+            "Dynamics(duration_ns: 0.3, drag: Water(), record_every_ns: 0.05{thermal})"
+        ))
+    }
+
     /// The scene as equilibria along its path, or as a single one.
     pub(crate) fn statics(&self) -> Scene {
         self.scene("Equilibrium(largest_step: 0.1, lowest_eigenvalue: true)")

@@ -269,5 +269,6 @@ fn overdamped_motions_go_on_to_the_same_bits() {
             duration_ns: 0.3,
         };
         compare(&choice.brownian(), &[3, 2]);
+        compare(&choice.in_water(), &[3, 2]);
     }
 }

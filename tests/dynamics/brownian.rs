@@ -116,6 +116,50 @@ fn what_has_no_sense_is_refused() {
     assert!(oblique.contains("task.flow.across"), "{oblique}");
 }
 
+/// The default step of a rod of six segments of 20 nm.
+fn default_step(rest: &str, task: &str) -> f64 {
+    let text = format!(
+        "Scene(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 120.0, segments: 6)]),
+            clamps: [Clamp(end: Start)],{rest}
+            task: Brownian(duration_ms: 1.0, temperature_k: 298.0{task}),
+        )"
+    );
+    let scene = Scene::from_ron(&text).unwrap_or_else(|error| panic!("{error}"));
+    let assembly = Assembly::build(&scene).unwrap();
+    Plan::new(&assembly)
+        .unwrap()
+        .estimate()
+        .unwrap()
+        .time_step_ns
+}
+
+/// The default step of rods is that in which drag bends a segment, `3.0 x 20^4 / 4e4` = 12 ns, unless something changes faster or
+/// pulls hard; then it is shorter, down to 50 times the fastest relaxation.
+#[test]
+fn default_steps_resolve_what_happens() {
+    let usual = default_step("", "");
+    assert!((9.0..14.0).contains(&usual), "{usual}");
+    let pulled =
+        |force: &str| format!("loads: [EndForce(end: End, force_pn: (0.0, 0.0, {force}))],");
+    let gently = default_step(&pulled("1.0"), "");
+    assert!((gently / usual - 1.0).abs() < 1e-9, "{gently}");
+    let hard = default_step(&pulled("20.0"), "");
+    println!("{usual} ns, {hard} ns under 20 pN");
+    assert!((0.9..1.4).contains(&hard), "{hard}");
+    let stage =
+        "path: [(set: [Shift(end: Start, shift_nm: (1.0, 0.0, 0.0))], duration_ns: 100.0)],";
+    let staged = default_step(stage, "");
+    assert!(staged <= 1.0 && staged > 0.1, "{staged}");
+    let recorded = default_step("", ", record_every_ns: 2.0");
+    assert!(recorded <= 2.0, "{recorded}");
+    let shear = "Shear(rate_per_s: 2e7, along: (1.0, 0.0, 0.0), across: (0.0, 0.0, 1.0))";
+    let sheared = default_step("", &format!(", flow: {shear}"));
+    assert!(sheared <= 5.0, "{sheared}");
+    let repelled = default_step("repulsion: Repulsion(),", "");
+    assert!(repelled < 1.0, "{repelled}");
+}
+
 /// Steps at which some motion is too warm are told; the default ones, and any without heat, are not.
 #[test]
 fn long_steps_are_told() {
@@ -129,10 +173,11 @@ fn long_steps_are_told() {
             .iter()
             .any(|note| note.contains("drawn anew") || note.contains("more than their thermal"))
     };
-    for sections in SECTIONS {
+    for (sections, long) in SECTIONS.iter().zip([50.0, 1.0, 1.0]) {
+        let long = format!(", time_step_ns: {long:?}");
         assert!(!told(&notes(sections, 298.0, "")));
-        assert!(told(&notes(sections, 298.0, ", time_step_ns: 1.0")));
-        assert!(!told(&notes(sections, 0.0, ", time_step_ns: 1.0")));
+        assert!(told(&notes(sections, 298.0, &long)), "{sections}");
+        assert!(!told(&notes(sections, 0.0, &long)));
     }
 }
 

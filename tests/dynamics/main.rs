@@ -22,3 +22,4 @@ mod rest;
 mod short_bonds;
 mod steps;
 mod thermal;
+mod water;

@@ -3,7 +3,7 @@
 //!
 //! [`Friction`] is made of [`Dashpot`]s between bodies and a fluid, at rest or in a [`Flow`]; a [`Cylinder`] says how strong
 //! those of a slender body are. [`Brownian`] makes the steps of an `actin_integrate::Run`, with thermal noise or
-//! without. [`Relaxation`] says what it has to resolve.
+//! without; [`Langevin`] makes those of bodies with inertia in the same fluid. [`Relaxation`] says what it has to resolve.
 //!
 //! Fluid is felt locally: what moves does not drag anything else along.
 //!
@@ -17,6 +17,7 @@ struct Readme;
 mod cylinder;
 mod flow;
 mod friction;
+mod langevin;
 mod relaxation;
 mod stepper;
 mod stress;
@@ -24,6 +25,7 @@ mod stress;
 pub use cylinder::{Cylinder, CylinderError};
 pub use flow::Flow;
 pub use friction::{Dashpot, Friction, TurnDashpot};
+pub use langevin::Langevin;
 pub use relaxation::Relaxation;
 pub use stepper::{Brownian, BrownianError, StepLimits};
 

@@ -20,10 +20,10 @@ pub(crate) fn check(source: &SceneArguments) -> Result<(), Failure> {
         println!("// note: {note}");
     }
     if let Some(estimate) = plan.estimate() {
-        match plan.relaxation_times() {
-            None => print_step(estimate),
-            Some(times) => print_relaxation(&times, estimate),
+        if let Some(times) = plan.relaxation_times() {
+            print_relaxation(&times);
         }
+        print_step(estimate);
     }
     for note in plan.notes() {
         println!("// note: {note}");
@@ -107,6 +107,15 @@ fn print_thermal(assembly: &Assembly, estimate: Option<&Estimate>) {
 }
 
 fn print_step(estimate: &Estimate) {
+    if estimate.stability_limit_ns.is_infinite() {
+        let (step, steps, every) = (
+            estimate.time_step_ns,
+            estimate.steps,
+            estimate.record_every_ns,
+        );
+        println!("// time step {step:.4e} ns, {steps} steps, a record every {every:.6} ns");
+        return;
+    }
     println!(
         "// largest frequency {:.2} rad/ns, stability limit {:.4e} ns, time step {:.4e} ns, at most \
          {} steps, a record every {:.6} ns",
@@ -118,7 +127,7 @@ fn print_step(estimate: &Estimate) {
     );
 }
 
-fn print_relaxation(times: &RelaxationTimes, estimate: &Estimate) {
+fn print_relaxation(times: &RelaxationTimes) {
     let slowest = times.slowest_ns.iter().take(5);
     let slowest: Vec<String> = slowest.map(|time| format!("{time:.4e}")).collect();
     let slowest = if slowest.is_empty() {
@@ -130,9 +139,5 @@ fn print_relaxation(times: &RelaxationTimes, estimate: &Estimate) {
     println!(
         "// relaxation of small displacements from the state as built: fastest in {:.4e} ns, {slowest}",
         times.fastest_ns
-    );
-    println!(
-        "// time step {:.4e} ns, {} steps, a record every {:.6} ns",
-        estimate.time_step_ns, estimate.steps, estimate.record_every_ns
     );
 }

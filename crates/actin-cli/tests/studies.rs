@@ -18,7 +18,13 @@ struct Study {
     set: &'static [&'static str],
 }
 
-const STUDIES: [Study; 6] = [
+const STUDIES: [Study; 7] = [
+    Study {
+        name: "flicker",
+        shorter: &[("duration_ms: 1000.0", "duration_ms: 8.0")],
+        points: 1,
+        set: &["task.duration_ms=0.5"],
+    },
     Study {
         name: "extension",
         shorter: &[

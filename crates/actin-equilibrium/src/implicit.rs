@@ -10,7 +10,7 @@ use crate::factor::Factor;
 use crate::layout::{Layout, Node};
 use crate::motion::StepSize;
 use crate::outcome::SolveError;
-use actin_mechanics::{Interaction, Loads, SecondOrder, State, UnitQuaternion};
+use actin_mechanics::{Interaction, Loads, SecondOrder, State, UnitQuaternion, Vectors};
 
 /// A layout with the memory that its solves need.
 ///
@@ -104,6 +104,24 @@ impl ImplicitSolver {
         assert_eq!(b.len(), self.unknowns(), "one number per unknown");
         let factor = self.factor.as_mut().expect("factorised before");
         factor.solve(b);
+    }
+
+    /// The solution for `loads`, as velocities of points (lab frame) and angular velocities of frames (their own axes), zero of
+    /// what is held.
+    ///
+    /// # Panics
+    /// If nothing has been factorised.
+    pub fn velocities(&mut self, state: &State, loads: &Loads) -> (Vectors, Vectors) {
+        self.step.resize(self.layout.unknowns(), 0.0);
+        self.layout.reduce(state, loads, &mut self.step);
+        let factor = self.factor.as_mut().expect("factorised before");
+        factor.solve(&mut self.step);
+        let (moved, mut turned) = self.layout.velocities(state, &self.step);
+        for i in 0..turned.len() {
+            let q = state.frames.orientation.get(i);
+            turned.set(i, q.inverse_transform_vector(&turned.get(i)));
+        }
+        (moved, turned)
     }
 
     /// Moves the bodies of `state` by the solution for `loads`, the generalised loads of which are taken

@@ -129,16 +129,16 @@ fn settings_of(assembly: &Assembly, plan: &Plan<'_>) -> PyResult<Settings> {
     let step = plan.estimate().map(|estimate| estimate.time_step_ns);
     match &assembly.scene.task {
         Task::Equilibrium(_) => Ok(Settings::default()),
-        Task::Dynamics(task) => Ok(Settings {
+        Task::Dynamics(task) if task.drag.fluid().is_none() => Ok(Settings {
             scheme: task.integrator.composition(),
             step,
-            drag: [task.drag.translational_per_ns, task.drag.rotational_per_ns],
+            drag: task.drag.rates().into(),
             bath: task
                 .thermal
                 .map(|thermal| (thermal.energy_pn_nm(), thermal.seed)),
         }),
-        Task::Brownian(_) => Err(PyValueError::new_err(
-            "steps of Brownian motion are made by actin.run: a System moves with inertia",
+        Task::Brownian(_) | Task::Dynamics(_) => Err(PyValueError::new_err(
+            "motion in a fluid is made by actin.run: the drag of a System is numerical damping",
         )),
     }
 }

@@ -61,13 +61,13 @@ pub use scene::fitted::laws as fitted_laws;
 pub use scene::schema;
 pub use scene::{
     Acceleration, Adaptive, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking,
-    Brownian, Catch, Clamp, Couple, CouplePerLength, DragRates, Drawn, Dynamics, End, Equilibrium,
-    Factor, Filament, Flow, Fluid, Force, ForceLaw, ForcePerLength, Forming, Hinge, Hold,
-    Imperfection, Integrator, JunctionModel, JunctionWeight, Kinetics, Linker, LinkerSite, Load,
-    Material, Monomers, Observable, Output, Override, Pace, Plane, Point, Quantity, Repulsion,
-    RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError, SceneProblem, SceneText,
-    SceneValue, Section, Sections, Setting, Shape, ShearLaw, Slides, Sphere, SphereSide, Stage,
-    Stepping, StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise, TwistStretchLaw,
-    Want,
+    Brownian, Catch, Clamp, Couple, CouplePerLength, DragModel, DragRates, Drawn, Dynamics, End,
+    Equilibrium, Factor, Filament, Flow, Fluid, Force, ForceLaw, ForcePerLength, Forming, Hinge,
+    Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Kinetics, Linker, LinkerSite,
+    Load, Material, Monomers, Observable, Output, Override, Pace, Plane, Point, Quantity,
+    Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError, SceneProblem,
+    SceneText, SceneValue, Section, Sections, Setting, Shape, ShearLaw, Slides, Sphere, SphereSide,
+    Stage, Stepping, StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise,
+    TwistStretchLaw, Want,
 };
 pub use scene::{Readings, read_all, read_ron};

@@ -60,8 +60,10 @@ fn references(definition: &Value) -> Vec<String> {
     for (_, key) in properties(definition) {
         collect(key, &mut all);
     }
-    for variant in list(definition, "oneOf") {
-        collect(variant, &mut all);
+    for variants in ["oneOf", "anyOf"] {
+        for variant in list(definition, variants) {
+            collect(variant, &mut all);
+        }
     }
     all
 }
@@ -86,6 +88,10 @@ fn section(name: &str, definition: &Value) -> String {
     }
     for variant in list(definition, "oneOf") {
         text += &choice(variant);
+    }
+    // Types that are told apart by their keys.
+    for variant in list(definition, "anyOf") {
+        _ = write!(text, "\n- {}: {}\n", kind(variant), words(variant));
     }
     text
 }

@@ -216,7 +216,8 @@ fn approach(
         drag: DragRates {
             translational_per_ns: drag,
             rotational_per_ns: drag,
-        },
+        }
+        .into(),
         step_safety: 0.9,
         record_every_ns: Some(0.5),
         ..solve::motion(LONGEST_NS, integrator, None)

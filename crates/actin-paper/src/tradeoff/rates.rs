@@ -59,7 +59,8 @@ fn noise(scene: &Scene) -> Result<f64, String> {
         drag: actin_sim::DragRates {
             translational_per_ns: 1.0,
             rotational_per_ns: 1.0,
-        },
+        }
+        .into(),
         ..solve::motion(MOTION_NS, Integrator::PositionVerlet, None)
     };
     let heated = actin_sim::Dynamics {

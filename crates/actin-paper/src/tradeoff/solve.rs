@@ -187,7 +187,7 @@ pub(super) fn motion(
         time_step_ns,
         step_safety: 0.5,
         allow_unstable_step: false,
-        drag: actin_sim::DragRates::default(),
+        drag: actin_sim::DragModel::default(),
         thermal: None,
         stop: None,
         leave_saddles: 0,

@@ -5,7 +5,7 @@ use super::{AT_MOST, FilamentSetting, Measured, scenes, table};
 use crate::cost::Cost;
 use crate::run::estimate_at;
 use crate::scene::{
-    DragRates, Dynamics, Equilibrium, Integrator, RodLaw, Scene, SceneProblem, Section, Task,
+    DragModel, Dynamics, Equilibrium, Integrator, RodLaw, Scene, SceneProblem, Section, Task,
 };
 use crate::{Assembly, Estimate, Plan};
 use actin_integrate::SAFETY;
@@ -188,7 +188,7 @@ fn at_rest(scene: &Scene) -> Option<Candidate> {
     let Task::Dynamics(dynamics) = &scene.task else {
         return None;
     };
-    if dynamics.stop.is_none() || dynamics.drag == DragRates::default() {
+    if dynamics.stop.is_none() || dynamics.drag == DragModel::default() {
         return None;
     }
     let mut changed = scene.clone();
@@ -225,8 +225,9 @@ fn verlet(scene: &Scene, assembly: &Assembly, estimate: &Estimate) -> Option<(Ca
     let Task::Dynamics(dynamics) = &scene.task else {
         return None;
     };
-    let drag = &dynamics.drag;
-    let is_weak = drag.translational_per_ns.max(drag.rotational_per_ns) <= MOST_DRAG;
+    let drag = dynamics.drag.rates();
+    let is_weak = dynamics.drag.fluid().is_none()
+        && drag.translational_per_ns.max(drag.rotational_per_ns) <= MOST_DRAG;
     let is_motion = dynamics.stop.is_none() && dynamics.thermal.is_none() && is_weak;
     let has_step = || has_default_step(assembly, dynamics, estimate);
     if !(is_motion && dynamics.step_safety <= SAFETY && has_step()) {

@@ -16,27 +16,38 @@ impl Assembly {
     /// # Errors
     /// A filament that is too short for its radius.
     pub(crate) fn friction(&self, fluid: &Fluid) -> Result<Friction, SceneProblem> {
-        let Fluid::Water {
-            viscosity_mpa_s,
-            radius_nm,
-            at_ends,
-        } = *fluid;
+        let Fluid::Water { at_ends, .. } = *fluid;
         let mut friction = Friction::default();
         for filament in 0..self.filaments.len() {
-            let length = self.length_of(filament);
-            let cylinder = Cylinder::new(viscosity_mpa_s, length, radius_nm).map_err(|error| {
-                let key = "task.drag.radius_nm";
-                SceneProblem::new(key, format!("{radius_nm:?}"), error.to_string())
-            })?;
             let drag = FilamentDrag {
                 assembly: self,
                 filament,
-                cylinder,
+                cylinder: self.cylinder(fluid, filament)?,
                 at_ends,
             };
             drag.add(&mut friction);
         }
         Ok(friction)
+    }
+
+    /// The cylinder that a filament is in `fluid`.
+    ///
+    /// # Errors
+    /// A filament that is too short for its radius.
+    pub(crate) fn cylinder(
+        &self,
+        fluid: &Fluid,
+        filament: usize,
+    ) -> Result<Cylinder, SceneProblem> {
+        let Fluid::Water {
+            viscosity_mpa_s,
+            radius_nm,
+            ..
+        } = *fluid;
+        Cylinder::new(viscosity_mpa_s, self.length_of(filament), radius_nm).map_err(|error| {
+            let key = "task.drag.radius_nm";
+            SceneProblem::new(key, format!("{radius_nm:?}"), error.to_string())
+        })
     }
 }
 

@@ -14,7 +14,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 const PURPOSE: [u8; 8] = *b"linkers\0";
 
 /// Largest rate times time step: the least is lost of times and of several events in a step.
-const COARSEST: f64 = 0.1;
+pub(crate) const COARSEST: f64 = 0.1;
 
 /// What happened to a linker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

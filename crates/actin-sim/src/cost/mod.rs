@@ -9,10 +9,10 @@ mod rates;
 
 pub use rates::{
     BONDS_PER_S, DIRECTORY_S, DRAWN_BONDS_PER_S, ELEMENTS_PER_S, FILAMENTS_PER_S,
-    FINAL_BODIES_PER_S, LAW_ELEMENTS_PER_S, MONOMERS_PER_S, MOVED_BODIES_PER_S, NEWTON_BONDS_PER_S,
-    NEWTON_ELEMENTS_PER_S, NEWTON_LAW_ELEMENTS_PER_S, NEWTON_MONOMERS_PER_S, NEWTON_TERMS_PER_S,
-    NOISY_BODIES_PER_S, RECORD_S, RECORDED_BODIES_PER_S, REFERENCE, SOLID_ANGLES_PER_S,
-    STAGES_PER_S, TERMS_PER_S, TRIAL_BODIES_PER_S,
+    FINAL_BODIES_PER_S, FLUID_BODIES_PER_S, LAW_ELEMENTS_PER_S, MONOMERS_PER_S, MOVED_BODIES_PER_S,
+    NEWTON_BONDS_PER_S, NEWTON_ELEMENTS_PER_S, NEWTON_LAW_ELEMENTS_PER_S, NEWTON_MONOMERS_PER_S,
+    NEWTON_TERMS_PER_S, NOISY_BODIES_PER_S, RECORD_S, RECORDED_BODIES_PER_S, REFERENCE,
+    SOLID_ANGLES_PER_S, STAGES_PER_S, TERMS_PER_S, TRIAL_BODIES_PER_S,
 };
 
 use crate::scene::{Anchors, Dynamics, Filament, RodLaw, RodModel, Task};
@@ -275,6 +275,9 @@ fn trials(dofs: usize) -> f64 {
 /// Time that thermal noise adds to a motion (s): two half steps for each point and each frame.
 fn seconds_of_noise(assembly: &Assembly, dynamics: &Dynamics, estimate: &Estimate) -> f64 {
     let bodies = assembly.counts().dofs as f64 / 3.0;
+    if dynamics.drag.fluid().is_some() {
+        return bodies * estimate.steps as f64 / FLUID_BODIES_PER_S;
+    }
     let draws = 2.0 * bodies * estimate.steps as f64;
     dynamics.thermal.map_or(0.0, |_| draws / NOISY_BODIES_PER_S)
 }

@@ -17,6 +17,8 @@ pub const ELEMENTS_PER_S: f64 = 5.6e7;
 /// The same where a law follows curvature, twist or shear; mixtures of laws that keep the scalar path
 /// take some six times as long (`docs/numerics.md`).
 pub const LAW_ELEMENTS_PER_S: f64 = 3.6e7;
+/// Points and frames per second that a step in a fluid solves for, with its noise.
+pub const FLUID_BODIES_PER_S: f64 = 2.7e6;
 /// Points and frames per second that half a step of thermal noise moves.
 pub const NOISY_BODIES_PER_S: f64 = 1.5e7;
 /// Bonds per second of a Newton step, beside their monomers.

@@ -5,16 +5,16 @@ use super::recorder::Recorder;
 use super::sink::{Saved, Sink};
 use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
-use super::{Estimate, Failure, Outcome, Plan, Status};
+use super::{Estimate, Failure, Outcome, Plan, Status, long_steps};
 use crate::Assembly;
-use crate::scene::{Brownian as Task, SceneProblem, Task as AnyTask};
+use crate::scene::{Brownian as Task, Fluid, SceneProblem, Task as AnyTask};
 use actin_brownian::{Brownian, Relaxation};
 use actin_integrate::{POSITION_VERLET, Run, Split};
 
-/// Iterations of a step, about.
-const ITERATIONS: u64 = 4;
+/// Iterations of a step, about, by midpoints and with random stress.
+const ITERATIONS: [u64; 2] = [4, 6];
 
-/// The default time step over the fastest relaxation, beyond which strains of midpoint steps are too warm.
+/// Midpoint steps over the fastest relaxation, beyond which strains are too warm.
 const OF_FASTEST: f64 = 50.0;
 
 /// Slowest motions that are looked for; up to six of each free filament meet no resistance.
@@ -55,17 +55,19 @@ impl RelaxationTimes {
 impl Plan<'_> {
     /// How filaments relax in the fluid of the task; none of other tasks. Takes the time of some hundred steps.
     pub fn relaxation_times(&self) -> Option<RelaxationTimes> {
-        let AnyTask::Brownian(task) = &self.scene().task else {
-            return None;
+        let fluid = match &self.scene().task {
+            AnyTask::Brownian(task) => &task.drag,
+            AnyTask::Dynamics(dynamics) => dynamics.drag.fluid()?,
+            AnyTask::Equilibrium(_) => return None,
         };
-        let mut relaxation = relaxation(self.assembly(), task).ok()?;
+        let mut relaxation = relaxation(self.assembly(), fluid).ok()?;
         Some(RelaxationTimes::of(&mut relaxation))
     }
 }
 
 /// How fast small displacements of an assembly relax in the fluid of its task.
-fn relaxation(assembly: &Assembly, task: &Task) -> Result<Relaxation, SceneProblem> {
-    let friction = assembly.friction(&task.drag)?;
+fn relaxation(assembly: &Assembly, fluid: &Fluid) -> Result<Relaxation, SceneProblem> {
+    let friction = assembly.friction(fluid)?;
     let layout = layout(assembly)?;
     Relaxation::new(&assembly.system, layout, &friction)
         .map_err(|error| SceneProblem::new("task", "", error.to_string()))
@@ -75,7 +77,7 @@ fn relaxation(assembly: &Assembly, task: &Task) -> Result<Relaxation, SceneProbl
 pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
     let motion = task.as_motion();
-    let times = RelaxationTimes::of(&mut relaxation(assembly, task)?);
+    let times = RelaxationTimes::of(&mut relaxation(assembly, &task.drag)?);
     let fastest_ns = times.fastest_ns;
     if !(fastest_ns.is_finite() && fastest_ns > 0.0) {
         let rule = "has no stiffness by which a time step could be set: write time_step_ns";
@@ -83,25 +85,32 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
             return Err(SceneProblem::new("filament", "", rule));
         }
     }
-    let longest_sound = OF_FASTEST * fastest_ns;
-    let wanted = task.time_step_ns.unwrap_or(longest_sound);
+    let of_midpoints = OF_FASTEST * fastest_ns;
+    let default =
+        long_steps::longest(assembly, task)?.map_or(of_midpoints, |ns| ns.max(of_midpoints));
+    let wanted = task.time_step_ns.unwrap_or(default);
     let steps = Steps::of(&motion, wanted.min(motion.duration_ns))?;
     task.flow.check_step(steps.length_ns)?;
     check_records(assembly, &motion, &steps)?;
     assembly.check_rates(steps.length_ns)?;
-    Ok(Estimate {
+    let longest_sound_step = motion.thermal.map(|_| LongestStep {
+        ns: default,
+        of_midpoints_ns: of_midpoints,
+        has_monomers: assembly.counts().monomers > 0,
+    });
+    let mut estimate = Estimate {
         largest_frequency_rad_per_ns: 0.0,
         stability_limit_ns: f64::INFINITY,
         time_step_ns: steps.length_ns,
         steps: steps.count,
         steps_between_records: steps.between_records,
         record_every_ns: steps.record_every_ns,
-        force_evaluations: steps.count * ITERATIONS,
-        longest_sound_step: motion.thermal.map(|_| LongestStep {
-            ns: longest_sound,
-            has_monomers: assembly.counts().monomers > 0,
-        }),
-    })
+        force_evaluations: 0,
+        longest_sound_step,
+    };
+    let iterations = ITERATIONS[usize::from(estimate.has_random_stress())];
+    estimate.force_evaluations = steps.count * iterations;
+    Ok(estimate)
 }
 
 /// Runs the motion.

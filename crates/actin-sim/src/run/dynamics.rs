@@ -6,9 +6,13 @@ use super::recorder::{Ending, Recorder};
 use super::rest::{is_saddle, saddle};
 use super::sink::{Saved, Sink};
 use super::steps::{LongestStep, Steps};
+use super::unknowns::layout;
 use super::{Failure, Outcome, Status};
-use crate::scene::{Dynamics, Integrator, RodLaw, Scene, SceneProblem, StopTolerances, Task};
+use crate::scene::{
+    Dynamics, Fluid, Integrator, RodLaw, Scene, SceneProblem, StopTolerances, Task,
+};
 use crate::{Assembly, memory};
+use actin_brownian::Langevin;
 use actin_integrate::{Bath, Composition, Drag, Reason, Run};
 use actin_mechanics::{Split, System};
 
@@ -28,9 +32,9 @@ pub struct Estimate {
     pub steps_between_records: u64,
     /// Time between two records (ns).
     pub record_every_ns: f64,
-    /// Load evaluations in these steps; of overdamped motion three iterations a step are counted.
+    /// Load evaluations in these steps; of overdamped motion the usual iterations of each step.
     pub force_evaluations: u64,
-    /// Up to which step all of overdamped thermal motion has its energy; none of other motion.
+    /// Up to which step overdamped thermal motion shows what it should; none of other motion.
     pub longest_sound_step: Option<LongestStep>,
 }
 
@@ -43,6 +47,16 @@ impl Integrator {
             Self::Vefrl => &actin_integrate::VEFRL,
             Self::ForestRuth => &actin_integrate::FOREST_RUTH,
             Self::Suzuki => &actin_integrate::SUZUKI,
+        }
+    }
+}
+
+impl Dynamics {
+    /// The coefficient table of its steps; in a fluid that of their conservative part.
+    pub fn composition(&self) -> &'static Composition {
+        match self.drag.fluid() {
+            None => self.integrator.composition(),
+            Some(_) => &actin_integrate::POSITION_VERLET,
         }
     }
 }
@@ -96,7 +110,7 @@ pub(crate) fn estimate_at(
     dynamics: &Dynamics,
     frequency: f64,
 ) -> Result<Estimate, SceneProblem> {
-    let scheme = dynamics.integrator.composition();
+    let scheme = dynamics.composition();
     let limit =
         actin_integrate::stable_step(scheme, frequency, 1.0).map_err(|error| no_step(&error))?;
     let share = dynamics.step_safety * share_of_laws(assembly);
@@ -213,7 +227,13 @@ pub(super) fn run(
     let mut recorder = Recorder::new(assembly, dynamics, saved, sink);
     let run = prepare((assembly, dynamics), &recorder, &mut system, estimate)?;
     recorder.let_happen(&mut system);
-    let ending = recorder.execute(&run, &mut system);
+    let ending = match dynamics.drag.fluid() {
+        None => recorder.execute(&run, &mut system),
+        Some(fluid) => {
+            let mut stepper = langevin(assembly, dynamics, fluid)?;
+            recorder.execute_steps(&run, &mut stepper, &mut system)
+        }
+    };
     let ending = recorder.end(ending, &mut system);
     let wall_s = recorder.wall_s();
     let outcome = Outcome {
@@ -317,17 +337,17 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
     let refused = |key: &str, error: &dyn std::error::Error| {
         SceneProblem::new(format!("task.{key}"), "", error.to_string())
     };
-    let drag = Drag::new(
-        dynamics.drag.translational_per_ns,
-        dynamics.drag.rotational_per_ns,
-    )
-    .map_err(|error| refused("drag", &error))?;
+    let rates = dynamics.drag.rates();
+    let drag = Drag::new(rates.translational_per_ns, rates.rotational_per_ns)
+        .map_err(|error| refused("drag", &error))?;
     let step = estimate.time_step_ns;
-    let scheme = dynamics.integrator.composition();
+    let scheme = dynamics.composition();
     let run = Run::new(scheme, step, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))
         .map_err(|error| refused("time_step_ns", &error))?;
-    let run = match &dynamics.thermal {
+    // The steps in a fluid have their own noise.
+    let bath = (dynamics.thermal.as_ref()).filter(|_| dynamics.drag.fluid().is_none());
+    let run = match bath {
         None => run.with_drag(drag),
         Some(thermal) => Bath::new(drag, thermal.energy_pn_nm(), thermal.seed)
             .map(|bath| run.with_bath(bath))
@@ -346,11 +366,29 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
         .map_err(|error| refused("stop", &error))
 }
 
+/// The steps of motion with inertia in a fluid.
+fn langevin(
+    assembly: &Assembly,
+    dynamics: &Dynamics,
+    fluid: &Fluid,
+) -> Result<Langevin, SceneProblem> {
+    let thermal = dynamics.thermal;
+    let noise = thermal.map_or((0.0, 0), |t| (t.energy_pn_nm(), t.seed));
+    let friction = assembly.friction(fluid)?;
+    Langevin::new(&assembly.system, layout(assembly)?, friction, noise)
+        .map_err(|error| SceneProblem::new("task", "", error.to_string()))
+}
+
 impl Estimate {
     /// Writes the time step and the interval of records that a motion will have into its scene.
     pub(super) fn resolve(&self, scene: &mut Scene) {
         let (step, every) = match &mut scene.task {
-            Task::Dynamics(task) => (&mut task.time_step_ns, &mut task.record_every_ns),
+            Task::Dynamics(task) => {
+                if task.drag.fluid().is_some() {
+                    task.integrator = Integrator::PositionVerlet;
+                }
+                (&mut task.time_step_ns, &mut task.record_every_ns)
+            }
             Task::Brownian(task) => (&mut task.time_step_ns, &mut task.record_every_ns),
             Task::Equilibrium(_) => return,
         };

@@ -5,6 +5,7 @@ mod brownian;
 mod dynamics;
 mod equilibrium;
 mod hinge;
+mod long_steps;
 mod outcome;
 mod plan;
 mod points;

@@ -134,7 +134,10 @@ impl<'a> Recorder<'a> {
     ) -> Result<RunOutcome, RunFailure> {
         match self.position.take() {
             None => run.execute_steps(stepper, system, &mut [self]),
-            Some(checkpoint) => run.resume_steps(&checkpoint, stepper, system, &mut [self]),
+            Some(checkpoint) => {
+                self.begin_hinges(&checkpoint, system);
+                run.resume_steps(&checkpoint, stepper, system, &mut [self])
+            }
         }
     }
 
@@ -147,12 +150,17 @@ impl<'a> Recorder<'a> {
         match self.position.take() {
             None => run.execute(system, &mut [self]),
             Some(checkpoint) => {
-                let mut state = system.state().clone();
-                state.set_motion(&checkpoint.here.motion);
-                self.hinges.begin(&state);
+                self.begin_hinges(&checkpoint, system);
                 run.resume(&checkpoint, system, &mut [self])
             }
         }
+    }
+
+    /// Lets hinges go on from where a run stood.
+    fn begin_hinges(&mut self, checkpoint: &Checkpoint, system: &System) {
+        let mut state = system.state().clone();
+        state.set_motion(&checkpoint.here.motion);
+        self.hinges.begin(&state);
     }
 
     /// Time that the run has taken (s).

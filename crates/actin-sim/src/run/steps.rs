@@ -125,11 +125,13 @@ fn between_records(duration: f64, every: f64, fewest: f64) -> Option<f64> {
     (period <= 1.0 || between <= MOST_EXTRA * fewest).then_some(between)
 }
 
-/// A time step up to which all motion has its energy.
+/// Up to which step overdamped thermal motion shows what it should.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LongestStep {
-    /// It (ns).
+    /// The default step (ns), in which slow motion is right.
     pub ns: f64,
+    /// The longest step by midpoints (ns), in which fast motion is right too; longer ones of rods have random stress.
+    pub of_midpoints_ns: f64,
     /// Whether there are monomers, which take no longer steps.
     pub has_monomers: bool,
 }
@@ -155,7 +157,11 @@ impl Estimate {
     /// Temperature of the positions of the fastest mode in a heat bath, relative to that of the bath, as
     /// the integrator leaves it.
     pub fn warmth_of_the_fastest_mode(&self, dynamics: &Dynamics) -> f64 {
-        let (rates, step) = (dynamics.drag, self.time_step_ns);
+        if dynamics.drag.fluid().is_some() {
+            // Steps in a fluid leave no linear mode too cold.
+            return 1.0;
+        }
+        let (rates, step) = (dynamics.drag.rates(), self.time_step_ns);
         let drag = Drag::new(rates.translational_per_ns, rates.rotational_per_ns);
         let (translation, rotation) = drag.unwrap_or(Drag::NONE).time_rescaling(step);
         // Of points and frames: the mode is either's, and nearer to the truth where drag is stronger.
@@ -168,11 +174,11 @@ impl Estimate {
     /// Bonds of monomers, shorter than their slip, have no stiffness that random stress could go by.
     pub(super) fn has_random_stress(&self) -> bool {
         let longest = self.longest_sound_step.as_ref();
-        longest.is_some_and(|longest| !longest.has_monomers && self.exceeds(longest))
+        longest.is_some_and(|l| !l.has_monomers && self.exceeds(l.of_midpoints_ns))
     }
 
-    fn exceeds(&self, longest: &LongestStep) -> bool {
-        self.time_step_ns > longest.ns * (1.0 + WHOLE)
+    fn exceeds(&self, ns: f64) -> bool {
+        self.time_step_ns > ns * (1.0 + WHOLE)
     }
 
     /// Overdamped steps that are so long that some motion is too warm.
@@ -181,9 +187,10 @@ impl Estimate {
         let what = if longest.has_monomers {
             "stretch and shear then hold more than their thermal energy"
         } else {
-            "what relaxes within a step is drawn anew in it, with its thermal energy and without memory"
+            "what bends within a step is drawn anew in it, without memory, and what is driven follows late; under \
+             loads short waves are too cold"
         };
-        self.exceeds(longest).then(|| {
+        self.exceeds(longest.ns).then(|| {
             let (step, longest) = (self.time_step_ns, longest.ns);
             format!("steps of {step:.1e} ns are longer than the default {longest:.1e} ns: {what}")
         })
@@ -250,7 +257,7 @@ impl Estimate {
         if dynamics.thermal.is_some() {
             return None;
         }
-        let rates = dynamics.drag;
+        let rates = dynamics.drag.rates();
         let drag = Drag::new(rates.translational_per_ns, rates.rotational_per_ns).ok()?;
         let step = self.time_step_ns;
         let (translation, rotation) = drag.recorded_drift(step);

@@ -1,7 +1,7 @@
 //! Overdamped motion in a fluid, as a scene writes it, and its rules.
 
 use super::rules::{non_negative, positive};
-use super::{DragRates, Dynamics, Flow, Integrator, Scene, SceneProblem, Task, Thermal, rules};
+use super::{DragModel, Dynamics, Flow, Integrator, Scene, SceneProblem, Task, Thermal, rules};
 use actin_brownian::Cylinder;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -28,9 +28,10 @@ pub struct Brownian {
     /// How the fluid moves. Drag pulls filaments along with it.
     #[serde(default)]
     pub flow: Flow,
-    /// Longest time step; positive. By default 50 times the fastest relaxation of the filaments as built, at which all
-    /// strains have their thermal energy to 1 % on segments of 20 nm or more. In longer steps of rods at a temperature what is
-    /// faster is drawn anew in each, bending to 1 % in 300 ns on segments of 40 nm. Steps are shortened so that whole ones
+    /// Longest time step; positive. By default of rods at a temperature the time in which the drag of a segment bends it, 180 ns on
+    /// 40 nm: what is faster is drawn anew in each step, means are right to 1 %. It is shorter where stages, loads, rates,
+    /// shear or records need it. Of monomers, with `repulsion` and without heat it is 50 times the fastest relaxation, at which
+    /// all strains have their thermal energy to 1 % on segments of 20 nm or more. Steps are shortened so that whole ones
     /// make up the duration and the interval of records.
     #[serde(default)]
     pub time_step_ns: Option<f64>,
@@ -39,7 +40,7 @@ pub struct Brownian {
     pub record_every_ns: Option<f64>,
 }
 
-/// A fluid and the drag in it. Rates of `Dynamics` are numerical damping; this follows from a viscosity.
+/// A fluid and the drag in it, which follows from its viscosity. Rates of `Dynamics` are numerical damping.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -92,7 +93,7 @@ impl Brownian {
             time_step_ns: self.time_step_ns,
             step_safety: actin_integrate::SAFETY,
             allow_unstable_step: false,
-            drag: DragRates::default(),
+            drag: DragModel::default(),
             thermal: self.thermal(),
             stop: None,
             leave_saddles: 0,
@@ -131,30 +132,45 @@ pub(super) fn check(brownian: &Brownian) -> Result<(), SceneProblem> {
     ] {
         value.map_or(Ok(()), |value| positive(key, value))?;
     }
-    let Fluid::Water {
-        viscosity_mpa_s,
-        radius_nm,
-        ..
-    } = brownian.drag;
-    positive("task.drag.viscosity_mpa_s", viscosity_mpa_s)?;
-    positive("task.drag.radius_nm", radius_nm)?;
+    brownian.drag.check()?;
     brownian.flow.check()
+}
+
+impl Fluid {
+    /// Checks its numbers.
+    pub(super) fn check(&self) -> Result<(), SceneProblem> {
+        let Self::Water {
+            viscosity_mpa_s,
+            radius_nm,
+            ..
+        } = *self;
+        positive("task.drag.viscosity_mpa_s", viscosity_mpa_s)?;
+        positive("task.drag.radius_nm", radius_nm)
+    }
+
+    /// Refuses filaments that are not slender.
+    pub(super) fn check_filaments(&self, scene: &Scene) -> Result<(), SceneProblem> {
+        let Self::Water {
+            viscosity_mpa_s,
+            radius_nm,
+            ..
+        } = *self;
+        scene.filaments().try_for_each(|one| {
+            let cylinder = Cylinder::new(viscosity_mpa_s, one.length_nm(), radius_nm);
+            cylinder.map(|_| ()).map_err(|error| {
+                let key = "task.drag.radius_nm";
+                SceneProblem::new(key, format!("{radius_nm:?}"), error.to_string())
+            })
+        })
+    }
 }
 
 /// Checks what the task asks of the rest of the scene: potentials, and filaments that are slender.
 pub(super) fn check_whole(scene: &Scene, brownian: &Brownian) -> Result<(), SceneProblem> {
     for (i, one) in scene.filaments().enumerate() {
         rules::check_potential(one).map_err(|p| p.with_filament(&scene.filament_key(i)))?;
-        let Fluid::Water {
-            viscosity_mpa_s,
-            radius_nm,
-            ..
-        } = brownian.drag;
-        Cylinder::new(viscosity_mpa_s, one.length_nm(), radius_nm).map_err(|error| {
-            let key = "task.drag.radius_nm";
-            SceneProblem::new(key, format!("{radius_nm:?}"), error.to_string())
-        })?;
     }
+    brownian.drag.check_filaments(scene)?;
     let follows = scene.loads.iter().position(super::Load::follows);
     follows.map_or(Ok(()), |i| {
         let rule = "a load that turns with the filament has no stiffness in which Brownian could be implicit: \

@@ -83,6 +83,14 @@ impl Flow {
         }
     }
 
+    /// The longest step (ns) in which the fluid does not turn far.
+    pub(crate) fn longest_step(&self) -> f64 {
+        match *self {
+            Self::Shear { rate_per_s, .. } => LARGEST_TURN / (rate_per_s.abs() * PER_S),
+            Self::AtRest | Self::Stream { .. } => f64::INFINITY,
+        }
+    }
+
     /// Refuses steps (ns) in which the fluid turns far.
     pub(crate) fn check_step(&self, step_ns: f64) -> Result<(), SceneProblem> {
         let Self::Shear { rate_per_s, .. } = *self else {

@@ -6,6 +6,7 @@
 mod brackets;
 mod brownian;
 mod curve;
+mod drag;
 mod factor;
 pub(crate) mod fitted;
 mod flow;
@@ -48,6 +49,7 @@ mod written;
 
 pub use brownian::{Brownian, Fluid};
 pub(crate) use curve::{Curve, swept};
+pub use drag::{DragModel, DragRates};
 pub use factor::Factor;
 pub(crate) use factor::smooth;
 pub use flow::Flow;
@@ -78,8 +80,8 @@ pub(crate) use support::is_across;
 pub use text::{Override, SceneText};
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
 pub use types::{
-    Clamp, DragRates, Dynamics, End, Equilibrium, Filament, Hinge, Hold, Integrator, Pace, Scene,
-    Setting, Slides, Stage, StopTolerances, Task,
+    Clamp, Dynamics, End, Equilibrium, Filament, Hinge, Hold, Integrator, Pace, Scene, Setting,
+    Slides, Stage, StopTolerances, Task,
 };
 pub(crate) use validate::MOST_COUNTED;
 pub use value::SceneValue;

@@ -9,8 +9,8 @@ use ron::ser::PrettyConfig;
 use serde::de::DeserializeOwned;
 
 /// Suffixes that keys carry for their units; a suffix stands before those that it ends with.
-const UNIT_SUFFIXES: [&str; 8] = [
-    "_per_ns", "_per_nm", "_nm", "_nm2", "_pn", "_ns", "_deg", "_ag",
+const UNIT_SUFFIXES: [&str; 10] = [
+    "_mpa_s", "_ms", "_per_ns", "_per_nm", "_nm", "_nm2", "_pn", "_ns", "_deg", "_ag",
 ];
 
 /// Longest word that is compared with those that are known.

@@ -52,12 +52,13 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
         return Ok(());
     };
     rules::positive("task.thermal.temperature_k", thermal.temperature_k)?;
-    let drag = &dynamics.drag;
-    for (name, rate) in [
+    let drag = dynamics.drag.rates();
+    let rates = [
         ("translational_per_ns", drag.translational_per_ns),
         ("rotational_per_ns", drag.rotational_per_ns),
-    ] {
-        if rate == 0.0 {
+    ];
+    for (name, rate) in rates {
+        if rate == 0.0 && dynamics.drag.fluid().is_none() {
             return Err(SceneProblem::new(
                 format!("task.drag.{name}"),
                 format!("{rate:?}"),

@@ -2,8 +2,8 @@
 
 use super::model::{JunctionModel, Monomers, RodModel};
 use super::{
-    Brownian, Imperfection, Linker, Load, Observable, Output, Quantity, Repulsion, Sections, Shape,
-    Thermal, written::Written,
+    Brownian, DragModel, Imperfection, Linker, Load, Observable, Output, Quantity, Repulsion,
+    Sections, Shape, Thermal, written::Written,
 };
 use serde::{Deserialize, Serialize};
 
@@ -317,10 +317,12 @@ pub struct Dynamics {
     /// Whether a time step above the estimated stability limit is accepted.
     #[serde(default)]
     pub allow_unstable_step: bool,
-    /// Drag rates; no drag by default.
+    /// Numerical damping as `(translational_per_ns: 1.0, rotational_per_ns: 1.0)`, or a fluid as
+    /// `Water(viscosity_mpa_s: 0.89)`; neither by default. In a fluid `integrator` is left out: steps are those of
+    /// Gronbech-Jensen and Farago (2013), for which no drag is too strong.
     #[serde(default)]
-    pub drag: DragRates,
-    /// Thermal noise. Both drag rates must be positive, and `stop` be left out.
+    pub drag: DragModel,
+    /// Thermal noise. Both rates of damping must be positive, or there is a fluid; `stop` must be left out.
     #[serde(default)]
     pub thermal: Option<Thermal>,
     /// When to stop before the duration is over.
@@ -355,18 +357,6 @@ pub enum Integrator {
     ForestRuth,
     /// Suzuki's five-fold composition of position Verlet: order 4, five evaluations.
     Suzuki,
-}
-
-/// Numerical damping, proportional to mass: velocities decay as `exp(-rate t)`. No fluid has such rates: see `Brownian`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-#[serde(rename = "Drag")]
-pub struct DragRates {
-    /// Rate for velocities; at least 0.
-    pub translational_per_ns: f64,
-    /// Rate for angular momenta; at least 0.
-    pub rotational_per_ns: f64,
 }
 
 /// When a motion stops before its duration is over: once all three are below their tolerance.

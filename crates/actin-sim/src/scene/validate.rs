@@ -6,7 +6,7 @@ use super::rules::{
 use super::support::{check_support, check_swings};
 use super::{
     Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Resultant, Scene,
-    SceneProblem, Slides, StopTolerances, Task, brownian, imperfection, kinetics, linker,
+    SceneProblem, Slides, StopTolerances, Task, brownian, drag, imperfection, kinetics, linker,
     load_rules, magnitude, observable, repulsion, saddles, section_rules, shape, stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
@@ -92,6 +92,9 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
             saddles::check(scene, dynamics)?;
             load_rules::check_rest(scene, dynamics)?;
             kinetics::check_rest(scene, dynamics)?;
+            if let Some(fluid) = dynamics.drag.fluid() {
+                fluid.check_filaments(scene)?;
+            }
             let stop = dynamics.stop.as_ref();
             stop.map_or(Ok(()), |s| {
                 check_tolerance(scene, "task.stop", (s.force_pn, s.torque_pn_nm))
@@ -354,14 +357,7 @@ fn check_dynamics(dynamics: &Dynamics) -> Result<(), SceneProblem> {
             "must be below 1, the stability limit",
         ));
     }
-    non_negative(
-        &key("drag.translational_per_ns"),
-        dynamics.drag.translational_per_ns,
-    )?;
-    non_negative(
-        &key("drag.rotational_per_ns"),
-        dynamics.drag.rotational_per_ns,
-    )?;
+    drag::check(dynamics)?;
     thermal::check(dynamics)?;
     dynamics.stop.as_ref().map_or(Ok(()), check_stop)
 }

@@ -7,7 +7,6 @@ mod reader;
 mod writer;
 
 use super::outline::{Step, steps};
-use super::read::{in_words, meant};
 use super::shape::Shape;
 use super::trace::points;
 use super::{Scene, SceneProblem, validate::validate, written::Written};
@@ -168,12 +167,7 @@ impl Scene {
 
 /// A refusal in the words of a scene.
 fn problem(refusal: &Refusal) -> SceneProblem {
-    let code = &refusal.code;
-    let mut rule = in_words(code, "scene").unwrap_or_else(|| code.to_string());
-    if let Some(meant) = meant(code) {
-        rule = format!("{rule}; did you mean {meant}?");
-    }
-    SceneProblem::new(refusal.path(), "", rule)
+    SceneProblem::new(refusal.path(), "", refusal.rule())
 }
 
 #[cfg(test)]

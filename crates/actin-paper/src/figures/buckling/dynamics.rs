@@ -84,7 +84,7 @@ pub(super) fn dynamics(duration_ns: f64, drag: DragRates) -> Dynamics {
         time_step_ns: None,
         step_safety: 0.9,
         allow_unstable_step: false,
-        drag,
+        drag: drag.into(),
         thermal: None,
         stop: Some(StopTolerances {
             force_pn: STOP,

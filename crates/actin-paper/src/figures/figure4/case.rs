@@ -259,7 +259,8 @@ impl Case {
         dynamics.drag = DragRates {
             translational_per_ns: SWING_DRAG_PER_NS,
             rotational_per_ns: SWING_DRAG_PER_NS,
-        };
+        }
+        .into();
         dynamics.duration_ns = SWING_NS;
         dynamics.stop = None;
         let Done {

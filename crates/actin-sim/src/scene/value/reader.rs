@@ -2,6 +2,7 @@
 
 use super::SceneValue;
 use crate::scene::outline::Step;
+use crate::scene::read::{in_words, meant};
 use ron::error::Error as RonError;
 use serde::de::value::StrDeserializer;
 use serde::de::{
@@ -13,7 +14,7 @@ use std::fmt;
 /// What is refused, in the terms of RON, and where.
 #[derive(Debug)]
 pub struct Refusal {
-    pub(super) code: RonError,
+    code: RonError,
     /// Steps from the innermost value outwards.
     steps: Vec<Step>,
 }
@@ -40,6 +41,16 @@ impl Refusal {
             *outer = Some(name.to_owned());
         }
         self
+    }
+
+    /// What is refused, in the words of a scene, wherever it stands.
+    pub(in crate::scene) fn rule(&self) -> String {
+        let code = &self.code;
+        let rule = in_words(code, "scene").unwrap_or_else(|| code.to_string());
+        match meant(code) {
+            Some(meant) => format!("{rule}; did you mean {meant}?"),
+            None => rule,
+        }
     }
 
     /// The path of the key, as in `filament.sections[1].to_nm`.

@@ -1,0 +1,166 @@
+//! Motion with inertia in a fluid: steps that resolve the stiffness, not the friction.
+
+use crate::friction::{Scaled, Velocities};
+use crate::{BrownianError, Friction};
+use actin_equilibrium::{ImplicitSolver, Layout};
+use actin_integrate::{Noise, StepFailure, Stepper};
+use actin_mechanics::{
+    Coordinates, Loads, Matrix3, SecondOrder, Split, State, Stiffness, System, Thermostat, Vectors,
+};
+
+/// Parts the key of this noise from other uses of the same seed.
+const PURPOSE: [u8; 8] = *b"langevin";
+
+/// Makes steps of bodies with inertia that meet friction, with thermal noise or without.
+///
+/// A step of `h` kicks for `h/2`, drifts for `h/2`, lets friction act, drifts and kicks again. With the inertia `M` and the
+/// friction `Z` of the middle, friction and its noise take velocities `v` to
+///
+/// `(M + h Z/2) v' = (M - h Z/2) v + sqrt(2 kT h) B xi`, `B B^T = Z`,
+///
+/// which leaves Maxwell's distribution as it is. For constant `Z` drift under a constant load (`F/Z`, and velocities at the ends of
+/// steps are that), diffusion (`kT/Z`) and the energy of linear modes (`kT/2` at each stable step, 2 over the largest
+/// frequency) are exact however large `h Z/M` is: nothing is split that would be off. Velocities change sign from step to step
+/// where `h Z/M` exceeds 2, and mean little then.
+///
+/// The noise is a function of the seed, the number of the step and the index of the dashpot.
+///
+/// # Source
+/// Gronbech-Jensen and Farago, Mol. Phys. 111 (2013) 983, here with a matrix of friction.
+#[derive(Debug)]
+pub struct Langevin {
+    friction: Friction,
+    thermal_energy: f64,
+    noise: Noise,
+    solver: ImplicitSolver,
+    velocities: Velocities,
+    loads: Loads,
+}
+
+impl Langevin {
+    /// Steps of `system` with the free unknowns of `layout` and a thermal energy (pN nm; 0 for none) with the seed of its noise.
+    ///
+    /// # Errors
+    /// A thermal energy that is none.
+    pub fn new(
+        system: &System,
+        layout: Layout,
+        friction: Friction,
+        (thermal_energy, seed): (f64, u64),
+    ) -> Result<Self, BrownianError> {
+        if !(thermal_energy.is_finite() && thermal_energy >= 0.0) {
+            return Err(BrownianError::ThermalEnergy(thermal_energy));
+        }
+        let state = system.state();
+        let loads = Loads::zeros(state);
+        let mut solver = ImplicitSolver::new(layout);
+        // Settles the order of unknowns.
+        let step = 1.0;
+        solver.factorize((state, &loads), &[], &Resistance::of(&friction, step));
+        Ok(Self {
+            noise: Noise::of_purpose(
+                PURPOSE,
+                seed,
+                (friction.dashpots.len(), friction.turns.len()),
+            ),
+            velocities: Velocities {
+                points: Vectors::zeros(state.points.len()),
+                frames: Vectors::zeros(state.frames.len()),
+            },
+            friction,
+            thermal_energy,
+            solver,
+            loads,
+        })
+    }
+
+    /// Lets friction and its noise act for a time `h`.
+    fn rub(&mut self, system: &mut System, step: u64, h: f64) {
+        let state = system.state();
+        self.velocities.points.clone_from(&state.points.velocity);
+        for i in 0..state.frames.len() {
+            let l = state.frames.angular_momentum.get(i);
+            let omega = state.frames.angular_velocity(i, l);
+            self.velocities.frames.set(i, omega);
+        }
+        self.loads.clear();
+        self.friction
+            .add_loads(state, &self.velocities, &mut self.loads);
+        if self.thermal_energy > 0.0 {
+            let strength = (2.0 * self.thermal_energy / h).sqrt();
+            self.noise.draw_stream(step, (1.0, 1.0));
+            let noise = (&self.noise.points, &self.noise.frames);
+            self.friction
+                .add_noise(state, strength, noise, &mut self.loads);
+        }
+        let resistance = Resistance::of(&self.friction, h);
+        self.solver
+            .factorize((state, &self.loads), &[], &resistance);
+        let (points, frames) = self.solver.velocities(state, &self.loads);
+        add(system.state_mut(), &points, &frames);
+    }
+}
+
+/// Adds to the velocities of points and the angular velocities of frames.
+fn add(state: &mut State, points: &Vectors, frames: &Vectors) {
+    for (i, gain) in points.iter().enumerate() {
+        state.points.velocity.add(i, gain);
+    }
+    for (i, gain) in frames.iter().enumerate() {
+        let gain = gain.component_div(&state.frames.inverse_moments(i));
+        state.frames.angular_momentum.add(i, gain);
+    }
+}
+
+impl Stepper for Langevin {
+    fn step(&mut self, system: &mut System, step: u64, h: f64) -> Result<(), StepFailure> {
+        system.kick(0.5 * h, 0.5 * h);
+        system.drift(0.5 * h);
+        self.rub(system, step, h);
+        system.drift(0.5 * h);
+        system.kick(0.5 * h, 0.5 * h);
+        if system.has_step_end() {
+            system.end_step(step + 1, h);
+        }
+        Ok(())
+    }
+}
+
+/// Inertia over a time step, and half of the friction.
+struct Resistance<'a> {
+    friction: Scaled<'a>,
+    h: f64,
+}
+
+impl<'a> Resistance<'a> {
+    fn of(friction: &'a Friction, h: f64) -> Self {
+        Self {
+            friction: friction.times(0.5),
+            h,
+        }
+    }
+}
+
+impl SecondOrder for Resistance<'_> {
+    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        use Coordinates::{Frame, Point};
+        self.friction.add_stiffness(state, stiffness);
+        let of_mass = |mass: f64| Matrix3::from_diagonal_element(mass / self.h);
+        let points = (0..state.points.len()).filter(|&i| state.points.is_free(i));
+        for i in points {
+            stiffness.push(Point(i), Point(i), of_mass(state.points.mass(i)));
+        }
+        // The whole mass of what slides, whatever its points have.
+        for slider in state.sliders.iter() {
+            let share = slider.mass / slider.points.len() as f64;
+            for &i in &slider.points {
+                stiffness.push(Point(i), Point(i), of_mass(share));
+            }
+        }
+        for i in 0..state.frames.len() {
+            let moments = state.frames.inverse_moments(i).map(f64::recip);
+            let of_frame = Matrix3::from_diagonal(&(moments / self.h));
+            stiffness.push(Frame(i), Frame(i), of_frame);
+        }
+    }
+}

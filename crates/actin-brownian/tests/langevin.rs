@@ -1,0 +1,181 @@
+//! Motion with inertia in a fluid: drift, diffusion and energy at friction however strong.
+
+mod common;
+
+use actin_brownian::Langevin;
+use actin_cosserat::StraightRod;
+use actin_integrate::{POSITION_VERLET, Stepper, largest_frequency, stable_step};
+use actin_mechanics::{PointLoad, State, System, Vector3};
+use common::{FRICTION, free_rod, friction_of, law, layout_of, tip};
+
+/// A rod of `segments` of 10 nm under forces of 1 pN at its nodes along `direction`, in friction `factor` times that of the tests.
+fn pulled(segments: usize, direction: Vector3, factor: f64) -> (System, Langevin) {
+    let mut state = State::default();
+    let rod = StraightRod::uniform(segments, 10.0);
+    let rod = rod.push(&mut state).unwrap();
+    // Half at the ends, as friction has it.
+    let shares = rod.points().map(|i| {
+        let is_end = i == rod.points().start || i == tip(&rod);
+        (i, if is_end { 0.5 } else { 1.0 })
+    });
+    let control = state.add_control(1.0);
+    let load = PointLoad::new(&state, shares.collect(), direction, control);
+    let mut friction = friction_of(&rod);
+    for dashpot in &mut friction.dashpots {
+        dashpot.friction *= factor;
+    }
+    let layout = layout_of(&state, &rod);
+    let system = System::new(state, vec![law(&rod), Box::new(load)]);
+    let steps = Langevin::new(&system, layout, friction, (0.0, 0)).unwrap();
+    (system, steps)
+}
+
+/// The step of `share` of the limit of stability.
+fn step_of(system: &System, share: f64) -> f64 {
+    stable_step(&POSITION_VERLET, largest_frequency(system).unwrap(), share).unwrap()
+}
+
+/// The terminal velocity is that of force and friction, and is the velocity at the ends of steps, from a tenth of the friction of
+/// water to a thousand times it. Half steps of exponential drag around a step would move it by `x coth x`, `x` half the decay in a
+/// step: by 1 % at `x = 0.17`, by 50 here.
+#[test]
+fn terminal_velocity_is_exact_at_any_friction() {
+    for (axis, friction) in [(Vector3::x(), FRICTION[1]), (Vector3::z(), FRICTION[0])] {
+        for factor in [0.1, 1.0, 1e3] {
+            let (mut system, mut steps) = pulled(3, axis, factor);
+            let h = step_of(&system, 0.5);
+            let place = |system: &System| system.state().points.position.get(0).dot(&axis);
+            let advance = |system: &mut System, steps: &mut Langevin, first: u64, number: u64| {
+                (first..first + number).for_each(|k| steps.step(system, k, h).unwrap());
+            };
+            advance(&mut system, &mut steps, 0, 30_000);
+            let before = place(&system);
+            advance(&mut system, &mut steps, 30_000, 100);
+            let drift = (place(&system) - before) / (100.0 * h);
+            let velocity = system.state().points.velocity.get(0).dot(&axis);
+            let expected = 3.0 / (friction * factor * 30.0);
+            println!("{axis:?}, {factor}: {drift}, {velocity}, {expected}");
+            assert!((drift / expected - 1.0).abs() < 1e-6);
+            assert!((velocity / expected - 1.0).abs() < 1e-6);
+        }
+    }
+}
+
+/// A rod diffuses with `kT/Z`, at the friction of water and at a thousand times that. Standard errors are 1 %.
+#[test]
+fn diffusion_is_exact_at_any_friction() {
+    const SAMPLES: u64 = 10_000;
+    let kt = 4.11;
+    for (factor, lag) in [(1.0, 500), (1e3, 10)] {
+        let (mut system, _) = pulled(1, Vector3::zeros(), factor);
+        let rod = StraightRod::uniform(1, 10.0);
+        let rod = rod.push(&mut State::default()).unwrap();
+        let mut friction = friction_of(&rod);
+        friction
+            .dashpots
+            .iter_mut()
+            .for_each(|d| d.friction *= factor);
+        let layout = layout_of(system.state(), &rod);
+        let mut steps = Langevin::new(&system, layout, friction, (kt, 3)).unwrap();
+        let h = step_of(&system, 0.5);
+        let middle = |system: &System| {
+            let x = &system.state().points.position;
+            let axis = system.state().frames.orientation.get(0) * Vector3::z();
+            ((x.get(0) + x.get(1)) * 0.5, axis)
+        };
+        let (mut along, mut across) = (0.0, 0.0);
+        for sample in 0..SAMPLES {
+            let (before, axis) = middle(&system);
+            for k in 0..lag {
+                steps.step(&mut system, sample * lag + k, h).unwrap();
+            }
+            let moved = middle(&system).0 - before;
+            along += moved.dot(&axis).powi(2);
+            across += 0.5 * (moved.norm_squared() - moved.dot(&axis).powi(2));
+        }
+        let expected = 2.0 * kt * lag as f64 * h * SAMPLES as f64 / (10.0 * factor);
+        let ratios = [
+            along * FRICTION[0] / expected,
+            across * FRICTION[1] / expected,
+        ];
+        println!("{factor}: {ratios:?}");
+        // In water velocities last 1/60 and 1/110 ns of a lag of 1 ns.
+        assert!(ratios.iter().all(|ratio| (ratio - 1.0).abs() < 0.04));
+    }
+}
+
+/// Each strain has `kT/2`, at 0.9 of the largest stable step: other steps leave the stiffest too cold by a fifth at 0.9.
+#[test]
+fn strains_have_their_energy_at_any_stable_step() {
+    const SEGMENTS: usize = 4;
+    let kt = 0.0411;
+    {
+        let share = 0.9;
+        let (mut system, _, rod) = free_rod(SEGMENTS, 40.0, (kt, 5), |_, _| Vec::new());
+        let layout = layout_of(system.state(), &rod);
+        let mut steps = Langevin::new(&system, layout, friction_of(&rod), (kt, 7)).unwrap();
+        let h = step_of(&system, share);
+        let (warm, number) = (200_000, 2_000_000);
+        let mut sums = [0.0; 2];
+        let mut energies = [0.0; 2 * SEGMENTS - 1];
+        for k in 0..warm + number {
+            steps.step(&mut system, k, h).unwrap();
+            if k >= warm && k % 4 == 0 {
+                system.interactions()[0].write_energies(system.state(), &mut energies);
+                let (shear, bending) = energies.split_at(SEGMENTS);
+                sums[0] += shear.iter().sum::<f64>() / (3 * SEGMENTS) as f64;
+                sums[1] += bending.iter().sum::<f64>() / (3 * (SEGMENTS - 1)) as f64;
+            }
+        }
+        let shares = sums.map(|sum| sum / (kt * (number / 4) as f64));
+        println!("{share}: {shares:?}");
+        // Bending relaxes in some thousand steps: standard errors of 1 %.
+        assert!((shares[0] / 0.5 - 1.0).abs() < 0.01, "{shares:?}");
+        assert!((shares[1] / 0.5 - 1.0).abs() < 0.03, "{shares:?}");
+    }
+}
+
+/// A bent rod relaxes with inertia as it does without, to 1 % of the bend: inertia is gone within 0.01 ns of 300.
+#[test]
+fn inertia_hardly_shows_in_water() {
+    let force = |state: &mut State, rod: &actin_cosserat::RodLayout| {
+        let control = state.add_control(1.0);
+        let bend = vec![
+            (rod.points().start, 1.0),
+            (rod.points().start + 3, -2.0),
+            (tip(rod), 1.0),
+        ];
+        vec![Box::new(PointLoad::new(state, bend, Vector3::x(), control)) as _]
+    };
+    let bow = |system: &System| {
+        let x = |i: usize| system.state().points.position.get(i).x;
+        x(0) + x(6) - 2.0 * x(3)
+    };
+    let (mut slow, mut without, rod) = free_rod(6, 60.0, (0.0, 0), force);
+    let (mut system, _, _) = free_rod(6, 60.0, (0.0, 0), force);
+    let layout = layout_of(system.state(), &rod);
+    let mut with = Langevin::new(&system, layout, friction_of(&rod), (0.0, 0)).unwrap();
+    // The slowest bend relaxes in 2 ns.
+    let (number, coarse) = (2000_u32, 100_u32);
+    let h = 1.0 / f64::from(number);
+    assert!(h < step_of(&system, 1.0));
+    let mut bows = Vec::new();
+    for part in 0..5 {
+        for k in 0..number {
+            with.step(&mut system, u64::from(part * number + k), h)
+                .unwrap();
+        }
+        for k in 0..coarse {
+            let (step, h) = (u64::from(part * coarse + k), 1.0 / f64::from(coarse));
+            without.step(&mut slow, step, h).unwrap();
+        }
+        bows.push([bow(&system), bow(&slow)]);
+    }
+    println!("{bows:?}");
+    let last = bows[4][1].abs();
+    assert!((bows[0][1] / last).abs() < 0.7, "{bows:?}");
+    assert!(
+        bows.iter().all(|[a, b]| (a - b).abs() < 0.01 * last),
+        "{bows:?}"
+    );
+}

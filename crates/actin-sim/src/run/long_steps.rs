@@ -1,0 +1,131 @@
+//! How long steps of rods in thermal overdamped motion may be: what sets them is what is looked at and what changes, not how
+//! fast stretch and shear relax.
+
+use crate::Assembly;
+use crate::assembly::COARSEST;
+use crate::scene::{Brownian as Task, Factor, Resultant, SceneProblem, Setting};
+
+/// Steps in the time that a stage, a ramp, a period or an interval of a table takes: what follows half a step late is late by
+/// half a hundredth of it.
+const PER_CHANGE: f64 = 100.0;
+
+/// By how much (relative) loads may leave too little slack.
+const TOO_COLD: f64 = 0.01;
+
+/// Records of a motion whose scene does not say how many.
+const RECORDS: f64 = 100.0;
+
+/// The longest step (ns) of rods at a temperature that shows bending to 1 % (`actin_brownian::Brownian`) and whatever changes; none
+/// of monomers, of contact, or without heat.
+pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, SceneProblem> {
+    let has_others = assembly.counts().monomers > 0 || assembly.scene.repulsion.is_some();
+    if has_others || task.temperature_k == 0.0 {
+        return Ok(None);
+    }
+    let motion = task.as_motion();
+    let records = motion
+        .record_every_ns
+        .unwrap_or(motion.duration_ns / RECORDS);
+    let mut longest = records.min(task.flow.longest_step());
+    for times in [of_changes(assembly), of_rates(assembly)] {
+        longest = times.into_iter().fold(longest, f64::min);
+    }
+    for rod in &assembly.rods {
+        longest = longest.min(of_rod(
+            assembly,
+            task,
+            (rod.section, rod.layout.segment_lengths()),
+        )?);
+    }
+    Ok(Some(longest))
+}
+
+/// `zeta l^4/B`, the time in which friction `zeta` of a segment of length `l` bends it. A tension `F` has no random
+/// stress: in steps of `h` waves are too cold under it, and slack is too small by `h F^(3/2)/(zeta l B^(1/2))`, or less where that
+/// is more than a tenth (measured beside the exact chain in `actin-brownian`, `tests/chain.rs`).
+fn of_rod(
+    assembly: &Assembly,
+    task: &Task,
+    (section, lengths): (usize, &[f64]),
+) -> Result<f64, SceneProblem> {
+    let filament = assembly.filament_of_section(section);
+    let across = assembly.cylinder(&task.drag, filament)?.across();
+    let length = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+    let first = assembly.filaments[filament].sections.start;
+    let written = assembly.scene.filament_at(filament);
+    let Some(model) = written.map(|f| f.sections[section - first].rod_model(&f.rod)) else {
+        return Ok(f64::INFINITY);
+    };
+    let bend = model.material.rigidities().bend;
+    let bend = bend.x.min(bend.y);
+    let force = tension(assembly, filament, length);
+    let of_loads = TOO_COLD * across * length * bend.sqrt() / force.powf(1.5);
+    Ok(of_loads.min(across * length.powi(4) / bend))
+}
+
+/// At most what loads pull a filament with (pN); couples pull segments of `length` aside.
+fn tension(assembly: &Assembly, filament: usize, length: f64) -> f64 {
+    let scene = &assembly.scene;
+    let loads = scene.loads.iter().enumerate();
+    let of_filament = loads.filter(|(_, load)| load.filament() == filament);
+    of_filament
+        .map(|(i, load)| {
+            let force = match load.resultant(scene) {
+                Resultant::Force(force) => force.norm(),
+                Resultant::Couple(couple) => couple.norm() / length,
+            };
+            let settings = scene.path.iter().flat_map(|stage| &stage.set);
+            let factors = settings.filter_map(|setting| match *setting {
+                Setting::LoadFactor { load, factor } if load == i => Some(factor.abs()),
+                _ => None,
+            });
+            let of_path = factors.reduce(f64::max).unwrap_or(1.0);
+            force * of_path * load.factor().largest()
+        })
+        .sum()
+}
+
+/// Parts of the times in which stages and loads change (ns).
+fn of_changes(assembly: &Assembly) -> Vec<f64> {
+    let scene = &assembly.scene;
+    let stages = scene.path.iter().filter_map(|stage| stage.duration_ns);
+    let loads = scene
+        .loads
+        .iter()
+        .filter_map(|load| load.factor().shortest());
+    stages.chain(loads).map(|time| time / PER_CHANGE).collect()
+}
+
+/// What rates allow (ns).
+fn of_rates(assembly: &Assembly) -> Vec<f64> {
+    let linkers = assembly.scene.linkers.iter();
+    let rates = linkers.filter_map(|linker| Some(linker.kinetics.as_ref()?.rates()));
+    rates.flatten().map(|(_, rate)| COARSEST / rate).collect()
+}
+
+impl Factor {
+    /// The largest magnitude that it takes.
+    fn largest(&self) -> f64 {
+        match self {
+            Self::Constant => 1.0,
+            Self::Ramp { from, to, .. } => from.abs().max(to.abs()),
+            Self::Sine {
+                amplitude, mean, ..
+            } => amplitude.abs() + mean.abs(),
+            Self::Table { factor, .. } => factor.iter().fold(0.0, |most, f| most.max(f.abs())),
+        }
+    }
+
+    /// The shortest time in which it changes (ns); none of a constant.
+    fn shortest(&self) -> Option<f64> {
+        match self {
+            Self::Constant => None,
+            Self::Ramp { duration_ns, .. } => Some(*duration_ns),
+            Self::Sine { period_ns, .. } => Some(*period_ns),
+            Self::Table { time_ns, .. } => {
+                let times = time_ns.windows(2).map(|pair| pair[1] - pair[0]);
+                times.reduce(f64::min)
+            }
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Inertial motion in water beside overdamped motion: the same drag, the same noise, the same time scales.
+
+use actin_sim::mechanics::Vector3;
+use actin_sim::{Assembly, End, Plan, Record, Scene};
+
+/// The assembly, its tip in all records, and the work.
+fn tips(sections: &str, force_pn: f64, task: &str) -> (Vec<Vector3>, u64) {
+    let text = format!(
+        "Scene(
+            filament: Filament(sections: [{sections}]),
+            clamps: [Clamp(end: Start)],
+            loads: [EndForce(end: End, force_pn: ({force_pn:?}, 0.0, 0.0))],
+            task: {task},
+        )"
+    );
+    let scene = Scene::from_ron(&text).unwrap_or_else(|error| panic!("{error}"));
+    let assembly = Assembly::build(&scene).unwrap();
+    let (trajectory, report) = Plan::new(&assembly).unwrap().run().unwrap();
+    let tip = |record: &Record| assembly.tip_nm(&record.state, End::End);
+    let tips = trajectory.records.iter().map(tip).collect();
+    (tips, report.force_evaluations)
+}
+
+/// Largest difference of the deflections with inertia and without, over the last of them.
+fn largest_difference(sections: &str, duration_ns: f64, step_ns: f64) -> f64 {
+    let every = duration_ns / 10.0;
+    let water = "drag: Water(viscosity_mpa_s: 1.0)";
+    let with =
+        format!("Dynamics(duration_ns: {duration_ns:?}, record_every_ns: {every:?}, {water})");
+    let without = format!(
+        "Brownian(duration_ms: {:?}, temperature_k: 0.0, record_every_ns: {every:?}, time_step_ns: {step_ns:?}, {water})",
+        duration_ns * 1e-6
+    );
+    let [with, without] = [with, without].map(|task| tips(sections, 4.0, &task).0);
+    assert_eq!((with.len(), without.len()), (11, 11));
+    let last = without[10].x - without[0].x;
+    let share = (without[5].x - without[0].x) / last;
+    let pairs = with.iter().zip(&without);
+    let largest = pairs.map(|(a, b)| (a.x - b.x).abs()).fold(0.0, f64::max) / last;
+    println!("{sections}: half way {share:.3} of {last:.4} nm, largest difference {largest:.2e}");
+    largest
+}
+
+/// A cantilever under a force relaxes with inertia as it does without, whatever resolves it, to 1 % of its deflection. Time here is
+/// 150 ns; velocities last 0.01 ns. Drag per mass, lumped at nodes, or that of another length would show.
+#[test]
+fn cantilevers_relax_alike_with_inertia_and_without() {
+    for sections in [
+        "Rod(from_nm: 0.0, to_nm: 60.0, segments: 3)",
+        "Ellipsoids(from_nm: 0.0, to_nm: 60.0)",
+        "Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0, segments: 2)",
+    ] {
+        assert!(largest_difference(sections, 150.0, 0.2) < 0.01);
+    }
+}
+
+/// The same of 160 nm, for which inertia takes a million steps.
+#[test]
+#[ignore = "takes minutes"]
+fn long_cantilevers_relax_alike_with_inertia_and_without() {
+    for sections in [
+        "Rod(from_nm: 0.0, to_nm: 160.0, segments: 4)",
+        "Rod(from_nm: 0.0, to_nm: 160.0, segments: 8)",
+    ] {
+        assert!(largest_difference(sections, 4000.0, 5.0) < 0.01);
+    }
+}
+
+/// Mean square deflection of the tip across (nm^2), its standard error from 20 blocks, and the evaluations.
+fn variance(task: &str) -> (f64, f64, u64) {
+    let (tips, evaluations) = tips("Rod(from_nm: 0.0, to_nm: 60.0, segments: 3)", 0.0, task);
+    let start = tips[0];
+    let squares: Vec<f64> = tips[tips.len() / 21..]
+        .iter()
+        .map(|tip| 0.5 * ((tip.x - start.x).powi(2) + (tip.y - start.y).powi(2)))
+        .collect();
+    let blocks: Vec<f64> = squares
+        .chunks_exact(squares.len() / 20)
+        .map(|block| block.iter().sum::<f64>() / block.len() as f64)
+        .collect();
+    let n = blocks.len() as f64;
+    let mean = blocks.iter().sum::<f64>() / n;
+    let spread: f64 = blocks.iter().map(|b| (b - mean).powi(2)).sum();
+    (mean, (spread / (n - 1.0) / n).sqrt(), evaluations)
+}
+
+/// The tip of a cantilever of 60 nm in water at 298 K has the same variance with inertia and without, and that of theory:
+/// `kT (L^3/3B + L/S)`, with what three segments add to it. Of 300 us some 2000 values are independent: 3 %.
+#[test]
+#[ignore = "takes minutes"]
+fn tips_fluctuate_alike_with_inertia_and_without() {
+    let rest = "record_every_ns: 50.0";
+    let with = format!(
+        "Dynamics(duration_ns: 300000.0, drag: Water(), thermal: (temperature_k: 298.0, seed: 1), {rest})"
+    );
+    let without = |step: f64| {
+        format!(
+            "Brownian(duration_ms: 0.3, temperature_k: 298.0, seed: 2, time_step_ns: {step:?}, {rest})"
+        )
+    };
+    // Compliance under a force, from statics.
+    let (bent, _) = tips(
+        "Rod(from_nm: 0.0, to_nm: 60.0, segments: 3)",
+        0.1,
+        "Equilibrium()",
+    );
+    let (straight, _) = tips(
+        "Rod(from_nm: 0.0, to_nm: 60.0, segments: 3)",
+        0.0,
+        "Equilibrium()",
+    );
+    let theory = 1.380_649e-2 * 298.0 * (bent[0].x - straight[0].x) / 0.1;
+    for task in [with, without(0.25), without(5.0)] {
+        let (mean, error, evaluations) = variance(&task);
+        println!(
+            "{mean:.4} +- {error:.4} nm^2, theory {theory:.4}, {evaluations} evaluations: {task}"
+        );
+        assert!(
+            (mean - theory).abs() < 3.0 * error + 0.01 * theory,
+            "{task}"
+        );
+    }
+}
+
+/// No drag is too strong for a step: the default one is that of the stiffness. Other integrators are refused, and `check` has relaxation times.
+#[test]
+fn steps_in_water_are_those_of_the_stiffness() {
+    let plan = |rest: &str| {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 3)]),
+                task: Dynamics(duration_ns: 1.0{rest}),
+            )"
+        );
+        let scene = Scene::from_ron(&text).map_err(|error| error.to_string())?;
+        let assembly = Assembly::build(&scene).unwrap();
+        let plan = Plan::new(&assembly).unwrap();
+        let times = plan.relaxation_times();
+        Ok::<_, String>((plan.estimate().unwrap().time_step_ns, times))
+    };
+    let verlet = plan(", integrator: PositionVerlet").unwrap();
+    let water = plan(", drag: Water()").unwrap();
+    assert!((water.0 / verlet.0 - 1.0).abs() < 1e-12);
+    assert!(verlet.1.is_none() && water.1.is_some());
+    let refused = plan(", drag: Water(), integrator: Suzuki").unwrap_err();
+    assert!(refused.contains("task.integrator"), "{refused}");
+    let unstable = plan(", drag: Water(), thermal: (temperature_k: 298.0, seed: 1)");
+    assert!(unstable.is_ok());
+}
