@@ -94,6 +94,19 @@ fn a_motion_is_resolved_too() {
     assert_eq!(assembly.counts().monomers, 0);
 }
 
+/// What an equilibrium cannot have, and numbers that are zero, are refused when sections are chosen.
+#[test]
+fn what_has_no_relative_error_is_refused() {
+    let straight = "clamps: [Clamp(end: Start)], task: Equilibrium()";
+    let following = "clamps: [Clamp(end: Start)], task: Dynamics(duration_ns: 1.0),
+        loads: [Force(end: End, force_pn: (-1.0, 0.0, 0.0), follows: true)]";
+    for (rest, rule) in [(straight, "no relative error"), (following, "follow")] {
+        let scene = adaptive(160.0, "Tip(error: 0.1)", rest);
+        let message = Assembly::build(&scene).unwrap_err().to_string();
+        assert!(message.contains(rule), "{message}");
+    }
+}
+
 /// What errors are not known of is refused when the scene is read.
 #[test]
 fn what_is_not_known_is_refused() {
@@ -105,10 +118,13 @@ fn what_is_not_known_is_refused() {
     let bath = "clamps: [Clamp(end: Start)], task: Dynamics(
         duration_ns: 1.0, drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0),
         thermal: Thermal(temperature_k: 298.0, seed: 1))";
+    let pinned = "clamps: [Clamp(end: Start, hold: Pin)],
+        linkers: [Linker(at_nm: 80.0, displaced_nm: (5.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0)], task: Equilibrium()";
     let clamped = "clamps: [Clamp(end: Start), Clamp(end: End)], task: Equilibrium()";
     for (sections, rest, rule) in [
-        (tip, bath, "without heat"),
+        (tip, bath, "in heat"),
         (tip, clamped, "it is clamped"),
+        (tip, pinned, "not held by Wall"),
         (
             "Adaptive(length_nm: 160.0, want: EndForce(error: 0.01))",
             CANTILEVER,

@@ -4,7 +4,7 @@
 //! What can be said of a scene before it runs is added to [`Assembly::notes`]; what only a run can
 //! tell, to the `notes` of its summary.
 
-use crate::adapt::Chosen;
+use crate::adapt::{Chosen, left_out};
 use crate::assembly::Rod;
 use crate::scene::{Anchors, Filament, Material, Monomers, Observable, RodLaw, RodModel, Task};
 use crate::{Assembly, Outcome, Record, shape};
@@ -46,6 +46,13 @@ impl Assembly {
     /// Notes on this scene before it runs, a sentence or two each.
     pub fn notes(&self) -> Vec<String> {
         let mut notes: Vec<String> = self.chosen.iter().map(Chosen::note).collect();
+        if self
+            .chosen
+            .as_ref()
+            .is_some_and(|chosen| chosen.estimate.is_some())
+        {
+            notes.extend(left_out(&self.scene).map(str::to_owned));
+        }
         for filament in self.scene.filaments() {
             let sections = filament.sections.iter().filter(|s| !s.is_rod());
             for section in sections {
@@ -115,8 +122,10 @@ impl Outcome {
     pub(crate) fn notes(&self, assembly: &Assembly, last: &Record) -> Vec<String> {
         let mut notes = unknown_twist(assembly, last);
         let error = self.equilibrium.as_ref().and_then(|e| e.error.as_ref());
-        if let Some(Err(problem)) = error {
-            notes.push(format!("its error is not known: {problem}"));
+        match error {
+            Some(Err(problem)) => notes.push(format!("its error is not known: {problem}")),
+            Some(Ok(_)) => notes.extend(left_out(&assembly.scene).map(str::to_owned)),
+            None => {}
         }
         notes.extend(assembly.note_on_rates(&last.state));
         let is_motion = !matches!(assembly.scene.task, Task::Equilibrium(_));

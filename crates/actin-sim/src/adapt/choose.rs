@@ -182,6 +182,13 @@ fn trial(
     let (assembly, state) = equilibrium(&setting.apply(scene))?;
     let found = located(&assembly, &state, want.quantity())?;
     let relative = found.total.relative();
+    if !relative.is_finite() {
+        let rule = format!(
+            "what is wanted is {} here: there is no relative error",
+            found.total.value
+        );
+        return Err(SceneProblem::new("filament.sections.want", "", rule));
+    }
     let before = tried.last().map(|t: &Tried| t.relative_error);
     let helped = before.is_none_or(|before| relative < HELPS * before);
     tried.push(setting.tried(relative));

@@ -20,7 +20,7 @@ mod wall;
 
 pub use choose::{Chosen, choose};
 
-use crate::scene::{Equilibrium, Quantity, Scene, SceneProblem, Section, Slides, Task};
+use crate::scene::{Equilibrium, Hold, Load, Quantity, Scene, SceneProblem, Section, Slides, Task};
 use crate::{Assembly, End, Plan, RunError};
 use actin_mechanics::State;
 use adjoint::Adjoint;
@@ -194,7 +194,10 @@ fn of_segments(assembly: &Assembly, quantity: Quantity, value: f64) -> Result<f6
 
 /// The equilibrium that a scene leads to.
 fn equilibrium(scene: &Scene) -> Result<(Assembly, State), SceneProblem> {
-    let assembly = Assembly::build(&at_rest(scene))?;
+    let rest = at_rest(scene);
+    // A motion may have what an equilibrium cannot.
+    rest.validate()?;
+    let assembly = Assembly::build(&rest)?;
     let run = Plan::new(&assembly)?.run();
     let (trajectory, _) = run.map_err(|error| match error {
         RunError::Refused(problem) => problem,
@@ -228,43 +231,60 @@ fn at_rest(scene: &Scene) -> Scene {
     rest
 }
 
+/// What estimates of this scene leave out, in words, if there is anything.
+pub(crate) fn left_out(scene: &Scene) -> Option<&'static str> {
+    let is_inside = |load: &Load| match load {
+        Load::Force(force) => force.at_nm.is_some(),
+        Load::Couple(couple) => couple.at_nm.is_some(),
+        _ => false,
+    };
+    (!scene.linkers.is_empty() || scene.loads.iter().any(is_inside)).then_some(
+        "estimated errors leave out what linkers and loads do to the monomers about their sites",
+    )
+}
+
 /// Refuses scenes of which errors are not known.
 pub(crate) fn check(scene: &Scene, quantity: Quantity) -> Result<(), SceneProblem> {
-    let refused = |key: &str, rule: &str| Err(SceneProblem::new(key, "", rule));
+    let of_scene =
+        unknown(scene).map(|(key, rule)| (key, format!("errors are not known of {rule}")));
+    let of_quantity = missing(scene, quantity).map(|rule| ("clamps", rule.to_owned()));
+    match of_scene.or(of_quantity) {
+        Some((key, rule)) => Err(SceneProblem::new(key, "", rule)),
+        None => Ok(()),
+    }
+}
+
+/// What errors are not known of, with its key.
+fn unknown(scene: &Scene) -> Option<(&'static str, &'static str)> {
+    let filament = &scene.filament;
     if !scene.further.is_empty() {
-        return refused("filaments", "errors are known of a single filament only");
+        Some(("filaments", "several filaments"))
+    } else if filament.shape.is_some() {
+        Some(("filament.shape", "filaments that are not built straight"))
+    } else if filament.sections.iter().any(Section::is_altered) {
+        Some(("filament.sections", "altered sections"))
+    } else if scene.thermal().is_some() || matches!(scene.task, Task::Brownian(_)) {
+        Some(("task", "filaments in heat"))
+    } else if scene.clamps.iter().any(|clamp| clamp.hold != Hold::Wall) {
+        Some(("clamps", "ends that are not held by Wall"))
+    } else {
+        None
     }
-    if scene.filament.shape.is_some() {
-        return refused(
-            "filament.shape",
-            "errors are known of filaments that are built straight only",
-        );
-    }
-    if scene.filament.sections.iter().any(Section::is_altered) {
-        return refused(
-            "filament.sections",
-            "errors are not known where sections are altered",
-        );
-    }
-    if scene.thermal().is_some() || matches!(scene.task, Task::Brownian(_)) {
-        return refused(
-            "task",
-            "errors are known of states at rest only, without heat",
-        );
-    }
-    let end = scene.clamps.iter().find(|clamp| clamp.end == End::End);
-    let needs = matches!(quantity, Quantity::EndForce | Quantity::EndCouple);
-    match end {
-        Some(clamp) if quantity == Quantity::Tip && clamp.slides == Slides::Nowhere => {
-            refused("clamps", "the tip at the end is wanted, but it is clamped")
+}
+
+/// Why a scene does not have a quantity.
+fn missing(scene: &Scene, quantity: Quantity) -> Option<&'static str> {
+    let clamp = scene.clamps.iter().find(|clamp| clamp.end == End::End);
+    match (quantity, clamp.map(|clamp| clamp.slides)) {
+        (Quantity::Tip, Some(Slides::Nowhere)) => {
+            Some("the tip at the end is wanted, but it is clamped")
         }
-        None if needs => refused("clamps", "what the end bears is wanted, but it is free"),
-        Some(clamp) if quantity == Quantity::EndForce && clamp.slides != Slides::Nowhere => {
-            refused(
-                "clamps",
-                "the force on the end is wanted, along which it slides",
-            )
+        (Quantity::EndForce | Quantity::EndCouple, None) => {
+            Some("what the end bears is wanted, but it is free")
         }
-        _ => Ok(()),
+        (Quantity::EndForce, Some(Slides::AlongAxis | Slides::Freely)) => {
+            Some("the force on the end is wanted, along which it slides")
+        }
+        _ => None,
     }
 }
