@@ -84,6 +84,19 @@ fn scenes_keep_what_is_asked() {
     assert!(assembly.notes()[0].starts_with("sections chosen for Tip within 1 %: a rod"));
 }
 
+/// Every filament is looked at, and one that is too short to be judged is resolved throughout.
+#[test]
+fn short_filaments_and_further_ones() {
+    let rod = "Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], at_nm: (50.0, 0.0, 0.0))";
+    let second = "Filament(sections: Adaptive(length_nm: 100.0, want: Tip(error: 0.1)))";
+    let text = format!("Scene(filaments: [{rod}, {second}], {CANTILEVER})");
+    let message = Scene::from_ron(&text).unwrap_err().to_string();
+    assert!(message.contains("several filaments"), "{message}");
+    let short = adaptive(30.0, "Tip(error: 0.1)", CANTILEVER);
+    let chosen = Assembly::build(&short).unwrap().chosen.unwrap();
+    assert_eq!((chosen.monomers_nm.len(), chosen.tried.len()), (1, 0));
+}
+
 /// A motion is resolved by the equilibrium under its loads.
 #[test]
 fn a_motion_is_resolved_too() {
@@ -107,6 +120,10 @@ fn what_has_no_relative_error_is_refused() {
     }
 }
 
+/// Turns freely about its start, held up by a spring.
+const PINNED: &str = "clamps: [Clamp(end: Start, hold: Pin)],
+    linkers: [Linker(at_nm: 80.0, displaced_nm: (5.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0)], task: Equilibrium()";
+
 /// What errors are not known of is refused when the scene is read.
 #[test]
 fn what_is_not_known_is_refused() {
@@ -118,13 +135,12 @@ fn what_is_not_known_is_refused() {
     let bath = "clamps: [Clamp(end: Start)], task: Dynamics(
         duration_ns: 1.0, drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0),
         thermal: Thermal(temperature_k: 298.0, seed: 1))";
-    let pinned = "clamps: [Clamp(end: Start, hold: Pin)],
-        linkers: [Linker(at_nm: 80.0, displaced_nm: (5.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0)], task: Equilibrium()";
     let clamped = "clamps: [Clamp(end: Start), Clamp(end: End)], task: Equilibrium()";
     for (sections, rest, rule) in [
         (tip, bath, "in heat"),
         (tip, clamped, "it is clamped"),
-        (tip, pinned, "not held by Wall"),
+        (tip, PINNED, "not held by Wall"),
+        (tip, "task: Equilibrium()", "nothing holds"),
         (
             "Adaptive(length_nm: 160.0, want: EndForce(error: 0.01))",
             CANTILEVER,

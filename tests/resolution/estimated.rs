@@ -85,6 +85,25 @@ fn estimates_are_within_a_factor_of_two() {
     }
 }
 
+/// Coarse segments are told from walls: with them the estimate still has the right sign and size.
+#[test]
+fn coarse_segments_are_not_counted_twice() {
+    let length = 58.5 * 71.2 / 26.0;
+    let mut scene = scene(
+        &format!("[Rod(from_nm: 0.0, to_nm: {length:?}, segments: 6)]"),
+        CANTILEVER,
+    );
+    scene.filament.rod.law = RodLaw::Homogenised;
+    let rod = solved(&scene);
+    let found = estimate(&rod, rod.system.state(), Quantity::Tip).unwrap();
+    // 0.2 % of what monomers give, 62.995 nm.
+    assert!(
+        (found.corrected() - 62.995).abs() < 0.2 + found.segments.abs(),
+        "{found:?}"
+    );
+    assert!(found.walls.abs() < 0.2, "{found:?}");
+}
+
 /// Of a filament that may roll about its axis, the walls are taken at four azimuths; over-twisted and pushed
 /// together its couple is 2.4 % too large as a rod.
 #[test]

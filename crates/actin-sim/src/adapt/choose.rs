@@ -2,7 +2,7 @@
 
 use super::defects::Part;
 use super::ideal::PERIOD;
-use super::{ErrorEstimate, Located, check, equilibrium, located};
+use super::{ErrorEstimate, Located, at_rest, check, equilibrium, is_too_short, located};
 use crate::advice::{sections_of, segments_of};
 use crate::assembly::whole_length_nm;
 use crate::scene::{Adaptive, Quantity, RodLaw, RodModel, Scene, SceneProblem, Want};
@@ -15,8 +15,8 @@ const FIRST_SEGMENTS: (f64, f64) = (20.0, 0.01);
 const SHORTEST_SEGMENTS_NM: f64 = 2.5;
 /// Most resolutions that are tried before all monomers.
 const MOST_TRIALS: usize = 6;
-/// An estimate below this share of the wanted error will do: estimates are off by a fifth or so.
-const WITHIN: f64 = 0.8;
+/// By what share of each of its parts an estimate may be off: parts that cancel are no accuracy.
+const DOUBT: f64 = 0.2;
 /// What is left after marking, as a share of the wanted error.
 const MARK_TO: f64 = 0.4;
 /// Monomers over more of the length than this are monomers throughout.
@@ -60,8 +60,9 @@ impl Chosen {
         let left = self.estimate.map_or_else(String::new, |estimate| {
             let percent = 100.0 * estimate.relative();
             let corrected = estimate.corrected();
+            let unit = self.quantity.unit();
             format!(
-                ". It is {:.5} in the equilibrium at rest, {corrected:.5} with its estimated error of {percent:.2} %",
+                ". It is {:.5} {unit} in the equilibrium at rest, {corrected:.5} with its estimated error of {percent:.2} %",
                 estimate.value
             )
         });
@@ -80,7 +81,7 @@ pub struct Tried {
     pub monomers_nm: Vec<[f64; 2]>,
     /// Length of segments (nm).
     pub segment_nm: f64,
-    /// Estimated error over the value.
+    /// Estimated error over the corrected value.
     pub relative_error: f64,
 }
 
@@ -93,12 +94,17 @@ struct Setting {
 }
 
 impl Setting {
-    /// A rod, of a filament of this length (nm).
-    fn first(length_nm: f64) -> Self {
+    /// A rod, of a filament of this length (nm); monomers where it is too short to be judged.
+    fn first(length_nm: f64, rise_nm: f64) -> Self {
         let (shortest, share) = FIRST_SEGMENTS;
+        let monomers = if is_too_short(length_nm, rise_nm) {
+            vec![[0.0, length_nm]]
+        } else {
+            Vec::new()
+        };
         Self {
             length_nm,
-            monomers: Vec::new(),
+            monomers,
             segment_nm: shortest.max(share * length_nm),
         }
     }
@@ -138,8 +144,13 @@ impl Setting {
 pub fn choose(scene: &Scene, adaptive: &Adaptive) -> Result<(Scene, Chosen), SceneProblem> {
     let began = Instant::now();
     check(scene, adaptive.want.quantity())?;
+    // A motion may have what an equilibrium cannot.
+    at_rest(scene).validate()?;
     let scene = &with_law(scene);
-    let mut setting = Setting::first(whole_length_nm(scene, adaptive.length_nm)?);
+    let mut setting = Setting::first(
+        whole_length_nm(scene, adaptive.length_nm)?,
+        scene.filament.monomers.rise_nm,
+    );
     let mut tried = Vec::new();
     let mut estimate = None;
     while !setting.is_all_monomers() {
@@ -192,10 +203,10 @@ fn trial(
     let before = tried.last().map(|t: &Tried| t.relative_error);
     let helped = before.is_none_or(|before| relative < HELPS * before);
     tried.push(setting.tried(relative));
-    if relative <= WITHIN * want.error() {
+    let limit = want.error() * found.total.corrected().abs();
+    if found.total.error.abs() + DOUBT * found.total.size_of_parts() <= limit {
         return Ok(Trial::Good(found.total));
     }
-    let limit = want.error() * found.total.corrected().abs();
     let rise_nm = scene.filament.monomers.rise_nm;
     Ok(Trial::Next(if helped && tried.len() < MOST_TRIALS {
         refined(setting, &found, limit, rise_nm)

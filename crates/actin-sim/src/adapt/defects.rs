@@ -81,15 +81,11 @@ impl Look<'_> {
         let from = joint - out * into;
         let along = (0.5 * (rod.to_nm - rod.from_nm)).min(INTO_ROD_NM);
         let to = self.node_near(rod, joint + out * along);
-        let ideal = Ideal::along(
-            self.mean,
-            |s| self.loads.at(s),
-            [from - out * 6.0 * rise, to],
-            ACROSS,
-        )?;
+        let before = (from - out * 6.0 * rise).clamp(monomers.from_nm, monomers.to_nm);
+        let ideal = Ideal::along(self.mean, |s| self.loads.at(s), [before, to], ACROSS)?;
         let base = self.loads.cross_section(from);
         let at = |s_nm: f64| ideal.carry(base, [from, s_nm]);
-        let (turn, shift) = mean_motion((self.assembly, self.state), from, at);
+        let (turn, shift) = mean_motion((self.assembly, self.state), monomers, from, at);
         let base = (base.0 + shift, rotation::exp(turn) * base.1);
         let (place, axes) = ideal.carry(base, [from, to]);
         let (place_here, axes_here) = self.loads.cross_section(to);
@@ -145,17 +141,18 @@ pub(super) fn of_law(
     (turn, shift)
 }
 
-/// Mean turn, and mean displacement at `centre`, of the 13 monomers about it against those that stand rigidly on
+/// Mean turn, and mean displacement at `centre`, of the 13 monomers of a section about it against those that stand rigidly on
 /// cross-sections (lab frame).
 pub(super) fn mean_motion(
     (assembly, state): (&Assembly, &State),
+    section: &SectionSpan,
     centre: f64,
     at: impl Fn(f64) -> CrossSection,
 ) -> (Vector3, Vector3) {
     let span = &assembly.filaments[0];
     let far = |i: &usize| (assembly.points[*i].s_nm - centre).abs();
     let is_monomer = |i: &usize| assembly.points[*i].kind == BodyKind::Monomer;
-    let mut near: Vec<usize> = span.points.clone().filter(is_monomer).collect();
+    let mut near: Vec<usize> = section.points.clone().filter(is_monomer).collect();
     near.sort_by(|a, b| far(a).total_cmp(&far(b)));
     near.truncate(PERIOD);
     let pivot = at(centre).0;
@@ -180,6 +177,9 @@ pub(super) fn mean_motion(
 fn sampled(shares: &[f64], n: usize) -> Vec<usize> {
     if shares.len() <= n {
         return (0..shares.len()).collect();
+    }
+    if shares.iter().sum::<f64>() <= 0.0 {
+        return sampled(&vec![1.0; shares.len()], n);
     }
     // A part that does not depend on the shares keeps gaps bounded.
     let even = shares.iter().sum::<f64>() / shares.len() as f64;

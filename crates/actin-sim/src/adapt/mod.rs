@@ -37,6 +37,7 @@ const LEFT_BY_HALVING: f64 = 0.25;
 /// To first order in what rods and junctions do wrong. Monomers are those of the mean filament: filaments with drawn
 /// bonds scatter about it. Left out are how the force of a linker or a load enters the monomers about its place, and
 /// errors of the second order: those of laws without twist-stretch coupling (`Constant`) may be as large as the first.
+/// A rod that ends between two places of the lattice is longer or shorter than monomers can be; that is no part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorEstimate {
     /// Of what.
@@ -61,10 +62,22 @@ impl ErrorEstimate {
         self.value + self.error
     }
 
+    /// The sum of the sizes of its parts.
+    fn size_of_parts(&self) -> f64 {
+        self.law.abs() + self.segments.abs() + self.junctions.abs() + self.walls.abs()
+    }
+
     /// The size of the error over that of the corrected value.
     pub fn relative(&self) -> f64 {
         (self.error / self.corrected()).abs()
     }
+}
+
+/// Rises below which the ends of a filament are not told apart.
+const SHORTEST_RISES: f64 = 16.0;
+
+fn is_too_short(length_nm: f64, rise_nm: f64) -> bool {
+    length_nm < SHORTEST_RISES * rise_nm
 }
 
 /// The same, with where the parts come from.
@@ -112,6 +125,10 @@ fn located(
     quantity: Quantity,
 ) -> Result<Located, SceneProblem> {
     check(&assembly.scene, quantity)?;
+    if is_too_short(assembly.length_nm(), assembly.monomers_of(0).rise_nm) {
+        let rule = format!("errors are not known of filaments shorter than {SHORTEST_RISES} rises");
+        return Err(SceneProblem::new("filament.sections", "", rule));
+    }
     let look = Look {
         assembly,
         state,
@@ -194,10 +211,7 @@ fn of_segments(assembly: &Assembly, quantity: Quantity, value: f64) -> Result<f6
 
 /// The equilibrium that a scene leads to.
 fn equilibrium(scene: &Scene) -> Result<(Assembly, State), SceneProblem> {
-    let rest = at_rest(scene);
-    // A motion may have what an equilibrium cannot.
-    rest.validate()?;
-    let assembly = Assembly::build(&rest)?;
+    let assembly = Assembly::build(&at_rest(scene))?;
     let run = Plan::new(&assembly)?.run();
     let (trajectory, _) = run.map_err(|error| match error {
         RunError::Refused(problem) => problem,
@@ -259,6 +273,8 @@ fn unknown(scene: &Scene) -> Option<(&'static str, &'static str)> {
     let filament = &scene.filament;
     if !scene.further.is_empty() {
         Some(("filaments", "several filaments"))
+    } else if scene.clamps.is_empty() && scene.linkers.is_empty() {
+        Some(("clamps", "filaments that nothing holds"))
     } else if filament.shape.is_some() {
         Some(("filament.shape", "filaments that are not built straight"))
     } else if filament.sections.iter().any(Section::is_altered) {

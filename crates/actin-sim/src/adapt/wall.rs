@@ -16,10 +16,13 @@ use std::f64::consts::FRAC_PI_2;
 const LENGTH_RISES: f64 = 24.0;
 /// Where they are compared (rises from the wall): the mean of 13 monomers there.
 const COMPARED_RISES: f64 = 10.0;
+/// Longest segments of the short rod (nm): what longer ones do is found by halving them.
+const SEGMENT_NM: f64 = 2.5;
 /// Cells on the way there.
 const SAMPLES: u32 = 4;
-/// A filament whose energy changes by less when it is rolled through a right angle is free to roll (pN nm).
-const FREE_PN_NM: f64 = 0.2;
+/// A filament whose energy changes by less when it is rolled through a right angle is free to roll: pN nm, and share of
+/// its elastic energy.
+const FREE: (f64, f64) = (0.2, 0.01);
 
 /// How far they are solved.
 const TASK: Equilibrium = Equilibrium {
@@ -44,6 +47,8 @@ struct Wall {
     /// Arc length that the short filaments begin at (nm).
     from_nm: f64,
     length_nm: f64,
+    /// How far from the wall they are compared (nm).
+    compared_nm: f64,
     /// 1 at the start, -1 at the end.
     out: f64,
 }
@@ -71,14 +76,16 @@ impl Look<'_> {
     /// What the wall at one end of the filament makes of the monomers that its rod stands for.
     ///
     /// Monomers and rod, 24 rises each, are clamped as the filament is; the far end is turned as its cross-section
-    /// there and slides under its force. What monomers at about ten rises are further than the rod, but for its law
+    /// there and slides under the force where they are compared. What monomers at about ten rises are further than the rod, but for its law
     /// under the loads of the monomers, is the wall's.
     ///
     /// Where the filament is free to roll about its axis it settles where walls pull it least to either side: the
     /// mean over four azimuths of the monomers is taken.
     pub(super) fn wall(&self, end: End, rod: &SectionSpan) -> Result<Part, SceneProblem> {
         let rise = self.assembly.monomers_of(0).rise_nm;
-        let rises = (self.assembly.length_nm() / rise).round().min(LENGTH_RISES);
+        // Whole rises, and less than the filament: at its very end it carries nothing.
+        let whole = (self.assembly.length_nm() / rise - 0.01).ceil() - 1.0;
+        let rises = whole.min(LENGTH_RISES);
         let length_nm = rises * rise;
         let is_start = end == End::Start;
         let s_nm = if is_start { rod.from_nm } else { rod.to_nm };
@@ -87,30 +94,24 @@ impl Look<'_> {
             s_nm,
             from_nm: if is_start { s_nm } else { s_nm - length_nm },
             length_nm,
+            compared_nm: (COMPARED_RISES * rise).min(0.5 * length_nm),
             out: if is_start { 1.0 } else { -1.0 },
         };
         let azimuths: u32 = if self.is_free_to_roll() { 4 } else { 1 };
         let mut defect = SixVector::zeros();
-        let distance = (COMPARED_RISES * rise).min(0.5 * length_nm);
         for k in 0..azimuths {
             let roll = f64::from(k) * 360.0 / f64::from(azimuths);
-            defect += self.compare(wall, rod, distance, roll)? / f64::from(azimuths);
+            defect += self.compare(wall, rod, roll)? / f64::from(azimuths);
         }
-        let to = s_nm + wall.out * distance;
+        let to = s_nm + wall.out * wall.compared_nm;
         Ok(Part {
             span_nm: [s_nm.min(to), s_nm.max(to)],
             error: defect.dot(&self.adjoint.weight(to)),
         })
     }
 
-    /// The defect of a wall at a distance from it (nm), its monomers rolled by an angle (deg).
-    fn compare(
-        &self,
-        wall: Wall,
-        rod: &SectionSpan,
-        distance: f64,
-        roll: f64,
-    ) -> Result<SixVector, SceneProblem> {
+    /// The defect of a wall, its monomers rolled by an angle (deg).
+    fn compare(&self, wall: Wall, rod: &SectionSpan, roll: f64) -> Result<SixVector, SceneProblem> {
         let crate::Resolution::Rod { segment_nm } = rod.resolution else {
             unreachable!("asked of rods")
         };
@@ -120,14 +121,19 @@ impl Look<'_> {
             to_nm: length,
             altered: None,
         };
-        let segments = segments_of(length, segment_nm);
+        let segments = segments_of(length, segment_nm.min(SEGMENT_NM));
         let (monomers, in_monomers) = self.short(wall, ellipsoids, roll)?;
         let (rods, in_rods) = self.short(wall, Section::rod(0.0, length, Some(segments)), roll)?;
         let of_monomers = SectionLoads::of(&monomers, &in_monomers);
         let of_rods = SectionLoads::of(&rods, &in_rods);
-        let (from, to) = (wall.own(), wall.own() + wall.out * distance);
+        let (from, to) = (wall.own(), wall.own() + wall.out * wall.compared_nm);
         let at = |s_nm: f64| of_rods.cross_section(s_nm);
-        let (turn, shift) = mean_motion((&monomers, &in_monomers), to, at);
+        let (turn, shift) = mean_motion(
+            (&monomers, &in_monomers),
+            &monomers.sections_of(0)[0],
+            to,
+            at,
+        );
         let ideal = Ideal::along(self.mean, |s| of_monomers.at(s), [from, to], SAMPLES);
         let ideal = ideal.ok_or_else(no_cell)?;
         let law = of_law(
@@ -150,9 +156,9 @@ impl Look<'_> {
         let (origin, frame) = self.loads.cross_section(wall.s_nm);
         let to_own = frame.inverse();
         let far = wall.length_nm - wall.own();
-        let (_, far_axes) = self.loads.cross_section(wall.from_nm + far);
-        let force = linear(&self.loads.at(wall.from_nm + far)) * wall.out;
-        let force = to_own * (far_axes * force);
+        let compared = wall.s_nm + wall.out * wall.compared_nm;
+        let (_, axes) = self.loads.cross_section(compared);
+        let force = to_own * (axes * linear(&self.loads.at(compared))) * wall.out;
         let scene = self.short_scene(wall, section, roll, force);
         let assembly = Assembly::build(&scene)?;
         let mut state = assembly.system.state().clone();
@@ -208,6 +214,21 @@ impl Look<'_> {
         }
     }
 
+    /// Energy of sections and junctions (pN nm).
+    fn elastic_energy(&self) -> f64 {
+        let interactions = self.assembly.system.interactions().iter();
+        let parts = interactions.zip(&self.assembly.terms);
+        parts
+            .filter(|(_, term)| {
+                matches!(
+                    term.part,
+                    crate::Part::Section(_) | crate::Part::Junction(_)
+                )
+            })
+            .map(|(interaction, _)| interaction.energy(self.state))
+            .sum()
+    }
+
     /// Whether all free bodies may be rolled about the axis, each turned back about its own, for nothing.
     pub(super) fn is_free_to_roll(&self) -> bool {
         let span = &self.assembly.filaments[0];
@@ -226,7 +247,9 @@ impl Look<'_> {
             let all = self.assembly.system.interactions().iter();
             all.map(|interaction| interaction.energy(state)).sum()
         };
-        (energy(&rolled) - energy(self.state)).abs() < FREE_PN_NM
+        let (most, share) = FREE;
+        let limit = most.min(share * self.elastic_energy());
+        (energy(&rolled) - energy(self.state)).abs() < limit
     }
 }
 

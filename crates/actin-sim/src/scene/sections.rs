@@ -24,7 +24,7 @@ pub struct Sections {
 #[serde(deny_unknown_fields)]
 pub struct Adaptive {
     /// Length of the filament; positive. It is rounded to whole monomers.
-    /// A filament without a `rod` has one under `Homogenised`.
+    /// Where every parameter of the `rod` is its default, the rod is under `Homogenised`.
     pub length_nm: f64,
     /// What is wanted, and how far it may be from the same filament with every monomer resolved.
     pub want: Want,
@@ -68,6 +68,17 @@ pub enum Quantity {
     EndForce,
     /// The couple about the filament as built that the clamp at its end bears (pN nm).
     EndCouple,
+}
+
+impl Quantity {
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Tip | Self::Height => "nm",
+            Self::EndForce => "pN",
+            Self::EndCouple => "pN nm",
+        }
+    }
 }
 
 impl Want {

@@ -82,7 +82,7 @@ fn filaments(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
 
 /// The rules between parts of a scene that are sound each.
 fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
-    if let Some(adaptive) = scene.filament.sections.adaptive() {
+    for adaptive in scene.filaments().filter_map(|f| f.sections.adaptive()) {
         crate::adapt::check(scene, adaptive.want.quantity())?;
     }
     match &scene.task {
