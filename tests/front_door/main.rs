@@ -24,6 +24,7 @@ const LIBRARIES: [&str; 11] = [
 const MEASUREMENTS: [&str; 8] = [
     "bond_rate",
     "elimination_order",
+    "error_estimates",
     "load_rate",
     "newton_against_length",
     "persistence_length",
