@@ -21,7 +21,7 @@ const LIBRARIES: [&str; 11] = [
 ];
 
 /// Programs among the examples that measure something for the documents.
-const MEASUREMENTS: [&str; 8] = [
+const MEASUREMENTS: [&str; 9] = [
     "bond_rate",
     "elimination_order",
     "error_estimates",
