@@ -48,9 +48,7 @@ impl Langevin {
         friction: Friction,
         (thermal_energy, seed): (f64, u64),
     ) -> Result<Self, BrownianError> {
-        if !(thermal_energy.is_finite() && thermal_energy >= 0.0) {
-            return Err(BrownianError::ThermalEnergy(thermal_energy));
-        }
+        BrownianError::check_thermal_energy(thermal_energy)?;
         let state = system.state();
         let loads = Loads::zeros(state);
         let mut solver = ImplicitSolver::new(layout);

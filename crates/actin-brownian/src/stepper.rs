@@ -129,6 +129,17 @@ pub enum BrownianError {
     ThermalEnergy(f64),
 }
 
+impl BrownianError {
+    /// Refuses a thermal energy (pN nm) that is none.
+    pub(crate) fn check_thermal_energy(thermal_energy: f64) -> Result<(), Self> {
+        if thermal_energy.is_finite() && thermal_energy >= 0.0 {
+            Ok(())
+        } else {
+            Err(Self::ThermalEnergy(thermal_energy))
+        }
+    }
+}
+
 /// Makes overdamped steps of one system.
 ///
 /// The noise is a function of the seed, the number of the step and the index of the dashpot.
@@ -167,9 +178,7 @@ impl Brownian {
         friction: Friction,
         (thermal_energy, seed): (f64, u64),
     ) -> Result<Self, BrownianError> {
-        if !(thermal_energy.is_finite() && thermal_energy >= 0.0) {
-            return Err(BrownianError::ThermalEnergy(thermal_energy));
-        }
+        BrownianError::check_thermal_energy(thermal_energy)?;
         ImplicitSolver::check(system.interactions())?;
         let state = system.state();
         let loads = Loads::zeros(state);

@@ -1,6 +1,6 @@
 //! The sections that a wanted accuracy needs.
 
-use super::defects::Part;
+use super::defects::Contribution;
 use super::ideal::PERIOD;
 use super::{ErrorEstimate, Located, at_rest, check, equilibrium, is_too_short, located};
 use crate::advice::{sections_of, segments_of};
@@ -268,19 +268,19 @@ fn refined(setting: &Setting, found: &Located, limit: f64, rise_nm: f64) -> Sett
 }
 
 /// What stretches of one period contribute.
-fn contributions(parts: &[Part], length_nm: f64, bin: f64) -> Vec<Part> {
+fn contributions(parts: &[Contribution], length_nm: f64, bin: f64) -> Vec<Contribution> {
     let n = segments_of(length_nm, bin);
     let width = length_nm / n as f64;
     let span = |k: usize| [k as f64 * width, (k + 1) as f64 * width];
     (0..n)
         .map(|k| {
             let [from, to] = span(k);
-            let share = |part: &Part| {
+            let share = |part: &Contribution| {
                 let [a, b] = part.span_nm;
                 let inside = b.min(to) - a.max(from);
                 part.error * (inside / (b - a)).max(0.0)
             };
-            Part {
+            Contribution {
                 span_nm: [from, to],
                 error: parts.iter().map(share).sum(),
             }
@@ -311,8 +311,8 @@ fn merged(mut stretches: Vec<[f64; 2]>, length_nm: f64, bin: f64) -> Vec<[f64; 2
 mod tests {
     use super::*;
 
-    fn part(span_nm: [f64; 2], error: f64) -> Part {
-        Part { span_nm, error }
+    fn part(span_nm: [f64; 2], error: f64) -> Contribution {
+        Contribution { span_nm, error }
     }
 
     /// A part is shared by the periods that it reaches into; nothing is lost.

@@ -16,9 +16,9 @@ const INTO_ROD_NM: f64 = 20.0;
 /// Cells on the way across a junction.
 const ACROSS: u32 = 5;
 
-/// Part of an error, and the stretch that it comes from (nm).
+/// Contribution of an error, and the stretch that it comes from (nm).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
+pub(super) struct Contribution {
     pub span_nm: [f64; 2],
     pub error: f64,
 }
@@ -36,7 +36,7 @@ impl Look<'_> {
     /// What the law of a rod makes of each segment, against monomers under the same couple and force.
     ///
     /// Cells are relaxed where most of the wanted number comes from. None where one finds no minimum.
-    pub(super) fn law(&self, rod: &SectionSpan) -> Option<Vec<Part>> {
+    pub(super) fn law(&self, rod: &SectionSpan) -> Option<Vec<Contribution>> {
         let all = segments(self.assembly, self.state, rod);
         let share = |segment: &Segment| {
             let weight = self.adjoint.weight(segment.s_nm);
@@ -57,7 +57,7 @@ impl Look<'_> {
         let part = |segment: &Segment| {
             let defect = interpolated(&known, segment.s_nm);
             let half = 0.5 * segment.length_nm;
-            Part {
+            Contribution {
                 span_nm: [segment.s_nm - half, segment.s_nm + half],
                 error: segment.length_nm * defect.dot(&self.adjoint.weight(segment.s_nm)),
             }
@@ -69,7 +69,11 @@ impl Look<'_> {
     ///
     /// From about ten monomers before it (the mean of 13) to 20 nm into the rod, against monomers under the same
     /// loads.
-    pub(super) fn junction(&self, monomers: &SectionSpan, rod: &SectionSpan) -> Option<Part> {
+    pub(super) fn junction(
+        &self,
+        monomers: &SectionSpan,
+        rod: &SectionSpan,
+    ) -> Option<Contribution> {
         let out = if rod.from_nm >= monomers.to_nm {
             1.0
         } else {
@@ -97,7 +101,7 @@ impl Look<'_> {
         let law = of_law(here, rod, &ideal, [joint, to]);
         let body = axes_here.inverse();
         let defect = six(body * (all.0 - law.0), body * (all.1 - law.1)) * out;
-        Some(Part {
+        Some(Contribution {
             span_nm: [from.min(to), from.max(to)],
             error: defect.dot(&self.adjoint.weight(to)),
         })

@@ -13,7 +13,7 @@ pub(super) const PERIOD: usize = 13;
 const STEP_NM: f64 = 1.5;
 
 /// The monomers of the mean filament: those of a scene, with weighted bonds for drawn ones.
-pub(super) fn mean(monomers: &Monomers) -> Monomers {
+pub(super) fn mean_monomers(monomers: &Monomers) -> Monomers {
     let mut mean = monomers.clone();
     if mean.anchors != Anchors::Cubature {
         mean.anchors = Anchors::Cubature;
@@ -33,7 +33,7 @@ impl MeanFilament {
     /// # Errors
     /// Monomers whose helix does not close after 13.
     pub(super) fn of(monomers: &Monomers) -> Result<Self, SceneProblem> {
-        let model = ellipsoids(&mean(monomers), 0)?;
+        let model = ellipsoids(&mean_monomers(monomers), 0)?;
         let cell = Cell::new(&model, PERIOD, Hold::Means);
         let cell = cell.map_err(|error| {
             let rule =

@@ -24,13 +24,20 @@ use crate::scene::{Equilibrium, Hold, Load, Quantity, Scene, SceneProblem, Secti
 use crate::{Assembly, End, Plan, RunError};
 use actin_mechanics::State;
 use adjoint::Adjoint;
-use defects::{Look, Part};
+use defects::{Contribution, Look};
 use ideal::MeanFilament;
 use section_loads::SectionLoads;
 use serde::{Deserialize, Serialize};
 
 /// Of an error of order 2 in the length of segments, what halving them leaves.
 const LEFT_BY_HALVING: f64 = 0.25;
+
+/// Rises below which the ends of a filament are not told apart.
+const SHORTEST_RISES: f64 = 16.0;
+
+fn is_too_short(length_nm: f64, rise_nm: f64) -> bool {
+    length_nm < SHORTEST_RISES * rise_nm
+}
 
 /// How far a number of an equilibrium is from that of the same filament with every monomer resolved.
 ///
@@ -73,19 +80,12 @@ impl ErrorEstimate {
     }
 }
 
-/// Rises below which the ends of a filament are not told apart.
-const SHORTEST_RISES: f64 = 16.0;
-
-fn is_too_short(length_nm: f64, rise_nm: f64) -> bool {
-    length_nm < SHORTEST_RISES * rise_nm
-}
-
-/// The same, with where the parts come from.
+/// An estimate with where its parts come from.
 #[derive(Clone, Debug)]
 struct Located {
     total: ErrorEstimate,
     /// Of laws and walls.
-    parts: Vec<Part>,
+    parts: Vec<Contribution>,
 }
 
 /// The error of a number of an equilibrium of `assembly`, in whose scene everything stands for itself: `state` is the
@@ -109,8 +109,8 @@ struct Located {
 /// ```
 ///
 /// # Errors
-/// Scenes of which errors are not known: several filaments, filaments built along a curve or altered, a heat bath, a
-/// quantity that the scene does not have; and where a short filament or a period of monomers finds no equilibrium.
+/// Scenes of which errors are not known: several filaments, filaments built along a curve, altered, shorter than 16
+/// rises, held by nothing or not by `Wall`, a heat bath, a quantity that the scene does not have; and where a short filament or a period of monomers finds no equilibrium.
 pub fn estimate(
     assembly: &Assembly,
     state: &State,
@@ -161,7 +161,7 @@ fn located(
 }
 
 impl Look<'_> {
-    fn junctions(&self) -> Result<Vec<Part>, SceneProblem> {
+    fn junctions(&self) -> Result<Vec<Contribution>, SceneProblem> {
         let sections = self.assembly.sections_of(0);
         let pairs = sections.windows(2).map(|pair| {
             let (monomers, rod) = if pair[0].is_ellipsoids() {
@@ -174,7 +174,7 @@ impl Look<'_> {
         pairs.collect()
     }
 
-    fn walls(&self) -> Result<Vec<Part>, SceneProblem> {
+    fn walls(&self) -> Result<Vec<Contribution>, SceneProblem> {
         let sections = self.assembly.sections_of(0);
         let ends = [(End::Start, sections.first()), (End::End, sections.last())];
         let walls = ends.into_iter().filter_map(|(end, section)| {
@@ -186,7 +186,7 @@ impl Look<'_> {
     }
 }
 
-fn sum(parts: &[Part]) -> f64 {
+fn sum(parts: &[Contribution]) -> f64 {
     parts.iter().fold(0.0, |sum, part| sum + part.error)
 }
 

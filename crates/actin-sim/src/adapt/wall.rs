@@ -1,7 +1,7 @@
 //! What a wall does to monomers and not to a rod, from two short filaments that are solved for it.
 
-use super::defects::{Look, Part, mean_motion, of_law};
-use super::ideal::{Ideal, mean};
+use super::defects::{Contribution, Look, mean_motion, of_law};
+use super::ideal::{Ideal, mean_monomers};
 use super::section_loads::{SectionLoads, linear, six};
 use crate::advice::segments_of;
 use crate::scene::{
@@ -81,7 +81,7 @@ impl Look<'_> {
     ///
     /// Where the filament is free to roll about its axis it settles where walls pull it least to either side: the
     /// mean over four azimuths of the monomers is taken.
-    pub(super) fn wall(&self, end: End, rod: &SectionSpan) -> Result<Part, SceneProblem> {
+    pub(super) fn wall(&self, end: End, rod: &SectionSpan) -> Result<Contribution, SceneProblem> {
         let rise = self.assembly.monomers_of(0).rise_nm;
         // Whole rises, and less than the filament: at its very end it carries nothing.
         let whole = (self.assembly.length_nm() / rise - 0.01).ceil() - 1.0;
@@ -104,7 +104,7 @@ impl Look<'_> {
             defect += self.compare(wall, rod, roll)? / f64::from(azimuths);
         }
         let to = s_nm + wall.out * wall.compared_nm;
-        Ok(Part {
+        Ok(Contribution {
             span_nm: [s_nm.min(to), s_nm.max(to)],
             error: defect.dot(&self.adjoint.weight(to)),
         })
@@ -181,7 +181,7 @@ impl Look<'_> {
     fn short_scene(&self, wall: Wall, section: Section, roll: f64, force: Vector3) -> Scene {
         let whole = &self.assembly.scene.filament;
         let rise = whole.monomers.rise_nm;
-        let mut monomers = mean(&whole.monomers);
+        let mut monomers = mean_monomers(&whole.monomers);
         let held = self.assembly.clamp_at(0, End::Start).is_some();
         // Lattice index 0 is at arc length 0 where the start is held, half a rise before it else; here it is held.
         let origin = if held { 0.0 } else { -0.5 * rise };
