@@ -18,6 +18,7 @@ pub mod advice;
 mod assembly;
 pub mod cost;
 mod error;
+pub mod follow;
 mod memory;
 mod notes;
 mod observe;
@@ -62,12 +63,12 @@ pub use scene::schema;
 pub use scene::{
     Acceleration, Adaptive, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking,
     Brownian, Catch, Clamp, Couple, CouplePerLength, DragModel, DragRates, Drawn, Dynamics, End,
-    Equilibrium, Factor, Filament, Flow, Fluid, Force, ForceLaw, ForcePerLength, Forming, Hinge,
-    Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Kinetics, Linker, LinkerSite,
-    Load, Material, Monomers, Observable, Output, Override, Pace, Plane, Point, Quantity,
-    Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError, SceneProblem,
+    Equilibrium, Factor, Filament, Flow, Fluid, Following, Force, ForceLaw, ForcePerLength,
+    Forming, Hinge, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Kinetics,
+    Linker, LinkerSite, Load, Material, Monomers, Observable, Output, Override, Pace, Plane, Point,
+    Quantity, Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError, SceneProblem,
     SceneText, SceneValue, Section, Sections, Setting, Shape, ShearLaw, Slides, Sphere, SphereSide,
     Stage, Stepping, StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise,
-    TwistStretchLaw, Want,
+    TwistStretchLaw, Want, Where,
 };
 pub use scene::{Readings, read_all, read_ron};

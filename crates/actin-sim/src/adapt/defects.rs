@@ -1,10 +1,10 @@
 //! What a stretch of filament does otherwise than monomers under the same loads would: law, junctions.
 
 use super::adjoint::Adjoint;
-use super::axis::CrossSection;
 use super::ideal::{Ideal, MeanFilament, PERIOD};
 use super::section_loads::{SectionLoads, Segment, linear, rotational, segments, six};
 use crate::assembly::BodyKind;
+use crate::shape::axis::CrossSection;
 use crate::{Assembly, SectionSpan};
 use actin_ellipsoid::SixVector;
 use actin_mechanics::{State, Vector3, rotation};

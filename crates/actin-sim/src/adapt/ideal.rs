@@ -1,9 +1,9 @@
 //! An endless filament of monomers under the loads that a filament carries: what a stretch of it would do.
 
-use super::axis::CrossSection;
 use super::section_loads::{linear, rotational};
 use crate::assembly::ellipsoids;
 use crate::scene::{Anchors, Monomers, SceneProblem};
+use crate::shape::axis::CrossSection;
 use actin_ellipsoid::{Cell, CellResponse, Control, Hold, SixVector};
 use actin_mechanics::{Vector3, rotation};
 

@@ -11,7 +11,6 @@
 //! S. Prudhomme, J. Comput. Phys. 182 (2002) 496.
 
 mod adjoint;
-mod axis;
 mod choose;
 mod defects;
 mod ideal;

@@ -1,8 +1,8 @@
 //! What the cross-sections of a filament carry, and how its rods are strained.
 
-use super::axis::{Axis, CrossSection};
 use crate::assembly::{BodyKind, Part};
 use crate::shape::Ribbon;
+use crate::shape::axis::{Axis, CrossSection};
 use crate::{Assembly, SectionSpan};
 use actin_ellipsoid::SixVector;
 use actin_mechanics::{Loads, State, Vector3};

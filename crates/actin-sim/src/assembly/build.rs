@@ -18,6 +18,7 @@ use super::{
     SectionSpan, Term, imperfection,
 };
 use crate::adapt;
+use crate::follow;
 use crate::observe::{EnergyNames, Observers};
 use crate::scene::{End, HeldEnds, Scene, SceneProblem, Section};
 use actin_coupling::Linker;
@@ -33,7 +34,8 @@ impl Assembly {
     /// length, `d_k` random directions across the axis, `A` such that the largest displacement is the
     /// amplitude: the same whatever resolves them, and zero with its slope at both ends.
     ///
-    /// Sections that are left to the program are [chosen](crate::adapt::choose) first.
+    /// Sections that are left to the program are [chosen](crate::adapt::choose) first; those that follow a motion
+    /// are rods, as before the motion has begun.
     ///
     /// # Errors
     /// What only shows when a filament is built: a section without room for its bodies, an
@@ -46,6 +48,14 @@ impl Assembly {
                 chosen: Some(chosen),
                 ..built
             });
+        }
+        if let Some(following) = scene.filament.sections.following() {
+            let cells = follow::Cells::of(scene, following)?;
+            let rod = vec![false; cells.count()];
+            let mut built = Self::build(&cells.scene(scene, &rod))?;
+            let sections = &mut built.scene.filament.sections;
+            *sections = std::mem::take(sections).which_follow(following.clone());
+            return Ok(built);
         }
         let mut builder = Builder::new(scene)?;
         builder.push_filaments()?;

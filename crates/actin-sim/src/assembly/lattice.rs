@@ -99,6 +99,30 @@ pub(crate) fn whole_length_nm(scene: &Scene, length_nm: f64) -> Result<f64, Scen
     resolve(&filament, is_held).map(|resolved| resolved[0].to_nm)
 }
 
+/// Boundaries (nm) of cells, each of so many whole monomers as make it most nearly `cell_nm` long, of filament 0 with
+/// a length of `length_nm` rounded to whole monomers; the last takes what is left. Between monomers all of them.
+pub(crate) fn cells_nm(
+    scene: &Scene,
+    length_nm: f64,
+    cell_nm: f64,
+) -> Result<Vec<f64>, SceneProblem> {
+    let length_nm = whole_length_nm(scene, length_nm)?;
+    let held = HeldEnds::of(scene);
+    let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
+    let lattice = Lattice::of(&scene.filament, is_held);
+    let monomers = (cell_nm / lattice.rise_nm).round();
+    let cells = (length_nm / (monomers * lattice.rise_nm)).round().max(1.0);
+    let half = 0.5 * lattice.rise_nm;
+    let places = (1..)
+        .map(|k| f64::from(k) * monomers)
+        .take_while(|&j| j < (cells - 0.5) * monomers)
+        .map(|j| lattice.origin_nm + j * lattice.rise_nm + half);
+    let mut boundaries = vec![0.0];
+    boundaries.extend(places);
+    boundaries.push(length_nm);
+    Ok(boundaries)
+}
+
 /// Refuses a boundary that more monomers reach than are told apart.
 fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), SceneProblem> {
     let sections = &filament.sections;

@@ -14,13 +14,13 @@ const LEAST: f64 = 1.0;
 /// more than ever comes up, since its probability falls by a factor e with each.
 const THERMAL_EXCESS: f64 = 50.0;
 
-/// Limit of the kinetic energy (pN nm); infinite where no bound is known.
+/// Limit of the kinetic energy (pN nm) of a motion that begins with an energy (pN nm); infinite where no bound is known.
 ///
 /// Filaments whose controls stay have at most the energy that they begin with and the work of their
 /// loads. A filament that is held fast lets each load do `|F| 2 L` at most: nothing on it is ever
 /// further from where it was than twice its length. In a heat bath there is thermal energy besides,
 /// half of `kT` for each degree of freedom and `THERMAL_EXCESS` of them in all.
-pub(super) fn kinetic_limit(assembly: &Assembly) -> f64 {
+pub(super) fn kinetic_limit(assembly: &Assembly, begun_with: f64) -> f64 {
     let scene = &assembly.scene;
     let is_fast = |filament: usize| {
         let mut clamps = assembly.clamps.iter();
@@ -38,7 +38,7 @@ pub(super) fn kinetic_limit(assembly: &Assembly) -> f64 {
         return f64::INFINITY;
     }
     let heat = thermal_energy(assembly) * (0.5 * assembly.counts().dofs as f64 + THERMAL_EXCESS);
-    let limit = ROOM * (assembly.system.total_energy() + work + heat) + LEAST;
+    let limit = ROOM * (begun_with + work + heat) + LEAST;
     if limit.is_nan() { f64::INFINITY } else { limit }
 }
 
@@ -76,7 +76,8 @@ mod tests {
             )"
         );
         let scene = Scene::from_ron(&text).unwrap();
-        kinetic_limit(&Assembly::build(&scene).unwrap())
+        let assembly = Assembly::build(&scene).unwrap();
+        kinetic_limit(&assembly, assembly.system.total_energy())
     }
 
     /// 5 pN over 60 nm, twice, and 1. What is free goes ever faster under a load, but not without.

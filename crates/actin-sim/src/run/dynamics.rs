@@ -320,7 +320,7 @@ fn prepare(
     system: &mut System,
     estimate: &Estimate,
 ) -> Result<Run, SceneProblem> {
-    let limit = kinetic_limit(assembly);
+    let limit = kinetic_limit(assembly, recorder.begun_with_pn_nm());
     let run = plan(dynamics, estimate)?
         .stopping_from(recorder.drive(system))
         .with_kinetic_limit(limit)

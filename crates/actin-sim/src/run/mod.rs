@@ -26,6 +26,7 @@ pub use equilibrium::EquilibriumReport;
 pub use hinge::HingeSlip;
 pub use outcome::{FailedRun, Failure, Outcome, RunError, Status};
 pub use plan::Plan;
+pub(crate) use recorder::record;
 pub use records::{At, Record, RecordIter, Records, Row, RowIter, Trajectory};
 pub use rest::SaddlePush;
 pub use sink::{Arrival, MotionPosition, PathPosition, Progress, RunPosition, Saved, Sink};
@@ -37,7 +38,7 @@ pub use taken::Recorded;
 pub(crate) use unknowns::layout;
 pub use unknowns::newton as solver;
 
-use crate::scene::Task;
+use crate::scene::{SceneProblem, Task};
 
 impl Plan<'_> {
     /// Runs it into memory.
@@ -77,6 +78,10 @@ impl Plan<'_> {
 
     fn execute(&self, saved: Option<Saved>, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
         let assembly = self.assembly();
+        if assembly.scene.filament.sections.following().is_some() {
+            let rule = "sections that follow a motion are run by follow::Follower";
+            return Err(SceneProblem::new("filament.sections", "Following(..)", rule).into());
+        }
         let (mut outcome, failure) = match (&assembly.scene.task, self.estimate()) {
             (Task::Dynamics(dynamics), Some(estimate)) => {
                 dynamics::run(assembly, dynamics, estimate, saved, sink)?

@@ -11,7 +11,8 @@ use crate::scene::Dynamics;
 use crate::{Assembly, LinkerEvent};
 use actin_equilibrium::Certificate;
 use actin_integrate::{
-    Checkpoint, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome, Stepper,
+    Checkpoint, DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome,
+    Stepper,
 };
 use actin_mechanics::System;
 use std::ops::ControlFlow;
@@ -39,6 +40,8 @@ pub(super) struct Recorder<'a> {
     /// What happened to linkers.
     log: Log,
     hinges: HingeWatch,
+    /// Energy (pN nm) with which it began behind a switch of cells.
+    energy_at_switch: Option<f64>,
 }
 
 /// How a motion ended.
@@ -66,12 +69,15 @@ impl<'a> Recorder<'a> {
     ) -> Self {
         let clock = Clock::new(saved.as_ref());
         let (position, recorded) = saved.map(|s| (s.position, s.recorded)).unzip();
-        let (position, pushes, events) = match position {
-            None => (None, Vec::new(), Vec::new()),
-            Some(RunPosition::Motion(motion)) => {
-                (Some(motion.checkpoint), motion.pushes, motion.events)
-            }
+        let motion = match position {
+            None => None,
+            Some(RunPosition::Motion(motion)) => Some(*motion),
             Some(RunPosition::Path(_)) => panic!("a path of equilibria is no motion in time"),
+        };
+        let energy_at_switch = motion.as_ref().and_then(|m| m.energy_at_switch_pn_nm);
+        let (position, pushes, events) = match motion {
+            None => (None, Vec::new(), Vec::new()),
+            Some(motion) => (Some(motion.checkpoint), motion.pushes, motion.events),
         };
         Self {
             taken: Taken::new(assembly, recorded, sink),
@@ -94,6 +100,7 @@ impl<'a> Recorder<'a> {
             assembly,
             log: Arc::new(Mutex::new(events)),
             hinges: HingeWatch::new(assembly),
+            energy_at_switch,
         }
     }
 
@@ -161,6 +168,12 @@ impl<'a> Recorder<'a> {
         let mut state = system.state().clone();
         state.set_motion(&checkpoint.here.motion);
         self.hinges.begin(&state);
+    }
+
+    /// Energy with which the motion began (pN nm).
+    pub(super) fn begun_with_pn_nm(&self) -> f64 {
+        let built = || self.assembly.system.total_energy();
+        self.energy_at_switch.unwrap_or_else(built)
     }
 
     /// Time that the run has taken (s).
@@ -235,6 +248,7 @@ impl<'a> Recorder<'a> {
             events: self.events_until(checkpoint.here.step),
             checkpoint,
             pushes: self.pushes.clone(),
+            energy_at_switch_pn_nm: self.energy_at_switch,
         }))
     }
 }
@@ -282,7 +296,9 @@ impl Observer for Recorder<'_> {
             self.last_good = Some((pause.checkpoint(), recorded));
             self.is_behind = false;
         }
-        self.is_interrupted = self.taken.sink.is_interrupted();
+        let is_look = pause.step.is_multiple_of(DEFAULT_CHECK_EVERY);
+        self.is_interrupted = is_look && self.taken.sink.is_left(pause.step, pause.state())
+            || self.taken.sink.is_interrupted();
         if self.is_interrupted || self.taken.sink.is_checkpoint_due() {
             self.keep(pause.checkpoint());
         }
@@ -310,7 +326,8 @@ fn progress(moment: &mut Moment<'_>, end_ns: f64) -> Progress {
     }
 }
 
-fn record(moment: &mut Moment<'_>) -> Record {
+/// A moment as it is recorded.
+pub(crate) fn record(moment: &mut Moment<'_>) -> Record {
     let residual = moment.residual();
     Record {
         at: At::Time(moment.time),

@@ -27,6 +27,12 @@ pub trait Sink {
         false
     }
 
+    /// Whether the motion is to be left in this state, after so many steps: asked at every hundredth step, at step
+    /// numbers that do not depend on interruptions. It is then as if interrupted.
+    fn is_left(&mut self, _step: u64, _state: &State) -> bool {
+        false
+    }
+
     /// Whether a checkpoint is due.
     fn is_checkpoint_due(&mut self) -> bool {
         false
@@ -96,6 +102,8 @@ pub struct MotionPosition {
     pub pushes: Vec<SaddlePush>,
     /// What happened to linkers so far.
     pub events: Vec<LinkerEvent>,
+    /// Energy with which it began, where it goes on behind a switch of cells (pN nm).
+    pub energy_at_switch_pn_nm: Option<f64>,
 }
 
 /// Where a path of equilibria stands.

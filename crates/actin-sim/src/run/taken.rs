@@ -69,6 +69,17 @@ impl Recorded {
         recorded
     }
 
+    /// That of a run of `assembly` which goes on behind a switch of cells with a first record: of the records before
+    /// it keeps what does not depend on the resolution.
+    pub(crate) fn behind_switch(&self, assembly: &Assembly, first: Record) -> Self {
+        let mut recorded = Self::new(assembly);
+        recorded.carried.links = self.carried.links.clone();
+        recorded.carried.observed = self.carried.observed.clone();
+        recorded.carried.links.follow(assembly, &first);
+        recorded.push(assembly, first);
+        recorded
+    }
+
     /// How many records there are.
     pub fn count(&self) -> usize {
         self.carried.count

@@ -10,6 +10,7 @@ mod drag;
 mod factor;
 pub(crate) mod fitted;
 mod flow;
+mod following;
 mod imperfection;
 mod kinetics;
 mod law;
@@ -53,6 +54,7 @@ pub use drag::{DragModel, DragRates};
 pub use factor::Factor;
 pub(crate) use factor::smooth;
 pub use flow::Flow;
+pub use following::{Following, Where};
 pub use imperfection::Imperfection;
 pub use kinetics::{Breaking, Catch, Forming, Kinetics, Stepping};
 pub use law::{

@@ -14,6 +14,9 @@ pub(super) fn check(filament: &Filament, note: &mut impl FnMut(Result<(), SceneP
         note(check_adaptive(adaptive));
         return;
     }
+    if filament.sections.following().is_some() {
+        return;
+    }
     let sections = &filament.sections;
     if sections.is_empty() {
         let rule = "a filament has at least one section";
@@ -136,16 +139,12 @@ fn check_boundary(
             rule,
         ));
     }
-    let same = previous.is_some_and(|p| {
-        std::mem::discriminant(p) == std::mem::discriminant(section)
-            && p.altered() == section.altered()
-            && p.altered_rod() == section.altered_rod()
-    });
-    if same {
+    let same = |p: &Section| !p.is_rod() && !section.is_rod() && p.altered() == section.altered();
+    if previous.is_some_and(same) {
         return Err(SceneProblem::new(
             format!("{key}.from_nm"),
             show(from),
-            "neighbouring sections of the same kind are one section: write them as one",
+            "neighbouring sections of the same monomers are one section: write them as one",
         ));
     }
     Ok(())

@@ -1,7 +1,7 @@
-//! The sections of a filament: written one by one, or left to the program.
+//! The sections of a filament: written one by one, chosen by the program, or following a motion.
 
 use super::rules::{positive, show};
-use super::{SceneProblem, Section};
+use super::{Following, SceneProblem, Section, Where};
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::ser::{SerializeStructVariant, Serializer};
 use serde::{Deserialize, Serialize};
@@ -11,11 +11,19 @@ use std::ops::{Deref, DerefMut};
 /// The sections of a filament in order of arc length, a list that may be changed like any other.
 ///
 /// With [`adaptive`](Self::adaptive) the list is one rod of the whole length until
-/// [`Assembly::build`](crate::Assembly::build) has chosen others.
+/// [`Assembly::build`](crate::Assembly::build) has chosen others; with [`following`](Self::following) until a
+/// motion has begun.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sections {
     list: Vec<Section>,
-    adaptive: Option<Adaptive>,
+    left: Option<Left>,
+}
+
+/// What sections are left to.
+#[derive(Clone, Debug, PartialEq)]
+enum Left {
+    Adaptive(Adaptive),
+    Following(Following),
 }
 
 /// Sections that the program chooses: a rod, and monomers where the wanted number needs them.
@@ -120,14 +128,32 @@ pub(super) fn check_adaptive(adaptive: &Adaptive) -> Result<(), SceneProblem> {
 impl Sections {
     /// What the program is to choose them by; none where they are written.
     pub fn adaptive(&self) -> Option<&Adaptive> {
-        self.adaptive.as_ref()
+        match &self.left {
+            Some(Left::Adaptive(adaptive)) => Some(adaptive),
+            _ => None,
+        }
+    }
+
+    /// The same list, to follow a motion.
+    pub(crate) fn which_follow(self, following: Following) -> Self {
+        Self {
+            left: Some(Left::Following(following)),
+            ..self
+        }
+    }
+
+    /// How they follow a motion; none where they stay.
+    pub fn following(&self) -> Option<&Following> {
+        match &self.left {
+            Some(Left::Following(following)) => Some(following),
+            _ => None,
+        }
     }
 }
 
 impl From<Vec<Section>> for Sections {
     fn from(list: Vec<Section>) -> Self {
-        let adaptive = None;
-        Self { list, adaptive }
+        Self { list, left: None }
     }
 }
 
@@ -135,7 +161,16 @@ impl From<Adaptive> for Sections {
     fn from(adaptive: Adaptive) -> Self {
         Self {
             list: vec![Section::rod(0.0, adaptive.length_nm, None)],
-            adaptive: Some(adaptive),
+            left: Some(Left::Adaptive(adaptive)),
+        }
+    }
+}
+
+impl From<Following> for Sections {
+    fn from(following: Following) -> Self {
+        Self {
+            list: vec![Section::rod(0.0, following.length_nm, None)],
+            left: Some(Left::Following(following)),
         }
     }
 }
@@ -165,12 +200,22 @@ impl<'a> IntoIterator for &'a Sections {
 
 impl Serialize for Sections {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match &self.adaptive {
+        match &self.left {
             None => self.list.serialize(serializer),
-            Some(adaptive) => {
+            Some(Left::Adaptive(adaptive)) => {
                 let mut keys = serializer.serialize_struct_variant("Sections", 0, "Adaptive", 2)?;
                 keys.serialize_field("length_nm", &adaptive.length_nm)?;
                 keys.serialize_field("want", &adaptive.want)?;
+                keys.end()
+            }
+            Some(Left::Following(following)) => {
+                let mut keys =
+                    serializer.serialize_struct_variant("Sections", 1, "Following", 5)?;
+                keys.serialize_field("length_nm", &following.length_nm)?;
+                keys.serialize_field("monomers_where", &following.monomers_where)?;
+                keys.serialize_field("cell_nm", &following.cell_nm)?;
+                keys.serialize_field("segments", &following.segments)?;
+                keys.serialize_field("least_ns", &following.least_ns)?;
                 keys.end()
             }
         }
@@ -183,8 +228,68 @@ impl<'de> Deserialize<'de> for Sections {
     }
 }
 
-/// Keys of `Adaptive`, as its text has them.
-const KEYS: &[&str] = &["length_nm", "want"];
+/// Keys of `Adaptive` and of `Following`, as their texts have them.
+const KEYS: &[&str] = &[
+    "length_nm",
+    "want",
+    "monomers_where",
+    "cell_nm",
+    "segments",
+    "least_ns",
+];
+
+/// What a text may have of either.
+#[derive(Default)]
+struct Keys {
+    length_nm: Option<f64>,
+    want: Option<Want>,
+    monomers_where: Option<Vec<Where>>,
+    cell_nm: Option<f64>,
+    segments: Option<usize>,
+    least_ns: Option<f64>,
+}
+
+impl Keys {
+    fn read<'de, A: MapAccess<'de>>(&mut self, key: &str, access: &mut A) -> Result<(), A::Error> {
+        match key {
+            "length_nm" => self.length_nm = Some(access.next_value()?),
+            "want" => self.want = Some(access.next_value()?),
+            "monomers_where" => self.monomers_where = Some(access.next_value()?),
+            "cell_nm" => self.cell_nm = Some(access.next_value()?),
+            "segments" => self.segments = Some(access.next_value()?),
+            "least_ns" => self.least_ns = Some(access.next_value()?),
+            "from_nm" | "to_nm" => {
+                let rule = "is a list of sections, as in [Rod(..)], Adaptive(..) or Following(..)";
+                return Err(de::Error::custom(rule));
+            }
+            unknown => return Err(de::Error::unknown_field(unknown, KEYS)),
+        }
+        Ok(())
+    }
+
+    fn sections<E: de::Error>(self) -> Result<Sections, E> {
+        let missing = |key| move || E::missing_field(key);
+        let length_nm = self.length_nm.ok_or_else(missing("length_nm"))?;
+        let Some(monomers_where) = self.monomers_where else {
+            let is_following =
+                self.cell_nm.is_some() || self.segments.is_some() || self.least_ns.is_some();
+            if is_following {
+                return Err(E::missing_field("monomers_where"));
+            }
+            let want = self.want.ok_or_else(missing("want"))?;
+            return Ok(Adaptive { length_nm, want }.into());
+        };
+        if self.want.is_some() {
+            let rule = "has `want` of Adaptive(..) and `monomers_where` of Following(..)";
+            return Err(E::custom(rule));
+        }
+        let mut following = Following::new(length_nm, monomers_where);
+        following.cell_nm = self.cell_nm.unwrap_or(following.cell_nm);
+        following.segments = self.segments.unwrap_or(following.segments);
+        following.least_ns = self.least_ns.unwrap_or(following.least_ns);
+        Ok(following.into())
+    }
+}
 
 struct ListOrAdaptive;
 
@@ -194,7 +299,7 @@ impl<'de> Visitor<'de> for ListOrAdaptive {
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "a list of sections, or Adaptive(length_nm: .., want: ..)"
+            "a list of sections, Adaptive(length_nm: .., want: ..) or Following(length_nm: .., monomers_where: [..])"
         )
     }
 
@@ -206,31 +311,24 @@ impl<'de> Visitor<'de> for ListOrAdaptive {
         Ok(list.into())
     }
 
-    /// RON gives the keys of `Adaptive(..)`, a dictionary has them under its name.
+    /// RON gives the keys of `Adaptive(..)` or `Following(..)`, a dictionary has them under that name.
     fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<Sections, A::Error> {
-        let (mut length_nm, mut want) = (None, None);
+        let mut keys = Keys::default();
         while let Some(key) = access.next_key::<String>()? {
-            match key.as_str() {
-                "Adaptive" => {
-                    let adaptive: Adaptive = access.next_value()?;
-                    return match access.next_key::<String>()? {
-                        None => Ok(adaptive.into()),
-                        Some(other) => Err(de::Error::unknown_field(&other, &["Adaptive"])),
-                    };
+            let named: Sections = match key.as_str() {
+                "Adaptive" => access.next_value::<Adaptive>()?.into(),
+                "Following" => access.next_value::<Following>()?.into(),
+                other => {
+                    keys.read(other, &mut access)?;
+                    continue;
                 }
-                "length_nm" => length_nm = Some(access.next_value()?),
-                "want" => want = Some(access.next_value()?),
-                "from_nm" | "to_nm" => {
-                    let rule = "is a list of sections, as in [Rod(..)], or Adaptive(..)";
-                    return Err(de::Error::custom(rule));
-                }
-                unknown => return Err(de::Error::unknown_field(unknown, KEYS)),
-            }
+            };
+            return match access.next_key::<String>()? {
+                None => Ok(named),
+                Some(other) => Err(de::Error::unknown_field(&other, &[])),
+            };
         }
-        let missing = |key| move || de::Error::missing_field(key);
-        let length_nm = length_nm.ok_or_else(missing("length_nm"))?;
-        let want = want.ok_or_else(missing("want"))?;
-        Ok(Adaptive { length_nm, want }.into())
+        keys.sections()
     }
 }
 
@@ -243,6 +341,7 @@ impl schemars::JsonSchema for Sections {
     fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
         let list = generator.subschema_for::<Vec<Section>>();
         let adaptive = generator.subschema_for::<Adaptive>();
+        let following = generator.subschema_for::<Following>();
         schemars::json_schema!({
             "oneOf": [
                 { "description": "Sections one by one.", "allOf": [list] },
@@ -251,6 +350,13 @@ impl schemars::JsonSchema for Sections {
                     "type": "object",
                     "properties": { "Adaptive": adaptive },
                     "required": ["Adaptive"],
+                    "additionalProperties": false
+                },
+                {
+                    "description": "They change while a motion goes on; see there.",
+                    "type": "object",
+                    "properties": { "Following": following },
+                    "required": ["Following"],
                     "additionalProperties": false
                 }
             ]

@@ -1,5 +1,6 @@
 //! The rules that numbers of a scene have to satisfy.
 
+use super::following::check_following;
 use super::rules::{
     all_finite, check_potential, direction, each_positive, finite, non_negative, positive, show,
 };
@@ -84,6 +85,9 @@ fn filaments(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
 fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
     for adaptive in scene.filaments().filter_map(|f| f.sections.adaptive()) {
         crate::adapt::check(scene, adaptive.want.quantity())?;
+    }
+    for following in scene.filaments().filter_map(|f| f.sections.following()) {
+        check_following(scene, following)?;
     }
     match &scene.task {
         Task::Dynamics(dynamics) => {

@@ -238,7 +238,7 @@ fn top_of_parabola(x: [f64; 3], y: [f64; 3]) -> f64 {
 }
 
 /// The axes in which the filament of frame `i` was built there, turned as the frame since then.
-fn from_rest(assembly: &Assembly, state: &State, i: usize) -> UnitQuaternion {
+pub(crate) fn from_rest(assembly: &Assembly, state: &State, i: usize) -> UnitQuaternion {
     let turned =
         state.frames.orientation.get(i) * assembly.rest.frames.orientation.get(i).inverse();
     let span = &assembly.filaments[assembly.filament_of_frame(i)];

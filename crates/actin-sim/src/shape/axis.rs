@@ -1,21 +1,21 @@
 //! Cross-sections of a filament in one state, whatever resolves it.
 
+use super::Ribbon;
 use crate::Assembly;
-use crate::shape::Ribbon;
 use actin_mechanics::{State, UnitQuaternion, Vector3};
 
 /// Frames closer than this along the filament (nm) are one and the same.
 const SAME_PLACE_NM: f64 = 1e-6;
 
 /// A cross-section: its place (nm) and its axes (body to lab).
-pub(super) type CrossSection = (Vector3, UnitQuaternion);
+pub(crate) type CrossSection = (Vector3, UnitQuaternion);
 
 /// Place and axes of every cross-section of filament 0.
 ///
 /// Places lie on the cubic curve through the vertices of the [`Ribbon`] along its frames; axes turn evenly from
 /// one frame to the next. Beyond the outermost the filament goes on straight.
 #[derive(Debug)]
-pub(super) struct Axis {
+pub(crate) struct Axis {
     /// Arc length, place and derivative by arc length of each vertex.
     vertices: Vec<(f64, Vector3, Vector3)>,
     /// Arc lengths and axes of frames.
@@ -23,7 +23,7 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    pub(super) fn of(assembly: &Assembly, state: &State) -> Self {
+    pub(crate) fn of(assembly: &Assembly, state: &State) -> Self {
         let ribbon = Ribbon::new(assembly, state);
         let inside = ribbon.frame_s_nm.iter().copied().zip(ribbon.frames);
         let mut frames: Vec<_> = ribbon.ends[0]
@@ -57,7 +57,7 @@ impl Axis {
     }
 
     /// The cross-section at an arc length (nm).
-    pub(super) fn at(&self, s_nm: f64) -> CrossSection {
+    pub(crate) fn at(&self, s_nm: f64) -> CrossSection {
         let (first, last) = (self.vertices[0], self.vertices[self.vertices.len() - 1]);
         let place = if s_nm <= first.0 {
             first.1 + first.2 * (s_nm - first.0)

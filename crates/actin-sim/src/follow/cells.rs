@@ -1,0 +1,71 @@
+//! The cells of a filament, and its scene where some of them are monomers.
+
+use crate::assembly::cells_nm;
+use crate::scene::{Following, Scene, SceneProblem, Section};
+
+/// Cells are equally long if they are to this length (nm).
+const SAME_LENGTH_NM: f64 = 1e-6;
+
+/// Cells of a filament in order, each a rod or monomers.
+#[derive(Clone, Debug)]
+pub(crate) struct Cells {
+    /// Where they begin and end (nm): one more than there are cells.
+    boundaries_nm: Vec<f64>,
+    /// Segments of each that is a rod.
+    segments: usize,
+}
+
+impl Cells {
+    pub(crate) fn of(scene: &Scene, following: &Following) -> Result<Self, SceneProblem> {
+        Ok(Self {
+            boundaries_nm: cells_nm(scene, following.length_nm, following.cell_nm)?,
+            segments: following.segments,
+        })
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.boundaries_nm.len() - 1
+    }
+
+    /// Where each begins and ends (nm).
+    pub(super) fn spans_nm(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.boundaries_nm.windows(2).map(|ends| [ends[0], ends[1]])
+    }
+
+    /// The scene where these cells are monomers, its sections written: neighbouring cells of monomers are one section,
+    /// and so are neighbouring rods whose segments are equally long. So segments are the same whatever is beside them.
+    pub(crate) fn scene(&self, scene: &Scene, is_monomers: &[bool]) -> Scene {
+        let mut sections: Vec<(Section, f64)> = Vec::new();
+        for ([from, to], &resolved) in self.spans_nm().zip(is_monomers) {
+            let length = to - from;
+            match sections.last_mut() {
+                Some((Section::Ellipsoids { to_nm, .. }, _)) if resolved => *to_nm = to,
+                Some((
+                    Section::Rod {
+                        to_nm,
+                        segments: Some(segments),
+                        ..
+                    },
+                    of_cell,
+                )) if !resolved && (*of_cell - length).abs() < SAME_LENGTH_NM => {
+                    *to_nm = to;
+                    *segments += self.segments;
+                }
+                _ if resolved => sections.push((monomers(from, to), length)),
+                _ => sections.push((Section::rod(from, to, Some(self.segments)), length)),
+            }
+        }
+        let mut resolved = scene.clone();
+        let sections: Vec<_> = sections.into_iter().map(|(section, _)| section).collect();
+        resolved.filament.sections = sections.into();
+        resolved
+    }
+}
+
+fn monomers(from_nm: f64, to_nm: f64) -> Section {
+    Section::Ellipsoids {
+        from_nm,
+        to_nm,
+        altered: None,
+    }
+}

@@ -1,0 +1,164 @@
+//! The cross-sections of a filament in one state: their places, axes and motion, whatever resolves them.
+
+use crate::shape::axis::Axis;
+use crate::shape::from_rest;
+use crate::{Assembly, BodyKind};
+use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
+use nalgebra::{DMatrix, DVector};
+
+/// Monomers on either side of a place whose mean tells the cross-section there: the two strands alternate.
+const MONOMERS_BESIDE: usize = 4;
+
+/// A cross-section and how it moves.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CrossSection {
+    /// Its place (nm).
+    pub(super) place: Vector3,
+    /// Its axes (body to lab).
+    pub(super) axes: UnitQuaternion,
+    /// Velocity of its place (nm/ns).
+    pub(super) velocity: Vector3,
+    /// Its angular velocity (rad/ns, lab frame).
+    pub(super) angular_velocity: Vector3,
+}
+
+/// What is known at one arc length (nm).
+type Known = (f64, Vector3);
+
+/// All that the bodies of a filament tell of its cross-sections.
+#[derive(Debug)]
+pub(super) struct Field {
+    axis: Axis,
+    /// Velocities of nodes and of monomers' places on the axis, by arc length.
+    velocities: Vec<Known>,
+    /// Angular velocities of segments and monomers, by arc length.
+    angular_velocities: Vec<Known>,
+    monomers: Vec<Monomer>,
+}
+
+/// A monomer brought to the axis.
+#[derive(Clone, Copy, Debug)]
+struct Monomer {
+    s_nm: f64,
+    place: Vector3,
+    axes: UnitQuaternion,
+    velocity: Vector3,
+    angular_velocity: Vector3,
+}
+
+impl Field {
+    /// That of filament 0.
+    pub(super) fn of(assembly: &Assembly, state: &State) -> Self {
+        let monomers = monomers(assembly, state);
+        let nodes = (0..assembly.points.len())
+            .filter(|&i| assembly.points[i].kind == BodyKind::Node)
+            .map(|i| (assembly.points[i].s_nm, state.points.velocity.get(i)));
+        let segments = (0..assembly.frames.len())
+            .filter(|&i| assembly.frames[i].kind == BodyKind::Segment)
+            .map(|i| (assembly.frames[i].s_nm, angular_velocity(state, i)));
+        let of_monomers = monomers.iter();
+        let velocities = nodes.chain(of_monomers.clone().map(|m| (m.s_nm, m.velocity)));
+        let turns = segments.chain(of_monomers.map(|m| (m.s_nm, m.angular_velocity)));
+        Self {
+            axis: Axis::of(assembly, state),
+            velocities: in_order(velocities.collect()),
+            angular_velocities: in_order(turns.collect()),
+            monomers,
+        }
+    }
+
+    /// The cross-section at an arc length (nm) of a rod: through its nodes and along its segments.
+    pub(super) fn of_rod(&self, s_nm: f64) -> CrossSection {
+        let (place, axes) = self.axis.at(s_nm);
+        CrossSection {
+            place,
+            axes,
+            velocity: between(&self.velocities, s_nm),
+            angular_velocity: between(&self.angular_velocities, s_nm),
+        }
+    }
+
+    /// The cross-section at an arc length (nm) of monomers: the parabola through the nearest of them, brought to the
+    /// axis, and their mean turn.
+    ///
+    /// # Panics
+    /// If there are no monomers.
+    pub(super) fn of_monomers(&self, s_nm: f64) -> CrossSection {
+        let after = self.monomers.partition_point(|m| m.s_nm < s_nm);
+        let count = (2 * MONOMERS_BESIDE).min(self.monomers.len());
+        let first = after.saturating_sub(MONOMERS_BESIDE);
+        let first = first.min(self.monomers.len() - count);
+        let near = &self.monomers[first..first + count];
+        let reference = near[count / 2].axes;
+        let fit = |degree, of: &dyn Fn(&Monomer) -> Vector3| {
+            let known: Vec<Known> = near.iter().map(|m| (m.s_nm - s_nm, of(m))).collect();
+            at_zero(&known, degree)
+        };
+        let turn = fit(1, &|m| rotation::log(reference.inverse() * m.axes));
+        CrossSection {
+            place: fit(2, &|m| m.place),
+            axes: reference * rotation::exp(turn),
+            velocity: fit(1, &|m| m.velocity),
+            angular_velocity: fit(1, &|m| m.angular_velocity),
+        }
+    }
+}
+
+/// Angular velocity of a frame (rad/ns, lab frame).
+pub(super) fn angular_velocity(state: &State, i: usize) -> Vector3 {
+    let momentum = state.frames.angular_momentum.get(i);
+    state.frames.orientation.get(i) * state.frames.angular_velocity(i, momentum)
+}
+
+fn monomers(assembly: &Assembly, state: &State) -> Vec<Monomer> {
+    let of = |i: usize, frame: usize| {
+        let place = assembly.centre_line_nm(state, i);
+        let turn = angular_velocity(state, frame);
+        let arm = place - state.points.position.get(i);
+        Monomer {
+            s_nm: assembly.points[i].s_nm,
+            place,
+            axes: from_rest(assembly, state, frame),
+            velocity: state.points.velocity.get(i) + turn.cross(&arm),
+            angular_velocity: turn,
+        }
+    };
+    let points = assembly.points.iter().enumerate();
+    points
+        .filter(|(_, point)| point.kind == BodyKind::Monomer)
+        .filter_map(|(i, point)| Some(of(i, point.frame?)))
+        .collect()
+}
+
+fn in_order(mut known: Vec<Known>) -> Vec<Known> {
+    known.sort_by(|a, b| a.0.total_cmp(&b.0));
+    known
+}
+
+/// The value at an arc length: on straight lines between those that are known, constant beyond.
+fn between(known: &[Known], s_nm: f64) -> Vector3 {
+    let after = known.partition_point(|k| k.0 < s_nm);
+    if after == 0 || after == known.len() {
+        return known[after.min(known.len() - 1)].1;
+    }
+    let ((s_a, a), (s_b, b)) = (known[after - 1], known[after]);
+    a.lerp(&b, (s_nm - s_a) / (s_b - s_a))
+}
+
+/// The value at zero of the polynomial that is nearest to what is known.
+fn at_zero(known: &[Known], degree: usize) -> Vector3 {
+    let degree = degree.min(known.len() - 1);
+    let scale = known.iter().fold(0.0, |most: f64, k| most.max(k.0.abs()));
+    let powers = DMatrix::from_fn(known.len(), degree + 1, |row, power| {
+        (0..power).fold(1.0, |product, _| product * known[row].0 / scale)
+    });
+    // The row of weights that gives the constant: equal for all three components.
+    let normal = (powers.transpose() * &powers)
+        .cholesky()
+        .expect("places of monomers differ");
+    let mut constant = DVector::zeros(degree + 1);
+    constant[0] = 1.0;
+    let weights = powers * normal.solve(&constant);
+    let weighted = known.iter().zip(weights.iter());
+    weighted.map(|((_, value), weight)| value * *weight).sum()
+}

@@ -1,0 +1,22 @@
+//! Resolution that follows a motion: cells of a filament become monomers while a run goes on, and a rod again.
+//!
+//! [`Follower`] is what to call first: it runs a scene whose `sections` are `Following(..)`. Such a run is a chain of
+//! [`Stretch`]es, each an ordinary scene with sections of its own that begins where the one before was left.
+//! [`Criterion`] says where monomers are needed (`criterion.rs`; its own is a type of the user's). At a switch
+//! ([`Switch`]) bodies that stay keep every bit of their motion, and those that come are made from the
+//! cross-sections of those that go (`field.rs`), settle by themselves, and get the momenta of those that go
+//! (`transfer.rs`, `momentum.rs`). What the switch does to the energy is booked.
+//!
+//! Which monomers there can be, and how they are bonded, does not depend on when they are resolved.
+
+mod cells;
+mod chain;
+mod criterion;
+mod field;
+mod momentum;
+mod transfer;
+
+pub(crate) use cells::Cells;
+pub use chain::{Followed, Follower, Left, Next, Ran, Stretch};
+pub use criterion::{Cell, Criterion, Wish};
+pub use transfer::Switch;

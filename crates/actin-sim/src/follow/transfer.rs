@@ -1,0 +1,337 @@
+//! From a state of a filament to one of the same filament in which some cells are resolved otherwise.
+
+use super::field::{CrossSection, Field};
+use super::momentum::{Bodies, Momentum};
+use crate::scene::{Dynamics, SceneProblem};
+use crate::{Assembly, At, BodyKind};
+use actin_integrate::{Bath, Drag, Run};
+use actin_mechanics::{Shared, State, System, Vector3};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Bodies at the same arc length to this (nm) are at the same place of the filament.
+const SAME_PLACE_NM: f64 = 1e-6;
+
+/// Rate (1/ns) of the drag in which new bodies settle: bonds (some 100 to 470 rad/ns) settle in it, a bend over 36 nm
+/// (33 rad/ns) by half, what is longer hardly moves. Rates of 30 and 120 leave jumps of energy as large.
+const SETTLING_RATE_PER_NS: f64 = 60.0;
+
+/// Time (ns) for which they settle.
+const SETTLING_NS: f64 = 0.15;
+
+/// Added to the seed of a bath, so that what settles meets another noise than the motion does.
+const OTHER_NOISE: u64 = 0x5e77_1e5e;
+
+/// A switch of cells, and what it did.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Switch {
+    /// Steps since the motion began.
+    pub step: u64,
+    /// Time since then (ns).
+    pub time_ns: f64,
+    /// Cells that became monomers: from and to which arc length (nm).
+    pub to_monomers: Vec<[f64; 2]>,
+    /// Cells that became a rod.
+    pub to_rod: Vec<[f64; 2]>,
+    /// Energy, kinetic and of all interactions, after less before (pN nm).
+    pub energy_pn_nm: f64,
+    /// Momentum after less before (ag nm/ns): round-off.
+    pub momentum_change: f64,
+    /// Angular momentum about the origin after less before (ag nm^2/ns): round-off.
+    pub angular_momentum_change: f64,
+}
+
+/// A change of resolution at one moment.
+pub(super) struct Transfer<'a> {
+    pub(super) from: &'a Assembly,
+    pub(super) to: &'a Assembly,
+    /// Cells that are switched, from and to (nm).
+    pub(super) spans_nm: &'a [[f64; 2]],
+    pub(super) step: u64,
+    pub(super) time_ns: f64,
+}
+
+impl Transfer<'_> {
+    /// The state of the new bodies that goes on where `old` is, and the switch, its cells not yet named.
+    ///
+    /// # Errors
+    /// New bodies that do not settle.
+    pub(super) fn state(
+        &self,
+        old: &State,
+        dynamics: &Dynamics,
+    ) -> Result<(State, Switch), SceneProblem> {
+        let mut state = self.to.rest.clone();
+        state.controls.clone_from(&old.controls);
+        state.time = old.time;
+        let made = self.place(old, &mut state);
+        self.slide(old, &mut state);
+        self.to.place_controls(&mut state, At::Time(self.time_ns));
+        let bodies = self.bodies(&state, |s_nm| self.is_switched(s_nm));
+        let settled = self.settled(&state, &bodies, dynamics)?;
+        let wanted = Momentum::of(old);
+        if dynamics.thermal.is_some() {
+            take_motion(&settled, &mut state, &bodies);
+        }
+        take_places(&settled, &mut state, &bodies);
+        if dynamics.thermal.is_none() {
+            made.move_along(&mut state, &bodies);
+        }
+        bodies.give(&mut state, wanted);
+        let switch = self.switch([old, &state]);
+        Ok((state, switch))
+    }
+
+    fn switch(&self, [old, new]: [&State; 2]) -> Switch {
+        let energy = |assembly: &Assembly, state: &State| {
+            assembly.system.in_state(state.clone()).total_energy()
+        };
+        let [before, after] = [old, new].map(Momentum::of);
+        Switch {
+            step: self.step,
+            time_ns: self.time_ns,
+            to_monomers: Vec::new(),
+            to_rod: Vec::new(),
+            energy_pn_nm: energy(self.to, new) - energy(self.from, old),
+            momentum_change: (after.linear - before.linear).norm(),
+            angular_momentum_change: (after.angular - before.angular).norm(),
+        }
+    }
+
+    /// Whether a body at an arc length (nm) belongs to a cell that is switched; monomers stand out at the ends of the
+    /// filament.
+    fn is_switched(&self, s_nm: f64) -> bool {
+        let inside = s_nm.clamp(0.0, self.to.length_nm());
+        let mut spans = self.spans_nm.iter();
+        spans.any(|[from, to]| *from - SAME_PLACE_NM <= inside && inside <= *to + SAME_PLACE_NM)
+    }
+
+    /// Free bodies of the new filament at these arc lengths.
+    fn bodies(&self, state: &State, is_wanted: impl Fn(f64) -> bool) -> Bodies {
+        let (points, frames) = (self.to.points.iter(), self.to.frames.iter());
+        let points = points.enumerate().filter(|(_, p)| is_wanted(p.s_nm));
+        let frames = frames.enumerate().filter(|(_, f)| is_wanted(f.s_nm));
+        Bodies {
+            points: (points.map(|(i, _)| i))
+                .filter(|&i| state.points.is_free(i))
+                .collect(),
+            frames: (frames.map(|(i, _)| i))
+                .filter(|&i| state.frames.is_free(i))
+                .collect(),
+        }
+    }
+
+    /// Puts every body where it was, or on the cross-section that stands for it; returns the cross-sections of all new
+    /// bodies.
+    fn place(&self, old: &State, state: &mut State) -> Made {
+        let field = Field::of(self.from, old);
+        let mut made = Made::default();
+        let known = Places::of(self.from);
+        let keys = Places::of(self.to);
+        for (key, &i) in &keys.points {
+            if let Some(&there) = known.points.get(key) {
+                state.points.position.set(i, old.points.position.get(there));
+                state.points.velocity.set(i, old.points.velocity.get(there));
+                continue;
+            }
+            let s_nm = self.to.points[i].s_nm;
+            let section = self.cross_section(&field, s_nm);
+            let rest = self.to.rest.points.position.get(i) - self.span().axis_place(s_nm);
+            let arm = self.span().frame_at(s_nm).inverse() * rest;
+            let place = section.place + section.axes * arm;
+            state.points.position.set(i, place);
+            made.points.push((i, section));
+        }
+        for (key, &i) in &keys.frames {
+            let kept = known.frames.get(key);
+            if let Some(&there) = kept.filter(|_| !self.is_new_junction(i)) {
+                let orientation = old.frames.orientation.get(there);
+                state.frames.orientation.set(i, orientation);
+                let momentum = old.frames.angular_momentum.get(there);
+                state.frames.angular_momentum.set(i, momentum);
+                continue;
+            }
+            let s_nm = self.to.frames[i].s_nm;
+            let section = self.cross_section(&field, s_nm);
+            let rest = self.to.rest.frames.orientation.get(i);
+            let own = self.span().frame_at(s_nm).inverse() * rest;
+            state.frames.orientation.set(i, section.axes * own);
+            made.frames.push((i, section));
+        }
+        made
+    }
+
+    /// Brings what slides as far from where it was built as it was, with its velocity.
+    fn slide(&self, old: &State, state: &mut State) {
+        let sliders = state.sliders.clone();
+        for (before, slider) in old.sliders.iter().zip(sliders.iter()) {
+            let one = before.points[0];
+            let moved = old.points.position.get(one) - self.from.rest.points.position.get(one);
+            let along = |v: Vector3| slider.directions.iter().map(|d| d * d.dot(&v)).sum();
+            let (moved, velocity): (Vector3, Vector3) =
+                (along(moved), before.sliding_velocity(&old.points.velocity));
+            for &i in &slider.points {
+                let place = self.to.rest.points.position.get(i) + moved;
+                state.points.position.set(i, place);
+                state.points.velocity.set(i, velocity);
+            }
+        }
+    }
+
+    /// Whether a frame is that of a junction at a cell that is switched: it may join the other sides.
+    fn is_new_junction(&self, i: usize) -> bool {
+        let frame = &self.to.frames[i];
+        frame.kind == BodyKind::Junction && self.is_switched(frame.s_nm)
+    }
+
+    fn span(&self) -> &crate::FilamentSpan {
+        &self.to.filaments[0]
+    }
+
+    /// The cross-section of the old filament at an arc length (nm).
+    fn cross_section(&self, field: &Field, s_nm: f64) -> CrossSection {
+        let sections = self.from.sections_of(0);
+        let behind = sections.partition_point(|section| section.to_nm < s_nm);
+        if sections[behind.min(sections.len() - 1)].is_ellipsoids() {
+            field.of_monomers(s_nm)
+        } else {
+            field.of_rod(s_nm)
+        }
+    }
+
+    /// The state after new bodies have settled among the others, which are held: in a drag, or in the bath of the motion
+    /// under that drag.
+    fn settled(
+        &self,
+        state: &State,
+        bodies: &Bodies,
+        dynamics: &Dynamics,
+    ) -> Result<State, SceneProblem> {
+        let mut local = state.clone();
+        local.sliders = Shared::default();
+        let others = self.bodies(state, |s_nm| !self.is_switched(s_nm));
+        others.points.iter().for_each(|&i| local.points.hold(i));
+        others.frames.iter().for_each(|&i| local.frames.hold(i));
+        stop_all(&mut local);
+        let mut system = self.to.system.in_state(local);
+        let refused = |error: &dyn std::error::Error| {
+            let rule = format!(
+                "new bodies at {} place(s) do not settle at {:.4} ns: {error}",
+                bodies.points.len(),
+                self.time_ns
+            );
+            SceneProblem::new("filament.sections", "", rule)
+        };
+        let step = dynamics.time_step_ns.unwrap_or(SETTLING_NS);
+        let run = Run::over(dynamics.composition(), step, SETTLING_NS).map_err(|e| refused(&e))?;
+        let drag = Drag::new(SETTLING_RATE_PER_NS, SETTLING_RATE_PER_NS);
+        let drag = drag.map_err(|e| refused(&e))?;
+        let run = match &dynamics.thermal {
+            None => run.with_drag(drag),
+            Some(thermal) => {
+                let seed = thermal
+                    .seed
+                    .wrapping_add(OTHER_NOISE)
+                    .wrapping_add(self.step);
+                let bath = Bath::new(drag, thermal.energy_pn_nm(), seed);
+                run.with_bath(bath.map_err(|e| refused(&e))?)
+            }
+        };
+        run.execute(&mut system, &mut []).map_err(|e| refused(&e))?;
+        Ok(System::state(&system).clone())
+    }
+}
+
+/// New bodies with the cross-sections on which they stand.
+#[derive(Default)]
+struct Made {
+    points: Vec<(usize, CrossSection)>,
+    frames: Vec<(usize, CrossSection)>,
+}
+
+impl Made {
+    /// Gives new bodies the motion of their cross-sections.
+    fn move_along(&self, state: &mut State, bodies: &Bodies) {
+        for (i, section) in &self.points {
+            if !bodies.points.contains(i) {
+                continue;
+            }
+            let arm = state.points.position.get(*i) - section.place;
+            let velocity = section.velocity + section.angular_velocity.cross(&arm);
+            state.points.velocity.set(*i, velocity);
+        }
+        for (i, section) in &self.frames {
+            if !bodies.frames.contains(i) {
+                continue;
+            }
+            let own = state.frames.orientation.get(*i).inverse() * section.angular_velocity;
+            let moments = state.frames.inverse_moments(*i);
+            let momentum = own.component_div(&moments);
+            state.frames.angular_momentum.set(*i, momentum);
+        }
+    }
+}
+
+/// A kind of body, its arc length in units of [`SAME_PLACE_NM`], and how many of its kind come before it there.
+type Key = (u8, i64, usize);
+
+/// Where the bodies of filament 0 stand.
+struct Places {
+    points: BTreeMap<Key, usize>,
+    frames: BTreeMap<Key, usize>,
+}
+
+impl Places {
+    fn of(assembly: &Assembly) -> Self {
+        let points = assembly.points.iter().map(|p| (p.kind, p.s_nm));
+        let frames = assembly.frames.iter().map(|f| (f.kind, f.s_nm));
+        Self {
+            points: places(points),
+            frames: places(frames),
+        }
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "arc lengths of filaments that fit into memory are below 2^53 units"
+)]
+fn places(bodies: impl Iterator<Item = (BodyKind, f64)>) -> BTreeMap<Key, usize> {
+    let mut places = BTreeMap::new();
+    for (i, (kind, s_nm)) in bodies.enumerate() {
+        let unit = (s_nm / SAME_PLACE_NM).round() as i64;
+        let others = places
+            .range((kind as u8, unit, 0)..=(kind as u8, unit, usize::MAX))
+            .count();
+        places.insert((kind as u8, unit, others), i);
+    }
+    places
+}
+
+fn stop_all(state: &mut State) {
+    for i in 0..state.points.len() {
+        state.points.velocity.set(i, Vector3::zeros());
+    }
+    for i in 0..state.frames.len() {
+        state.frames.angular_momentum.set(i, Vector3::zeros());
+    }
+}
+
+fn take_places(from: &State, to: &mut State, bodies: &Bodies) {
+    for &i in &bodies.points {
+        to.points.position.set(i, from.points.position.get(i));
+    }
+    for &i in &bodies.frames {
+        to.frames.orientation.set(i, from.frames.orientation.get(i));
+    }
+}
+
+fn take_motion(from: &State, to: &mut State, bodies: &Bodies) {
+    for &i in &bodies.points {
+        to.points.velocity.set(i, from.points.velocity.get(i));
+    }
+    for &i in &bodies.frames {
+        let momentum = from.frames.angular_momentum.get(i);
+        to.frames.angular_momentum.set(i, momentum);
+    }
+}

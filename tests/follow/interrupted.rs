@@ -1,0 +1,92 @@
+//! A motion that is interrupted and resumed, between switches and about them.
+
+use super::{ToAndFro, scene};
+use actin_sim::follow::{Follower, Left, Stretch};
+use actin_sim::{Plan, Record, Recorded, RunPosition, Saved, Scene, Sink, Status};
+
+fn thermal() -> Scene {
+    let rest = "task: Dynamics(
+            duration_ns: 3.0,
+            time_step_ns: 0.0025,
+            record_every_ns: 0.1,
+            drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+            thermal: (temperature_k: 298.0, seed: 7),
+        ),";
+    scene(108.0, 0.25, rest)
+}
+
+/// Takes records, and interrupts whenever it has been asked so many times.
+struct Stops {
+    records: Vec<Record>,
+    asked: u32,
+    every: u32,
+    saved: Option<Saved>,
+}
+
+impl Sink for Stops {
+    fn record(&mut self, record: &Record) {
+        self.records.push(record.clone());
+    }
+
+    fn is_interrupted(&mut self) -> bool {
+        self.asked += 1;
+        self.asked.is_multiple_of(self.every)
+    }
+
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+        self.saved = Some(Saved {
+            position: position.clone(),
+            recorded: recorded.clone(),
+            wall_s,
+        });
+    }
+}
+
+/// All records of the motion, the stretch of each, and how often it was interrupted.
+fn run(every: u32) -> (Vec<(usize, Record)>, u32) {
+    let follower = Follower::new(&thermal()).unwrap();
+    let follower = follower.with_criterion(Box::new(ToAndFro { every_ns: 0.5 }));
+    let mut sink = Stops {
+        records: Vec::new(),
+        asked: 0,
+        every,
+        saved: None,
+    };
+    let (mut stretch, mut saved): (Stretch, Option<Saved>) = (follower.begin().unwrap(), None);
+    let (mut all, mut interruptions) = (Vec::new(), 0);
+    loop {
+        let plan = Plan::new(&stretch.assembly).unwrap();
+        let left = follower.advance((&stretch, &plan), saved.take(), &mut sink);
+        let left = left.unwrap_or_else(|error| panic!("{error}"));
+        all.extend(
+            sink.records
+                .drain(..)
+                .map(|record| (stretch.beginning.index, record)),
+        );
+        match left {
+            Left::Over(outcome) if outcome.status == Status::Interrupted => {
+                saved = sink.saved.take();
+                interruptions += 1;
+            }
+            Left::Over(_) => return (all, interruptions),
+            Left::Switched(_, next) => (stretch, saved) = (next.stretch, Some(next.saved)),
+        }
+    }
+}
+
+/// Records, of whatever stretch, are the same to the bit however often a run was interrupted: at every check, the one
+/// at which cells are switched included, and where checks and switches fall differently.
+#[test]
+fn an_interrupted_motion_is_the_same_to_the_bit() {
+    let (whole, none) = run(u32::MAX);
+    assert_eq!(none, 0);
+    assert!(whole.last().unwrap().0 >= 4);
+    for every in [1, 3, 7] {
+        let (parts, interruptions) = run(every);
+        assert!(interruptions > 1);
+        assert_eq!(parts.len(), whole.len());
+        for (part, one) in parts.iter().zip(&whole) {
+            assert_eq!(part, one);
+        }
+    }
+}

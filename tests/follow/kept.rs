@@ -1,0 +1,156 @@
+//! What a switch keeps to the bit or to round-off, and the energy that it books.
+
+use super::{energy, scene, to_and_fro};
+use actin_sim::follow::{Followed, Ran};
+use actin_sim::{BodyKind, End, Scene};
+
+/// A cantilever that swings freely; a record at every look.
+fn swinging() -> Scene {
+    let rest = "clamps: [Clamp(end: Start)],
+        loads: [EndForce(end: End, force_pn: (-5.0, 0.0, 0.0))],
+        task: Dynamics(duration_ns: 6.0, time_step_ns: 0.00125, record_every_ns: 0.125),";
+    scene(144.0, 0.5, rest)
+}
+
+fn pairs(run: &Followed) -> impl Iterator<Item = (&Ran, &Ran)> {
+    run.stretches.iter().zip(&run.stretches[1..])
+}
+
+/// Momentum and angular momentum of all free bodies, junction frames included, are those of before: a body that was
+/// forgotten, or a velocity at the wrong place, would show in the first digits.
+#[test]
+fn momentum_is_kept_to_round_off() {
+    let run = to_and_fro(&swinging(), 0.75);
+    assert!(run.stretches.len() > 6);
+    for (before, after) in pairs(&run) {
+        let old = &before.trajectory.records.last().unwrap().state;
+        let new = &after.trajectory.records[0].state;
+        assert!((old.time - new.time).abs() < 1e-12);
+        let switch = after.stretch.beginning.switch.as_ref().unwrap();
+        // Some 10 bodies of 0.2 ag and 10 nm/ns, 100 nm from the origin.
+        let scale = old.momentum().norm().max(1.0);
+        assert!((new.momentum() - old.momentum()).norm() < 1e-13 * scale);
+        let arm = 150.0 * scale;
+        assert!((new.angular_momentum() - old.angular_momentum()).norm() < 1e-12 * arm);
+        assert!(switch.momentum_change < 1e-13 * scale);
+        assert!(switch.angular_momentum_change < 1e-12 * arm);
+    }
+}
+
+/// Bodies in cells that stay, a node or monomer at a time, have the same bits on both sides of a switch.
+#[test]
+fn what_stays_keeps_every_bit() {
+    let run = to_and_fro(&swinging(), 0.75);
+    let mut kept = 0;
+    for (before, after) in pairs(&run) {
+        let (old, new) = (
+            before.trajectory.records.last().unwrap(),
+            &after.trajectory.records[0],
+        );
+        let switch = after.stretch.beginning.switch.as_ref().unwrap();
+        let spans = [switch.to_monomers.as_slice(), &switch.to_rod].concat();
+        let is_inside = |s: f64| spans.iter().any(|[a, b]| a - 1e-6 < s && s < b + 1e-6);
+        let (from, to) = (&before.stretch.assembly, &after.stretch.assembly);
+        let length = to.length_nm();
+        for (i, point) in to.points.iter().enumerate() {
+            if is_inside(point.s_nm.min(length)) {
+                continue;
+            }
+            let same = |other: &actin_sim::PointInfo| {
+                other.kind == point.kind && (other.s_nm - point.s_nm).abs() < 1e-6
+            };
+            let there = from.points.iter().position(same).unwrap();
+            assert_eq!(
+                new.state.points.position.get(i),
+                old.state.points.position.get(there)
+            );
+            assert_eq!(
+                new.state.points.velocity.get(i),
+                old.state.points.velocity.get(there)
+            );
+            kept += 1;
+        }
+    }
+    // Six nodes of the first cell at each switch, the one at its end excepted.
+    assert_eq!(kept, 6 * (run.stretches.len() - 1));
+}
+
+/// Energy less what switches have booked is that of the start, but for the error of the integrator, which the stretches
+/// show by themselves.
+#[test]
+fn the_ledger_closes() {
+    let run = to_and_fro(&swinging(), 0.75);
+    let records = |ran: &Ran| -> Vec<f64> {
+        let records = ran.trajectory.records.iter();
+        records
+            .map(|r| energy(r) - ran.stretch.beginning.switches_pn_nm)
+            .collect()
+    };
+    let all: Vec<f64> = run.stretches.iter().flat_map(records).collect();
+    let largest = run
+        .stretches
+        .iter()
+        .flat_map(|ran| &ran.trajectory.records)
+        .fold(0.0, |most: f64, r| most.max(r.kinetic_pn_nm));
+    let booked: f64 = run.switches().map(|s| s.energy_pn_nm.abs()).sum();
+    assert!(booked > 1.0, "{booked}");
+    let worst = all
+        .iter()
+        .fold(0.0, |worst: f64, e| worst.max((e - all[0]).abs()));
+    println!("ledger {worst:.2e} of {largest:.1} pN nm, booked {booked:.2}");
+    assert!(worst < 1e-3 * largest, "{worst} of {largest}");
+}
+
+/// A monomer has the same bonds whenever it is resolved: those of the filament with every monomer.
+#[test]
+fn bonds_do_not_depend_on_when_monomers_are_resolved() {
+    let run = to_and_fro(&swinging(), 0.75);
+    let mut seen = std::collections::BTreeMap::new();
+    for ran in &run.stretches {
+        let assembly = &ran.stretch.assembly;
+        for section in 0..assembly.sections.len() {
+            let Some(bonds) = assembly.bonds_of(section) else {
+                continue;
+            };
+            for pair in bonds.pairs() {
+                let lengths = bonds.bonds_of(pair).map(|bond| bond.rest_length.to_bits());
+                let of_pair: Vec<u64> = lengths.collect();
+                let first = assembly.sections[section].points.start;
+                let s = assembly.points[first + pair.lower].s_nm;
+                let key = (format!("{s:.6}"), pair.upper - pair.lower);
+                let before = seen.insert(key, of_pair.clone());
+                assert!(before.is_none_or(|before| before == of_pair));
+            }
+        }
+    }
+    assert!(seen.len() > 60);
+}
+
+/// The tip of a filament whose cells change all the time swings as that of one which is all monomers.
+#[test]
+fn the_motion_is_that_of_monomers() {
+    let followed = to_and_fro(&swinging(), 0.75);
+    let mut scene = swinging();
+    let length = followed.stretches[0].stretch.assembly.length_nm();
+    scene.filament.sections = vec![actin_sim::Section::Ellipsoids {
+        from_nm: 0.0,
+        to_nm: length,
+        altered: None,
+    }]
+    .into();
+    let all = actin_sim::Assembly::build(&scene).unwrap();
+    let (trajectory, _) = actin_sim::Plan::new(&all).unwrap().run().unwrap();
+    let expected = all.tip_nm(&trajectory.records.last().unwrap().state, End::End);
+    let last = followed.stretches.last().unwrap();
+    let record = last.trajectory.records.last().unwrap();
+    let found = last.stretch.assembly.tip_nm(&record.state, End::End);
+    println!("tip {found:?}, of monomers {expected:?}");
+    assert!((found - expected).norm() < 0.05 * expected.x.abs());
+    assert!(
+        last.stretch
+            .assembly
+            .points
+            .iter()
+            .any(|p| p.kind == BodyKind::Monomer)
+    );
+}

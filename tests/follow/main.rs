@@ -1,0 +1,56 @@
+//! Resolution that follows a motion: what a switch keeps, what it books, and what does not depend on it.
+
+mod heat;
+mod interrupted;
+mod kept;
+mod windows;
+
+use actin_sim::follow::{Cell, Criterion, Followed, Follower, Wish};
+use actin_sim::{Record, Scene};
+
+/// The first cell is a rod; of the others every other is monomers, and which changes at equal intervals of time.
+#[derive(Debug)]
+struct ToAndFro {
+    every_ns: f64,
+}
+
+impl Criterion for ToAndFro {
+    fn wish(&self, cell: &Cell<'_>) -> Wish {
+        let turn = (cell.state.time / self.every_ns).floor();
+        let place = (cell.span_nm[0] / 30.0).round();
+        if place > 0.5 && (turn + place).rem_euclid(2.0) < 0.5 {
+            Wish::Monomers
+        } else {
+            Wish::Rod
+        }
+    }
+}
+
+/// A scene of so many nm with sections that change by what is added to it.
+fn scene(length_nm: f64, least_ns: f64, rest: &str) -> Scene {
+    let text = format!(
+        "Scene(
+            filament: Filament(
+                sections: Following(
+                    length_nm: {length_nm:?},
+                    monomers_where: [Curvature(above_per_nm: 10.0, below_per_nm: 1.0)],
+                    least_ns: {least_ns:?},
+                ),
+                rod: RodModel(law: Homogenised),
+            ),
+            {rest}
+        )"
+    );
+    Scene::from_ron(&text).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn to_and_fro(scene: &Scene, every_ns: f64) -> Followed {
+    let follower = Follower::new(scene).unwrap();
+    let follower = follower.with_criterion(Box::new(ToAndFro { every_ns }));
+    follower.run().unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Energy of a record, kinetic and of all interactions (pN nm).
+fn energy(record: &Record) -> f64 {
+    record.potential_pn_nm() + record.kinetic_pn_nm
+}

@@ -1,0 +1,112 @@
+//! Where and how long cells are monomers.
+
+use super::scene;
+use actin_sim::follow::{Cell, Criterion, Follower, Wish};
+use actin_sim::{Scene, Where};
+
+/// Wants monomers and a rod in turn, at every look.
+#[derive(Debug)]
+struct Restless;
+
+impl Criterion for Restless {
+    fn wish(&self, cell: &Cell<'_>) -> Wish {
+        if cell.is_monomers {
+            Wish::Rod
+        } else {
+            Wish::Monomers
+        }
+    }
+}
+
+/// A cell stays as it is for the least time, whatever criteria want.
+#[test]
+fn cells_stay_for_the_least_time() {
+    let scene = scene(
+        72.0,
+        0.6,
+        "task: Dynamics(duration_ns: 3.0, time_step_ns: 0.0025)",
+    );
+    let follower = Follower::new(&scene).unwrap();
+    let run = follower.with_criterion(Box::new(Restless)).run().unwrap();
+    let times: Vec<f64> = run.switches().map(|s| s.time_ns).collect();
+    // Looks are 0.25 ns apart: 0.6 ns are over at the third.
+    let gaps: Vec<f64> = times.windows(2).map(|t| t[1] - t[0]).collect();
+    assert!(gaps.len() >= 2, "{times:?}");
+    assert!(gaps.iter().all(|gap| (gap - 0.75).abs() < 1e-9), "{gaps:?}");
+}
+
+/// Between two thresholds a cell stays what it is; a criterion with one would flicker.
+#[test]
+fn between_its_thresholds_a_cell_stays() {
+    let assembly =
+        actin_sim::Assembly::build(&scene(72.0, 1.0, "task: Dynamics(duration_ns: 1.0)"));
+    let assembly = assembly.unwrap();
+    let cell = |curvature_per_nm| Cell {
+        assembly: &assembly,
+        state: &assembly.rest,
+        span_nm: [0.0, 36.0],
+        is_monomers: false,
+        curvature_per_nm,
+        twist_per_nm: 0.0,
+        extension: 0.0,
+    };
+    let criterion = Where::Curvature {
+        above_per_nm: 0.02,
+        below_per_nm: 0.01,
+    };
+    let wishes = [0.005, 0.015, 0.025].map(|kappa| criterion.wish(&cell(kappa)));
+    assert_eq!(wishes, [Wish::Rod, Wish::Stay, Wish::Monomers]);
+}
+
+/// A motion that never asks for monomers has none.
+#[test]
+fn without_a_wish_there_are_no_monomers() {
+    let scene = scene(
+        144.0,
+        1.0,
+        "clamps: [Clamp(end: Start)],
+         loads: [EndForce(end: End, force_pn: (-1.0, 0.0, 0.0))],
+         task: Dynamics(duration_ns: 1.0),",
+    );
+    let run = Follower::new(&scene).unwrap().run().unwrap();
+    assert_eq!(run.stretches.len(), 1);
+    let counts = run.stretches[0].stretch.assembly.counts();
+    assert_eq!((counts.monomers, counts.bonds, counts.junctions), (0, 0, 0));
+}
+
+/// Monomers are about the site of a linker, and go with it as it steps.
+#[test]
+fn a_window_follows_a_linker_that_steps() {
+    let text = "Scene(
+        filament: Filament(sections: Following(
+            length_nm: 180.0,
+            monomers_where: [Linker(linker: 0, within_nm: 5.0, beyond_nm: 15.0)],
+            least_ns: 0.2,
+        )),
+        clamps: [Clamp(end: Start)],
+        linkers: [Linker(
+            at_nm: 20.0, displaced_nm: (0.0, 0.0, 10.0), stiffness_pn_per_nm: 0.1, rest_length_nm: 10.0,
+            kinetics: Kinetics(seed: 3, steps: Stepping(rate_per_ns: 3.0, step_nm: 11.0, stall_pn: 50.0)),
+        )],
+        task: Dynamics(duration_ns: 6.0, record_every_ns: 0.1,
+            drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0)),
+    )";
+    let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}"));
+    let run = Follower::new(&scene).unwrap().run();
+    let run = run.unwrap_or_else(|error| panic!("{error}"));
+    assert!(run.stretches.len() >= 3);
+    for ran in &run.stretches {
+        let assembly = &ran.stretch.assembly;
+        // At its own look and those since then it may have gone one step on.
+        let record = &ran.trajectory.records[0];
+        let (_, s_nm) = assembly.switched(0, &record.state).unwrap();
+        let mut sections = assembly.sections.iter().filter(|s| s.is_ellipsoids());
+        assert!(
+            sections.any(|s| s.from_nm - 15.0 <= s_nm && s_nm <= s.to_nm + 15.0),
+            "{s_nm}"
+        );
+        assert!(assembly.counts().monomers < 65);
+    }
+    let first = run.switches().next().unwrap().time_ns;
+    assert!(first < 6.0);
+}
