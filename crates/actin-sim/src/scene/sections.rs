@@ -54,6 +54,18 @@ pub enum Want {
         /// Largest error over the couple; greater than 0, below 1.
         error: f64,
     },
+    /// The elastic energy of the filament, without that of linkers and loads.
+    Energy {
+        /// Largest error over the energy; greater than 0, below 1.
+        error: f64,
+    },
+    /// The size of the force of a linker.
+    LinkerForce {
+        /// Index of the linker in `linkers`, from 0.
+        linker: usize,
+        /// Largest error over the force; greater than 0, below 1.
+        error: f64,
+    },
 }
 
 /// A number that is wanted of an equilibrium.
@@ -68,6 +80,13 @@ pub enum Quantity {
     EndForce,
     /// The couple about the filament as built that the clamp at its end bears (pN nm).
     EndCouple,
+    /// The elastic energy of the filament (pN nm): of its sections and junctions, without linkers and loads.
+    Energy,
+    /// The size of the force of a linker (pN).
+    LinkerForce {
+        /// Index of the linker in `linkers`, from 0.
+        linker: usize,
+    },
 }
 
 impl Quantity {
@@ -75,8 +94,8 @@ impl Quantity {
     pub fn unit(self) -> &'static str {
         match self {
             Self::Tip | Self::Height => "nm",
-            Self::EndForce => "pN",
-            Self::EndCouple => "pN nm",
+            Self::EndForce | Self::LinkerForce { .. } => "pN",
+            Self::EndCouple | Self::Energy => "pN nm",
         }
     }
 }
@@ -84,11 +103,13 @@ impl Quantity {
 impl Want {
     /// What is wanted.
     pub fn quantity(&self) -> Quantity {
-        match self {
+        match *self {
             Self::Tip { .. } => Quantity::Tip,
             Self::Height { .. } => Quantity::Height,
             Self::EndForce { .. } => Quantity::EndForce,
             Self::EndCouple { .. } => Quantity::EndCouple,
+            Self::Energy { .. } => Quantity::Energy,
+            Self::LinkerForce { linker, .. } => Quantity::LinkerForce { linker },
         }
     }
 
@@ -98,7 +119,9 @@ impl Want {
             Self::Tip { error }
             | Self::Height { error }
             | Self::EndForce { error }
-            | Self::EndCouple { error } => error,
+            | Self::EndCouple { error }
+            | Self::Energy { error }
+            | Self::LinkerForce { error, .. } => error,
         }
     }
 }
