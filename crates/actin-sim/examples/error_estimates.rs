@@ -43,7 +43,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             )?;
         }
         for error in [0.05, 0.02, 0.01] {
-            choose(&case, error, length, (truth, seconds))?;
+            choose(&case, (error, None), length, (truth, seconds))?;
+        }
+        for most in [26, 104] {
+            choose(&case, (0.001, Some(most)), length, (truth, seconds))?;
         }
     }
     Ok(())
@@ -81,7 +84,7 @@ fn compare(
 /// One row: the resolution that is chosen for an error, and what it is off by.
 fn choose(
     case: &Case,
-    error: f64,
+    (error, monomers): (f64, Option<usize>),
     length: f64,
     (truth, seconds): (f64, f64),
 ) -> Result<(), Box<dyn std::error::Error>> {
@@ -97,6 +100,7 @@ fn choose(
     scene.filament.sections = Adaptive {
         length_nm: length,
         want,
+        monomers,
     }
     .into();
     let assembly = Assembly::build(&scene)?;
@@ -106,8 +110,9 @@ fn choose(
     let estimated = chosen.estimate.map_or(0.0, |e| 100.0 * e.error / truth);
     let stretches = chosen.monomers_nm.iter();
     let share = stretches.fold(0.0, |sum, [from, to]| sum + to - from);
+    let limit = monomers.map_or_else(String::new, |most| format!(", {most} monomers"));
     println!(
-        "| {} | **{:.0} %**: {}, {:.0} % monomers, segments of {:.0} nm, {} tried | {off:.2} | {estimated:.2} | | | | | {:.1} |",
+        "| {} | **{} %{limit}**: {}, {:.0} % monomers, segments of {:.0} nm, {} tried | {off:.2} | {estimated:.2} | | | | | {:.1} |",
         case.name,
         100.0 * error,
         words(&chosen.monomers_nm),

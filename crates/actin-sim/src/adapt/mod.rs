@@ -13,15 +13,18 @@
 mod adjoint;
 mod axis;
 mod choose;
+mod chosen;
 mod defects;
 mod ideal;
 mod section_loads;
+mod setting;
 mod wall;
 
 #[cfg(test)]
 mod tests;
 
-pub use choose::{Chosen, choose};
+pub use choose::choose;
+pub use chosen::{Chosen, Tried};
 
 use crate::scene::{Equilibrium, Hold, Load, Quantity, Scene, SceneProblem, Section, Slides, Task};
 use crate::{Assembly, End, Plan, RunError};

@@ -28,6 +28,10 @@ pub struct Adaptive {
     pub length_nm: f64,
     /// What is wanted, and how far it may be from the same filament with every monomer resolved.
     pub want: Want,
+    /// Most monomers that may be resolved; at least 13, a period. Where what is wanted needs more, the least estimated
+    /// error of the resolutions tried counts, and the run says so.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub monomers: Option<usize>,
 }
 
 /// A number that is wanted of the equilibrium, with its largest relative error.
@@ -100,6 +104,16 @@ impl Quantity {
     }
 }
 
+/// As a scene writes it.
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LinkerForce { linker } => write!(f, "LinkerForce(linker: {linker})"),
+            other => write!(f, "{other:?}"),
+        }
+    }
+}
+
 impl Want {
     /// What is wanted.
     pub fn quantity(&self) -> Quantity {
@@ -126,9 +140,16 @@ impl Want {
     }
 }
 
+/// The least limit of monomers.
+const FEWEST_MONOMERS: usize = 13;
+
 /// Checks what the sections of a filament are chosen by.
 pub(super) fn check_adaptive(adaptive: &Adaptive) -> Result<(), SceneProblem> {
     positive("filament.sections.length_nm", adaptive.length_nm)?;
+    if let Some(few) = adaptive.monomers.filter(|&most| most < FEWEST_MONOMERS) {
+        let rule = format!("must be at least {FEWEST_MONOMERS}, a period of the helix");
+        return Err(SceneProblem::new("filament.sections.monomers", few, rule));
+    }
     let error = adaptive.want.error();
     if error > 0.0 && error < 1.0 {
         return Ok(());
@@ -191,9 +212,14 @@ impl Serialize for Sections {
         match &self.adaptive {
             None => self.list.serialize(serializer),
             Some(adaptive) => {
-                let mut keys = serializer.serialize_struct_variant("Sections", 0, "Adaptive", 2)?;
+                let count = 2 + usize::from(adaptive.monomers.is_some());
+                let mut keys =
+                    serializer.serialize_struct_variant("Sections", 0, "Adaptive", count)?;
                 keys.serialize_field("length_nm", &adaptive.length_nm)?;
                 keys.serialize_field("want", &adaptive.want)?;
+                if let Some(most) = adaptive.monomers {
+                    keys.serialize_field("monomers", &most)?;
+                }
                 keys.end()
             }
         }
@@ -207,7 +233,7 @@ impl<'de> Deserialize<'de> for Sections {
 }
 
 /// Keys of `Adaptive`, as its text has them.
-const KEYS: &[&str] = &["length_nm", "want"];
+const KEYS: &[&str] = &["length_nm", "want", "monomers"];
 
 struct ListOrAdaptive;
 
@@ -231,7 +257,7 @@ impl<'de> Visitor<'de> for ListOrAdaptive {
 
     /// RON gives the keys of `Adaptive(..)`, a dictionary has them under its name.
     fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<Sections, A::Error> {
-        let (mut length_nm, mut want) = (None, None);
+        let (mut length_nm, mut want, mut monomers) = (None, None, None);
         while let Some(key) = access.next_key::<String>()? {
             match key.as_str() {
                 "Adaptive" => {
@@ -243,6 +269,7 @@ impl<'de> Visitor<'de> for ListOrAdaptive {
                 }
                 "length_nm" => length_nm = Some(access.next_value()?),
                 "want" => want = Some(access.next_value()?),
+                "monomers" => monomers = Some(access.next_value()?),
                 "from_nm" | "to_nm" => {
                     let rule = "is a list of sections, as in [Rod(..)], or Adaptive(..)";
                     return Err(de::Error::custom(rule));
@@ -253,7 +280,12 @@ impl<'de> Visitor<'de> for ListOrAdaptive {
         let missing = |key| move || de::Error::missing_field(key);
         let length_nm = length_nm.ok_or_else(missing("length_nm"))?;
         let want = want.ok_or_else(missing("want"))?;
-        Ok(Adaptive { length_nm, want }.into())
+        let adaptive = Adaptive {
+            length_nm,
+            want,
+            monomers,
+        };
+        Ok(adaptive.into())
     }
 }
 
