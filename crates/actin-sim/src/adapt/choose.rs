@@ -29,7 +29,7 @@ pub fn choose(scene: &Scene, adaptive: &Adaptive) -> Result<(Scene, Chosen), Sce
     check(scene, adaptive.want.quantity())?;
     // A motion may have what an equilibrium cannot.
     at_rest(scene).validate()?;
-    let scene = &with_law(scene);
+    let (scene, written) = (&with_law(scene), &scene.filament.rod);
     let mut search = Search {
         scene,
         adaptive,
@@ -45,6 +45,7 @@ pub fn choose(scene: &Scene, adaptive: &Adaptive) -> Result<(Scene, Chosen), Sce
         most_monomers: adaptive.monomers,
         is_met: estimate.is_none_or(|estimate| search.is_good(&estimate)),
         relative_error: estimate.map_or(0.0, |estimate| estimate.relative()),
+        takes_law: scene.filament.rod != *written,
         monomers: setting.count(scene, search.lengths)?,
         monomers_nm: setting.monomers.clone(),
         segment_nm: setting.segment_nm,
