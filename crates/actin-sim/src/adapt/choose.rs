@@ -140,9 +140,11 @@ impl Search<'_> {
             let is_better = marked != *setting && !marked.is_mostly_monomers(self.lengths);
             return Some(if is_better { marked } else { all });
         }
-        let most = self.adaptive.monomers.unwrap_or(usize::MAX);
-        let window = setting.window((found, most), self.lengths, |more| self.fits(more));
-        self.next.extend(window);
+        if setting.monomers.is_empty() {
+            let most = self.adaptive.monomers.unwrap_or(usize::MAX);
+            let window = setting.window((found, most), self.lengths, |more| self.fits(more));
+            self.next.extend(window);
+        }
         self.next.push(marked);
         self.untried()
     }

@@ -147,7 +147,7 @@ impl Setting {
         marked
     }
 
-    /// The one stretch of at most `most` monomers that leaves least of the error, of as many periods as `fits` allows; none
+    /// Of a rod the one stretch of at most `most` monomers that leaves least of the error, of as many periods as `fits` allows; none
     /// where not even one does.
     pub(super) fn window(
         &self,
