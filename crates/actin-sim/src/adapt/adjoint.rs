@@ -3,9 +3,13 @@
 //! A stretch that is longer, more bent or more twisted by `delta` than its model says moves a tip by
 //! `delta . dw / dF`, with `w` the couple and force that the stretch carries and `F` a force on the tip along its
 //! displacement; it changes what a clamp bears by `-delta . dw / dc`, with `c` the motion of the clamp. Both
-//! derivatives come from one linear solve with the stiffness of the equilibrium. What a linker bears is a number of the
-//! places of its sites, as that of a tip. The energy is one too, whose derivative are the elastic loads themselves; and the
-//! stretch stores another energy at the same strains.
+//! derivatives come from one linear solve with the stiffness of the equilibrium.
+//! The force of a linker depends on the places of its sites, as a displacement does on that of the tip: `F` are the loads
+//! that are its derivative. Those of the elastic energy are the elastic loads with their sign changed; and a stretch that
+//! is strained by more stores another energy at the same strains, which is added.
+//!
+//! The energy is the elastic one, not the potential: the first variation of the potential vanishes, so that no linear solve
+//! would be needed, but it is a number of the loads as much as of the filament.
 
 use super::section_loads::{SectionLoads, elastic_energy, elastic_loads};
 use crate::scene::{Quantity, SceneProblem};

@@ -48,7 +48,8 @@ fn is_too_short(length_nm: f64, rise_nm: f64) -> bool {
 /// How far a number of an equilibrium is from that of the same filament with every monomer resolved.
 ///
 /// To first order in what rods and junctions do wrong. Monomers are those of the mean filament: filaments with drawn
-/// bonds scatter about it. Left out are how the force of a linker or a load enters the monomers about its place, and
+/// bonds scatter about it. Left out are how the force of a linker or a load enters the monomers about its place (a site
+/// follows the nearest monomer, which gives way and turns by itself, or a segment, which does not), and
 /// errors of the second order: those of laws without twist-stretch coupling (`Constant`) may be as large as the first.
 /// A rod that ends between two places of the lattice is longer or shorter than monomers can be; that is no part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
