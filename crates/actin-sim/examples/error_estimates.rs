@@ -43,7 +43,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             )?;
         }
         for error in [0.05, 0.02, 0.01] {
-            choose(&case, error, length, (truth, seconds))?;
+            choose(&case, (error, None), length, (truth, seconds))?;
+        }
+        for most in [26, 104] {
+            choose(&case, (0.001, Some(most)), length, (truth, seconds))?;
         }
     }
     Ok(())
@@ -81,7 +84,7 @@ fn compare(
 /// One row: the resolution that is chosen for an error, and what it is off by.
 fn choose(
     case: &Case,
-    error: f64,
+    (error, monomers): (f64, Option<usize>),
     length: f64,
     (truth, seconds): (f64, f64),
 ) -> Result<(), Box<dyn std::error::Error>> {
@@ -90,11 +93,14 @@ fn choose(
         Quantity::Height => Want::Height { error },
         Quantity::EndForce => Want::EndForce { error },
         Quantity::EndCouple => Want::EndCouple { error },
+        Quantity::Energy => Want::Energy { error },
+        Quantity::LinkerForce { linker } => Want::LinkerForce { linker, error },
     };
     let mut scene = case.scene.clone();
     scene.filament.sections = Adaptive {
         length_nm: length,
         want,
+        monomers,
     }
     .into();
     let assembly = Assembly::build(&scene)?;
@@ -104,8 +110,9 @@ fn choose(
     let estimated = chosen.estimate.map_or(0.0, |e| 100.0 * e.error / truth);
     let stretches = chosen.monomers_nm.iter();
     let share = stretches.fold(0.0, |sum, [from, to]| sum + to - from);
+    let limit = monomers.map_or_else(String::new, |most| format!(", {most} monomers"));
     println!(
-        "| {} | **{:.0} %**: {}, {:.0} % monomers, segments of {:.0} nm, {} tried | {off:.2} | {estimated:.2} | | | | | {:.1} |",
+        "| {} | **{} %{limit}**: {}, {:.0} % monomers, segments of {:.0} nm, {} tried | {off:.2} | {estimated:.2} | | | | | {:.1} |",
         case.name,
         100.0 * error,
         words(&chosen.monomers_nm),
@@ -170,8 +177,8 @@ const RISE_NM: f64 = 71.2 / 26.0;
 type Stretches = &'static [[f64; 2]];
 
 /// Scenes of the trade study, by file.
-const MEASURED: [(&str, &str, Quantity, &[Stretches]); 10] = {
-    use Quantity::{EndCouple, EndForce, Height, Tip};
+const MEASURED: [(&str, &str, Quantity, &[Stretches]); 15] = {
+    use Quantity::{EndCouple, EndForce, Energy, Height, LinkerForce, Tip};
     [
         (
             "tip, 160 nm",
@@ -213,12 +220,44 @@ const MEASURED: [(&str, &str, Quantity, &[Stretches]); 10] = {
         ("height, buckled under", "buckling-under", Height, &[]),
         ("couple, buckled under", "buckling-under", EndCouple, &[]),
         ("force, buckled under", "buckling-under", EndForce, &[]),
+        (
+            "energy, 160 nm",
+            "cantilever-160",
+            Energy,
+            &[&[[0.0, 40.0]], &[[60.0, 100.0]]],
+        ),
+        (
+            "energy, 1600 nm",
+            "cantilever-1600",
+            Energy,
+            &[&[[0.0, 40.0]]],
+        ),
+        ("energy of a twist", "twist", Energy, &[]),
+        (
+            "energy, buckled over",
+            "buckling-over",
+            Energy,
+            &[&[[100.0, 200.0]]],
+        ),
+        (
+            "pull of the linker in the middle",
+            "mid-linker",
+            LinkerForce { linker: 0 },
+            &[&[[67.0, 107.0]]],
+        ),
     ]
 };
 
+/// Held at its start, and pulled aside near its end and halfway.
+const TWO_LINKERS: &str = "clamps: [Clamp(end: Start)],
+    linkers: [
+        Linker(at_nm: 150.0, displaced_nm: (30.0, 0.0, 0.0), stiffness_pn_per_nm: 0.1),
+        Linker(at_nm: 80.0, displaced_nm: (-10.0, 0.0, 0.0), stiffness_pn_per_nm: 0.1),
+    ]";
+
 /// Others: the length in rises, and what holds and loads it.
-const OTHERS: [(&str, f64, &str, Quantity); 5] = {
-    use Quantity::{EndCouple, EndForce, Tip};
+const OTHERS: [(&str, f64, &str, Quantity); 9] = {
+    use Quantity::{EndCouple, EndForce, Energy, LinkerForce, Tip};
     [
         (
             "tip under tension, 300 nm",
@@ -252,6 +291,32 @@ const OTHERS: [(&str, f64, &str, Quantity); 5] = {
             5842.5,
             "clamps: [Clamp(end: Start)], loads: [EndForce(end: End, force_pn: (-0.0002, 0.0, 0.0))]",
             Tip,
+        ),
+        (
+            "energy of a stretch, 200 nm",
+            73.0,
+            "clamps: [Clamp(end: Start), Clamp(end: End)],
+            path: [Stage(set: [Shift(end: End, shift_nm: (5.0, 0.0, 0.5))])]",
+            Energy,
+        ),
+        (
+            "pull near the end, 160 nm",
+            58.5,
+            TWO_LINKERS,
+            LinkerForce { linker: 0 },
+        ),
+        (
+            "pull halfway, 160 nm",
+            58.5,
+            TWO_LINKERS,
+            LinkerForce { linker: 1 },
+        ),
+        (
+            "pull between two ends, 200 nm",
+            73.0,
+            "clamps: [Clamp(end: Start), Clamp(end: End)],
+            linkers: [Linker(at_nm: 99.9, displaced_nm: (10.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0)]",
+            LinkerForce { linker: 0 },
         ),
     ]
 };

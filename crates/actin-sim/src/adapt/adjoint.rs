@@ -4,11 +4,18 @@
 //! `delta . dw / dF`, with `w` the couple and force that the stretch carries and `F` a force on the tip along its
 //! displacement; it changes what a clamp bears by `-delta . dw / dc`, with `c` the motion of the clamp. Both
 //! derivatives come from one linear solve with the stiffness of the equilibrium.
+//! The force of a linker depends on the places of its sites, as a displacement does on that of the tip: `F` are the loads
+//! that are its derivative. Those of the elastic energy are the elastic loads with their sign changed; and a stretch that
+//! is strained by more stores another energy at the same strains, which is added.
+//!
+//! The energy is the elastic one, not the potential: the first variation of the potential vanishes, so that no linear solve
+//! would be needed, but it is a number of the loads as much as of the filament.
 
-use super::section_loads::SectionLoads;
+use super::section_loads::{SectionLoads, elastic_energy, elastic_loads};
 use crate::scene::{Quantity, SceneProblem};
 use crate::shape::Ribbon;
 use crate::{Assembly, End};
+use actin_coupling::{Linker, LinkerEnd, Site};
 use actin_ellipsoid::SixVector;
 use actin_equilibrium::ImplicitSolver;
 use actin_mechanics::{
@@ -30,6 +37,10 @@ enum Goal {
     Height,
     /// What the clamp at the end bears along and about the filament.
     Clamp { along: Vector3, about: Vector3 },
+    /// The elastic energy.
+    Energy,
+    /// The force of a linker along a direction.
+    Linker { linker: usize, along: Vector3 },
 }
 
 impl Goal {
@@ -50,6 +61,12 @@ impl Goal {
                 along: zero,
                 about: axis,
             },
+            Quantity::Energy => Self::Energy,
+            Quantity::LinkerForce { linker } => {
+                let force = assembly.linkers[linker].force(state);
+                let along = force.try_normalize(0.0).unwrap_or_else(Vector3::x);
+                Self::Linker { linker, along }
+            }
         }
     }
 
@@ -62,6 +79,8 @@ impl Goal {
                 let reaction = clamp.reaction(state, &all_loads(assembly, state));
                 reaction.force_pn.dot(along) + reaction.torque_pn_nm.dot(about)
             }
+            Self::Energy => elastic_energy(assembly, state),
+            Self::Linker { linker, along } => assembly.linkers[*linker].force(state).dot(along),
         }
     }
 
@@ -70,7 +89,8 @@ impl Goal {
         match self {
             Self::Tip(_) => (assembly.tip_points(End::End).to_vec(), Vec::new()),
             Self::Height => about_the_top(assembly, state),
-            Self::Clamp { .. } => (Vec::new(), Vec::new()),
+            Self::Linker { linker, .. } => at_the_sites(&assembly.linkers[*linker]),
+            Self::Clamp { .. } | Self::Energy => (Vec::new(), Vec::new()),
         }
     }
 }
@@ -85,6 +105,17 @@ fn all_loads(assembly: &Assembly, state: &State) -> Loads {
         interaction.add_loads(state, &mut loads);
     }
     loads
+}
+
+/// The bodies that the sites of a linker follow.
+fn at_the_sites(linker: &Linker) -> (Vec<usize>, Vec<usize>) {
+    let other = match linker.end() {
+        LinkerEnd::Anchor(_) => None,
+        LinkerEnd::Site(site) => Some(site),
+    };
+    let sites = [linker.site()].into_iter().chain(other);
+    let points = sites.clone().flat_map(Site::shares).map(|&(i, _)| i);
+    (points.collect(), sites.map(Site::frame).collect())
 }
 
 /// The bodies about the vertex that is furthest from the axis.
@@ -125,6 +156,7 @@ pub(super) struct Adjoint {
     /// Of the parameter that the loads are differentiated by.
     step: f64,
     sign: f64,
+    is_energy: bool,
 }
 
 impl Adjoint {
@@ -138,17 +170,7 @@ impl Adjoint {
         state: &State,
     ) -> Result<Self, SceneProblem> {
         let goal = Goal::of(quantity, assembly, state);
-        let loads = match goal {
-            Goal::Tip(_) | Goal::Height => gradient(&goal, assembly, state),
-            Goal::Clamp { along, about } => {
-                let ahead = all_loads(
-                    assembly,
-                    &moved_end(assembly, state, along, about * STEP, STEP),
-                );
-                let behind = moved_end(assembly, state, along, about * -STEP, -STEP);
-                scaled(&ahead, &all_loads(assembly, &behind), (2.0 * STEP).recip())
-            }
-        };
+        let loads = conjugate(&goal, assembly, state);
         let mut solver = factorised(assembly, state)?;
         let extent = solver.advance(&mut state.clone(), &loads, f64::INFINITY);
         let is_clamp = matches!(goal, Goal::Clamp { .. });
@@ -175,6 +197,7 @@ impl Adjoint {
             behind: at(-step),
             step,
             sign: if is_clamp { -1.0 } else { 1.0 },
+            is_energy: matches!(goal, Goal::Energy),
         })
     }
 
@@ -187,6 +210,13 @@ impl Adjoint {
     /// body axes: per turn, then per displacement.
     pub(super) fn weight(&self, s_nm: f64) -> SixVector {
         (self.ahead.at(s_nm) - self.behind.at(s_nm)) * (self.sign / (2.0 * self.step))
+    }
+
+    /// The change of the number where a stretch at an arc length (nm) is strained by `defect` beyond its model under the
+    /// same loads, and stores `stored` (pN nm) beyond it at the same strains.
+    pub(super) fn change(&self, s_nm: f64, defect: &SixVector, stored: f64) -> f64 {
+        let by_loads = defect.dot(&self.weight(s_nm));
+        by_loads + if self.is_energy { stored } else { 0.0 }
     }
 }
 
@@ -243,6 +273,21 @@ fn moved_end(
             .set(i, turn * state.frames.orientation.get(i));
     }
     moved
+}
+
+/// The loads whose displacements are what loads in the filament are differentiated along.
+fn conjugate(goal: &Goal, assembly: &Assembly, state: &State) -> Loads {
+    match *goal {
+        Goal::Energy => scaled(&Loads::zeros(state), &elastic_loads(assembly, state), 1.0),
+        Goal::Tip(_) | Goal::Height | Goal::Linker { .. } => gradient(goal, assembly, state),
+        Goal::Clamp { along, about } => {
+            let moved = |step: f64| {
+                let moved = moved_end(assembly, state, along, about * step, step);
+                all_loads(assembly, &moved)
+            };
+            scaled(&moved(STEP), &moved(-STEP), (2.0 * STEP).recip())
+        }
+    }
 }
 
 /// Derivative of a goal by the places of bodies, as loads.

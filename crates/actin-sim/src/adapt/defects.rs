@@ -3,7 +3,7 @@
 use super::adjoint::Adjoint;
 use super::ideal::{Ideal, MeanFilament, PERIOD};
 use super::section_loads::{SectionLoads, Segment, linear, rotational, segments, six};
-use crate::assembly::BodyKind;
+use crate::assembly::{BodyKind, Rod};
 use crate::shape::axis::CrossSection;
 use crate::{Assembly, SectionSpan};
 use actin_ellipsoid::SixVector;
@@ -36,30 +36,33 @@ impl Look<'_> {
     /// What the law of a rod makes of each segment, against monomers under the same couple and force.
     ///
     /// Cells are relaxed where most of the wanted number comes from. None where one finds no minimum.
-    pub(super) fn law(&self, rod: &SectionSpan) -> Option<Vec<Contribution>> {
-        let all = segments(self.assembly, self.state, rod);
+    pub(super) fn law(&self, rod: &Rod) -> Option<Vec<Contribution>> {
+        let span = &self.assembly.sections[rod.section];
+        let all = segments(self.assembly, self.state, span);
         let share = |segment: &Segment| {
             let weight = self.adjoint.weight(segment.s_nm);
             let strain = segment.strain.component_mul(&weight);
             segment.length_nm * strain.abs().sum()
         };
         let shares: Vec<f64> = all.iter().map(share).collect();
-        let mut known: Vec<(f64, SixVector)> = Vec::new();
+        let mut known: Vec<(f64, (SixVector, f64))> = Vec::new();
         let mut last = None;
         for i in sampled(&shares, SAMPLES) {
             let segment = &all[i];
-            let response = self
-                .mean
-                .under(&self.loads.at(segment.s_nm), last.as_ref())?;
-            known.push((segment.s_nm, response.strain - segment.strain));
+            let load = self.loads.at(segment.s_nm);
+            let response = self.mean.under(&load, last.as_ref())?;
+            let defect = response.strain - segment.strain;
+            let more = response.energy - energy_of(rod, &segment.strain);
+            known.push((segment.s_nm, (defect, more - load.dot(&defect))));
             last = Some(response);
         }
         let part = |segment: &Segment| {
-            let defect = interpolated(&known, segment.s_nm);
+            let (defect, stored) = interpolated(&known, segment.s_nm);
+            let of_length = self.adjoint.change(segment.s_nm, &defect, stored);
             let half = 0.5 * segment.length_nm;
             Contribution {
                 span_nm: [segment.s_nm - half, segment.s_nm + half],
-                error: segment.length_nm * defect.dot(&self.adjoint.weight(segment.s_nm)),
+                error: segment.length_nm * of_length,
             }
         };
         Some(all.iter().map(part).collect())
@@ -103,8 +106,15 @@ impl Look<'_> {
         let defect = six(body * (all.0 - law.0), body * (all.1 - law.1)) * out;
         Some(Contribution {
             span_nm: [from.min(to), from.max(to)],
-            error: defect.dot(&self.adjoint.weight(to)),
+            error: self.of_defect(&defect, to),
         })
+    }
+
+    /// What a turn and displacement in all (body axes) at a cross-section makes of the number. A wall or a
+    /// junction stores as a linear law does: half of what loads do along them.
+    pub(super) fn of_defect(&self, defect: &SixVector, s_nm: f64) -> f64 {
+        let stored = -0.5 * defect.dot(&self.loads.at(s_nm));
+        self.adjoint.change(s_nm, defect, stored)
     }
 
     fn node_near(&self, rod: &SectionSpan, s_nm: f64) -> f64 {
@@ -112,6 +122,12 @@ impl Look<'_> {
         let nearest = nodes.min_by(|a, b| (a - s_nm).abs().total_cmp(&(b - s_nm).abs()));
         nearest.unwrap_or(s_nm)
     }
+}
+
+/// Energy per length (pN) of a rod at a strain (body axes).
+fn energy_of(rod: &Rod, strain: &SixVector) -> f64 {
+    let (material, law) = &rod.law;
+    law.uniform_energy(material, linear(strain), rotational(strain))
 }
 
 /// By how much more an ideal stretch turns and moves the cross-section at `to` than the segments of a rod do from
@@ -204,7 +220,7 @@ fn sampled(shares: &[f64], n: usize) -> Vec<usize> {
 }
 
 /// Linear between the two known values about a place.
-fn interpolated(known: &[(f64, SixVector)], s_nm: f64) -> SixVector {
+fn interpolated(known: &[(f64, (SixVector, f64))], s_nm: f64) -> (SixVector, f64) {
     if known.len() == 1 {
         return known[0].1;
     }
@@ -213,7 +229,11 @@ fn interpolated(known: &[(f64, SixVector)], s_nm: f64) -> SixVector {
         .clamp(1, known.len() - 1);
     let (a, b) = (&known[after - 1], &known[after]);
     let t = ((s_nm - a.0) / (b.0 - a.0)).clamp(0.0, 1.0);
-    a.1 * (1.0 - t) + b.1 * t
+    let ((defect_a, stored_a), (defect_b, stored_b)) = (a.1, b.1);
+    (
+        defect_a * (1.0 - t) + defect_b * t,
+        stored_a * (1.0 - t) + stored_b * t,
+    )
 }
 
 #[cfg(test)]

@@ -12,12 +12,18 @@
 
 mod adjoint;
 mod choose;
+mod chosen;
 mod defects;
 mod ideal;
 mod section_loads;
+mod setting;
 mod wall;
 
-pub use choose::{Chosen, choose};
+#[cfg(test)]
+mod tests;
+
+pub use choose::choose;
+pub use chosen::{Chosen, Tried};
 
 use crate::scene::{Equilibrium, Hold, Load, Quantity, Scene, SceneProblem, Section, Slides, Task};
 use crate::{Assembly, End, Plan, RunError};
@@ -41,14 +47,15 @@ fn is_too_short(length_nm: f64, rise_nm: f64) -> bool {
 /// How far a number of an equilibrium is from that of the same filament with every monomer resolved.
 ///
 /// To first order in what rods and junctions do wrong. Monomers are those of the mean filament: filaments with drawn
-/// bonds scatter about it. Left out are how the force of a linker or a load enters the monomers about its place, and
+/// bonds scatter about it. Left out are how the force of a linker or a load enters the monomers about its place (a site
+/// follows the nearest monomer, which gives way and turns by itself, or a segment, which does not), and
 /// errors of the second order: those of laws without twist-stretch coupling (`Constant`) may be as large as the first.
 /// A rod that ends between two places of the lattice is longer or shorter than monomers can be; that is no part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorEstimate {
     /// Of what.
     pub quantity: Quantity,
-    /// Its value (nm, pN or pN nm).
+    /// Its value, in its [unit](Quantity::unit).
     pub value: f64,
     /// What is to be added to it: the sum of the parts.
     pub error: f64,
@@ -136,8 +143,7 @@ fn located(
         mean: &MeanFilament::of(assembly.monomers_of(0))?,
     };
     let mut parts = Vec::new();
-    let rods = assembly.sections_of(0).iter();
-    for rod in rods.filter(|section| !section.is_ellipsoids()) {
+    for rod in &assembly.rods {
         parts.extend(look.law(rod).ok_or_else(wall::no_cell)?);
     }
     let law = sum(&parts);
@@ -260,7 +266,7 @@ pub(crate) fn left_out(scene: &Scene) -> Option<&'static str> {
 pub(crate) fn check(scene: &Scene, quantity: Quantity) -> Result<(), SceneProblem> {
     let of_scene =
         unknown(scene).map(|(key, rule)| (key, format!("errors are not known of {rule}")));
-    let of_quantity = missing(scene, quantity).map(|rule| ("clamps", rule.to_owned()));
+    let of_quantity = missing(scene, quantity);
     match of_scene.or(of_quantity) {
         Some((key, rule)) => Err(SceneProblem::new(key, "", rule)),
         None => Ok(()),
@@ -287,19 +293,27 @@ fn unknown(scene: &Scene) -> Option<(&'static str, &'static str)> {
     }
 }
 
-/// Why a scene does not have a quantity.
-fn missing(scene: &Scene, quantity: Quantity) -> Option<&'static str> {
+/// Why a scene does not have a quantity, with the key that is to blame.
+fn missing(scene: &Scene, quantity: Quantity) -> Option<(&'static str, String)> {
+    if let Quantity::LinkerForce { linker } = quantity {
+        let rule = || {
+            format!(
+                "the force of linker {linker} is wanted, of {}",
+                scene.linkers.len()
+            )
+        };
+        return (linker >= scene.linkers.len()).then(|| ("linkers", rule()));
+    }
     let clamp = scene.clamps.iter().find(|clamp| clamp.end == End::End);
-    match (quantity, clamp.map(|clamp| clamp.slides)) {
-        (Quantity::Tip, Some(Slides::Nowhere)) => {
-            Some("the tip at the end is wanted, but it is clamped")
-        }
+    let rule = match (quantity, clamp.map(|clamp| clamp.slides)) {
+        (Quantity::Tip, Some(Slides::Nowhere)) => "the tip at the end is wanted, but it is clamped",
         (Quantity::EndForce | Quantity::EndCouple, None) => {
-            Some("what the end bears is wanted, but it is free")
+            "what the end bears is wanted, but it is free"
         }
         (Quantity::EndForce, Some(Slides::AlongAxis | Slides::Freely)) => {
-            Some("the force on the end is wanted, along which it slides")
+            "the force on the end is wanted, along which it slides"
         }
-        _ => None,
-    }
+        _ => return None,
+    };
+    Some(("clamps", rule.to_owned()))
 }

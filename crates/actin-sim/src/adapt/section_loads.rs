@@ -5,7 +5,7 @@ use crate::shape::Ribbon;
 use crate::shape::axis::{Axis, CrossSection};
 use crate::{Assembly, SectionSpan};
 use actin_ellipsoid::SixVector;
-use actin_mechanics::{Loads, State, Vector3};
+use actin_mechanics::{Interaction, Loads, State, Vector3};
 use std::ops::Range;
 
 /// Couple and force (or curvature and shear strain) as six numbers.
@@ -24,6 +24,25 @@ pub(super) fn linear(v: &SixVector) -> Vector3 {
     Vector3::new(v[3], v[4], v[5])
 }
 
+/// What is elastic of a filament: its sections and junctions.
+pub(super) fn elastic(assembly: &Assembly) -> impl Iterator<Item = &dyn Interaction> {
+    let all = assembly.system.interactions().iter().zip(&assembly.terms);
+    all.filter(|(_, term)| matches!(term.part, Part::Section(_) | Part::Junction(_)))
+        .map(|(interaction, _)| &**interaction)
+}
+
+/// The energy of what is elastic (pN nm).
+pub(super) fn elastic_energy(assembly: &Assembly, state: &State) -> f64 {
+    elastic(assembly).map(|part| part.energy(state)).sum()
+}
+
+/// What it exerts on every body.
+pub(super) fn elastic_loads(assembly: &Assembly, state: &State) -> Loads {
+    let mut loads = Loads::zeros(state);
+    elastic(assembly).for_each(|part| part.add_loads(state, &mut loads));
+    loads
+}
+
 /// A body's arc length (nm), the force on it and the moment of what acts on it about the lab origin.
 type BodyLoad = (f64, Vector3, Vector3);
 
@@ -38,13 +57,7 @@ pub(super) struct SectionLoads {
 
 impl SectionLoads {
     pub(super) fn of(assembly: &Assembly, state: &State) -> Self {
-        let mut loads = Loads::zeros(state);
-        let interactions = assembly.system.interactions().iter();
-        for (interaction, term) in interactions.zip(&assembly.terms) {
-            if matches!(term.part, Part::Section(_) | Part::Junction(_)) {
-                interaction.add_loads(state, &mut loads);
-            }
-        }
+        let loads = elastic_loads(assembly, state);
         let points = assembly.filaments[0].points.clone().map(|i| {
             let force = loads.force.get(i);
             let moment = state.points.position.get(i).cross(&force);

@@ -2,7 +2,7 @@
 
 use super::defects::{Contribution, Look, mean_motion, of_law};
 use super::ideal::{Ideal, mean_monomers};
-use super::section_loads::{SectionLoads, linear, six};
+use super::section_loads::{SectionLoads, elastic_energy, linear, six};
 use crate::advice::segments_of;
 use crate::scene::{
     Clamp, Equilibrium, Filament, Hold, Load, Scene, SceneProblem, Section, Slides, Task,
@@ -106,7 +106,7 @@ impl Look<'_> {
         let to = s_nm + wall.out * wall.compared_nm;
         Ok(Contribution {
             span_nm: [s_nm.min(to), s_nm.max(to)],
-            error: defect.dot(&self.adjoint.weight(to)),
+            error: self.of_defect(&defect, to),
         })
     }
 
@@ -214,21 +214,6 @@ impl Look<'_> {
         }
     }
 
-    /// Energy of sections and junctions (pN nm).
-    fn elastic_energy(&self) -> f64 {
-        let interactions = self.assembly.system.interactions().iter();
-        let parts = interactions.zip(&self.assembly.terms);
-        parts
-            .filter(|(_, term)| {
-                matches!(
-                    term.part,
-                    crate::Part::Section(_) | crate::Part::Junction(_)
-                )
-            })
-            .map(|(interaction, _)| interaction.energy(self.state))
-            .sum()
-    }
-
     /// Whether all free bodies may be rolled about the axis, each turned back about its own, for nothing.
     pub(super) fn is_free_to_roll(&self) -> bool {
         let span = &self.assembly.filaments[0];
@@ -248,7 +233,7 @@ impl Look<'_> {
             all.map(|interaction| interaction.energy(state)).sum()
         };
         let (most, share) = FREE;
-        let limit = most.min(share * self.elastic_energy());
+        let limit = most.min(share * elastic_energy(self.assembly, self.state));
         (energy(&rolled) - energy(self.state)).abs() < limit
     }
 }

@@ -123,6 +123,16 @@ pub(crate) fn cells_nm(
     Ok(boundaries)
 }
 
+/// Monomers of filament 0 as its sections resolve it, held ones included.
+pub(crate) fn count_monomers(scene: &Scene) -> Result<usize, SceneProblem> {
+    let held = HeldEnds::of(scene);
+    let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
+    let sections = resolve(&scene.filament, is_held)?;
+    let counts = sections.iter().filter_map(|section| section.monomers);
+    let counts = counts.map(|(first, last)| usize::try_from(last - first + 1).unwrap_or_default());
+    Ok(counts.sum())
+}
+
 /// Refuses a boundary that more monomers reach than are told apart.
 fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), SceneProblem> {
     let sections = &filament.sections;

@@ -107,6 +107,12 @@ impl Law {
         })
     }
 
+    /// The material, and what couples strains of it.
+    pub(super) fn of_strains(&self) -> (RodMaterial, SegmentLaw) {
+        let coupled = SegmentLaw::of(&self.material, self.twist_stretch);
+        (self.material, coupled.unwrap_or_default())
+    }
+
     /// How far the data behind the laws reach.
     pub(super) fn ranges(&self) -> Ranges {
         Ranges::of(&self.material, self.twist_stretch.as_ref())

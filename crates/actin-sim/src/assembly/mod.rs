@@ -31,7 +31,7 @@ pub use bonded::JunctionBond;
 pub use drive::Drive;
 pub(crate) use kinetics::{COARSEST, Kinetics, Log};
 pub use kinetics::{Happening, LinkerEvent};
-pub(crate) use lattice::{cells_nm, whole_length_nm};
+pub(crate) use lattice::{cells_nm, count_monomers, whole_length_nm};
 pub(crate) use models::ellipsoids;
 pub(crate) use parts::Rod;
 pub use parts::{

@@ -3,7 +3,7 @@
 use super::built::Built;
 use super::{Ranges, TwistWatch};
 use crate::scene::End;
-use actin_cosserat::{JoinedElement, RodLayout};
+use actin_cosserat::{JoinedElement, RodLayout, RodMaterial, SegmentLaw};
 use actin_mechanics::{UnitQuaternion, Vector3};
 use std::ops::Range;
 
@@ -144,8 +144,10 @@ impl FilamentSpan {
 pub(crate) struct Rod {
     /// Index of its section.
     pub section: usize,
-    /// What it is made of.
+    /// Its nodes and segments.
     pub layout: RodLayout,
+    /// What it is made of, and what couples its strains.
+    pub law: (RodMaterial, SegmentLaw),
     /// How far these data reach.
     pub ranges: Ranges,
     /// The elements that join its start and its end to the frames of junctions.

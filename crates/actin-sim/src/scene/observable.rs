@@ -244,7 +244,8 @@ impl Observable {
     }
 }
 
-fn check_linker(scene: &Scene, key: &str, linker: usize) -> Result<(), SceneProblem> {
+/// Whether a scene has a linker of this index.
+pub(crate) fn check_linker(scene: &Scene, key: &str, linker: usize) -> Result<(), SceneProblem> {
     let rule = match scene.linkers.len() {
         count if linker < count => return Ok(()),
         0 => "the scene has no linkers".to_owned(),

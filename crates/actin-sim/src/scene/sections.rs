@@ -32,10 +32,15 @@ enum Left {
 #[serde(deny_unknown_fields)]
 pub struct Adaptive {
     /// Length of the filament; positive. It is rounded to whole monomers.
-    /// Where every parameter of the `rod` is its default, the rod is under `Homogenised`.
+    /// Where every parameter of the `rod` is its default, written or not, the rod is under `Homogenised`, and a note says
+    /// so.
     pub length_nm: f64,
     /// What is wanted, and how far it may be from the same filament with every monomer resolved.
     pub want: Want,
+    /// Most monomers that may be resolved; at least 13, a period. Where what is wanted needs more, the least estimated
+    /// error of the resolutions tried counts, and the run says so.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub monomers: Option<usize>,
 }
 
 /// A number that is wanted of the equilibrium, with its largest relative error.
@@ -62,6 +67,18 @@ pub enum Want {
         /// Largest error over the couple; greater than 0, below 1.
         error: f64,
     },
+    /// The elastic energy of the filament, without that of linkers and loads.
+    Energy {
+        /// Largest error over the energy; greater than 0, below 1.
+        error: f64,
+    },
+    /// The size of the force of a linker.
+    LinkerForce {
+        /// Index of the linker in `linkers`, from 0.
+        linker: usize,
+        /// Largest error over the force; greater than 0, below 1.
+        error: f64,
+    },
 }
 
 /// A number that is wanted of an equilibrium.
@@ -76,6 +93,13 @@ pub enum Quantity {
     EndForce,
     /// The couple about the filament as built that the clamp at its end bears (pN nm).
     EndCouple,
+    /// The elastic energy of the filament (pN nm): of its sections and junctions, without linkers and loads.
+    Energy,
+    /// The size of the force of a linker (pN).
+    LinkerForce {
+        /// Index of the linker in `linkers`, from 0.
+        linker: usize,
+    },
 }
 
 impl Quantity {
@@ -83,8 +107,18 @@ impl Quantity {
     pub fn unit(self) -> &'static str {
         match self {
             Self::Tip | Self::Height => "nm",
-            Self::EndForce => "pN",
-            Self::EndCouple => "pN nm",
+            Self::EndForce | Self::LinkerForce { .. } => "pN",
+            Self::EndCouple | Self::Energy => "pN nm",
+        }
+    }
+}
+
+/// As a scene writes it.
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LinkerForce { linker } => write!(f, "LinkerForce(linker: {linker})"),
+            other => write!(f, "{other:?}"),
         }
     }
 }
@@ -92,11 +126,13 @@ impl Quantity {
 impl Want {
     /// What is wanted.
     pub fn quantity(&self) -> Quantity {
-        match self {
+        match *self {
             Self::Tip { .. } => Quantity::Tip,
             Self::Height { .. } => Quantity::Height,
             Self::EndForce { .. } => Quantity::EndForce,
             Self::EndCouple { .. } => Quantity::EndCouple,
+            Self::Energy { .. } => Quantity::Energy,
+            Self::LinkerForce { linker, .. } => Quantity::LinkerForce { linker },
         }
     }
 
@@ -106,14 +142,23 @@ impl Want {
             Self::Tip { error }
             | Self::Height { error }
             | Self::EndForce { error }
-            | Self::EndCouple { error } => error,
+            | Self::EndCouple { error }
+            | Self::Energy { error }
+            | Self::LinkerForce { error, .. } => error,
         }
     }
 }
 
+/// The least limit of monomers.
+const FEWEST_MONOMERS: usize = 13;
+
 /// Checks what the sections of a filament are chosen by.
 pub(super) fn check_adaptive(adaptive: &Adaptive) -> Result<(), SceneProblem> {
     positive("filament.sections.length_nm", adaptive.length_nm)?;
+    if let Some(few) = adaptive.monomers.filter(|&most| most < FEWEST_MONOMERS) {
+        let rule = format!("must be at least {FEWEST_MONOMERS}, a period of the helix");
+        return Err(SceneProblem::new("filament.sections.monomers", few, rule));
+    }
     let error = adaptive.want.error();
     if error > 0.0 && error < 1.0 {
         return Ok(());
@@ -203,9 +248,14 @@ impl Serialize for Sections {
         match &self.left {
             None => self.list.serialize(serializer),
             Some(Left::Adaptive(adaptive)) => {
-                let mut keys = serializer.serialize_struct_variant("Sections", 0, "Adaptive", 2)?;
+                let count = 2 + usize::from(adaptive.monomers.is_some());
+                let mut keys =
+                    serializer.serialize_struct_variant("Sections", 0, "Adaptive", count)?;
                 keys.serialize_field("length_nm", &adaptive.length_nm)?;
                 keys.serialize_field("want", &adaptive.want)?;
+                if let Some(most) = adaptive.monomers {
+                    keys.serialize_field("monomers", &most)?;
+                }
                 keys.end()
             }
             Some(Left::Following(following)) => {
@@ -232,6 +282,7 @@ impl<'de> Deserialize<'de> for Sections {
 const KEYS: &[&str] = &[
     "length_nm",
     "want",
+    "monomers",
     "monomers_where",
     "cell_nm",
     "segments",
@@ -243,6 +294,7 @@ const KEYS: &[&str] = &[
 struct Keys {
     length_nm: Option<f64>,
     want: Option<Want>,
+    monomers: Option<usize>,
     monomers_where: Option<Vec<Where>>,
     cell_nm: Option<f64>,
     segments: Option<usize>,
@@ -254,6 +306,7 @@ impl Keys {
         match key {
             "length_nm" => self.length_nm = Some(access.next_value()?),
             "want" => self.want = Some(access.next_value()?),
+            "monomers" => self.monomers = Some(access.next_value()?),
             "monomers_where" => self.monomers_where = Some(access.next_value()?),
             "cell_nm" => self.cell_nm = Some(access.next_value()?),
             "segments" => self.segments = Some(access.next_value()?),
@@ -277,10 +330,17 @@ impl Keys {
                 return Err(E::missing_field("monomers_where"));
             }
             let want = self.want.ok_or_else(missing("want"))?;
-            return Ok(Adaptive { length_nm, want }.into());
+            let monomers = self.monomers;
+            return Ok(Adaptive {
+                length_nm,
+                want,
+                monomers,
+            }
+            .into());
         };
-        if self.want.is_some() {
-            let rule = "has `want` of Adaptive(..) and `monomers_where` of Following(..)";
+        if self.want.is_some() || self.monomers.is_some() {
+            let rule =
+                "has `want` or `monomers` of Adaptive(..) and `monomers_where` of Following(..)";
             return Err(E::custom(rule));
         }
         let mut following = Following::new(length_nm, monomers_where);

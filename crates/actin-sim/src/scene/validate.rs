@@ -6,9 +6,10 @@ use super::rules::{
 };
 use super::support::{check_support, check_swings};
 use super::{
-    Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Resultant, Scene,
-    SceneProblem, Slides, StopTolerances, Task, brownian, drag, imperfection, kinetics, linker,
-    load_rules, magnitude, observable, repulsion, saddles, section_rules, shape, stage, thermal,
+    Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Quantity, Resultant,
+    Scene, SceneProblem, Slides, StopTolerances, Task, brownian, drag, imperfection, kinetics,
+    linker, load_rules, magnitude, observable, repulsion, saddles, section_rules, shape, stage,
+    thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 
@@ -84,7 +85,7 @@ fn filaments(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
 /// The rules between parts of a scene that are sound each.
 fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
     for adaptive in scene.filaments().filter_map(|f| f.sections.adaptive()) {
-        crate::adapt::check(scene, adaptive.want.quantity())?;
+        check_wanted(scene, "filament.sections.want", adaptive.want.quantity())?;
     }
     for following in scene.filaments().filter_map(|f| f.sections.following()) {
         check_following(scene, following)?;
@@ -111,7 +112,7 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
         }
         Task::Equilibrium(equilibrium) => {
             if let Some(quantity) = equilibrium.error_of {
-                crate::adapt::check(scene, quantity)?;
+                check_wanted(scene, "task.error_of", quantity)?;
             }
             for (i, one) in scene.filaments().enumerate() {
                 check_potential(one).map_err(|p| p.with_filament(&scene.filament_key(i)))?;
@@ -122,6 +123,14 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
             check_tolerance(scene, "task", tolerances)
         }
     }
+}
+
+/// Whether the scene has a quantity that `key` names, and its error is known.
+fn check_wanted(scene: &Scene, key: &str, quantity: Quantity) -> Result<(), SceneProblem> {
+    if let Quantity::LinkerForce { linker } = quantity {
+        observable::check_linker(scene, &format!("{key}.linker"), linker)?;
+    }
+    crate::adapt::check(scene, quantity)
 }
 
 fn check_place(filament: &Filament) -> Result<(), SceneProblem> {

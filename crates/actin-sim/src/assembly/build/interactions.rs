@@ -71,6 +71,7 @@ impl Strand<'_> {
         Rod {
             section: self.first_section + i,
             layout: layout.clone(),
+            law: self.laws[i].of_strains(),
             ranges: self.laws[i].ranges(),
             joined: around.joined.clone(),
             twist_watch: self.laws[i].twist_watch(layout, around),

@@ -1,0 +1,99 @@
+//! What was chosen, and what is said of it.
+
+use super::ErrorEstimate;
+use crate::scene::Quantity;
+use serde::{Deserialize, Serialize};
+
+/// What was chosen, and why.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Chosen {
+    /// What was wanted.
+    pub quantity: Quantity,
+    /// Its largest relative error.
+    pub wanted_error: f64,
+    /// The most monomers that were allowed; none without a limit.
+    pub most_monomers: Option<usize>,
+    /// Whether the wanted error is met, also where each part of the estimate is a fifth off. Always so without a limit.
+    pub is_met: bool,
+    /// Estimated error over the corrected value; 0 where every monomer is resolved.
+    pub relative_error: f64,
+    /// Whether rods are under `Homogenised` since every parameter of `rod` is its default, written or not.
+    pub takes_law: bool,
+    /// Monomers that are resolved.
+    pub monomers: usize,
+    /// Where monomers are resolved (nm of arc length).
+    pub monomers_nm: Vec<[f64; 2]>,
+    /// Length of segments (nm), as nearly as whole ones allow.
+    pub segment_nm: f64,
+    /// The error that is left; none where every monomer is resolved.
+    pub estimate: Option<ErrorEstimate>,
+    /// Resolutions that were tried, and the estimated relative error of each.
+    pub tried: Vec<Tried>,
+    /// Time that the choice took (s).
+    pub wall_s: f64,
+}
+
+impl Chosen {
+    /// The choice in a sentence or two.
+    pub(crate) fn note(&self) -> String {
+        let limit = self
+            .most_monomers
+            .map_or_else(String::new, |most| format!(" with at most {most} monomers"));
+        let left = self.estimate.map_or_else(String::new, |estimate| {
+            let percent = 100.0 * estimate.relative();
+            let corrected = estimate.corrected();
+            let unit = self.quantity.unit();
+            format!(
+                ". It is {:.5} {unit} in the equilibrium at rest, {corrected:.5} with its estimated error of {percent:.2} %",
+                estimate.value
+            )
+        });
+        let missed = if self.is_met {
+            String::new()
+        } else {
+            format!(
+                ". What is wanted is not met within so many monomers; of {} resolutions tried this one has the least \
+                 estimated error",
+                self.tried.len()
+            )
+        };
+        let law = if self.takes_law && self.estimate.is_some() {
+            ". Rods are under Homogenised, as every parameter of rod is its default; another law is kept, and Constant \
+             where its rigidities are written: material: Rigidities(..)"
+        } else {
+            ""
+        };
+        format!(
+            "sections chosen for {} within {} %{limit}: {}{left}{missed}{law}",
+            self.quantity,
+            100.0 * self.wanted_error,
+            self.resolved()
+        )
+    }
+
+    /// What is resolved how.
+    fn resolved(&self) -> String {
+        let stretches = self.monomers_nm.iter();
+        let stretches = stretches.map(|[from, to]| format!("{from:.0} to {to:.0} nm"));
+        let monomers = stretches.collect::<Vec<_>>().join(", ");
+        match (monomers.is_empty(), self.estimate) {
+            (true, _) => format!("a rod of segments of {} nm", self.segment_nm),
+            (false, Some(_)) => format!(
+                "monomers from {monomers}, and a rod of segments of {} nm",
+                self.segment_nm
+            ),
+            (false, None) => "every monomer".to_owned(),
+        }
+    }
+}
+
+/// A resolution that was tried.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tried {
+    /// Where monomers were resolved (nm of arc length).
+    pub monomers_nm: Vec<[f64; 2]>,
+    /// Length of segments (nm).
+    pub segment_nm: f64,
+    /// Estimated error over the corrected value.
+    pub relative_error: f64,
+}

@@ -1,0 +1,253 @@
+//! How a filament is resolved, and how it is resolved further.
+
+use super::defects::Contribution;
+use super::ideal::PERIOD;
+use super::{Located, Tried, is_too_short};
+use crate::advice::{sections_of, segments_of};
+use crate::assembly::{count_monomers, whole_length_nm};
+use crate::scene::{Scene, SceneProblem};
+
+/// Segments to begin with: at least as long (nm), and at least this share of the filament.
+const FIRST_SEGMENTS: (f64, f64) = (20.0, 0.01);
+/// The shortest segments (nm).
+const SHORTEST_SEGMENTS_NM: f64 = 2.5;
+/// What is left after marking, as a share of the wanted error.
+const MARK_TO: f64 = 0.4;
+/// Monomers over more of the length than this are monomers throughout.
+const MOST_SHARE: f64 = 0.6;
+
+/// Length of a filament, and stretches of it that are counted together.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lengths {
+    length_nm: f64,
+    rise_nm: f64,
+}
+
+impl Lengths {
+    /// Those of the filament of a scene, with its length rounded to whole monomers.
+    ///
+    /// # Errors
+    /// A length of more monomers than are told apart.
+    pub(super) fn of(scene: &Scene, length_nm: f64) -> Result<Self, SceneProblem> {
+        Ok(Self {
+            length_nm: whole_length_nm(scene, length_nm)?,
+            rise_nm: scene.filament.monomers.rise_nm,
+        })
+    }
+
+    /// One period of monomers (nm).
+    fn bin_nm(&self) -> f64 {
+        PERIOD as f64 * self.rise_nm
+    }
+}
+
+/// How a filament is resolved.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Setting {
+    /// Where monomers are (nm), in order.
+    pub monomers: Vec<[f64; 2]>,
+    /// Length of segments elsewhere (nm).
+    pub segment_nm: f64,
+}
+
+impl Setting {
+    /// A rod; monomers where the filament is too short to be judged.
+    pub(super) fn first(lengths: Lengths) -> Self {
+        let (shortest, share) = FIRST_SEGMENTS;
+        let length_nm = lengths.length_nm;
+        let monomers = if is_too_short(length_nm, lengths.rise_nm) {
+            vec![[0.0, length_nm]]
+        } else {
+            Vec::new()
+        };
+        Self {
+            monomers,
+            segment_nm: shortest.max(share * length_nm),
+        }
+    }
+
+    /// The scene with its filament resolved so.
+    pub(super) fn apply(&self, scene: &Scene, lengths: Lengths) -> Scene {
+        let mut scene = scene.clone();
+        let sections = sections_of(lengths.length_nm, &self.monomers, |length| {
+            segments_of(length, self.segment_nm)
+        });
+        scene.filament.sections = sections.into();
+        scene
+    }
+
+    /// Number of its monomers, held ones included.
+    ///
+    /// # Errors
+    /// Stretches that are no sections.
+    pub(super) fn count(&self, scene: &Scene, lengths: Lengths) -> Result<usize, SceneProblem> {
+        count_monomers(&self.apply(scene, lengths))
+    }
+
+    pub(super) fn tried(&self, relative_error: f64) -> Tried {
+        Tried {
+            monomers_nm: self.monomers.clone(),
+            segment_nm: self.segment_nm,
+            relative_error,
+        }
+    }
+
+    pub(super) fn is_all_monomers(&self, lengths: Lengths) -> bool {
+        self.monomers == [[0.0, lengths.length_nm]]
+    }
+
+    pub(super) fn all_monomers(&self, lengths: Lengths) -> Self {
+        self.with_monomers(vec![[0.0, lengths.length_nm]])
+    }
+
+    fn with_monomers(&self, monomers: Vec<[f64; 2]>) -> Self {
+        Self {
+            monomers,
+            ..self.clone()
+        }
+    }
+
+    /// Segments of half the length, where these are the larger part of the error.
+    pub(super) fn halved(&self, found: &Located, limit: f64) -> Option<Self> {
+        let rest = found.total.error - found.total.segments;
+        let coarse = found.total.segments.abs();
+        let is_coarse = coarse > rest.abs().max(0.25 * limit);
+        (is_coarse && self.segment_nm > SHORTEST_SEGMENTS_NM).then(|| Self {
+            segment_nm: 0.5 * self.segment_nm,
+            ..self.clone()
+        })
+    }
+
+    /// Monomers where most of the error comes from, as far as `fits` allows; itself where there is no such place.
+    pub(super) fn marked(
+        &self,
+        (found, limit): (&Located, f64),
+        lengths: Lengths,
+        fits: impl Fn(&Self) -> bool,
+    ) -> Self {
+        let rest = found.total.error - found.total.segments;
+        let bin = lengths.bin_nm();
+        let mut bins = contributions(&found.parts, lengths.length_nm, bin);
+        let sign = rest.signum();
+        bins.sort_by(|a, b| (sign * b.error).total_cmp(&(sign * a.error)));
+        let mut left = rest.abs();
+        let mut marked = self.clone();
+        for part in bins {
+            if left <= MARK_TO * limit || sign * part.error <= 0.0 {
+                break;
+            }
+            let mut monomers = marked.monomers.clone();
+            monomers.push(part.span_nm);
+            let more = self.with_monomers(merged(monomers, lengths.length_nm, bin));
+            if fits(&more) {
+                left -= sign * part.error;
+                marked = more;
+            }
+        }
+        marked
+    }
+
+    /// Of a rod the one stretch of at most `most` monomers that leaves least of the error, of as many periods as `fits` allows; none
+    /// where not even one does.
+    pub(super) fn window(
+        &self,
+        (found, most): (&Located, usize),
+        lengths: Lengths,
+        fits: impl Fn(&Self) -> bool,
+    ) -> Option<Self> {
+        let rest = found.total.error - found.total.segments;
+        let bin = lengths.bin_nm();
+        let bins = contributions(&found.parts, lengths.length_nm, bin);
+        let stretch = |from: usize, periods: usize| {
+            let span = [bins[from].span_nm[0], bins[from + periods - 1].span_nm[1]];
+            self.with_monomers(merged(vec![span], lengths.length_nm, bin))
+        };
+        let longest = bins.len().min(most / PERIOD);
+        let mut of_length = (1..=longest).rev().filter_map(|periods| {
+            let starts = (0..=bins.len() - periods).filter(|&from| fits(&stretch(from, periods)));
+            let of_start = |from: &usize| -> f64 {
+                let inside = bins[*from..*from + periods].iter();
+                (rest - inside.map(|part| part.error).sum::<f64>()).abs()
+            };
+            let best = starts.min_by(|a, b| of_start(a).total_cmp(&of_start(b)));
+            best.map(|from| stretch(from, periods))
+        });
+        of_length.next()
+    }
+
+    /// Whether its monomers are so many that they may as well be everywhere.
+    pub(super) fn is_mostly_monomers(&self, lengths: Lengths) -> bool {
+        let covered: f64 = self.monomers.iter().map(|[from, to]| to - from).sum();
+        covered > MOST_SHARE * lengths.length_nm
+    }
+}
+
+/// What stretches of one period contribute.
+fn contributions(parts: &[Contribution], length_nm: f64, bin: f64) -> Vec<Contribution> {
+    let n = segments_of(length_nm, bin);
+    let width = length_nm / n as f64;
+    let span = |k: usize| [k as f64 * width, (k + 1) as f64 * width];
+    (0..n)
+        .map(|k| {
+            let [from, to] = span(k);
+            let share = |part: &Contribution| {
+                let [a, b] = part.span_nm;
+                let inside = b.min(to) - a.max(from);
+                part.error * (inside / (b - a)).max(0.0)
+            };
+            Contribution {
+                span_nm: [from, to],
+                error: parts.iter().map(share).sum(),
+            }
+        })
+        .collect()
+}
+
+/// Stretches in order, those closer to each other or to an end than two periods as one.
+fn merged(mut stretches: Vec<[f64; 2]>, length_nm: f64, bin: f64) -> Vec<[f64; 2]> {
+    stretches.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut all: Vec<[f64; 2]> = Vec::new();
+    for [from, to] in stretches {
+        match all.last_mut() {
+            Some(last) if from - last[1] < 2.0 * bin => last[1] = last[1].max(to),
+            _ => all.push([from, to]),
+        }
+    }
+    if let Some(first) = all.first_mut().filter(|first| first[0] < bin) {
+        first[0] = 0.0;
+    }
+    if let Some(last) = all.last_mut().filter(|last| length_nm - last[1] < bin) {
+        last[1] = length_nm;
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn part(span_nm: [f64; 2], error: f64) -> Contribution {
+        Contribution { span_nm, error }
+    }
+
+    /// A part is shared by the periods that it reaches into; nothing is lost.
+    #[test]
+    fn contributions_are_kept() {
+        let parts = [part([0.0, 10.0], 1.0), part([30.0, 50.0], 2.0)];
+        let bins = contributions(&parts, 160.0, 40.0);
+        let errors: Vec<f64> = bins.iter().map(|b| b.error).collect();
+        assert_eq!(errors, [2.0, 1.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn near_stretches_are_one() {
+        let all = merged(
+            vec![[200.0, 235.0], [5.0, 40.0], [100.0, 135.0]],
+            1000.0,
+            35.0,
+        );
+        assert_eq!(all, [[0.0, 235.0]]);
+        let all = merged(vec![[300.0, 335.0], [40.0, 75.0]], 340.0, 35.0);
+        assert_eq!(all, [[40.0, 75.0], [300.0, 340.0]]);
+    }
+}
