@@ -10,6 +10,7 @@ mod check;
 mod excerpt;
 mod export;
 mod failure;
+mod follow;
 mod manual;
 mod progress;
 mod run;

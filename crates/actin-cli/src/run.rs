@@ -1,6 +1,7 @@
 //! `actin run`: a scene to its end, and everything it gave into a run directory.
 
 use crate::failure::{Failure, Opened};
+use crate::follow;
 use crate::progress::Progress;
 use crate::signals;
 use crate::{RunArguments, SceneArguments};
@@ -18,6 +19,16 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let plan = opened.plan()?;
     for note in plan.notes() {
         println!("note: {note}");
+    }
+    if opened
+        .assembly
+        .scene
+        .filament
+        .sections
+        .following()
+        .is_some()
+    {
+        return follow::run(arguments, &opened);
     }
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| by_default(&arguments.source));
@@ -52,7 +63,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 }
 
 /// The run directory of a scene for which none is named.
-fn by_default(source: &SceneArguments) -> PathBuf {
+pub(crate) fn by_default(source: &SceneArguments) -> PathBuf {
     let name = match source.scene.file_stem() {
         Some(name) if !source.is_standard_input() => name,
         _ => "stdin".as_ref(),
@@ -116,7 +127,7 @@ fn begin(
     Ok(Beginning::Saved(Box::new(saved)))
 }
 
-fn checkpoints(
+pub(crate) fn checkpoints(
     arguments: &RunArguments,
     plan: &Plan<'_>,
     directory: &RunDirectory,
@@ -202,12 +213,28 @@ fn go_on(arguments: &RunArguments, directory: &RunDirectory) -> String {
 }
 
 /// The sink of a run: its directory, and the progress bar.
-struct Watched<'a> {
+pub(crate) struct Watched<'a> {
     checkpoints: &'a mut Checkpoints,
     progress: Progress,
     started: Instant,
     /// Steps at the first look.
     first: Option<u64>,
+}
+
+impl<'a> Watched<'a> {
+    pub(crate) fn new(checkpoints: &'a mut Checkpoints) -> Self {
+        Self {
+            checkpoints,
+            progress: Progress::new(),
+            started: Instant::now(),
+            first: None,
+        }
+    }
+
+    /// Takes the progress bar away.
+    pub(crate) fn finish(&mut self) {
+        self.progress.finish();
+    }
 }
 
 impl Sink for Watched<'_> {
@@ -249,17 +276,12 @@ impl Task<'_> {
         saved: Option<Saved>,
         checkpoints: &mut Checkpoints,
     ) -> Result<Outcome, Failure> {
-        let mut sink = Watched {
-            checkpoints,
-            progress: Progress::new(),
-            started: Instant::now(),
-            first: None,
-        };
+        let mut sink = Watched::new(checkpoints);
         let outcome = match saved {
             None => self.plan.run_into(&mut sink),
             Some(saved) => self.plan.resume_into(saved, &mut sink),
         };
-        sink.progress.finish();
+        sink.finish();
         outcome.map_err(|error| match error {
             RunError::Refused(problem) => self.opened.refuse(&problem),
             RunError::Failed(failed) => self.broken(checkpoints, &failed),
@@ -318,7 +340,7 @@ impl Task<'_> {
 /// What is kept of a run that broke off.
 const GOOD: &str = "everything up to the last good state is";
 
-fn print(summary: &Summary, out: &Path) {
+pub(crate) fn print(summary: &Summary, out: &Path) {
     let work = &summary.work;
     let stability = summary.stability.as_ref().map(stability_in_words);
     match (&stability, summary.time_step_ns) {

@@ -46,10 +46,10 @@ pub use error::SimError;
 pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
 pub use results::{
     AccuracySummary, CheckpointError, Checkpoints, Damage, Difference, EndReaction, EndReactions,
-    EnergySummary, FilamentSummary, FinishedRun, FinishedRunError, LinkerSummary, ResidualSummary,
-    RunDirectory, RunDirectoryError, RunLock, ShapeSummary, StabilitySummary, StateIter,
-    StateSummary, StatesSummary, StoredStates, Summary, ThermalSummary, WorkSummary,
-    first_difference, replace_file,
+    EnergySummary, FilamentSummary, FinishedRun, FinishedRunError, FollowedDirectory,
+    FollowingSummary, LinkerSummary, ResidualSummary, RunDirectory, RunDirectoryError, RunLock,
+    ShapeSummary, StabilitySummary, StateIter, StateSummary, StatesSummary, StoredStates, Summary,
+    ThermalSummary, WorkSummary, first_difference, replace_file,
 };
 pub use run::{
     Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, LongestStep,

@@ -141,6 +141,11 @@ impl Follower {
         self
     }
 
+    /// The scene, its time step and interval of records written out.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
     /// Where cells begin and end (nm of arc length).
     pub fn cells_nm(&self) -> Vec<[f64; 2]> {
         self.cells.spans_nm().collect()
@@ -415,7 +420,7 @@ fn begun(assembly: &Assembly, state: State, (saved, position): (&Saved, &MotionP
             energy_at_switch_pn_nm: Some(energy),
         })),
         recorded: saved.recorded.behind_switch(assembly, first),
-        wall_s: 0.0,
+        wall_s: saved.wall_s,
     }
 }
 

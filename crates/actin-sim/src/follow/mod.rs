@@ -17,6 +17,6 @@ mod momentum;
 mod transfer;
 
 pub(crate) use cells::Cells;
-pub use chain::{Followed, Follower, Left, Next, Ran, Stretch};
+pub use chain::{Beginning, Followed, Follower, Left, Next, Ran, Stretch};
 pub use criterion::{Cell, Criterion, Wish};
 pub use transfer::Switch;

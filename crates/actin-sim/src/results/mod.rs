@@ -31,6 +31,7 @@ mod finished;
 mod finite;
 #[cfg(test)]
 mod fixture;
+mod followed;
 mod lock;
 mod manifest;
 mod names;
@@ -50,6 +51,7 @@ pub use difference::{Difference, first_difference};
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;
 pub use finished::{FinishedRun, FinishedRunError};
+pub use followed::{FollowedDirectory, FollowingSummary};
 pub use lock::RunLock;
 pub use stored::{StateIter, StoredStates};
 pub use summary::{

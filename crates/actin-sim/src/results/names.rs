@@ -12,6 +12,8 @@ pub(super) const COLLECTION: &str = "run.pvd";
 pub(super) const MACRO: &str = "open_in_paraview.py";
 pub(super) const CHECKPOINT: &str = "checkpoint.bin";
 pub(super) const RECORDS: &str = "records.bin";
+pub(super) const STRETCHES: &str = "stretches.json";
+pub(super) const SWITCHES: &str = "switches.csv";
 /// The folder of the pictures.
 pub(super) const PICTURES: &str = "vtk";
 
@@ -19,7 +21,7 @@ pub(super) const PICTURES: &str = "vtk";
 pub(super) const MANIFEST: &str = "actin-run.json";
 
 /// Everything that a run writes, beside its pictures, its manifest and its lock.
-pub(super) const FILES: [&str; 12] = [
+pub(super) const FILES: [&str; 14] = [
     SCENE,
     SUMMARY,
     ENERGIES,
@@ -32,6 +34,8 @@ pub(super) const FILES: [&str; 12] = [
     MACRO,
     CHECKPOINT,
     RECORDS,
+    STRETCHES,
+    SWITCHES,
 ];
 
 /// What a run writes before it has results.

@@ -80,6 +80,11 @@ impl Recorded {
         recorded
     }
 
+    /// The last record.
+    pub fn last(&self) -> Option<&Record> {
+        self.last.as_ref()
+    }
+
     /// How many records there are.
     pub fn count(&self) -> usize {
         self.carried.count

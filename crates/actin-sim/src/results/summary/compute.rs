@@ -67,6 +67,7 @@ impl Summary {
             residual: ResidualSummary::of(last),
             residual_floor: outcome.residual_floor().map(Into::into),
             thermal: ThermalSummary::new(assembly, &kinetic_of(last)),
+            following: None,
             lowest_stiffness_eigenvalue: outcome.lowest_eigenvalue(),
             states: StatesSummary::of(assembly, outcome),
             accuracy: AccuracySummary::new(assembly, outcome),

@@ -19,7 +19,7 @@ pub use states::{StateSummary, StatesSummary};
 pub(super) use thermal::LateKinetic;
 pub use thermal::ThermalSummary;
 
-use super::{RunDirectoryError, finite::ensure_finite};
+use super::{FollowingSummary, RunDirectoryError, finite::ensure_finite};
 use crate::adapt::{Chosen, ErrorEstimate};
 use crate::{
     Assembly, BeyondRange, BeyondUse, Counts, ObservableSummary, Outcome, SaddlePush, Status,
@@ -115,6 +115,10 @@ pub struct Summary {
     /// Thermal motion; none unless the scene has a temperature.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thermal: Option<ThermalSummary>,
+    /// What switches of cells did; no key where sections do not follow the motion. Means are then those of stretches, in
+    /// their directories.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub following: Option<FollowingSummary>,
     /// Lowest eigenvalue of the stiffness; none unless an equilibrium was asked for it.
     pub lowest_stiffness_eigenvalue: Option<f64>,
     /// Stable states, where an equilibrium was asked for others; no key where it was not.

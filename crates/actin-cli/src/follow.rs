@@ -1,0 +1,214 @@
+//! `actin run` of a scene whose sections follow its motion: a chain of run directories.
+
+use crate::RunArguments;
+use crate::failure::{Failure, Opened};
+use crate::run::{Watched, by_default, checkpoints, print};
+use actin_sim::follow::{Beginning, Follower, Left, Stretch};
+use actin_sim::{
+    Checkpoints, FollowedDirectory, Outcome, Plan, RunDirectory, RunError, RunLock, Saved, Sink,
+    Status, Summary,
+};
+use std::path::Path;
+
+/// A chain of stretches and where it is written to.
+struct Chain<'a> {
+    arguments: &'a RunArguments,
+    opened: &'a Opened,
+    follower: &'a Follower,
+    directory: FollowedDirectory,
+    beginnings: Vec<Beginning>,
+}
+
+/// Runs the scene, or what is left of it, into its directory.
+pub(crate) fn run(arguments: &RunArguments, opened: &Opened) -> Result<(), Failure> {
+    let out = arguments.out.clone();
+    let out = out.unwrap_or_else(|| by_default(&arguments.source));
+    let follower = Follower::new(&opened.assembly.scene).map_err(|p| opened.refuse(&p))?;
+    let directory = FollowedDirectory::at(&out);
+    let beginnings = match arguments.resume {
+        true => directory.beginnings()?,
+        false => Vec::new(),
+    };
+    if !beginnings.is_empty() && is_finished(&out) {
+        println!("{} is finished: nothing to resume", out.display());
+        return Ok(());
+    }
+    // Held to the end of the run.
+    let _lock = claim(arguments, &out, beginnings.is_empty())?;
+    if beginnings.is_empty() {
+        directory.remove_from(0)?;
+        RunDirectory::existing(&out).write_scene(follower.scene())?;
+    }
+    let chain = Chain {
+        arguments,
+        opened,
+        follower: &follower,
+        directory,
+        beginnings,
+    };
+    let summary = chain.advance()?;
+    print(&summary, &out);
+    if let Some(following) = &summary.following {
+        println!(
+            "{} switch(es) added {:.4} pN nm; {:.0} % of the cells were monomers",
+            following.switches,
+            following.switches_pn_nm,
+            100.0 * following.share_of_monomers
+        );
+    }
+    Ok(())
+}
+
+/// Whether a motion has ended whose summary is there.
+fn is_finished(out: &Path) -> bool {
+    let summary = RunDirectory::existing(out).summary();
+    summary.is_ok_and(|summary| summary.status != Status::Interrupted)
+}
+
+/// Makes or opens the directory; what keeps other runs out of it.
+fn claim(arguments: &RunArguments, out: &Path, is_new: bool) -> Result<RunLock, Failure> {
+    if !is_new {
+        return Ok(RunLock::take(out)?);
+    }
+    let is_left = arguments.resume && RunDirectory::existing(out).is_unfinished();
+    let (_, lock) = RunDirectory::create_locked(out, arguments.overwrite || is_left)?;
+    Ok(lock)
+}
+
+impl Chain<'_> {
+    /// Runs stretch after stretch; the summary of all.
+    fn advance(mut self) -> Result<Summary, Failure> {
+        let (mut stretch, mut is_begun) = self.take_up()?;
+        loop {
+            let plan = self.planned(&stretch)?;
+            let directory = RunDirectory::existing(self.path(&stretch));
+            let mut kept = checkpoints(self.arguments, &plan, &directory)?;
+            let saved = match is_begun {
+                true => Some(kept.resume(&plan)?),
+                false => None,
+            };
+            if !is_begun {
+                self.create(&stretch, &plan)?;
+            }
+            let left = self.left(&stretch, &plan, saved, &mut kept)?;
+            let (outcome, next) = match left {
+                Left::Over(outcome) => (outcome, None),
+                Left::Switched(outcome, next) => {
+                    self.begin(&next.stretch, &next.saved)?;
+                    (outcome, Some(next.stretch))
+                }
+            };
+            let summary = directory.write(&plan, &kept, &outcome)?;
+            if outcome.status == Status::Interrupted {
+                return Err(self.interrupted(&summary)?);
+            }
+            directory.remove_checkpoint()?;
+            let Some(next) = next else {
+                return Ok(self.directory.write(&self.beginnings, &summary)?);
+            };
+            drop(plan);
+            (stretch, is_begun) = (next, true);
+        }
+    }
+
+    fn path(&self, stretch: &Stretch) -> std::path::PathBuf {
+        self.directory.stretch(stretch.beginning.index)
+    }
+
+    fn planned<'s>(&self, stretch: &'s Stretch) -> Result<Plan<'s>, Failure> {
+        Plan::new(&stretch.assembly).map_err(|problem| self.opened.refuse(&problem))
+    }
+
+    /// The stretch with which the chain begins or goes on, and whether it has a checkpoint. What was begun behind one that has
+    /// no results is made again.
+    fn take_up(&mut self) -> Result<(Stretch, bool), Failure> {
+        let refused = |problem| self.opened.refuse(&problem);
+        let done = |one: &&Beginning| is_finished(&self.directory.stretch(one.index));
+        let first = self.beginnings.iter().take_while(done).count();
+        let stretch = match self.beginnings.get(first) {
+            Some(beginning) => self.follower.again(beginning.clone()).map_err(refused)?,
+            None => self.follower.begin().map_err(refused)?,
+        };
+        self.beginnings.truncate(stretch.beginning.index);
+        self.beginnings.push(stretch.beginning.clone());
+        self.directory.remove_from(stretch.beginning.index + 1)?;
+        let is_begun = RunDirectory::existing(self.path(&stretch)).has_checkpoint();
+        Ok((stretch, is_begun))
+    }
+
+    /// Makes the directory of a stretch.
+    fn create(&self, stretch: &Stretch, plan: &Plan<'_>) -> Result<(), Failure> {
+        let directory = RunDirectory::create(self.path(stretch), true)?;
+        directory.write_scene(plan.scene())?;
+        Ok(self.directory.note(&self.beginnings)?)
+    }
+
+    /// Makes the directory of a stretch behind a switch, with its first record and a checkpoint.
+    fn begin(&mut self, stretch: &Stretch, saved: &Saved) -> Result<(), Failure> {
+        self.beginnings.push(stretch.beginning.clone());
+        let plan = self.planned(stretch)?;
+        self.create(stretch, &plan)?;
+        let directory = RunDirectory::existing(self.path(stretch));
+        let mut kept = checkpoints(self.arguments, &plan, &directory)?;
+        saved
+            .recorded
+            .last()
+            .into_iter()
+            .for_each(|r| kept.record(r));
+        kept.checkpoint(&saved.position, &saved.recorded, saved.wall_s);
+        if kept.last_failed() {
+            let place = directory.path().display();
+            let message = format!("the beginning of {place} could not be written");
+            return Err(Failure::Unwritten(message));
+        }
+        Ok(())
+    }
+
+    /// Runs a stretch until it is left.
+    fn left(
+        &self,
+        stretch: &Stretch,
+        plan: &Plan<'_>,
+        saved: Option<Saved>,
+        kept: &mut Checkpoints,
+    ) -> Result<Left, Failure> {
+        let mut sink = Watched::new(kept);
+        let left = self.follower.advance((stretch, plan), saved, &mut sink);
+        sink.finish();
+        left.map_err(|error| match error {
+            RunError::Refused(problem) => Failure::Numerical(self.opened.locate(&problem)),
+            RunError::Failed(failed) => self.broken((stretch, plan), kept, &failed.outcome),
+        })
+    }
+
+    /// Keeps what a broken motion has recorded, and says why it broke.
+    fn broken(
+        &self,
+        (stretch, plan): (&Stretch, &Plan<'_>),
+        kept: &Checkpoints,
+        outcome: &Outcome,
+    ) -> Failure {
+        let why = &outcome.failure;
+        let directory = RunDirectory::existing(self.path(stretch));
+        let written = directory.write(plan, kept, outcome).and_then(|summary| {
+            let all = self.directory.write(&self.beginnings, &summary);
+            all.map(drop)
+        });
+        let place = self.directory.path().display();
+        Failure::Numerical(match written {
+            Ok(()) => format!("{why}; everything up to the last good state is in {place}"),
+            Err(error) => format!("{why}; and {error}"),
+        })
+    }
+
+    /// Writes what an interrupted motion has recorded, and says how to go on.
+    fn interrupted(&self, last: &Summary) -> Result<Failure, Failure> {
+        self.directory.write(&self.beginnings, last)?;
+        let place = self.directory.path().display();
+        let scene = self.arguments.source.scene.display();
+        Ok(Failure::Interrupted(format!(
+            "a checkpoint is in {place}, with everything recorded so far; to continue: actin run {scene} --out \
+             {place} --resume"
+        )))
+    }
+}

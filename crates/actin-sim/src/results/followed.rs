@@ -1,0 +1,262 @@
+//! The directory of a motion whose sections follow it: a chain of run directories, and what they have in common.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `scene.ron`, `summary.json` | the scene; the last record, with what switches did under `following` |
+//! | `stretches/NNNN/` | a run directory for each stretch between two switches, its sections written |
+//! | `stretches.json` | how each stretch begins |
+//! | `switches.csv` | when and where cells were switched, and what that did to energy and momentum |
+//! | `energies.csv`, `observables.csv` | those of all stretches, one after the other |
+//!
+//! At a switch there are two records at the same time, before and after.
+
+use super::atomic;
+use super::directory::RunDirectory;
+use super::manifest::Manifest;
+use super::names::{ENERGIES, MANIFEST, OBSERVABLES, STRETCHES, SUMMARY, SWITCHES};
+use super::{RunDirectoryError, Summary};
+use crate::follow::Beginning;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// The folder of the stretches.
+const FOLDER: &str = "stretches";
+
+/// Columns of `energies.csv` that do not depend on how a filament is resolved.
+const COMMON: [&str; 7] = [
+    "time_ns",
+    "total_pn_nm",
+    "potential_pn_nm",
+    "elastic_pn_nm",
+    "kinetic_pn_nm",
+    "residual_force_pn",
+    "residual_torque_pn_nm",
+];
+
+/// What switches of cells did in a whole motion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FollowingSummary {
+    /// How many switches there were; one may switch several cells.
+    pub switches: usize,
+    /// What they added to the energy, all together (pN nm).
+    pub switches_pn_nm: f64,
+    /// The largest change of momentum by one of them (ag nm/ns): round-off.
+    pub largest_momentum_change: f64,
+    /// Share of the cells that were monomers, mean over time.
+    pub share_of_monomers: f64,
+}
+
+/// The directory of a chain of stretches.
+#[derive(Clone, Debug)]
+pub struct FollowedDirectory {
+    path: PathBuf,
+}
+
+impl FollowedDirectory {
+    /// That at `path`, which is a [`RunDirectory`] itself.
+    pub fn at(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into() }
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Where a stretch is.
+    pub fn stretch(&self, index: usize) -> PathBuf {
+        self.path.join(FOLDER).join(format!("{index:04}"))
+    }
+
+    /// How the stretches begin that there are; empty where there are none.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is no list of stretches.
+    pub fn beginnings(&self) -> Result<Vec<Beginning>, RunDirectoryError> {
+        let path = self.path.join(STRETCHES);
+        if !path.exists() {
+            return Ok(Vec::new());
+        }
+        let read = fs::read_to_string(&path).and_then(|text| Ok(serde_json::from_str(&text)?));
+        read.map_err(RunDirectoryError::io(&path))
+    }
+
+    /// Keeps how all stretches begin.
+    ///
+    /// # Errors
+    /// A refusal of the file system.
+    pub fn note(&self, beginnings: &[Beginning]) -> Result<(), RunDirectoryError> {
+        self.replace(STRETCHES, |out| Ok(serde_json::to_writer(out, beginnings)?))
+    }
+
+    /// Removes the run directories of stretches from `first` on.
+    ///
+    /// # Errors
+    /// A directory with files that no run has written, or a refusal of the file system.
+    pub fn remove_from(&self, first: usize) -> Result<(), RunDirectoryError> {
+        for index in first.. {
+            let path = self.stretch(index);
+            if !path.exists() {
+                break;
+            }
+            drop(RunDirectory::create_locked(&path, true)?);
+            let io = || RunDirectoryError::io(&path);
+            fs::remove_file(path.join(MANIFEST)).map_err(io())?;
+            // What is left is what others have put there.
+            let _ = fs::remove_file(path.join(super::lock::LOCK));
+            fs::remove_dir(&path).map_err(io())?;
+        }
+        Ok(())
+    }
+
+    /// Writes what the stretches have in common; `last` is the summary of the last of them. All have their files.
+    ///
+    /// # Errors
+    /// Files of a stretch that cannot be read, or a refusal of the file system.
+    pub fn write(
+        &self,
+        beginnings: &[Beginning],
+        last: &Summary,
+    ) -> Result<Summary, RunDirectoryError> {
+        self.note(beginnings)?;
+        self.replace(SWITCHES, |out| switches(beginnings, out))?;
+        let spans = self.join(ENERGIES, beginnings, &|header| {
+            COMMON.iter().map(|name| column(header, name)).collect()
+        })?;
+        let observed = self.stretch(0).join(OBSERVABLES);
+        if observed.exists() {
+            self.join(OBSERVABLES, beginnings, &|header| {
+                Ok((0..header.len()).collect())
+            })?;
+        }
+        let summary = Summary {
+            following: Some(summarised(beginnings, &spans)),
+            observables: Default::default(),
+            thermal: None,
+            ..last.clone()
+        };
+        self.replace(SUMMARY, |out| {
+            Ok(serde_json::to_writer_pretty(out, &summary)?)
+        })?;
+        Ok(summary)
+    }
+
+    /// Joins a table of all stretches, of each the columns that `of` finds in its header, with what switches have booked up
+    /// to there behind them; returns the first and the last time of each stretch (ns).
+    fn join(
+        &self,
+        name: &str,
+        beginnings: &[Beginning],
+        of: &dyn Fn(&csv::StringRecord) -> io::Result<Vec<usize>>,
+    ) -> Result<Vec<[f64; 2]>, RunDirectoryError> {
+        let mut spans = Vec::new();
+        self.replace(name, |out| {
+            let mut writer = csv::Writer::from_writer(out);
+            for beginning in beginnings {
+                let path = self.stretch(beginning.index).join(name);
+                let mut reader = csv::Reader::from_path(path)?;
+                let header = reader.headers()?.clone();
+                let columns = of(&header)?;
+                let fields = |row: &csv::StringRecord| -> Vec<String> {
+                    columns.iter().map(|&i| row[i].to_owned()).collect()
+                };
+                if beginning.index == 0 {
+                    let mut names = fields(&header);
+                    names.push("switches_pn_nm".to_owned());
+                    writer.write_record(names)?;
+                }
+                let mut times = Vec::new();
+                for row in reader.records() {
+                    let row = row?;
+                    times.push(row[0].parse().map_err(io::Error::other)?);
+                    let mut fields = fields(&row);
+                    fields.push(format!("{:?}", beginning.switches_pn_nm));
+                    writer.write_record(fields)?;
+                }
+                let ends = [times.first(), times.last()];
+                spans.push(ends.map(|time| time.copied().unwrap_or_default()));
+            }
+            writer.flush()
+        })?;
+        Ok(spans)
+    }
+
+    /// Replaces a file, which the manifest lists from then on.
+    fn replace(
+        &self,
+        name: &str,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), RunDirectoryError> {
+        let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
+        manifest.ensure_own(&self.path)?;
+        manifest.add([name]);
+        manifest.write(&self.path)?;
+        let path = self.path.join(name);
+        let written = atomic::replace_durably(&path, |out| write(out));
+        written.map_err(RunDirectoryError::io(&path))
+    }
+}
+
+fn column(header: &csv::StringRecord, name: &str) -> io::Result<usize> {
+    let place = header.iter().position(|column| column == name);
+    place.ok_or_else(|| io::Error::other(format!("no column {name}")))
+}
+
+fn switches(beginnings: &[Beginning], out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record([
+        "time_ns",
+        "from_nm",
+        "to_nm",
+        "becomes",
+        "energy_pn_nm",
+        "momentum_change",
+        "angular_momentum_change",
+    ])?;
+    for switch in beginnings.iter().filter_map(|one| one.switch.as_ref()) {
+        let kinds = [("monomers", &switch.to_monomers), ("rod", &switch.to_rod)];
+        for (becomes, spans) in kinds {
+            for [from_nm, to_nm] in spans {
+                writer.write_record([
+                    format!("{:?}", switch.time_ns),
+                    format!("{from_nm:?}"),
+                    format!("{to_nm:?}"),
+                    becomes.to_owned(),
+                    format!("{:?}", switch.energy_pn_nm),
+                    format!("{:?}", switch.momentum_change),
+                    format!("{:?}", switch.angular_momentum_change),
+                ])?;
+            }
+        }
+    }
+    writer.flush()
+}
+
+fn summarised(beginnings: &[Beginning], spans_ns: &[[f64; 2]]) -> FollowingSummary {
+    let switches = || beginnings.iter().filter_map(|one| one.switch.as_ref());
+    let end = spans_ns.last().map_or(0.0, |span| span[1]);
+    let starts = beginnings.iter().map(|one| {
+        let switch = one.switch.as_ref();
+        switch.map_or(0.0, |switch| switch.time_ns)
+    });
+    let ends = starts.clone().skip(1).chain([end]);
+    let weighted = beginnings
+        .iter()
+        .zip(starts.zip(ends))
+        .map(|(one, (from, to))| {
+            let monomers = one.is_monomers.iter().filter(|resolved| **resolved).count();
+            (to - from) * monomers as f64 / one.is_monomers.len() as f64
+        });
+    FollowingSummary {
+        switches: switches().count(),
+        switches_pn_nm: beginnings.last().map_or(0.0, |one| one.switches_pn_nm),
+        largest_momentum_change: switches().fold(0.0, |most, s| most.max(s.momentum_change)),
+        share_of_monomers: if end > 0.0 {
+            weighted.sum::<f64>() / end
+        } else {
+            0.0
+        },
+    }
+}
