@@ -67,6 +67,13 @@ pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
     }
     match &arguments.film {
         Some(folder) => film(arguments, &run, folder),
+        None if run.is_followed() => {
+            let place = arguments.directory.display();
+            Err(Failure::Input(format!(
+                "{place}: sections follow this motion, and a page shows one resolution: --film FOLDER shows all of it, \
+                 actin view {place}/stretches/0000 one stretch"
+            )))
+        }
         None => page(arguments, &run),
     }
 }

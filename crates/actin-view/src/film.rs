@@ -124,7 +124,7 @@ impl Film {
         let camera = camera.turned(self.attitude.up.into(), angle);
         let mut scene = Scene {
             canvas: Canvas::new(self.size, camera),
-            assembly: &run.assembly,
+            assembly: run.assembly_of(record),
             state: &run.states[record],
             palette: self.palette,
             things: self.palette.things(),

@@ -40,6 +40,9 @@ pub enum ViewError {
     },
 }
 
+/// The folder of the stretches of a motion which sections follow.
+const STRETCHES: &str = "stretches";
+
 /// How much of a run a page holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
@@ -64,6 +67,10 @@ impl Default for Limits {
 pub struct Run {
     path: PathBuf,
     pub(crate) assembly: Assembly,
+    /// Of a motion which sections follow, the assemblies of all stretches but the first.
+    later: Vec<Assembly>,
+    /// To which of them the records behind those of the first stretch belong, in order.
+    of_later: Vec<usize>,
     summary: Option<Summary>,
     /// What is missing, damaged or left out, a sentence or two each.
     remarks: Vec<String>,
@@ -82,6 +89,9 @@ impl Run {
     /// # Errors
     /// A path that is no directory, and a directory without a scene that can be built.
     pub fn open(path: &Path, limits: Limits) -> Result<Self, ViewError> {
+        if path.join(STRETCHES).is_dir() {
+            return Self::open_stretches(path, limits);
+        }
         let assembly = assembly(path)?;
         let mut source = Source::of(path, &assembly);
         let each = data::bytes_per_record(&assembly);
@@ -112,7 +122,49 @@ impl Run {
             states,
             curves,
             assembly,
+            later: Vec::new(),
+            of_later: Vec::new(),
         })
+    }
+
+    /// Reads a motion which sections follow: its stretches one after the other.
+    fn open_stretches(path: &Path, limits: Limits) -> Result<Self, ViewError> {
+        let folder = |index: usize| path.join(STRETCHES).join(format!("{index:04}"));
+        let count = (0..).take_while(|&index| folder(index).is_dir()).count();
+        let limits = Limits {
+            bytes: limits.bytes / count.max(1),
+            ..limits
+        };
+        let mut all = Self::open(&folder(0), limits)?;
+        for index in 1..count {
+            let next = Self::open(&folder(index), limits)?;
+            all.of_later
+                .extend(next.states.iter().map(|_| all.later.len()));
+            all.later.push(next.assembly);
+            all.at.extend(next.at);
+            all.states.extend(next.states);
+            all.which.extend(next.which.iter().map(|i| all.records + i));
+            all.records += next.records;
+            all.remarks.extend(next.remarks);
+            all.summary = next.summary;
+        }
+        path.clone_into(&mut all.path);
+        Ok(all)
+    }
+
+    /// Whether sections follow the motion: its records are of filaments that are resolved differently, which a film shows
+    /// and a page does not.
+    pub fn is_followed(&self) -> bool {
+        !self.later.is_empty()
+    }
+
+    /// The filament as it is resolved in a record that is shown.
+    pub(crate) fn assembly_of(&self, shown: usize) -> &Assembly {
+        let first = self.states.len() - self.of_later.len();
+        match shown.checked_sub(first) {
+            None => &self.assembly,
+            Some(behind) => &self.later[self.of_later[behind]],
+        }
     }
 
     /// What is missing, damaged or left out, a sentence or two each.
