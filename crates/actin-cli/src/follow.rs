@@ -25,9 +25,10 @@ pub(crate) fn run(arguments: &RunArguments, opened: &Opened) -> Result<(), Failu
     let out = out.unwrap_or_else(|| by_default(&arguments.source));
     let follower = Follower::new(&opened.assembly.scene).map_err(|p| opened.refuse(&p))?;
     let directory = FollowedDirectory::at(&out);
-    let beginnings = match arguments.resume {
-        true => directory.beginnings()?,
-        false => Vec::new(),
+    let beginnings = if arguments.resume {
+        directory.beginnings()?
+    } else {
+        Vec::new()
     };
     if !beginnings.is_empty() && is_finished(&out) {
         println!("{} is finished: nothing to resume", out.display());
@@ -83,13 +84,12 @@ impl Chain<'_> {
             let plan = self.planned(&stretch)?;
             let directory = RunDirectory::existing(self.path(&stretch));
             let mut kept = checkpoints(self.arguments, &plan, &directory)?;
-            let saved = match is_begun {
-                true => Some(kept.resume(&plan)?),
-                false => None,
-            };
-            if !is_begun {
+            let saved = if is_begun {
+                Some(kept.resume(&plan)?)
+            } else {
                 self.create(&stretch, &plan)?;
-            }
+                None
+            };
             let left = self.left(&stretch, &plan, saved, &mut kept)?;
             let (outcome, next) = match left {
                 Left::Over(outcome) => (outcome, None),

@@ -30,32 +30,37 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     {
         return follow::run(arguments, &opened);
     }
+    run_plan(arguments, &opened, &plan)
+}
+
+/// Runs a plan, or what is left of it, into its directory.
+fn run_plan(arguments: &RunArguments, opened: &Opened, plan: &Plan<'_>) -> Result<(), Failure> {
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| by_default(&arguments.source));
     let directory = RunDirectory::existing(&out);
-    let mut checkpoints = checkpoints(arguments, &plan, &directory)?;
+    let mut checkpoints = checkpoints(arguments, plan, &directory)?;
     // Before the lock: where nothing will be written, none is needed.
-    if arguments.resume && is_finished(&plan, &directory)? {
+    if arguments.resume && is_finished(plan, &directory)? {
         return Ok(());
     }
     // Held to the end of the run.
     let _lock = claim(arguments, &out)?;
-    let saved = match begin(arguments, &plan, &directory, &mut checkpoints)? {
+    let saved = match begin(arguments, plan, &directory, &mut checkpoints)? {
         Beginning::New => None,
         Beginning::Saved(saved) => Some(*saved),
         Beginning::Finished => return Ok(()),
     };
     let task = Task {
         arguments,
-        opened: &opened,
-        plan: &plan,
+        opened,
+        plan,
         directory: &directory,
     };
     let outcome = task.advance(saved, &mut checkpoints)?;
     if outcome.status == Status::Interrupted {
         return Err(task.interrupted(&checkpoints, &outcome));
     }
-    let written = directory.write(&plan, &checkpoints, &outcome);
+    let written = directory.write(plan, &checkpoints, &outcome);
     let removed = written.and_then(|summary| directory.remove_checkpoint().map(|()| summary));
     let summary = removed.map_err(|error| unwritten(arguments, &directory, error))?;
     print(&summary, &out);

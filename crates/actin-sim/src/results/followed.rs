@@ -17,6 +17,7 @@ use super::names::{ENERGIES, MANIFEST, OBSERVABLES, STRETCHES, SUMMARY, SWITCHES
 use super::{RunDirectoryError, Summary};
 use crate::follow::Beginning;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -133,7 +134,7 @@ impl FollowedDirectory {
         }
         let summary = Summary {
             following: Some(summarised(beginnings, &spans)),
-            observables: Default::default(),
+            observables: BTreeMap::new(),
             thermal: None,
             ..last.clone()
         };

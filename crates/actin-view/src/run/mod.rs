@@ -42,6 +42,8 @@ pub enum ViewError {
 
 /// The folder of the stretches of a motion which sections follow.
 const STRETCHES: &str = "stretches";
+/// Stretches that are looked for.
+const MOST_STRETCHES: usize = 1_000_000;
 
 /// How much of a run a page holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,14 +132,17 @@ impl Run {
     /// Reads a motion which sections follow: its stretches one after the other.
     fn open_stretches(path: &Path, limits: Limits) -> Result<Self, ViewError> {
         let folder = |index: usize| path.join(STRETCHES).join(format!("{index:04}"));
-        let count = (0..).take_while(|&index| folder(index).is_dir()).count();
+        let folders: Vec<PathBuf> = (0..MOST_STRETCHES)
+            .map(folder)
+            .take_while(|folder| folder.is_dir())
+            .collect();
         let limits = Limits {
-            bytes: limits.bytes / count.max(1),
+            bytes: limits.bytes / folders.len().max(1),
             ..limits
         };
         let mut all = Self::open(&folder(0), limits)?;
-        for index in 1..count {
-            let next = Self::open(&folder(index), limits)?;
+        for folder in folders.iter().skip(1) {
+            let next = Self::open(folder, limits)?;
             all.of_later
                 .extend(next.states.iter().map(|_| all.later.len()));
             all.later.push(next.assembly);

@@ -35,6 +35,7 @@ impl Summary {
     }
 
     /// The summary of a run of `assembly` that ended with the record `last`.
+    #[expect(clippy::too_many_lines, reason = "a line for each key")]
     pub fn new(assembly: &Assembly, last: &Record, outcome: &Outcome) -> Self {
         let filaments = FilamentSummary::all(assembly, last);
         let first = &filaments[0];
