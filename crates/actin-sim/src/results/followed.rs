@@ -13,7 +13,7 @@
 use super::atomic;
 use super::directory::RunDirectory;
 use super::manifest::Manifest;
-use super::names::{ENERGIES, MANIFEST, OBSERVABLES, STRETCHES, SUMMARY, SWITCHES};
+use super::names::{ENERGIES, MANIFEST, OBSERVABLES, PICTURES, STRETCHES, SUMMARY, SWITCHES};
 use super::{RunDirectoryError, Summary};
 use crate::follow::Beginning;
 use serde::{Deserialize, Serialize};
@@ -107,6 +107,7 @@ impl FollowedDirectory {
             fs::remove_file(path.join(MANIFEST)).map_err(io())?;
             // What is left is what others have put there.
             let _ = fs::remove_file(path.join(super::lock::LOCK));
+            let _ = fs::remove_dir(path.join(PICTURES));
             fs::remove_dir(&path).map_err(io())?;
         }
         Ok(())

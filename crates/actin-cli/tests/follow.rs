@@ -1,0 +1,81 @@
+//! Runs of sections that follow a motion: their directories, interrupted, killed, resumed and replaced.
+#![cfg(unix)]
+
+mod common;
+
+use common::{Workplace, assert_same_files, code, signal, stderr, stdout};
+use std::fs;
+use std::path::Path;
+
+/// A cantilever let go, whose cells are switched some twenty times in half a second.
+const SWINGING: &str = "Scene(
+    filament: Filament(
+        sections: Following(
+            length_nm: 110.0,
+            monomers_where: [Curvature(above_per_nm: 0.002, below_per_nm: 0.001)],
+            least_ns: 0.5,
+        ),
+    ),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (-5.0, 0.0, 0.0))],
+    observe: [Tip()],
+    task: Dynamics(duration_ns: 300.0, record_every_ns: 0.1),
+)";
+
+/// Every file of the directory and of all stretches.
+fn assert_same(one: &Path, other: &Path) {
+    assert_same_files(one, other);
+    let stretches = |folder: &Path| fs::read_dir(folder.join("stretches")).unwrap().count();
+    assert_eq!(stretches(one), stretches(other));
+    assert!(stretches(one) > 5);
+    for index in 0..stretches(one) {
+        let name = format!("stretches/{index:04}");
+        assert_same_files(&one.join(&name), &other.join(&name));
+    }
+}
+
+/// Interrupted, killed, both in one stretch or another: resumed it gives every byte of a run that was not.
+#[test]
+fn a_motion_that_is_followed_goes_on_to_the_same_bytes() {
+    let place = Workplace::with(SWINGING);
+    let whole = place.actin(&["--out", "whole"]);
+    assert_eq!(code(&whole), 0, "{}", stderr(&whole));
+    assert!(stdout(&whole).contains("switch(es) added"));
+    for (name, how) in [
+        ("stretches/0000/scene.ron", "-INT"),
+        ("stretches/0003/scene.ron", "-INT"),
+        ("stretches/0002", "-KILL"),
+        ("stretches/0005/scene.ron", "-KILL"),
+    ] {
+        let arguments = ["--out", "parts", "--checkpoint-every", "0.01"];
+        let mut child = place.start(&arguments, &format!("parts/{name}"));
+        signal(&child, how);
+        child.wait().unwrap();
+        let output = place.actin(&["--out", "parts", "--resume"]);
+        assert_eq!(code(&output), 0, "{how} {name}: {}", stderr(&output));
+        assert_same(&place.path("whole"), &place.path("parts"));
+        fs::remove_dir_all(place.path("parts")).unwrap();
+    }
+}
+
+/// A finished run is not resumed, not overwritten without being told to, and replaced where that is wanted, its stretches
+/// included; files of others stay.
+#[test]
+fn stretches_are_replaced_with_the_run() {
+    let place = Workplace::with(SWINGING);
+    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
+    let again = place.actin(&["--out", "a", "--resume"]);
+    assert!(stdout(&again).contains("finished"), "{}", stdout(&again));
+    assert_eq!(code(&place.actin(&["--out", "a"])), 2);
+    let shorter = ["--out", "a", "--overwrite", "--set", "task.duration_ns=2.0"];
+    let output = place.actin(&shorter);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let stretches = fs::read_dir(place.path("a/stretches")).unwrap().count();
+    let beginnings = fs::read_to_string(place.path("a/stretches.json")).unwrap();
+    assert_eq!(beginnings.matches("\"index\"").count(), stretches);
+    fs::write(place.path("a/stretches/0000/notes.txt"), "mine").unwrap();
+    let output = place.actin(&["--out", "a", "--overwrite"]);
+    assert_eq!(code(&output), 2, "{}", stderr(&output));
+    let notes = fs::read_to_string(place.path("a/stretches/0000/notes.txt"));
+    assert_eq!(notes.unwrap(), "mine");
+}
