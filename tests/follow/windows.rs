@@ -110,3 +110,30 @@ fn a_window_follows_a_linker_that_steps() {
     let first = run.switches().next().unwrap().time_ns;
     assert!(first < 6.0);
 }
+
+/// A wall stays where it was built, through cells at it that come and go on a filament that is bent: to the bit.
+#[test]
+fn held_ends_stay_where_they_were_built() {
+    let scene = scene(
+        108.0,
+        0.25,
+        "clamps: [Clamp(end: Start)],
+         loads: [EndForce(end: End, force_pn: (-6.0, 0.0, 0.0))],
+         task: Dynamics(duration_ns: 6.0, time_step_ns: 0.00125, record_every_ns: 0.125),",
+    );
+    let follower = Follower::new(&scene).unwrap();
+    let run = follower.with_criterion(Box::new(Restless)).run().unwrap();
+    assert!(run.stretches.len() > 20);
+    for ran in &run.stretches {
+        let (assembly, state) = (&ran.stretch.assembly, &ran.trajectory.records[0].state);
+        for i in (0..assembly.points.len()).filter(|&i| !state.points.is_free(i)) {
+            let built = assembly.rest.points.position.get(i);
+            assert_eq!(state.points.position.get(i), built);
+            assert!(state.points.velocity.get(i).norm() < 1e-300);
+        }
+        for i in (0..assembly.frames.len()).filter(|&i| !state.frames.is_free(i)) {
+            let built = assembly.rest.frames.orientation.get(i);
+            assert_eq!(state.frames.orientation.get(i), built);
+        }
+    }
+}

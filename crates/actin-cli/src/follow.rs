@@ -2,7 +2,7 @@
 
 use crate::RunArguments;
 use crate::failure::{Failure, Opened};
-use crate::run::{Watched, by_default, checkpoints, print};
+use crate::run::{Watched, by_default, checkpoints, print, refuse_own_scene};
 use actin_sim::follow::{Beginning, Follower, Left, Stretch};
 use actin_sim::{
     Checkpoints, FollowedDirectory, Outcome, Plan, RunDirectory, RunError, RunLock, Saved, Sink,
@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &RunArguments, opened: &Opened) -> Result<(), Failu
     } else {
         Vec::new()
     };
-    if !beginnings.is_empty() && is_finished(&out) {
+    if !beginnings.is_empty() && is_finished(&out, &follower)? {
         println!("{} is finished: nothing to resume", out.display());
         return Ok(());
     }
@@ -60,10 +60,26 @@ pub(crate) fn run(arguments: &RunArguments, opened: &Opened) -> Result<(), Failu
     Ok(())
 }
 
-/// Whether a motion has ended whose summary is there.
-fn is_finished(out: &Path) -> bool {
-    let summary = RunDirectory::existing(out).summary();
-    summary.is_ok_and(|summary| summary.status != Status::Interrupted)
+/// Whether the motion has ended whose stretches are there; it has to be that of this scene.
+fn is_finished(out: &Path, follower: &Follower) -> Result<bool, Failure> {
+    let place = out.display();
+    let written = std::fs::read_to_string(out.join("scene.ron")).unwrap_or_default();
+    if written != follower.scene().to_ron() {
+        let message = format!("{place} holds a run of another scene: nothing to resume");
+        return Err(Failure::Input(message));
+    }
+    match ending(out) {
+        Some(Status::Failed) => Err(Failure::Numerical(format!(
+            "{place} holds a run that failed; it keeps nothing to resume"
+        ))),
+        ended => Ok(ended.is_some()),
+    }
+}
+
+/// How a run or a stretch has ended.
+fn ending(directory: &Path) -> Option<Status> {
+    let summary = RunDirectory::existing(directory).summary().ok()?;
+    (summary.status != Status::Interrupted).then_some(summary.status)
 }
 
 /// Makes or opens the directory; what keeps other runs out of it.
@@ -71,6 +87,7 @@ fn claim(arguments: &RunArguments, out: &Path, is_new: bool) -> Result<RunLock, 
     if !is_new {
         return Ok(RunLock::take(out)?);
     }
+    refuse_own_scene(arguments, out)?;
     let is_left = arguments.resume && RunDirectory::existing(out).is_unfinished();
     let (_, lock) = RunDirectory::create_locked(out, arguments.overwrite || is_left)?;
     Ok(lock)
@@ -79,6 +96,9 @@ fn claim(arguments: &RunArguments, out: &Path, is_new: bool) -> Result<RunLock, 
 impl Chain<'_> {
     /// Runs stretch after stretch; the summary of all.
     fn advance(mut self) -> Result<Summary, Failure> {
+        if let Some(summary) = self.all_done()? {
+            return Ok(summary);
+        }
         let (mut stretch, mut is_begun) = self.take_up()?;
         loop {
             let plan = self.planned(&stretch)?;
@@ -119,11 +139,24 @@ impl Chain<'_> {
         Plan::new(&stretch.assembly).map_err(|problem| self.opened.refuse(&problem))
     }
 
+    /// The summary of all, where every stretch has ended: each but the last is begun before the one before it ends.
+    fn all_done(&self) -> Result<Option<Summary>, Failure> {
+        let has_ended = |one: &Beginning| ending(&self.directory.stretch(one.index)).is_some();
+        let Some(last) = self.beginnings.last() else {
+            return Ok(None);
+        };
+        if !self.beginnings.iter().all(has_ended) {
+            return Ok(None);
+        }
+        let last = RunDirectory::existing(self.directory.stretch(last.index)).summary()?;
+        Ok(Some(self.directory.write(&self.beginnings, &last)?))
+    }
+
     /// The stretch with which the chain begins or goes on, and whether it has a checkpoint. What was begun behind one that has
     /// no results is made again.
     fn take_up(&mut self) -> Result<(Stretch, bool), Failure> {
         let refused = |problem| self.opened.refuse(&problem);
-        let done = |one: &&Beginning| is_finished(&self.directory.stretch(one.index));
+        let done = |one: &&Beginning| ending(&self.directory.stretch(one.index)).is_some();
         let first = self.beginnings.iter().take_while(done).count();
         let stretch = match self.beginnings.get(first) {
             Some(beginning) => self.follower.again(beginning.clone()).map_err(refused)?,

@@ -6,9 +6,9 @@ use crate::progress::Progress;
 use crate::signals;
 use crate::{RunArguments, SceneArguments};
 use actin_sim::{
-    Checkpoints, FailedRun, Failure as Broken, Outcome, Plan, Record, Recorded, Records,
-    RunDirectory, RunDirectoryError, RunError, RunLock, RunPosition, Saved, Sink, StabilitySummary,
-    Status, Summary, UnstableTwist,
+    Checkpoints, FailedRun, Failure as Broken, FollowedDirectory, Outcome, Plan, Record, Recorded,
+    Records, RunDirectory, RunDirectoryError, RunError, RunLock, RunPosition, Saved, Sink,
+    StabilitySummary, Status, Summary, UnstableTwist,
 };
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -76,13 +76,23 @@ pub(crate) fn by_default(source: &SceneArguments) -> PathBuf {
     Path::new("runs").join(name)
 }
 
-/// Makes or opens the run directory; what keeps other runs out of it.
-fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failure> {
+/// Refuses to overwrite the directory in which the scene lies.
+pub(crate) fn refuse_own_scene(arguments: &RunArguments, out: &Path) -> Result<(), Failure> {
     if arguments.overwrite && RunDirectory::existing(out).holds(&arguments.source.scene) {
         let (scene, out) = (arguments.source.scene.display(), out.display());
         return Err(Failure::Input(format!(
             "{scene} lies in {out}, which is to be overwritten: copy the scene to another place first"
         )));
+    }
+    Ok(())
+}
+
+/// Makes or opens the run directory; what keeps other runs out of it.
+fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failure> {
+    refuse_own_scene(arguments, out)?;
+    if arguments.overwrite && out.join("stretches.json").is_file() {
+        // Of a run that sections followed.
+        FollowedDirectory::at(out).remove_from(0)?;
     }
     if !arguments.resume {
         let claimed = RunDirectory::create_locked(out, arguments.overwrite);

@@ -184,6 +184,11 @@ impl System {
     fn from_scene(py: Python<'_>, scene: &Bound<'_, Scene>) -> PyResult<Self> {
         let scene = scene.get();
         let assembly = scene.build(py)?;
+        if assembly.scene.filament.sections.following().is_some() {
+            let rule = "sections that follow a motion do so in `actin run` alone";
+            let problem = actin_sim::SceneProblem::new("filament.sections", "", rule);
+            return Err(errors::problem(py, &problem));
+        }
         if scene
             .inner
             .linkers

@@ -368,10 +368,16 @@ fn first_record(saved: Option<&Saved>) -> Option<Record> {
 /// The scene with the time step that suits rods and monomers, and the interval of records.
 fn resolved(scene: &Scene, cells: &Cells) -> Result<Scene, SceneProblem> {
     let mut finest: Option<(f64, Scene)> = None;
-    let middle = cells.count() / 2;
     let all_rod = vec![false; cells.count()];
     let mut mixed = all_rod.clone();
-    mixed[middle] = true;
+    // Ends, the middle, and where something pulls: other cells differ from these in the bonds that are drawn.
+    for cell in [0, cells.count() / 2, cells.count() - 1] {
+        mixed[cell] = true;
+    }
+    for (cell, [from, to]) in cells.spans_nm().enumerate() {
+        let mut linkers = scene.linkers.iter();
+        mixed[cell] |= linkers.any(|linker| from <= linker.at_nm && linker.at_nm <= to);
+    }
     for is_monomers in [all_rod, mixed] {
         let assembly = Assembly::build(&cells.scene(scene, &is_monomers))?;
         let plan = Plan::new(&assembly)?;

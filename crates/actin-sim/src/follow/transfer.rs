@@ -5,7 +5,7 @@ use super::momentum::{Bodies, Momentum};
 use crate::scene::{Dynamics, SceneProblem};
 use crate::{Assembly, At, BodyKind};
 use actin_integrate::{Bath, Drag, Run};
-use actin_mechanics::{Shared, State, System, Vector3};
+use actin_mechanics::{Shared, State, System, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -19,8 +19,11 @@ const SETTLING_RATE_PER_NS: f64 = 60.0;
 /// Time (ns) for which they settle.
 const SETTLING_NS: f64 = 0.15;
 
-/// Added to the seed of a bath, so that what settles meets another noise than the motion does.
+/// Mixed with the step into the seed of a bath, so that what settles meets another noise than the motion does.
 const OTHER_NOISE: u64 = 0x5e77_1e5e;
+
+/// An odd number, the golden ratio of 2^64.
+const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// A switch of cells, and what it did.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -121,44 +124,51 @@ impl Transfer<'_> {
         }
     }
 
-    /// Puts every body where it was, or on the cross-section that stands for it; returns the cross-sections of all new
-    /// bodies.
+    /// Puts every body where it was, or on the cross-section that stands for it; new bodies that are held stay where they
+    /// were built. Returns the cross-sections of all other new bodies.
     fn place(&self, old: &State, state: &mut State) -> Made {
         let field = Field::of(self.from, old);
+        let (known, keys) = (Places::of(self.from), Places::of(self.to));
         let mut made = Made::default();
-        let known = Places::of(self.from);
-        let keys = Places::of(self.to);
         for (key, &i) in &keys.points {
             if let Some(&there) = known.points.get(key) {
                 state.points.position.set(i, old.points.position.get(there));
                 state.points.velocity.set(i, old.points.velocity.get(there));
-                continue;
+            } else if state.points.is_free(i) {
+                let section = self.cross_section(&field, self.to.points[i].s_nm);
+                let place = section.place + section.axes * self.arm(i);
+                state.points.position.set(i, place);
+                made.points.push((i, section));
             }
-            let s_nm = self.to.points[i].s_nm;
-            let section = self.cross_section(&field, s_nm);
-            let rest = self.to.rest.points.position.get(i) - self.span().axis_place(s_nm);
-            let arm = self.span().frame_at(s_nm).inverse() * rest;
-            let place = section.place + section.axes * arm;
-            state.points.position.set(i, place);
-            made.points.push((i, section));
         }
         for (key, &i) in &keys.frames {
-            let kept = known.frames.get(key);
-            if let Some(&there) = kept.filter(|_| !self.is_new_junction(i)) {
+            let kept = known.frames.get(key).filter(|_| !self.is_new_junction(i));
+            if let Some(&there) = kept {
                 let orientation = old.frames.orientation.get(there);
                 state.frames.orientation.set(i, orientation);
                 let momentum = old.frames.angular_momentum.get(there);
                 state.frames.angular_momentum.set(i, momentum);
-                continue;
+            } else if state.frames.is_free(i) {
+                let section = self.cross_section(&field, self.to.frames[i].s_nm);
+                let own = self.own_axes(i);
+                state.frames.orientation.set(i, section.axes * own);
+                made.frames.push((i, section));
             }
-            let s_nm = self.to.frames[i].s_nm;
-            let section = self.cross_section(&field, s_nm);
-            let rest = self.to.rest.frames.orientation.get(i);
-            let own = self.span().frame_at(s_nm).inverse() * rest;
-            state.frames.orientation.set(i, section.axes * own);
-            made.frames.push((i, section));
         }
         made
+    }
+
+    /// Where a point of the new filament was built, from the cross-section at its arc length (nm, its axes).
+    fn arm(&self, i: usize) -> Vector3 {
+        let s_nm = self.to.points[i].s_nm;
+        let rest = self.to.rest.points.position.get(i) - self.span().axis_place(s_nm);
+        self.span().frame_at(s_nm).inverse() * rest
+    }
+
+    /// How a frame was built, in the axes of the cross-section at its arc length.
+    fn own_axes(&self, i: usize) -> UnitQuaternion {
+        let rest = self.to.rest.frames.orientation.get(i);
+        self.span().frame_at(self.to.frames[i].s_nm).inverse() * rest
     }
 
     /// Brings what slides as far from where it was built as it was, with its velocity.
@@ -229,10 +239,8 @@ impl Transfer<'_> {
         let run = match &dynamics.thermal {
             None => run.with_drag(drag),
             Some(thermal) => {
-                let seed = thermal
-                    .seed
-                    .wrapping_add(OTHER_NOISE)
-                    .wrapping_add(self.step);
+                // Far apart for neighbouring steps, so that no two runs settle with one noise.
+                let seed = thermal.seed ^ OTHER_NOISE.wrapping_add(self.step).wrapping_mul(SPREAD);
                 let bath = Bath::new(drag, thermal.energy_pn_nm(), seed);
                 run.with_bath(bath.map_err(|e| refused(&e))?)
             }

@@ -12,9 +12,11 @@
 
 use super::atomic;
 use super::directory::RunDirectory;
+use super::lock::LOCK;
 use super::manifest::Manifest;
 use super::names::{ENERGIES, MANIFEST, OBSERVABLES, PICTURES, STRETCHES, SUMMARY, SWITCHES};
 use super::{RunDirectoryError, Summary};
+use crate::assembly::worst_of;
 use crate::follow::Beginning;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -92,23 +94,20 @@ impl FollowedDirectory {
         self.replace(STRETCHES, |out| Ok(serde_json::to_writer(out, beginnings)?))
     }
 
-    /// Removes the run directories of stretches from `first` on.
+    /// Removes the run directories of stretches from `first` on, the last first.
     ///
     /// # Errors
     /// A directory with files that no run has written, or a refusal of the file system.
     pub fn remove_from(&self, first: usize) -> Result<(), RunDirectoryError> {
-        for index in first.. {
-            let path = self.stretch(index);
-            if !path.exists() {
-                break;
-            }
-            drop(RunDirectory::create_locked(&path, true)?);
-            let io = || RunDirectoryError::io(&path);
-            fs::remove_file(path.join(MANIFEST)).map_err(io())?;
-            // What is left is what others have put there.
-            let _ = fs::remove_file(path.join(super::lock::LOCK));
-            let _ = fs::remove_dir(path.join(PICTURES));
-            fs::remove_dir(&path).map_err(io())?;
+        let folder = self.path.join(FOLDER);
+        let Ok(entries) = fs::read_dir(&folder) else {
+            return Ok(());
+        };
+        let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        let mut indices: Vec<usize> = names.filter_map(|name| name.parse().ok()).collect();
+        indices.sort_unstable_by(|a, b| b.cmp(a));
+        for index in indices.into_iter().filter(|&index| index >= first) {
+            remove_run(&self.stretch(index))?;
         }
         Ok(())
     }
@@ -137,12 +136,48 @@ impl FollowedDirectory {
             following: Some(summarised(beginnings, &spans)),
             observables: BTreeMap::new(),
             thermal: None,
-            ..last.clone()
+            ..self.with_remarks(beginnings, last)?
         };
         self.replace(SUMMARY, |out| {
             Ok(serde_json::to_writer_pretty(out, &summary)?)
         })?;
         Ok(summary)
+    }
+
+    /// The last summary with what is wrong in any stretch: of each quantity the worst.
+    fn with_remarks(
+        &self,
+        beginnings: &[Beginning],
+        last: &Summary,
+    ) -> Result<Summary, RunDirectoryError> {
+        let mut all = last.clone();
+        for beginning in beginnings {
+            let one = RunDirectory::existing(self.stretch(beginning.index)).summary()?;
+            all.beyond_use.extend(one.beyond_use);
+            all.unstable_twist.extend(one.unstable_twist);
+            for beyond in one.beyond_range {
+                let mut known = all.beyond_range.iter_mut();
+                match known.find(|known| known.quantity == beyond.quantity) {
+                    Some(known) if known.value.abs() >= beyond.value.abs() => {}
+                    Some(known) => *known = beyond,
+                    None => all.beyond_range.push(beyond),
+                }
+            }
+            for note in one.notes {
+                if !all.notes.contains(&note) {
+                    all.notes.push(note);
+                }
+            }
+        }
+        all.beyond_use = worst_of(std::mem::take(&mut all.beyond_use));
+        all.unstable_twist
+            .sort_by(|a, b| b.compression_pn.total_cmp(&a.compression_pn));
+        all.unstable_twist.truncate(1);
+        if !last.observables.is_empty() || last.thermal.is_some() {
+            let note = "means over records are those of each stretch, in stretches/*/summary.json";
+            all.notes.push(note.to_owned());
+        }
+        Ok(all)
     }
 
     /// Joins a table of all stretches, of each the columns that `of` finds in its header, with what switches have booked up
@@ -199,6 +234,22 @@ impl FollowedDirectory {
         let written = atomic::replace_durably(&path, |out| write(out));
         written.map_err(RunDirectoryError::io(&path))
     }
+}
+
+/// Removes a run directory: what its manifest lists, and then itself.
+fn remove_run(path: &Path) -> Result<(), RunDirectoryError> {
+    let io = || RunDirectoryError::io(path);
+    let lock = RunDirectory::create_locked(path, true)?;
+    // Empty now, if it is the run's alone.
+    let _ = fs::remove_dir(path.join(PICTURES));
+    for entry in fs::read_dir(path).map_err(io())? {
+        let name = entry.map_err(io())?.file_name();
+        if name != MANIFEST && name != LOCK {
+            return Err(RunDirectoryError::NotEmpty { path: path.into() });
+        }
+    }
+    drop(lock);
+    fs::remove_dir_all(path).map_err(io())
 }
 
 fn column(header: &csv::StringRecord, name: &str) -> io::Result<usize> {

@@ -79,7 +79,7 @@ impl Plan<'_> {
     fn execute(&self, saved: Option<Saved>, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
         let assembly = self.assembly();
         if assembly.scene.filament.sections.following().is_some() {
-            let rule = "sections that follow a motion are run by follow::Follower";
+            let rule = "sections that follow a motion are run by `actin run` alone, and by follow::Follower in Rust";
             return Err(SceneProblem::new("filament.sections", "Following(..)", rule).into());
         }
         let (mut outcome, failure) = match (&assembly.scene.task, self.estimate()) {

@@ -1,7 +1,7 @@
 //! What a scene says of sections that follow a motion: where monomers are resolved while it goes on.
 
 use super::rules::{finite, positive, show};
-use super::{Scene, SceneProblem, Task};
+use super::{Hold, Scene, SceneProblem, Task};
 use serde::{Deserialize, Serialize};
 
 /// A cell holds at least so many monomers: fewer do not tell its curvature.
@@ -169,6 +169,10 @@ fn check_scene(scene: &Scene) -> Result<(), SceneProblem> {
     };
     if !scene.further.is_empty() {
         return refused("filaments", "several filaments");
+    }
+    let mut clamps = scene.clamps.iter();
+    if clamps.any(|clamp| clamp.hold != Hold::Wall || clamp.hinge.is_some()) {
+        return refused("clamps", "ends that are not held by Wall, as monomers are");
     }
     if scene.repulsion.is_some() {
         return refused("repulsion", "repulsion");

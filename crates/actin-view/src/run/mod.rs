@@ -91,7 +91,7 @@ impl Run {
     /// # Errors
     /// A path that is no directory, and a directory without a scene that can be built.
     pub fn open(path: &Path, limits: Limits) -> Result<Self, ViewError> {
-        if path.join(STRETCHES).is_dir() {
+        if path.join("stretches.json").is_file() {
             return Self::open_stretches(path, limits);
         }
         let assembly = assembly(path)?;
