@@ -53,6 +53,11 @@ impl Assembly {
         {
             notes.extend(left_out(&self.scene).map(str::to_owned));
         }
+        if self.scene.filament.sections.following().is_some() {
+            let note = "sections follow the motion: numbers of bodies, time step and cost are those of a rod, with which it \
+                        begins";
+            notes.push(note.to_owned());
+        }
         for filament in self.scene.filaments() {
             let sections = filament.sections.iter().filter(|s| !s.is_rod());
             for section in sections {
