@@ -2,7 +2,8 @@
 
 use crate::RunArguments;
 use crate::failure::{Failure, Opened};
-use crate::run::{Watched, by_default, checkpoints, print, refuse_own_scene};
+use crate::run::{Watched, by_default, checkpoints, refuse_own_scene};
+use crate::told::print;
 use actin_sim::follow::{Beginning, Follower, Left, Stretch};
 use actin_sim::{
     Checkpoints, FollowedDirectory, Outcome, Plan, RunDirectory, RunError, RunLock, Saved, Sink,

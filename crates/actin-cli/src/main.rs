@@ -16,6 +16,7 @@ mod progress;
 mod run;
 mod signals;
 mod sweep;
+mod told;
 mod view;
 
 use actin_sim::Override;

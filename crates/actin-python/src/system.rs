@@ -184,22 +184,19 @@ impl System {
     fn from_scene(py: Python<'_>, scene: &Bound<'_, Scene>) -> PyResult<Self> {
         let scene = scene.get();
         let assembly = scene.build(py)?;
+        let refused = |key: &str, rule: &str| {
+            Err(errors::problem(
+                py,
+                &actin_sim::SceneProblem::new(key, "", rule),
+            ))
+        };
         if assembly.scene.filament.sections.following().is_some() {
             let rule = "sections that follow a motion do so in `actin run` alone";
-            let problem = actin_sim::SceneProblem::new("filament.sections", "", rule);
-            return Err(errors::problem(py, &problem));
+            return refused("filament.sections", rule);
         }
-        if scene
-            .inner
-            .linkers
-            .iter()
-            .any(|linker| linker.kinetics.is_some())
-        {
-            let rule = "linkers that break, form or step do so in actin.run alone";
-            return Err(errors::problem(
-                py,
-                &actin_sim::SceneProblem::new("linkers", "", rule),
-            ));
+        let mut linkers = scene.inner.linkers.iter();
+        if linkers.any(|linker| linker.kinetics.is_some()) {
+            return refused("linkers", "they break, form or step in actin.run alone");
         }
         let plan = py.detach(|| Plan::new(&assembly));
         let plan = plan.map_err(|problem| scene.refuse(py, &problem))?;
