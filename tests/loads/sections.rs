@@ -203,7 +203,7 @@ fn masses_and_refusals() {
         ),
         (
             "",
-            "filament.sections[1].from_nm = 60.0: neighbouring sections of the same kind are one",
+            "filament.sections[1].from_nm = 60.0: neighbouring sections of the same monomers are one",
         ),
     ] {
         let message = build(change).unwrap_err();
