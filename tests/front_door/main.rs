@@ -21,10 +21,9 @@ const LIBRARIES: [&str; 11] = [
 ];
 
 /// Programs among the examples that measure something for the documents.
-const MEASUREMENTS: [&str; 9] = [
+const MEASUREMENTS: [&str; 8] = [
     "bond_rate",
     "elimination_order",
-    "error_estimates",
     "load_rate",
     "newton_against_length",
     "persistence_length",
@@ -43,7 +42,9 @@ fn folder(name: &str) -> PathBuf {
 /// Names and programs of the examples of a crate that a user would copy, without their headers.
 fn examples(name: &str) -> Vec<(String, String)> {
     let files = fs::read_dir(folder(name).join("examples")).expect("every library has examples");
+    // One in a folder is a measurement, too long to copy.
     let paths = files.map(|file| file.expect("it can be read").path());
+    let paths = paths.filter(|path| path.is_file());
     let named = paths.map(|path| {
         let stem = path.file_stem().expect("a file").to_string_lossy();
         (stem.into_owned(), fs::read_to_string(&path).expect("text"))

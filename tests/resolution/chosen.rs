@@ -11,6 +11,13 @@ fn adaptive(length: f64, want: &str, rest: &str) -> Scene {
     )
 }
 
+/// The same with rods 10 % off, of a law that is not replaced.
+fn stiff(length: f64, want: &str, rest: &str) -> Scene {
+    let mut scene = adaptive(length, want, rest);
+    scene.filament.rod.law = RodLaw::PublishedExtension;
+    scene
+}
+
 /// True relative error of a chosen resolution.
 fn true_error(chosen: &Assembly, quantity: Quantity) -> f64 {
     let value = |scene: &Scene| {
@@ -58,27 +65,24 @@ fn the_wanted_error_is_met() {
 /// The tip needs the wall and not the tip; where junctions cost more than they gain, every monomer is resolved.
 #[test]
 fn monomers_go_where_the_number_comes_from() {
-    let of = |want: &str, length, rest| {
-        let assembly = Assembly::build(&adaptive(length, want, rest)).unwrap();
-        assembly.chosen.unwrap()
-    };
-    let chosen = of("Tip(error: 0.02)", 1600.0, LONG_CANTILEVER);
+    let of = |scene: &Scene| Assembly::build(scene).unwrap().chosen.unwrap();
+    let chosen = of(&stiff(1600.0, "Tip(error: 0.05)", LONG_CANTILEVER));
     let [[from, to]] = chosen.monomers_nm[..] else {
         panic!("one stretch: {chosen:?}");
     };
-    assert!(from < 1e-9 && to < 600.0, "{chosen:?}");
-    assert!(chosen.estimate.unwrap().relative() < 0.02);
-    let chosen = of("EndCouple(error: 0.001)", 74.0, TWIST);
+    assert!(from < 1e-9 && to < 800.0, "{chosen:?}");
+    assert!(chosen.estimate.unwrap().relative() < 0.05);
+    let chosen = of(&adaptive(74.0, "EndCouple(error: 0.001)", TWIST));
     assert_eq!((chosen.monomers_nm.len(), chosen.estimate), (1, None));
 }
 
 /// Within a number of monomers the wanted error is met where that can be, and else the least estimated one is taken and
-/// told. True errors are 1.8 % of a rod, 5 % where it is twisted.
+/// told. True errors are 10 % of a rod.
 #[test]
 fn a_number_of_monomers_is_kept() {
     for (want, length, rest, is_met) in [
         (
-            "Tip(error: 0.02), monomers: 200",
+            "Tip(error: 0.05), monomers: 300",
             1600.0,
             LONG_CANTILEVER,
             true,
@@ -97,7 +101,7 @@ fn a_number_of_monomers_is_kept() {
         ),
         ("Energy(error: 0.001), monomers: 20", 74.0, TWIST, false),
     ] {
-        let assembly = Assembly::build(&adaptive(length, want, rest)).unwrap();
+        let assembly = Assembly::build(&stiff(length, want, rest)).unwrap();
         let chosen = assembly.chosen.clone().unwrap();
         let most = chosen.most_monomers.unwrap();
         assert_eq!(assembly.counts().monomers, chosen.monomers, "{chosen:?}");
@@ -117,7 +121,7 @@ fn a_number_of_monomers_is_kept() {
 fn monomers_that_are_allowed_are_used() {
     let of = |most: usize| {
         let want = format!("Tip(error: 0.001), monomers: {most}");
-        let assembly = Assembly::build(&adaptive(1600.0, &want, LONG_CANTILEVER)).unwrap();
+        let assembly = Assembly::build(&stiff(1600.0, &want, LONG_CANTILEVER)).unwrap();
         (
             assembly.counts().monomers,
             true_error(&assembly, Quantity::Tip),

@@ -9,7 +9,9 @@ use rayon::prelude::*;
 use std::path::Path;
 
 /// Curvatures (rad/nm) along a path.
-const CURVATURES: [f64; 9] = [1e-4, 3e-4, 6e-4, 1e-3, 1.7e-3, 2.5e-3, 4e-3, 7e-3, 0.01];
+pub(super) const CURVATURES: [f64; 11] = [
+    1e-5, 3e-5, 1e-4, 3e-4, 6e-4, 1e-3, 1.7e-3, 2.5e-3, 4e-3, 7e-3, 0.01,
+];
 /// Tensions (pN).
 const TENSIONS: [f64; 7] = [-15.0, -5.0, 0.0, 1.0, 5.0, 10.0, 40.0];
 /// Twists that are held (rad/nm); beside them the turn is free.

@@ -125,6 +125,11 @@ pub fn estimate(
     located(assembly, state, quantity).map(|located| located.total)
 }
 
+/// The number itself in some state, in its [unit](Quantity::unit).
+pub fn value(assembly: &Assembly, state: &State, quantity: Quantity) -> f64 {
+    Adjoint::value_of(quantity, assembly, state)
+}
+
 fn located(
     assembly: &Assembly,
     state: &State,
@@ -210,7 +215,7 @@ fn of_segments(assembly: &Assembly, quantity: Quantity, value: f64) -> Result<f6
         return Ok(0.0);
     }
     let (halved, state) = equilibrium(&scene)?;
-    let halved = Adjoint::value_of(quantity, &halved, &state);
+    let halved = self::value(&halved, &state, quantity);
     Ok((halved - value) / (1.0 - LEFT_BY_HALVING))
 }
 

@@ -165,6 +165,7 @@ pub(super) fn run(
     }
     table.push_str(&stability(&law));
     table.push_str(&by_twist(&law, axes, &fitted));
+    table.push_str(&by_curvature(&law, &paths));
     tell(format_args!("{table}"));
     let write = |file: &str, text: String| {
         let path = out.join(file);
@@ -335,6 +336,34 @@ fn by_twist(law: &Homogenised, axes: &Axes, rows: &[&Row]) -> String {
             "| {twist} | {} {:.1} % |",
             Residuals::of(law, here.iter().copied()).printed(),
             100.0 * firm as f64 / here.len() as f64
+        );
+    }
+    table
+}
+
+/// Differences of the couple of bent cells that are free to shear and not compressed, at each curvature.
+fn by_curvature(law: &Homogenised, paths: &[Row]) -> String {
+    let mut table = String::from(
+        "\n| curvature (rad/nm), free to shear | couple, root mean square | at rest otherwise |\n| ---: | ---: | ---: |\n",
+    );
+    let off = |row: &Row| law.loads(&row.six())[0] / row.loads[0] - 1.0;
+    for curvature in paths::CURVATURES {
+        let here = paths
+            .iter()
+            .filter(|row| (row.strain[0] / curvature - 1.0).abs() < 1e-6);
+        let here: Vec<&Row> = here.filter(|row| row.loads[5] > -0.01).collect();
+        let squares: f64 = here.iter().map(|row| off(row).powi(2)).sum();
+        let free = here
+            .iter()
+            .filter(|row| row.loads[2].abs() < 1e-6 && row.loads[5] < 0.01);
+        let free: Vec<String> = free
+            .map(|row| format!("{:+.1} %", 100.0 * off(row)))
+            .collect();
+        let _ = writeln!(
+            table,
+            "| {curvature} | {:.1} % | {} |",
+            100.0 * (squares / here.len() as f64).sqrt(),
+            free.join(", ")
         );
     }
     table

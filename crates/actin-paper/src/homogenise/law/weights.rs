@@ -8,7 +8,7 @@ use super::super::rows::Row;
 const SHARE: f64 = 0.05;
 const FLOORS: [f64; 5] = [0.01, 0.5, 0.5, 0.1, 1.0];
 /// Floor of the twisting couple (pN nm) of the straight filament, which twists easily at rest.
-const STRAIGHT: f64 = 0.1;
+const STRAIGHT: f64 = 0.03;
 /// Of the tangent: a share of the roots of diagonal entries, and these at least (pN nm^2, pN). Entries beside the
 /// diagonal count more.
 const TANGENT: f64 = 0.33;
@@ -20,6 +20,8 @@ const FIRM: [f64; 6] = [1e3, 1e3, -1.0, -1.0, -1.0, 1e3];
 const BRANCH: f64 = -50.0;
 /// Weight of a row and of its tangent on paths of cells that are free to shear; of the grid: [`weights`].
 const ON_PATHS: (f64, f64) = (3.0, 3.0);
+/// Share and floor (pN nm) of the bending couple there: long filaments bend as gently as that.
+const BENT: (f64, f64) = (0.02, 0.002);
 
 /// What counts as a difference of 1 in each of the numbers of a row.
 pub(super) fn deviations(row: &Row) -> [f64; 7] {
@@ -31,6 +33,15 @@ pub(super) fn deviations(row: &Row) -> [f64; 7] {
     let n = force + SHARE * row.loads.fixed_rows::<2>(3).norm();
     let n3 = tension + SHARE * row.loads[5].abs();
     [energy + SHARE * row.energy, m, m, m3, n, n, n3]
+}
+
+/// The same of a bent cell that is free to shear.
+fn on_path(row: &Row) -> [f64; 7] {
+    let mut sizes = deviations(row);
+    let (share, floor) = BENT;
+    sizes[1] = floor + share * row.loads.fixed_rows::<2>(0).norm();
+    sizes[2] = sizes[1];
+    sizes
 }
 
 /// Weight of a row and of its tangent: twist and tension alone and stiffness at rest count most, compression least,
@@ -58,9 +69,11 @@ fn weights(row: &Row) -> (f64, f64) {
 pub(super) fn weighted<'a>(grid: &[&'a Row], paths: &'a [Row]) -> Vec<Weighted<'a>> {
     let of_grid = grid.iter().map(|row| (*row, weights(row)));
     let of_paths = paths.iter().map(|row| (row, ON_PATHS));
-    let one = |(row, (weight, of_tangent)): (&'a Row, _)| Weighted {
+    let of_grid = of_grid.map(|(row, weight)| (row, deviations(row), weight));
+    let of_paths = of_paths.map(|(row, weight)| (row, on_path(row), weight));
+    let one = |(row, sizes, (weight, of_tangent)): (&'a Row, [f64; 7], _)| Weighted {
         row,
-        numbers: deviations(row).map(|size| weight / size),
+        numbers: sizes.map(|size| weight / size),
         tangent: entries(row)
             .into_iter()
             .map(|(at, w)| (at, w * of_tangent))

@@ -1,0 +1,187 @@
+//! Estimated errors beside true ones: scenes of the trade study and others in several resolutions, each against the
+//! same filament with every monomer resolved; then resolutions that are chosen for a wanted error, beside the fewest
+//! monomers that meet it, found by search.
+//!
+//! `cargo run --release -p actin-sim --example error_estimates [name of a case]`
+//!
+//! Errors in per cent of the value with every monomer. The last column is the time of the estimate over that of the
+//! equilibrium of all monomers.
+
+mod cases;
+mod search;
+
+use actin_sim::adapt::{Chosen, estimate};
+use actin_sim::{Adaptive, Assembly, Plan, Quantity, RodLaw, Scene, Section, Want};
+use cases::{Case, cases};
+use search::fewest;
+use std::time::Instant;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let wanted = std::env::args().nth(1);
+    let mut searched = Vec::new();
+    println!(
+        "| case | resolution | true | estimated | law | segments | junctions | walls | time |"
+    );
+    println!("|---|---|---:|---:|---:|---:|---:|---:|---:|");
+    for case in cases()?
+        .into_iter()
+        .filter(|c| wanted.as_ref().is_none_or(|w| w == c.name))
+    {
+        let length = case.length_nm();
+        let (fine, seconds) = solved(&case.scene)?;
+        let truth = case.value(&fine);
+        for law in [RodLaw::Homogenised, RodLaw::Fitted, RodLaw::Constant] {
+            compare(&case, (&law, &[]), length, (truth, seconds))?;
+        }
+        for stretches in &case.stretches {
+            compare(
+                &case,
+                (&RodLaw::Homogenised, stretches),
+                length,
+                (truth, seconds),
+            )?;
+        }
+        for error in [0.05, 0.02, 0.01] {
+            let chosen = choose(&case, (error, None), length, (truth, seconds))?;
+            searched.push(compared(&case, error, &chosen, truth)?);
+        }
+        for most in [26, 104] {
+            choose(&case, (0.001, Some(most)), length, (truth, seconds))?;
+        }
+    }
+    println!("\n| case | wanted | chosen, monomers | fewest by search |");
+    println!("|---|---:|---:|---|");
+    for row in searched {
+        println!("{row}");
+    }
+    Ok(())
+}
+
+/// One row: the monomers that were chosen for an error, and the fewest with which a filament meets it.
+fn compared(
+    case: &Case,
+    error: f64,
+    chosen: &Chosen,
+    truth: f64,
+) -> Result<String, Box<dyn std::error::Error>> {
+    let best = fewest(case, error, truth)?;
+    let best = best.map_or_else(
+        || "none but all".to_owned(),
+        |found| format!("{}: {}", found.monomers, words(&found.stretches)),
+    );
+    Ok(format!(
+        "| {} | {} % | {} | {best} |",
+        case.name,
+        100.0 * error,
+        chosen.monomers
+    ))
+}
+
+/// One row: a resolution, its true and its estimated error.
+fn compare(
+    case: &Case,
+    (law, stretches): (&RodLaw, &[[f64; 2]]),
+    length: f64,
+    (truth, seconds): (f64, f64),
+) -> Result<(), Box<dyn std::error::Error>> {
+    let mut scene = case.scene.clone();
+    scene.filament.sections = sections(length, stretches).into();
+    scene.filament.rod.law = law.clone();
+    let (assembly, _) = solved(&scene)?;
+    let start = Instant::now();
+    let found = estimate(&assembly, assembly.system.state(), case.quantity)?;
+    let took = start.elapsed().as_secs_f64() / seconds;
+    let percent = |part: f64| format!("{:.2}", 100.0 * part / truth);
+    println!(
+        "| {} | {}, `{law:?}` | {} | {} | {} | {} | {} | {} | {took:.1} |",
+        case.name,
+        words(stretches),
+        percent(truth - found.value),
+        percent(found.error),
+        percent(found.law),
+        percent(found.segments),
+        percent(found.junctions),
+        percent(found.walls),
+    );
+    Ok(())
+}
+
+/// One row: the resolution that is chosen for an error, and what it is off by.
+fn choose(
+    case: &Case,
+    (error, monomers): (f64, Option<usize>),
+    length: f64,
+    (truth, seconds): (f64, f64),
+) -> Result<Chosen, Box<dyn std::error::Error>> {
+    let want = match case.quantity {
+        Quantity::Tip => Want::Tip { error },
+        Quantity::Height => Want::Height { error },
+        Quantity::EndForce => Want::EndForce { error },
+        Quantity::EndCouple => Want::EndCouple { error },
+        Quantity::Energy => Want::Energy { error },
+        Quantity::LinkerForce { linker } => Want::LinkerForce { linker, error },
+    };
+    let mut scene = case.scene.clone();
+    scene.filament.sections = Adaptive {
+        length_nm: length,
+        want,
+        monomers,
+    }
+    .into();
+    let assembly = Assembly::build(&scene)?;
+    let chosen = assembly.chosen.clone().ok_or("nothing was chosen")?;
+    let (assembly, own) = solved(&assembly.scene)?;
+    let off = 100.0 * (truth - case.value(&assembly)) / truth;
+    let estimated = chosen.estimate.map_or(0.0, |e| 100.0 * e.error / truth);
+    let stretches = chosen.monomers_nm.iter();
+    let share = stretches.fold(0.0, |sum, [from, to]| sum + to - from);
+    let limit = monomers.map_or_else(String::new, |most| format!(", {most} monomers"));
+    println!(
+        "| {} | **{} %{limit}**: {}, {:.0} % monomers, segments of {:.0} nm, {} tried | {off:.2} | {estimated:.2} | | | | | {:.1} |",
+        case.name,
+        100.0 * error,
+        words(&chosen.monomers_nm),
+        100.0 * share / length,
+        chosen.segment_nm,
+        chosen.tried.len(),
+        (chosen.wall_s + own) / seconds,
+    );
+    Ok(chosen)
+}
+
+fn solved(scene: &Scene) -> Result<(Assembly, f64), Box<dyn std::error::Error>> {
+    let start = Instant::now();
+    let mut assembly = Assembly::build(scene)?;
+    let (trajectory, _) = Plan::new(&assembly)?.run()?;
+    let last = trajectory.records.last().ok_or("no record")?;
+    *assembly.system.state_mut() = last.state.clone();
+    Ok((assembly, start.elapsed().as_secs_f64()))
+}
+
+/// Monomers in these stretches, the rest rods of 10 nm segments.
+fn sections(length: f64, stretches: &[[f64; 2]]) -> Vec<Section> {
+    let mut all = Vec::new();
+    let mut at = 0.0;
+    for &[from_nm, to_nm] in stretches.iter().chain(&[[length, length]]) {
+        if from_nm > at {
+            all.push(Section::rod(at, from_nm, None));
+        }
+        if to_nm > from_nm {
+            all.push(Section::Ellipsoids {
+                from_nm,
+                to_nm,
+                altered: None,
+            });
+        }
+        at = to_nm;
+    }
+    all
+}
+
+fn words(stretches: &[[f64; 2]]) -> String {
+    let one = |[from, to]: &[f64; 2]| format!("{from:.0} to {to:.0} nm");
+    match stretches {
+        [] => "rod".to_owned(),
+        all => all.iter().map(one).collect::<Vec<_>>().join(", "),
+    }
+}
