@@ -90,7 +90,7 @@ pub(crate) fn refuse_own_scene(arguments: &RunArguments, out: &Path) -> Result<(
 /// Makes or opens the run directory; what keeps other runs out of it.
 fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failure> {
     refuse_own_scene(arguments, out)?;
-    if arguments.overwrite && out.join("stretches.json").is_file() {
+    if arguments.overwrite && FollowedDirectory::is_at(out) {
         // Of a run that sections followed.
         FollowedDirectory::at(out).remove_from(0)?;
     }

@@ -78,7 +78,7 @@ impl Transfer<'_> {
         }
         take_places(&settled, &mut state, &bodies);
         if dynamics.thermal.is_none() {
-            made.move_along(&mut state, &bodies);
+            made.move_along(&mut state);
         }
         bodies.give(&mut state, wanted);
         let switch = self.switch([old, &state]);
@@ -259,19 +259,13 @@ struct Made {
 
 impl Made {
     /// Gives new bodies the motion of their cross-sections.
-    fn move_along(&self, state: &mut State, bodies: &Bodies) {
+    fn move_along(&self, state: &mut State) {
         for (i, section) in &self.points {
-            if !bodies.points.contains(i) {
-                continue;
-            }
             let arm = state.points.position.get(*i) - section.place;
             let velocity = section.velocity + section.angular_velocity.cross(&arm);
             state.points.velocity.set(*i, velocity);
         }
         for (i, section) in &self.frames {
-            if !bodies.frames.contains(i) {
-                continue;
-            }
             let own = state.frames.orientation.get(*i).inverse() * section.angular_velocity;
             let moments = state.frames.inverse_moments(*i);
             let momentum = own.component_div(&moments);

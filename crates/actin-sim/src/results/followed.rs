@@ -63,6 +63,11 @@ impl FollowedDirectory {
         Self { path: path.into() }
     }
 
+    /// Whether there is one at `path`.
+    pub fn is_at(path: &Path) -> bool {
+        path.join(STRETCHES).is_file()
+    }
+
     /// Where it is.
     pub fn path(&self) -> &Path {
         &self.path
@@ -78,10 +83,10 @@ impl FollowedDirectory {
     /// # Errors
     /// A file that cannot be read or is no list of stretches.
     pub fn beginnings(&self) -> Result<Vec<Beginning>, RunDirectoryError> {
-        let path = self.path.join(STRETCHES);
-        if !path.exists() {
+        if !Self::is_at(&self.path) {
             return Ok(Vec::new());
         }
+        let path = self.path.join(STRETCHES);
         let read = fs::read_to_string(&path).and_then(|text| Ok(serde_json::from_str(&text)?));
         read.map_err(RunDirectoryError::io(&path))
     }

@@ -14,7 +14,7 @@ use curves::Curve;
 use source::Source;
 
 use actin_sim::mechanics::State;
-use actin_sim::{Assembly, At, Scene, Summary};
+use actin_sim::{Assembly, At, FollowedDirectory, Scene, Summary};
 use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -91,7 +91,7 @@ impl Run {
     /// # Errors
     /// A path that is no directory, and a directory without a scene that can be built.
     pub fn open(path: &Path, limits: Limits) -> Result<Self, ViewError> {
-        if path.join("stretches.json").is_file() {
+        if FollowedDirectory::is_at(path) {
             return Self::open_stretches(path, limits);
         }
         let assembly = assembly(path)?;

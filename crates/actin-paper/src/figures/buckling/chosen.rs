@@ -171,7 +171,7 @@ fn of_turn(id: &'static str, turned: &Turned) -> Vec<Row> {
 
 fn share_of_monomers(chosen: &Chosen) -> f64 {
     let stretches = chosen.monomers_nm.iter();
-    stretches.map(|[from, to]| to - from).sum::<f64>() / LENGTH_NM
+    stretches.fold(0.0, |sum, [from, to]| sum + to - from) / LENGTH_NM
 }
 
 #[cfg(test)]

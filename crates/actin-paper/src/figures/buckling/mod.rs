@@ -9,6 +9,7 @@ mod case;
 mod chosen;
 mod dynamics;
 mod expected;
+mod followed;
 mod group;
 mod lists;
 mod outcome;
@@ -66,6 +67,10 @@ fn reproduce(plan: &Plan, Run { out, progress, .. }: Run<'_>) -> Result<Artefact
     rows.extend(dynamics::rows(plan, &results, &motions));
     rows.extend(chosen::rows(plan, &chosen));
     tables::write(plan, &results, out)?;
+    let mut views = vec![pictures::view_in_space(plan, &results, out)?];
+    if plan.moving && plan.figure == Figure::Ten {
+        views.push(followed::view(out)?);
+    }
     Ok(Artefact {
         id: plan.figure.id(),
         title: match plan.figure {
@@ -75,7 +80,7 @@ fn reproduce(plan: &Plan, Run { out, progress, .. }: Run<'_>) -> Result<Artefact
         settings: settings(plan, &results),
         rows,
         pictures: pictures::draw(plan, &results, out)?,
-        views: vec![pictures::view_in_space(plan, &results, out)?],
+        views,
         wall_s: started.elapsed().as_secs_f64(),
     })
 }
