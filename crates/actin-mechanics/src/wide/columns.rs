@@ -22,10 +22,13 @@ impl<'a, S: Simd, const N: usize> Columns<'a, S, N> {
     /// The arrays, which have equal lengths.
     #[inline(always)]
     pub fn new(arrays: [&'a [f64]; N]) -> Self {
-        let cut = arrays.map(|array| S::as_simd_f64s(array));
+        let length = arrays[0].len();
+        let cut = arrays.map(|array| S::as_simd_f64s(&array[..length]));
+        // Of one length in the eyes of the compiler, so that one comparison does for a group.
+        let (full, rest) = (cut[0].0.len(), cut[0].1.len());
         Self {
-            full: cut.map(|(full, _)| full),
-            rest: cut.map(|(_, rest)| rest),
+            full: cut.map(|(all, _)| &all[..full]),
+            rest: cut.map(|(_, all)| &all[..rest]),
         }
     }
 
@@ -56,10 +59,12 @@ impl<'a, S: Simd, const N: usize> ColumnsMut<'a, S, N> {
     /// The arrays, which have equal lengths.
     #[inline(always)]
     pub fn new(arrays: [&'a mut [f64]; N]) -> Self {
-        let mut cut = arrays.map(|array| S::as_mut_simd_f64s(array));
+        let length = arrays[0].len();
+        let mut cut = arrays.map(|array| S::as_mut_simd_f64s(&mut array[..length]));
+        let (full, rest) = (cut[0].0.len(), cut[0].1.len());
         Self {
-            full: from_fn(|k| std::mem::take(&mut cut[k].0)),
-            rest: from_fn(|k| std::mem::take(&mut cut[k].1)),
+            full: from_fn(|k| &mut std::mem::take(&mut cut[k].0)[..full]),
+            rest: from_fn(|k| &mut std::mem::take(&mut cut[k].1)[..rest]),
         }
     }
 
