@@ -237,6 +237,24 @@ mod tests {
         }
     }
 
+    /// Also of groups in which one frame turns far and the others do not.
+    #[test]
+    fn drift_is_the_same_with_any_number_of_lanes() {
+        let tops = [[1.0, 1.0, 2.0], [2.0, 1.0, 1.0]]
+            .map(|moments| Inertia::from_moments(moments).unwrap());
+        for tops in [&tops[..1], &tops[..]] {
+            for h in [1e-3, 0.2, 0.5, 3.0] {
+                crate::testing::assert_same_with_any_lanes(|arch| {
+                    let (_, mut frames) = spinning(tops, 29);
+                    let all = &mut frames;
+                    arch.dispatch(Drift { frames: all, h });
+                    let (q, l) = (frames.orientation, frames.angular_momentum);
+                    [q.w, q.x, q.y, q.z, l.x, l.y, l.z].concat()
+                });
+            }
+        }
+    }
+
     /// Frames of all the tops in turn, at random; also their orientations and momenta.
     fn spinning(tops: &[Inertia], count: usize) -> (Vec<(UnitQuaternion, Vector3)>, Frames) {
         let mut noise = Xorshift::new(5);

@@ -1,6 +1,6 @@
 //! Arrays of equal length, read and written in groups of as many numbers as there are lanes.
 
-use super::vectors::Wide3;
+use super::vectors::{Wide3, write};
 use pulp::Simd;
 use std::array::from_fn;
 
@@ -194,5 +194,37 @@ impl<S: Simd, const N: usize> ShiftedDown<S, N> {
             *before = turned;
         }
         shifted
+    }
+}
+
+/// Bodies whose numbers are added one after the other: of each eight the first, the second, and so on.
+const PARTS: usize = 8;
+
+/// A sum over bodies in an order that does not depend on the number of lanes, up to eight.
+#[derive(Clone, Copy, Debug)]
+pub struct Sums<S: Simd>([S::f64s; PARTS]);
+
+impl<S: Simd> Sums<S> {
+    /// Nothing.
+    #[inline(always)]
+    pub fn new(simd: S) -> Self {
+        Self([simd.splat_f64s(0.0); PARTS])
+    }
+
+    /// Adds the numbers of a group.
+    #[inline(always)]
+    pub fn add(&mut self, simd: S, group: usize, terms: S::f64s) {
+        let part = &mut self.0[group * S::F64_LANES % PARTS / S::F64_LANES];
+        *part = simd.add_f64s(*part, terms);
+    }
+
+    /// The sum.
+    #[inline(always)]
+    pub fn total(&self, simd: S) -> f64 {
+        let mut parts = [0.0; PARTS];
+        for (place, part) in self.0.iter().enumerate().take(PARTS / S::F64_LANES) {
+            write(simd, &mut parts, place, *part);
+        }
+        parts.iter().sum()
     }
 }
