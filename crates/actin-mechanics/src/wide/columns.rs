@@ -82,7 +82,7 @@ impl<'a, S: Simd, const N: usize> ColumnsMut<'a, S, N> {
             for (value, full) in values.iter_mut().zip(&self.full) {
                 *value = full[group];
             }
-        } else {
+        } else if group == self.full[0].len() {
             for (value, rest) in values.iter_mut().zip(&self.rest) {
                 *value = simd.partial_load_f64s(rest);
             }
@@ -90,14 +90,14 @@ impl<'a, S: Simd, const N: usize> ColumnsMut<'a, S, N> {
         values
     }
 
-    /// Replaces the numbers of a group.
+    /// Replaces the numbers of a group; beyond the end nothing.
     #[inline(always)]
     pub fn set(&mut self, simd: S, group: usize, values: [S::f64s; N]) {
         if group < self.full[0].len() {
             for (full, value) in self.full.iter_mut().zip(values) {
                 full[group] = value;
             }
-        } else {
+        } else if group == self.full[0].len() {
             for (rest, value) in self.rest.iter_mut().zip(values) {
                 simd.partial_store_f64s(rest, value);
             }

@@ -46,7 +46,8 @@ pub use columns::{Columns, ColumnsMut, ShiftedDown, ShiftedUp, Sums};
 pub use functions::{clamp, cosine_and_sinc, tanh};
 pub use pulp::{Arch, Scalar, Simd, WithSimd};
 pub use rotations::{
-    WideQuaternion, log_with_coefficient, matrix, product, product_about_z, relative, transpose_mul,
+    WideQuaternion, log_with_coefficient, matrix, product, product_about_z, relative, turn,
+    turn_back,
 };
 pub use vectors::{
     Wide3, WideMatrix, add, add3, cross, cross_add, dot, dot_add, in_lane, lane, load,

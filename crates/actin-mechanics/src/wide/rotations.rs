@@ -3,8 +3,8 @@
 use super::MOST_LANES;
 use super::functions::{JACOBIAN, SMALL_JACOBIAN, TWICE_ARCSINE, TWICE_SMALL_ARCSINE, polynomial};
 use super::vectors::{
-    Wide3, WideMatrix, cross_add, dot, dot_add, less, more, mul, read, scale, scale_add, sub,
-    transpose, write,
+    Wide3, WideMatrix, add, cross, cross_add, dot, dot_add, less, more, read, scale, scale_add,
+    write,
 };
 use crate::{UnitQuaternion, rotation};
 use nalgebra::{Quaternion, Unit};
@@ -45,6 +45,16 @@ pub fn product_about_z<S: Simd>(
     ]
 }
 
+/// `c - a s` for numbers `s`.
+#[inline(always)]
+fn scale_sub<S: Simd>(simd: S, a: Wide3<S>, s: S::f64s, c: Wide3<S>) -> Wide3<S> {
+    [
+        less(simd, a[0], s, c[0]),
+        less(simd, a[1], s, c[1]),
+        less(simd, a[2], s, c[2]),
+    ]
+}
+
 /// `p* q`: the rotation `q` as seen from the body `p`.
 #[inline(always)]
 pub fn relative<S: Simd>(simd: S, p: WideQuaternion<S>, q: WideQuaternion<S>) -> WideQuaternion<S> {
@@ -52,7 +62,7 @@ pub fn relative<S: Simd>(simd: S, p: WideQuaternion<S>, q: WideQuaternion<S>) ->
     let w = simd.mul_f64s(pw, qw);
     let (p, q) = ([px, py, pz], [qx, qy, qz]);
     // The imaginary part is pw q - qw p - p x q.
-    let along = sub(simd, scale(simd, q, pw), scale(simd, p, qw));
+    let along = scale_sub(simd, p, qw, scale(simd, q, pw));
     let [x, y, z] = cross_add(simd, q, p, along);
     [dot_add(simd, p, q, w), x, y, z]
 }
@@ -92,10 +102,20 @@ pub fn matrix<S: Simd>(simd: S, q: WideQuaternion<S>) -> WideMatrix<S> {
     ]
 }
 
-/// `M^T v`.
+/// `Q v` with `Q` the rotation of `q`: `v + 2 w u x v + 2 u x (u x v)`, `u` the imaginary part.
 #[inline(always)]
-pub fn transpose_mul<S: Simd>(simd: S, m: &WideMatrix<S>, v: Wide3<S>) -> Wide3<S> {
-    mul(simd, &transpose::<S>(m), v)
+pub fn turn<S: Simd>(simd: S, [w, x, y, z]: WideQuaternion<S>, v: Wide3<S>) -> Wide3<S> {
+    let u = [x, y, z];
+    let twice = cross(simd, add(simd, u, u), v);
+    cross_add(simd, u, twice, scale_add(simd, twice, w, v))
+}
+
+/// `Q^T v`: `v` as seen from a body that has turned by `q`.
+#[inline(always)]
+pub fn turn_back<S: Simd>(simd: S, [w, x, y, z]: WideQuaternion<S>, v: Wide3<S>) -> Wide3<S> {
+    let u = [x, y, z];
+    let twice = cross(simd, add(simd, u, u), v);
+    cross_add(simd, u, twice, scale_sub(simd, twice, w, v))
 }
 
 /// Rotation vectors (rad) of unit quaternions, and the coefficients of their inverse Jacobians.
