@@ -1,4 +1,4 @@
-//! The cases of the benchmark in other programs: plain C, PyElastica, LAMMPS.
+//! The cases of the benchmark in other programs: plain C, `PyElastica`, LAMMPS.
 //!
 //! What each runs is in `docs/peers`. A peer that is not installed is left out, and it is said how to
 //! install it.
@@ -19,12 +19,13 @@ const INSTALL: &str = "python3 -m venv target/peers
 /// What C compilers are asked for besides instructions: what Rust does without being asked.
 const FLAGS: [&str; 4] = ["-O3", "-fno-math-errno", "-fno-trapping-math", "-lm"];
 
-/// The rate of a peer in a case (1e6/s).
+/// The rate of a peer in a case.
 #[derive(Debug, PartialEq)]
 struct Rate {
     case: String,
     peer: String,
-    rate: f64,
+    /// In millions per second.
+    millions: f64,
 }
 
 /// Runs the peers and prints a table of rates; what is missing below it.
@@ -90,7 +91,7 @@ fn plain_c(root: &Path, peer: &str, flags: &[&str]) -> Result<Command, String> {
     Ok(command)
 }
 
-/// The command that runs PyElastica and LAMMPS.
+/// The command that runs `PyElastica` and LAMMPS.
 fn peers_in(root: &Path, python: &Path) -> Result<Command, String> {
     if !python.exists() {
         return Err(format!(
@@ -126,22 +127,33 @@ fn parse(text: &str) -> Vec<Rate> {
     let rate = |line: &str| {
         let mut words = line.split_whitespace();
         let (case, peer, rate) = (words.next()?, words.next()?, words.next()?);
-        let rate = rate.parse().ok()?;
+        let millions = rate.parse().ok()?;
         let (case, peer) = (case.to_owned(), peer.to_owned());
-        words.next().is_none().then_some(Rate { case, peer, rate })
+        let rate = Rate {
+            case,
+            peer,
+            millions,
+        };
+        words.next().is_none().then_some(rate)
     };
     text.lines().filter_map(rate).collect()
 }
 
 /// The rates beside ours of the same case, where it was measured.
 fn rows(ours: &[Entry], theirs: &[Rate]) -> impl Iterator<Item = String> {
-    theirs.iter().filter_map(|Rate { case, peer, rate }| {
+    let row = |theirs: &Rate| {
+        let Rate {
+            case,
+            peer,
+            millions,
+        } = theirs;
         let ours = 1e-6 * ours.iter().find(|entry| entry.case == case)?.rate;
-        let ratio = ours / rate;
+        let ratio = ours / millions;
         Some(format!(
-            "{case:20} {ours:>10.1} {peer:12} {rate:>10.2} {ratio:>12.2}"
+            "{case:20} {ours:>10.1} {peer:12} {millions:>10.2} {ratio:>12.2}"
         ))
-    })
+    };
+    theirs.iter().filter_map(row)
 }
 
 #[cfg(test)]
@@ -166,10 +178,10 @@ ellipsoid-pv-60      LAMMPS       24.66
             ("rod-pv-64", "C-AVX2", 98.32),
             ("ellipsoid-pv-60", "LAMMPS", 24.66),
         ];
-        let expected = expected.map(|(case, peer, rate)| Rate {
+        let expected = expected.map(|(case, peer, millions)| Rate {
             case: case.to_owned(),
             peer: peer.to_owned(),
-            rate,
+            millions,
         });
         assert_eq!(found, expected);
     }
