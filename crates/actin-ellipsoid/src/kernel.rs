@@ -9,7 +9,7 @@
 
 use crate::Monomers;
 use crate::table::{BondTable, GROUP, Group, Record};
-use actin_mechanics::wide::{self, Simd, Wide3, WideMatrix, WithSimd};
+use actin_mechanics::wide::{self, ColumnsMut, ShiftedUp, Simd, Wide3, WideMatrix, WithSimd};
 use actin_mechanics::{Loads, State};
 use std::ops::Range;
 
@@ -22,8 +22,8 @@ pub(crate) const GUARD: f64 = f64::MIN_POSITIVE;
 pub(crate) struct AddLoads<'a> {
     /// The bodies.
     pub(crate) monomers: Monomers,
-    /// One table per kind of interface.
-    pub(crate) tables: &'a [BondTable],
+    /// Bonds of each body with the next one, and with the second after it.
+    pub(crate) tables: &'a [BondTable; 2],
     /// Where the bodies are.
     pub(crate) state: &'a State,
     /// What acts on them.
@@ -38,32 +38,127 @@ struct Lower<S: Simd> {
     axes: WideMatrix<S>,
 }
 
+/// Forces on bodies (lab frame) and torques (body frames).
+#[derive(Clone, Copy, Debug)]
+struct Action<S: Simd> {
+    force: Wide3<S>,
+    torque: Wide3<S>,
+}
+
+impl<S: Simd> Action<S> {
+    #[inline(always)]
+    fn zero(simd: S) -> Self {
+        let zero = [simd.splat_f64s(0.0); 3];
+        let (force, torque) = (zero, zero);
+        Self { force, torque }
+    }
+
+    #[inline(always)]
+    fn plus(self, simd: S, other: Self) -> Self {
+        Self {
+            force: wide::add(simd, self.force, other.force),
+            torque: wide::add(simd, self.torque, other.torque),
+        }
+    }
+
+    /// Nothing in lanes where `mask` is not set.
+    #[inline(always)]
+    fn where_set(self, simd: S, mask: S::m64s) -> Self {
+        let zero = simd.splat_f64s(0.0);
+        let chosen = |[x, y, z]: Wide3<S>| {
+            [
+                simd.select_f64s(mask, x, zero),
+                simd.select_f64s(mask, y, zero),
+                simd.select_f64s(mask, z, zero),
+            ]
+        };
+        Self {
+            force: chosen(self.force),
+            torque: chosen(self.torque),
+        }
+    }
+}
+
+/// What acts on lower bodies, moved to the bodies after them.
+#[derive(Clone, Copy, Debug)]
+struct Moved<S: Simd> {
+    force: ShiftedUp<S, 3>,
+    torque: ShiftedUp<S, 3>,
+}
+
+impl<S: Simd> Moved<S> {
+    #[inline(always)]
+    fn new(simd: S) -> Self {
+        Self {
+            force: ShiftedUp::new(simd),
+            torque: ShiftedUp::new(simd),
+        }
+    }
+
+    #[inline(always)]
+    fn next(&mut self, simd: S, action: Action<S>) -> Action<S> {
+        Action {
+            force: self.force.next(simd, action.force),
+            torque: self.torque.next(simd, action.torque),
+        }
+    }
+}
+
 impl WithSimd for AddLoads<'_> {
     type Output = ();
 
+    /// Each body gets its sum at once, in an order that does not depend on the number of lanes.
     #[inline(always)]
-    fn with_simd<S: Simd>(mut self, simd: S) {
-        let lanes = S::F64_LANES.min(GROUP);
-        for first in (0..self.monomers.count).step_by(lanes) {
-            let bodies = first..self.monomers.count.min(first + lanes);
-            let frames = self.frames(&bodies);
-            let q = &self.state.frames.orientation;
-            let orientation = wide::load_quaternions(simd, q, &frames);
-            let lower = Lower {
-                orientation,
-                axes: wide::matrix(simd, orientation),
-            };
-            for table in self.tables {
-                let pairs = first..table.pairs.min(first + lanes);
-                if !pairs.is_empty() {
-                    self.add_pairs(simd, &lower, table, &pairs);
-                }
-            }
+    fn with_simd<S: Simd>(self, simd: S) {
+        let (points, frames) = (self.points(&self.bodies()), self.frames(&self.bodies()));
+        let Loads { force, torque, .. } = &mut *self.loads;
+        let [x, y, z] = [&mut force.x, &mut force.y, &mut force.z];
+        let mut force = ColumnsMut::<S, 3>::new([x, y, z].map(|c| &mut c[points.clone()]));
+        let [x, y, z] = [&mut torque.x, &mut torque.y, &mut torque.z];
+        let mut torque = ColumnsMut::<S, 3>::new([x, y, z].map(|c| &mut c[frames.clone()]));
+        let pairs = Pairs {
+            monomers: self.monomers,
+            state: self.state,
+        };
+        let (mut by_one, mut by_two) = (Moved::new(simd), Moved::new(simd));
+        for group in 0..force.groups() {
+            let lower = pairs.lower(simd, group);
+            let [next, second] = self.tables;
+            let [on_lower, on_next] = pairs.actions(simd, &lower, next, group);
+            let [also, on_second] = pairs.actions(simd, &lower, second, group);
+            let on_upper = on_next.plus(simd, by_two.next(simd, on_second));
+            let on_upper = by_one.next(simd, on_upper);
+            let sum = on_lower.plus(simd, also).plus(simd, on_upper);
+            force.add(simd, group, sum.force);
+            torque.add(simd, group, sum.torque);
         }
     }
 }
 
 impl AddLoads<'_> {
+    fn bodies(&self) -> Range<usize> {
+        0..self.monomers.count
+    }
+
+    /// Points of some bodies of the run.
+    fn points(&self, bodies: &Range<usize>) -> Range<usize> {
+        self.monomers.point(bodies.start)..self.monomers.point(bodies.end)
+    }
+
+    /// Frames of some bodies of the run.
+    fn frames(&self, bodies: &Range<usize>) -> Range<usize> {
+        self.monomers.frame(bodies.start)..self.monomers.frame(bodies.end)
+    }
+}
+
+/// The bodies of a run, to be read.
+#[derive(Clone, Copy, Debug)]
+struct Pairs<'a> {
+    monomers: Monomers,
+    state: &'a State,
+}
+
+impl Pairs<'_> {
     /// Points of some bodies of the run.
     #[inline(always)]
     fn points(&self, bodies: &Range<usize>) -> Range<usize> {
@@ -76,52 +171,83 @@ impl AddLoads<'_> {
         self.monomers.frame(bodies.start)..self.monomers.frame(bodies.end)
     }
 
-    /// Adds the loads of neighbouring pairs, given by their lower bodies.
+    /// The bodies of a group.
+    #[inline(always)]
+    fn lower<S: Simd>(&self, simd: S, group: usize) -> Lower<S> {
+        let first = group * S::F64_LANES;
+        let bodies = first..self.monomers.count.min(first + S::F64_LANES);
+        let q = &self.state.frames.orientation;
+        let orientation = wide::load_quaternions(simd, q, &self.frames(&bodies));
+        let axes = wide::matrix(simd, orientation);
+        Lower { orientation, axes }
+    }
+
+    /// What acts on the lower and on the upper bodies of neighbouring pairs, in the lower one's lane.
     ///
     /// In the lower body's frame: `F = sum k g d` and `T = sum a x k g d` act on it. In terms of
     /// the offset `D` of the upper body's centre, the torque on that is `-(T - D x F)`.
     #[inline(always)]
-    fn add_pairs<S: Simd>(
-        &mut self,
+    fn actions<S: Simd>(
+        &self,
         simd: S,
         lower: &Lower<S>,
         table: &BondTable,
-        pairs: &Range<usize>,
-    ) {
-        let uppers = pairs.start + table.step..pairs.end + table.step;
-        let position = &self.state.points.position;
-        let (lower_points, upper_points) = (self.points(pairs), self.points(&uppers));
-        let (lower_frames, upper_frames) = (self.frames(pairs), self.frames(&uppers));
-        let between = wide::sub(
-            simd,
-            wide::load3(simd, position, &upper_points),
-            wide::load3(simd, position, &lower_points),
-        );
-        let upper = &self.state.frames.orientation;
-        let upper = wide::load_quaternions(simd, upper, &upper_frames);
-        let rotation = wide::matrix(simd, wide::relative(simd, lower.orientation, upper));
-        let offset = wide::mul(simd, &wide::transpose::<S>(&lower.axes), between);
-
+        group: usize,
+    ) -> [Action<S>; 2] {
+        let first = group * S::F64_LANES;
+        let pairs = first..table.pairs.min(first + S::F64_LANES);
+        if pairs.is_empty() {
+            return [Action::zero(simd); 2];
+        }
+        let (rotation, offset) = self.relative(simd, lower, &pairs, table.step);
         let (group, place) = (table.group(pairs.start), place_of::<S>(pairs.start));
         let (force, torque) = if group.weights.is_empty() {
             sum_bonds::<S, false>(simd, &rotation, offset, group, place)
         } else {
             sum_bonds::<S, true>(simd, &rotation, offset, group, place)
         };
-        // Lanes without a pair get no stiffness.
-        let stiffness = wide::load(simd, &[table.stiffness; GROUP], &(0..pairs.len()));
+        let stiffness = simd.splat_f64s(table.stiffness);
         let force = wide::scale(simd, force, stiffness);
         let torque = wide::scale(simd, torque, stiffness);
         let reaction = wide::cross_add(simd, offset, force, wide::neg(simd, torque));
         let reaction = wide::mul(simd, &wide::transpose::<S>(&rotation), reaction);
         let force = wide::mul(simd, &lower.axes, force);
+        let on_lower = Action { force, torque };
+        let (force, torque) = (wide::neg(simd, force), reaction);
+        let on_upper = Action { force, torque };
+        if pairs.len() == S::F64_LANES {
+            return [on_lower, on_upper];
+        }
+        // In lanes without a pair there may be a body, whose numbers may not be any.
+        let there = wide::load(simd, &[1.0; GROUP], &(0..pairs.len()));
+        let there = simd.greater_than_f64s(there, simd.splat_f64s(0.0));
+        [
+            on_lower.where_set(simd, there),
+            on_upper.where_set(simd, there),
+        ]
+    }
 
-        let loads = &mut *self.loads;
-        wide::add3(simd, &mut loads.force, &lower_points, force);
-        wide::add3(simd, &mut loads.torque, &lower_frames, torque);
-        let opposite = wide::neg(simd, force);
-        wide::add3(simd, &mut loads.force, &upper_points, opposite);
-        wide::add3(simd, &mut loads.torque, &upper_frames, reaction);
+    /// Rotations and offsets of upper bodies as their lower ones see them.
+    #[inline(always)]
+    fn relative<S: Simd>(
+        &self,
+        simd: S,
+        lower: &Lower<S>,
+        pairs: &Range<usize>,
+        step: usize,
+    ) -> (WideMatrix<S>, Wide3<S>) {
+        let uppers = pairs.start + step..pairs.end + step;
+        let position = &self.state.points.position;
+        let between = wide::sub(
+            simd,
+            wide::load3(simd, position, &self.points(&uppers)),
+            wide::load3(simd, position, &self.points(pairs)),
+        );
+        let q = &self.state.frames.orientation;
+        let upper = wide::load_quaternions(simd, q, &self.frames(&uppers));
+        let rotation = wide::matrix(simd, wide::relative(simd, lower.orientation, upper));
+        let offset = wide::mul(simd, &wide::transpose::<S>(&lower.axes), between);
+        (rotation, offset)
     }
 }
 
@@ -145,8 +271,8 @@ fn sum_bonds<S: Simd, const WEIGHTED: bool>(
     for (k, record) in records.iter().enumerate() {
         let Ends { a, b, length } = Ends::read(simd, record, place);
         let d = wide::mul_add(simd, rotation, b, wide::sub(simd, offset, a));
-        let distance = simd.sqrt_f64s(wide::dot_add(simd, d, d, guard));
-        let strain = simd.div_f64s(length, distance);
+        let squared = wide::dot_add(simd, d, d, guard);
+        let strain = simd.div_f64s(length, simd.sqrt_f64s(squared));
         let mut factor = simd.sub_f64s(one, strain);
         if WEIGHTED {
             factor = simd.mul_f64s(factor, simd.splat_f64s(weights[k]));

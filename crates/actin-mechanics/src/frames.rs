@@ -32,6 +32,8 @@ struct Inertias {
     inverse_transverse: Vec<f64>,
     /// (1 / axial - 1 / transverse) times the unit vector of the axis of symmetry.
     excess: Vectors,
+    /// Whether the axis of symmetry of some frame is not the third body axis.
+    off_z: bool,
     /// 1 where torques turn the frame, 0 where it is held.
     mobility: Vec<f64>,
 }
@@ -80,9 +82,9 @@ impl Frames {
         self.orientation.push(frame.orientation);
         self.angular_momentum.push(Vector3::zeros());
         self.inertias.inverse_transverse.push(1.0 / transverse);
-        self.inertias
-            .excess
-            .push(axis.unit() * (1.0 / axial - 1.0 / transverse));
+        let excess = axis.unit() * (1.0 / axial - 1.0 / transverse);
+        self.inertias.excess.push(excess);
+        self.inertias.off_z |= excess.x != 0.0 || excess.y != 0.0;
         self.inertias.mobility.push(1.0);
         self.len() - 1
     }
@@ -211,14 +213,18 @@ mod tests {
     fn drift_is_the_free_flow_of_each_top() {
         let tops = [[2.0, 1.0, 1.0], [1.0, 2.0, 1.0], [1.0, 1.0, 2.0], [1.5; 3]]
             .map(|moments| Inertia::from_moments(moments).unwrap());
-        for count in [1, 2, 4, 7, 13] {
+        // All of them, and those whose axis is the third, which have a loop of their own.
+        for (tops, count) in [&tops[..], &tops[2..]]
+            .into_iter()
+            .flat_map(|tops| [1, 2, 4, 7, 13].map(|count| (tops, count)))
+        {
             for h in [0.0, 1e-9, 0.01, -0.3, 0.7, 100.0] {
                 for arch in architectures() {
-                    let (before, mut frames) = spinning(&tops, count);
+                    let (before, mut frames) = spinning(tops, count);
                     let all = &mut frames;
                     arch.dispatch(Drift { frames: all, h });
                     for (i, (q, l)) in before.into_iter().enumerate() {
-                        let (q, l) = tops[i % 4].free_flow(q, l, h);
+                        let (q, l) = tops[i % tops.len()].free_flow(q, l, h);
                         let turned = frames.orientation.get(i).coords - q.coords;
                         // Rounding of the angle itself, for the longest time.
                         let tolerance = 1e-15 * (1.0 + h.abs());
@@ -227,6 +233,24 @@ mod tests {
                         assert!(momentum.norm() < 2.0 * tolerance, "{count} frames, h = {h}");
                     }
                 }
+            }
+        }
+    }
+
+    /// Also of groups in which one frame turns far and the others do not.
+    #[test]
+    fn drift_is_the_same_with_any_number_of_lanes() {
+        let tops = [[1.0, 1.0, 2.0], [2.0, 1.0, 1.0]]
+            .map(|moments| Inertia::from_moments(moments).unwrap());
+        for tops in [&tops[..1], &tops[..]] {
+            for h in [1e-3, 0.2, 0.5, 3.0] {
+                crate::testing::assert_same_with_any_lanes(|arch| {
+                    let (_, mut frames) = spinning(tops, 29);
+                    let all = &mut frames;
+                    arch.dispatch(Drift { frames: all, h });
+                    let (q, l) = (frames.orientation, frames.angular_momentum);
+                    [q.w, q.x, q.y, q.z, l.x, l.y, l.z].concat()
+                });
             }
         }
     }

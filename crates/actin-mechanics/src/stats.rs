@@ -5,7 +5,7 @@
     reason = "vector code must be compiled into the function that enables the instructions"
 )]
 
-use crate::wide::{self, Columns, Simd, WithSimd};
+use crate::wide::{self, Columns, Simd, Sums, WithSimd};
 use crate::{Frames, Points, State};
 
 /// What [`State::stats`] finds.
@@ -58,7 +58,7 @@ impl WithSimd for Pass<'_> {
         let points = points(simd, &self.0.points);
         let (frames, squared) = frames(simd, &self.0.frames);
         StateStats {
-            kinetic_energy: 0.5 * simd.reduce_sum_f64s(simd.add_f64s(points, frames)),
+            kinetic_energy: 0.5 * (points + frames),
             largest_spin_squared: simd.reduce_max_f64s(squared),
         }
     }
@@ -69,47 +69,47 @@ impl WithSimd for Pass<'_> {
 /// Zero times what is not finite is NaN, which no sum loses; so neither places nor held bodies
 /// need a look of their own.
 #[inline(always)]
-fn points<S: Simd>(simd: S, points: &Points) -> S::f64s {
+fn points<S: Simd>(simd: S, points: &Points) -> f64 {
     let (x, v) = (&points.position, &points.velocity);
     let places = Columns::<S, 3>::new([&x.x, &x.y, &x.z]);
     let motion = Columns::<S, 4>::new([&v.x, &v.y, &v.z, points.inverse_mass()]);
     let (zero, one) = (simd.splat_f64s(0.0), simd.splat_f64s(1.0));
-    let mut sums = [zero; 2];
+    let mut sums = [Sums::new(simd), Sums::new(simd)];
     for group in 0..places.groups() {
         let [x, y, z] = places.get(simd, group);
         let [u, v, w, inverse] = motion.get(simd, group);
         let moves = simd.greater_than_f64s(inverse, zero);
         let mass = simd.select_f64s(moves, simd.div_f64s(one, inverse), zero);
         let squared = wide::dot(simd, [u, v, w], [u, v, w]);
-        sums[0] = simd.mul_add_e_f64s(mass, squared, sums[0]);
+        sums[0].add(simd, group, simd.mul_f64s(mass, squared));
         let place = simd.add_f64s(simd.add_f64s(x, y), z);
-        sums[1] = simd.mul_add_e_f64s(zero, place, sums[1]);
+        sums[1].add(simd, group, simd.mul_f64s(zero, place));
     }
-    simd.add_f64s(sums[0], sums[1])
+    sums[0].total(simd) + sums[1].total(simd)
 }
 
 /// Twice the kinetic energy of free frames, no number where a number of any frame is none, and the
 /// largest squared angular velocity.
 #[inline(always)]
-fn frames<S: Simd>(simd: S, frames: &Frames) -> (S::f64s, S::f64s) {
+fn frames<S: Simd>(simd: S, frames: &Frames) -> (f64, S::f64s) {
     let (q, l) = (&frames.orientation, &frames.angular_momentum);
     let turns = Columns::<S, 4>::new([&q.w, &q.x, &q.y, &q.z]);
     let momenta = Columns::<S, 3>::new([&l.x, &l.y, &l.z]);
     let inertia = Columns::<S, 5>::new(frames.inertia_columns());
     let zero = simd.splat_f64s(0.0);
-    let (mut sums, mut largest) = ([zero; 2], zero);
+    let (mut sums, mut largest) = ([Sums::new(simd), Sums::new(simd)], zero);
     for group in 0..turns.groups() {
         let [w, x, y, z] = turns.get(simd, group);
         let l = momenta.get(simd, group);
         let [transverse, ex, ey, ez, mobility] = inertia.get(simd, group);
         let spin = wide::mul_each(simd, l, [ex, ey, ez].map(|e| simd.add_f64s(transverse, e)));
         let moving = wide::scale(simd, spin, mobility);
-        sums[0] = wide::dot_add(simd, l, moving, sums[0]);
+        sums[0].add(simd, group, wide::dot(simd, l, moving));
         largest = simd.max_f64s(largest, wide::dot(simd, moving, moving));
         let turn = simd.add_f64s(simd.add_f64s(w, x), simd.add_f64s(y, z));
-        sums[1] = simd.mul_add_e_f64s(zero, turn, sums[1]);
+        sums[1].add(simd, group, simd.mul_f64s(zero, turn));
     }
-    (simd.add_f64s(sums[0], sums[1]), largest)
+    (sums[0].total(simd) + sums[1].total(simd), largest)
 }
 
 #[cfg(test)]
@@ -184,6 +184,18 @@ mod tests {
             }
             let whole = state.stats().kinetic_energy;
             assert!((whole - kinetic).abs() <= 1e-15 * (4.0 + bodies as f64) * kinetic);
+        }
+    }
+
+    /// Sums over bodies have one order.
+    #[test]
+    fn a_survey_is_the_same_with_any_number_of_lanes() {
+        for bodies in [1, 4, 13, 64, 101] {
+            let state = moving(bodies);
+            crate::testing::assert_same_with_any_lanes(|arch| {
+                let survey = arch.dispatch(Pass(&state));
+                vec![survey.kinetic_energy, survey.largest_spin_squared]
+            });
         }
     }
 

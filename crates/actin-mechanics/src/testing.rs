@@ -21,6 +21,24 @@ pub fn architectures() -> Vec<Arch> {
     all
 }
 
+/// Asserts that what `run` returns is the same to the bit on every kind of processor of more than one
+/// lane that this one can be.
+///
+/// # Panics
+/// If it is not.
+pub fn assert_same_with_any_lanes(run: impl Fn(Arch) -> Vec<f64>) {
+    let bits = |arch| run(arch).into_iter().map(f64::to_bits).collect::<Vec<_>>();
+    let all = architectures();
+    for pair in all[1..].windows(2) {
+        assert!(
+            bits(pair[0]) == bits(pair[1]),
+            "{:?} and {:?}",
+            pair[0],
+            pair[1]
+        );
+    }
+}
+
 /// Moves the whole state rigidly: first turned about the origin by `turn`, then shifted.
 pub fn move_rigidly(state: &mut State, turn: Vector3, shift: Vector3) {
     let turn = rotation::exp(turn);

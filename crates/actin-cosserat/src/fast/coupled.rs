@@ -5,7 +5,7 @@
 )]
 
 use super::elements::{
-    Segments, bending_couples, quaternions, vectors, vectors_mut, where_there_is,
+    Segments, bending_torques, quaternions, vectors, vectors_mut, where_there_is,
 };
 use super::ends::Ends;
 use super::laws::Law;
@@ -133,16 +133,17 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
             ends.keep(simd, group, couple);
         }
         let on_second = self.reactions.next(simd, on_first);
+        let force = wide::sub(simd, on_first, on_second);
         let m = wide::scale_add(simd, couple, share_before, own);
         let on_after = self
             .couples
             .next(simd, wide::scale(simd, couple, share_after));
         let m = wide::add(simd, m, on_after);
-        let [even, odd] = bending_couples(simd, before, coefficient, m);
+        let [on_before, against_own] = bending_torques(simd, before, coefficient, m);
         Group {
-            force: wide::sub(simd, on_first, on_second),
-            torque: wide::add(simd, on_frame, wide::sub(simd, odd, even)),
-            before: self.torques.next(simd, wide::add(simd, even, odd)),
+            force,
+            torque: wide::sub(simd, on_frame, against_own),
+            before: self.torques.next(simd, on_before),
         }
     }
 

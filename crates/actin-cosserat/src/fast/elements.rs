@@ -5,15 +5,15 @@
 )]
 
 use super::laws::Law;
-use actin_mechanics::wide::{self, Columns, ColumnsMut, Simd, Wide3, WideMatrix, WideQuaternion};
+use actin_mechanics::wide::{self, Columns, ColumnsMut, Simd, Wide3, WideQuaternion};
 use actin_mechanics::{Quaternions, Vectors};
 use std::ops::Range;
 
 /// Segments as they are.
 #[derive(Clone, Copy)]
 pub(super) struct Segments<S: Simd> {
-    /// Matrices of their frames.
-    axes: WideMatrix<S>,
+    /// Their frames.
+    q: WideQuaternion<S>,
     /// From node to node (nm, body axes).
     body: Wide3<S>,
     /// Strain.
@@ -34,12 +34,11 @@ impl<S: Simd> Segments<S> {
         l: Wide3<S>,
         [length, inverse]: [S::f64s; 2],
     ) -> Self {
-        let axes = wide::matrix(simd, q);
-        let body = wide::transpose_mul(simd, &axes, l);
+        let body = wide::turn_back(simd, q, l);
         let [x, y, z] = body;
         let sigma = wide::scale(simd, [x, y, simd.sub_f64s(z, length)], inverse);
         Self {
-            axes,
+            q,
             body,
             sigma,
             inverse,
@@ -69,7 +68,7 @@ impl<S: Simd> Segments<S> {
         } else {
             n
         };
-        let force = wide::mul(simd, &self.axes, n);
+        let force = wide::turn(simd, self.q, n);
         [force, wide::cross(simd, self.body, n), couple]
     }
 
@@ -98,10 +97,10 @@ pub(super) fn where_there_is<S: Simd>(simd: S, inverse: S::f64s, v: Wide3<S>) ->
     v.map(|component| simd.select_f64s(exists, component, zero))
 }
 
-/// The parts of the torques of bending elements at couple `m` (pN nm) that the two frames feel with
-/// opposite and with equal sign, from their angles (rad) and the coefficients of these.
+/// Torques on the first frames of bending elements and against the second ones, at couple `m` (pN nm), from
+/// their angles (rad) and the coefficients of these: `even + odd` and `even - odd`.
 #[inline(always)]
-pub(super) fn bending_couples<S: Simd>(
+pub(super) fn bending_torques<S: Simd>(
     simd: S,
     theta: Wide3<S>,
     coefficient: S::f64s,
@@ -109,7 +108,13 @@ pub(super) fn bending_couples<S: Simd>(
 ) -> [Wide3<S>; 2] {
     let cross = wide::cross(simd, theta, m);
     let even = wide::scale_add(simd, wide::cross(simd, theta, cross), coefficient, m);
-    [even, wide::scale(simd, cross, simd.splat_f64s(0.5))]
+    let half = simd.splat_f64s(0.5);
+    let against_second = [
+        simd.negate_mul_add_e_f64s(cross[0], half, even[0]),
+        simd.negate_mul_add_e_f64s(cross[1], half, even[1]),
+        simd.negate_mul_add_e_f64s(cross[2], half, even[2]),
+    ];
+    [wide::scale_add(simd, cross, half, even), against_second]
 }
 
 #[inline(always)]

@@ -20,11 +20,11 @@
 //! one lane ([`ShiftedUp`](actin_mechanics::wide::ShiftedUp)). There is one body more than there
 //! are elements; the element of the last body does not exist and has no effect.
 //!
-//! - Segments (`elements.rs`): with `Q` the matrix of a segment's frame and `y = Q^T l`, the strain is
+//! - Segments (`elements.rs`): with `Q` the rotation of a segment's frame and `y = Q^T l`, the strain is
 //!   `sigma = y / |lhat| - e3`; the force `Q n` acts on the first node, its negative on the second,
 //!   and the torque `y x n` on the frame, with `n(sigma, kappa)` the law's force.
 //! - Bending elements: with `theta = log(Qa^T Qb)` from the quaternions and `m` the law's couple at
-//!   `theta / Dhat`, the torques are `even + odd` and `odd - even`, where `odd = theta x m / 2` and
+//!   `theta / Dhat`, the torques are `even + odd` and `-(even - odd)`, where `odd = theta x m / 2` and
 //!   `even = m + c theta x (theta x m)`.
 //!
 //! Where a law couples nothing (`separate.rs`) these are two loops. Where the strain of a segment has to
@@ -45,8 +45,8 @@
 //! lane without a body sees zeros; forces there are cleared, since the published length pulls at rest.
 //!
 //! # What it costs
-//! Per segment, constant rigidities: about 60 operations for shear (22 of them the matrix) and 100 for
-//! bending (20 for the relative quaternion, 45 for two polynomials, 35 for the couples); no root, no quotient
+//! Per segment, constant rigidities: about 60 operations for shear (33 of them two turns) and 70 for
+//! bending (16 for the relative quaternion, 14 for two polynomials, 27 for the couples); no root, no quotient
 //! (rest lengths are stored inverted), no call. What bounds it is the number of these operations, not
 //! memory: a thousand segments still lie in the second-level cache. The fitted laws take twice as many
 //! instructions (five quotients and two roots among them), the published ones too (three hyperbolic

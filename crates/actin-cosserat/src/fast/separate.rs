@@ -5,65 +5,118 @@
 )]
 
 use super::elements::{
-    Segments, bending_couples, quaternions, vectors, vectors_mut, where_there_is,
+    Segments, bending_torques, quaternions, vectors, vectors_mut, where_there_is,
 };
 use super::laws::Law;
 use super::rod::AddLoads;
-use actin_mechanics::wide::{self, Columns, ShiftedUp, Simd};
+use actin_mechanics::wide::{self, Columns, ColumnsMut, ShiftedUp, Simd};
 
 impl<L: Law> AddLoads<'_, L> {
     /// Segments: node to node, one frame each.
     #[inline(always)]
     pub(super) fn add_segments<S: Simd>(&mut self, simd: S) {
-        let (nodes, frames) = (self.layout.points(), self.layout.frames());
+        let n = self.layout.segments();
+        let (node, frame) = (self.layout.points().start, self.layout.frames().start);
         let x = &self.state.points.position;
-        let first = vectors::<S>(x, nodes.start..nodes.end - 1);
-        let second = vectors::<S>(x, nodes.start + 1..nodes.end);
-        let q = quaternions::<S>(&self.state.frames.orientation, frames.clone());
-        let lengths = self.rod.bodies.lengths(self.layout);
-        let lengths = Columns::<S, 2>::new(lengths);
-        let law = self.rod.law;
-        let straight = [simd.splat_f64s(0.0); 3];
-        let mut force = vectors_mut::<S>(&mut self.loads.force, nodes);
-        let mut torque = vectors_mut::<S>(&mut self.loads.torque, frames);
-        let mut reactions = ShiftedUp::new(simd);
-        for group in 0..force.groups() {
-            let l = wide::sub(simd, second.get(simd, group), first.get(simd, group));
-            let q = q.get(simd, group);
-            let segments = Segments::new(simd, q, l, lengths.get(simd, group));
-            let [on_first, on_frame, _] = segments.loads(simd, &law, straight);
-            let on_second = reactions.next(simd, on_first);
-            force.add(simd, group, wide::sub(simd, on_first, on_second));
-            torque.add(simd, group, on_frame);
+        let mut segments = SegmentLoop {
+            first: vectors(x, node..node + n),
+            second: vectors(x, node + 1..node + 1 + n),
+            frames: quaternions(&self.state.frames.orientation, frame..frame + n),
+            lengths: Columns::new(self.rod.bodies.lengths(self.layout)),
+            law: self.rod.law,
+            reactions: ShiftedUp::new(simd),
+            force: vectors_mut(&mut self.loads.force, node..node + n + 1),
+            torque: vectors_mut(&mut self.loads.torque, frame..frame + n),
+        };
+        // Full groups in a loop of their own, in which the compiler sees that they are.
+        for group in 0..n / S::F64_LANES {
+            segments.add(simd, group);
         }
+        segments.add(simd, n / S::F64_LANES);
     }
 
     /// Bending elements: frame to frame, walls included.
     #[inline(always)]
     pub(super) fn add_bending<S: Simd>(&mut self, simd: S) {
-        let frames = self.layout.bending_chain();
-        let q = &self.state.frames.orientation;
-        let first = quaternions::<S>(q, frames.start..frames.end - 1);
-        let second = quaternions::<S>(q, frames.start + 1..frames.end);
+        let frame = self.layout.bending_chain().start;
         let inverse_distances = self.rod.bodies.inverse_distances(self.layout);
-        let inverse_distances = Columns::<S, 1>::new([inverse_distances]);
-        let law = self.rod.law;
-        let mut torque = vectors_mut::<S>(&mut self.loads.torque, frames);
-        let mut reactions = ShiftedUp::new(simd);
-        for group in 0..torque.groups() {
-            let turn = wide::relative(simd, first.get(simd, group), second.get(simd, group));
-            let [inverse_distance] = inverse_distances.get(simd, group);
-            let (theta, coefficient) = wide::log_with_coefficient(simd, turn);
-            let m = law.bending(simd, wide::scale(simd, theta, inverse_distance));
-            let m = if L::BENT {
-                where_there_is(simd, inverse_distance, m)
-            } else {
-                m
-            };
-            let [even, odd] = bending_couples(simd, theta, coefficient, m);
-            let on_first = wide::add(simd, even, odd);
-            let on_second = reactions.next(simd, wide::sub(simd, odd, even));
-            torque.add(simd, group, wide::add(simd, on_first, on_second));
+        let n = inverse_distances.len();
+        let q = &self.state.frames.orientation;
+        let mut elements = BendingLoop {
+            first: quaternions(q, frame..frame + n),
+            second: quaternions(q, frame + 1..frame + 1 + n),
+            inverse_distances: Columns::new([inverse_distances]),
+            law: self.rod.law,
+            reactions: ShiftedUp::new(simd),
+            torque: vectors_mut(&mut self.loads.torque, frame..frame + n + 1),
+        };
+        for group in 0..n / S::F64_LANES {
+            elements.add(simd, group);
         }
+        elements.add(simd, n / S::F64_LANES);
+    }
+}
+
+/// What the loop over segments reads and writes, and what one group leaves to the next.
+struct SegmentLoop<'a, S: Simd, L> {
+    first: Columns<'a, S, 3>,
+    second: Columns<'a, S, 3>,
+    frames: Columns<'a, S, 4>,
+    /// Rest lengths (nm) and their inverse.
+    lengths: Columns<'a, S, 2>,
+    law: L,
+    /// Forces on first nodes (pN).
+    reactions: ShiftedUp<S, 3>,
+    force: ColumnsMut<'a, S, 3>,
+    torque: ColumnsMut<'a, S, 3>,
+}
+
+impl<S: Simd, L: Law> SegmentLoop<'_, S, L> {
+    /// The next group.
+    #[inline(always)]
+    fn add(&mut self, simd: S, group: usize) {
+        let straight = [simd.splat_f64s(0.0); 3];
+        let first = self.first.get(simd, group);
+        let l = wide::sub(simd, self.second.get(simd, group), first);
+        let q = self.frames.get(simd, group);
+        let segments = Segments::new(simd, q, l, self.lengths.get(simd, group));
+        let [on_first, on_frame, _] = segments.loads(simd, &self.law, straight);
+        let on_second = self.reactions.next(simd, on_first);
+        let force = wide::sub(simd, on_first, on_second);
+        self.force.add(simd, group, force);
+        self.torque.add(simd, group, on_frame);
+    }
+}
+
+/// The same of the loop over bending elements.
+struct BendingLoop<'a, S: Simd, L> {
+    first: Columns<'a, S, 4>,
+    second: Columns<'a, S, 4>,
+    inverse_distances: Columns<'a, S, 1>,
+    law: L,
+    /// Torques against second frames (pN nm).
+    reactions: ShiftedUp<S, 3>,
+    torque: ColumnsMut<'a, S, 3>,
+}
+
+impl<S: Simd, L: Law> BendingLoop<'_, S, L> {
+    /// The next group.
+    #[inline(always)]
+    fn add(&mut self, simd: S, group: usize) {
+        let (first, second) = (self.first.get(simd, group), self.second.get(simd, group));
+        let turn = wide::relative(simd, first, second);
+        let [inverse_distance] = self.inverse_distances.get(simd, group);
+        let (theta, coefficient) = wide::log_with_coefficient(simd, turn);
+        let kappa = wide::scale(simd, theta, inverse_distance);
+        let m = self.law.bending(simd, kappa);
+        let m = if L::BENT {
+            where_there_is(simd, inverse_distance, m)
+        } else {
+            m
+        };
+        let [on_first, against_second] = bending_torques(simd, theta, coefficient, m);
+        let against_second = self.reactions.next(simd, against_second);
+        let torque = wide::sub(simd, on_first, against_second);
+        self.torque.add(simd, group, torque);
     }
 }

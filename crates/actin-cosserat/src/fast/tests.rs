@@ -8,7 +8,7 @@ use crate::{
     PolynomialStretch, Rigidities, RootedStretch, SegmentCurvature, SegmentLaw, SidedTwist,
     Stiffening, StraightRod, StretchLaw, TanhTwist, TwistLaw, TwistRise, TwistStretch, Walls,
 };
-use actin_mechanics::testing::architectures;
+use actin_mechanics::testing::{architectures, assert_same_with_any_lanes};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
 
@@ -252,6 +252,28 @@ fn loads_are_those_of_the_scalar_path() {
                     assert_paths_agree((&state, &layout), law, is_joined, 0.0);
                 }
             }
+        }
+    }
+}
+
+/// Small and large angles in one group, every law: the loads have the same bits with four lanes and
+/// with eight.
+#[test]
+fn loads_are_the_same_with_any_number_of_lanes() {
+    let mut noise = Xorshift::new(11);
+    for law in laws().iter().chain(&bent()) {
+        for (segments, angle) in [(1, 0.3), (9, 0.3), (31, 0.01), (64, 0.2), (65, 1.8)] {
+            let walls = all_walls()[segments % 4];
+            let (mut state, layout) = rod(segments, walls, &mut noise);
+            perturb(&mut state, &mut noise, 0.5, angle);
+            let extended = extended(&layout, law, true);
+            let rod = fast(&layout, law, extended.as_ref());
+            assert_same_with_any_lanes(|arch| {
+                let mut loads = Loads::zeros(&state);
+                rod.add_loads_on(arch, &layout, &state, &mut loads);
+                let (f, t) = (loads.force, loads.torque);
+                [f.x, f.y, f.z, t.x, t.y, t.z].concat()
+            });
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::{Anchors, EllipsoidParameters, Placement};
-use actin_mechanics::testing::loads_of;
+use actin_mechanics::testing::{assert_same_with_any_lanes, loads_of};
 use actin_mechanics::{Coordinates, Frame, Inertia, Point, Stiffness, UnitQuaternion};
 use actin_mechanics::{Xorshift, perturb};
 
@@ -107,6 +107,25 @@ fn loads_are_those_of_the_textbook_on_every_kind_of_processor() {
                 let loads = loads_of(&bonds, &state);
                 assert!(difference(&loads, &expected) < 1e-13, "{count} monomers");
             }
+        }
+    }
+}
+
+/// Forces and torques of a body are added in one order: the same bits with four lanes and with eight.
+#[test]
+fn loads_are_the_same_with_any_number_of_lanes() {
+    for anchors in [Anchors::Independent, Anchors::Cubature] {
+        for count in [2, 7, 8, 9, 10, 27, 40] {
+            let (state, bonds) = run_of(anchors, count, [7, 12]);
+            assert_same_with_any_lanes(|arch| {
+                let bonds = Bonds {
+                    arch,
+                    ..bonds.clone()
+                };
+                let loads = loads_of(&bonds, &state);
+                let (f, t) = (loads.force, loads.torque);
+                [f.x, f.y, f.z, t.x, t.y, t.z].concat()
+            });
         }
     }
 }

@@ -22,6 +22,18 @@ impl WithSimd for Drift<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        if self.frames.inertias.off_z {
+            self.turn_about_any(simd);
+        } else {
+            self.turn_about_z(simd);
+        }
+    }
+}
+
+impl Drift<'_> {
+    /// Tops of any axes.
+    #[inline(always)]
+    fn turn_about_any<S: Simd>(self, simd: S) {
         let Frames {
             orientation: q,
             angular_momentum: l,
@@ -45,8 +57,69 @@ impl WithSimd for Drift<'_> {
             let turn = wide::product(simd, precession, spin);
             let turned = wide::product(simd, q.get(simd, group), turn);
             q.set(simd, group, to_unit_length(simd, turned));
-            l.set(simd, group, turn_back(simd, spin, momentum));
+            l.set(simd, group, wide::turn_back(simd, spin, momentum));
         }
+    }
+
+    /// Tops whose axis of symmetry is the third of the body, such as a rod's: the same in fewer
+    /// operations.
+    #[inline(always)]
+    fn turn_about_z<S: Simd>(self, simd: S) {
+        let n = self.frames.len();
+        let Frames {
+            orientation: q,
+            angular_momentum: l,
+            inertias,
+        } = self.frames;
+        let [qw, qx, qy, qz] = [&mut q.w, &mut q.x, &mut q.y, &mut q.z];
+        let [lx, ly, lz] = [&mut l.x, &mut l.y, &mut l.z];
+        let (inverse, excess) = (&inertias.inverse_transverse, &inertias.excess.z);
+        let mut tops = TopsAboutZ {
+            q: ColumnsMut::new([&mut qw[..n], &mut qx[..n], &mut qy[..n], &mut qz[..n]]),
+            l: ColumnsMut::new([&mut lx[..n], &mut ly[..n], &mut lz[..n]]),
+            inertia: Columns::new([&inverse[..n], &excess[..n]]),
+            half: simd.splat_f64s(0.5 * self.h),
+        };
+        // Full groups in a loop of their own, in which the compiler sees that they are.
+        for group in 0..n / S::F64_LANES {
+            tops.turn(simd, group);
+        }
+        if !n.is_multiple_of(S::F64_LANES) {
+            tops.turn(simd, n / S::F64_LANES);
+        }
+    }
+}
+
+/// Tops whose axis of symmetry is the third of the body.
+struct TopsAboutZ<'a, S: Simd> {
+    q: ColumnsMut<'a, S, 4>,
+    l: ColumnsMut<'a, S, 3>,
+    /// Inverse transverse moment, and the excess of the inverse axial one over it.
+    inertia: Columns<'a, S, 2>,
+    /// Half the time.
+    half: S::f64s,
+}
+
+impl<S: Simd> TopsAboutZ<'_, S> {
+    /// Turns a group.
+    #[inline(always)]
+    fn turn(&mut self, simd: S, group: usize) {
+        let [transverse, excess] = self.inertia.get(simd, group);
+        let momentum = self.l.get(simd, group);
+        let precession = wide::scale(simd, momentum, simd.mul_f64s(self.half, transverse));
+        let spin = simd.mul_f64s(simd.mul_f64s(self.half, excess), momentum[2]);
+        let squared = [
+            wide::dot(simd, precession, precession),
+            simd.mul_f64s(spin, spin),
+        ];
+        let [[c, s], [cosine, sinc]] = wide::cosine_and_sinc(simd, squared);
+        let [x, y, z] = wide::scale(simd, precession, s);
+        let spin = [cosine, simd.mul_f64s(sinc, spin)];
+        let turn = wide::product_about_z(simd, [c, x, y, z], spin);
+        let turned = wide::product(simd, self.q.get(simd, group), turn);
+        self.q.set(simd, group, to_unit_length(simd, turned));
+        self.l
+            .set(simd, group, turn_back_about_z(simd, spin, momentum));
     }
 }
 
@@ -75,11 +148,15 @@ fn to_unit_length<S: Simd>(simd: S, q: WideQuaternion<S>) -> WideQuaternion<S> {
     [simd.mul_f64s(w, correction), x, y, z]
 }
 
-/// `l` as seen from a body that has turned by `turn`: `l - 2 w v x l + 2 v x (v x l)`.
+/// `l` as seen from a body that has turned by `(w, 0, 0, z)`.
 #[inline(always)]
-fn turn_back<S: Simd>(simd: S, [w, x, y, z]: WideQuaternion<S>, l: Wide3<S>) -> Wide3<S> {
-    let v = [x, y, z];
-    let twice = wide::cross(simd, wide::add(simd, v, v), l);
-    let along = wide::scale_add(simd, twice, simd.neg_f64s(w), l);
-    wide::cross_add(simd, v, twice, along)
+fn turn_back_about_z<S: Simd>(simd: S, [w, z]: [S::f64s; 2], [x, y, along]: Wide3<S>) -> Wide3<S> {
+    let twice = simd.add_f64s(z, z);
+    let sine = simd.mul_f64s(twice, w);
+    let cosine = simd.negate_mul_add_e_f64s(twice, z, simd.splat_f64s(1.0));
+    [
+        simd.mul_add_e_f64s(sine, y, simd.mul_f64s(cosine, x)),
+        simd.negate_mul_add_e_f64s(sine, x, simd.mul_f64s(cosine, y)),
+        along,
+    ]
 }

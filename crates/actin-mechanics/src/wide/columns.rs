@@ -1,6 +1,6 @@
 //! Arrays of equal length, read and written in groups of as many numbers as there are lanes.
 
-use super::vectors::Wide3;
+use super::vectors::{Wide3, write};
 use pulp::Simd;
 use std::array::from_fn;
 
@@ -22,10 +22,13 @@ impl<'a, S: Simd, const N: usize> Columns<'a, S, N> {
     /// The arrays, which have equal lengths.
     #[inline(always)]
     pub fn new(arrays: [&'a [f64]; N]) -> Self {
-        let cut = arrays.map(|array| S::as_simd_f64s(array));
+        let length = arrays[0].len();
+        let cut = arrays.map(|array| S::as_simd_f64s(&array[..length]));
+        // Of one length in the eyes of the compiler, so that one comparison does for a group.
+        let (full, rest) = (cut[0].0.len(), cut[0].1.len());
         Self {
-            full: cut.map(|(full, _)| full),
-            rest: cut.map(|(_, rest)| rest),
+            full: cut.map(|(all, _)| &all[..full]),
+            rest: cut.map(|(_, all)| &all[..rest]),
         }
     }
 
@@ -56,10 +59,12 @@ impl<'a, S: Simd, const N: usize> ColumnsMut<'a, S, N> {
     /// The arrays, which have equal lengths.
     #[inline(always)]
     pub fn new(arrays: [&'a mut [f64]; N]) -> Self {
-        let mut cut = arrays.map(|array| S::as_mut_simd_f64s(array));
+        let length = arrays[0].len();
+        let mut cut = arrays.map(|array| S::as_mut_simd_f64s(&mut array[..length]));
+        let (full, rest) = (cut[0].0.len(), cut[0].1.len());
         Self {
-            full: from_fn(|k| std::mem::take(&mut cut[k].0)),
-            rest: from_fn(|k| std::mem::take(&mut cut[k].1)),
+            full: from_fn(|k| &mut std::mem::take(&mut cut[k].0)[..full]),
+            rest: from_fn(|k| &mut std::mem::take(&mut cut[k].1)[..rest]),
         }
     }
 
@@ -77,7 +82,7 @@ impl<'a, S: Simd, const N: usize> ColumnsMut<'a, S, N> {
             for (value, full) in values.iter_mut().zip(&self.full) {
                 *value = full[group];
             }
-        } else {
+        } else if group == self.full[0].len() {
             for (value, rest) in values.iter_mut().zip(&self.rest) {
                 *value = simd.partial_load_f64s(rest);
             }
@@ -85,14 +90,14 @@ impl<'a, S: Simd, const N: usize> ColumnsMut<'a, S, N> {
         values
     }
 
-    /// Replaces the numbers of a group.
+    /// Replaces the numbers of a group; beyond the end nothing.
     #[inline(always)]
     pub fn set(&mut self, simd: S, group: usize, values: [S::f64s; N]) {
         if group < self.full[0].len() {
             for (full, value) in self.full.iter_mut().zip(values) {
                 full[group] = value;
             }
-        } else {
+        } else if group == self.full[0].len() {
             for (rest, value) in self.rest.iter_mut().zip(values) {
                 simd.partial_store_f64s(rest, value);
             }
@@ -189,5 +194,37 @@ impl<S: Simd, const N: usize> ShiftedDown<S, N> {
             *before = turned;
         }
         shifted
+    }
+}
+
+/// Bodies whose numbers are added one after the other: of each eight the first, the second, and so on.
+const PARTS: usize = 8;
+
+/// A sum over bodies in an order that does not depend on the number of lanes, up to eight.
+#[derive(Clone, Copy, Debug)]
+pub struct Sums<S: Simd>([S::f64s; PARTS]);
+
+impl<S: Simd> Sums<S> {
+    /// Nothing.
+    #[inline(always)]
+    pub fn new(simd: S) -> Self {
+        Self([simd.splat_f64s(0.0); PARTS])
+    }
+
+    /// Adds the numbers of a group.
+    #[inline(always)]
+    pub fn add(&mut self, simd: S, group: usize, terms: S::f64s) {
+        let part = &mut self.0[group * S::F64_LANES % PARTS / S::F64_LANES];
+        *part = simd.add_f64s(*part, terms);
+    }
+
+    /// The sum.
+    #[inline(always)]
+    pub fn total(&self, simd: S) -> f64 {
+        let mut parts = [0.0; PARTS];
+        for (place, part) in self.0.iter().enumerate().take(PARTS / S::F64_LANES) {
+            write(simd, &mut parts, place, *part);
+        }
+        parts.iter().sum()
     }
 }

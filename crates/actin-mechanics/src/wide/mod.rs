@@ -2,7 +2,7 @@
 //!
 //! The hot loops (the drift of frames, the loads between neighbours) do the same arithmetic for
 //! every body. States are structures of arrays so that a loop can take as many
-//! bodies at a time as the processor has lanes: four with AVX2, one where there is nothing better.
+//! bodies at a time as the processor has lanes: eight with AVX-512, four with AVX2, one where there is nothing better.
 //! Which it is, is found out when the program runs; no compiler option is needed.
 //!
 //! # How to read a wide function
@@ -22,14 +22,16 @@
 //! arithmetic of a rod's step. All that is needed of them is even in the angle, so that it is a
 //! function of the angle's square without root or quotient, and the angles are small: between
 //! neighbours of a smooth chain, and over a drift. `functions.rs` holds polynomials for angles
-//! up to about 1 rad. A group with a larger angle is handed to the scalar functions, lane by
-//! lane: a branch that is never taken in a sound simulation, and therefore free. The hyperbolic
+//! up to a quarter of a radian and to about 1 rad. A larger angle is handed to the scalar
+//! functions: a branch that is never taken in a sound simulation, and therefore free. The hyperbolic
 //! tangent needs no such branch: it is halved down to small arguments and doubled back.
 //!
 //! # Accuracy
 //! The polynomials are accurate to round-off. Products are fused with sums where the machine can,
-//! so results may differ in the last digits from one kind of processor to another, and do from
-//! the reference.
+//! so results may differ in the last digits from those of one lane, and do from the reference. They
+//! are the same to the bit with four lanes and with eight: what a lane gets depends on its own body
+//! and on its neighbours along the chain, not on who else is in the group, and sums over bodies
+//! ([`Sums`], [`ShiftedUp`]) have one order.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -40,11 +42,12 @@ mod functions;
 mod rotations;
 mod vectors;
 
-pub use columns::{Columns, ColumnsMut, ShiftedDown, ShiftedUp};
+pub use columns::{Columns, ColumnsMut, ShiftedDown, ShiftedUp, Sums};
 pub use functions::{clamp, cosine_and_sinc, tanh};
 pub use pulp::{Arch, Scalar, Simd, WithSimd};
 pub use rotations::{
-    WideQuaternion, log_with_coefficient, matrix, product, relative, transpose_mul,
+    WideQuaternion, log_with_coefficient, matrix, product, product_about_z, relative, turn,
+    turn_back,
 };
 pub use vectors::{
     Wide3, WideMatrix, add, add3, cross, cross_add, dot, dot_add, in_lane, lane, load,

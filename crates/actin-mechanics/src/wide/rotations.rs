@@ -1,10 +1,10 @@
 //! Unit quaternions of several bodies, and their logarithms.
 
 use super::MOST_LANES;
-use super::functions::{JACOBIAN, TWICE_ARCSINE, polynomial};
+use super::functions::{JACOBIAN, SMALL_JACOBIAN, TWICE_ARCSINE, TWICE_SMALL_ARCSINE, polynomial};
 use super::vectors::{
-    Wide3, WideMatrix, cross_add, dot, dot_add, less, more, mul, read, scale, scale_add, sub,
-    transpose, write,
+    Wide3, WideMatrix, add, cross, cross_add, dot, dot_add, less, more, read, scale, scale_add,
+    write,
 };
 use crate::{UnitQuaternion, rotation};
 use nalgebra::{Quaternion, Unit};
@@ -13,6 +13,8 @@ use pulp::Simd;
 /// Largest square of the sine of half an angle for which the logarithm needs no call: angles up to
 /// pi/3.
 const LARGEST_SQUARED_SINE: f64 = 0.25;
+/// The same for which short polynomials do: angles up to a quarter of a radian.
+const LARGEST_SMALL: f64 = 1.0 / 64.0;
 
 /// Quaternions, scalar part first.
 pub type WideQuaternion<S> = [<S as Simd>::f64s; 4];
@@ -28,6 +30,31 @@ pub fn product<S: Simd>(simd: S, p: WideQuaternion<S>, q: WideQuaternion<S>) -> 
     [simd.negate_mul_add_e_f64s(pz, qz, w), x, y, z]
 }
 
+/// `p q` for a turn `q = (w, 0, 0, z)` about the third axis.
+#[inline(always)]
+pub fn product_about_z<S: Simd>(
+    simd: S,
+    [pw, px, py, pz]: WideQuaternion<S>,
+    [w, z]: [S::f64s; 2],
+) -> WideQuaternion<S> {
+    [
+        less(simd, pz, z, simd.mul_f64s(pw, w)),
+        more(simd, py, z, simd.mul_f64s(px, w)),
+        less(simd, px, z, simd.mul_f64s(py, w)),
+        more(simd, pw, z, simd.mul_f64s(pz, w)),
+    ]
+}
+
+/// `c - a s` for numbers `s`.
+#[inline(always)]
+fn scale_sub<S: Simd>(simd: S, a: Wide3<S>, s: S::f64s, c: Wide3<S>) -> Wide3<S> {
+    [
+        less(simd, a[0], s, c[0]),
+        less(simd, a[1], s, c[1]),
+        less(simd, a[2], s, c[2]),
+    ]
+}
+
 /// `p* q`: the rotation `q` as seen from the body `p`.
 #[inline(always)]
 pub fn relative<S: Simd>(simd: S, p: WideQuaternion<S>, q: WideQuaternion<S>) -> WideQuaternion<S> {
@@ -35,7 +62,7 @@ pub fn relative<S: Simd>(simd: S, p: WideQuaternion<S>, q: WideQuaternion<S>) ->
     let w = simd.mul_f64s(pw, qw);
     let (p, q) = ([px, py, pz], [qx, qy, qz]);
     // The imaginary part is pw q - qw p - p x q.
-    let along = sub(simd, scale(simd, q, pw), scale(simd, p, qw));
+    let along = scale_sub(simd, p, qw, scale(simd, q, pw));
     let [x, y, z] = cross_add(simd, q, p, along);
     [dot_add(simd, p, q, w), x, y, z]
 }
@@ -75,38 +102,90 @@ pub fn matrix<S: Simd>(simd: S, q: WideQuaternion<S>) -> WideMatrix<S> {
     ]
 }
 
-/// `M^T v`.
+/// `Q v` with `Q` the rotation of `q`: `v + 2 w u x v + 2 u x (u x v)`, `u` the imaginary part.
 #[inline(always)]
-pub fn transpose_mul<S: Simd>(simd: S, m: &WideMatrix<S>, v: Wide3<S>) -> Wide3<S> {
-    mul(simd, &transpose::<S>(m), v)
+pub fn turn<S: Simd>(simd: S, [w, x, y, z]: WideQuaternion<S>, v: Wide3<S>) -> Wide3<S> {
+    let u = [x, y, z];
+    let twice = cross(simd, add(simd, u, u), v);
+    cross_add(simd, u, twice, scale_add(simd, twice, w, v))
+}
+
+/// `Q^T v`: `v` as seen from a body that has turned by `q`.
+#[inline(always)]
+pub fn turn_back<S: Simd>(simd: S, [w, x, y, z]: WideQuaternion<S>, v: Wide3<S>) -> Wide3<S> {
+    let u = [x, y, z];
+    let twice = cross(simd, add(simd, u, u), v);
+    cross_add(simd, u, twice, scale_sub(simd, twice, w, v))
 }
 
 /// Rotation vectors (rad) of unit quaternions, and the coefficients of their inverse Jacobians.
 ///
 /// Accurate to round-off at every angle. The references are [`rotation::log`] and
-/// [`rotation::inverse_jacobian_coefficient`], which the groups with an angle above pi/3 are
-/// handed to.
+/// [`rotation::inverse_jacobian_coefficient`], which angles above pi/3 are handed to. What a lane
+/// gets depends on its own angle alone, and is the same with any number of lanes.
 #[inline(always)]
 pub fn log_with_coefficient<S: Simd>(simd: S, q: WideQuaternion<S>) -> (Wide3<S>, S::f64s) {
-    let [w, x, y, z] = q;
-    let v = [x, y, z];
+    let v = [q[1], q[2], q[3]];
     let u = dot(simd, v, v);
-    if simd.reduce_max_f64s(u) <= LARGEST_SQUARED_SINE {
-        let factor = polynomial(simd, &TWICE_ARCSINE, u);
-        let negative = simd.less_than_f64s(w, simd.splat_f64s(0.0));
-        let signed = simd.select_f64s(negative, simd.neg_f64s(factor), factor);
-        let squared = simd.mul_f64s(u, simd.mul_f64s(factor, factor));
-        let coefficient = polynomial(simd, &JACOBIAN, squared);
-        (scale(simd, v, signed), coefficient)
-    } else {
-        let mut lanes = [[0.0; MOST_LANES]; 4];
-        for (lanes, component) in lanes.iter_mut().zip(q) {
-            write(simd, lanes, 0, component);
-        }
-        let [x, y, z, c] = log_of_each(&lanes);
-        let theta = [read(simd, &x, 0), read(simd, &y, 0), read(simd, &z, 0)];
-        (theta, read(simd, &c, 0))
+    let largest = simd.reduce_max_f64s(u);
+    let small = log_by(simd, q, u, (&TWICE_SMALL_ARCSINE, &SMALL_JACOBIAN));
+    if largest <= LARGEST_SMALL {
+        return small;
     }
+    let limit = simd.splat_f64s(LARGEST_SMALL);
+    let is_small = simd.less_than_or_equal_f64s(u, limit);
+    let other = log_by(simd, q, u, (&TWICE_ARCSINE, &JACOBIAN));
+    let found = select(simd, is_small, small, other);
+    if largest <= LARGEST_SQUARED_SINE {
+        return found;
+    }
+    let limit = simd.splat_f64s(LARGEST_SQUARED_SINE);
+    let is_known = simd.less_than_or_equal_f64s(u, limit);
+    select(simd, is_known, found, log_of_any(simd, q))
+}
+
+/// The same by polynomials in `u`, the squared sine of half the angle, and in the squared angle.
+#[inline(always)]
+fn log_by<S: Simd, const N: usize, const M: usize>(
+    simd: S,
+    [w, x, y, z]: WideQuaternion<S>,
+    u: S::f64s,
+    (arcsine, jacobian): (&[f64; N], &[f64; M]),
+) -> (Wide3<S>, S::f64s) {
+    let factor = polynomial(simd, arcsine, u);
+    let negative = simd.less_than_f64s(w, simd.splat_f64s(0.0));
+    let signed = simd.select_f64s(negative, simd.neg_f64s(factor), factor);
+    let squared = simd.mul_f64s(u, simd.mul_f64s(factor, factor));
+    let coefficient = polynomial(simd, jacobian, squared);
+    (scale(simd, [x, y, z], signed), coefficient)
+}
+
+/// The first where `mask` is set, the second elsewhere.
+#[inline(always)]
+fn select<S: Simd>(
+    simd: S,
+    mask: S::m64s,
+    (v, c): (Wide3<S>, S::f64s),
+    (other, d): (Wide3<S>, S::f64s),
+) -> (Wide3<S>, S::f64s) {
+    let chosen = [
+        simd.select_f64s(mask, v[0], other[0]),
+        simd.select_f64s(mask, v[1], other[1]),
+        simd.select_f64s(mask, v[2], other[2]),
+    ];
+    (chosen, simd.select_f64s(mask, c, d))
+}
+
+/// The same by the scalar functions.
+#[inline(always)]
+fn log_of_any<S: Simd>(simd: S, q: WideQuaternion<S>) -> (Wide3<S>, S::f64s) {
+    let mut lanes = [[0.0; MOST_LANES]; 4];
+    for (lanes, component) in lanes.iter_mut().zip(q) {
+        write(simd, lanes, 0, component);
+    }
+    let [x, y, z, c] = log_of_each(&lanes);
+    let theta = [read(simd, &x, 0), read(simd, &y, 0), read(simd, &z, 0)];
+    (theta, read(simd, &c, 0))
 }
 
 /// The scalar functions, one lane after the other.

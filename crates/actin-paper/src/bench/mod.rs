@@ -33,18 +33,22 @@ struct Measured {
 }
 
 /// One entry of the machine-readable output.
-#[derive(Serialize)]
-struct Entry {
-    case: &'static str,
-    rate: f64,
-    unit: &'static str,
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Entry {
+    /// Name of the case.
+    pub case: &'static str,
+    /// Best of the repeats, in `unit`.
+    pub rate: f64,
+    /// Elements per second, or seconds.
+    pub unit: &'static str,
 }
 
-/// Measures and tells. Rates are those of the profile in which this crate was compiled.
+/// Measures, tells, and returns what was measured. Rates are those of the profile in which this crate
+/// was compiled.
 ///
 /// # Errors
 /// A case that is not known or cannot be run.
-pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
+pub fn run(options: &Options, tell: Tell<'_>) -> Result<Vec<Entry>, String> {
     let mut entries = Vec::new();
     if !options.json {
         table::head(tell);
@@ -68,7 +72,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
         let text = serde_json::to_string_pretty(&entries).map_err(|error| error.to_string())?;
         tell(format_args!("{text}"));
     }
-    Ok(())
+    Ok(entries)
 }
 
 /// The cases of these names, in the order of the list.
