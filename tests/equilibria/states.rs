@@ -11,7 +11,7 @@ fn buckled(states: usize) -> String {
                 imperfection: Imperfection(amplitude_nm: 0.2, seed: 1)),
             clamps: [Clamp(end: Start), Clamp(end: End)],
             path: [Stage(set: [Shift(end: End, shift_nm: (0.0, 0.0, -8.0))])],
-            task: Equilibrium(states: {states}),
+            task: Equilibrium(states: {states}, accept_jumps: true),
         )"
     )
 }

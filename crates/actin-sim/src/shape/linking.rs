@@ -54,7 +54,8 @@ impl Ribbon {
         let whole = points[points.len() - 1] - points[0];
         if is_parallel(first, last) {
             let along = whole.dot(&first);
-            return along <= 0.0 && (whole - along * first).norm() <= ONE_LINE_NM;
+            // Ends that touch too: of a circle round-off would decide.
+            return along <= ONE_LINE_NM && (whole - along * first).norm() <= ONE_LINE_NM;
         }
         let normal = first.cross(&last);
         let square = normal.norm_squared();
