@@ -14,7 +14,7 @@ fn moved(linkers: &str, task: &str) -> (Assembly, Vec<f64>, Vec<f64>, Vec<actin_
     let assembly =
         Assembly::build(&Scene::from_ron(&text).unwrap_or_else(|e| panic!("{e}"))).unwrap();
     let (trajectory, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
-    let booked = |r: &actin_sim::Record| assembly.energy_of_events_pn_nm(&r.state).unwrap();
+    let booked = |r: &actin_sim::Record| assembly.booked(&r.state).events_pn_nm;
     let total = |r: &actin_sim::Record| r.potential_pn_nm() + r.kinetic_pn_nm;
     let totals = trajectory.records.iter().map(total).collect();
     let booked = trajectory.records.iter().map(booked).collect();

@@ -12,6 +12,7 @@ mod invariants;
 mod joined;
 mod kinetics;
 mod laws;
+mod ledger;
 mod modes;
 mod observed;
 mod order;

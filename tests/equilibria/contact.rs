@@ -92,7 +92,7 @@ fn a_filament_lies_on_a_plane_at_the_depth_of_its_weight() {
             kinetic_pn_nm: 0.0,
             residual_force_pn: 0.0,
             residual_torque_pn_nm: 0.0,
-            events_pn_nm: 0.0,
+            booked: actin_sim::Booked::default(),
             observed: Vec::new(),
         };
         let summary = Summary::new(&assembly, &last, &outcome);

@@ -1,7 +1,7 @@
 //! Estimates beside the truth.
 
 use crate::{CANTILEVER, LONG_CANTILEVER, PULLED_ASIDE, TWIST, scene, solved};
-use actin_sim::adapt::estimate;
+use actin_sim::adapt::{estimate, scatter, value};
 use actin_sim::{Quantity, RodLaw, Section};
 
 /// A filament, and what is wanted of it.
@@ -148,6 +148,38 @@ const PULLED_IN_THE_MIDDLE: &str = "clamps: [Clamp(end: Start), Clamp(end: End)]
     linkers: [Linker(at_nm: 99.9, displaced_nm: (10.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0)],
     task: Equilibrium()";
 
+/// Curvatures, by the same bounds, away from walls, about which they are refused, and from inflections, where nothing is
+/// left to be a share of.
+#[test]
+fn estimates_of_curvatures_are_within_a_factor_of_two() {
+    let rise = 71.2 / 26.0;
+    let laws = [RodLaw::Homogenised, RodLaw::Fitted, RodLaw::Constant];
+    // Under `Constant` what a linker pulls aside is wrong to the second order.
+    let places = [
+        (58.5, CANTILEVER, 80.0, 3),
+        (58.5, CANTILEVER, 120.0, 3),
+        (584.5, LONG_CANTILEVER, 200.0, 3),
+        (73.0, PULLED_IN_THE_MIDDLE, 99.9, 2),
+    ];
+    let mut rows = Vec::new();
+    for (rises, rest, at_nm, count) in places {
+        let case = Case {
+            length: rises * rise,
+            rest,
+            quantity: Quantity::Curvature { at_nm },
+        };
+        for law in &laws[..count] {
+            let (effectivity, error) = effectivity(&case, law, &[]);
+            rows.push((at_nm, law, effectivity, error));
+        }
+    }
+    let judged = rows.iter().filter(|row| row.3.abs() > JUDGED);
+    assert_eq!(judged.clone().count(), 5, "{rows:?}");
+    for (.., effectivity, _) in judged {
+        assert!((0.5..2.0).contains(effectivity), "{rows:?}");
+    }
+}
+
 /// Energies and forces of linkers, by the bounds of the other numbers, set before anything was measured: under dead loads
 /// and under given displacements.
 #[test]
@@ -179,5 +211,48 @@ fn estimates_of_energies_and_linkers_are_within_a_factor_of_two() {
     assert_eq!(judged.clone().count(), 7, "{rows:?}");
     for (.., effectivity, _) in judged {
         assert!((0.5..2.0).contains(effectivity), "{rows:?}");
+    }
+}
+
+/// The scatter of filaments with drawn bonds beside that of 24 which are solved. Bounds set before: deviations within a
+/// factor of 1.6 (that of 24 is known to 15 %, the estimate to 17 %), shifts within a deviation.
+#[test]
+fn scatter_is_that_of_drawn_filaments() {
+    let rise = 71.2 / 26.0;
+    let cases = [
+        (58.5, CANTILEVER, Quantity::Tip),
+        (58.5, CANTILEVER, Quantity::Energy),
+        (27.0, TWIST, Quantity::EndCouple),
+        (73.0, PULLED_ASIDE, Quantity::EndForce),
+    ];
+    for (rises, rest, quantity) in cases {
+        let length = rises * rise;
+        let mean = solved(&scene(
+            &format!("[Ellipsoids(from_nm: 0.0, to_nm: {length:?})]"),
+            rest,
+        ));
+        let rod =
+            format!("[Rod(from_nm: 0.0, to_nm: {length:?})], rod: RodModel(law: Homogenised)");
+        let rod = solved(&scene(&rod, rest));
+        let drawn = (0..24).map(|seed| {
+            let monomers = format!(
+                "[Ellipsoids(from_nm: 0.0, to_nm: {length:?})], monomers: Monomers(seed: {seed}, anchors: Independent)"
+            );
+            let drawn = solved(&scene(&monomers, rest));
+            value(&drawn, drawn.system.state(), quantity)
+        });
+        let drawn: Vec<f64> = drawn.collect();
+        let n = drawn.len() as f64;
+        let of_drawn = drawn.iter().sum::<f64>() / n;
+        let spread = drawn.iter().map(|v| (v - of_drawn).powi(2)).sum::<f64>() / (n - 1.0);
+        let (deviation, usual) = (spread.sqrt(), value(&mean, mean.system.state(), quantity));
+        for assembly in [&mean, &rod] {
+            let found = scatter(assembly, assembly.system.state(), quantity).unwrap();
+            assert_eq!(found.bonds, [64, 64]);
+            let ratio = found.deviation / deviation;
+            assert!((1.0 / 1.6..1.6).contains(&ratio), "{quantity:?}: {ratio}");
+            let off = (found.shift - (of_drawn - usual)).abs();
+            assert!(off < deviation, "{quantity:?}: {off} {deviation}");
+        }
     }
 }

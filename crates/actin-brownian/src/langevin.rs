@@ -113,10 +113,16 @@ fn add(state: &mut State, points: &Vectors, frames: &Vectors) {
 impl Stepper for Langevin {
     fn step(&mut self, system: &mut System, step: u64, h: f64) -> Result<(), StepFailure> {
         system.kick(0.5 * h, 0.5 * h);
+        system.book_work(0.5 * h);
         system.drift(0.5 * h);
+        let before = system.kinetic_energies();
         self.rub(system, step, h);
+        if let (Some(before), Some(after)) = (before, system.kinetic_energies()) {
+            system.book_heat(after.0 + after.1 - before.0 - before.1);
+        }
         system.drift(0.5 * h);
         system.kick(0.5 * h, 0.5 * h);
+        system.book_work(0.5 * h);
         if system.has_step_end() {
             system.end_step(step + 1, h);
         }

@@ -26,6 +26,7 @@ pub(crate) trait Surroundings<S: Split + ?Sized> {
             Stage::Kick => {
                 let (translation, rotation) = self.kicks();
                 system.kick(t * translation, t * rotation);
+                system.book_work(t);
             }
         }
     }
@@ -108,13 +109,34 @@ impl Dragging {
     }
 }
 
+/// Multiplies velocities by `factors` and books what that takes. Before and after it they are those of the motion times
+/// `scales`.
+fn damp<S: Split + ?Sized>(system: &mut S, factors: Factors, scales: [Factors; 2]) {
+    if let Some(before) = system.kinetic_energies() {
+        let after = (before.0 * factors.0.powi(2), before.1 * factors.1.powi(2));
+        system.book_heat(energy(after, scales[1]) - energy(before, scales[0]));
+    }
+    system.damp(factors.0, factors.1);
+}
+
+/// Kinetic energy of points and frames whose velocities are those of the motion times `scale`.
+fn energy(kinetic: (f64, f64), scale: Factors) -> f64 {
+    kinetic.0 / (scale.0 * scale.0) + kinetic.1 / (scale.1 * scale.1)
+}
+
+const UNSCALED: Factors = (1.0, 1.0);
+
 impl<S: Split + ?Sized> Surroundings<S> for Dragging {
     fn before(&mut self, system: &mut S) {
-        system.damp(self.halves.before.0, self.halves.before.1);
+        damp(
+            system,
+            self.halves.before,
+            [UNSCALED, self.halves.rescaling],
+        );
     }
 
     fn after(&mut self, system: &mut S) {
-        system.damp(self.halves.after.0, self.halves.after.1);
+        damp(system, self.halves.after, [self.halves.rescaling, UNSCALED]);
     }
 
     fn kicks(&self) -> (f64, f64) {
@@ -123,7 +145,7 @@ impl<S: Split + ?Sized> Surroundings<S> for Dragging {
 
     fn between(&mut self, system: &mut S, stage: Stage, t: f64) {
         self.apply(stage, system, t);
-        system.damp(self.whole.0, self.whole.1);
+        damp(system, self.whole, [self.halves.rescaling; 2]);
         self.apply(stage, system, t);
     }
 }
@@ -155,23 +177,34 @@ impl Heating {
         &mut self,
         system: &mut S,
         half: Half,
-        factors: Factors,
-        spreads: Factors,
+        (factors, spreads): (Factors, Factors),
+        scales: [Factors; 2],
     ) {
         self.noise.draw(self.step, half, spreads);
+        let before = system.kinetic_energies();
         system.damp(factors.0, factors.1);
         system.add_thermal_impulses(&self.noise.points, &self.noise.frames);
+        if let (Some(before), Some(after)) = (before, system.kinetic_energies()) {
+            system.book_heat(energy(after, scales[1]) - energy(before, scales[0]));
+        }
     }
 }
 
 impl<S: Thermostat + ?Sized> Surroundings<S> for Heating {
     fn before(&mut self, system: &mut S) {
-        let rescaled = times(self.spreads, self.halves.rescaling);
-        self.act(system, Half::Before, self.halves.before, rescaled);
+        let Halves {
+            before, rescaling, ..
+        } = self.halves;
+        let acts = (before, times(self.spreads, rescaling));
+        self.act(system, Half::Before, acts, [UNSCALED, rescaling]);
     }
 
     fn after(&mut self, system: &mut S) {
-        self.act(system, Half::After, self.halves.after, self.spreads);
+        let Halves {
+            after, rescaling, ..
+        } = self.halves;
+        let acts = (after, self.spreads);
+        self.act(system, Half::After, acts, [rescaling, UNSCALED]);
         self.step += 1;
     }
 

@@ -3,7 +3,8 @@
 mod drift;
 
 use crate::inertia::is_inertia;
-use crate::{Inertia, Quaternions, Shared, UnitQuaternion, Vector3, Vectors, vectors, wide};
+use crate::vectors::{self, damp_where, sum_in_lanes};
+use crate::{Inertia, Quaternions, Shared, UnitQuaternion, Vector3, Vectors, wide};
 use drift::Drift;
 
 /// One frame, as it enters a [`Frames`].
@@ -187,15 +188,20 @@ impl Frames {
         }
     }
 
+    /// Multiplies the angular momenta of the free frames.
+    pub(crate) fn damp(&mut self, factor: f64) {
+        damp_where(&mut self.angular_momentum, &self.inertias.mobility, factor);
+    }
+
     /// Kinetic energy of the free frames.
     pub fn kinetic_energy(&self) -> f64 {
-        (0..self.len())
-            .filter(|&i| self.is_free(i))
-            .map(|i| {
-                let l = self.angular_momentum.get(i);
-                0.5 * l.dot(&self.angular_velocity(i, l))
-            })
-            .sum()
+        let l = &self.angular_momentum;
+        let [transverse, x, y, z, mobility] = self.inertia_columns();
+        let columns = [transverse, x, y, z, mobility, &l.x, &l.y, &l.z];
+        0.5 * sum_in_lanes(columns, |[transverse, x, y, z, mobility, lx, ly, lz]| {
+            let excess = lx * lx * x + ly * ly * y + lz * lz * z;
+            mobility * (transverse * (lx * lx + ly * ly + lz * lz) + excess)
+        })
     }
 }
 

@@ -1,7 +1,8 @@
 //! Points: positions with a mass.
 
 use crate::inertia::is_inertia;
-use crate::{Shared, Vector3, Vectors, vectors};
+use crate::vectors::{self, damp_where, sum_in_lanes};
+use crate::{Shared, Vector3, Vectors};
 use std::collections::BTreeMap;
 
 /// One point, as it enters a [`Points`].
@@ -171,13 +172,22 @@ impl Points {
         }
     }
 
+    /// Multiplies the velocities of the free points.
+    pub(crate) fn damp(&mut self, factor: f64) {
+        damp_where(&mut self.velocity, &self.masses.inverse, factor);
+    }
+
     /// Kinetic energy of the free points.
     pub fn kinetic_energy(&self) -> f64 {
-        let moving = |i: &usize| self.is_free(*i);
-        (0..self.len())
-            .filter(moving)
-            .map(|i| 0.5 * self.velocity.get(i).norm_squared() / self.masses.inverse[i])
-            .sum()
+        let (v, inverse) = (&self.velocity, &self.masses.inverse);
+        0.5 * sum_in_lanes([inverse, &v.x, &v.y, &v.z], |[inverse, x, y, z]| {
+            let squared = x * x + y * y + z * z;
+            if inverse > 0.0 {
+                squared / inverse
+            } else {
+                0.0
+            }
+        })
     }
 }
 

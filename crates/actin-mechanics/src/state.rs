@@ -37,8 +37,15 @@ impl State {
 
     /// Kinetic energy of the free bodies, sliding ones included.
     pub fn kinetic_energy(&self) -> f64 {
+        let (points, frames) = self.kinetic_energies();
+        points + frames
+    }
+
+    /// Kinetic energies of the free points, sliding ones included, and of the free frames.
+    pub fn kinetic_energies(&self) -> (f64, f64) {
         let sliding: f64 = self.sliders.iter().map(|s| s.kinetic_energy(self)).sum();
-        self.points.kinetic_energy() + self.frames.kinetic_energy() + sliding
+        let points = self.points.kinetic_energy() + sliding;
+        (points, self.frames.kinetic_energy())
     }
 
     /// Total momentum of the free points.

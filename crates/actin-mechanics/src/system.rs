@@ -1,6 +1,6 @@
 //! A state with its interactions, split into drift and kick.
 
-use crate::{Interaction, Loads, Motion, Residual, State, Vectors};
+use crate::{Interaction, Ledger, Loads, Motion, Residual, State, Vectors};
 use std::sync::Arc;
 
 /// What an integrator may do to a system: nothing else is visible to it.
@@ -17,6 +17,18 @@ pub trait Split {
 
     /// How often the loads have been evaluated so far.
     fn force_evaluations(&self) -> u64;
+
+    /// Books the work of what is driven, at the present positions, for a time `t`; nothing where no
+    /// [`Ledger`] is kept.
+    fn book_work(&mut self, _t: f64) {}
+
+    /// Kinetic energies of the free points and of the free frames, where heat is booked.
+    fn kinetic_energies(&self) -> Option<(f64, f64)> {
+        None
+    }
+
+    /// Books energy that drag or noise has added.
+    fn book_heat(&mut self, _energy: f64) {}
 }
 
 /// What happens to a system between one time step and the next, such as a spring that breaks.
@@ -56,6 +68,17 @@ pub trait Drive: std::fmt::Debug + Send + Sync {
     /// Called after every drift, so that loads are evaluated at the exact places: the order of a
     /// method is not lost to the drive. What slides keeps its place along which it slides.
     fn place(&self, state: &mut State, time: f64);
+
+    /// Energy that the controls which it moves add to `interactions` over a time `t`, at the places and the time of
+    /// `state`; it leaves the state as it was. None where it moves held bodies alone.
+    fn work_of_controls(
+        &self,
+        _state: &mut State,
+        _interactions: &[Box<dyn Interaction>],
+        _t: f64,
+    ) -> f64 {
+        0.0
+    }
 }
 
 /// A state, the interactions that act on it, and their loads.
@@ -73,6 +96,7 @@ pub struct System {
     force_evaluations: u64,
     drive: Option<Box<dyn Drive>>,
     step_end: Option<Box<dyn StepEnd>>,
+    ledger: Option<Ledger>,
 }
 
 impl System {
@@ -87,7 +111,7 @@ impl System {
     }
 
     /// Another system under the same interactions, which both share, in a state of the same bodies; it
-    /// has no drive, and nothing happens between its steps.
+    /// has no drive and no ledger, and nothing happens between its steps.
     ///
     /// # Panics
     /// As [`new`](Self::new).
@@ -108,6 +132,7 @@ impl System {
             force_evaluations: 0,
             drive: None,
             step_end: None,
+            ledger: None,
         }
     }
 
@@ -122,6 +147,11 @@ impl System {
     /// Lets something happen between steps from now on.
     pub fn set_step_end(&mut self, step_end: Box<dyn StepEnd>) {
         self.step_end = Some(step_end);
+    }
+
+    /// Books from now on what comes from outside.
+    pub fn keep_ledger(&mut self, ledger: Ledger) {
+        self.ledger = Some(ledger);
     }
 
     /// The present state.
@@ -245,11 +275,37 @@ impl Split for System {
 
     fn damp(&mut self, translational: f64, rotational: f64) {
         // Prescribed motion of held bodies is not damped: it is zero or driven.
-        damp_free(&mut self.state, translational, rotational);
+        let state = &mut self.state;
+        state.points.damp(translational);
+        for slider in state.sliders.iter() {
+            slider.damp(&mut state.points.velocity, translational);
+        }
+        state.frames.damp(rotational);
     }
 
     fn force_evaluations(&self) -> u64 {
         self.force_evaluations
+    }
+
+    fn book_work(&mut self, t: f64) {
+        let (Some(ledger), true) = (self.ledger, self.drive.is_some()) else {
+            return;
+        };
+        self.loads();
+        if let Some(drive) = &self.drive {
+            let driven = (drive.as_ref(), &*self.interactions);
+            ledger.book_work(&mut self.state, driven, &self.loads, t);
+        }
+    }
+
+    fn kinetic_energies(&self) -> Option<(f64, f64)> {
+        self.ledger.map(|_| self.state.kinetic_energies())
+    }
+
+    fn book_heat(&mut self, energy: f64) {
+        if let Some(ledger) = self.ledger {
+            self.state.controls[ledger.heat] += energy;
+        }
     }
 }
 
@@ -276,27 +332,6 @@ impl Thermostat for System {
             && step_end.end_step(&mut self.state, step, h)
         {
             self.loads_are_current = false;
-        }
-    }
-}
-
-/// Scales the motion of the free bodies.
-fn damp_free(state: &mut State, translational: f64, rotational: f64) {
-    let points = &mut state.points;
-    for i in 0..points.len() {
-        if points.is_free(i) {
-            let v = points.velocity.get(i);
-            points.velocity.set(i, v * translational);
-        }
-    }
-    for slider in state.sliders.iter() {
-        slider.damp(&mut points.velocity, translational);
-    }
-    let frames = &mut state.frames;
-    for i in 0..frames.len() {
-        if frames.is_free(i) {
-            let l = frames.angular_momentum.get(i);
-            frames.angular_momentum.set(i, l * rotational);
         }
     }
 }

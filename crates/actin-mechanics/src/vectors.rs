@@ -184,3 +184,35 @@ impl WithSimd for AddScaled<'_> {
         }
     }
 }
+/// Multiplies by `factor` those vectors whose mobility is not zero.
+pub(crate) fn damp_where(vectors: &mut Vectors, mobility: &[f64], factor: f64) {
+    for column in [&mut vectors.x, &mut vectors.y, &mut vectors.z] {
+        for (c, mobility) in column.iter_mut().zip(mobility) {
+            *c *= if *mobility > 0.0 { factor } else { 1.0 };
+        }
+    }
+}
+
+/// The sum of `f` over the rows of `columns`, in four sums that need not wait for each other.
+///
+/// # Panics
+/// If a column is shorter than the first.
+#[inline]
+pub(crate) fn sum_in_lanes<const N: usize>(
+    columns: [&[f64]; N],
+    f: impl Fn([f64; N]) -> f64,
+) -> f64 {
+    const LANES: usize = 4;
+    let n = columns[0].len();
+    let columns = columns.map(|column| &column[..n]);
+    let chunks = columns.map(<[f64]>::as_chunks::<LANES>);
+    let mut sums = [0.0; LANES];
+    for i in 0..n / LANES {
+        let rows = chunks.map(|(whole, _)| whole[i]);
+        for (lane, sum) in sums.iter_mut().enumerate() {
+            *sum += f(rows.map(|column| column[lane]));
+        }
+    }
+    let rest = (n - n % LANES..n).map(|i| f(columns.map(|column| column[i])));
+    sums.iter().sum::<f64>() + rest.sum::<f64>()
+}

@@ -38,9 +38,9 @@ pub use actin_equilibrium as equilibrium;
 pub use actin_integrate as integrate;
 pub use actin_mechanics as mechanics;
 pub use assembly::{
-    Assembly, BeyondRange, BeyondUse, BodyKind, Clamped, Counts, Drive, FilamentSpan, Fluctuations,
-    FrameInfo, Happening, JunctionBond, LinkerEvent, Part, PointInfo, Reaction, Resolution,
-    SectionSpan, Term, UnstableTwist,
+    Assembly, BeyondRange, BeyondUse, BodyKind, Booked, Clamped, Counts, Drive, FilamentSpan,
+    Fluctuations, FrameInfo, Happening, JunctionBond, LinkerEvent, Part, PointInfo, Reaction,
+    Resolution, SectionSpan, Term, UnstableTwist,
 };
 pub use error::SimError;
 pub use observe::{DerivedLength, MeanSummary, ObservableSummary};

@@ -76,8 +76,8 @@ pub(crate) fn of_monomers(count: f64, bonds: usize, task: &Task) -> f64 {
     count * (MONOMER.of(task) + BOND * bonds as f64)
 }
 
-/// Numbers of a record besides its state, its energies and what is observed: time, kinetic energy, residuals, events.
-const NUMBERS_OF_ROW: usize = 5;
+/// Numbers of a record besides its state, its energies and what is observed: time, kinetic energy, residuals, work, heat, events.
+const NUMBERS_OF_ROW: usize = 7;
 
 /// Bytes of a recorded state with the energies of so many terms.
 fn of_record(state: &State, terms: usize) -> f64 {
@@ -194,7 +194,7 @@ mod tests {
         let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
         let state = assembly.system.state();
         assert_eq!((state.points.len(), state.frames.len()), (7, 6));
-        let expected = 8.0 * f64::from(7 * 6 + 6 * 7 + 1);
+        let expected = 8.0 * f64::from(7 * 6 + 6 * 7 + 2 + 1);
         assert!((of_record(state, 1) - expected).abs() < 1e-9);
     }
 }

@@ -42,6 +42,9 @@ const SHORTEST_NM: f64 = 60.0;
 /// The command that measures these.
 const COMMAND: &str = "cargo run --release -p actin-paper --example persistence_length";
 
+/// Share of the energy that a motion exchanges which its steps may lose or win without a word.
+const LEDGER_OPEN: f64 = 0.01;
+
 impl Assembly {
     /// Notes on this scene before it runs, a sentence or two each.
     pub fn notes(&self) -> Vec<String> {
@@ -129,10 +132,14 @@ impl Outcome {
         let error = self.equilibrium.as_ref().and_then(|e| e.error.as_ref());
         match error {
             Some(Err(problem)) => notes.push(format!("its error is not known: {problem}")),
-            Some(Ok(_)) => notes.extend(left_out(&assembly.scene).map(str::to_owned)),
+            Some(Ok(error)) => {
+                notes.push(error.note(self.scatter()));
+                notes.extend(left_out(&assembly.scene).map(str::to_owned));
+            }
             None => {}
         }
         notes.extend(assembly.note_on_rates(&last.state));
+        notes.extend(self.note_on_ledger(assembly, last));
         let is_motion = !matches!(assembly.scene.task, Task::Equilibrium(_));
         if is_motion && self.has_converged() && self.at_rest.is_none() {
             notes.push(
@@ -142,6 +149,26 @@ impl Outcome {
             );
         }
         notes
+    }
+
+    /// The note on energy that a motion without heat has and nothing has given it. Loads without an energy may give any.
+    fn note_on_ledger(&self, assembly: &Assembly, last: &Record) -> Option<String> {
+        let begun = self.begun_with_pn_nm?;
+        let mut terms = assembly.system.interactions().iter();
+        let is_known = assembly.scene.thermal().is_none()
+            && self.pushes.is_empty()
+            && terms.all(|term| term.is_conservative());
+        let booked = last.booked;
+        let open = last.potential_pn_nm() + last.kinetic_pn_nm - begun - booked.sum_pn_nm();
+        let sizes = [booked.work_pn_nm, booked.heat_pn_nm, last.kinetic_pn_nm];
+        let size = sizes.iter().fold(0.0, |most: f64, one| most.max(one.abs()));
+        (is_known && open.abs() > LEDGER_OPEN * size).then(|| {
+            format!(
+                "the energy at the end is {open:+.3} pN nm from what work and drag account for, {:.1} % of what was \
+                 exchanged: the error of the time steps; a smaller step_safety makes it less",
+                100.0 * open.abs() / size
+            )
+        })
     }
 }
 

@@ -31,8 +31,8 @@ const RISE_NM: f64 = 71.2 / 26.0;
 type Stretches = &'static [[f64; 2]];
 
 /// Scenes of the trade study, by file.
-const MEASURED: [(&str, &str, Quantity, &[Stretches]); 15] = {
-    use Quantity::{EndCouple, EndForce, Energy, Height, LinkerForce, Tip};
+const MEASURED: [(&str, &str, Quantity, &[Stretches]); 17] = {
+    use Quantity::{Curvature, EndCouple, EndForce, Energy, Height, LinkerForce, Tip};
     [
         (
             "tip, 160 nm",
@@ -99,6 +99,18 @@ const MEASURED: [(&str, &str, Quantity, &[Stretches]); 15] = {
             LinkerForce { linker: 0 },
             &[&[[67.0, 107.0]]],
         ),
+        (
+            "curvature halfway, 160 nm",
+            "cantilever-160",
+            Curvature { at_nm: 80.0 },
+            &[&[[0.0, 40.0]], &[[60.0, 100.0]]],
+        ),
+        (
+            "curvature of the top, buckled over",
+            "buckling-over",
+            Curvature { at_nm: 150.0 },
+            &[&[[100.0, 200.0]]],
+        ),
     ]
 };
 
@@ -110,8 +122,8 @@ const TWO_LINKERS: &str = "clamps: [Clamp(end: Start)],
     ]";
 
 /// Others: the length in rises, and what holds and loads it.
-const OTHERS: [(&str, f64, &str, Quantity); 9] = {
-    use Quantity::{EndCouple, EndForce, Energy, LinkerForce, Tip};
+const OTHERS: [(&str, f64, &str, Quantity); 10] = {
+    use Quantity::{Curvature, EndCouple, EndForce, Energy, LinkerForce, Tip};
     [
         (
             "tip under tension, 300 nm",
@@ -171,6 +183,13 @@ const OTHERS: [(&str, f64, &str, Quantity); 9] = {
             "clamps: [Clamp(end: Start), Clamp(end: End)],
             linkers: [Linker(at_nm: 99.9, displaced_nm: (10.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0)]",
             LinkerForce { linker: 0 },
+        ),
+        (
+            "curvature at a linker, 200 nm",
+            73.0,
+            "clamps: [Clamp(end: Start), Clamp(end: End)],
+            linkers: [Linker(at_nm: 99.9, displaced_nm: (10.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0)]",
+            Curvature { at_nm: 99.9 },
         ),
     ]
 };

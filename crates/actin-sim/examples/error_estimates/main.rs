@@ -120,6 +120,7 @@ fn choose(
         Quantity::EndCouple => Want::EndCouple { error },
         Quantity::Energy => Want::Energy { error },
         Quantity::LinkerForce { linker } => Want::LinkerForce { linker, error },
+        Quantity::Curvature { at_nm } => Want::Curvature { at_nm, error },
     };
     let mut scene = case.scene.clone();
     scene.filament.sections = Adaptive {

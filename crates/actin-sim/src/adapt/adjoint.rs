@@ -11,9 +11,11 @@
 //! The energy is the elastic one, not the potential: the first variation of the potential vanishes, so that no linear solve
 //! would be needed, but it is a number of the loads as much as of the filament.
 
+use super::ideal::PERIOD;
 use super::section_loads::{SectionLoads, elastic_energy, elastic_loads};
 use crate::scene::{Quantity, SceneProblem};
 use crate::shape::Ribbon;
+use crate::shape::axis::Axis;
 use crate::{Assembly, End};
 use actin_coupling::{Linker, LinkerEnd, Site};
 use actin_ellipsoid::SixVector;
@@ -41,6 +43,8 @@ enum Goal {
     Energy,
     /// The force of a linker along a direction.
     Linker { linker: usize, along: Vector3 },
+    /// The size of the curvature between two arc lengths (nm).
+    Curvature([f64; 2]),
 }
 
 impl Goal {
@@ -67,6 +71,7 @@ impl Goal {
                 let along = force.try_normalize(0.0).unwrap_or_else(Vector3::x);
                 Self::Linker { linker, along }
             }
+            Quantity::Curvature { at_nm } => Self::Curvature(periods_about(assembly, at_nm)),
         }
     }
 
@@ -81,6 +86,7 @@ impl Goal {
             }
             Self::Energy => elastic_energy(assembly, state),
             Self::Linker { linker, along } => assembly.linkers[*linker].force(state).dot(along),
+            Self::Curvature(ends) => curvature_between(assembly, state, *ends),
         }
     }
 
@@ -90,6 +96,7 @@ impl Goal {
             Self::Tip(_) => (assembly.tip_points(End::End).to_vec(), Vec::new()),
             Self::Height => about_the_top(assembly, state),
             Self::Linker { linker, .. } => at_the_sites(&assembly.linkers[*linker]),
+            Self::Curvature(ends) => (Vec::new(), frames_about(assembly, *ends)),
             Self::Clamp { .. } | Self::Energy => (Vec::new(), Vec::new()),
         }
     }
@@ -116,6 +123,45 @@ fn at_the_sites(linker: &Linker) -> (Vec<usize>, Vec<usize>) {
     let sites = [linker.site()].into_iter().chain(other);
     let points = sites.clone().flat_map(Site::shares).map(|&(i, _)| i);
     (points.collect(), sites.map(Site::frame).collect())
+}
+
+/// Two periods of monomers about an arc length, or the nearest that there are (nm).
+fn periods_about(assembly: &Assembly, at_nm: f64) -> [f64; 2] {
+    let period = period_nm(assembly);
+    let last = (assembly.length_nm() - 2.0 * period).max(0.0);
+    let from = (at_nm - period).clamp(0.0, last);
+    [from, from + 2.0 * period]
+}
+
+fn period_nm(assembly: &Assembly) -> f64 {
+    PERIOD as f64 * assembly.monomers_of(0).rise_nm
+}
+
+/// By how much the mean axes of the second half of a stretch of two periods are bent against those of the first, over
+/// their distance: how monomers of a period stand differently drops out, also where it grows along the filament.
+fn curvature_between(assembly: &Assembly, state: &State, [from, to]: [f64; 2]) -> f64 {
+    let axis = Axis::of(assembly, state);
+    let middle = axis.at(0.5 * (from + to)).1.inverse();
+    let rise = (to - from) / (2 * PERIOD) as f64;
+    let turns = (0..2 * PERIOD).map(|k| {
+        let (_, axes) = axis.at(from + (k as f64 + 0.5) * rise);
+        rotation::log(middle * axes)
+    });
+    let turns: Vec<Vector3> = turns.collect();
+    let (before, behind) = turns.split_at(PERIOD);
+    let turned = behind.iter().sum::<Vector3>() - before.iter().sum::<Vector3>();
+    turned.x.hypot(turned.y) / (PERIOD * PERIOD) as f64 / rise
+}
+
+/// The frames between two arc lengths and the next on either side (nm).
+fn frames_about(assembly: &Assembly, [from, to]: [f64; 2]) -> Vec<usize> {
+    let frames = assembly.filaments[0].frames.clone();
+    let before = |s_nm: f64| {
+        let is_before = frames.clone().filter(|&i| assembly.frames[i].s_nm < s_nm);
+        frames.start + is_before.count()
+    };
+    let first = before(from).saturating_sub(2).max(frames.start);
+    (first..(before(to) + 2).min(frames.end)).collect()
 }
 
 /// The bodies about the vertex that is furthest from the axis.
@@ -279,7 +325,9 @@ fn moved_end(
 fn conjugate(goal: &Goal, assembly: &Assembly, state: &State) -> Loads {
     match *goal {
         Goal::Energy => scaled(&Loads::zeros(state), &elastic_loads(assembly, state), 1.0),
-        Goal::Tip(_) | Goal::Height | Goal::Linker { .. } => gradient(goal, assembly, state),
+        Goal::Tip(_) | Goal::Height | Goal::Linker { .. } | Goal::Curvature(_) => {
+            gradient(goal, assembly, state)
+        }
         Goal::Clamp { along, about } => {
             let moved = |step: f64| {
                 let moved = moved_end(assembly, state, along, about * step, step);

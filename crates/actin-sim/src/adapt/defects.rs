@@ -1,7 +1,7 @@
 //! What a stretch of filament does otherwise than monomers under the same loads would: law, junctions.
 
 use super::adjoint::Adjoint;
-use super::ideal::{Ideal, MeanFilament, PERIOD};
+use super::ideal::{EndlessFilament, Ideal, PERIOD};
 use super::section_loads::{SectionLoads, Segment, linear, rotational, segments, six};
 use crate::assembly::{BodyKind, Rod};
 use crate::shape::axis::CrossSection;
@@ -10,7 +10,7 @@ use actin_ellipsoid::SixVector;
 use actin_mechanics::{State, Vector3, rotation};
 
 /// Segments of one rod under whose loads a cell is relaxed; defects in between are linear.
-const SAMPLES: usize = 16;
+const SAMPLES: usize = 8;
 /// How far into a rod a junction is looked at (nm).
 const INTO_ROD_NM: f64 = 20.0;
 /// Cells on the way across a junction.
@@ -29,7 +29,7 @@ pub(super) struct Look<'a> {
     pub state: &'a State,
     pub loads: &'a SectionLoads,
     pub adjoint: &'a Adjoint,
-    pub mean: &'a MeanFilament,
+    pub mean: &'a EndlessFilament,
 }
 
 impl Look<'_> {

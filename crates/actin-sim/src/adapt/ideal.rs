@@ -23,17 +23,41 @@ pub(super) fn mean_monomers(monomers: &Monomers) -> Monomers {
     mean
 }
 
-/// The mean filament of some monomers: weighted bonds, uniformly strained cells.
+/// The monomers of filaments whose bonds are drawn: those of a scene, or with the usual number for weighted bonds.
+pub(super) fn drawn_monomers(monomers: &Monomers) -> Monomers {
+    let mut drawn = monomers.clone();
+    if drawn.anchors == Anchors::Cubature {
+        drawn.lateral_bonds = Anchors::Independent.usual_bonds();
+        drawn.longitudinal_bonds = Anchors::Independent.usual_bonds();
+    }
+    drawn.anchors = Anchors::Independent;
+    drawn
+}
+
+/// An endless filament in uniformly strained cells: the mean one of some monomers, with weighted bonds, or one whose bonds are
+/// drawn and come again after a period.
 #[derive(Debug)]
-pub(super) struct MeanFilament {
+pub(super) struct EndlessFilament {
     cell: Cell,
 }
 
-impl MeanFilament {
+impl EndlessFilament {
     /// # Errors
     /// Monomers whose helix does not close after 13.
     pub(super) fn of(monomers: &Monomers) -> Result<Self, SceneProblem> {
-        let model = ellipsoids(&mean_monomers(monomers), 0)?;
+        Self::with_bonds(&mean_monomers(monomers), 0)
+    }
+
+    /// The same of monomers whose bonds are drawn, in one of many samplings.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of).
+    pub(super) fn drawn(monomers: &Monomers, sampling: u32) -> Result<Self, SceneProblem> {
+        Self::with_bonds(monomers, sampling as usize)
+    }
+
+    fn with_bonds(monomers: &Monomers, sampling: usize) -> Result<Self, SceneProblem> {
+        let model = ellipsoids(monomers, sampling)?;
         let cell = Cell::new(&model, PERIOD, Hold::Means);
         let cell = cell.map_err(|error| {
             let rule =
@@ -64,7 +88,7 @@ impl Ideal {
     /// Of the stretch between two arc lengths (nm) under the loads of `load`, from evenly spaced samples; none where
     /// a cell finds no minimum.
     pub(super) fn along(
-        filament: &MeanFilament,
+        filament: &EndlessFilament,
         load: impl Fn(f64) -> SixVector,
         [from, to]: [f64; 2],
         samples: u32,

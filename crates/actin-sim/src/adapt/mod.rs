@@ -15,6 +15,7 @@ mod choose;
 mod chosen;
 mod defects;
 mod ideal;
+mod scatter;
 mod section_loads;
 mod setting;
 mod wall;
@@ -24,13 +25,14 @@ mod tests;
 
 pub use choose::choose;
 pub use chosen::{Chosen, Tried};
+pub use scatter::{Scatter, scatter};
 
 use crate::scene::{Equilibrium, Hold, Load, Quantity, Scene, SceneProblem, Section, Slides, Task};
 use crate::{Assembly, End, Plan, RunError};
 use actin_mechanics::State;
 use adjoint::Adjoint;
 use defects::{Contribution, Look};
-use ideal::MeanFilament;
+use ideal::{EndlessFilament, PERIOD};
 use section_loads::SectionLoads;
 use serde::{Deserialize, Serialize};
 
@@ -78,6 +80,32 @@ impl ErrorEstimate {
     /// The sum of the sizes of its parts.
     fn size_of_parts(&self) -> f64 {
         self.law.abs() + self.segments.abs() + self.junctions.abs() + self.walls.abs()
+    }
+
+    /// The estimate in a sentence, with how filaments with drawn bonds scatter, where it is known.
+    pub(crate) fn note(&self, scatter: Option<Scatter>) -> String {
+        let unit = self.quantity.unit();
+        let percent = |part: f64| 100.0 * part / self.corrected().abs();
+        let drawn = scatter.map_or_else(String::new, |drawn| {
+            format!(
+                "; filaments with {} drawn bonds an interface are {:+.2} % from the mean one, and scatter by {:.2} %",
+                drawn.bonds[0],
+                percent(drawn.shift),
+                percent(drawn.deviation)
+            )
+        });
+        format!(
+            "{} is {:.5} {unit}, {:.5} with its estimated error against every monomer ({:+.2} %: laws {:+.2}, segments \
+             {:+.2}, junctions {:+.2}, walls {:+.2}){drawn}",
+            self.quantity,
+            self.value,
+            self.corrected(),
+            percent(self.error),
+            percent(self.law),
+            percent(self.segments),
+            percent(self.junctions),
+            percent(self.walls)
+        )
     }
 
     /// The size of the error over that of the corrected value.
@@ -145,7 +173,7 @@ fn located(
         state,
         loads: &SectionLoads::of(assembly, state),
         adjoint: &Adjoint::of(quantity, assembly, state)?,
-        mean: &MeanFilament::of(assembly.monomers_of(0))?,
+        mean: &EndlessFilament::of(assembly.monomers_of(0))?,
     };
     let mut parts = Vec::new();
     for rod in &assembly.rods {
@@ -309,6 +337,10 @@ fn missing(scene: &Scene, quantity: Quantity) -> Option<(&'static str, String)> 
         };
         return (linker >= scene.linkers.len()).then(|| ("linkers", rule()));
     }
+    if let Quantity::Curvature { at_nm } = quantity {
+        let rule = no_curvature_at(scene, at_nm)?;
+        return Some(("filament.sections", rule));
+    }
     let clamp = scene.clamps.iter().find(|clamp| clamp.end == End::End);
     let rule = match (quantity, clamp.map(|clamp| clamp.slides)) {
         (Quantity::Tip, Some(Slides::Nowhere)) => "the tip at the end is wanted, but it is clamped",
@@ -321,4 +353,24 @@ fn missing(scene: &Scene, quantity: Quantity) -> Option<(&'static str, String)> 
         _ => return None,
     };
     Some(("clamps", rule.to_owned()))
+}
+
+/// Why the error of the curvature about an arc length (nm) is not known, if it is not: a wall bends what is about it in its
+/// own way.
+fn no_curvature_at(scene: &Scene, at_nm: f64) -> Option<String> {
+    let ends = scene.filament.sections.iter().map(|s| s.span_nm().1);
+    let length_nm = ends.fold(0.0, f64::max);
+    let periods_nm = 2.0 * PERIOD as f64 * scene.filament.monomers.rise_nm;
+    let free = |end: End, distance: f64| {
+        let is_held = scene.clamps.iter().any(|clamp| clamp.end == end);
+        distance >= if is_held { periods_nm } else { 0.0 }
+    };
+    let is_known =
+        length_nm >= periods_nm && free(End::Start, at_nm) && free(End::End, length_nm - at_nm);
+    (!is_known).then(|| {
+        format!(
+            "the curvature at {at_nm:?} nm is wanted, of a filament of {length_nm:?} nm: errors are known of it inside, \
+             {periods_nm:.1} nm or more from a clamped end"
+        )
+    })
 }

@@ -8,7 +8,7 @@ use crate::assembly::{count_monomers, whole_length_nm};
 use crate::scene::{Scene, SceneProblem};
 
 /// Segments to begin with: at least as long (nm), and at least this share of the filament.
-const FIRST_SEGMENTS: (f64, f64) = (20.0, 0.01);
+const FIRST_SEGMENTS: (f64, f64) = (20.0, 0.025);
 /// The shortest segments (nm).
 const SHORTEST_SEGMENTS_NM: f64 = 2.5;
 /// What is left after marking, as a share of the wanted error.

@@ -93,6 +93,8 @@ fn numbers_change_with_rigidities_as_their_derivatives_say() {
         (HELD_BY_LINKERS, force(1)),
         (HELD_BY_LINKERS, force(2)),
         (HELD_BY_LINKERS, Quantity::Tip),
+        (HELD_BY_LINKERS, Quantity::Curvature { at_nm: 100.0 }),
+        (CLAMPED, Quantity::Curvature { at_nm: 110.0 }),
         (CLAMPED, Quantity::Energy),
         (CLAMPED, force(0)),
         (CLAMPED, Quantity::EndForce),

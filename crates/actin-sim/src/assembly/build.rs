@@ -15,7 +15,7 @@ mod strand;
 
 use super::{
     Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Kinetics, Part, PointInfo, Repelled, Rod,
-    SectionSpan, Term, imperfection,
+    SectionSpan, Term, imperfection, ledger,
 };
 use crate::adapt;
 use crate::follow;
@@ -168,6 +168,7 @@ impl<'a> Builder<'a> {
             &self.stock.state,
         );
         drive.place(&mut self.stock.state, 0.0);
+        let ledger = ledger::of_motion(&scene.task, &mut self.stock.state);
         let mut stock = self.stock;
         let rest = stock.state.clone();
         let bodies = (stock.points.as_slice(), stock.frames.as_slice());
@@ -189,6 +190,7 @@ impl<'a> Builder<'a> {
             loads: self.loads,
             linkers: self.linkers,
             kinetics: self.kinetics.map(Arc::new),
+            ledger,
             repelled: self.repelled,
             spans,
             observers: Observers::default(),

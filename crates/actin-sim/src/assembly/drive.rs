@@ -95,6 +95,11 @@ impl Drive {
         self.stages == 0
     }
 
+    /// Whether the path sets a factor of a load or moves an anchor.
+    pub(super) fn moves_controls(&self) -> bool {
+        !self.loads.is_empty() || !self.anchors.is_empty()
+    }
+
     /// Whether the path sets the factor of a load.
     pub(super) fn sets(&self, load: ControlId) -> bool {
         self.loads.iter().any(|(control, _)| *control == load)
@@ -125,6 +130,16 @@ impl Drive {
     /// The same while the path parameter grows at `rate` (1/ns): held points and frames get the
     /// velocities that go with it.
     pub(super) fn place_moving(&self, state: &mut State, u: f64, rate: f64) {
+        self.set_controls(state, u);
+        for end in &self.ends {
+            let [shift, turn] =
+                [&end.shift, &end.turn].map(|values| self.motion(values.as_ref(), (u, rate)));
+            end.place(state, shift, turn);
+        }
+    }
+
+    /// Sets controls to what they are at path parameter `u`; held bodies stay.
+    pub(super) fn set_controls(&self, state: &mut State, u: f64) {
         for (load, factor) in &self.loads {
             state.controls[*load] = self.at(factor, u).0;
         }
@@ -133,11 +148,6 @@ impl Drive {
             for (control, value) in components.iter().zip(displacement.as_slice()) {
                 state.controls[*control] = *value;
             }
-        }
-        for end in &self.ends {
-            let [shift, turn] =
-                [&end.shift, &end.turn].map(|values| self.motion(values.as_ref(), (u, rate)));
-            end.place(state, shift, turn);
         }
     }
 

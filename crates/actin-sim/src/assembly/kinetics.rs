@@ -332,12 +332,6 @@ impl Assembly {
         Some((linker.is_bound(state), places[linker.place(state)]))
     }
 
-    /// What linkers that broke, formed or stepped have added to the energy in `state` (pN nm); none where nothing happens
-    /// to linkers.
-    pub fn energy_of_events_pn_nm(&self, state: &State) -> Option<f64> {
-        Some(self.kinetics.as_ref()?.booked(state))
-    }
-
     /// Refuses rates of linkers that are fast beside a time step (ns).
     pub(crate) fn check_rates(&self, step_ns: f64) -> Result<(), SceneProblem> {
         for (i, linker) in self.scene.linkers.iter().enumerate() {

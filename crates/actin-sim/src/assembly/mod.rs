@@ -16,6 +16,7 @@ mod imperfection;
 mod kinetics;
 mod lattice;
 mod law;
+mod ledger;
 mod models;
 mod parts;
 mod ramp;
@@ -32,6 +33,7 @@ pub use drive::Drive;
 pub(crate) use kinetics::{COARSEST, Kinetics, Log};
 pub use kinetics::{Happening, LinkerEvent};
 pub(crate) use lattice::{cells_nm, count_monomers, whole_length_nm};
+pub use ledger::Booked;
 pub(crate) use models::ellipsoids;
 pub(crate) use parts::Rod;
 pub use parts::{
@@ -49,7 +51,7 @@ use crate::adapt::Chosen;
 use crate::observe::Observers;
 use crate::scene::{End, HeldEnds, Monomers, Scene};
 use actin_coupling::Linker;
-use actin_mechanics::{ControlId, State, System, UnitQuaternion, Vector3};
+use actin_mechanics::{ControlId, Ledger, State, System, UnitQuaternion, Vector3};
 use nalgebra::Unit;
 use std::ops::Range;
 use std::sync::Arc;
@@ -83,6 +85,8 @@ pub struct Assembly {
     pub linkers: Vec<Linker>,
     /// Those of them to which something happens in time, if there are some.
     pub(crate) kinetics: Option<Arc<Kinetics>>,
+    /// Where a motion books what comes from outside; none of other tasks.
+    pub(crate) ledger: Option<Ledger>,
     /// What repels them, if anything does.
     pub(crate) repelled: Option<Repelled>,
     /// For each term the arc lengths (nm) between which each of its elements lies; empty for loads

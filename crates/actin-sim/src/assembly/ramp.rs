@@ -1,9 +1,9 @@
 //! The path of a scene in time, smooth ramps from stage to stage, and the factors of its loads.
 
-use super::{Assembly, Drive};
+use super::{Assembly, Drive, Part};
 use crate::At;
 use crate::scene::{Factor, Pace, smooth};
-use actin_mechanics::{ControlId, State, Vector3};
+use actin_mechanics::{ControlId, Interaction, State, Vector3};
 
 /// A [`Drive`] whose stages take their durations one after the other; behind the last, controls
 /// stay where they are.
@@ -16,7 +16,12 @@ pub(crate) struct Ramp {
     times: StageTimes,
     /// Loads that change in time, and whether the path sets their factor too.
     factors: Vec<(ControlId, Factor, bool)>,
+    /// Interactions whose controls it may move.
+    controlled: Vec<usize>,
 }
+
+/// Share of the time for which work is booked between the two controls whose difference gives their rate.
+const RATE_OVER: f64 = 1e-3;
 
 impl Ramp {
     /// What moves in an assembly as time goes; none where nothing does.
@@ -32,6 +37,7 @@ impl Ramp {
             drive,
             times,
             factors,
+            controlled: controlled(assembly),
         })
     }
 
@@ -43,6 +49,17 @@ impl Ramp {
             .map(|(_, factor, _)| factor.settles_at());
         settled.fold(self.times.end, f64::max)
     }
+}
+
+/// Terms of loads and linkers, where a path or time changes one.
+fn controlled(assembly: &Assembly) -> Vec<usize> {
+    let scene = &assembly.scene;
+    let changes = scene.loads.iter().any(|load| !load.factor().is_constant())
+        || assembly.drive.moves_controls();
+    let terms = assembly.terms.iter().enumerate().filter(|_| changes);
+    let has_controls = |part: Part| matches!(part, Part::Load(_) | Part::Linker(_));
+    let places = terms.filter_map(|(i, term)| has_controls(term.part).then_some(i));
+    places.collect()
 }
 
 /// When the stages of a path begin, and how long they take.
@@ -92,6 +109,35 @@ impl actin_mechanics::Drive for Ramp {
     fn place(&self, state: &mut State, time: f64) {
         let (u, rate) = self.times.parameter(time);
         self.drive.place_moving(state, u, rate);
+        self.set_factors(state, time);
+    }
+
+    fn work_of_controls(
+        &self,
+        state: &mut State,
+        interactions: &[Box<dyn Interaction>],
+        t: f64,
+    ) -> f64 {
+        if self.controlled.is_empty() {
+            return 0.0;
+        }
+        let (here, time) = (state.controls.clone(), state.time);
+        let mut energy_at = |time: f64| -> f64 {
+            self.drive.set_controls(state, self.times.parameter(time).0);
+            self.set_factors(state, time);
+            let all = self.controlled.iter();
+            all.map(|&i| interactions[i].energy(state)).sum()
+        };
+        let apart = RATE_OVER * t;
+        let gained = energy_at(time + apart) - energy_at(time - apart);
+        state.controls = here;
+        gained / (2.0 * RATE_OVER)
+    }
+}
+
+impl Ramp {
+    /// Factors of loads that change in time, on top of what the path has set.
+    fn set_factors(&self, state: &mut State, time: f64) {
         for (control, factor, is_set) in &self.factors {
             let of_path = if *is_set {
                 state.controls[*control]

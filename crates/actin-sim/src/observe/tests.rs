@@ -1,7 +1,7 @@
 //! What is observed, against theory and against what summaries and profiles say of the same state.
 
 use super::View;
-use crate::{Assembly, At, End, Plan, Record, Scene, Summary};
+use crate::{Assembly, At, Booked, End, Plan, Record, Scene, Summary};
 use actin_mechanics::{State, Vector3, Xorshift, perturb, rotation};
 
 fn build(text: &str) -> Assembly {
@@ -59,7 +59,7 @@ fn recorded(assembly: &Assembly) -> (Record, Summary) {
         kinetic_pn_nm: 0.25,
         residual_force_pn: 0.0,
         residual_torque_pn_nm: 0.0,
-        events_pn_nm: 0.0,
+        booked: Booked::default(),
         observed: observe(assembly, &state),
         state,
     };

@@ -3,7 +3,7 @@
 use super::clock;
 use super::names::ENERGIES;
 use super::{RunDirectoryError, finite::ensure_finite_in};
-use crate::{Assembly, Part, Records, Row, Term};
+use crate::{Assembly, Booked, Part, Records, Row, Term};
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::io::{self, Write};
@@ -99,7 +99,8 @@ impl<'a> EnergyTable<'a> {
             }
         }
         let mut row = row(self.terms, record, sums);
-        row.extend(self.assembly.kinetics.as_ref().map(|_| record.events_pn_nm));
+        let booked = self.assembly.columns_of(&record.booked);
+        row.extend(booked.into_iter().map(|(_, value)| value));
         row
     }
 
@@ -135,13 +136,13 @@ fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
         .chain(parts.iter().map(|part| assembly.name_of(*part)))
         .map(|name| format!("{name}_pn_nm"));
     let residuals = ["residual_force_pn", "residual_torque_pn_nm"].map(str::to_owned);
-    // What events have added to the total so far: without it, drag and driving the total is constant.
-    let events = assembly.energy_of_events_pn_nm(&assembly.rest);
-    let events = events.map(|_| "events_pn_nm".to_owned());
+    // What has come from outside so far: the total less these is constant.
+    let booked = assembly.columns_of(&Booked::default());
+    let booked = booked.into_iter().map(|(name, _)| name.to_owned());
     std::iter::once(clock(assembly).to_owned())
         .chain(energies)
         .chain(residuals)
-        .chain(events)
+        .chain(booked)
         .collect()
 }
 

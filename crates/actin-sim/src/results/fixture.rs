@@ -1,6 +1,6 @@
 //! A small mixed filament and a made-up run of it, for the tests of this module.
 
-use crate::{Assembly, At, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory};
+use crate::{Assembly, At, Booked, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory};
 use actin_mechanics::{Loads, State};
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 
@@ -109,7 +109,7 @@ pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record 
         kinetic_pn_nm: state.kinetic_energy(),
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
-        events_pn_nm: 0.0,
+        booked: Booked::default(),
         observed: Vec::new(),
         state,
     }

@@ -38,6 +38,9 @@ const COMMON: [&str; 7] = [
     "residual_torque_pn_nm",
 ];
 
+/// Those of what comes from outside, where it does.
+const BOOKED: [&str; 2] = ["work_pn_nm", "heat_pn_nm"];
+
 /// What switches of cells did in a whole motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FollowingSummary {
@@ -129,7 +132,9 @@ impl FollowedDirectory {
         self.note(beginnings)?;
         self.replace(SWITCHES, |out| switches(beginnings, out))?;
         let spans = self.join(ENERGIES, beginnings, &|header| {
-            COMMON.iter().map(|name| column(header, name)).collect()
+            let common = COMMON.iter().map(|name| column(header, name));
+            let booked = BOOKED.iter().filter_map(|name| column(header, name).ok());
+            common.chain(booked.map(Ok)).collect()
         })?;
         let observed = self.stretch(0).join(OBSERVABLES);
         if observed.exists() {

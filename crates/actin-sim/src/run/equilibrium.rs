@@ -6,9 +6,9 @@ use super::states::{StableStates, search};
 use super::taken::Taken;
 use super::unknowns::newton;
 use super::{At, Failure, Outcome, Progress, Record, Recorded, RunPosition, Status};
-use crate::Assembly;
-use crate::adapt::{ErrorEstimate, estimate};
-use crate::scene::{Equilibrium as Settings, Resultant, SceneProblem};
+use crate::adapt::{ErrorEstimate, Scatter, estimate, scatter};
+use crate::scene::{Equilibrium as Settings, Quantity, Resultant, SceneProblem};
+use crate::{Assembly, Booked};
 use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure,
     PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
@@ -40,6 +40,8 @@ pub struct EquilibriumReport {
     pub states: Option<StableStates>,
     /// The error of the number that the scene asks for it, or why it is not known.
     pub error: Option<Result<ErrorEstimate, SceneProblem>>,
+    /// How filaments with drawn bonds scatter in that number, where it is known.
+    pub scatter: Option<Scatter>,
 }
 
 /// Solves for the equilibrium, or follows the path.
@@ -70,7 +72,7 @@ pub(super) fn run(
     let lowest = wanted.then(|| lowest_eigenvalue(&mut newton, &assembly.system, &state));
     let is_done = failure.is_none() && !is_interrupted;
     let judged = settings.error_of.filter(|_| is_done);
-    let error = judged.map(|quantity| estimate(assembly, &state, quantity));
+    let accuracy = judged.map(|quantity| accuracy(assembly, &state, quantity));
     let work = newton.work();
     let status = match (&failure, is_interrupted) {
         (Some(_), _) => Status::Failed,
@@ -81,7 +83,7 @@ pub(super) fn run(
         force_evaluations: work.evaluations,
         saddles_left: position.saddles_left,
         jumps: position.jumps,
-        equilibrium: report(position, lowest.flatten(), of_path, (states, error)),
+        equilibrium: report(position, lowest.flatten(), of_path, (states, accuracy)),
         ..Outcome::new(status, clock.wall_s())
     }
     .with(taken.into_remarks());
@@ -442,7 +444,7 @@ pub(super) fn record(system: &System, u: f64, state: &State) -> Record {
         kinetic_pn_nm: 0.0,
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
-        events_pn_nm: 0.0,
+        booked: Booked::default(),
         observed: Vec::new(),
         state: state.clone(),
     }
@@ -453,16 +455,24 @@ fn lowest_eigenvalue(newton: &mut Newton, system: &System, state: &State) -> Opt
     mode.ok().flatten().map(|mode| mode.eigenvalue)
 }
 
+/// The error of a number, or why it is not known, and where it is how filaments with drawn bonds scatter.
+type Accuracy = (Result<ErrorEstimate, SceneProblem>, Option<Scatter>);
+
+fn accuracy(assembly: &Assembly, state: &State, quantity: Quantity) -> Accuracy {
+    let error = estimate(assembly, state, quantity);
+    let of_drawn = |_| scatter(assembly, state, quantity).ok();
+    let scatter = error.as_ref().ok().and_then(of_drawn);
+    (error, scatter)
+}
+
 fn report(
     position: PathPosition,
     lowest_eigenvalue: Option<f64>,
     work: SolverWork,
-    (states, error): (
-        Option<StableStates>,
-        Option<Result<ErrorEstimate, SceneProblem>>,
-    ),
+    (states, accuracy): (Option<StableStates>, Option<Accuracy>),
 ) -> Option<EquilibriumReport> {
     let last = position.last?;
+    let (error, scatter) = accuracy.unzip();
     last.certificate.map(|certificate| EquilibriumReport {
         certificate,
         lowest_eigenvalue,
@@ -472,5 +482,6 @@ fn report(
         history: last.history,
         states,
         error,
+        scatter: scatter.flatten(),
     })
 }

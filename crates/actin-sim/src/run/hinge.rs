@@ -6,7 +6,7 @@
 use super::At;
 use crate::assembly::Ramp;
 use crate::{Assembly, End};
-use actin_mechanics::{Drive, State, UnitQuaternion, rotation};
+use actin_mechanics::{Drive, Interaction, State, UnitQuaternion, rotation};
 use std::f64::consts::FRAC_PI_4;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -155,6 +155,16 @@ impl Drive for Watched {
             ramp.place(state, time);
         }
         self.watch.look(state, time);
+    }
+
+    fn work_of_controls(
+        &self,
+        state: &mut State,
+        interactions: &[Box<dyn Interaction>],
+        t: f64,
+    ) -> f64 {
+        let ramp = self.ramp.as_ref();
+        ramp.map_or(0.0, |ramp| ramp.work_of_controls(state, interactions, t))
     }
 }
 

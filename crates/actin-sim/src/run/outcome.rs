@@ -2,7 +2,7 @@
 
 use super::taken::Remarks;
 use super::{EquilibriumReport, HingeSlip, SaddlePush, Slip};
-use crate::adapt::ErrorEstimate;
+use crate::adapt::{ErrorEstimate, Scatter};
 use crate::scene::SceneProblem;
 use crate::{BeyondRange, BeyondUse, LinkerEvent, UnstableTwist};
 use actin_equilibrium::{Certificate, PathFailure, Residual};
@@ -44,6 +44,8 @@ pub struct Outcome {
     /// Counts of eigenvalues at the equilibrium in which a motion has come to rest; none of one that
     /// still moves, that is in a heat bath, or whose loads have no potential.
     pub at_rest: Option<Certificate>,
+    /// Energy with which a motion began (pN nm); not of one that goes on behind a switch of cells.
+    pub begun_with_pn_nm: Option<f64>,
     /// How many saddles were left, on the whole path or in the whole motion.
     pub saddles_left: usize,
     /// How a motion was pushed off saddles.
@@ -75,6 +77,7 @@ impl Outcome {
             largest_frequency_rad_per_ns: None,
             equilibrium: None,
             at_rest: None,
+            begun_with_pn_nm: None,
             saddles_left: 0,
             pushes: Vec::new(),
             events: Vec::new(),
@@ -120,6 +123,11 @@ impl Outcome {
     /// The error of the number that the scene asked for it, where it is known.
     pub fn model_error(&self) -> Option<ErrorEstimate> {
         self.equilibrium.as_ref()?.error.clone()?.ok()
+    }
+
+    /// How filaments with drawn bonds scatter in that number, where it is known.
+    pub fn scatter(&self) -> Option<Scatter> {
+        self.equilibrium.as_ref()?.scatter
     }
 
     /// What the stiffness says of the state in which the run ended, if that is an equilibrium.

@@ -8,7 +8,7 @@ use super::taken::Taken;
 use super::{At, Progress, Record, Recorded, RunPosition, Sink};
 use crate::assembly::{Log, Ramp};
 use crate::scene::Dynamics;
-use crate::{Assembly, LinkerEvent};
+use crate::{Assembly, Booked, LinkerEvent};
 use actin_equilibrium::Certificate;
 use actin_integrate::{
     Checkpoint, DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome,
@@ -176,6 +176,12 @@ impl<'a> Recorder<'a> {
         self.energy_at_switch.unwrap_or_else(built)
     }
 
+    /// The same of a motion that began with the scene.
+    pub(super) fn begun_as_built_pn_nm(&self) -> Option<f64> {
+        let is_whole = self.energy_at_switch.is_none();
+        is_whole.then(|| self.begun_with_pn_nm())
+    }
+
     /// Time that the run has taken (s).
     pub(super) fn wall_s(&self) -> f64 {
         self.clock.wall_s()
@@ -336,7 +342,7 @@ pub(crate) fn record(moment: &mut Moment<'_>) -> Record {
         kinetic_pn_nm: moment.kinetic_energy(),
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
-        events_pn_nm: 0.0,
+        booked: Booked::default(),
         observed: Vec::new(),
     }
 }

@@ -1,5 +1,6 @@
 //! Records and where they are: in memory, or read back one by one from wherever a sink has put them.
 
+use crate::Booked;
 use actin_mechanics::State;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -54,8 +55,8 @@ pub struct Record {
     pub residual_force_pn: f64,
     /// Largest torque on a free frame (pN nm).
     pub residual_torque_pn_nm: f64,
-    /// What breaking, forming and stepping of linkers has added to the energy up to here (pN nm).
-    pub events_pn_nm: f64,
+    /// What has come from outside up to here.
+    pub booked: Booked,
     /// What the scene observes, in the order of the columns of `observables.csv`; NaN where there is nothing
     /// yet.
     pub observed: Vec<f64>,
@@ -75,7 +76,7 @@ impl Record {
             kinetic_pn_nm: self.kinetic_pn_nm,
             residual_force_pn: self.residual_force_pn,
             residual_torque_pn_nm: self.residual_torque_pn_nm,
-            events_pn_nm: self.events_pn_nm,
+            booked: self.booked,
             observed: self.observed.clone(),
         }
     }
@@ -94,8 +95,8 @@ pub struct Row {
     pub residual_force_pn: f64,
     /// Largest torque on a free frame (pN nm).
     pub residual_torque_pn_nm: f64,
-    /// What breaking, forming and stepping of linkers has added to the energy up to here (pN nm).
-    pub events_pn_nm: f64,
+    /// What has come from outside up to here.
+    pub booked: Booked,
     /// What the scene observes.
     pub observed: Vec<f64>,
 }

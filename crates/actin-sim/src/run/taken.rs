@@ -95,8 +95,7 @@ impl Recorded {
         let all = &mut self.carried;
         let energies = (record.energies_pn_nm.as_slice(), record.kinetic_pn_nm);
         let view = View::new(assembly, (record.at, &record.state), energies);
-        let events = assembly.energy_of_events_pn_nm(&record.state);
-        record.events_pn_nm = events.unwrap_or_default();
+        record.booked = assembly.booked(&record.state);
         record.observed = assembly.observers.row(&view, &mut all.observed);
         let beyond = assembly.beyond_use(&record.state);
         all.beyond_use = worst_of(all.beyond_use.drain(..).chain(beyond).collect::<Vec<_>>());

@@ -89,10 +89,17 @@ pub enum Want {
         /// Largest error over the force; greater than 0, below 1.
         error: f64,
     },
+    /// The size of the curvature about a place.
+    Curvature {
+        /// Where, by arc length; inside the filament, two periods (71.2 nm) or more from a clamped end.
+        at_nm: f64,
+        /// Largest error over the curvature; greater than 0, below 1.
+        error: f64,
+    },
 }
 
 /// A number that is wanted of an equilibrium.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Quantity {
     /// The displacement of the tip at the end (nm).
@@ -110,6 +117,12 @@ pub enum Quantity {
         /// Index of the linker in `linkers`, from 0.
         linker: usize,
     },
+    /// The size of the curvature about a place (rad/nm): the turn of the mean axes of one period of 13 monomers against
+    /// those of the period before it, over its length. Near an end these are the outermost two periods.
+    Curvature {
+        /// Where, by arc length (nm); inside the filament, two periods (71.2 nm) or more from a clamped end.
+        at_nm: f64,
+    },
 }
 
 impl Quantity {
@@ -119,6 +132,7 @@ impl Quantity {
             Self::Tip | Self::Height => "nm",
             Self::EndForce | Self::LinkerForce { .. } => "pN",
             Self::EndCouple | Self::Energy => "pN nm",
+            Self::Curvature { .. } => "rad/nm",
         }
     }
 }
@@ -128,6 +142,7 @@ impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::LinkerForce { linker } => write!(f, "LinkerForce(linker: {linker})"),
+            Self::Curvature { at_nm } => write!(f, "Curvature(at_nm: {at_nm:?})"),
             other => write!(f, "{other:?}"),
         }
     }
@@ -143,6 +158,7 @@ impl Want {
             Self::EndCouple { .. } => Quantity::EndCouple,
             Self::Energy { .. } => Quantity::Energy,
             Self::LinkerForce { linker, .. } => Quantity::LinkerForce { linker },
+            Self::Curvature { at_nm, .. } => Quantity::Curvature { at_nm },
         }
     }
 
@@ -154,7 +170,8 @@ impl Want {
             | Self::EndForce { error }
             | Self::EndCouple { error }
             | Self::Energy { error }
-            | Self::LinkerForce { error, .. } => error,
+            | Self::LinkerForce { error, .. }
+            | Self::Curvature { error, .. } => error,
         }
     }
 }

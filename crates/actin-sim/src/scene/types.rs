@@ -275,7 +275,7 @@ pub struct Equilibrium {
     /// `other_states.npz` holds them. States that lost a turn on the way do not count.
     pub states: usize,
     /// A number of the result whose error is estimated, against every monomer resolved: `model_error` in
-    /// `summary.json`. Of a single straight filament.
+    /// `summary.json`, and by how much filaments with drawn bonds scatter in it (`drawn_bonds`). Of a single straight filament.
     pub error_of: Option<Quantity>,
 }
 

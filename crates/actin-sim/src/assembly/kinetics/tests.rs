@@ -87,7 +87,7 @@ fn as_many_linkers_hold_as_balance_has_it() {
     let mut state = assembly.rest.clone();
     let happened = events(&assembly, &mut state, 1..200);
     let net: f64 = happened.iter().map(|e| e.energy_pn_nm).sum();
-    assert!((assembly.energy_of_events_pn_nm(&state).unwrap() - net).abs() < 1e-9);
+    assert!((assembly.booked(&state).events_pn_nm - net).abs() < 1e-9);
     let (mut held, steps) = (0, 600_u64);
     for step in 200..200 + steps {
         events(&assembly, &mut state, step..step + 1);

@@ -395,8 +395,8 @@ mod tests {
             log.push(record);
         }
         log.sync(3).unwrap();
-        // A time with its kind, four numbers, as many energies as terms, two lengths, no state.
-        let expected = 9 + 4 * 8 + 8 * log.form.terms + 3;
+        // A time with its kind, six numbers, as many energies as terms, two lengths, no state.
+        let expected = 9 + 6 * 8 + 8 * log.form.terms + 3;
         assert_eq!(log.length, expected + CHECKSUM);
         let rows: Vec<Row> = log.rows().map(Result::unwrap).collect();
         let expected: Vec<Row> = records.iter().map(Record::row).collect();

@@ -2,6 +2,7 @@
 
 use super::Damage;
 use super::wire::{decode_all, encode};
+use crate::Booked;
 use crate::run::{At, Record, Row};
 use actin_mechanics::{Motion, State};
 use serde::{Deserialize, Serialize};
@@ -28,7 +29,7 @@ pub(super) struct Stored<'a> {
     kinetic_pn_nm: f64,
     residual_force_pn: f64,
     residual_torque_pn_nm: f64,
-    events_pn_nm: f64,
+    booked: Booked,
     energies_pn_nm: Cow<'a, [f64]>,
     observed: Cow<'a, [f64]>,
     motion: Option<Motion>,
@@ -44,7 +45,7 @@ impl<'a> Stored<'a> {
             kinetic_pn_nm,
             residual_force_pn,
             residual_torque_pn_nm,
-            events_pn_nm,
+            booked,
             observed,
         } = record;
         Self {
@@ -52,7 +53,7 @@ impl<'a> Stored<'a> {
             kinetic_pn_nm: *kinetic_pn_nm,
             residual_force_pn: *residual_force_pn,
             residual_torque_pn_nm: *residual_torque_pn_nm,
-            events_pn_nm: *events_pn_nm,
+            booked: *booked,
             energies_pn_nm: energies_pn_nm.into(),
             observed: observed.into(),
             motion: has_state.then(|| state.motion()),
@@ -83,7 +84,7 @@ impl<'a> Stored<'a> {
             kinetic_pn_nm: self.kinetic_pn_nm,
             residual_force_pn: self.residual_force_pn,
             residual_torque_pn_nm: self.residual_torque_pn_nm,
-            events_pn_nm: self.events_pn_nm,
+            booked: self.booked,
             observed: self.observed.into_owned(),
         }
     }
@@ -99,7 +100,7 @@ impl<'a> Stored<'a> {
             kinetic_pn_nm: row.kinetic_pn_nm,
             residual_force_pn: row.residual_force_pn,
             residual_torque_pn_nm: row.residual_torque_pn_nm,
-            events_pn_nm: row.events_pn_nm,
+            booked: row.booked,
             observed: row.observed,
         })
     }
@@ -111,7 +112,7 @@ impl<'a> Stored<'a> {
             kinetic_pn_nm: 0.0,
             residual_force_pn: 0.0,
             residual_torque_pn_nm: 0.0,
-            events_pn_nm: 0.0,
+            booked: Booked::default(),
             energies_pn_nm: vec![0.0; form.terms].into(),
             observed: vec![0.0; form.columns].into(),
             motion: form.has_states.then(|| form.like.motion()),

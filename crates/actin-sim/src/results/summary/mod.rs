@@ -20,7 +20,7 @@ pub(super) use thermal::LateKinetic;
 pub use thermal::ThermalSummary;
 
 use super::{FollowingSummary, RunDirectoryError, finite::ensure_finite};
-use crate::adapt::{Chosen, ErrorEstimate};
+use crate::adapt::{Chosen, ErrorEstimate, Scatter};
 use crate::{
     Assembly, BeyondRange, BeyondUse, Counts, ObservableSummary, Outcome, SaddlePush, Status,
     UnstableTwist,
@@ -207,6 +207,9 @@ pub struct AccuracySummary {
     /// The error of the number that an equilibrium was asked for it; no key where it was not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub model_error: Option<ErrorEstimate>,
+    /// How filaments with drawn bonds scatter in that number; no key where it is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drawn_bonds: Option<Scatter>,
     /// How sections were chosen; no key where the scene has them, also after it was resumed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub resolution: Option<Chosen>,
@@ -216,6 +219,7 @@ impl AccuracySummary {
     fn new(assembly: &Assembly, outcome: &Outcome) -> Self {
         Self {
             model_error: outcome.model_error(),
+            drawn_bonds: outcome.scatter(),
             resolution: assembly.chosen.clone(),
         }
     }

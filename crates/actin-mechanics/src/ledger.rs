@@ -1,0 +1,52 @@
+//! Energy that comes from outside: the work of what is driven, and heat.
+
+use crate::{ControlId, Drive, Interaction, Loads, State};
+
+/// The controls of a state in which a [`System`](crate::System) books what comes from outside: without it, the
+/// energy of a motion is constant but for the error of the integrator.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ledger {
+    /// What driven bodies and controls have added (pN nm).
+    pub work: ControlId,
+    /// What drag and noise have added (pN nm): negative where drag takes more than noise gives.
+    pub heat: ControlId,
+}
+
+impl Ledger {
+    /// Books the work of `drive` over a time `t` (ns) at the present places, where `loads` act.
+    ///
+    /// Taken together with each kick, for the time of the kick, this is the momentum that goes with time where time
+    /// is a coordinate: the booked sum is as exact as the method.
+    pub(crate) fn book_work(
+        &self,
+        state: &mut State,
+        (drive, interactions): (&dyn Drive, &[Box<dyn Interaction>]),
+        loads: &Loads,
+        t: f64,
+    ) {
+        let by_bodies = t * power_of_held(state, loads);
+        let by_controls = drive.work_of_controls(state, interactions, t);
+        state.controls[self.work] += by_bodies + by_controls;
+    }
+}
+
+/// Rate at which held bodies work against the loads on them (pN nm per ns).
+fn power_of_held(state: &State, loads: &Loads) -> f64 {
+    let mut gained = 0.0;
+    for i in (0..state.points.len()).filter(|&i| !state.points.is_free(i)) {
+        gained += loads.force.get(i).dot(&state.points.velocity.get(i));
+    }
+    // What slides is free along its directions.
+    for slider in state.sliders.iter() {
+        let sliding = slider.sliding_velocity(&state.points.velocity);
+        for &i in &slider.points {
+            gained -= loads.force.get(i).dot(&sliding);
+        }
+    }
+    for i in (0..state.frames.len()).filter(|&i| !state.frames.is_free(i)) {
+        let momentum = state.frames.angular_momentum.get(i);
+        let omega = state.frames.angular_velocity(i, momentum);
+        gained += loads.torque.get(i).dot(&omega);
+    }
+    -gained
+}
