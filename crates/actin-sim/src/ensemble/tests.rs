@@ -1,9 +1,10 @@
 //! Ensembles against runs one by one, on one thread and on several.
 
 use super::*;
+use crate::scene::SceneProblem;
 use crate::{Record, SimError};
 use std::sync::Mutex;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A short rod in a heat bath, with so many steps of this length (ns).
 fn heated(duration_ns: f64, more: &str) -> Scene {
@@ -78,14 +79,48 @@ fn replicas_that_would_be_the_same_are_refused() {
     assert!(none.is_empty());
 }
 
-/// Of several replicas that fail, in whatever order, the first is named.
+/// Of several replicas that fail, the first is named, even if it is the last to fail: those before the others
+/// are not told to stop.
 #[test]
 fn the_first_replica_that_fails_is_named() {
+    let scene = heated(0.1, "");
+    let (stopped, ended) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let problem = || SceneProblem::new("task", "", "fails");
+    let wait_for = |number: &AtomicUsize| {
+        while number.load(Ordering::Relaxed) == 0 {
+            std::thread::yield_now();
+        }
+    };
+    let make = |index: usize, stop: &sink::Stop<'_>| match index {
+        0 => {
+            wait_for(&stopped);
+            assert!(!stop.is_set());
+            ended.fetch_add(1, Ordering::Relaxed);
+            Ok(Some(()))
+        }
+        1 => {
+            wait_for(&ended);
+            Err(problem().into())
+        }
+        _ => {
+            stopped.fetch_add(1, Ordering::Relaxed);
+            Err(problem().into())
+        }
+    };
+    let ensemble = Ensemble::new(&scene, 9).unwrap().on_threads(threads(3));
+    let failed = Crew::new(&ensemble, &make).work_all();
+    let error = SimError::from(failed.unwrap_err()).to_string();
+    assert_eq!(error, "replica 1 (seed 2): task: fails");
+}
+
+/// A motion that explodes is the error of its replica, on any number of threads.
+#[test]
+fn a_replica_that_explodes_is_named() {
     let scene = heated(2.0, "time_step_ns: 0.02, allow_unstable_step: true,");
     for number in [1, 2, 3] {
         let ensemble = Ensemble::of_seeds(&scene, vec![11, 12, 13, 14], &Drawn::ALL).unwrap();
         let failed = ensemble.on_threads(threads(number)).run(|r| r.index);
-        let error = SimError::from(failed.unwrap_err()).to_string();
+        let error = failed.unwrap_err().to_string();
         assert!(error.starts_with("replica 0 (seed 11): "), "{error}");
     }
 }
