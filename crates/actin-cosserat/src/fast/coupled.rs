@@ -117,11 +117,7 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
     /// The next group.
     #[inline(always)]
     fn next(&mut self, simd: S, group: usize, ends: &mut Ends) -> Group<S> {
-        let ahead = if group + 1 < self.groups {
-            self.angles_after(simd, group + 1)
-        } else {
-            [simd.splat_f64s(0.0); 4]
-        };
+        let ahead = self.angles_after(simd, group + 1);
         let now = std::mem::replace(&mut self.ahead, ahead);
         let ([x, y, z, _], [u, v, w, coefficient]) = (now, self.angles.next(simd, now));
         let (after, before) = ([x, y, z], [u, v, w]);
@@ -200,9 +196,12 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         wide::scale(simd, own, covers)
     }
 
-    /// Angles of the elements after a group's frames, and their coefficients.
+    /// Angles of the elements after a group's frames, and their coefficients; zeros behind the last group.
     #[inline(always)]
     fn angles_after(&self, simd: S, group: usize) -> [S::f64s; 4] {
+        if group >= self.groups {
+            return [simd.splat_f64s(0.0); 4];
+        }
         let [first, second] = &self.frames;
         let turn = wide::relative(simd, first.get(simd, group), second.get(simd, group));
         let ([x, y, z], coefficient) = wide::log_with_coefficient(simd, turn);
