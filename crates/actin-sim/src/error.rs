@@ -1,6 +1,8 @@
 //! The error of all that a scene goes through.
 
-use crate::{CheckpointError, RunDirectoryError, RunError, SceneError, SceneProblem};
+use crate::{
+    CheckpointError, EnsembleError, RunDirectoryError, RunError, SceneError, SceneProblem,
+};
 use thiserror::Error;
 
 /// Why a scene could not be read, built, run or written: what any of these steps may return, for
@@ -17,6 +19,9 @@ pub enum SimError {
     /// A run broke.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// An ensemble was refused, or one of its replicas broke.
+    #[error(transparent)]
+    Ensemble(#[from] EnsembleError),
     /// A run directory was refused, or cannot be written or read.
     #[error(transparent)]
     Directory(#[from] RunDirectoryError),

@@ -2,8 +2,9 @@
 //!
 //! A [`Scene`] says what filaments are made of, what holds, loads and links them, and what is asked.
 //! [`Assembly::build`] turns it into bodies and interactions; a [`Plan`] decides the time step and runs
-//! it into a [`Sink`], memory or a [`RunDirectory`]; the [`Outcome`] says how it ended. This is the only crate that knows all the models; the
-//! models do not know each other.
+//! it into a [`Sink`], memory or a [`RunDirectory`]; the [`Outcome`] says how it ended. An [`Ensemble`] runs
+//! replicas of a scene on all cores. This is the only crate that knows all the models; the models do not know each
+//! other.
 //!
 //! A filament starts at the lab origin and runs along +z when it is built, azimuth 0 at +x, unless
 //! its scene places it elsewhere.
@@ -17,6 +18,7 @@ pub mod adapt;
 pub mod advice;
 mod assembly;
 pub mod cost;
+mod ensemble;
 mod error;
 pub mod follow;
 mod memory;
@@ -42,6 +44,7 @@ pub use assembly::{
     Fluctuations, FrameInfo, Happening, JunctionBond, LinkerEvent, Part, PointInfo, Reaction,
     Resolution, SectionSpan, Term, UnstableTwist,
 };
+pub use ensemble::{Ensemble, EnsembleError, EnsembleProgress, Replica};
 pub use error::SimError;
 pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
 pub use results::{

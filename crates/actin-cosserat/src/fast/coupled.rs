@@ -28,14 +28,20 @@ impl<L: Law> AddLoads<'_, L> {
         let first = chain.next(simd, 0, &mut ends);
         force.add(simd, 0, first.force);
         let mut torques = first.torque;
-        for group in 1..force.groups() {
+        for group in 1..chain.groups {
             let now = chain.next(simd, group, &mut ends);
             force.add(simd, group, now.force);
             torque.add(simd, group - 1, wide::add(simd, torques, now.before));
             torques = now.torque;
         }
+        if chain.groups < force.groups() {
+            // The last node is alone in its group, without an element.
+            let zero = [simd.splat_f64s(0.0); 3];
+            let on_second = chain.reactions.next(simd, zero);
+            force.add(simd, chain.groups, wide::sub(simd, zero, on_second));
+        }
         let rest = chain.last(simd);
-        torque.add(simd, force.groups() - 1, wide::add(simd, torques, rest));
+        torque.add(simd, chain.groups - 1, wide::add(simd, torques, rest));
         if let Some(wall) = layout.wall(RodEnd::Start) {
             let on_wall = wide::lane(simd, S::F64_LANES - 1, first.before);
             self.loads.torque.add(wall, on_wall);
@@ -57,6 +63,8 @@ struct Group<S: Simd> {
 /// What the loop reads, and what one group leaves to the next.
 struct Chain<'a, S: Simd, L> {
     law: L,
+    /// Groups with a segment or an element.
+    groups: usize,
     nodes: [Columns<'a, S, 3>; 2],
     frames: [Columns<'a, S, 4>; 2],
     bodies: Columns<'a, S, 5>,
@@ -82,8 +90,10 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         let (x, q) = (&state.points.position, &state.frames.orientation);
         let bodies = &rod.bodies;
         let ([length, inverse], [before, after]) = (&bodies.lengths, &bodies.shares);
+        let elements = layout.segments() + usize::from(layout.wall(RodEnd::End).is_some());
         let mut chain = Self {
             law: rod.law,
+            groups: elements.div_ceil(S::F64_LANES),
             nodes: [
                 vectors(x, nodes.start..nodes.end - 1),
                 vectors(x, nodes.start + 1..nodes.end),
@@ -186,9 +196,12 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         wide::scale(simd, own, covers)
     }
 
-    /// Angles of the elements after a group's frames, and their coefficients.
+    /// Angles of the elements after a group's frames, and their coefficients; zeros behind the last group.
     #[inline(always)]
     fn angles_after(&self, simd: S, group: usize) -> [S::f64s; 4] {
+        if group >= self.groups {
+            return [simd.splat_f64s(0.0); 4];
+        }
         let [first, second] = &self.frames;
         let turn = wide::relative(simd, first.get(simd, group), second.get(simd, group));
         let ([x, y, z], coefficient) = wide::log_with_coefficient(simd, turn);

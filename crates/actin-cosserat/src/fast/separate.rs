@@ -32,7 +32,11 @@ impl<L: Law> AddLoads<'_, L> {
         for group in 0..n / S::F64_LANES {
             segments.add(simd, group);
         }
-        segments.add(simd, n / S::F64_LANES);
+        if n.is_multiple_of(S::F64_LANES) {
+            segments.end(simd, n / S::F64_LANES);
+        } else {
+            segments.add(simd, n / S::F64_LANES);
+        }
     }
 
     /// Bending elements: frame to frame, walls included.
@@ -53,7 +57,11 @@ impl<L: Law> AddLoads<'_, L> {
         for group in 0..n / S::F64_LANES {
             elements.add(simd, group);
         }
-        elements.add(simd, n / S::F64_LANES);
+        if n.is_multiple_of(S::F64_LANES) {
+            elements.end(simd, n / S::F64_LANES);
+        } else {
+            elements.add(simd, n / S::F64_LANES);
+        }
     }
 }
 
@@ -86,6 +94,15 @@ impl<S: Simd, L: Law> SegmentLoop<'_, S, L> {
         self.force.add(simd, group, force);
         self.torque.add(simd, group, on_frame);
     }
+
+    /// The last group, if the last node is alone in it.
+    #[inline(always)]
+    fn end(&mut self, simd: S, group: usize) {
+        let zero = [simd.splat_f64s(0.0); 3];
+        let on_second = self.reactions.next(simd, zero);
+        let force = wide::sub(simd, zero, on_second);
+        self.force.add(simd, group, force);
+    }
 }
 
 /// The same of the loop over bending elements.
@@ -117,6 +134,15 @@ impl<S: Simd, L: Law> BendingLoop<'_, S, L> {
         let [on_first, against_second] = bending_torques(simd, theta, coefficient, m);
         let against_second = self.reactions.next(simd, against_second);
         let torque = wide::sub(simd, on_first, against_second);
+        self.torque.add(simd, group, torque);
+    }
+
+    /// The last group, if the last frame is alone in it.
+    #[inline(always)]
+    fn end(&mut self, simd: S, group: usize) {
+        let zero = [simd.splat_f64s(0.0); 3];
+        let against_second = self.reactions.next(simd, zero);
+        let torque = wide::sub(simd, zero, against_second);
         self.torque.add(simd, group, torque);
     }
 }

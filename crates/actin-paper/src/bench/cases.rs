@@ -1,4 +1,4 @@
-//! The cases: what runs, and how fast it should be on one core at 3 GHz.
+//! The cases: what runs, and how fast it should be on one core at 3 GHz, or on two against one.
 
 /// One case.
 pub(super) struct Case {
@@ -6,7 +6,7 @@ pub(super) struct Case {
     pub(super) name: &'static str,
     /// What it runs.
     pub(super) work: Work,
-    /// The rate that was aimed at (elements per second), where one was set.
+    /// The rate that was aimed at (elements per second, or times one thread), where one was set.
     pub(super) target: Option<f64>,
 }
 
@@ -20,6 +20,21 @@ pub(super) enum Work {
         /// Length of the filament (nm).
         length_nm: f64,
     },
+    /// Replicas of a scene on two threads, against one.
+    Ensemble(Replicated),
+}
+
+/// What there are replicas of: a filament of 160 nm on a wall.
+#[derive(Clone, Copy)]
+pub(super) enum Replicated {
+    /// A rod of 64 segments in a heat bath.
+    Rod,
+    /// Monomers in a heat bath.
+    Monomers,
+    /// 40 nm of monomers at the wall and 12 segments of rod, in a heat bath.
+    Mixed,
+    /// Equilibria of monomers with drawn bonds under a tip force.
+    Equilibria,
 }
 
 /// Undamped motion of clamped filaments, straight at first, under a force across the tip.
@@ -85,12 +100,17 @@ const fn case(name: &'static str, work: Work, target: Option<f64>) -> Case {
     Case { name, work, target }
 }
 
+/// 0.95 of as many cores as there are threads.
+const fn ensemble(name: &'static str, of: Replicated) -> Case {
+    case(name, Work::Ensemble(of), Some(1.9))
+}
+
 const fn equilibrium(name: &'static str, length_nm: f64) -> Case {
     case(name, Work::Equilibrium { length_nm }, None)
 }
 
 /// All cases.
-pub(super) const CASES: [Case; 18] = [
+pub(super) const CASES: [Case; 22] = [
     case("rod-pv-16", rod(16, 1, VERLET), None),
     case("rod-pv-64", rod(64, 1, VERLET), Some(50e6)),
     case("rod-pv-256", rod(256, 1, VERLET), Some(50e6)),
@@ -117,6 +137,10 @@ pub(super) const CASES: [Case; 18] = [
     equilibrium("equilibrium-ellipsoid-160nm", 160.0),
     equilibrium("equilibrium-ellipsoid-1600nm", 1600.0),
     equilibrium("equilibrium-ellipsoid-16000nm", 16_000.0),
+    ensemble("ensemble-rod-64", Replicated::Rod),
+    ensemble("ensemble-ellipsoid-160nm", Replicated::Monomers),
+    ensemble("ensemble-mixed-160nm", Replicated::Mixed),
+    ensemble("ensemble-equilibria-160nm", Replicated::Equilibria),
 ];
 
 impl Case {
@@ -133,6 +157,7 @@ impl Case {
             }) => "elements and bonds/s",
             Work::Motion(_) => "bonds/s",
             Work::Equilibrium { .. } => "s",
+            Work::Ensemble(_) => "times one thread",
         }
     }
 }

@@ -1,10 +1,11 @@
 //! How fast fixed cases run, beside what was aimed at.
 //!
 //! Every case goes the way of a user: a scene is assembled, and its system is stepped or solved.
-//! All run on one thread, without linkers, drag or observers. What the cases are is in `cases.rs`,
-//! how motions are timed in `motion.rs`, and equilibria in `equilibrium.rs`.
+//! All but ensembles run on one thread, without linkers, drag or observers. What the cases are is in `cases.rs`,
+//! how motions are timed in `motion.rs`, equilibria in `equilibrium.rs`, and ensembles in `ensemble.rs`.
 
 mod cases;
+mod ensemble;
 mod equilibrium;
 mod motion;
 mod table;
@@ -39,7 +40,7 @@ pub struct Entry {
     pub case: &'static str,
     /// Best of the repeats, in `unit`.
     pub rate: f64,
-    /// Elements per second, or seconds.
+    /// Elements per second, seconds, or times one thread.
     pub unit: &'static str,
 }
 
@@ -57,6 +58,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<Vec<Entry>, String> {
         let measured = match case.work {
             Work::Motion(motion) => motion::measure(&motion),
             Work::Equilibrium { length_nm } => equilibrium::measure(length_nm),
+            Work::Ensemble(of) => ensemble::measure(of),
         }
         .map_err(|error| format!("{}: {error}", case.name))?;
         if !options.json {
@@ -110,6 +112,17 @@ mod tests {
         assert_eq!(found, ["rod-pv-16", "rod-pv-64"]);
         assert_eq!(chosen(&[]).unwrap().len(), CASES.len());
         assert!(chosen(&["rod-pv-17".to_owned()]).is_err());
+    }
+
+    /// Every ensemble has replicas that differ and run.
+    #[test]
+    fn ensembles_run() {
+        for case in &CASES {
+            if let Work::Ensemble(of) = case.work {
+                let seconds = ensemble::seconds(of, 2, std::num::NonZeroUsize::MIN);
+                assert!(seconds.is_ok_and(|s| s > 0.0), "{}", case.name);
+            }
+        }
     }
 
     /// What the names promise is what is built: elements of a step, and bonds.

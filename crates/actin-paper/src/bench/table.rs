@@ -20,10 +20,11 @@ pub(super) fn row(case: &Case, measured: &Measured, tell: Tell<'_>) {
     let scaled = |value: f64| match case.work {
         Work::Motion(_) => format!("{:.1}", 1e-6 * value),
         Work::Equilibrium { .. } => format!("{value:.4}"),
+        Work::Ensemble(_) => format!("{value:.2}"),
     };
     let million = match case.work {
         Work::Motion(_) => "1e6 ",
-        Work::Equilibrium { .. } => "",
+        Work::Equilibrium { .. } | Work::Ensemble(_) => "",
     };
     tell(format_args!(
         "{ratio:>13}  {:30} {:>10} {:>10} {:>10}  {million}{}; {}",

@@ -5,10 +5,17 @@ use super::{
     Tell, certificates, compression, contrast, directories, drag, drift, fields, forces, guards,
     lengths, origin, sizes, stability, straight, turns,
 };
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// What the rows have in common, and what computes them.
+type Group<'a> = (&'static str, &'a (dyn Fn() -> Vec<Row> + Sync));
 
 /// The whole table, in the order in which it is printed; `long` with the rows that take minutes.
 pub(super) fn table(long: bool, tell: Tell<'_>) -> Vec<Row> {
-    let groups: [(&str, &dyn Fn() -> Vec<Row>); 19] = [
+    // Alone on the machine: their times and their memory are told.
+    let sizes = of_sizes(long);
+    let groups: [Group<'_>; 19] = [
         ("time steps", &|| stability::rows(&stability::INTEGRATORS)),
         ("energy below the limit", &|| {
             stability::below(&stability::INTEGRATORS)
@@ -26,7 +33,7 @@ pub(super) fn table(long: bool, tell: Tell<'_>) -> Vec<Row> {
         ("forces", &forces::rows),
         ("neutral modes", &certificates::rows),
         ("compression", &compression::rows),
-        ("sizes", &|| of_sizes(long)),
+        ("sizes", &|| sizes.clone()),
         ("drag", &drag::rows),
         ("undamped motion", &|| {
             drift::rows(if long { 10_000_000 } else { 100_000 })
@@ -37,16 +44,19 @@ pub(super) fn table(long: bool, tell: Tell<'_>) -> Vec<Row> {
         }),
         ("directories", &directories::rows),
     ];
-    let mut table = Vec::new();
-    for (name, rows) in groups {
-        let clock = std::time::Instant::now();
-        table.extend(rows());
-        tell(format_args!(
-            "{name}: {:.1} s",
-            clock.elapsed().as_secs_f64()
-        ));
-    }
-    table
+    let rows = groups.par_iter().with_max_len(1).map(|g| timed(g, tell));
+    rows.collect::<Vec<_>>().concat()
+}
+
+/// The rows of a group; tells how long they took.
+fn timed((name, rows): &Group<'_>, tell: Tell<'_>) -> Vec<Row> {
+    let clock = Instant::now();
+    let rows = rows();
+    tell(format_args!(
+        "{name}: {:.1} s",
+        clock.elapsed().as_secs_f64()
+    ));
+    rows
 }
 
 /// Numbers of bodies and of stages.

@@ -1,0 +1,119 @@
+//! Threads that make one replica after the other until none is left.
+
+use super::sink::Stop;
+use super::{Ensemble, EnsembleError, EnsembleProgress};
+use crate::RunError;
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// What the threads share.
+pub(super) struct Crew<'a, F, T> {
+    ensemble: &'a Ensemble<'a>,
+    /// Makes the replica of this number, unless it is cut short.
+    make: &'a F,
+    /// The replica to be made next.
+    next: AtomicUsize,
+    /// The first replica with an error: those behind it are of no use any more, those before it may have one too.
+    first_failed: AtomicUsize,
+    made: Mutex<Made<T>>,
+}
+
+/// What there is so far.
+struct Made<T> {
+    /// What was observed of each replica.
+    observed: Vec<Option<T>>,
+    /// How many of them have ended.
+    ended: usize,
+    /// The first error in the order of the replicas.
+    error: Option<(usize, RunError)>,
+}
+
+impl<'a, F, T: Send> Crew<'a, F, T>
+where
+    F: Fn(usize, &Stop<'_>) -> Result<Option<T>, RunError> + Sync,
+{
+    pub(super) fn new(ensemble: &'a Ensemble<'a>, make: &'a F) -> Self {
+        let count = ensemble.seeds.len();
+        Self {
+            ensemble,
+            make,
+            next: AtomicUsize::new(0),
+            first_failed: AtomicUsize::new(usize::MAX),
+            made: Mutex::new(Made {
+                observed: (0..count).map(|_| None).collect(),
+                ended: 0,
+                error: None,
+            }),
+        }
+    }
+
+    /// Makes all replicas.
+    pub(super) fn work_all(self) -> Result<Vec<T>, EnsembleError> {
+        let of = self.ensemble.seeds.len();
+        std::thread::scope(|scope| {
+            for _ in 1..self.threads() {
+                scope.spawn(|| self.work());
+            }
+            self.work();
+        });
+        let made = self.made.into_inner();
+        let made = made.unwrap_or_else(PoisonError::into_inner);
+        if let Some((index, error)) = made.error {
+            let seed = self.ensemble.seeds[index];
+            return Err(EnsembleError::Replica { index, seed, error });
+        }
+        let ended = made.ended;
+        let all: Option<Vec<T>> = made.observed.into_iter().collect();
+        all.ok_or(EnsembleError::Interrupted { ended, of })
+    }
+
+    /// As many as there are cores, or as are wanted, but no more than replicas.
+    fn threads(&self) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        let wanted = self.ensemble.threads.map_or_else(cores, NonZeroUsize::get);
+        wanted.min(self.ensemble.seeds.len())
+    }
+
+    /// Makes one replica after the other.
+    fn work(&self) {
+        loop {
+            let index = self.next.fetch_add(1, Ordering::Relaxed);
+            let stop = Stop {
+                index,
+                first_failed: &self.first_failed,
+                interrupted: self.ensemble.interrupted,
+            };
+            if index >= self.ensemble.seeds.len() || stop.is_set() {
+                return;
+            }
+            match (self.make)(index, &stop) {
+                Ok(None) => {}
+                Ok(Some(observed)) => self.keep(index, observed),
+                Err(error) => self.fail(index, error),
+            }
+        }
+    }
+
+    fn keep(&self, index: usize, observed: T) {
+        let mut made = self.made();
+        made.observed[index] = Some(observed);
+        made.ended += 1;
+        // Under the lock, so that the numbers are told in order.
+        (self.ensemble.progress)(EnsembleProgress {
+            ended: made.ended,
+            of: self.ensemble.seeds.len(),
+        });
+    }
+
+    fn fail(&self, index: usize, error: RunError) {
+        let mut made = self.made();
+        if index < self.first_failed.fetch_min(index, Ordering::Relaxed) {
+            made.error = Some((index, error));
+        }
+    }
+
+    fn made(&self) -> MutexGuard<'_, Made<T>> {
+        self.made.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

@@ -1,0 +1,169 @@
+//! Ensembles against runs one by one, on one thread and on several.
+
+use super::*;
+use crate::scene::SceneProblem;
+use crate::{Record, SimError};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A short rod in a heat bath, with so many steps of this length (ns).
+fn heated(duration_ns: f64, more: &str) -> Scene {
+    let text = format!(
+        "Scene(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)]),
+            clamps: [Clamp(end: Start)],
+            task: Dynamics(
+                duration_ns: {duration_ns:?},
+                drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+                thermal: Thermal(temperature_k: 298.0, seed: 1),
+                {more}
+            ),
+        )"
+    );
+    Scene::from_ron(&text).unwrap()
+}
+
+/// Monomers of drawn bonds under a force.
+const DRAWN: &str = "Scene(
+    filament: Filament(
+        sections: [Ellipsoids(from_nm: 0.0, to_nm: 20.0)],
+        monomers: Monomers(anchors: Independent),
+    ),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (1.0, 0.0, 0.0))],
+    task: Equilibrium(),
+)";
+
+fn threads(number: usize) -> NonZeroUsize {
+    NonZeroUsize::new(number).unwrap()
+}
+
+/// All records, with their states.
+fn records(scene: &Scene, number: usize) -> Vec<(usize, u64, Vec<Record>)> {
+    let ensemble = Ensemble::new(scene, 5).unwrap();
+    let ensemble = ensemble.on_threads(threads(number));
+    let all = ensemble.run(|r| (r.index, r.seed, r.sink.records));
+    all.unwrap()
+}
+
+/// A replica that saw its neighbours, or whose place depended on who was first, would differ; and a
+/// replica is the run of its scene alone.
+#[test]
+fn results_are_those_of_single_runs_on_any_number_of_threads() {
+    for mut scene in [heated(0.3, ""), Scene::from_ron(DRAWN).unwrap()] {
+        let one = records(&scene, 1);
+        assert_eq!(one, records(&scene, 2));
+        assert_eq!(one, records(&scene, 3));
+        assert_ne!(one[0].2, one[1].2);
+        for (i, (index, seed, records)) in one.into_iter().enumerate() {
+            assert_eq!((index, seed), (i, i as u64 + 1));
+            for what in Drawn::ALL {
+                scene.reseed(what, seed);
+            }
+            let assembly = Assembly::build(&scene).unwrap();
+            let (alone, _) = Plan::new(&assembly).unwrap().run().unwrap();
+            assert_eq!(records, alone.records);
+        }
+    }
+}
+
+#[test]
+fn replicas_that_would_be_the_same_are_refused() {
+    let mut scene = heated(0.1, "");
+    let seeds = |scene, drawn: &[Drawn]| Ensemble::of_seeds(scene, vec![3, 9], drawn).is_ok();
+    assert!(seeds(&scene, &[Drawn::Noise]));
+    assert!(!seeds(&scene, &[Drawn::Bonds]));
+    scene.reseed(Drawn::Noise, 9);
+    assert!(Ensemble::of_seeds(&scene, vec![3], &[]).is_ok());
+    let none: Vec<u64> = Ensemble::new(&scene, 0).unwrap().run(|r| r.seed).unwrap();
+    assert!(none.is_empty());
+}
+
+/// Of several replicas that fail, the first is named, even if it is the last to fail: those before the others
+/// are not told to stop.
+#[test]
+fn the_first_replica_that_fails_is_named() {
+    let scene = heated(0.1, "");
+    let (stopped, ended) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let problem = || SceneProblem::new("task", "", "fails");
+    let wait_for = |number: &AtomicUsize| {
+        while number.load(Ordering::Relaxed) == 0 {
+            std::thread::yield_now();
+        }
+    };
+    let make = |index: usize, stop: &sink::Stop<'_>| match index {
+        0 => {
+            wait_for(&stopped);
+            assert!(!stop.is_set());
+            ended.fetch_add(1, Ordering::Relaxed);
+            Ok(Some(()))
+        }
+        1 => {
+            wait_for(&ended);
+            Err(problem().into())
+        }
+        _ => {
+            stopped.fetch_add(1, Ordering::Relaxed);
+            Err(problem().into())
+        }
+    };
+    let ensemble = Ensemble::new(&scene, 9).unwrap().on_threads(threads(3));
+    let failed = Crew::new(&ensemble, &make).work_all();
+    let error = SimError::from(failed.unwrap_err()).to_string();
+    assert_eq!(error, "replica 1 (seed 2): task: fails");
+}
+
+/// A motion that explodes is the error of its replica, on any number of threads.
+#[test]
+fn a_replica_that_explodes_is_named() {
+    let scene = heated(2.0, "time_step_ns: 0.02, allow_unstable_step: true,");
+    for number in [1, 2, 3] {
+        let ensemble = Ensemble::of_seeds(&scene, vec![11, 12, 13, 14], &Drawn::ALL).unwrap();
+        let failed = ensemble.on_threads(threads(number)).run(|r| r.index);
+        let error = failed.unwrap_err().to_string();
+        assert!(error.starts_with("replica 0 (seed 11): "), "{error}");
+    }
+}
+
+/// A scene that cannot be planned is the error of its replica, too.
+#[test]
+fn a_replica_that_is_refused_is_named() {
+    let scene = heated(2.0, "time_step_ns: 0.02,");
+    let refused = Ensemble::new(&scene, 2).unwrap().run(|r| r.index);
+    let Err(EnsembleError::Replica { index, seed, error }) = refused else {
+        panic!("the time step is above the limit");
+    };
+    assert_eq!((index, seed), (0, 1));
+    assert!(matches!(error, crate::RunError::Refused(_)), "{error}");
+}
+
+/// The flag ends runs on the way, not only those to come: they would take hours.
+#[test]
+fn an_ensemble_is_interrupted() {
+    struct Flagged<'a>(&'a AtomicBool);
+    impl Sink for Flagged<'_> {
+        fn record(&mut self, _: &Record) {
+            self.0.store(true, Ordering::Relaxed);
+        }
+    }
+    let scene = heated(1e6, "record_every_ns: 1000.0");
+    let flag = AtomicBool::new(false);
+    let ensemble = Ensemble::new(&scene, 3).unwrap();
+    let ensemble = ensemble.on_threads(threads(2)).interrupted_by(&flag);
+    let ended = ensemble.run_into(|_| Flagged(&flag), |r| r.index);
+    let (ended, of) = match ended {
+        Err(EnsembleError::Interrupted { ended, of }) => (ended, of),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!((ended, of), (0, 3));
+}
+
+#[test]
+fn progress_counts_replicas_in_order() {
+    let told = Mutex::new(Vec::new());
+    let scene = heated(0.01, "");
+    let tell = |p: EnsembleProgress| told.lock().unwrap().push((p.ended, p.of));
+    let ensemble = Ensemble::new(&scene, 4).unwrap().with_progress(&tell);
+    ensemble.on_threads(threads(2)).run(|_| ()).unwrap();
+    assert_eq!(*told.lock().unwrap(), [(1, 4), (2, 4), (3, 4), (4, 4)]);
+}
