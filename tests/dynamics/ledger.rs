@@ -1,6 +1,6 @@
 //! The energy of a motion less what has come from outside: ends and loads that move, drag and heat.
 
-use actin_sim::{Assembly, Plan, Record, Scene, Task};
+use actin_sim::{Assembly, Plan, Record, Scene, Summary, Task};
 
 /// What the ledger leaves open at its worst, and the most that was booked (pN nm), at a share of the default step.
 fn open(scene: &str, share: f64) -> (f64, f64) {
@@ -112,4 +112,23 @@ fn what_is_held_books_nothing() {
     );
     let (left, size) = open(&free, 1.0);
     assert!(left < 1e-12 && size == 0.0, "{left} {size}");
+}
+
+/// A hundredth of what was exchanged that came from nowhere is told; the error of the default step is not, nor heat.
+#[test]
+fn energy_from_nowhere_is_told() {
+    let told = |task: &str, factor: f64| {
+        let scene = Scene::from_ron(&scene(DRIVEN[0].1, task)).unwrap();
+        let assembly = Assembly::build(&scene).unwrap();
+        let (trajectory, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
+        let mut last = trajectory.records.last().unwrap().clone();
+        last.kinetic_pn_nm += (factor - 1.0) * last.booked.work_pn_nm;
+        let mut notes = Summary::new(&assembly, &last, &outcome).notes.into_iter();
+        notes.find(|note| note.starts_with("the energy at the end is"))
+    };
+    let bath = format!("{DRAG}, thermal: Thermal(temperature_k: 298.0, seed: 3)");
+    assert_eq!(told(DRAG, 1.0), None);
+    assert_eq!(told(&bath, 1.5), None);
+    let note = told(DRAG, 1.02).unwrap();
+    assert!(note.contains("2.0 % of what was exchanged"), "{note}");
 }

@@ -103,13 +103,13 @@ const MEASURED: [(&str, &str, Quantity, &[Stretches]); 17] = {
             "curvature halfway, 160 nm",
             "cantilever-160",
             Curvature { at_nm: 80.0 },
-            &[&[[0.0, 40.0]], &[[60.0, 100.0]]],
+            &[],
         ),
         (
             "curvature of the top, buckled over",
             "buckling-over",
             Curvature { at_nm: 150.0 },
-            &[&[[100.0, 200.0]]],
+            &[&[[0.0, 75.0]]],
         ),
     ]
 };

@@ -137,7 +137,9 @@ impl Search<'_> {
         }
         let marked = setting.marked((found, limit), self.lengths, |more| self.fits(more));
         if may_be_all {
-            let is_better = marked != *setting && !marked.is_mostly_monomers(self.lengths);
+            let is_better = marked != *setting
+                && !marked.is_mostly_monomers(self.lengths)
+                && self.is_judged(&marked);
             return Some(if is_better { marked } else { all });
         }
         if setting.monomers.is_empty() {
@@ -146,6 +148,8 @@ impl Search<'_> {
             self.next.extend(window);
         }
         self.next.push(marked);
+        let next = std::mem::take(&mut self.next);
+        self.next = next.into_iter().filter(|one| self.is_judged(one)).collect();
         self.untried()
     }
 
@@ -163,6 +167,12 @@ impl Search<'_> {
             }
         }
         None
+    }
+
+    /// Whether its error can be estimated.
+    fn is_judged(&self, setting: &Setting) -> bool {
+        let scene = setting.apply(self.scene, self.lengths);
+        check(&scene, self.adaptive.want.quantity()).is_ok()
     }
 
     /// Whether it has no more monomers than are allowed.

@@ -10,7 +10,7 @@ use actin_ellipsoid::SixVector;
 use actin_mechanics::{State, Vector3, rotation};
 
 /// Segments of one rod under whose loads a cell is relaxed; defects in between are linear.
-const SAMPLES: usize = 8;
+const SAMPLES: usize = 16;
 /// How far into a rod a junction is looked at (nm).
 const INTO_ROD_NM: f64 = 20.0;
 /// Cells on the way across a junction.

@@ -355,22 +355,27 @@ fn missing(scene: &Scene, quantity: Quantity) -> Option<(&'static str, String)> 
     Some(("clamps", rule.to_owned()))
 }
 
-/// Why the error of the curvature about an arc length (nm) is not known, if it is not: a wall bends what is about it in its
-/// own way.
+/// Why the error of the curvature about an arc length (nm) is not known, if it is not: walls and junctions bend what is about
+/// them in their own way.
 fn no_curvature_at(scene: &Scene, at_nm: f64) -> Option<String> {
-    let ends = scene.filament.sections.iter().map(|s| s.span_nm().1);
-    let length_nm = ends.fold(0.0, f64::max);
+    let sections = &scene.filament.sections;
+    let length_nm = sections.iter().map(|s| s.span_nm().1).fold(0.0, f64::max);
     let periods_nm = 2.0 * PERIOD as f64 * scene.filament.monomers.rise_nm;
-    let free = |end: End, distance: f64| {
-        let is_held = scene.clamps.iter().any(|clamp| clamp.end == end);
-        distance >= if is_held { periods_nm } else { 0.0 }
-    };
-    let is_known =
-        length_nm >= periods_nm && free(End::Start, at_nm) && free(End::End, length_nm - at_nm);
+    let is_held = |end: End| scene.clamps.iter().any(|clamp| clamp.end == end);
+    let walls = [(End::Start, 0.0), (End::End, length_nm)];
+    let walls = walls.into_iter().filter(|wall| is_held(wall.0));
+    let pairs = sections.windows(2);
+    let junctions = pairs.filter(|pair| pair[0].is_rod() != pair[1].is_rod());
+    let mut places = walls
+        .map(|wall| wall.1)
+        .chain(junctions.map(|pair| pair[0].span_nm().1));
+    let is_known = length_nm >= periods_nm
+        && (0.0..=length_nm).contains(&at_nm)
+        && places.all(|place| (place - at_nm).abs() >= periods_nm);
     (!is_known).then(|| {
         format!(
             "the curvature at {at_nm:?} nm is wanted, of a filament of {length_nm:?} nm: errors are known of it inside, \
-             {periods_nm:.1} nm or more from a clamped end"
+             {periods_nm:.1} nm or more from clamped ends and junctions"
         )
     })
 }

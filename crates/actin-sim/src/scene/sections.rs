@@ -91,7 +91,7 @@ pub enum Want {
     },
     /// The size of the curvature about a place.
     Curvature {
-        /// Where, by arc length; inside the filament, two periods (71.2 nm) or more from a clamped end.
+        /// Where, by arc length; inside the filament, two periods (71.2 nm) or more from clamped ends and junctions.
         at_nm: f64,
         /// Largest error over the curvature; greater than 0, below 1.
         error: f64,
@@ -120,7 +120,7 @@ pub enum Quantity {
     /// The size of the curvature about a place (rad/nm): the turn of the mean axes of one period of 13 monomers against
     /// those of the period before it, over its length. Near an end these are the outermost two periods.
     Curvature {
-        /// Where, by arc length (nm); inside the filament, two periods (71.2 nm) or more from a clamped end.
+        /// Where, by arc length (nm); inside the filament, two periods (71.2 nm) or more from clamped ends and junctions.
         at_nm: f64,
     },
 }
