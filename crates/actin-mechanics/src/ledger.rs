@@ -15,8 +15,8 @@ pub struct Ledger {
 impl Ledger {
     /// Books the work of `drive` over a time `t` (ns) at the present places, where `loads` act.
     ///
-    /// Taken together with each kick, for the time of the kick, this is the momentum that goes with time where time
-    /// is a coordinate: the booked sum is as exact as the method.
+    /// To be called with each kick, for its time. That makes the sum as exact as the method: where time is one more
+    /// coordinate, its momentum is minus the energy, and this is its kick.
     pub(crate) fn book_work(
         &self,
         state: &mut State,

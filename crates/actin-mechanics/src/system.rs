@@ -3,7 +3,8 @@
 use crate::{Interaction, Ledger, Loads, Motion, Residual, State, Vectors};
 use std::sync::Arc;
 
-/// What an integrator may do to a system: nothing else is visible to it.
+/// What an integrator may do to a system: nothing else is visible to it. One that wraps another and is to keep its
+/// [`Ledger`] passes on the three methods of that too.
 pub trait Split {
     /// Moves everything freely for a time `h` (which may be negative).
     fn drift(&mut self, h: f64);
@@ -70,7 +71,7 @@ pub trait Drive: std::fmt::Debug + Send + Sync {
     fn place(&self, state: &mut State, time: f64);
 
     /// Energy that the controls which it moves add to `interactions` over a time `t`, at the places and the time of
-    /// `state`; it leaves the state as it was. None where it moves held bodies alone.
+    /// `state`; it leaves the state as it was. Zero where it moves held bodies alone.
     fn work_of_controls(
         &self,
         _state: &mut State,

@@ -184,6 +184,7 @@ impl WithSimd for AddScaled<'_> {
         }
     }
 }
+
 /// Multiplies by `factor` those vectors whose mobility is not zero.
 pub(crate) fn damp_where(vectors: &mut Vectors, mobility: &[f64], factor: f64) {
     for column in [&mut vectors.x, &mut vectors.y, &mut vectors.z] {

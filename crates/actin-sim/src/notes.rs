@@ -42,8 +42,10 @@ const SHORTEST_NM: f64 = 60.0;
 /// The command that measures these.
 const COMMAND: &str = "cargo run --release -p actin-paper --example persistence_length";
 
-/// Share of the energy that a motion exchanges which its steps may lose or win without a word.
+/// Largest error of the energy that is not told, over what a motion exchanged.
 const LEDGER_OPEN: f64 = 0.01;
+/// The same at all (pN nm).
+const LEDGER_LEAST: f64 = 1e-3;
 
 impl Assembly {
     /// Notes on this scene before it runs, a sentence or two each.
@@ -133,7 +135,14 @@ impl Outcome {
         match error {
             Some(Err(problem)) => notes.push(format!("its error is not known: {problem}")),
             Some(Ok(error)) => {
-                notes.push(error.note(self.scatter()));
+                notes.extend(error.note(self.scatter().as_ref()));
+                if let Some(Err(problem)) =
+                    self.equilibrium.as_ref().and_then(|e| e.scatter.as_ref())
+                {
+                    notes.push(format!(
+                        "how filaments with drawn bonds scatter is not known: {problem}"
+                    ));
+                }
                 notes.extend(left_out(&assembly.scene).map(str::to_owned));
             }
             None => {}
@@ -151,7 +160,8 @@ impl Outcome {
         notes
     }
 
-    /// The note on energy that a motion without heat has and nothing has given it. Loads without an energy may give any.
+    /// The note on an athermal motion whose energy changed by more than came from outside. Of loads without an energy nothing
+    /// is known.
     fn note_on_ledger(&self, assembly: &Assembly, last: &Record) -> Option<String> {
         let begun = self.begun_with_pn_nm?;
         let mut terms = assembly.system.interactions().iter();
@@ -160,13 +170,18 @@ impl Outcome {
             && terms.all(|term| term.is_conservative());
         let booked = last.booked;
         let open = last.potential_pn_nm() + last.kinetic_pn_nm - begun - booked.sum_pn_nm();
-        let sizes = [booked.work_pn_nm, booked.heat_pn_nm, last.kinetic_pn_nm];
+        let sizes = [
+            booked.work_pn_nm,
+            booked.heat_pn_nm,
+            booked.events_pn_nm,
+            self.largest_kinetic_pn_nm,
+        ];
         let size = sizes.iter().fold(0.0, |most: f64, one| most.max(one.abs()));
-        (is_known && open.abs() > LEDGER_OPEN * size).then(|| {
+        let is_open = open.abs() > LEDGER_LEAST.max(LEDGER_OPEN * size);
+        (is_known && is_open).then(|| {
             format!(
-                "the energy at the end is {open:+.3} pN nm from what work and drag account for, {:.1} % of what was \
-                 exchanged: the error of the time steps; a smaller step_safety makes it less",
-                100.0 * open.abs() / size
+                "the energy at the end is {open:+.3} pN nm from what work and drag account for, where {size:.3} were \
+                 exchanged: the error of the time steps; a shorter time_step_ns makes it less"
             )
         })
     }

@@ -14,7 +14,7 @@ type Group<'a> = (&'static str, &'a (dyn Fn() -> Vec<Row> + Sync));
 /// The whole table, in the order in which it is printed; `long` with the rows that take minutes.
 pub(super) fn table(long: bool, tell: Tell<'_>) -> Vec<Row> {
     // Alone on the machine: their times and their memory are told.
-    let sizes = of_sizes(long);
+    let sizes = timed(&("sizes", &|| of_sizes(long)), tell);
     let groups: [Group<'_>; 19] = [
         ("time steps", &|| stability::rows(&stability::INTEGRATORS)),
         ("energy below the limit", &|| {
@@ -33,7 +33,7 @@ pub(super) fn table(long: bool, tell: Tell<'_>) -> Vec<Row> {
         ("forces", &forces::rows),
         ("neutral modes", &certificates::rows),
         ("compression", &compression::rows),
-        ("sizes", &|| sizes.clone()),
+        ("sizes, as above", &|| sizes.clone()),
         ("drag", &drag::rows),
         ("undamped motion", &|| {
             drift::rows(if long { 10_000_000 } else { 100_000 })

@@ -41,11 +41,10 @@ impl Chosen {
             .map_or_else(String::new, |most| format!(" with at most {most} monomers"));
         let left = self.estimate.map_or_else(String::new, |estimate| {
             let percent = 100.0 * estimate.relative();
-            let corrected = estimate.corrected();
-            let unit = self.quantity.unit();
+            let [value, corrected] =
+                [estimate.value, estimate.corrected()].map(|value| self.quantity.show(value));
             format!(
-                ". It is {:.5} {unit} in the equilibrium at rest, {corrected:.5} with its estimated error of {percent:.2} %",
-                estimate.value
+                ". It is {value} in the equilibrium at rest, {corrected} with its estimated error of {percent:.2} %"
             )
         });
         let missed = if self.is_met {

@@ -29,8 +29,8 @@ pub(super) fn drawn_monomers(monomers: &Monomers) -> Monomers {
     if drawn.anchors == Anchors::Cubature {
         drawn.lateral_bonds = Anchors::Independent.usual_bonds();
         drawn.longitudinal_bonds = Anchors::Independent.usual_bonds();
+        drawn.anchors = Anchors::Independent;
     }
-    drawn.anchors = Anchors::Independent;
     drawn
 }
 

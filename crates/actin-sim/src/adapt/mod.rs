@@ -82,30 +82,39 @@ impl ErrorEstimate {
         self.law.abs() + self.segments.abs() + self.junctions.abs() + self.walls.abs()
     }
 
-    /// The estimate in a sentence, with how filaments with drawn bonds scatter, where it is known.
-    pub(crate) fn note(&self, scatter: Option<Scatter>) -> String {
-        let unit = self.quantity.unit();
+    /// The estimate in a sentence, with how filaments with drawn bonds scatter, where it is known; none of a number that
+    /// is zero.
+    pub(crate) fn note(&self, scatter: Option<&Scatter>) -> Option<String> {
         let percent = |part: f64| 100.0 * part / self.corrected().abs();
+        let all = [
+            self.error,
+            self.law,
+            self.segments,
+            self.junctions,
+            self.walls,
+        ];
+        if !all.iter().all(|part| percent(*part).is_finite()) {
+            return None;
+        }
         let drawn = scatter.map_or_else(String::new, |drawn| {
+            let bonds = match drawn.bonds {
+                [lateral, longitudinal] if lateral == longitudinal => lateral.to_string(),
+                [lateral, longitudinal] => format!("{lateral} and {longitudinal}"),
+            };
             format!(
-                "; filaments with {} drawn bonds an interface are {:+.2} % from the mean one, and scatter by {:.2} %",
-                drawn.bonds[0],
+                "; filaments with {bonds} drawn bonds an interface are {:+.2} % from the mean one, and scatter by {:.2} %",
                 percent(drawn.shift),
                 percent(drawn.deviation)
             )
         });
-        format!(
-            "{} is {:.5} {unit}, {:.5} with its estimated error against every monomer ({:+.2} %: laws {:+.2}, segments \
-             {:+.2}, junctions {:+.2}, walls {:+.2}){drawn}",
+        let [error, law, segments, junctions, walls] = all.map(percent);
+        Some(format!(
+            "{} is {}, {} with its estimated error against every monomer ({error:+.2} %: laws {law:+.2}, segments \
+             {segments:+.2}, junctions {junctions:+.2}, walls {walls:+.2}){drawn}",
             self.quantity,
-            self.value,
-            self.corrected(),
-            percent(self.error),
-            percent(self.law),
-            percent(self.segments),
-            percent(self.junctions),
-            percent(self.walls)
-        )
+            self.quantity.show(self.value),
+            self.quantity.show(self.corrected()),
+        ))
     }
 
     /// The size of the error over that of the corrected value.
@@ -163,11 +172,7 @@ fn located(
     state: &State,
     quantity: Quantity,
 ) -> Result<Located, SceneProblem> {
-    check(&assembly.scene, quantity)?;
-    if is_too_short(assembly.length_nm(), assembly.monomers_of(0).rise_nm) {
-        let rule = format!("errors are not known of filaments shorter than {SHORTEST_RISES} rises");
-        return Err(SceneProblem::new("filament.sections", "", rule));
-    }
+    ensure_known(assembly, quantity)?;
     let look = Look {
         assembly,
         state,
@@ -196,6 +201,16 @@ fn located(
         walls,
     };
     Ok(Located { total, parts })
+}
+
+/// Refuses filaments of which errors are not known.
+fn ensure_known(assembly: &Assembly, quantity: Quantity) -> Result<(), SceneProblem> {
+    check(&assembly.scene, quantity)?;
+    if is_too_short(assembly.length_nm(), assembly.monomers_of(0).rise_nm) {
+        let rule = format!("errors are not known of filaments shorter than {SHORTEST_RISES} rises");
+        return Err(SceneProblem::new("filament.sections", "", rule));
+    }
+    Ok(())
 }
 
 impl Look<'_> {

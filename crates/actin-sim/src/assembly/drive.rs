@@ -95,9 +95,9 @@ impl Drive {
         self.stages == 0
     }
 
-    /// Whether the path sets a factor of a load or moves an anchor.
-    pub(super) fn moves_controls(&self) -> bool {
-        !self.loads.is_empty() || !self.anchors.is_empty()
+    /// Whether the path moves an anchor with these controls.
+    pub(super) fn moves(&self, anchor: [ControlId; 3]) -> bool {
+        self.anchors.iter().any(|(controls, _)| *controls == anchor)
     }
 
     /// Whether the path sets the factor of a load.

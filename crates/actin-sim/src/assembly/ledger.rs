@@ -6,7 +6,7 @@ use actin_mechanics::{Ledger, State};
 use serde::{Deserialize, Serialize};
 
 /// Energy (pN nm) that has come from outside up to a record. The energy of a motion less this is constant but for the
-/// error of its integrator: how much it is not says how good its time step is.
+/// error of its time steps.
 ///
 /// Pushes off saddles are not booked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -26,6 +26,9 @@ impl Booked {
     }
 }
 
+/// A column of `energies.csv` and what stands in it.
+pub(crate) type Column = (&'static str, fn(&Booked) -> f64);
+
 /// Adds what a motion books in to a state under construction; none of other tasks.
 pub(super) fn of_motion(task: &Task, state: &mut State) -> Option<Ledger> {
     matches!(task, Task::Dynamics(_)).then(|| Ledger {
@@ -35,7 +38,8 @@ pub(super) fn of_motion(task: &Task, state: &mut State) -> Option<Ledger> {
 }
 
 impl Assembly {
-    /// What has come from outside up to `state`.
+    /// What has come from outside up to `state`, a state of a run in progress. Those read back from files have none of it: it
+    /// stands in `energies.csv`.
     pub fn booked(&self, state: &State) -> Booked {
         let [work_pn_nm, heat_pn_nm] = self.ledger.map_or([0.0; 2], |ledger| {
             [ledger.work, ledger.heat].map(|control| state.controls[control])
@@ -48,24 +52,22 @@ impl Assembly {
         }
     }
 
-    /// The columns of what may come from outside in this scene, with what of `booked` stands in each.
-    pub(crate) fn columns_of(&self, booked: &Booked) -> Vec<(&'static str, f64)> {
-        let Booked {
-            work_pn_nm,
-            heat_pn_nm,
-            events_pn_nm,
-        } = *booked;
-        let (is_driven, is_heated) = match &self.scene.task {
-            Task::Dynamics(dynamics) => (Ramp::of(self).is_some(), dynamics.has_friction()),
+    /// The columns of what may come from outside in this scene, and what of it stands in each.
+    pub(crate) fn booked_columns(&self) -> Vec<Column> {
+        let (is_driven, has_drag) = match &self.scene.task {
+            Task::Dynamics(dynamics) => (Ramp::of(self).is_some(), dynamics.has_drag()),
             _ => (false, false),
         };
-        [
-            (is_driven, "work_pn_nm", work_pn_nm),
-            (is_heated, "heat_pn_nm", heat_pn_nm),
-            (self.kinetics.is_some(), "events_pn_nm", events_pn_nm),
-        ]
-        .into_iter()
-        .filter_map(|(is_there, name, value)| is_there.then_some((name, value)))
-        .collect()
+        let mut columns: Vec<Column> = Vec::new();
+        if is_driven {
+            columns.push(("work_pn_nm", |booked| booked.work_pn_nm));
+        }
+        if has_drag {
+            columns.push(("heat_pn_nm", |booked| booked.heat_pn_nm));
+        }
+        if self.kinetics.is_some() {
+            columns.push(("events_pn_nm", |booked| booked.events_pn_nm));
+        }
+        columns
     }
 }

@@ -51,15 +51,23 @@ impl Ramp {
     }
 }
 
-/// Terms of loads and linkers, where a path or time changes one.
+/// Terms of the loads and linkers whose controls the path or time changes.
 fn controlled(assembly: &Assembly) -> Vec<usize> {
-    let scene = &assembly.scene;
-    let changes = scene.loads.iter().any(|load| !load.factor().is_constant())
-        || assembly.drive.moves_controls();
-    let terms = assembly.terms.iter().enumerate().filter(|_| changes);
-    let has_controls = |part: Part| matches!(part, Part::Load(_) | Part::Linker(_));
-    let places = terms.filter_map(|(i, term)| has_controls(term.part).then_some(i));
-    places.collect()
+    let changes = |part: Part| match part {
+        Part::Load(i) => {
+            let is_constant = assembly.scene.loads[i].factor().is_constant();
+            !is_constant || assembly.drive.sets(assembly.loads[i])
+        }
+        Part::Linker(i) => {
+            let anchor = assembly.linkers[i].anchor_controls();
+            anchor.is_some_and(|controls| assembly.drive.moves(controls))
+        }
+        _ => false,
+    };
+    let terms = assembly.terms.iter().enumerate();
+    terms
+        .filter_map(|(i, term)| changes(term.part).then_some(i))
+        .collect()
 }
 
 /// When the stages of a path begin, and how long they take.

@@ -21,7 +21,7 @@ use std::sync::atomic::AtomicBool;
 /// Replicas of a scene: the same filaments under the same loads with other seeds.
 ///
 /// Each replica runs on one thread, as many at the same time as there are threads; memory holds the records of
-/// these alone. Results stand in the order of the replicas and are the same, to the bit, on any number of threads.
+/// these alone, which is not checked beyond what one replica needs: fewer threads take less. Results stand in the order of the replicas and are the same, to the bit, on any number of threads.
 ///
 /// ```
 /// use actin_sim::{End, Ensemble, Scene};

@@ -244,6 +244,7 @@ impl Follower {
         let next = self.next(stretch, wanted, &saved)?;
         let outcome = Outcome {
             status: Status::Completed,
+            begun_with_pn_nm: None,
             ..outcome
         };
         Ok(Left::Switched(outcome, Box::new(next)))

@@ -70,7 +70,8 @@ pub(super) struct EnergyTable<'a> {
     /// For each term the place of its name, and that of its part, behind those of all names.
     places: [Vec<usize>; 2],
     sums: usize,
-    assembly: &'a Assembly,
+    /// What stands in the columns of what came from outside.
+    booked: Vec<fn(&Booked) -> f64>,
 }
 
 impl<'a> EnergyTable<'a> {
@@ -85,7 +86,11 @@ impl<'a> EnergyTable<'a> {
             header: header(assembly, &names, &parts),
             sums: names.len() + parts.len(),
             places: [by_name, behind.collect()],
-            assembly,
+            booked: assembly
+                .booked_columns()
+                .into_iter()
+                .map(|(_, of)| of)
+                .collect(),
         }
     }
 
@@ -99,8 +104,7 @@ impl<'a> EnergyTable<'a> {
             }
         }
         let mut row = row(self.terms, record, sums);
-        let booked = self.assembly.columns_of(&record.booked);
-        row.extend(booked.into_iter().map(|(_, value)| value));
+        row.extend(self.booked.iter().map(|of| of(&record.booked)));
         row
     }
 
@@ -137,8 +141,8 @@ fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
         .map(|name| format!("{name}_pn_nm"));
     let residuals = ["residual_force_pn", "residual_torque_pn_nm"].map(str::to_owned);
     // What has come from outside so far: the total less these is constant.
-    let booked = assembly.columns_of(&Booked::default());
-    let booked = booked.into_iter().map(|(name, _)| name.to_owned());
+    let booked = assembly.booked_columns().into_iter();
+    let booked = booked.map(|(name, _)| name.to_owned());
     std::iter::once(clock(assembly).to_owned())
         .chain(energies)
         .chain(residuals)

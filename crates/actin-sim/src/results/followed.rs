@@ -39,7 +39,7 @@ const COMMON: [&str; 7] = [
 ];
 
 /// Those of what comes from outside, where it does.
-const BOOKED: [&str; 2] = ["work_pn_nm", "heat_pn_nm"];
+const BOOKED: [&str; 3] = ["work_pn_nm", "heat_pn_nm", "events_pn_nm"];
 
 /// What switches of cells did in a whole motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

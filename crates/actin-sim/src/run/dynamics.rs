@@ -52,8 +52,8 @@ impl Integrator {
 }
 
 impl Dynamics {
-    /// Whether drag acts, or noise.
-    pub(crate) fn has_friction(&self) -> bool {
+    /// Whether drag acts.
+    pub(crate) fn has_drag(&self) -> bool {
         let rates = self.drag.rates();
         let rates = [rates.translational_per_ns, rates.rotational_per_ns];
         self.drag.fluid().is_some() || rates.iter().any(|rate| *rate > 0.0)
@@ -143,6 +143,9 @@ pub(crate) fn estimate_at(
 /// Rates of drag (1/ns) from which on it takes energy faster than steps across compression bring it.
 const DRAGGED: f64 = 0.1;
 
+/// Viscosity (mPa s) whose drag across a filament is about one per ns, at the density of monomers.
+const THICK: f64 = 0.01;
+
 /// What is left of the default step under the laws of the rods: `Homogenised` without heat gives way to compression at
 /// once, and an undamped motion across that gains energy at half the limit of the others (all of it in 200 ns), while
 /// at a quarter a rod of 160 nm gains 0.4 % in 600 ns. The law at 298 K keeps the whole step, and so does drag of
@@ -152,7 +155,14 @@ fn share_of_laws(assembly: &Assembly, dynamics: &Dynamics) -> f64 {
     let rates = dynamics.drag.rates();
     let slowest = rates.translational_per_ns.min(rates.rotational_per_ns);
     let is_heated = assembly.scene.thermal().is_some();
-    if !is_heated && (dynamics.drag.fluid().is_some() || slowest >= DRAGGED) {
+    let is_thick = |fluid: &Fluid| {
+        let Fluid::Water {
+            viscosity_mpa_s, ..
+        } = fluid;
+        *viscosity_mpa_s >= THICK
+    };
+    let is_dragged = slowest >= DRAGGED || dynamics.drag.fluid().is_some_and(is_thick);
+    if !is_heated && is_dragged {
         return 1.0;
     }
     let filaments = assembly.scene.filaments().enumerate();
@@ -243,6 +253,8 @@ pub(super) fn run(
     let mut system = assembly.system.in_state(assembly.system.state().clone());
     let mut recorder = Recorder::new(assembly, dynamics, saved, sink);
     let run = prepare((assembly, dynamics), &recorder, &mut system, estimate)?;
+    // Loads have the factors with which the motion begins.
+    let begun = recorder.is_whole().then(|| system.total_energy());
     recorder.let_happen(&mut system);
     if let Some(ledger) = assembly.ledger {
         system.keep_ledger(ledger);
@@ -260,7 +272,8 @@ pub(super) fn run(
         force_evaluations: system.force_evaluations(),
         time_step_ns: Some(estimate.time_step_ns),
         largest_frequency_rad_per_ns: Some(estimate.largest_frequency_rad_per_ns),
-        begun_with_pn_nm: recorder.begun_as_built_pn_nm(),
+        begun_with_pn_nm: begun,
+        largest_kinetic_pn_nm: recorder.largest_kinetic_pn_nm,
         saddles_left: recorder.pushes.len(),
         events: recorder.events(),
         pushes: recorder.pushes,

@@ -40,8 +40,8 @@ pub struct EquilibriumReport {
     pub states: Option<StableStates>,
     /// The error of the number that the scene asks for it, or why it is not known.
     pub error: Option<Result<ErrorEstimate, SceneProblem>>,
-    /// How filaments with drawn bonds scatter in that number, where it is known.
-    pub scatter: Option<Scatter>,
+    /// How filaments with drawn bonds scatter in that number, or why it is not known.
+    pub scatter: Option<Result<Scatter, SceneProblem>>,
 }
 
 /// Solves for the equilibrium, or follows the path.
@@ -456,12 +456,15 @@ fn lowest_eigenvalue(newton: &mut Newton, system: &System, state: &State) -> Opt
 }
 
 /// The error of a number, or why it is not known, and where it is how filaments with drawn bonds scatter.
-type Accuracy = (Result<ErrorEstimate, SceneProblem>, Option<Scatter>);
+type Accuracy = (
+    Result<ErrorEstimate, SceneProblem>,
+    Option<Result<Scatter, SceneProblem>>,
+);
 
 fn accuracy(assembly: &Assembly, state: &State, quantity: Quantity) -> Accuracy {
     let error = estimate(assembly, state, quantity);
-    let of_drawn = |_| scatter(assembly, state, quantity).ok();
-    let scatter = error.as_ref().ok().and_then(of_drawn);
+    let of_drawn = |_| scatter(assembly, state, quantity);
+    let scatter = error.as_ref().ok().map(of_drawn);
     (error, scatter)
 }
 

@@ -44,8 +44,10 @@ pub struct Outcome {
     /// Counts of eigenvalues at the equilibrium in which a motion has come to rest; none of one that
     /// still moves, that is in a heat bath, or whose loads have no potential.
     pub at_rest: Option<Certificate>,
-    /// Energy with which a motion began (pN nm); not of one that goes on behind a switch of cells.
+    /// Energy with which a motion began (pN nm); not of one whose cells are switched.
     pub begun_with_pn_nm: Option<f64>,
+    /// The largest kinetic energy that a motion came to at a check (pN nm).
+    pub largest_kinetic_pn_nm: f64,
     /// How many saddles were left, on the whole path or in the whole motion.
     pub saddles_left: usize,
     /// How a motion was pushed off saddles.
@@ -78,6 +80,7 @@ impl Outcome {
             equilibrium: None,
             at_rest: None,
             begun_with_pn_nm: None,
+            largest_kinetic_pn_nm: 0.0,
             saddles_left: 0,
             pushes: Vec::new(),
             events: Vec::new(),
@@ -127,7 +130,7 @@ impl Outcome {
 
     /// How filaments with drawn bonds scatter in that number, where it is known.
     pub fn scatter(&self) -> Option<Scatter> {
-        self.equilibrium.as_ref()?.scatter
+        self.equilibrium.as_ref()?.scatter.clone()?.ok()
     }
 
     /// What the stiffness says of the state in which the run ended, if that is an equilibrium.

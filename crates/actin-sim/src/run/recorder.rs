@@ -40,6 +40,8 @@ pub(super) struct Recorder<'a> {
     /// What happened to linkers.
     log: Log,
     hinges: HingeWatch,
+    /// The largest kinetic energy at a check (pN nm), known at the end.
+    pub(super) largest_kinetic_pn_nm: f64,
     /// Energy (pN nm) with which it began behind a switch of cells.
     energy_at_switch: Option<f64>,
 }
@@ -101,6 +103,7 @@ impl<'a> Recorder<'a> {
             log: Arc::new(Mutex::new(events)),
             hinges: HingeWatch::new(assembly),
             energy_at_switch,
+            largest_kinetic_pn_nm: 0.0,
         }
     }
 
@@ -176,10 +179,9 @@ impl<'a> Recorder<'a> {
         self.energy_at_switch.unwrap_or_else(built)
     }
 
-    /// The same of a motion that began with the scene.
-    pub(super) fn begun_as_built_pn_nm(&self) -> Option<f64> {
-        let is_whole = self.energy_at_switch.is_none();
-        is_whole.then(|| self.begun_with_pn_nm())
+    /// Whether the motion began with the scene, not behind a switch of cells.
+    pub(super) fn is_whole(&self) -> bool {
+        self.energy_at_switch.is_none()
     }
 
     /// Time that the run has taken (s).
@@ -315,7 +317,9 @@ impl Observer for Recorder<'_> {
     }
 
     fn finish(&mut self, end: &Pause<'_>) {
-        self.keep(end.checkpoint());
+        let checkpoint = end.checkpoint();
+        self.largest_kinetic_pn_nm = checkpoint.here.largest_kinetic;
+        self.keep(checkpoint);
     }
 
     fn fail(&mut self, last_good: &Checkpoint) {

@@ -137,6 +137,16 @@ impl Quantity {
     }
 }
 
+impl Quantity {
+    /// A value of it in words.
+    pub(crate) fn show(self, value: f64) -> String {
+        match self {
+            Self::Curvature { .. } => format!("{value:.4e} {}", self.unit()),
+            _ => format!("{value:.5} {}", self.unit()),
+        }
+    }
+}
+
 /// As a scene writes it.
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -30,8 +30,11 @@ impl Scene {
             Drawn::Bonds => {
                 let drawing = self.filaments_mut().filter(|filament| {
                     let is_monomers = |s: &Section| matches!(s, Section::Ellipsoids { .. });
+                    let sections = &filament.sections;
+                    // The program may resolve monomers in what is left to it.
+                    let is_left = sections.adaptive().is_some() || sections.following().is_some();
                     filament.monomers.anchors != Anchors::Cubature
-                        && filament.sections.iter().any(is_monomers)
+                        && (is_left || sections.iter().any(is_monomers))
                 });
                 drawing.map(|f| f.monomers.seed = seed).count()
             }
