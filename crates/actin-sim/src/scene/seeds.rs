@@ -94,4 +94,20 @@ mod tests {
         assert_eq!(scene.further[0].imperfection.unwrap().seed, 7);
         assert!(scene.validate().is_ok());
     }
+
+    /// Where the program chooses, there may be monomers.
+    #[test]
+    fn bonds_of_chosen_sections_take_the_seed() {
+        let text = "Scene(
+            filament: Filament(
+                sections: Adaptive(length_nm: 160.0, want: Tip(error: 0.02)),
+                monomers: Monomers(anchors: Independent),
+            ),
+            clamps: [Clamp(end: Start)],
+            task: Equilibrium(),
+        )";
+        let mut scene = Scene::from_ron(text).unwrap();
+        assert_eq!(scene.reseed(Drawn::Bonds, 7), 1);
+        assert_eq!(scene.filament.monomers.seed, 7);
+    }
 }
