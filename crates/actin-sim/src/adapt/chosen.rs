@@ -75,12 +75,12 @@ impl Chosen {
         let stretches = self.monomers_nm.iter();
         let stretches = stretches.map(|[from, to]| format!("{from:.0} to {to:.0} nm"));
         let monomers = stretches.collect::<Vec<_>>().join(", ");
+        let segment_nm = (10.0 * self.segment_nm).round() / 10.0;
         match (monomers.is_empty(), self.estimate) {
-            (true, _) => format!("a rod of segments of {} nm", self.segment_nm),
-            (false, Some(_)) => format!(
-                "monomers from {monomers}, and a rod of segments of {} nm",
-                self.segment_nm
-            ),
+            (true, _) => format!("a rod of segments of {segment_nm} nm"),
+            (false, Some(_)) => {
+                format!("monomers from {monomers}, and a rod of segments of {segment_nm} nm")
+            }
             (false, None) => "every monomer".to_owned(),
         }
     }
