@@ -17,6 +17,7 @@ mod modes;
 mod observed;
 mod order;
 mod paper_balance;
+mod quasi_harmonic;
 mod range;
 mod record;
 mod rest;

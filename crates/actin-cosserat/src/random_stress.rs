@@ -256,7 +256,7 @@ impl RandomStress for EnergyGradient {
         };
         parts
             .forces()
-            .for_each(|force| force.add_loads_without_spin(state, loads));
+            .for_each(|force| force.add_loads_without_spin(Vector3::z(), state, loads));
         parts
             .couples()
             .for_each(|couple| couple.add_loads_without_spin(state, loads));

@@ -54,9 +54,37 @@ impl Bond {
         }
     }
 
+    /// The bending element towards the monomer, with its material.
+    pub(crate) fn towards_monomer(&self) -> (BendingElement, &RodMaterial) {
+        let k = usize::from(self.monomer != 0);
+        (self.bending[k], &self.materials[k])
+    }
+
+    /// That towards the rod.
+    pub(crate) fn towards_rod(&self) -> (BendingElement, &RodMaterial) {
+        let k = usize::from(self.monomer == 0);
+        (self.bending[k], &self.materials[k])
+    }
+
+    /// Curvature (rad/nm) of the element towards the monomer.
+    pub(crate) fn curvature_towards_monomer(&self, state: &State) -> Vector3 {
+        self.curvatures(state)[usize::from(self.monomer != 0)]
+    }
+
+    /// Curvature (rad/nm) of that towards the rod.
+    pub(crate) fn curvature_towards_rod(&self, state: &State) -> Vector3 {
+        self.curvatures(state)[usize::from(self.monomer == 0)]
+    }
+
+    /// Strain of the shear element.
+    pub(crate) fn strain(&self, state: &State) -> Vector3 {
+        let q = state.frames.orientation.get(self.junction());
+        self.shear.strain(q, self.vector(state))
+    }
+
     /// What turns the junction basis at rest into each body's own frame.
     #[inline]
-    fn offsets(&self) -> [UnitQuaternion; 3] {
+    pub(crate) fn offsets(&self) -> [UnitQuaternion; 3] {
         let mut offsets = [UnitQuaternion::identity(); 3];
         offsets[self.monomer] = self.offset;
         offsets

@@ -4,7 +4,9 @@ use crate::JunctionError;
 use crate::bond::Bond;
 use crate::build::{check_count, check_distance};
 use actin_cosserat::{BendingElement, JoinedElement, RodEnd, RodLayout, RodMaterial, ShearElement};
-use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3, rotation};
+use actin_mechanics::{
+    Interaction, Loads, RandomStress, SecondOrder, State, Stiffness, Vector3, rotation,
+};
 use std::ops::Range;
 
 /// Largest angle (rad) between frames that count as parallel: far above the round-off of any
@@ -84,9 +86,13 @@ pub struct JunctionParts<'a> {
 /// arXiv 2203.01284, Section 3, with its signs derived from this energy.
 #[derive(Clone, Debug)]
 pub struct Junction {
-    bonds: Vec<Bond>,
-    weight: f64,
-    material: RodMaterial,
+    pub(crate) bonds: Vec<Bond>,
+    pub(crate) weight: f64,
+    pub(crate) material: RodMaterial,
+    /// Half the rest length of the rod's end segment (nm).
+    pub(crate) half_segment: f64,
+    /// Whether the random stress of the rod covers this half beyond the segment's frame.
+    pub(crate) is_covered: bool,
 }
 
 impl Junction {
@@ -123,7 +129,20 @@ impl Junction {
             weight: weight.of(bonds.len()),
             bonds,
             material,
+            half_segment: 0.5 * rod.end_length(side.rod_end()),
+            is_covered: false,
         })
+    }
+
+    /// The same beside a rod whose strain knows of its curvature, that of the
+    /// [joined elements](Self::joined_elements) included: its [random stress](actin_mechanics::RandomStress) covers a
+    /// part of these.
+    #[must_use]
+    pub fn beside_extended_rod(self) -> Self {
+        Self {
+            is_covered: true,
+            ..self
+        }
     }
 
     /// The junction frames.
@@ -271,7 +290,12 @@ impl Interaction for Junction {
             *energy = self.weight * bond.energy(&self.material, state);
         }
     }
+
     fn second_order(&self) -> Option<&dyn SecondOrder> {
+        Some(self)
+    }
+
+    fn random_stress(&self) -> Option<&dyn RandomStress> {
         Some(self)
     }
 }

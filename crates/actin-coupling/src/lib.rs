@@ -25,6 +25,7 @@ mod build;
 mod error;
 mod junction;
 mod linker;
+mod random_stress;
 pub mod repulsion;
 mod site;
 mod site_force;

@@ -29,6 +29,7 @@ mod key;
 mod model;
 mod monomers;
 mod parameters;
+mod quasi_harmonic;
 mod stream;
 mod table;
 
@@ -48,6 +49,7 @@ pub use parameters::{
     Anchors, EllipsoidParameterError, EllipsoidParameters, FEWEST_POINTS, InterfaceParameters,
     MOST_POINTS,
 };
+pub use quasi_harmonic::{Fluctuations, FluctuationsError, Link, Pose, QuasiHarmonic};
 
 /// The crate of points, frames, loads and interactions that monomers are made of.
 pub use actin_mechanics as mechanics;

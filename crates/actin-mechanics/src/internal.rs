@@ -41,12 +41,13 @@ impl InternalForce {
         loads.torque.add(self.frame, self.force.cross(&y));
     }
 
-    /// Adds its loads but for the torque about the third axis of the frame.
-    pub fn add_loads_without_spin(&self, state: &State, loads: &mut Loads) {
+    /// Adds its loads but for the torque about the third axis of the frame, which is that of a vector `Q^T (x_b - x_a)` as at
+    /// `rest` (axes of the frame): what is displaced does not turn the frame about itself.
+    pub fn add_loads_without_spin(&self, rest: Vector3, state: &State, loads: &mut Loads) {
         let before = loads.torque.get(self.frame).z;
         self.add_loads(state, loads);
         let mut torque = loads.torque.get(self.frame);
-        torque.z = before;
+        torque.z = before + self.force.cross(&rest).z;
         loads.torque.set(self.frame, torque);
     }
 
@@ -82,16 +83,14 @@ impl InternalCouple {
         loads.torque.add(a, -(self.rest * (inverse * self.couple)));
     }
 
-    /// Adds its loads with torques about the third axes of the frames that are those of a pure twist: what bends does not turn
+    /// Adds its loads with torques about the third axes of the frames that are those at rest: what is bent does not turn
     /// frames about themselves.
     pub fn add_loads_without_spin(&self, state: &State, loads: &mut Loads) {
         let before = self.frames.map(|i| loads.torque.get(i).z);
         self.add_loads(state, loads);
-        for (i, z) in self
-            .frames
-            .into_iter()
-            .zip([before[0] - self.couple.z, before[1] + self.couple.z])
-        {
+        let at_rest = [-(self.rest * self.couple).z, self.couple.z];
+        for (k, i) in self.frames.into_iter().enumerate() {
+            let z = before[k] + at_rest[k];
             let mut torque = loads.torque.get(i);
             torque.z = z;
             loads.torque.set(i, torque);

@@ -67,11 +67,11 @@ pub use scene::{
     Acceleration, Adaptive, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking,
     Brownian, Catch, Clamp, Couple, CouplePerLength, DragModel, DragRates, Drawn, Dynamics, End,
     Equilibrium, Factor, Filament, Flow, Fluid, Following, Force, ForceLaw, ForcePerLength,
-    Forming, Hinge, Hold, Imperfection, Integrator, JunctionModel, JunctionWeight, Kinetics,
-    Linker, LinkerSite, Load, Material, Monomers, Observable, Output, Override, Pace, Plane, Point,
-    Quantity, Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError, SceneProblem,
-    SceneText, SceneValue, Section, Sections, Setting, Shape, ShearLaw, Slides, Sphere, SphereSide,
-    Stage, Stepping, StopTolerances, StretchLaw, Task, Thermal, TwistLaw, TwistRise,
-    TwistStretchLaw, Want, Where,
+    Forming, Hinge, Hold, Imperfection, Integrator, Interfaces, JunctionModel, JunctionWeight,
+    Kinetics, Linker, LinkerSite, Load, Material, Monomers, Observable, Output, Override, Pace,
+    Plane, Point, Quantity, Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError,
+    SceneProblem, SceneText, SceneValue, Section, Sections, Setting, Shape, ShearLaw, Slides,
+    Sphere, SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Task, Thermal, TwistLaw,
+    TwistRise, TwistStretchLaw, Want, Where,
 };
 pub use scene::{Readings, read_all, read_ron};

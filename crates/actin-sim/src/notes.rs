@@ -5,7 +5,7 @@
 //! tell, to the `notes` of its summary.
 
 use crate::adapt::{Chosen, left_out};
-use crate::assembly::Rod;
+use crate::assembly::{Rod, Sampled};
 use crate::scene::{Anchors, Filament, Material, Monomers, Observable, RodLaw, RodModel, Task};
 use crate::{Assembly, Outcome, Record, shape};
 use actin_cosserat::Homogenised;
@@ -41,6 +41,10 @@ const SHORTEST_NM: f64 = 60.0;
 
 /// The command that measures these.
 const COMMAND: &str = "cargo run --release -p actin-paper --example persistence_length";
+
+/// Largest error (relative) of the stiffness of one interface that is called known; of a filament it is smaller by
+/// the root of their number.
+const UNSURE: f64 = 0.1;
 
 /// Largest error of the energy that is not told, over what a motion exchanged.
 const LEDGER_OPEN: f64 = 0.01;
@@ -84,6 +88,7 @@ impl Assembly {
             notes.extend(note.filter(|note| !notes.contains(note)));
         }
         notes.extend(self.untold_lengths());
+        notes.extend(self.sampled.iter().map(Sampled::note));
         notes
     }
 
@@ -124,6 +129,23 @@ impl Assembly {
                  (cargo xtask load-cases --ends)"
             )
         })
+    }
+}
+
+impl Sampled {
+    /// What is known of the interfaces of a run of monomers.
+    fn note(&self) -> String {
+        let Self { monomers, error } = self;
+        let more = if *error > UNSURE {
+            ": sample longer (task.interfaces.sampled_ns)"
+        } else {
+            ""
+        };
+        format!(
+            "{monomers} monomers with quasi-harmonic interfaces, whose stiffness is each known to {:.1} %{more}. It is that of thermal \
+             motion without loads: shear does not stiffen under tension",
+            100.0 * error
+        )
     }
 }
 

@@ -9,6 +9,7 @@ mod interactions;
 mod linkers;
 mod loads;
 mod repulsion;
+mod sampled;
 mod size;
 mod spans;
 mod strand;
@@ -23,6 +24,8 @@ use crate::observe::{EnergyNames, Observers};
 use crate::scene::{End, HeldEnds, Scene, SceneProblem, Section};
 use actin_coupling::Linker;
 use actin_mechanics::{ControlId, Interaction, State, System};
+pub(crate) use sampled::Sampled;
+use sampled::Sampling;
 use std::sync::Arc;
 use strand::{Body, Strand};
 
@@ -101,6 +104,7 @@ struct Builder<'a> {
     linkers: Vec<Linker>,
     kinetics: Option<Kinetics>,
     repelled: Option<Repelled>,
+    sampled: Vec<Sampled>,
 }
 
 impl<'a> Builder<'a> {
@@ -131,6 +135,7 @@ impl<'a> Builder<'a> {
             linkers: Vec::new(),
             kinetics: None,
             repelled: None,
+            sampled: Vec::new(),
         })
     }
 
@@ -145,7 +150,15 @@ impl<'a> Builder<'a> {
         }
         for (i, strand) in self.strands.iter().enumerate() {
             let first = self.stock.terms.len();
-            let pushed = strand.push_interactions(&mut self.stock);
+            let chains = match Sampling::of(&scene.task) {
+                Some(sampling) => strand.sample(sampling).map(|(chains, sampled)| {
+                    self.sampled.extend(sampled);
+                    chains
+                }),
+                None => Ok(Vec::new()),
+            };
+            let chains = chains.map_err(|p| p.with_filament(&scene.filament_key(i)))?;
+            let pushed = strand.push_interactions(&chains, &mut self.stock);
             pushed.map_err(|p| p.with_filament(&scene.filament_key(i)))?;
             self.filaments[i].terms = first..self.stock.terms.len();
         }
@@ -192,6 +205,7 @@ impl<'a> Builder<'a> {
             kinetics: self.kinetics.map(Arc::new),
             ledger,
             repelled: self.repelled,
+            sampled: self.sampled,
             spans,
             observers: Observers::default(),
             chosen: None,

@@ -145,6 +145,11 @@ impl Law {
         curvature.with_end_shear(layout, around.ends)
     }
 
+    /// Whether strain of the rod knows of its curvature.
+    pub(super) fn is_extended(&self) -> bool {
+        SegmentLaw::of(&self.material, self.twist_stretch).is_some()
+    }
+
     /// The interaction of a rod.
     pub(super) fn interaction(&self, layout: &RodLayout, around: &Around) -> Box<dyn Interaction> {
         let curvature = || self.curvature(layout, around);

@@ -29,6 +29,7 @@ mod unstable_twist;
 pub use beyond_use::BeyondUse;
 pub(crate) use beyond_use::worst as worst_of;
 pub use bonded::JunctionBond;
+pub(crate) use build::Sampled;
 pub use drive::Drive;
 pub(crate) use kinetics::{COARSEST, Kinetics, Log};
 pub use kinetics::{Happening, LinkerEvent};
@@ -98,6 +99,8 @@ pub struct Assembly {
     pub drive: Drive,
     /// The state as built, unloaded and at rest, without imperfections.
     pub rest: State,
+    /// The runs of monomers whose interfaces are quasi-harmonic.
+    pub(crate) sampled: Vec<Sampled>,
     /// How its sections were chosen, if the program chose them.
     pub chosen: Option<Chosen>,
     /// Memory that the task takes but for its records, estimated (bytes).

@@ -96,7 +96,7 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
     let longest_sound_step = motion.thermal.map(|_| LongestStep {
         ns: default,
         of_midpoints_ns: of_midpoints,
-        has_monomers: assembly.counts().monomers > 0,
+        has_bonds: assembly.counts().bonds > 0,
     });
     let mut estimate = Estimate {
         largest_frequency_rad_per_ns: 0.0,

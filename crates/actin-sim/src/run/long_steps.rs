@@ -1,9 +1,9 @@
-//! How long steps of rods in thermal overdamped motion may be: what sets them is what is looked at and what changes, not how
+//! How long steps of rods and quasi-harmonic monomers in thermal overdamped motion may be: what sets them is what is looked at and what changes, not how
 //! fast stretch and shear relax.
 
 use crate::Assembly;
 use crate::assembly::COARSEST;
-use crate::scene::{Brownian as Task, Factor, Resultant, SceneProblem, Setting};
+use crate::scene::{Brownian as Task, Factor, Filament, Resultant, SceneProblem, Setting};
 
 /// Steps in the time that a stage, a ramp, a period or an interval of a table takes: what follows half a step late is late by
 /// half a hundredth of it.
@@ -12,13 +12,19 @@ const PER_CHANGE: f64 = 100.0;
 /// By how much (relative) loads may leave too little slack.
 const TOO_COLD: f64 = 0.01;
 
+/// Lengths of filament whose bending is followed where monomers are finer, in one filament.
+const FOLLOWED: f64 = 5.0;
+
+/// The longest of them (nm).
+const LONGEST_FOLLOWED_NM: f64 = 40.0;
+
 /// Records of a motion whose scene does not say how many.
 const RECORDS: f64 = 100.0;
 
-/// The longest step (ns) of rods at a temperature that shows bending to 1 % (`actin_brownian::Brownian`) and whatever changes; none
-/// of monomers, of contact, or without heat.
+/// The longest step (ns) of rods and monomers at a temperature that shows bending to 1 % (`actin_brownian::Brownian`) and whatever changes; none
+/// of bonds, of contact, or without heat.
 pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, SceneProblem> {
-    let has_others = assembly.counts().monomers > 0 || assembly.scene.repulsion.is_some();
+    let has_others = assembly.counts().bonds > 0 || assembly.scene.repulsion.is_some();
     if has_others || task.temperature_k == 0.0 {
         return Ok(None);
     }
@@ -31,26 +37,32 @@ pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, S
         longest = times.into_iter().fold(longest, f64::min);
     }
     for rod in &assembly.rods {
-        longest = longest.min(of_rod(
-            assembly,
-            task,
-            (rod.section, rod.layout.segment_lengths()),
-        )?);
+        let lengths = rod.layout.segment_lengths().iter().copied();
+        let shortest = lengths.fold(f64::INFINITY, f64::min);
+        longest = longest.min(of_length(assembly, task, (rod.section, shortest))?);
+    }
+    let sections = assembly.sections.iter().enumerate();
+    for (section, _) in sections.filter(|(_, span)| span.is_ellipsoids()) {
+        let filament = assembly
+            .scene
+            .filament_at(assembly.filament_of_section(section));
+        let whole = filament.map_or(f64::INFINITY, Filament::length_nm);
+        let followed = (whole / FOLLOWED).min(LONGEST_FOLLOWED_NM);
+        longest = longest.min(of_length(assembly, task, (section, followed))?);
     }
     Ok(Some(longest))
 }
 
-/// `zeta l^4/B`, the time in which friction `zeta` of a segment of length `l` bends it. A tension `F` has no random
+/// `zeta l^4/B`, the time in which friction `zeta` of a `length` `l` of a section bends it. A tension `F` has no random
 /// stress: in steps of `h` waves are too cold under it, and slack is too small by `h F^(3/2)/(zeta l B^(1/2))`, or less where that
 /// is more than a tenth (measured beside the exact chain in `actin-brownian`, `tests/chain.rs`).
-fn of_rod(
+fn of_length(
     assembly: &Assembly,
     task: &Task,
-    (section, lengths): (usize, &[f64]),
+    (section, length): (usize, f64),
 ) -> Result<f64, SceneProblem> {
     let filament = assembly.filament_of_section(section);
     let across = assembly.cylinder(&task.drag, filament)?.across();
-    let length = lengths.iter().copied().fold(f64::INFINITY, f64::min);
     let first = assembly.filaments[filament].sections.start;
     let written = assembly.scene.filament_at(filament);
     let Some(model) = written.map(|f| f.sections[section - first].rod_model(&f.rod)) else {

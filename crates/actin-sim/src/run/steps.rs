@@ -132,8 +132,8 @@ pub struct LongestStep {
     pub ns: f64,
     /// The longest step by midpoints (ns), in which fast motion is right too; longer ones of rods have random stress.
     pub of_midpoints_ns: f64,
-    /// Whether there are monomers, which take no longer steps.
-    pub has_monomers: bool,
+    /// Whether there are bonds of monomers, which take no longer steps.
+    pub has_bonds: bool,
 }
 
 impl Estimate {
@@ -170,11 +170,11 @@ impl Estimate {
         scheme.configurational_temperature(theta)
     }
 
-    /// Whether steps of overdamped motion are so long that what is faster is drawn anew in each: on rods in a heat bath.
+    /// Whether steps of overdamped motion are so long that what is faster is drawn anew in each: in a heat bath without bonds.
     /// Bonds of monomers, shorter than their slip, have no stiffness that random stress could go by.
     pub(super) fn has_random_stress(&self) -> bool {
         let longest = self.longest_sound_step.as_ref();
-        longest.is_some_and(|l| !l.has_monomers && self.exceeds(l.of_midpoints_ns))
+        longest.is_some_and(|l| !l.has_bonds && self.exceeds(l.of_midpoints_ns))
     }
 
     fn exceeds(&self, ns: f64) -> bool {
@@ -184,7 +184,7 @@ impl Estimate {
     /// Overdamped steps that are so long that some motion is too warm.
     fn note_on_long_steps(&self) -> Option<String> {
         let longest = self.longest_sound_step.as_ref()?;
-        let what = if longest.has_monomers {
+        let what = if longest.has_bonds {
             "stretch and shear then hold more than their thermal energy"
         } else {
             "what bends within a step is drawn anew in it, without memory, and what is driven follows late; under \

@@ -28,9 +28,13 @@ pub struct Brownian {
     /// How the fluid moves. Drag pulls filaments along with it.
     #[serde(default)]
     pub flow: Flow,
+    /// What holds monomers together.
+    #[serde(default)]
+    pub interfaces: Interfaces,
     /// Longest time step; positive. By default of rods at a temperature the time in which the drag of a segment bends it, 180 ns on
     /// 40 nm: what is faster is drawn anew in each step, means are right to 1 %. It is shorter where stages, loads, rates,
-    /// shear or records need it. Of monomers, with `repulsion` and without heat it is 50 times the fastest relaxation, at which
+    /// shear or records need it; monomers with interfaces `QuasiHarmonic` take steps as segments of a fifth of their filament's
+    /// length, at most 40 nm. Of other monomers, with `repulsion` and without heat it is 50 times the fastest relaxation, at which
     /// all strains have their thermal energy to 1 % on segments of 20 nm or more. Steps are shortened so that whole ones
     /// make up the duration and the interval of records.
     #[serde(default)]
@@ -59,6 +63,29 @@ pub enum Fluid {
         #[serde(default = "yes")]
         at_ends: bool,
     },
+}
+
+/// What holds the monomers of an overdamped motion together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub enum Interfaces {
+    /// Bonds. Their fastest relaxation takes a tenth of a picosecond, so that a microsecond takes ten million steps.
+    #[default]
+    Bonds,
+    /// A quadratic energy with the means and the covariances that neighbours have in thermal motion with their bonds, which is
+    /// simulated first. It needs a temperature, and takes steps ten thousand times longer. Stiffness is that at
+    /// this temperature without loads: it does not change with tension, twist or bending.
+    QuasiHarmonic {
+        /// How long the motion of the bonds is simulated; positive. By default 400 ns: seconds, or about a minute for
+        /// each micrometre of monomers.
+        #[serde(default = "sampled_ns")]
+        sampled_ns: f64,
+    },
+}
+
+fn sampled_ns() -> f64 {
+    400.0
 }
 
 fn water() -> f64 {
@@ -131,6 +158,13 @@ pub(super) fn check(brownian: &Brownian) -> Result<(), SceneProblem> {
         ("task.record_every_ns", brownian.record_every_ns),
     ] {
         value.map_or(Ok(()), |value| positive(key, value))?;
+    }
+    if let Interfaces::QuasiHarmonic { sampled_ns } = brownian.interfaces {
+        positive("task.interfaces.sampled_ns", sampled_ns)?;
+        if brownian.temperature_k == 0.0 {
+            let rule = "interfaces have the stiffness of their thermal motion: write a temperature, or Bonds";
+            return Err(SceneProblem::new("task.interfaces", "QuasiHarmonic", rule));
+        }
     }
     brownian.drag.check()?;
     brownian.flow.check()

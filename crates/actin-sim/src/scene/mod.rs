@@ -48,7 +48,7 @@ mod validate;
 mod value;
 mod written;
 
-pub use brownian::{Brownian, Fluid};
+pub use brownian::{Brownian, Fluid, Interfaces};
 pub(crate) use curve::{Curve, swept};
 pub use drag::{DragModel, DragRates};
 pub use factor::Factor;

@@ -7,12 +7,17 @@ use crate::assembly::{Part, Resolution, Rod, models};
 use crate::scene::SceneProblem;
 use actin_cosserat::RodLayout;
 use actin_coupling::{AttachedMonomer, Junction, JunctionParts, JunctionSide};
-use actin_ellipsoid::Monomers;
+use actin_ellipsoid::{Monomers, QuasiHarmonic};
 use actin_mechanics::Interaction;
 
 impl Strand<'_> {
-    /// Pushes the interactions of all sections and junctions, in filament order.
-    pub(super) fn push_interactions(&self, stock: &mut Stock) -> Result<(), SceneProblem> {
+    /// Pushes the interactions of all sections and junctions, in filament order; `chains` are those of sections whose interfaces
+    /// are no bonds.
+    pub(super) fn push_interactions(
+        &self,
+        chains: &[Option<QuasiHarmonic>],
+        stock: &mut Stock,
+    ) -> Result<(), SceneProblem> {
         let junctions: Vec<Option<Junction>> = (1..self.bodies.len())
             .map(|i| {
                 let is_junction = self.is_junction(i - 1);
@@ -33,7 +38,10 @@ impl Strand<'_> {
                 let part = Part::Junction(self.first_section + i - 1);
                 stock.push_term(Box::new(junction.clone()), part);
             }
-            let interaction = self.interaction_of(i, &around, stock)?;
+            let interaction = match chains.get(i) {
+                Some(Some(chain)) => Box::new(chain.clone()),
+                _ => self.interaction_of(i, &around, stock)?,
+            };
             stock.push_term(interaction, Part::Section(self.first_section + i));
         }
         Ok(())
@@ -108,6 +116,12 @@ impl Strand<'_> {
             rod: layout,
             material: self.laws[rod].material,
         };
-        Junction::new(&stock.state, parts).map_err(|error| junction_problem(&error))
+        let junction = Junction::new(&stock.state, parts);
+        let junction = junction.map_err(|error| junction_problem(&error))?;
+        Ok(if self.laws[rod].is_extended() {
+            junction.beside_extended_rod()
+        } else {
+            junction
+        })
     }
 }

@@ -1,0 +1,196 @@
+//! Random stress of junctions: a force and two couples for each bond, as of a rod's elements.
+//!
+//! With the strain `sigma` and the curvatures `kappa_E`, `kappa_C` of a bond, its stress has the energy
+//! `-(|lhat| n . sigma + D_E m_E . kappa_E + D_C m_C . kappa_C)`.
+//!
+//! The stress of a rod whose strain knows of its curvature covers half of its end segment beyond its last frame, by the
+//! mean of `kappa_C`. Of `b` bonds with weights `w` it is then
+//!
+//! `w D_C` on the diagonal, `- L / (2 b^2)` everywhere, `L` the length of the segment,
+//!
+//! that is left to the couples on `kappa_C` (times the tangent of bending), and that is positive.
+//!
+//! A bond lies across the axis and turns frames about their own: by as much as at rest. What beyond that the sum of the bond's own
+//! stress and the random one would turn them by when they are displaced is left out, as of a rod: in steps in which bending relaxes
+//! it would turn frames until the random forces on them bend them further.
+
+use crate::Junction;
+use crate::bond::Bond;
+use actin_mechanics::{
+    InternalCouple, InternalForce, Loads, Matrix3, RandomStress, State, Stiffness, Vector3,
+    correlate,
+};
+
+/// Vectors of a bond: force, couples towards the monomer and towards the rod.
+const OF_BOND: usize = 3;
+/// Numbers of a vector.
+const VECTOR: usize = 3;
+
+/// Deviates, made such of covariance `c`.
+fn drawn(c: Matrix3, deviates: [f64; VECTOR]) -> Vector3 {
+    let mut values = deviates;
+    correlate(c, &mut values);
+    values.into()
+}
+
+impl Bond {
+    /// What stresses act on.
+    fn internal(
+        &self,
+        [force, end, centre]: [Vector3; OF_BOND],
+    ) -> (InternalForce, [InternalCouple; 2]) {
+        let offsets = self.offsets();
+        // Towards the monomer is the first of the chain where the monomer is.
+        let couples = if self.monomer == 0 {
+            [end, centre]
+        } else {
+            [centre, end]
+        };
+        let couple = |k: usize| {
+            let [a, b] = [offsets[k], offsets[k + 1]];
+            InternalCouple {
+                frames: [self.frames[k], self.frames[k + 1]],
+                // The strain log((Qa oa)^T Qb ob) in other axes: log(ob oa^T Qa^T Qb) = ob log(...).
+                rest: a * b.inverse(),
+                couple: b * couples[k],
+            }
+        };
+        let force = InternalForce {
+            points: self.points,
+            frame: self.junction(),
+            force,
+        };
+        (force, [couple(0), couple(1)])
+    }
+}
+
+impl Junction {
+    /// Half of the rod's end segment (nm), where its stress covers that: a part of each `D_C`.
+    fn covered(&self) -> f64 {
+        if self.is_covered {
+            self.half_segment
+        } else {
+            0.0
+        }
+    }
+
+    /// The matrix of the header, row by row of its lower triangle, by the Cholesky factor.
+    fn factor(&self) -> [[f64; 2]; 2] {
+        let n = self.bonds.len() as f64;
+        let shared = self.covered() / (n * n);
+        let length = |k: usize| {
+            self.bonds
+                .get(k)
+                .map_or(0.0, |b| self.weight * b.towards_rod().0.rest_distance)
+        };
+        let first = (length(0) - shared).sqrt();
+        let Some(_) = self.bonds.get(1) else {
+            return [[first, 0.0], [0.0, 0.0]];
+        };
+        let below = -shared / first;
+        [
+            [first, 0.0],
+            [below, (length(1) - shared - below * below).sqrt()],
+        ]
+    }
+
+    /// The mean of what the elements towards the rod have of a vector.
+    fn mean(&self, of: impl Fn(&Bond) -> Vector3) -> Vector3 {
+        self.bonds.iter().map(of).sum::<Vector3>() / self.bonds.len() as f64
+    }
+
+    /// The stress of a bond's own elements.
+    fn own(&self, bond: &Bond, state: &State) -> [Vector3; OF_BOND] {
+        let (_, of_end) = bond.towards_monomer();
+        let (_, of_rod) = bond.towards_rod();
+        [
+            self.material.shear_force(bond.strain(state)),
+            of_end.bending_couple(bond.curvature_towards_monomer(state)),
+            of_rod.bending_couple(bond.curvature_towards_rod(state)),
+        ]
+        .map(|stress| stress * self.weight)
+    }
+}
+
+/// The vectors of each bond.
+fn written(stresses: &[f64]) -> impl Iterator<Item = [Vector3; OF_BOND]> + '_ {
+    let (vectors, _) = stresses.as_chunks::<VECTOR>();
+    let (vectors, _) = vectors.as_chunks::<OF_BOND>();
+    vectors.iter().map(|vectors| vectors.map(Vector3::from))
+}
+
+impl RandomStress for Junction {
+    fn components(&self) -> usize {
+        OF_BOND * VECTOR * self.bonds.len()
+    }
+
+    fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]) {
+        let (vectors, _) = stresses.as_chunks_mut::<VECTOR>();
+        let (vectors, _) = vectors.as_chunks_mut::<OF_BOND>();
+        let kt = thermal_energy;
+        let factor = self.factor();
+        let rod = |bond: &Bond| bond.curvature_towards_rod(state);
+        let tangent = self.material.bending_tangent(self.mean(rod));
+        let towards_rod: Vec<Vector3> = vectors.iter().map(|v| drawn(tangent * kt, v[2])).collect();
+        for (b, (bond, vectors)) in self.bonds.iter().zip(vectors).enumerate() {
+            let (element, material) = bond.towards_monomer();
+            let end = bond.curvature_towards_monomer(state);
+            let shear = self.material.shear_tangent(bond.strain(state));
+            let of = |tangent: Matrix3, length: f64| tangent * (self.weight * kt / length);
+            let couple: Vector3 = towards_rod.iter().zip(factor[b]).map(|(v, f)| v * f).sum();
+            let (rod, _) = bond.towards_rod();
+            *vectors = [
+                drawn(of(shear, bond.shear.rest_length), vectors[0]),
+                drawn(
+                    of(material.bending_tangent(end), element.rest_distance),
+                    vectors[1],
+                ),
+                couple / rod.rest_distance,
+            ]
+            .map(Into::into);
+        }
+    }
+
+    fn balance(&self, state: &State, stresses: &mut [f64]) {
+        let (vectors, _) = stresses.as_chunks_mut::<VECTOR>();
+        let (vectors, _) = vectors.as_chunks_mut::<OF_BOND>();
+        let rod = |bond: &Bond| bond.curvature_towards_rod(state) + bond.lacking;
+        let n = self.bonds.len() as f64;
+        let by_rod = self.material.bending_couple(self.mean(rod)) * (self.covered() / n);
+        for (bond, vectors) in self.bonds.iter().zip(vectors) {
+            let [force, end, centre] = self.own(bond, state);
+            let (element, _) = bond.towards_rod();
+            let left = centre - by_rod / element.rest_distance;
+            *vectors = [force, end, left].map(Into::into);
+        }
+    }
+
+    fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads) {
+        for (bond, stress) in self.bonds.iter().zip(written(stresses)) {
+            let own = self.own(bond, state);
+            let left = [0, 1, 2].map(|k| stress[k] - own[k]);
+            let (force, couples) = bond.internal(left);
+            let shear = &bond.shear;
+            let rest = shear.rest_direction * shear.rest_length;
+            force.add_loads_without_spin(rest, state, loads);
+            for couple in couples {
+                couple.add_loads_without_spin(state, loads);
+            }
+            let (force, couples) = bond.internal(own);
+            force.add_loads(state, loads);
+            for couple in couples {
+                couple.add_loads(state, loads);
+            }
+        }
+    }
+
+    fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
+        for (bond, stress) in self.bonds.iter().zip(written(stresses)) {
+            let (force, couples) = bond.internal(stress);
+            force.add_stiffness(state, stiffness);
+            for couple in couples {
+                couple.add_stiffness(state, stiffness);
+            }
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! Monomers whose interfaces are quasi-harmonic: thermal motion of their bonds, and the chain that has its moments.
+//!
+//! A run of monomers, which may be several sections, moves freely in a heat bath of its own: what else acts on
+//! it in the scene adds its energy to that of the chain.
+
+use super::strand::{Body, Strand};
+use crate::assembly::models;
+use crate::scene::{Interfaces, SceneProblem, Task};
+use actin_ellipsoid::{Fluctuations, Monomers, Placement, QuasiHarmonic};
+use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
+use actin_mechanics::{Interaction, State, System};
+use std::ops::Range;
+
+/// Parts of the motion, each with noise of its own, as many at the same time as there are cores.
+const PARTS: u64 = 4;
+/// Rate of the bath (1/ns), at which neighbours forget their places in some tenths of a nanosecond.
+const DRAG: f64 = 5.0;
+/// Motion before the first state that counts (ns), in each part.
+const WARM_UP_NS: f64 = 5.0;
+/// Time between states that count (ns).
+const APART_NS: f64 = 0.05;
+/// Step as a share of the largest stable one, at which the potential energy is right to a thousandth.
+const SHARE: f64 = 0.5;
+
+/// How interfaces are sampled.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sampling {
+    thermal_energy: f64,
+    duration_ns: f64,
+}
+
+/// How well the stiffness of a run of monomers is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sampled {
+    /// Number of monomers.
+    pub(crate) monomers: usize,
+    /// Standard error of the stiffness of one interface, relative; mean over all.
+    pub(crate) error: f64,
+}
+
+impl Sampling {
+    /// That of a task; none of those whose interfaces are bonds.
+    pub(super) fn of(task: &Task) -> Option<Self> {
+        let Task::Brownian(task) = task else {
+            return None;
+        };
+        let Interfaces::QuasiHarmonic { sampled_ns } = task.interfaces else {
+            return None;
+        };
+        Some(Self {
+            thermal_energy: task.thermal()?.energy_pn_nm(),
+            duration_ns: sampled_ns,
+        })
+    }
+}
+
+/// The bonds of a run on their own.
+struct Alone {
+    monomers: Monomers,
+    system: System,
+    step: f64,
+}
+
+impl Strand<'_> {
+    /// The runs of sections of monomers that are bonded to each other.
+    fn bonded_sections(&self) -> Vec<Range<usize>> {
+        let mut runs: Vec<Range<usize>> = Vec::new();
+        for (i, body) in self.bodies.iter().enumerate() {
+            match (body, runs.last_mut()) {
+                (Body::Rod(_), _) => {}
+                (Body::Monomers(_), Some(run)) if run.end == i => run.end = i + 1,
+                (Body::Monomers(_), _) => runs.push(i..i + 1),
+            }
+        }
+        runs
+    }
+
+    /// The chain of each section of monomers, and how well each run is known.
+    pub(super) fn sample(
+        &self,
+        sampling: Sampling,
+    ) -> Result<(Vec<Option<QuasiHarmonic>>, Vec<Sampled>), SceneProblem> {
+        let mut chains: Vec<Option<QuasiHarmonic>> = vec![None; self.bodies.len()];
+        let mut known = Vec::new();
+        for sections in self.bonded_sections() {
+            let alone = self.alone(sections.clone())?;
+            let (chain, sampled) = alone.sample(sampling)?;
+            known.push(sampled);
+            let Body::Monomers(first) = &self.bodies[sections.start] else {
+                continue;
+            };
+            let run = Monomers {
+                count: alone.monomers.count,
+                ..*first
+            };
+            let chain = QuasiHarmonic::new(run, chain.links().to_vec());
+            let mut lower = 0;
+            for i in sections {
+                let count = self.monomers_of(i);
+                chains[i] = Some(chain.of_lowers(lower..lower + count));
+                lower += count;
+            }
+        }
+        Ok((chains, known))
+    }
+
+    fn monomers_of(&self, i: usize) -> usize {
+        match &self.bodies[i] {
+            Body::Monomers(monomers) => monomers.count,
+            Body::Rod(_) => 0,
+        }
+    }
+
+    /// The bonds of the monomers of these sections.
+    fn alone(&self, sections: Range<usize>) -> Result<Alone, SceneProblem> {
+        let refused = |error: &dyn std::error::Error| {
+            SceneProblem::new("filament.sections", "", error.to_string())
+        };
+        let mut state = State::default();
+        let mut own = Vec::new();
+        for i in sections.clone() {
+            if let Body::Monomers(Monomers {
+                first_index, count, ..
+            }) = self.bodies[i]
+            {
+                let built =
+                    self.models[i].build(&mut state, &Placement::default(), first_index, count);
+                own.push((i, built.map_err(|error| refused(&error))?));
+            }
+        }
+        let mut bonds: Vec<Box<dyn Interaction>> = Vec::new();
+        for (i, monomers) in &own {
+            let run = self.bonded_run(*i, monomers);
+            let of_section = self.models[*i].bonds_above(&run, monomers.count);
+            let of_section =
+                of_section.map_err(|e| models::unbonded(&e, &self.filament.monomers))?;
+            bonds.push(Box::new(of_section));
+        }
+        let monomers = Monomers {
+            count: state.points.len(),
+            ..own[0].1
+        };
+        let system = System::new(state, bonds);
+        let frequency = largest_frequency(&system).map_err(|error| refused(&error))?;
+        let step = stable_step(&PEFRL, frequency, SHARE).map_err(|error| refused(&error))?;
+        Ok(Alone {
+            monomers,
+            system,
+            step,
+        })
+    }
+}
+
+impl Alone {
+    /// The chain of the moments of its thermal motion.
+    fn sample(&self, sampling: Sampling) -> Result<(QuasiHarmonic, Sampled), SceneProblem> {
+        let parts = self.parts(sampling)?;
+        let mut all = Fluctuations::about(&self.monomers, self.system.state());
+        parts.iter().for_each(|part| all.add_all(part));
+        let kt = sampling.thermal_energy;
+        let chain = all.chain(kt).map_err(|error| {
+            let value = format!("{:?}", sampling.duration_ns);
+            SceneProblem::new("task.interfaces.sampled_ns", value, error.to_string())
+        })?;
+        let of_part = |part: &Fluctuations| part.distance_from(&chain, kt).powi(2);
+        let variance = parts.iter().map(of_part).sum::<f64>() / (PARTS * (PARTS - 1)) as f64;
+        let sampled = Sampled {
+            monomers: self.monomers.count,
+            error: variance.sqrt(),
+        };
+        Ok((chain, sampled))
+    }
+
+    /// The moments of each part, whichever thread has found them.
+    fn parts(&self, sampling: Sampling) -> Result<Vec<Fluctuations>, SceneProblem> {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let numbers: Vec<u64> = (0..PARTS).collect();
+        let mut parts = Vec::new();
+        for together in numbers.chunks(cores) {
+            let found: Vec<_> = std::thread::scope(|scope| {
+                let threads = together.iter().map(|&part| {
+                    let system = self.system.in_state(self.system.state().clone());
+                    scope.spawn(move || self.part(system, sampling, part))
+                });
+                let threads: Vec<_> = threads.collect();
+                let joined = threads.into_iter().map(std::thread::ScopedJoinHandle::join);
+                joined.collect()
+            });
+            for part in found {
+                parts.push(part.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?);
+            }
+        }
+        Ok(parts)
+    }
+
+    fn part(
+        &self,
+        mut system: System,
+        sampling: Sampling,
+        part: u64,
+    ) -> Result<Fluctuations, SceneProblem> {
+        let refused = |error: &dyn std::error::Error| {
+            SceneProblem::new("task.interfaces", "QuasiHarmonic", error.to_string())
+        };
+        let drag = Drag::new(DRAG, DRAG).map_err(|error| refused(&error))?;
+        let bath = Bath::new(drag, sampling.thermal_energy, part);
+        let bath = bath.map_err(|error| refused(&error))?;
+        let steps = |ns: f64| (ns / self.step).ceil() as u64;
+        let (warm_up, apart) = (steps(WARM_UP_NS), steps(APART_NS));
+        let states = (sampling.duration_ns / (PARTS as f64 * APART_NS)).ceil() as u64;
+        let mut fluctuations = Fluctuations::about(&self.monomers, system.state());
+        advance_in(&mut system, &PEFRL, self.step, warm_up, &bath, 0);
+        for state in 0..states {
+            let first = warm_up + state * apart;
+            advance_in(&mut system, &PEFRL, self.step, apart, &bath, first);
+            fluctuations.add(system.state());
+        }
+        Ok(fluctuations)
+    }
+}
