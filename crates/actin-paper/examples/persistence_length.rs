@@ -7,8 +7,9 @@
 //! `<cos theta> = exp(-s/lp)` and `<phi^2> = s kT/C`, where `theta` tilts the axis and `phi` goes
 //! about it. `near` takes neighbours; `far` takes the slopes between 1/5 and 3/5 of the length,
 //! which the wobble of single monomers does not enter. Errors are standard errors over seeds, by
-//! the jackknife; each seed is another noise and, of monomers, another sampling of anchors. The case
-//! `cost` tells what the bath adds to a step.
+//! the jackknife; each seed is another noise and, of monomers, another sampling of anchors, but for
+//! the mean filament (`-mean`). Cases in `-water` move without inertia, their monomers with quasi-harmonic
+//! interfaces of other thermal motion in each seed. The case `cost` tells what the bath adds to a step.
 
 use actin_integrate::stable_step;
 use actin_integrate::{Bath, Composition, Drag, PEFRL, POSITION_VERLET, advance, advance_in};
@@ -28,11 +29,16 @@ const WARM_UP_NS: f64 = 5.0;
 const APART_NS: f64 = 0.25;
 /// Samples of one seed.
 const SAMPLES: usize = 400;
+/// The same in water, where the slowest bending takes 20 ns.
+const SAMPLES_IN_WATER: usize = 2000;
+/// Time between samples in water (ns).
+const APART_IN_WATER_NS: f64 = 50.0;
 
 /// What is measured, and how.
 struct Case {
     name: &'static str,
     sections: &'static str,
+    /// Anchors, and more of monomers.
     monomers: &'static str,
     law: &'static str,
     scheme: &'static Composition,
@@ -44,15 +50,23 @@ struct Case {
 const ROD: &str = "Rod(from_nm: 0.0, to_nm: 110.0, segments: 11)";
 const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 110.0)";
 
+/// Names, sections and steps (ns) of filaments in water.
+const IN_WATER: [(&str, &str, f64); 3] = [
+    ("rod-water", ROD, 5.0),
+    ("monomers-water", MONOMERS, 25.0),
+    ("monomers-water", MONOMERS, 5.0),
+];
+
+const DRAWN: &str = "anchors: Independent, seed: SEED";
 /// Interfaces of the published rigidity, 392.0 and 582.4 kT/nm^2 (pN/nm), without the factor 1.4.
-const UNSCALED: &str =
-    "lateral_rigidity_pn_per_nm: 1612.7, longitudinal_rigidity_pn_per_nm: 2396.0";
+const UNSCALED: &str = "anchors: Independent, seed: SEED, \
+    lateral_rigidity_pn_per_nm: 1612.7, longitudinal_rigidity_pn_per_nm: 2396.0";
 
 fn cases() -> Vec<Case> {
     let case = |name, sections, scheme, share, temperature| Case {
         name,
         sections,
-        monomers: "",
+        monomers: DRAWN,
         law: "Constant",
         scheme,
         share,
@@ -70,6 +84,10 @@ fn cases() -> Vec<Case> {
         rod_of("rod-coupling", "CouplingEnergy"),
         rod_of("rod-fitted", "Fitted"),
         case("monomers", MONOMERS, &PEFRL, 0.5, ROOM),
+        Case {
+            monomers: "anchors: Cubature",
+            ..case("monomers-mean", MONOMERS, &PEFRL, 0.5, ROOM)
+        },
         case("monomers-fine", MONOMERS, &PEFRL, 0.25, ROOM),
         case("monomers-verlet", MONOMERS, &POSITION_VERLET, 0.4, ROOM),
         case("monomers-verlet", MONOMERS, &POSITION_VERLET, 0.2, ROOM),
@@ -97,17 +115,57 @@ fn main() {
     println!("lengths in um, rigidities kT lp and C in pN nm^2, U/n in kT per degree of freedom");
     let cases = cases().into_iter();
     let is_wanted = |name: &str| wanted.as_ref().is_none_or(|w| w == name);
+    let seeds = first..first + seeds;
     if is_wanted("cost") {
         cost("rod, 11 segments", ROD);
         cost("monomers, 40 of 64 bonds an interface", MONOMERS);
     }
     for case in cases.filter(|case| is_wanted(case.name)) {
-        let sums: Vec<Sums> = (first..first + seeds)
-            .into_par_iter()
-            .map(|seed| case.measure(seed))
-            .collect();
-        case.report(&sums);
+        let sums = seeds.clone().into_par_iter();
+        let sums: Vec<Sums> = sums.map(|seed| case.measure(seed)).collect();
+        let (scheme, share) = (case.scheme.name(), case.share);
+        let kt = BOLTZMANN_PN_NM_PER_K * case.temperature;
+        println!(
+            "{:18} {:5.1} K {scheme:15} ({share:.2} of the limit) {}",
+            case.name,
+            case.temperature,
+            measured(&sums, kt)
+        );
     }
+    for (name, sections, step) in IN_WATER.into_iter().filter(|case| is_wanted(case.0)) {
+        let sums = seeds.clone().into_par_iter();
+        let sums: Vec<Sums> = sums.map(|seed| in_water(sections, step, seed)).collect();
+        let found = measured(&sums, BOLTZMANN_PN_NM_PER_K * ROOM);
+        println!("{name:18} {ROOM:5.1} K without inertia {found}");
+    }
+}
+
+/// One seed of a filament in water, in steps of `step` (ns); see [`IN_WATER`].
+fn in_water(sections: &str, step: f64, seed: u64) -> Sums {
+    let duration_ms = 1e-6 * APART_IN_WATER_NS * SAMPLES_IN_WATER as f64;
+    let text = format!(
+        "Scene(
+            filament: Filament(sections: [{sections}]),
+            task: Brownian(
+                duration_ms: {duration_ms:?}, temperature_k: {ROOM:?}, seed: {seed}, time_step_ns: {step:?},
+                record_every_ns: {APART_IN_WATER_NS:?}, interfaces: QuasiHarmonic(),
+            ),
+        )"
+    );
+    let scene = Scene::from_ron(&text).unwrap_or_else(|error| panic!("water:{error}"));
+    let assembly = Assembly::build(&scene).expect("a filament");
+    let plan = Plan::new(&assembly).expect("a motion that can run");
+    let (trajectory, _) = plan.run().expect("a motion");
+    // As built it is not yet warm.
+    let (_, records) = trajectory.records.split_at(SAMPLES_IN_WATER / 100);
+    let mut sums = Sums::of(&assembly, step);
+    let dofs = 3.0 * (assembly.rest.points.len() + assembly.rest.frames.len()) as f64;
+    for record in records {
+        sums.turns.add(&assembly.rest, &record.state, records.len());
+        let energy: f64 = record.energies_pn_nm.iter().sum();
+        sums.energy += energy / (BOLTZMANN_PN_NM_PER_K * ROOM * dofs * records.len() as f64);
+    }
+    sums
 }
 
 /// Prints what a step takes without drag, with drag, and in the bath; the best of many short runs.
@@ -153,14 +211,27 @@ struct Sums {
     step: f64,
 }
 
+impl Sums {
+    /// None yet.
+    fn of(assembly: &Assembly, step: f64) -> Self {
+        Self {
+            turns: Turns::new(assembly.rest.frames.len()),
+            energy: 0.0,
+            spacing: assembly.frames[1].s_nm - assembly.frames[0].s_nm,
+            step,
+        }
+    }
+}
+
 impl Case {
     fn scene(&self, seed: u64) -> Scene {
-        let (sections, monomers, law) = (self.sections, self.monomers, self.law);
+        let (sections, law) = (self.sections, self.law);
+        let monomers = self.monomers.replace("SEED", &seed.to_string());
         let text = format!(
             "Scene(
                 filament: Filament(
                     sections: [{sections}],
-                    monomers: (anchors: Independent, seed: {seed}, {monomers}),
+                    monomers: ({monomers}),
                     rod: RodModel(law: {law}),
                 ),
                 task: Dynamics(duration_ns: 1.0),
@@ -182,14 +253,8 @@ impl Case {
         let (warm_up, apart) = (steps_in(WARM_UP_NS, h), steps_in(APART_NS, h));
         advance_in(system, self.scheme, h, warm_up, &bath, 0);
         let rest = assembly.rest.clone();
-        let count = rest.frames.len();
-        let dofs = 3.0 * (rest.points.len() + count) as f64;
-        let mut sums = Sums {
-            turns: Turns::new(count),
-            energy: 0.0,
-            spacing: assembly.frames[1].s_nm - assembly.frames[0].s_nm,
-            step: h,
-        };
+        let dofs = 3.0 * (rest.points.len() + rest.frames.len()) as f64;
+        let mut sums = Sums::of(&assembly, h);
         for sample in 0..SAMPLES as u64 {
             let system = &mut assembly.system;
             let first = warm_up + sample * apart;
@@ -199,45 +264,39 @@ impl Case {
         }
         sums
     }
+}
 
-    fn report(&self, sums: &[Sums]) {
-        let kt = BOLTZMANN_PN_NM_PER_K * self.temperature;
-        let count = sums[0].turns.cosine.len();
-        let (near, far) = ((0, 1), (count / 5, 3 * count / 5));
-        let spacing = sums[0].spacing;
-        let of = |&(a, b): &(usize, usize), get: fn(&Sums) -> &Vec<f64>, log: bool| {
-            jackknife(sums, |chosen| {
-                let at = |k: usize| {
-                    let mean = chosen.iter().map(|s| get(s)[k]).sum::<f64>() / chosen.len() as f64;
-                    if log { -mean.ln() } else { mean }
-                };
-                (b - a) as f64 * spacing / (at(b) - at(a))
-            })
-        };
-        let (bend, bend_error) = of(&near, |s| &s.turns.cosine, true);
-        let (long, long_error) = of(&far, |s| &s.turns.cosine, true);
-        let (turn, turn_error) = of(&far, |s| &s.turns.twist, false);
-        let (energy, energy_error) = jackknife(sums, |chosen| {
-            chosen.iter().map(|s| s.energy).sum::<f64>() / chosen.len() as f64
-        });
-        println!(
-            "{:18} {:5.1} K {:15} h {:.2e} ns ({:.2} of the limit): near {:6.2} +- {:.2}, far \
-             {:6.2} +- {:.2}; kT lp {:.2e} +- {:.0e}, C {:.2e} +- {:.0e}; U/n {:.4} +- {:.4}",
-            self.name,
-            self.temperature,
-            self.scheme.name(),
-            sums[0].step,
-            self.share,
-            bend / 1000.0,
-            bend_error / 1000.0,
-            long / 1000.0,
-            long_error / 1000.0,
-            kt * long,
-            kt * long_error,
-            kt * turn,
-            kt * turn_error,
-            energy,
-            energy_error
-        );
-    }
+/// Persistence lengths, rigidities and the energy of all seeds at a thermal energy `kt` (pN nm), in words.
+fn measured(sums: &[Sums], kt: f64) -> String {
+    let count = sums[0].turns.cosine.len();
+    let (near, far) = ((0, 1), (count / 5, 3 * count / 5));
+    let spacing = sums[0].spacing;
+    let of = |&(a, b): &(usize, usize), get: fn(&Sums) -> &Vec<f64>, log: bool| {
+        jackknife(sums, |chosen| {
+            let at = |k: usize| {
+                let mean = chosen.iter().map(|s| get(s)[k]).sum::<f64>() / chosen.len() as f64;
+                if log { -mean.ln() } else { mean }
+            };
+            (b - a) as f64 * spacing / (at(b) - at(a))
+        })
+    };
+    let (bend, bend_error) = of(&near, |s| &s.turns.cosine, true);
+    let (long, long_error) = of(&far, |s| &s.turns.cosine, true);
+    let (turn, turn_error) = of(&far, |s| &s.turns.twist, false);
+    let (energy, energy_error) = jackknife(sums, |chosen| {
+        chosen.iter().map(|s| s.energy).sum::<f64>() / chosen.len() as f64
+    });
+    format!(
+        "h {:.2e} ns: near {:6.2} +- {:.2}, far {:6.2} +- {:.2}; kT lp {:.2e} +- {:.0e}, C {:.2e} +- {:.0e}; U/n \
+         {energy:.4} +- {energy_error:.4}",
+        sums[0].step,
+        bend / 1000.0,
+        bend_error / 1000.0,
+        long / 1000.0,
+        long_error / 1000.0,
+        kt * long,
+        kt * long_error,
+        kt * turn,
+        kt * turn_error,
+    )
 }
