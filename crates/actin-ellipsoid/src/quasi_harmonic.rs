@@ -281,16 +281,15 @@ impl QuasiHarmonic {
     /// Adds the block of two monomers, or of one.
     fn push_block(&self, [a, b]: [usize; 2], block: &SixMatrix, stiffness: &mut Stiffness) {
         let bodies = |k: usize| [Point(self.monomers.point(k)), Frame(self.monomers.frame(k))];
-        let (of_a, of_b) = (bodies(a), bodies(b));
-        for i in 0..2 {
-            for j in 0..2 {
+        for (i, of_a) in bodies(a).into_iter().enumerate() {
+            for (j, of_b) in bodies(b).into_iter().enumerate() {
                 let part: Matrix3 = block.fixed_view::<3, 3>(3 * i, 3 * j).into_owned();
                 match (a == b, i.cmp(&j)) {
                     (true, std::cmp::Ordering::Greater) => {}
                     (true, std::cmp::Ordering::Equal) => {
-                        stiffness.push(of_a[i], of_b[j], 0.5 * (part + part.transpose()));
+                        stiffness.push(of_a, of_b, 0.5 * (part + part.transpose()));
                     }
-                    _ => stiffness.push(of_a[i], of_b[j], part),
+                    _ => stiffness.push(of_a, of_b, part),
                 }
             }
         }

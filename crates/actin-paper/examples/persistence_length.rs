@@ -76,6 +76,15 @@ fn cases() -> Vec<Case> {
         law,
         ..case(name, ROD, &PEFRL, 0.5, ROOM)
     };
+    let cold = |share| {
+        case(
+            "monomers-cold",
+            MONOMERS,
+            &POSITION_VERLET,
+            0.4,
+            share * ROOM,
+        )
+    };
     vec![
         case("rod", ROD, &PEFRL, 0.5, ROOM),
         case("rod", ROD, &POSITION_VERLET, 0.8, ROOM),
@@ -95,14 +104,8 @@ fn cases() -> Vec<Case> {
             monomers: UNSCALED,
             ..case("monomers-unscaled", MONOMERS, &POSITION_VERLET, 0.4, ROOM)
         },
-        case("monomers-cold", MONOMERS, &POSITION_VERLET, 0.4, 0.1 * ROOM),
-        case(
-            "monomers-cold",
-            MONOMERS,
-            &POSITION_VERLET,
-            0.4,
-            0.01 * ROOM,
-        ),
+        cold(0.1),
+        cold(0.01),
     ]
 }
 
@@ -122,15 +125,7 @@ fn main() {
     }
     for case in cases.filter(|case| is_wanted(case.name)) {
         let sums = seeds.clone().into_par_iter();
-        let sums: Vec<Sums> = sums.map(|seed| case.measure(seed)).collect();
-        let (scheme, share) = (case.scheme.name(), case.share);
-        let kt = BOLTZMANN_PN_NM_PER_K * case.temperature;
-        println!(
-            "{:18} {:5.1} K {scheme:15} ({share:.2} of the limit) {}",
-            case.name,
-            case.temperature,
-            measured(&sums, kt)
-        );
+        case.report(&sums.map(|seed| case.measure(seed)).collect::<Vec<_>>());
     }
     for (name, sections, step) in IN_WATER.into_iter().filter(|case| is_wanted(case.0)) {
         let sums = seeds.clone().into_par_iter();
@@ -263,6 +258,17 @@ impl Case {
             sums.energy += system.potential_energy() / (kt * dofs * SAMPLES as f64);
         }
         sums
+    }
+
+    fn report(&self, sums: &[Sums]) {
+        println!(
+            "{:18} {:5.1} K {:15} ({:.2} of the limit) {}",
+            self.name,
+            self.temperature,
+            self.scheme.name(),
+            self.share,
+            measured(sums, BOLTZMANN_PN_NM_PER_K * self.temperature)
+        );
     }
 }
 

@@ -13,14 +13,10 @@ use actin_mechanics::{Loads, RandomStress, State, Stiffness, correlate};
 /// Numbers of a strain.
 const SIX: usize = 6;
 
-impl QuasiHarmonic {
-    fn written<'a>(&self, stresses: &'a [f64]) -> impl Iterator<Item = SixVector> + 'a {
-        stresses
-            .as_chunks::<SIX>()
-            .0
-            .iter()
-            .map(|s| SixVector::from(*s))
-    }
+/// The stress of each link.
+fn written(stresses: &[f64]) -> impl Iterator<Item = SixVector> {
+    let (links, _) = stresses.as_chunks::<SIX>();
+    links.iter().map(|s| SixVector::from(*s))
 }
 
 impl RandomStress for QuasiHarmonic {
@@ -44,7 +40,7 @@ impl RandomStress for QuasiHarmonic {
 
     fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads) {
         let own: Vec<SixVector> = self.stresses(state).collect();
-        let left = self.written(stresses).zip(&own).map(|(s, own)| s - own);
+        let left = written(stresses).zip(&own).map(|(s, own)| s - own);
         self.pulls(left)
             .for_each(|pull| pull.add_loads_without_spin(state, loads));
         self.pulls(own.into_iter())
@@ -52,7 +48,7 @@ impl RandomStress for QuasiHarmonic {
     }
 
     fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
-        let pulls = self.pulls(self.written(stresses));
+        let pulls = self.pulls(written(stresses));
         pulls.for_each(|pull| pull.add_stiffness(state, stiffness));
     }
 }

@@ -210,8 +210,7 @@ impl<'a> Builder<'a> {
             observers: Observers::default(),
             chosen: None,
         };
-        let energies = EnergyNames::of(&assembly);
-        assembly.observers = Observers::new(&assembly.scene, &energies);
+        assembly.observers = Observers::new(&assembly.scene, &EnergyNames::of(&assembly));
         assembly
     }
 

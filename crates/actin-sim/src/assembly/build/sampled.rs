@@ -156,7 +156,9 @@ impl Alone {
     fn sample(&self, sampling: Sampling) -> Result<(QuasiHarmonic, Sampled), SceneProblem> {
         let parts = self.parts(sampling)?;
         let mut all = Fluctuations::about(&self.monomers, self.system.state());
-        parts.iter().for_each(|part| all.add_all(part));
+        for part in &parts {
+            all.add_all(part);
+        }
         let kt = sampling.thermal_energy;
         let chain = all.chain(kt).map_err(|error| {
             let value = format!("{:?}", sampling.duration_ns);
@@ -205,9 +207,8 @@ impl Alone {
         let drag = Drag::new(DRAG, DRAG).map_err(|error| refused(&error))?;
         let bath = Bath::new(drag, sampling.thermal_energy, part);
         let bath = bath.map_err(|error| refused(&error))?;
-        let steps = |ns: f64| (ns / self.step).ceil() as u64;
-        let (warm_up, apart) = (steps(WARM_UP_NS), steps(APART_NS));
-        let states = (sampling.duration_ns / (PARTS as f64 * APART_NS)).ceil() as u64;
+        let (warm_up, apart) = (times(WARM_UP_NS, self.step), times(APART_NS, self.step));
+        let states = times(sampling.duration_ns, PARTS as f64 * APART_NS);
         let mut fluctuations = Fluctuations::about(&self.monomers, system.state());
         advance_in(&mut system, &PEFRL, self.step, warm_up, &bath, 0);
         for state in 0..states {
@@ -217,4 +218,14 @@ impl Alone {
         }
         Ok(fluctuations)
     }
+}
+
+/// How often a time fits into another one, rounded up.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the conversion saturates, and both are positive"
+)]
+fn times(whole: f64, part: f64) -> u64 {
+    (whole / part).ceil() as u64
 }
