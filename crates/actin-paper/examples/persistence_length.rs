@@ -17,6 +17,7 @@ use actin_mechanics::System;
 use actin_paper::measure::{Turns, jackknife, steps_in};
 use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Plan, Scene};
 use rayon::prelude::*;
+use std::ops::Range;
 use std::time::Instant;
 
 /// Temperature (K).
@@ -62,6 +63,8 @@ const DRAWN: &str = "anchors: Independent, seed: SEED";
 const UNSCALED: &str = "anchors: Independent, seed: SEED, \
     lateral_rigidity_pn_per_nm: 1612.7, longitudinal_rigidity_pn_per_nm: 2396.0";
 
+const COLD: &str = "monomers-cold";
+
 fn cases() -> Vec<Case> {
     let case = |name, sections, scheme, share, temperature| Case {
         name,
@@ -76,36 +79,25 @@ fn cases() -> Vec<Case> {
         law,
         ..case(name, ROD, &PEFRL, 0.5, ROOM)
     };
-    let cold = |share| {
-        case(
-            "monomers-cold",
-            MONOMERS,
-            &POSITION_VERLET,
-            0.4,
-            share * ROOM,
-        )
+    let monomers_of = |name, scheme, share, monomers| Case {
+        monomers,
+        ..case(name, MONOMERS, scheme, share, ROOM)
     };
     vec![
-        case("rod", ROD, &PEFRL, 0.5, ROOM),
+        rod_of("rod", "Constant"),
         case("rod", ROD, &POSITION_VERLET, 0.8, ROOM),
         case("rod", ROD, &POSITION_VERLET, 0.4, ROOM),
         rod_of("rod-published", "PublishedExtension"),
         rod_of("rod-coupling", "CouplingEnergy"),
         rod_of("rod-fitted", "Fitted"),
         case("monomers", MONOMERS, &PEFRL, 0.5, ROOM),
-        Case {
-            monomers: "anchors: Cubature",
-            ..case("monomers-mean", MONOMERS, &PEFRL, 0.5, ROOM)
-        },
+        monomers_of("monomers-mean", &PEFRL, 0.5, "anchors: Cubature"),
         case("monomers-fine", MONOMERS, &PEFRL, 0.25, ROOM),
         case("monomers-verlet", MONOMERS, &POSITION_VERLET, 0.4, ROOM),
         case("monomers-verlet", MONOMERS, &POSITION_VERLET, 0.2, ROOM),
-        Case {
-            monomers: UNSCALED,
-            ..case("monomers-unscaled", MONOMERS, &POSITION_VERLET, 0.4, ROOM)
-        },
-        cold(0.1),
-        cold(0.01),
+        monomers_of("monomers-unscaled", &POSITION_VERLET, 0.4, UNSCALED),
+        case(COLD, MONOMERS, &POSITION_VERLET, 0.4, 0.1 * ROOM),
+        case(COLD, MONOMERS, &POSITION_VERLET, 0.4, 0.01 * ROOM),
     ]
 }
 
@@ -127,12 +119,16 @@ fn main() {
         let sums = seeds.clone().into_par_iter();
         case.report(&sums.map(|seed| case.measure(seed)).collect::<Vec<_>>());
     }
-    for (name, sections, step) in IN_WATER.into_iter().filter(|case| is_wanted(case.0)) {
-        let sums = seeds.clone().into_par_iter();
-        let sums: Vec<Sums> = sums.map(|seed| in_water(sections, step, seed)).collect();
-        let found = measured(&sums, BOLTZMANN_PN_NM_PER_K * ROOM);
-        println!("{name:18} {ROOM:5.1} K without inertia {found}");
+    for case in IN_WATER.into_iter().filter(|case| is_wanted(case.0)) {
+        report_in_water(case, seeds.clone());
     }
+}
+
+fn report_in_water((name, sections, step): (&str, &str, f64), seeds: Range<u64>) {
+    let sums = seeds.into_par_iter();
+    let sums: Vec<Sums> = sums.map(|seed| in_water(sections, step, seed)).collect();
+    let found = measured(&sums, BOLTZMANN_PN_NM_PER_K * ROOM);
+    println!("{name:18} {ROOM:5.1} K without inertia {found}");
 }
 
 /// One seed of a filament in water, in steps of `step` (ns); see [`IN_WATER`].
