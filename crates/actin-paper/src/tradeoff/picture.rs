@@ -27,7 +27,7 @@ pub(super) fn draw(picture: &Picture<'_>, path: &Path) -> Result<(), String> {
     let scatter = picture.rows.first().and_then(picture.scatter);
     let picture = Scatter {
         title: picture.title,
-        x_label: "cost of a motion: bonds and elements evaluated, of the reference as 1",
+        x_label: "time of a motion, or its evaluations, of the reference as 1",
         y_label: picture.y_label,
         points: points(picture),
         level: scatter.map(|level| (level, "sd over filaments of 64 drawn bonds")),
@@ -39,7 +39,11 @@ pub(super) fn draw(picture: &Picture<'_>, path: &Path) -> Result<(), String> {
 /// The points of a picture, cheapest first. What has no error at all, the reference, has no place
 /// on a logarithmic axis.
 fn points(picture: &Picture<'_>) -> Vec<ScatterPoint> {
-    let place = |row: &Row| row.cost_motion.zip((picture.error)(row));
+    let place = |row: &Row| {
+        row.time_motion
+            .or(row.cost_motion)
+            .zip((picture.error)(row))
+    };
     let rows: Vec<(&Row, (f64, f64))> = picture
         .rows
         .iter()

@@ -6,14 +6,14 @@ use crate::Tell;
 use actin_sim::advice::Measured;
 use std::path::Path;
 
-/// Prints the rows of one scene, cheapest first.
+/// Prints the rows of one scene, fastest first.
 pub(super) fn table(rows: &[Row], tell: Tell<'_>) {
     let Some(first) = rows.first() else {
         return;
     };
     heading(first, tell);
     let mut sorted: Vec<&Row> = rows.iter().collect();
-    let cost = |row: &Row| row.cost_motion.or(row.time_relative).unwrap_or(0.0);
+    let cost = |row: &Row| row.time_motion.or(row.time_relative).unwrap_or(0.0);
     sorted.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
     for row in sorted {
         line(row, tell);
@@ -31,8 +31,8 @@ fn heading(first: &Row, tell: Tell<'_>) {
         percent(first.scatter_local),
     ));
     let columns = [
-        "cost", "motion", "statics", "steps", "evals", "displ.", "energy", "force", "torque",
-        "local",
+        "cost", "motion", "x drawn", "statics", "steps", "evals", "displ.", "energy", "force",
+        "torque", "local",
     ];
     let columns = columns.map(|name| format!("{name:>9}")).concat();
     tell(format_args!("{:>34}{columns} (rms errors, %)", "setting"));
@@ -44,6 +44,7 @@ fn line(row: &Row, tell: Tell<'_>) {
     let columns = [
         number(row.cost_motion, 4),
         number(row.time_motion, 4),
+        number(row.drawn_over_time, 1),
         number(row.time_relative, 3),
         number(row.newton_steps, 1),
         number(row.force_evaluations, 0),
@@ -87,7 +88,7 @@ pub(super) fn advice(rows: &[Row]) -> Vec<Measured> {
     let of_scenes = rows
         .iter()
         .filter(|row| names().contains(&row.scene.as_str()));
-    let measured = of_scenes.filter(|row| row.factor != "reference");
+    let measured = of_scenes.filter(|row| row.factor != "reference" && !row.rigid_segments);
     measured
         .map(|row| Measured {
             scene: row.scene.clone(),

@@ -24,6 +24,8 @@ pub(super) struct Row {
     pub bonds_per_interface: usize,
     pub weight: String,
     pub attached: usize,
+    /// Whether segments have the rotary inertia of rigid pieces of rod.
+    pub rigid_segments: bool,
     pub azimuths: usize,
     pub bonds: usize,
     /// Segments of rods and bonds of junctions.
@@ -40,8 +42,10 @@ pub(super) struct Row {
     pub evaluations_per_ns: Option<f64>,
     /// Cost of a motion, of the reference as 1: bonds and elements that are evaluated in a ns.
     pub cost_motion: Option<f64>,
-    /// The same in time, measured on a short motion.
+    /// The same in measured time.
     pub time_motion: Option<f64>,
+    /// How many times as long every monomer with 64 drawn bonds takes.
+    pub drawn_over_time: Option<f64>,
     /// Newton's time of the reference as 1, measured; of a damped motion, that of Newton as 1.
     pub time_relative: Option<f64>,
     pub time_s: Option<f64>,

@@ -3,7 +3,7 @@
 use super::observe::{Errors, Observed};
 use super::pareto;
 use super::row::Row;
-use super::solve::{self, MotionCost, Solved};
+use super::solve::{self, Attempt, MotionCost, Solved};
 use super::study::{Factor, Study};
 use actin_sim::advice::{FilamentSetting, table};
 use std::io::{self, Write as _};
@@ -19,30 +19,26 @@ pub(super) fn rows(study: &Study) -> Result<Vec<Row>, String> {
     let reference_cost = solve::motion_cost(study, &study.settings[0].2)?;
     let reference_time = time(study, &study.settings[0].2).ok_or("no time of the reference")?;
     let reference_motion = solve::motion_seconds_per_ns(study, &study.settings[0].2)?;
+    let drawn_motion = solve::drawn_motion_seconds_per_ns(study)?;
     let drawn: Result<Vec<Solved>, String> = solve::drawn(study).into_iter().collect();
     let scatter = scatter(&drawn?);
     let mut rows = Vec::new();
     for ((factor, name, setting), attempts) in study.settings.iter().zip(&attempts) {
-        // Azimuths that have no equilibrium are counted and left out.
-        let pairs: Vec<(&Solved, &Solved)> = (attempts.iter().zip(reference))
-            .filter_map(|(attempt, reference)| Some((attempt.as_ref().ok()?, reference)))
-            .collect();
-        for error in attempts.iter().filter_map(|attempt| attempt.as_ref().err()) {
-            // Lines that are not read are lost.
-            let _ = writeln!(io::stderr(), "{name}: {error}");
-        }
+        let pairs = told_pairs(name, attempts, reference);
         let of_pairs = |compare: fn(&Observed, &Observed) -> Errors| -> Vec<Errors> {
             let observed = pairs.iter().map(|(s, r)| (&s.observed, &r.observed));
             observed.map(|(s, r)| compare(s, r)).collect()
         };
         let cost = solve::motion_cost(study, setting)?;
         let time_s = time(study, setting);
-        let motion_s = solve::motion_seconds_per_ns(study, setting)?;
+        let motion_s = solve::motion_seconds_per_ns(study, setting);
+        let motion_s = motion_s.inspect_err(|error| tell_failure(name, error)).ok();
         let row = described(study, *factor, name, setting);
         let row = counted(row, &pairs, &cost);
         rows.push(Row {
             cost_motion: Some(cost.counted_per_ns / reference_cost.counted_per_ns),
-            time_motion: Some(motion_s / reference_motion),
+            time_motion: motion_s.map(|time| time / reference_motion),
+            drawn_over_time: motion_s.map(|time| drawn_motion / time),
             time_relative: time_s.map(|time| time / reference_time),
             time_s,
             failed: attempts.len() - pairs.len(),
@@ -57,6 +53,28 @@ pub(super) fn rows(study: &Study) -> Result<Vec<Row>, String> {
     Ok(rows)
 }
 
+/// Equilibria of a setting with those of the reference. Azimuths that have none are told, counted and left out.
+fn told_pairs<'a>(
+    name: &str,
+    attempts: &'a [Attempt],
+    reference: &'a [Solved],
+) -> Vec<(&'a Solved, &'a Solved)> {
+    for error in attempts.iter().filter_map(|attempt| attempt.as_ref().err()) {
+        tell_failure(name, error);
+    }
+    attempts
+        .iter()
+        .zip(reference)
+        .filter_map(|(attempt, reference)| Some((attempt.as_ref().ok()?, reference)))
+        .collect()
+}
+
+/// Says why a setting has no equilibrium or no motion: of linkers that are pulled far apart some rods break without drag.
+fn tell_failure(setting: &str, error: &str) {
+    // Lines that are not read are lost.
+    let _ = writeln!(io::stderr(), "{setting}: {error}");
+}
+
 fn described(study: &Study, factor: Factor, name: &str, setting: &FilamentSetting) -> Row {
     Row {
         scene: study.name.to_owned(),
@@ -68,6 +86,7 @@ fn described(study: &Study, factor: Factor, name: &str, setting: &FilamentSettin
         bonds_per_interface: setting.bonds,
         weight: format!("{:?}", setting.weight),
         attached: setting.attached,
+        rigid_segments: setting.rigid_segments,
         ..Row::default()
     }
 }
@@ -128,7 +147,7 @@ fn mark_front(rows: &mut [Row]) {
         .iter()
         .map(|row| {
             let of = |value: Option<f64>| value.unwrap_or(f64::INFINITY);
-            (of(row.cost_motion), of(row.error_displacement))
+            (of(row.time_motion), of(row.error_displacement))
         })
         .collect();
     for (row, on_front) in rows.iter_mut().zip(pareto::front(&points)) {

@@ -144,6 +144,8 @@ struct Question {
 const BONDS: [usize; 3] = [8, 16, 24];
 /// Lengths of segments that are tried (nm); 10 is the default.
 const SEGMENTS_NM: [f64; 3] = [20.0, 5.0, 2.5];
+/// The same of rods without monomers.
+const ROD_SEGMENTS_NM: [f64; 3] = [5.0, 20.0, 40.0];
 
 /// The studies named, or all; fewer settings, azimuths and samplings if `quick`.
 pub(super) fn studies(names: &[String], quick: bool) -> Vec<Study> {
@@ -417,13 +419,28 @@ impl Question {
         (cheap.segment_nm, cheap.bonds) = (5.0, 8);
         (coarse.segment_nm, coarse.attached) = (20.0, 1);
         let combined = Factor::Combination;
+        let mut rigid_ends = less();
+        (rigid_ends.segment_nm, rigid_ends.rigid_segments) = (20.0, true);
         let mixed = vec![
             (combined, "segments-5+bonds-8".into(), cheap),
             (combined, "segments-20+one-attached".into(), coarse),
+            (combined, "segments-20+RigidSegment".into(), rigid_ends),
         ];
-        let mut fine = FilamentSetting::of(Vec::new(), RodLaw::Homogenised);
-        fine.segment_nm = 5.0;
-        let rods = vec![(combined, "Homogenised+segments-5".into(), fine)];
+        let rods = ROD_SEGMENTS_NM.map(|segment_nm| {
+            let mut rod = FilamentSetting::of(Vec::new(), RodLaw::Homogenised);
+            rod.segment_nm = segment_nm;
+            let what = format!("Homogenised+segments-{segment_nm}");
+            (combined, what, rod)
+        });
+        let rigid = |(factor, what, setting): &Varied| {
+            let rigid_segments = true;
+            let setting = FilamentSetting {
+                rigid_segments,
+                ..setting.clone()
+            };
+            (*factor, format!("{what}+RigidSegment"), setting)
+        };
+        let rods: Vec<Varied> = rods.iter().cloned().chain(rods.iter().map(rigid)).collect();
         let mut all = named_after(name, mixed);
         all.extend(named_after("none", rods));
         all.extend(named_after("all monomers", fewer_bonds(whole)));

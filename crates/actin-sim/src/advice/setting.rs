@@ -1,6 +1,6 @@
 //! What a user can vary in how a filament is resolved, and a scene resolved that way.
 
-use crate::scene::{JunctionWeight, RodLaw, Scene, Section};
+use crate::scene::{JunctionWeight, RodLaw, RotaryInertia, Scene, Section};
 
 /// How a filament is resolved.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +18,8 @@ pub struct FilamentSetting {
     pub weight: JunctionWeight,
     /// Monomers that a junction attaches to.
     pub attached: usize,
+    /// Whether segments have [`RotaryInertia::RigidSegment`]; otherwise they have what the scene gives them.
+    pub rigid_segments: bool,
 }
 
 impl FilamentSetting {
@@ -32,6 +34,7 @@ impl FilamentSetting {
             bonds: filament.lateral_bonds,
             weight: junction.weight,
             attached: junction.attached_monomers,
+            rigid_segments: false,
         }
     }
 
@@ -45,6 +48,9 @@ impl FilamentSetting {
         filament.monomers.lateral_bonds = self.bonds;
         filament.monomers.longitudinal_bonds = self.bonds;
         filament.rod.law = self.law.clone();
+        if self.rigid_segments {
+            filament.rod.rotary_inertia = RotaryInertia::RigidSegment;
+        }
         filament.junction.weight = self.weight;
         filament.junction.attached_monomers = self.attached;
         scene

@@ -62,6 +62,7 @@ impl Measured {
                 _ => return None,
             },
             attached: self.attached,
+            rigid_segments: false,
         })
     }
 }
