@@ -134,7 +134,6 @@ impl<'a> Cantilever<'a> {
     /// The monomer of a period that a point is.
     #[expect(
         clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
         clippy::cast_possible_wrap,
         reason = "a count of monomers, and the remainder is not negative"
     )]
