@@ -76,6 +76,12 @@ impl Newton {
         &self.options
     }
 
+    /// Whether bodies carry one another along from any start of many of them, or from floppy ones only: for starts
+    /// that are like the equilibrium but far from it.
+    pub fn carry_along(&mut self, from_any_start: bool) {
+        self.options.carries_along = from_any_start;
+    }
+
     /// What all solves so far have cost.
     pub fn work(&self) -> SolverWork {
         self.solver.work

@@ -24,6 +24,8 @@ pub struct NewtonOptions {
     pub turn_length: f64,
     /// Whether the eigenvalues of the stiffness are counted at the end; yes.
     pub certify: bool,
+    /// Whether bodies carry one another along from any start of many of them, not only from floppy ones; no.
+    pub carries_along: bool,
 }
 
 impl Default for NewtonOptions {
@@ -40,6 +42,7 @@ impl Default for NewtonOptions {
             patience: 12,
             turn_length: 1.0,
             certify: true,
+            carries_along: false,
         }
     }
 }

@@ -1,5 +1,5 @@
 //! Newton's method against length: cantilevers of monomers whose tip force bends them by the same angle,
-//! solved from the straight filament, by the bonds that interfaces have.
+//! solved from where a run begins, by the bonds that interfaces have.
 //!
 //! `cargo run --release -p actin-sim --example newton_against_length [longest (nm) [bonds]]`
 //!
@@ -7,7 +7,7 @@
 //! Building the filament does not count.
 
 use actin_equilibrium::{Equilibrium as Found, Verdict};
-use actin_sim::{Assembly, Equilibrium, Scene, Task, solver};
+use actin_sim::{Assembly, Equilibrium, Scene, Task, near_equilibrium, solver};
 use std::time::Instant;
 
 /// Residual at which a solve ends (pN, pN nm).
@@ -74,9 +74,11 @@ fn solve(length: f64, bonds: &str) -> (Found, f64) {
         unreachable!("the scene asks for an equilibrium")
     };
     let mut newton = solver(&assembly, task).expect("the scene has a solver");
-    let mut state = assembly.system.state().clone();
     let attempts = Equilibrium::default().leave_saddles;
     let clock = Instant::now();
+    let near = near_equilibrium(&assembly);
+    newton.carry_along(near.is_some());
+    let mut state = near.unwrap_or_else(|| assembly.system.state().clone());
     let found = newton.minimize(&mut state, assembly.system.interactions(), attempts);
     let seconds = clock.elapsed().as_secs_f64();
     (found.expect("the cantilever has an equilibrium"), seconds)

@@ -58,7 +58,7 @@ pub use run::{
     Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, LongestStep,
     MotionPosition, Outcome, PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records,
     RelaxationTimes, Row, RowIter, RunError, RunPosition, SaddlePush, Saved, Sink, Slip,
-    StableState, StableStates, Status, Trajectory, solver,
+    StableState, StableStates, Status, Trajectory, near_equilibrium, solver,
 };
 pub use scene::fitted::laws as fitted_laws;
 #[cfg(feature = "schema")]

@@ -42,6 +42,8 @@ pub(super) struct Composed {
     rest: usize,
     /// The largest stiffening of a tie in the last such step (pN/nm).
     stiffest: f64,
+    /// Whether they are wanted from starts that are not floppy, too.
+    is_wanted: bool,
 }
 
 impl Composed {
@@ -53,6 +55,7 @@ impl Composed {
             failures: 0,
             rest: 0,
             stiffest: 0.0,
+            is_wanted: options.carries_along,
         }
     }
 
@@ -63,8 +66,9 @@ impl Composed {
             return false;
         }
         let bodies = solver.layout.len();
-        let is_floppy = bodies >= FEWEST && solver.floppy() as f64 >= FLOPPY * bodies as f64;
-        let is_used = is_floppy
+        let is_floppy = solver.floppy() as f64 >= FLOPPY * bodies as f64;
+        let is_used = bodies >= FEWEST
+            && (is_floppy || self.is_wanted)
             && solver.layout.groups().is_empty()
             && is_open(&solver.layout, solver.assembly.ties());
         self.is_used = Some(is_used);

@@ -8,7 +8,7 @@ use actin_ellipsoid::{Cell, CellResponse, Control, Hold, SixVector};
 use actin_mechanics::{Vector3, rotation};
 
 /// Monomers of a cell: one period of the helix.
-pub(super) const PERIOD: usize = 13;
+pub(crate) const PERIOD: usize = 13;
 /// Longest step along an ideal stretch (nm).
 const STEP_NM: f64 = 1.5;
 
@@ -37,14 +37,14 @@ pub(super) fn drawn_monomers(monomers: &Monomers) -> Monomers {
 /// An endless filament in uniformly strained cells: the mean one of some monomers, with weighted bonds, or one whose bonds are
 /// drawn and come again after a period.
 #[derive(Debug)]
-pub(super) struct EndlessFilament {
+pub(crate) struct EndlessFilament {
     cell: Cell,
 }
 
 impl EndlessFilament {
     /// # Errors
     /// Monomers whose helix does not close after 13.
-    pub(super) fn of(monomers: &Monomers) -> Result<Self, SceneProblem> {
+    pub(crate) fn of(monomers: &Monomers) -> Result<Self, SceneProblem> {
         Self::with_bonds(&mean_monomers(monomers), 0)
     }
 
@@ -68,13 +68,26 @@ impl EndlessFilament {
     }
 
     /// Curvature and shear strain under couple and force (body axes), found from a cell under similar ones.
-    pub(super) fn under(
+    pub(crate) fn under(
         &self,
         load: &SixVector,
         near: Option<&CellResponse>,
     ) -> Option<CellResponse> {
         let controls = std::array::from_fn(|k| Control::Load(load[k]));
         self.cell.relax_under(&controls, near).ok()
+    }
+
+    /// The same, found from a cell that is held at a twist (rad/nm) at first.
+    pub(crate) fn under_from_twist(
+        &self,
+        load: &SixVector,
+        twist: f64,
+        near: Option<&CellResponse>,
+    ) -> Option<CellResponse> {
+        let mut controls = std::array::from_fn(|k| Control::Load(load[k]));
+        controls[2] = Control::Strain(twist);
+        let held = self.cell.relax_under(&controls, near).ok()?;
+        self.under(load, Some(&held))
     }
 }
 

@@ -32,7 +32,7 @@ use crate::{Assembly, End, Plan, RunError};
 use actin_mechanics::State;
 use adjoint::Adjoint;
 use defects::{Contribution, Look};
-use ideal::{EndlessFilament, PERIOD};
+pub(crate) use ideal::{EndlessFilament, PERIOD};
 use section_loads::SectionLoads;
 use serde::{Deserialize, Serialize};
 

@@ -2,6 +2,7 @@
 
 use super::rest::{is_saddle, saddle};
 use super::sink::{Arrival, Clock, PathPosition, Saved, Sink};
+use super::start::near_equilibrium;
 use super::states::{StableStates, search};
 use super::taken::Taken;
 use super::unknowns::newton;
@@ -302,7 +303,13 @@ impl<'a> Follower<'a> {
         }
         let interactions = self.assembly.system.interactions();
         let attempts = self.settings.leave_saddles;
+        let start = near_equilibrium(self.assembly);
+        newton.carry_along(start.is_some());
+        if let Some(start) = start {
+            *state = start;
+        }
         let solved = newton.minimize_observed(state, interactions, attempts, &mut |_| self.go_on());
+        newton.carry_along(false);
         match solved {
             Ok(equilibrium) => {
                 if self.record(0.0, state, &equilibrium).is_continue() {

@@ -1,0 +1,427 @@
+//! Where the search for the equilibrium of a long filament of monomers begins: bent and twisted as it will be.
+//!
+//! Monomers at rest do not resist twist at first, to either side. Under a couple across it a filament twists by about
+//! the root of the couple, to one side or the other, and the energies of the sides differ by less than one in a
+//! hundred. From the straight filament Newton's method lets rounding decide the side at each place. Where two sides
+//! meet there is a border, which it moves by a few monomers a step. So the side is decided here, once: that of a
+//! period of monomers (`adapt/ideal.rs`) with the lower potential. Monomers are placed along the filament as in
+//! periods that are twisted to this side, under the couple and force of their cross-section.
+//!
+//! Couples and forces are those on the straight filament. Where these would bend it far only a part of them counts,
+//! since they are others once it is bent. Where the sides are not clearly in the same order under all couples
+//! (above some 20 pN nm it is the other that has the lower potential), nothing is placed.
+
+use crate::adapt::{EndlessFilament, PERIOD};
+use crate::assembly::Part;
+use crate::scene::{Anchors, End, Filament, Slides, Task};
+use crate::shape::axis::CrossSection;
+use crate::{Assembly, FilamentSpan};
+use actin_ellipsoid::{CellResponse, Displacements, SixVector};
+use actin_mechanics::{Loads, State, UnitQuaternion, Vector3, rotation};
+
+/// Shorter filaments are near enough to their equilibrium when they are straight.
+const FEWEST_MONOMERS: usize = 1000;
+/// Bends (rad) from the held to the free end under the loads on the straight filament: below this it is as good as
+/// straight.
+const SMALLEST_BEND: f64 = 0.01;
+/// Above this a part of the loads counts.
+const FULL_BEND: f64 = 1.0;
+/// From this on these loads say little of those on the bent filament.
+const LARGEST_BEND: f64 = 5.0;
+/// Force along the filament times its squared length over its rigidity, above which couples in the bent filament
+/// are others than in the straight one: it buckles at 2.5, and under tension bends at its ends only.
+const LARGEST_ALONG: f64 = 2.0;
+/// Twist (rad/nm) at which either side is looked at first.
+const TWIST: f64 = 2e-3;
+/// Places at which couples are compared.
+const PLACES: u32 = 64;
+/// Share of the couple and of the moments of forces below which a couple across the filament is rounding.
+const ROUNDING: f64 = 1e-6;
+/// Between two cells a filament turns by this at most (rad).
+const TURN: f64 = 0.2;
+/// Between two cells the couple changes by this share at most.
+const CHANGE: f64 = 0.5;
+/// But cells are no closer than this many rises: their own length.
+const CLOSEST: f64 = PERIOD as f64;
+/// Share of the potential by which one side must be the lower one.
+const LEAST_GAIN: f64 = 1e-3;
+/// Most rises in one step along the curve between cells.
+const STEP: f64 = 1.0;
+
+/// The state from which the equilibrium of a scene is found in fewer steps than from the one as built; none where
+/// nothing is known to be better.
+///
+/// That is so of scenes without path, linkers and repulsion, whose filaments are straight as built, monomers with
+/// weighted bonds all along, 1000 and more of them, held at their start, and bent by loads. It takes some tens of
+/// milliseconds. Newton's method should carry bodies along from there
+/// ([`Newton::carry_along`](actin_equilibrium::Newton::carry_along)).
+pub fn near_equilibrium(assembly: &Assembly) -> Option<State> {
+    let is_still = assembly.drive.is_still() && matches!(assembly.scene.task, Task::Equilibrium(_));
+    let loads_only = |part| matches!(part, Part::Section(_) | Part::Load(_));
+    if !is_still || !assembly.terms.iter().all(|term| loads_only(term.part)) {
+        return None;
+    }
+    let cantilevers = assembly.scene.filaments().enumerate();
+    let cantilevers = cantilevers.map(|(i, written)| Cantilever::of(assembly, i, written));
+    let cantilevers: Vec<_> = cantilevers.collect::<Option<_>>()?;
+    let mut state = assembly.system.state().clone();
+    for cantilever in &cantilevers {
+        let curve = cantilever.curve()?;
+        cantilever.lay_along(&curve, &mut state);
+    }
+    Some(state)
+}
+
+/// A straight filament of monomers that is held at its start.
+struct Cantilever<'a> {
+    assembly: &'a Assembly,
+    span: &'a FilamentSpan,
+    monomers: EndlessFilament,
+    rise_nm: f64,
+    length_nm: f64,
+    /// From the free end on: arc length, and sums of forces and moments about the lab origin up to there.
+    sums: Vec<(f64, Vector3, Vector3)>,
+}
+
+/// A period of monomers at an arc length (nm): strain and displacements.
+struct Place {
+    at: f64,
+    strain: SixVector,
+    displacements: Displacements,
+}
+
+impl Place {
+    fn of(at: f64, cell: &CellResponse) -> Self {
+        Self {
+            at,
+            strain: cell.strain,
+            displacements: cell.displacements.clone(),
+        }
+    }
+}
+
+/// Periods in the order of arc length.
+type Curve = Vec<Place>;
+
+impl<'a> Cantilever<'a> {
+    /// Filament `index`, if it is one.
+    fn of(assembly: &'a Assembly, index: usize, written: &Filament) -> Option<Self> {
+        let span = &assembly.filaments[index];
+        let [section] = assembly.sections_of(index) else {
+            return None;
+        };
+        let is_plain = section.is_ellipsoids()
+            && section.points.len() >= FEWEST_MONOMERS
+            && written.monomers.anchors == Anchors::Cubature
+            && written.shape.is_none()
+            && written.imperfection.is_none()
+            && !written.sections[0].is_altered();
+        let clamp = assembly.clamp_at(index, End::Start)?;
+        let is_open = assembly.clamp_at(index, End::End).is_none();
+        if !is_plain || !is_open || clamp.slides != Slides::Nowhere {
+            return None;
+        }
+        Some(Self {
+            assembly,
+            span,
+            monomers: EndlessFilament::of(&written.monomers).ok()?,
+            rise_nm: written.monomers.rise_nm,
+            length_nm: section.to_nm,
+            sums: sums_from_free_end(assembly, span),
+        })
+    }
+
+    /// The monomer of a period that a point is.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        reason = "a count of monomers, and the remainder is not negative"
+    )]
+    fn monomer(&self, point: usize) -> usize {
+        let rises = self.assembly.points[point].s_nm / self.rise_nm;
+        (rises.round() as i64).rem_euclid(PERIOD as i64) as usize
+    }
+
+    /// Couple and force at an arc length (nm) of the straight filament, in `axes`: what is behind the cross-section
+    /// exerts on what is before it.
+    fn load(&self, at: f64, axes: UnitQuaternion) -> SixVector {
+        let beyond = self.sums.partition_point(|sum| sum.0 > at);
+        let (_, force, moment) = match beyond {
+            0 => Default::default(),
+            n => self.sums[n - 1],
+        };
+        let place = self.span.axis_place(at);
+        let couple = axes.inverse() * (moment - place.cross(&force));
+        let force = axes.inverse() * force;
+        SixVector::new(couple.x, couple.y, couple.z, force.x, force.y, force.z)
+    }
+
+    /// The strains along the curve; none where the straight filament says too little of it, or a period finds no
+    /// equilibrium.
+    fn curve(&self) -> Option<Curve> {
+        let places = (0..PLACES).map(|k| self.length_nm * (f64::from(k) + 0.5) / f64::from(PLACES));
+        let loads: Vec<_> = places.map(|at| self.load(at, self.span.rotation)).collect();
+        let largest = loads
+            .iter()
+            .max_by(|a, b| across(a).total_cmp(&across(b)))?;
+        let lever = largest.norm() + self.length_nm * largest.fixed_rows::<3>(3).norm();
+        if across(largest) <= ROUNDING * lever {
+            return None;
+        }
+        // Under a couple of 1 pN nm a filament bends by its softness.
+        let unit = largest / across(largest);
+        let sides = [-TWIST, TWIST].map(|twist| self.monomers.under_from_twist(&unit, twist, None));
+        let [Some(left), Some(right)] = sides else {
+            return None;
+        };
+        let softness = across(&left.strain);
+        let along = loads.iter().map(|load| load[5].abs()).fold(0.0, f64::max);
+        if along * softness * self.length_nm.powi(2) > LARGEST_ALONG {
+            return None;
+        }
+        let mean = loads.iter().map(across).sum::<f64>() / f64::from(PLACES);
+        let bend = softness * mean * self.length_nm;
+        let is_moderate = (SMALLEST_BEND..LARGEST_BEND).contains(&bend);
+        let sides = [left, right];
+        let lower = self.lower(&sides, &unit)?;
+        if !is_moderate || self.lower(&sides, largest)? != lower {
+            return None;
+        }
+        self.follow(&sides[lower], (FULL_BEND / bend).min(1.0))
+    }
+
+    /// Which of two sides has the lower potential under a load, by enough to be the side of all monomers.
+    fn lower(&self, sides: &[CellResponse; 2], load: &SixVector) -> Option<usize> {
+        let potential = |side: &CellResponse| {
+            let side = self.on_side(load, side)?;
+            Some(side.energy - load.dot(&side.strain))
+        };
+        let [a, b] = sides.each_ref().map(potential);
+        let (a, b) = (a?, b?);
+        let is_clear = (a - b).abs() > LEAST_GAIN * a.abs();
+        is_clear.then_some(usize::from(b < a))
+    }
+
+    /// Goes along the filament from the held end under a part of the loads; periods are twisted to the side of one.
+    fn follow(&self, side: &CellResponse, part: f64) -> Option<Curve> {
+        let mut section = (Vector3::zeros(), self.span.rotation);
+        let load = |at: f64, axes| self.load(at, axes) * part;
+        let mut here = self.on_side(&load(0.0, section.1), side)?;
+        let mut curve = vec![Place::of(0.0, &here)];
+        let mut at = 0.0;
+        while at < self.length_nm {
+            let to = at + self.step(at, &here.strain);
+            let ahead = [at, to].map(|at| Place::of(at, &here));
+            let ahead = self.carry(section, [at, to], &ahead);
+            let next = self.on_side(&load(to, ahead.1), &here)?;
+            curve.push(Place::of(to, &next));
+            section = self.carry(section, [at, to], &curve);
+            (at, here) = (to, next);
+        }
+        Some(curve)
+    }
+
+    /// A period that is twisted to the same side as one under another load: by the root of the couple, as all but
+    /// the curvature.
+    fn on_side(&self, load: &SixVector, near: &CellResponse) -> Option<CellResponse> {
+        let ratio = across(load) / across(&near.loads);
+        let root = if ratio.is_finite() { ratio.sqrt() } else { 1.0 };
+        let mut start = near.clone();
+        start.strain *= root;
+        start.displacements *= root;
+        start.strain[0] *= root;
+        start.strain[1] *= root;
+        let twist = start.strain[2];
+        self.monomers.under_from_twist(load, twist, Some(&start))
+    }
+
+    /// How far it is from a cell to the next (nm).
+    fn step(&self, at: f64, strain: &SixVector) -> f64 {
+        let left = self.length_nm - at;
+        let couple = |at| self.load(at, self.span.rotation).fixed_rows::<3>(0).norm();
+        let turning = strain.fixed_rows::<3>(0).norm();
+        let closest = CLOSEST * self.rise_nm;
+        let mut step = (TURN / turning).min(left);
+        while step > closest && (couple(at + step) - couple(at)).abs() > CHANGE * couple(at) {
+            step *= 0.7;
+        }
+        let step = step.max(closest);
+        // No short rest.
+        if left < step + 0.5 * closest {
+            left
+        } else {
+            step
+        }
+    }
+
+    /// The cross-section at one arc length from that at another before it.
+    fn carry(&self, from: CrossSection, [at, to]: [f64; 2], curve: &[Place]) -> CrossSection {
+        let (mut place, mut axes) = from;
+        let mut at = at;
+        while at < to {
+            let next = (at + STEP * self.rise_nm).min(to);
+            let strain = strain_at(curve, 0.5 * (at + next));
+            let step = next - at;
+            let half = rotation::exp(Vector3::new(strain[0], strain[1], strain[2]) * (0.5 * step));
+            axes *= half;
+            place += axes * Vector3::new(strain[3], strain[4], 1.0 + strain[5]) * step;
+            axes *= half;
+            at = next;
+        }
+        (place, axes)
+    }
+
+    /// Places the free monomers on their cross-sections, as they stand there in the straight filament.
+    fn lay_along(&self, curve: &Curve, state: &mut State) {
+        let back = self.span.rotation.inverse();
+        let mut section = (self.span.axis_place(0.0), self.span.rotation);
+        let mut at = 0.0;
+        for i in self.span.points.clone().filter(|&i| self.is_beyond_wall(i)) {
+            let s_nm = self.assembly.points[i].s_nm;
+            section = self.carry(section, [at, s_nm], curve);
+            at = s_nm;
+            let (shift, turn) = motion_at(curve, s_nm, self.monomer(i));
+            let arm = back * (state.points.position.get(i) - self.span.axis_place(s_nm));
+            let place = section.0 + section.1 * (arm + shift);
+            state.points.position.set(i, place);
+            if let Some(f) = self.assembly.points[i].frame {
+                let q = back * state.frames.orientation.get(f);
+                let q = section.1 * rotation::exp(turn) * q;
+                state.frames.orientation.set(f, q);
+            }
+        }
+    }
+
+    fn is_beyond_wall(&self, point: usize) -> bool {
+        let is_free = self.assembly.system.state().points.is_free(point);
+        is_free && self.assembly.points[point].s_nm > 0.0
+    }
+}
+
+/// The size of a couple or curvature across the filament.
+fn across(six: &SixVector) -> f64 {
+    six[0].hypot(six[1])
+}
+
+/// The places about an arc length, and the share of the second.
+fn about(curve: &[Place], at: f64) -> (&Place, &Place, f64) {
+    let after = curve.partition_point(|place| place.at < at);
+    let after = after.clamp(1, curve.len() - 1);
+    let (a, b) = (&curve[after - 1], &curve[after]);
+    (a, b, ((at - a.at) / (b.at - a.at)).clamp(0.0, 1.0))
+}
+
+fn strain_at(curve: &[Place], at: f64) -> SixVector {
+    let (a, b, t) = about(curve, at);
+    a.strain * (1.0 - t) + b.strain * t
+}
+
+/// Displacement and turn of the monomer of a period (axes of its cross-section).
+fn motion_at(curve: &[Place], at: f64, monomer: usize) -> (Vector3, Vector3) {
+    let (a, b, t) = about(curve, at);
+    let [a, b] = [a, b].map(|place| place.displacements.fixed_rows::<6>(6 * monomer));
+    let d = a * (1.0 - t) + b * t;
+    (
+        Vector3::new(d[0], d[1], d[2]),
+        Vector3::new(d[3], d[4], d[5]),
+    )
+}
+
+/// From the free end on, for each body: arc length, and what loads exert up to there, force and moment about the lab
+/// origin.
+fn sums_from_free_end(assembly: &Assembly, span: &FilamentSpan) -> Vec<(f64, Vector3, Vector3)> {
+    let state = assembly.system.state();
+    let mut loads = Loads::zeros(state);
+    let terms = assembly.terms.iter().zip(assembly.system.interactions());
+    for (_, interaction) in terms.filter(|(term, _)| matches!(term.part, Part::Load(_))) {
+        interaction.add_loads(state, &mut loads);
+    }
+    let points = span.points.clone().map(|i| {
+        let force = loads.force.get(i);
+        let moment = state.points.position.get(i).cross(&force);
+        (assembly.points[i].s_nm, force, moment)
+    });
+    let frames = span.frames.clone().map(|i| {
+        let moment = state.frames.orientation.get(i) * loads.torque.get(i);
+        (assembly.frames[i].s_nm, Vector3::zeros(), moment)
+    });
+    let mut sums: Vec<_> = points.chain(frames).collect();
+    sums.sort_by(|a, b| b.0.total_cmp(&a.0));
+    for k in 1..sums.len() {
+        let (_, force, moment) = sums[k - 1];
+        sums[k].1 += force;
+        sums[k].2 += moment;
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Plan, Scene};
+
+    /// A cantilever of monomers under a force on its tip, with other text for parts of its scene.
+    fn build(length_nm: f64, changes: &[(&str, &str)]) -> Assembly {
+        let force = 2.0 * (160.0 / length_nm).powi(2);
+        let mut text = format!(
+            "Scene(
+                filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: {length_nm:?})]),
+                clamps: [Clamp(end: Start)],
+                loads: [Force(end: End, force_pn: ({force:?}, 0.0, 0.0))],
+                task: Equilibrium(force_pn: 1e-6, torque_pn_nm: 1e-6),
+            )"
+        );
+        for (from, to) in changes {
+            text = text.replace(from, to);
+        }
+        Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
+    }
+
+    /// Starts that a scene gives stay as they are, and so do those of which nothing better is known.
+    #[test]
+    fn other_starts_stay() {
+        let end = "clamps: [Clamp(end: Start)";
+        let sections = "Filament(sections";
+        let imperfect = "Filament(imperfection: (amplitude_nm: 0.01, seed: 1), sections";
+        let drawn = "Filament(monomers: Monomers(anchors: Independent), sections";
+        let others: [&[(&str, &str)]; 4] = [
+            &[
+                (
+                    end,
+                    "clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)",
+                ),
+                ("loads: [Force(end: End", "loads: [Force(at_nm: 2000.0"),
+            ],
+            &[(sections, imperfect)],
+            &[(sections, drawn)],
+            &[("0.0, 0.0))]", "0.0, 1.0))]")],
+        ];
+        assert!(near_equilibrium(&build(3000.0, &[])).is_some());
+        for changes in others {
+            assert!(
+                near_equilibrium(&build(3000.0, changes)).is_none(),
+                "{changes:?}"
+            );
+        }
+        assert!(near_equilibrium(&build(2000.0, &[])).is_none());
+    }
+
+    /// The start is near: from it Newton's method takes 12 steps, 22 from the straight filament, and ends no higher.
+    /// Held monomers stay.
+    #[test]
+    fn few_steps_are_left() {
+        let assembly = build(8000.0, &[]);
+        let start = near_equilibrium(&assembly).unwrap();
+        let built = assembly.system.state();
+        for i in (0..start.points.len()).filter(|&i| !start.points.is_free(i)) {
+            assert_eq!(start.points.position.get(i), built.points.position.get(i));
+        }
+        let (trajectory, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
+        let steps = outcome.equilibrium.unwrap().newton_iterations;
+        let last = trajectory.records.last().unwrap();
+        let energy = last.energies_pn_nm.iter().sum::<f64>();
+        println!("{steps} steps, {energy} pN nm");
+        assert!(steps <= 15, "{steps} steps");
+        assert!(energy < -1.4890, "{energy} pN nm");
+    }
+}
