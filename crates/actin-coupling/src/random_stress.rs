@@ -94,8 +94,9 @@ impl Junction {
         ]
     }
 
-    /// The mean of what the elements towards the rod have of a vector.
-    fn mean(&self, of: impl Fn(&Bond) -> Vector3) -> Vector3 {
+    /// Mean curvature (rad/nm) of the elements towards the rod, as its law sees it.
+    fn curvature_of_rod(&self, state: &State) -> Vector3 {
+        let of = |bond: &Bond| bond.curvature_towards_rod(state) + bond.lacking;
         self.bonds.iter().map(of).sum::<Vector3>() / self.bonds.len() as f64
     }
 
@@ -129,8 +130,7 @@ impl RandomStress for Junction {
         let (vectors, _) = vectors.as_chunks_mut::<OF_BOND>();
         let kt = thermal_energy;
         let factor = self.factor();
-        let rod = |bond: &Bond| bond.curvature_towards_rod(state);
-        let tangent = self.material.bending_tangent(self.mean(rod));
+        let tangent = self.material.bending_tangent(self.curvature_of_rod(state));
         let towards_rod: Vec<Vector3> = vectors.iter().map(|v| drawn(tangent * kt, v[2])).collect();
         for (b, (bond, vectors)) in self.bonds.iter().zip(vectors).enumerate() {
             let (element, material) = bond.towards_monomer();
@@ -154,9 +154,9 @@ impl RandomStress for Junction {
     fn balance(&self, state: &State, stresses: &mut [f64]) {
         let (vectors, _) = stresses.as_chunks_mut::<VECTOR>();
         let (vectors, _) = vectors.as_chunks_mut::<OF_BOND>();
-        let rod = |bond: &Bond| bond.curvature_towards_rod(state) + bond.lacking;
         let n = self.bonds.len() as f64;
-        let by_rod = self.material.bending_couple(self.mean(rod)) * (self.covered() / n);
+        let couple = self.material.bending_couple(self.curvature_of_rod(state));
+        let by_rod = couple * (self.covered() / n);
         for (bond, vectors) in self.bonds.iter().zip(vectors) {
             let [force, end, centre] = self.own(bond, state);
             let (element, _) = bond.towards_rod();

@@ -142,8 +142,8 @@ impl Sampled {
             ""
         };
         format!(
-            "{monomers} monomers with quasi-harmonic interfaces, whose stiffness is each known to {:.1} %{more}. It is that of thermal \
-             motion without loads: shear does not stiffen under tension",
+            "{monomers} monomers with quasi-harmonic interfaces: the stiffness of each is known to {:.1} %{more}. It was sampled \
+             without loads: shear does not stiffen under tension",
             100.0 * error
         )
     }

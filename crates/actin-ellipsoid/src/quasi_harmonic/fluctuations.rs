@@ -28,7 +28,7 @@ struct Sums {
 /// Why there is no chain of these moments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
-    "the displacements of link {link} span less than six directions in {states} states: more states are needed"
+    "the displacements of link {link} span fewer than six directions in {states} states, or are not finite: more states or shorter steps are needed"
 )]
 pub struct FluctuationsError {
     /// The link, from the start of the run.

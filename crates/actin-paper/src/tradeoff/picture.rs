@@ -39,11 +39,15 @@ pub(super) fn draw(picture: &Picture<'_>, path: &Path) -> Result<(), String> {
 /// The points of a picture, cheapest first. What has no error at all, the reference, has no place
 /// on a logarithmic axis.
 fn points(picture: &Picture<'_>) -> Vec<ScatterPoint> {
-    let place = |row: &Row| {
-        row.time_motion
-            .or(row.cost_motion)
-            .zip((picture.error)(row))
+    let is_timed = picture.rows.iter().any(|row| row.time_motion.is_some());
+    let cost = |row: &Row| {
+        if is_timed {
+            row.time_motion
+        } else {
+            row.cost_motion
+        }
     };
+    let place = |row: &Row| cost(row).zip((picture.error)(row));
     let rows: Vec<(&Row, (f64, f64))> = picture
         .rows
         .iter()

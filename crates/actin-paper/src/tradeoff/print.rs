@@ -13,7 +13,7 @@ pub(super) fn table(rows: &[Row], tell: Tell<'_>) {
     };
     heading(first, tell);
     let mut sorted: Vec<&Row> = rows.iter().collect();
-    let cost = |row: &Row| row.time_motion.or(row.time_relative).unwrap_or(0.0);
+    let cost = |row: &Row| row.time_motion.unwrap_or(f64::INFINITY);
     sorted.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
     for row in sorted {
         line(row, tell);

@@ -114,8 +114,10 @@ impl Assembly {
                     written.map(|f| &f.sections[i - self.filaments[filament].sections.start]);
                 let altered = written.map(|section| section.monomers(monomers));
                 let own = altered.as_ref().unwrap_or(monomers);
-                let bonds = self.largest_change_of_bonds(i, own, state);
-                self.push_beyond(&mut found, i, ("bonds", BONDS), bonds);
+                if section.bonds() > 0 {
+                    let bonds = self.largest_change_of_bonds(i, own, state);
+                    self.push_beyond(&mut found, i, ("bonds", BONDS), bonds);
+                }
                 let overlap = self.largest_overlap(section, monomers, state);
                 self.push_beyond(&mut found, i, ("overlap", OVERLAP), overlap);
             }

@@ -11,8 +11,8 @@ use crate::adapt::{ErrorEstimate, Scatter, estimate, scatter};
 use crate::scene::{Equilibrium as Settings, Quantity, Resultant, SceneProblem};
 use crate::{Assembly, Booked};
 use actin_equilibrium::{
-    Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, Path, PathFailure,
-    PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
+    Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path,
+    PathFailure, PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
 };
 use actin_mechanics::{Loads, Residual, State, System};
 use std::ops::ControlFlow;
@@ -297,20 +297,32 @@ impl<'a> Follower<'a> {
         Ok(result.err())
     }
 
+    /// From a state near the equilibrium where one is known; where there is none, or no way from it, from the state as built.
+    fn minimize(
+        &mut self,
+        newton: &mut Newton,
+        state: &mut State,
+    ) -> Result<Equilibrium, Box<NewtonFailure>> {
+        let interactions = self.assembly.system.interactions();
+        let attempts = self.settings.leave_saddles;
+        if let Some(mut near) = near_equilibrium(self.assembly) {
+            newton.carry_along(true);
+            let solved =
+                newton.minimize_observed(&mut near, interactions, attempts, &mut |_| self.go_on());
+            newton.carry_along(false);
+            if solved.is_ok() || self.is_interrupted {
+                *state = near;
+                return solved;
+            }
+        }
+        newton.minimize_observed(state, interactions, attempts, &mut |_| self.go_on())
+    }
+
     fn solve(&mut self, newton: &mut Newton, state: &mut State) -> Result<(), Box<PathFailure>> {
         if self.position.points > 0 {
             return Ok(());
         }
-        let interactions = self.assembly.system.interactions();
-        let attempts = self.settings.leave_saddles;
-        let start = near_equilibrium(self.assembly);
-        newton.carry_along(start.is_some());
-        if let Some(start) = start {
-            *state = start;
-        }
-        let solved = newton.minimize_observed(state, interactions, attempts, &mut |_| self.go_on());
-        newton.carry_along(false);
-        match solved {
+        match self.minimize(newton, state) {
             Ok(equilibrium) => {
                 if self.record(0.0, state, &equilibrium).is_continue() {
                     self.position.motion = state.motion();

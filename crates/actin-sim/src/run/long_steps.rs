@@ -1,5 +1,5 @@
-//! How long steps of rods and quasi-harmonic monomers in thermal overdamped motion may be: what sets them is what is looked at and what changes, not how
-//! fast stretch and shear relax.
+//! How long steps of rods and quasi-harmonic monomers in thermal overdamped motion may be: what sets them is what is
+//! looked at and what changes, not how fast stretch and shear relax.
 
 use crate::Assembly;
 use crate::assembly::COARSEST;
@@ -21,8 +21,8 @@ const LONGEST_FOLLOWED_NM: f64 = 40.0;
 /// Records of a motion whose scene does not say how many.
 const RECORDS: f64 = 100.0;
 
-/// The longest step (ns) of rods and monomers at a temperature that shows bending to 1 % (`actin_brownian::Brownian`) and whatever changes; none
-/// of bonds, of contact, or without heat.
+/// The longest step (ns) of rods and monomers at a temperature that shows bending to 1 % (`actin_brownian::Brownian`) and
+/// whatever changes; none of bonds, of contact, or without heat.
 pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, SceneProblem> {
     let has_others = assembly.counts().bonds > 0 || assembly.scene.repulsion.is_some();
     if has_others || task.temperature_k == 0.0 {

@@ -420,7 +420,6 @@ mod tests {
         let steps = outcome.equilibrium.unwrap().newton_iterations;
         let last = trajectory.records.last().unwrap();
         let energy = last.energies_pn_nm.iter().sum::<f64>();
-        println!("{steps} steps, {energy} pN nm");
         assert!(steps <= 15, "{steps} steps");
         assert!(energy < -1.4890, "{energy} pN nm");
     }

@@ -77,12 +77,16 @@ pub enum Interfaces {
     /// simulated first. It needs a temperature, and takes steps ten thousand times longer. Stiffness is that at
     /// this temperature without loads: it does not change with tension, twist or bending.
     QuasiHarmonic {
-        /// How long the motion of the bonds is simulated; positive. By default 400 ns: seconds, or about a minute for
-        /// each micrometre of monomers.
+        /// How long the motion of the bonds is simulated; positive, at most 20,000. By default 400 ns: seconds, or about a minute for
+        /// each micrometre of monomers, before anything else. The same for every seed of the task, so that it is no part of
+        /// their scatter.
         #[serde(default = "sampled_ns")]
         sampled_ns: f64,
     },
 }
+
+/// Longest motion (ns) that interfaces are sampled from: an hour for each micrometre of monomers.
+const MOST_SAMPLED_NS: f64 = 2e4;
 
 fn sampled_ns() -> f64 {
     400.0
@@ -161,6 +165,15 @@ pub(super) fn check(brownian: &Brownian) -> Result<(), SceneProblem> {
     }
     if let Interfaces::QuasiHarmonic { sampled_ns } = brownian.interfaces {
         positive("task.interfaces.sampled_ns", sampled_ns)?;
+        if sampled_ns > MOST_SAMPLED_NS {
+            let rule =
+                format!("must be at most {MOST_SAMPLED_NS:?}: 400 ns know each stiffness to 2 %");
+            return Err(SceneProblem::new(
+                "task.interfaces.sampled_ns",
+                sampled_ns,
+                rule,
+            ));
+        }
         if brownian.temperature_k == 0.0 {
             let rule = "interfaces have the stiffness of their thermal motion: write a temperature, or Bonds";
             return Err(SceneProblem::new("task.interfaces", "QuasiHarmonic", rule));

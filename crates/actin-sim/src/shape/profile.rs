@@ -160,7 +160,14 @@ mod tests {
     use crate::Scene;
     use actin_mechanics::{Xorshift, perturb};
 
+    const QUASI_HARMONIC: &str = "Brownian(
+        duration_ms: 1e-3, temperature_k: 298.0, interfaces: QuasiHarmonic(sampled_ns: 4.0))";
+
     fn build(sections: &str, clamps: &str) -> Assembly {
+        build_for(sections, clamps, "Equilibrium()")
+    }
+
+    fn build_for(sections: &str, clamps: &str, task: &str) -> Assembly {
         let text = format!(
             "Scene(
                 filament: Filament(sections: [{sections}]),
@@ -168,7 +175,7 @@ mod tests {
                 linkers: [Linker(
                     at_nm: 20.0, displaced_nm: (3.0, 0.0, 0.0), stiffness_pn_per_nm: 10.0,
                 )],
-                task: Equilibrium(),
+                task: {task},
             )"
         );
         Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
@@ -192,8 +199,11 @@ mod tests {
     #[test]
     fn the_energy_of_the_filament_is_kept() {
         let mut noise = Xorshift::new(6);
-        for (sections, clamps) in SECTIONS.iter().flat_map(|s| CLAMPS.map(|c| (s, c))) {
-            let assembly = build(sections, clamps);
+        let of_bonds = SECTIONS.iter().flat_map(|s| CLAMPS.map(|c| build(s, c)));
+        let of_links = SECTIONS
+            .iter()
+            .map(|s| build_for(s, CLAMPS[1], QUASI_HARMONIC));
+        for assembly in of_bonds.chain(of_links) {
             for (interaction, spans) in assembly.system.interactions().iter().zip(&assembly.spans) {
                 let expected = match interaction.term() {
                     "linker" => 0,

@@ -1,5 +1,6 @@
 //! Which stretch of the filament each element of an interaction spans.
 
+use super::sampled::Sampling;
 use super::{Body, Builder, Strand};
 use crate::assembly::Part;
 use actin_cosserat::{RodEnd, RodLayout};
@@ -14,10 +15,11 @@ impl Builder<'_> {
             let strand = &self.strands[past - 1];
             (strand, section - strand.first_section)
         };
+        let has_bonds = Sampling::of(&self.scene.task).is_none();
         let of = |part: Part| match part {
             Part::Section(section) => {
                 let (strand, i) = strand_of(section);
-                strand.section_spans(i)
+                strand.section_spans(i, has_bonds)
             }
             Part::Junction(section) => {
                 let (strand, i) = strand_of(section);
@@ -35,22 +37,23 @@ impl Builder<'_> {
 }
 
 impl Strand<'_> {
-    fn section_spans(&self, i: usize) -> Vec<[f64; 2]> {
-        match &self.bodies[i] {
-            Body::Rod(layout) => rod(layout, self.resolved[i].from_nm),
-            Body::Monomers(monomers) => {
-                self.interfaces(monomers, self.bonded_run(i, monomers).count)
-            }
-        }
+    fn section_spans(&self, i: usize, has_bonds: bool) -> Vec<[f64; 2]> {
+        let monomers = match &self.bodies[i] {
+            Body::Rod(layout) => return rod(layout, self.resolved[i].from_nm),
+            Body::Monomers(monomers) => monomers,
+        };
+        let reached = self.bonded_run(i, monomers).count;
+        let bonds = InterfaceKind::ALL.map(InterfaceKind::steps);
+        self.interfaces(monomers, reached, if has_bonds { &bonds } else { &[1] })
     }
 
-    /// From monomer to monomer: for each lower one the lateral, then the longitudinal interface.
-    /// Bonds reach the first `reached` monomers.
-    fn interfaces(&self, monomers: &Monomers, reached: usize) -> Vec<[f64; 2]> {
+    /// From monomer to monomer: for each lower one those that are so many `steps` above it, of bonds the lateral, then the
+    /// longitudinal interface. Bonds reach the first `reached` monomers.
+    fn interfaces(&self, monomers: &Monomers, reached: usize, steps: &[usize]) -> Vec<[f64; 2]> {
         let s_nm = |k: usize| self.lattice.s_nm(monomers.index(k));
         let of = |lower: usize| {
-            let uppers = InterfaceKind::ALL.map(|kind| lower + kind.steps());
-            let inside = uppers.into_iter().filter(|&upper| upper < reached);
+            let uppers = steps.iter().map(move |steps| lower + steps);
+            let inside = uppers.filter(|&upper| upper < reached);
             inside.map(move |upper| [s_nm(lower), s_nm(upper)])
         };
         (0..monomers.count).flat_map(of).collect()
