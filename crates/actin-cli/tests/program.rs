@@ -362,7 +362,7 @@ fn check_tells_cost_and_advice() {
     for (force, advice) in [
         (
             "-2.0",
-            "// cheaper: replace all monomers by a rod with law Fitted: ",
+            "// cheaper: replace all monomers by a rod of 40 nm segments with law Homogenised: ",
         ),
         ("-50.0", "// cheaper: nothing like this scene was measured"),
     ] {

@@ -1,5 +1,6 @@
 //! Equilibria: Newton from the built state, or along the path of the scene.
 
+use super::lost_load::lost_load;
 use super::rest::{is_saddle, saddle};
 use super::sink::{Arrival, Clock, PathPosition, Saved, Sink};
 use super::start::near_equilibrium;
@@ -8,7 +9,7 @@ use super::taken::Taken;
 use super::unknowns::newton;
 use super::{At, Failure, Outcome, Progress, Record, Recorded, RunPosition, Status};
 use crate::adapt::{ErrorEstimate, Scatter, estimate, scatter};
-use crate::scene::{Equilibrium as Settings, Quantity, Resultant, SceneProblem};
+use crate::scene::{Equilibrium as Settings, Quantity, SceneProblem};
 use crate::{Assembly, Booked};
 use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path,
@@ -16,9 +17,6 @@ use actin_equilibrium::{
 };
 use actin_mechanics::{Loads, Residual, State, System};
 use std::ops::ControlFlow;
-
-/// Forces left over that are a larger share of a load hide it.
-const RESOLVED: f64 = 0.01;
 
 /// What is known of an equilibrium.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,28 +87,6 @@ pub(super) fn run(
     }
     .with(taken.into_remarks());
     Ok((outcome, failure))
-}
-
-/// The first load that is lost in an equilibrium: the forces that are left, be it by rounding of
-/// places or by a loose tolerance, are no longer small beside it.
-fn lost_load(assembly: &Assembly, last: &Record) -> Option<SceneProblem> {
-    let loads = assembly.scene.loads.iter().enumerate();
-    loads.into_iter().find_map(|(i, load)| {
-        let factor = last.state.controls[assembly.loads[i]];
-        let (size, residual, unit) = match load.resultant(&assembly.scene) {
-            Resultant::Force(force) => (force.norm(), last.residual_force_pn, "pN"),
-            Resultant::Couple(couple) => (couple.norm(), last.residual_torque_pn_nm, "pN nm"),
-        };
-        let size = size * factor.abs();
-        let is_lost = size > 0.0 && residual > RESOLVED * size;
-        is_lost.then(|| {
-            let rule = format!(
-                "is below 100 times the residual of {residual:.1e} {unit}, so the equilibrium does not \
-                 show what it does; use a larger load"
-            );
-            load.problem(i, rule)
-        })
-    })
 }
 
 /// Where a path stands after `points` equilibria, in words; nothing where there is no path.

@@ -6,6 +6,7 @@ mod dynamics;
 mod equilibrium;
 mod hinge;
 mod long_steps;
+mod lost_load;
 mod outcome;
 mod plan;
 mod points;

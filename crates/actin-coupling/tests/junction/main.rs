@@ -1,16 +1,17 @@
 //! The junction: that its loads are a gradient that balances, what it resists and how strongly.
 
+mod stress;
+
 use actin_cosserat::{
-    CrossSection, EnergyGradient, Homogenised, Rigidities, RodLayout, RodMaterial,
-    SegmentCurvature, SegmentLaw, StraightRod,
+    CrossSection, EnergyGradient, Rigidities, RodLayout, RodMaterial, StraightRod,
 };
 use actin_coupling::{
     AttachedMonomer, Junction, JunctionError, JunctionParts, JunctionSide, JunctionWeight,
     push_junction_frames,
 };
 use actin_mechanics::testing::{
-    assert_fluctuates, assert_is_balanced, assert_is_gradient, assert_is_invariant,
-    assert_is_stiffness, loads_of, move_rigidly,
+    assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness, loads_of,
+    move_rigidly,
 };
 use actin_mechanics::{
     Frame, Inertia, Interaction, Point, State, UnitQuaternion, Vector3, rotation,
@@ -123,16 +124,6 @@ impl Filament {
         }
     }
 
-    /// Stretches all by a thousandth along the axis.
-    fn stretch(&mut self) {
-        let points = self.state.points.len();
-        for i in 0..points {
-            let x = self.state.points.position.get(i);
-            let stretched = Vector3::new(x.x, x.y, 1.001 * x.z);
-            self.state.points.position.set(i, stretched);
-        }
-    }
-
     /// Turns every junction frame about the axis.
     fn turn_junction(&mut self, turn: f64) {
         for frame in self.frames.clone() {
@@ -174,45 +165,6 @@ fn stiffness_is_the_derivative_of_the_loads_far_from_rest() {
         perturb(&mut filament.state, &mut noise, 0.7, 0.5);
         // h = 0.01 nm and rad: truncation and round-off are measured below 1e-12; 1e-10 is safe.
         assert_is_stiffness(&junction, &filament.state, 0.01, 1e-10);
-    }
-}
-
-/// A mix-up of the two couples, of weights or of axes would be off by all of an entry. Stretched along the axis, so that nothing of
-/// what turns frames about themselves is left out.
-#[test]
-fn stress_has_the_covariance_of_the_stiffness() {
-    for (side, weight, attached) in all() {
-        let mut filament = filament(side, attached);
-        let junction = filament.junction(side, weight);
-        filament.stretch();
-        assert_fluctuates(&[&junction], &filament.state, 1e-12);
-    }
-}
-
-/// Beside a rod whose strain knows of its curvature both together have it: half of the end segment counts once. Stretched, so
-/// that shear of the law is stiff.
-#[test]
-fn stress_beside_an_extended_rod_has_the_covariance_of_the_stiffness() {
-    let material = RodMaterial::homogenised(Homogenised::mean_filament_at_298_k());
-    let law = SegmentLaw::of(&material, None).unwrap();
-    for (side, weight, attached) in all() {
-        let mut filament = filament(side, attached);
-        let parts = JunctionParts {
-            material,
-            ..filament.parts(side, weight)
-        };
-        let junction = Junction::new(&filament.state, parts).unwrap();
-        let joined = junction.joined_elements();
-        let (start, end): (&[_], &[_]) = match side {
-            JunctionSide::MonomersFirst => (&joined, &[]),
-            JunctionSide::RodFirst => (&[], &joined),
-        };
-        let curvature = SegmentCurvature::new(&filament.rod, start, end);
-        let rod = EnergyGradient::new(filament.rod.clone(), material);
-        let rod = rod.with_extension(law, curvature);
-        filament.stretch();
-        let junction = junction.beside_extended_rod();
-        assert_fluctuates(&[&rod, &junction], &filament.state, 1e-10);
     }
 }
 

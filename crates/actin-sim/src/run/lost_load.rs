@@ -1,0 +1,30 @@
+//! Loads that the residual forces of an equilibrium hide.
+
+use super::Record;
+use crate::Assembly;
+use crate::scene::{Resultant, SceneProblem};
+
+/// Residual forces that are a larger share of a load hide it.
+const RESOLVED: f64 = 0.01;
+
+/// The first load that is hidden in an equilibrium: residual forces, of rounding of places or of a loose
+/// tolerance, are no longer small beside it.
+pub(super) fn lost_load(assembly: &Assembly, last: &Record) -> Option<SceneProblem> {
+    let loads = assembly.scene.loads.iter().enumerate();
+    loads.into_iter().find_map(|(i, load)| {
+        let factor = last.state.controls[assembly.loads[i]];
+        let (size, residual, unit) = match load.resultant(&assembly.scene) {
+            Resultant::Force(force) => (force.norm(), last.residual_force_pn, "pN"),
+            Resultant::Couple(couple) => (couple.norm(), last.residual_torque_pn_nm, "pN nm"),
+        };
+        let size = size * factor.abs();
+        let is_lost = size > 0.0 && residual > RESOLVED * size;
+        is_lost.then(|| {
+            let rule = format!(
+                "is below 100 times the residual of {residual:.1e} {unit}, so the equilibrium does not \
+                 show what it does; use a larger load"
+            );
+            load.problem(i, rule)
+        })
+    })
+}
