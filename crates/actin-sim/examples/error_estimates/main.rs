@@ -10,7 +10,7 @@
 mod cases;
 mod search;
 
-use actin_sim::adapt::{Chosen, estimate};
+use actin_sim::adapt::{Chosen, RodStretch, estimate};
 use actin_sim::{Adaptive, Assembly, Plan, Quantity, RodLaw, Scene, Section, Want};
 use cases::{Case, cases};
 use search::fewest;
@@ -138,16 +138,29 @@ fn choose(
     let share = stretches.fold(0.0, |sum, [from, to]| sum + to - from);
     let limit = monomers.map_or_else(String::new, |most| format!(", {most} monomers"));
     println!(
-        "| {} | **{} %{limit}**: {}, {:.0} % monomers, segments of {:.0} nm, {} tried | {off:.2} | {estimated:.2} | | | | | {:.1} |",
+        "| {} | **{} %{limit}**: {}, {:.0} % monomers, {}, {} tried | {off:.2} | {estimated:.2} | | | | | {:.1} |",
         case.name,
         100.0 * error,
         words(&chosen.monomers_nm),
         100.0 * share / length,
-        chosen.segment_nm,
+        segments(&chosen),
         chosen.tried.len(),
         (chosen.wall_s + own) / seconds,
     );
     Ok(chosen)
+}
+
+/// How long segments were chosen to be, and how many where they differ.
+fn segments(chosen: &Chosen) -> String {
+    let lengths = chosen.graded.iter().map(RodStretch::segment_nm);
+    match lengths.reduce(f64::min) {
+        None => format!("segments of {:.0} nm", chosen.segment_nm),
+        Some(shortest) => {
+            let count: usize = chosen.graded.iter().map(|rod| rod.segments).sum();
+            let longest = chosen.segment_nm;
+            format!("{count} segments of {shortest:.1} to {longest:.1} nm")
+        }
+    }
 }
 
 fn solved(scene: &Scene) -> Result<(Assembly, f64), Box<dyn std::error::Error>> {

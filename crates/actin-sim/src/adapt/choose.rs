@@ -1,8 +1,10 @@
 //! The sections that a wanted accuracy needs.
 
-use super::setting::{Lengths, Setting};
-use super::{Chosen, ErrorEstimate, Located, Tried, at_rest, check, equilibrium, located};
-use crate::scene::{Adaptive, RodLaw, RodModel, Scene, SceneProblem};
+use super::setting::{Lengths, SHORTEST_SEGMENTS_NM, Setting};
+use super::{
+    Chosen, ErrorEstimate, Located, Tried, at_rest, check, equilibrium, grade, halving, located,
+};
+use crate::scene::{Adaptive, RodLaw, RodModel, Scene, SceneProblem, Task};
 use std::time::Instant;
 
 /// Most resolutions that are tried before all monomers.
@@ -12,7 +14,7 @@ const DOUBT: f64 = 0.2;
 /// A trial that leaves more than this share of the error before it has not helped.
 const HELPS: f64 = 0.8;
 
-/// The scene with sections written for the `Adaptive` of its filament: a rod, of segments as long as they may be, and
+/// The scene with sections written for the `Adaptive` of its filament: a rod, of segments as long as they may be at each place, and
 /// monomers where the wanted number needs them, down to every monomer. A rod without parameters is one under
 /// `Homogenised`.
 ///
@@ -49,6 +51,7 @@ pub fn choose(scene: &Scene, adaptive: &Adaptive) -> Result<(Scene, Chosen), Sce
         monomers: setting.count(scene, search.lengths)?,
         monomers_nm: setting.monomers.clone(),
         segment_nm: setting.segment_nm,
+        graded: setting.rods(scene, search.lengths),
         estimate,
         tried: search.tried,
         wall_s: began.elapsed().as_secs_f64(),
@@ -132,8 +135,8 @@ impl Search<'_> {
         if is_last {
             return None;
         }
-        if let Some(halved) = setting.halved(found, limit) {
-            return Some(halved);
+        if let Some(finer) = self.finer(setting, found, limit) {
+            return Some(finer);
         }
         let marked = setting.marked((found, limit), self.lengths, |more| self.fits(more));
         if may_be_all {
@@ -153,16 +156,27 @@ impl Search<'_> {
         self.untried()
     }
 
+    /// Shorter segments, where these are the larger part of the error: graded, where that takes fewer. A motion keeps
+    /// one length, since its step is that of the shortest.
+    fn finer(&self, setting: &Setting, found: &Located, limit: f64) -> Option<Setting> {
+        let halved = setting.halved(found, limit)?;
+        if !matches!(self.scene.task, Task::Equilibrium(_)) {
+            return Some(halved);
+        }
+        let scene = setting.apply(self.scene, self.lengths);
+        let shares = halving::of_stretches(&at_rest(&scene), &found.total, DOUBT);
+        let between_nm = [
+            SHORTEST_SEGMENTS_NM,
+            Setting::first(self.lengths).segment_nm,
+        ];
+        let graded = shares.and_then(|shares| grade::graded(&shares, between_nm));
+        Some(graded.map_or(halved, |graded| setting.with_graded(graded)))
+    }
+
     /// The next that has not been tried.
     fn untried(&mut self) -> Option<Setting> {
-        let is_new = |setting: &Setting, tried: &[Tried]| {
-            let same = |t: &Tried| t.monomers_nm == setting.monomers;
-            !tried
-                .iter()
-                .any(|t| same(t) && t.segment_nm <= setting.segment_nm)
-        };
         while let Some(setting) = self.next.pop() {
-            if is_new(&setting, &self.tried) {
+            if !self.tried.iter().any(|t| setting.is_no_finer_than(t)) {
                 return Some(setting);
             }
         }

@@ -1,6 +1,6 @@
 //! What was chosen, and what is said of it.
 
-use super::ErrorEstimate;
+use super::{ErrorEstimate, RodStretch};
 use crate::scene::Quantity;
 use serde::{Deserialize, Serialize};
 
@@ -23,8 +23,11 @@ pub struct Chosen {
     pub monomers: usize,
     /// Where monomers are resolved (nm of arc length).
     pub monomers_nm: Vec<[f64; 2]>,
-    /// Length of segments (nm), as nearly as whole ones allow.
+    /// Length of segments (nm), as nearly as whole ones allow; the longest, where they are graded.
     pub segment_nm: f64,
+    /// The rods in order, where their segments differ in length; none where all are as long.
+    #[serde(default)]
+    pub graded: Vec<RodStretch>,
     /// The error that is left; none where every monomer is resolved.
     pub estimate: Option<ErrorEstimate>,
     /// Resolutions that were tried, and the estimated relative error of each.
@@ -75,14 +78,27 @@ impl Chosen {
         let stretches = self.monomers_nm.iter();
         let stretches = stretches.map(|[from, to]| format!("{from:.0} to {to:.0} nm"));
         let monomers = stretches.collect::<Vec<_>>().join(", ");
-        let segment_nm = (10.0 * self.segment_nm).round() / 10.0;
         match (monomers.is_empty(), self.estimate) {
-            (true, _) => format!("a rod of segments of {segment_nm} nm"),
+            (true, _) => format!("a rod of segments of {}", self.segments()),
             (false, Some(_)) => {
-                format!("monomers from {monomers}, and a rod of segments of {segment_nm} nm")
+                let segments = self.segments();
+                format!("monomers from {monomers}, and a rod of segments of {segments}")
             }
             (false, None) => "every monomer".to_owned(),
         }
+    }
+
+    /// How long segments are.
+    fn segments(&self) -> String {
+        let rounded = |segment_nm: f64| (10.0 * segment_nm).round() / 10.0;
+        if self.graded.is_empty() {
+            return format!("{} nm", rounded(self.segment_nm));
+        }
+        let stretches = self.graded.iter().map(|rod| {
+            let length = rounded(rod.segment_nm());
+            format!("{length} nm from {:.0} to {:.0} nm", rod.from_nm, rod.to_nm)
+        });
+        stretches.collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -91,8 +107,11 @@ impl Chosen {
 pub struct Tried {
     /// Where monomers were resolved (nm of arc length).
     pub monomers_nm: Vec<[f64; 2]>,
-    /// Length of segments (nm).
+    /// Length of segments (nm); the longest, where they were graded.
     pub segment_nm: f64,
+    /// Stretches with segments of one length each, where they were graded.
+    #[serde(default)]
+    pub graded: Vec<RodStretch>,
     /// Estimated error over the corrected value.
     pub relative_error: f64,
 }

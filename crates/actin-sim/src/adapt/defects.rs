@@ -33,11 +33,10 @@ pub(super) struct Look<'a> {
 }
 
 impl Look<'_> {
-    /// What the law of a rod makes of each segment, against monomers under the same couple and force.
+    /// What the law of a rod, or of several that follow one another, makes of each segment, against monomers under the same couple and force.
     ///
     /// Cells are relaxed where most of the wanted number comes from. None where one finds no minimum.
-    pub(super) fn law(&self, rod: &Rod) -> Option<Vec<Contribution>> {
-        let span = &self.assembly.sections[rod.section];
+    pub(super) fn law(&self, span: &SectionSpan, rod: &Rod) -> Option<Vec<Contribution>> {
         let all = segments(self.assembly, self.state, span);
         let share = |segment: &Segment| {
             let weight = self.adjoint.weight(segment.s_nm);

@@ -4,7 +4,8 @@
 //! every monomer resolved, which is not computed. What the laws of rods, junctions and walls do otherwise than
 //! monomers under the same loads is found from periods of monomers (`ideal.rs`, `defects.rs`) and two short
 //! filaments at each wall (`wall.rs`); what that does to the number follows from one linear solve (`adjoint.rs`). The
-//! part of the segments' lengths comes from halving them. [`choose`] resolves as monomers what the number needs.
+//! part of the segments' lengths comes from halving them (`halving.rs`). [`choose`] resolves as monomers what the
+//! number needs, and grades the lengths of segments (`grade.rs`).
 //!
 //! # Source
 //! Dual-weighted residuals: R. Becker and R. Rannacher, Acta Numerica 10 (2001) 1. Of model errors: J. T. Oden and
@@ -14,18 +15,25 @@ mod adjoint;
 mod choose;
 mod chosen;
 mod defects;
+mod grade;
+mod halving;
 mod ideal;
+mod runs;
 mod scatter;
 mod section_loads;
 mod setting;
+mod stretch;
 mod wall;
 
+#[cfg(test)]
+mod graded_tests;
 #[cfg(test)]
 mod tests;
 
 pub use choose::choose;
 pub use chosen::{Chosen, Tried};
 pub use scatter::{Scatter, scatter};
+pub use stretch::RodStretch;
 
 use crate::scene::{Equilibrium, Hold, Load, Quantity, Scene, SceneProblem, Section, Slides, Task};
 use crate::{Assembly, End, Plan, RunError};
@@ -33,11 +41,9 @@ use actin_mechanics::State;
 use adjoint::Adjoint;
 use defects::{Contribution, Look};
 pub(crate) use ideal::{EndlessFilament, PERIOD};
+use runs::{Run, runs};
 use section_loads::SectionLoads;
 use serde::{Deserialize, Serialize};
-
-/// Of an error of order 2 in the length of segments, what halving them leaves.
-const LEFT_BY_HALVING: f64 = 0.25;
 
 /// Rises below which the ends of a filament are not told apart.
 const SHORTEST_RISES: f64 = 16.0;
@@ -180,17 +186,20 @@ fn located(
         adjoint: &Adjoint::of(quantity, assembly, state)?,
         mean: &EndlessFilament::of(assembly.monomers_of(0))?,
     };
+    let runs = runs(assembly);
     let mut parts = Vec::new();
-    for rod in &assembly.rods {
-        parts.extend(look.law(rod).ok_or_else(wall::no_cell)?);
+    for run in &runs {
+        if let Some(rod) = run.rod {
+            parts.extend(look.law(&run.span, rod).ok_or_else(wall::no_cell)?);
+        }
     }
     let law = sum(&parts);
-    let junctions = sum(&look.junctions()?);
-    let at_walls = look.walls()?;
+    let junctions = sum(&look.junctions(&runs)?);
+    let at_walls = look.walls(&runs)?;
     let walls = sum(&at_walls);
     parts.extend(at_walls);
     let value = look.adjoint.value;
-    let segments = of_segments(assembly, quantity, value)?;
+    let segments = halving::of_all(assembly, quantity, value)?;
     let total = ErrorEstimate {
         quantity,
         value,
@@ -214,26 +223,25 @@ fn ensure_known(assembly: &Assembly, quantity: Quantity) -> Result<(), SceneProb
 }
 
 impl Look<'_> {
-    fn junctions(&self) -> Result<Vec<Contribution>, SceneProblem> {
-        let sections = self.assembly.sections_of(0);
-        let pairs = sections.windows(2).map(|pair| {
-            let (monomers, rod) = if pair[0].is_ellipsoids() {
-                (&pair[0], &pair[1])
+    fn junctions(&self, runs: &[Run]) -> Result<Vec<Contribution>, SceneProblem> {
+        let pairs = runs.windows(2).map(|pair| {
+            let (one, other) = (&pair[0].span, &pair[1].span);
+            let (monomers, rod) = if one.is_ellipsoids() {
+                (one, other)
             } else {
-                (&pair[1], &pair[0])
+                (other, one)
             };
             self.junction(monomers, rod).ok_or_else(wall::no_cell)
         });
         pairs.collect()
     }
 
-    fn walls(&self) -> Result<Vec<Contribution>, SceneProblem> {
-        let sections = self.assembly.sections_of(0);
-        let ends = [(End::Start, sections.first()), (End::End, sections.last())];
-        let walls = ends.into_iter().filter_map(|(end, section)| {
+    fn walls(&self, runs: &[Run]) -> Result<Vec<Contribution>, SceneProblem> {
+        let ends = [(End::Start, runs.first()), (End::End, runs.last())];
+        let walls = ends.into_iter().filter_map(|(end, run)| {
             self.assembly.clamp_at(0, end)?;
-            let rod = section.filter(|section| !section.is_ellipsoids())?;
-            Some(self.wall(end, rod))
+            let rod = run.filter(|run| run.rod.is_some())?;
+            Some(self.wall(end, &rod.span))
         });
         walls.collect()
     }
@@ -241,25 +249,6 @@ impl Look<'_> {
 
 fn sum(parts: &[Contribution]) -> f64 {
     parts.iter().fold(0.0, |sum, part| sum + part.error)
-}
-
-/// What halving all segments changes, and what that leaves.
-fn of_segments(assembly: &Assembly, quantity: Quantity, value: f64) -> Result<f64, SceneProblem> {
-    let mut scene = assembly.scene.clone();
-    let spans = assembly.sections_of(0).iter();
-    let mut rods = 0;
-    for (section, span) in scene.filament.sections.iter_mut().zip(spans) {
-        if let Section::Rod { segments, .. } = section {
-            *segments = Some(2 * (span.points.len() - 1));
-            rods += 1;
-        }
-    }
-    if rods == 0 {
-        return Ok(0.0);
-    }
-    let (halved, state) = equilibrium(&scene)?;
-    let halved = self::value(&halved, &state, quantity);
-    Ok((halved - value) / (1.0 - LEFT_BY_HALVING))
 }
 
 /// The equilibrium that a scene leads to.

@@ -2,15 +2,16 @@
 
 use super::defects::Contribution;
 use super::ideal::PERIOD;
-use super::{Located, Tried, is_too_short};
+use super::stretch::divided;
+use super::{Located, RodStretch, Tried, is_too_short};
 use crate::advice::{sections_of, segments_of};
 use crate::assembly::{count_monomers, whole_length_nm};
-use crate::scene::{Scene, SceneProblem};
+use crate::scene::{Scene, SceneProblem, Section};
 
 /// Segments to begin with: at least as long (nm), and at least this share of the filament.
 const FIRST_SEGMENTS: (f64, f64) = (20.0, 0.025);
 /// The shortest segments (nm).
-const SHORTEST_SEGMENTS_NM: f64 = 2.5;
+pub(super) const SHORTEST_SEGMENTS_NM: f64 = 2.5;
 /// What is left after marking, as a share of the wanted error.
 const MARK_TO: f64 = 0.4;
 /// Monomers over more of the length than this are monomers throughout.
@@ -46,8 +47,10 @@ impl Lengths {
 pub(super) struct Setting {
     /// Where monomers are (nm), in order.
     pub monomers: Vec<[f64; 2]>,
-    /// Length of segments elsewhere (nm).
+    /// Length of segments elsewhere (nm); the longest, where they are graded.
     pub segment_nm: f64,
+    /// Where segments are graded, in order; none where all are as long.
+    pub graded: Vec<RodStretch>,
 }
 
 impl Setting {
@@ -63,6 +66,7 @@ impl Setting {
         Self {
             monomers,
             segment_nm: shortest.max(share * length_nm),
+            graded: Vec::new(),
         }
     }
 
@@ -72,8 +76,28 @@ impl Setting {
         let sections = sections_of(lengths.length_nm, &self.monomers, |length| {
             segments_of(length, self.segment_nm)
         });
-        scene.filament.sections = sections.into();
+        let parts = sections.into_iter().flat_map(|section| self.part(section));
+        scene.filament.sections = parts.collect::<Vec<_>>().into();
         scene
+    }
+
+    /// A section, in several where it is a rod whose segments are graded.
+    fn part(&self, section: Section) -> Vec<Section> {
+        let (from_nm, to_nm) = section.span_nm();
+        let stretches = divided([from_nm, to_nm], &self.graded);
+        if !section.is_rod() || stretches.is_empty() {
+            return vec![section];
+        }
+        stretches.iter().map(RodStretch::section).collect()
+    }
+
+    /// Its rods, where their segments are graded.
+    pub(super) fn rods(&self, scene: &Scene, lengths: Lengths) -> Vec<RodStretch> {
+        if self.graded.is_empty() {
+            return Vec::new();
+        }
+        let sections = self.apply(scene, lengths).filament.sections;
+        sections.iter().filter_map(RodStretch::of).collect()
     }
 
     /// Number of its monomers, held ones included.
@@ -88,6 +112,7 @@ impl Setting {
         Tried {
             monomers_nm: self.monomers.clone(),
             segment_nm: self.segment_nm,
+            graded: self.graded.clone(),
             relative_error,
         }
     }
@@ -114,8 +139,31 @@ impl Setting {
         let is_coarse = coarse > rest.abs().max(0.25 * limit);
         (is_coarse && self.segment_nm > SHORTEST_SEGMENTS_NM).then(|| Self {
             segment_nm: 0.5 * self.segment_nm,
+            graded: self.graded.iter().map(RodStretch::halved).collect(),
             ..self.clone()
         })
+    }
+
+    /// The same with graded segments.
+    pub(super) fn with_graded(&self, graded: Vec<RodStretch>) -> Self {
+        let lengths = graded.iter().map(RodStretch::segment_nm);
+        Self {
+            segment_nm: lengths.fold(0.0, f64::max),
+            graded,
+            ..self.clone()
+        }
+    }
+
+    /// Whether a resolution that was tried has the same monomers and segments nowhere longer.
+    pub(super) fn is_no_finer_than(&self, tried: &Tried) -> bool {
+        let middles = self.graded.iter().chain(&tried.graded);
+        let mut middles = middles.map(|stretch| 0.5 * (stretch.from_nm + stretch.to_nm));
+        let (own, other) = (
+            (&self.graded, self.segment_nm),
+            (&tried.graded, tried.segment_nm),
+        );
+        let is_longer = |s_nm: f64| length_at(other, s_nm) > length_at(own, s_nm);
+        tried.monomers_nm == self.monomers && !is_longer(f64::NAN) && !middles.any(is_longer)
     }
 
     /// Monomers where most of the error comes from, as far as `fits` allows; itself where there is no such place.
@@ -180,6 +228,13 @@ impl Setting {
         let covered: f64 = self.monomers.iter().map(|[from, to]| to - from).sum();
         covered > MOST_SHARE * lengths.length_nm
     }
+}
+
+/// Length of segments about an arc length (nm).
+fn length_at((graded, segment_nm): (&Vec<RodStretch>, f64), s_nm: f64) -> f64 {
+    let about = |stretch: &&RodStretch| (stretch.from_nm..=stretch.to_nm).contains(&s_nm);
+    let stretch = graded.iter().find(about);
+    stretch.map_or(segment_nm, RodStretch::segment_nm)
 }
 
 /// What stretches of one period contribute.
