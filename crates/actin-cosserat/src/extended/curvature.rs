@@ -92,8 +92,19 @@ impl SegmentCurvature {
     /// let them shear more. Meant for a potential.
     #[must_use]
     pub fn with_end_shear(self, layout: &RodLayout, ends: [EndShear; 2]) -> Self {
+        self.with_end_shear_beyond(layout, ends, [0.0; 2])
+    }
+
+    /// The same where other rods continue this one, and the ends are theirs: so far beyond its own (nm).
+    #[must_use]
+    pub fn with_end_shear_beyond(
+        self,
+        layout: &RodLayout,
+        ends: [EndShear; 2],
+        beyond_nm: [f64; 2],
+    ) -> Self {
         Self {
-            shear: factors(layout.segment_lengths(), ends),
+            shear: factors(layout.segment_lengths(), ends, beyond_nm),
             ..self
         }
     }

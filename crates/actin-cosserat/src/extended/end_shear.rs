@@ -39,14 +39,15 @@ impl EndShear {
 /// The compliance of shear is `c(s) = (1 + a exp(-s/l)) (1 + b exp(-(L - s)/l))` times that far from ends, with `a` and
 /// `b` -1 at blocked ends, 0 at even and 1 at loose ones, `l` [`END_SHEAR_NM`] and `L` the rod's length: `l` are missing, or
 /// added, at each end. A segment takes the mean of `c` over its length, so that small shear does not depend on how a rod is
-/// divided, and has the energy at `gamma / sqrt(c)`.
-pub(super) fn factors(lengths: &[f64], ends: [EndShear; 2]) -> Vec<f64> {
+/// divided, and has the energy at `gamma / sqrt(c)`. The ends are those of the rod or, `beyond` (nm) its own, of rods that
+/// it is continued by.
+pub(super) fn factors(lengths: &[f64], ends: [EndShear; 2], beyond: [f64; 2]) -> Vec<f64> {
     let [a, b] = ends.map(EndShear::sign);
     let l = END_SHEAR_NM;
-    let length: f64 = lengths.iter().sum();
+    let length = beyond[0] + lengths.iter().sum::<f64>() + beyond[1];
     // Integral of exp(-s/l).
     let faded = |from: f64, to: f64| l * ((-from / l).exp() - (-to / l).exp());
-    let mut from = 0.0;
+    let mut from = beyond[0];
     let factor = |own: &f64| {
         let to = from + own;
         let of_ends = a * faded(from, to) + b * faded(length - to, length - from);
@@ -67,7 +68,7 @@ mod tests {
     fn lengths_are_missing_and_added() {
         use EndShear::{Blocked, Even, Loose};
         let total = |lengths: &[f64], ends| -> f64 {
-            let all = lengths.iter().zip(factors(lengths, ends));
+            let all = lengths.iter().zip(factors(lengths, ends, [0.0; 2]));
             all.map(|(length, factor)| length / (factor * factor)).sum()
         };
         for lengths in [
@@ -81,10 +82,24 @@ mod tests {
             assert!((total(&lengths, [Blocked, Loose]) - 120.0).abs() < 1e-6);
             let one = total(&lengths, [Even, Loose]) - 120.0;
             assert!((one - END_SHEAR_NM).abs() < 1e-6);
-            assert_eq!(factors(&lengths, [Even; 2]), vec![1.0; lengths.len()]);
+            let even = factors(&lengths, [Even; 2], [0.0; 2]);
+            assert_eq!(even, vec![1.0; lengths.len()]);
         }
         let short = total(&[3.0, 5.0], [Blocked, Blocked]);
         assert!((total(&[8.0], [Blocked, Blocked]) / short - 1.0).abs() < 1e-12);
         assert!(short > 0.0);
+    }
+
+    /// A rod in parts is one rod: what an end does goes on in the next part.
+    #[test]
+    fn ends_reach_beyond_a_part() {
+        use EndShear::{Blocked, Loose};
+        let lengths = [2.0, 3.0, 4.0, 6.0];
+        let whole = factors(&lengths, [Blocked, Loose], [0.0; 2]);
+        let first = factors(&lengths[..2], [Blocked, Loose], [0.0, 10.0]);
+        let last = factors(&lengths[2..], [Blocked, Loose], [5.0, 0.0]);
+        for (part, whole) in first.iter().chain(&last).zip(&whole) {
+            assert!((part / whole - 1.0).abs() < 1e-14);
+        }
     }
 }

@@ -271,25 +271,61 @@ fn print_shares() {
         let finest = of_segments(&with(coarsest << 5), quantity);
         let truth = finest.value + finest.segments;
         let row = |kind: &str, n: usize, found: &ErrorEstimate| {
-            println!("{kind} {n} estimated {:.4} true {:.4} %", 100.0 * found.segments / truth, 100.0 * (truth - found.value) / truth);
+            println!(
+                "{kind} {n} estimated {:.4} true {:.4} %",
+                100.0 * found.segments / truth,
+                100.0 * (truth - found.value) / truth
+            );
         };
         for k in 0..5 {
-            row("uniform", coarsest << k, &of_segments(&with(coarsest << k), quantity));
+            row(
+                "uniform",
+                coarsest << k,
+                &of_segments(&with(coarsest << k), quantity),
+            );
         }
         let mut now = with(coarsest);
         for _ in 0..4 {
             let found = of_segments(&now, quantity);
-            let rods: Vec<RodStretch> = now.filament.sections.iter().filter_map(RodStretch::of).collect();
+            let rods: Vec<RodStretch> = now
+                .filament
+                .sections
+                .iter()
+                .filter_map(RodStretch::of)
+                .collect();
             row("graded", rods.iter().map(|r| r.segments).sum(), &found);
-            println!("   {:?}", rods.iter().map(|g| (g.from_nm.round(), (10.0 * g.segment_nm()).round() / 10.0)).collect::<Vec<_>>());
+            println!(
+                "   {:?}",
+                rods.iter()
+                    .map(|g| (g.from_nm.round(), (10.0 * g.segment_nm()).round() / 10.0))
+                    .collect::<Vec<_>>()
+            );
             let shares = of_stretches(&now, &found, 1e9).unwrap();
             let sum: f64 = shares.iter().map(|s| s.error).sum();
-            println!("   sum {:.4} size {:.4}: {:?}", 100.0 * sum / truth, 100.0 * size(&shares) / truth.abs(), shares.iter().map(|s| (s.stretch.from_nm.round(), (1e5 * s.error / truth).round() / 1e3)).collect::<Vec<_>>());
+            println!(
+                "   sum {:.4} size {:.4}: {:?}",
+                100.0 * sum / truth,
+                100.0 * size(&shares) / truth.abs(),
+                shares
+                    .iter()
+                    .map(|s| (
+                        s.stretch.from_nm.round(),
+                        (1e5 * s.error / truth).round() / 1e3
+                    ))
+                    .collect::<Vec<_>>()
+            );
             let next = match grade::graded(&shares, [2.5, 20.0]) {
                 Some(graded) => graded,
-                None => { println!("   halved"); rods.iter().map(RodStretch::halved).collect() }
+                None => {
+                    println!("   halved");
+                    rods.iter().map(RodStretch::halved).collect()
+                }
             };
-            now.filament.sections = next.iter().map(RodStretch::section).collect::<Vec<_>>().into();
+            now.filament.sections = next
+                .iter()
+                .map(RodStretch::section)
+                .collect::<Vec<_>>()
+                .into();
         }
     }
 }

@@ -17,8 +17,10 @@ use actin_mechanics::Interaction;
 pub(super) struct Around {
     /// Elements that join its start and its end to monomers.
     pub(super) joined: [Vec<JoinedElement>; 2],
-    /// What its start and its end let sections beside them do.
+    /// What start and end of all rods that it is one of let sections beside them do.
     pub(super) ends: [EndShear; 2],
+    /// How far beyond its own these are (nm).
+    pub(super) beyond_nm: [f64; 2],
 }
 
 /// The constitutive law of a rod of a scene.
@@ -142,7 +144,7 @@ impl Law {
         if self.material.potential().is_none() {
             return curvature;
         }
-        curvature.with_end_shear(layout, around.ends)
+        curvature.with_end_shear_beyond(layout, around.ends, around.beyond_nm)
     }
 
     /// Whether strain of the rod knows of its curvature.

@@ -30,9 +30,11 @@ impl Strand<'_> {
         };
         for i in 0..self.bodies.len() {
             let before = i.checked_sub(1).map(|k| &junctions[k]);
+            let run = self.run_of(i);
             let around = Around {
                 joined: [joined(before), joined(junctions.get(i))],
-                ends: self.end_shear(i),
+                ends: self.end_shear(run),
+                beyond_nm: self.beyond_nm(i, run),
             };
             if let Some(Some(junction)) = before {
                 let part = Part::Junction(self.first_section + i - 1);

@@ -267,10 +267,27 @@ impl<'a> Strand<'a> {
         }
     }
 
-    /// What the ends of section `i` let it do. A junction holds its monomers beside each other as a wall does,
-    /// so that they lack shear, which the rod makes good.
-    pub(super) fn end_shear(&self, i: usize) -> [EndShear; 2] {
+    /// The first and the last of the rods that section `i` is one of; itself, if it is no rod.
+    pub(super) fn run_of(&self, i: usize) -> [usize; 2] {
+        let before = (0..i).rev().take_while(|&k| self.is_joint(k)).count();
+        let behind = (i..self.resolved.len()).take_while(|&k| self.is_joint(k));
+        [i - before, i + behind.count()]
+    }
+
+    /// How far the ends of rods `first` to `last` are beyond those of section `i`, one of them (nm).
+    pub(super) fn beyond_nm(&self, i: usize, [first, last]: [usize; 2]) -> [f64; 2] {
+        let all = &self.resolved;
+        [
+            all[i].from_nm - all[first].from_nm,
+            all[last].to_nm - all[i].to_nm,
+        ]
+    }
+
+    /// What the ends of rods `first` to `last` let them do. A junction holds its monomers beside each other as a wall
+    /// does, so that they lack shear, which the rod makes good.
+    pub(super) fn end_shear(&self, run: [usize; 2]) -> [EndShear; 2] {
         [End::Start, End::End].map(|end| {
+            let i = run[end as usize];
             // A pin lets the end turn, as a free one does.
             let is_held = self.holds[end as usize].is_some_and(|hold| hold != Hold::Pin);
             if i == self.filament.end_index(end) {
