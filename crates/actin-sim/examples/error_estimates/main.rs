@@ -1,6 +1,6 @@
 //! Estimated errors beside true ones: scenes of the trade study and others in several resolutions, each against the
 //! same filament with every monomer resolved; then resolutions that are chosen for a wanted error, beside the fewest
-//! monomers that meet it, found by search.
+//! monomers that meet it, found by search; and what the segments of rods leave, of one length and graded.
 //!
 //! `cargo run --release -p actin-sim --example error_estimates [name of a case]`
 //!
@@ -8,6 +8,7 @@
 //! equilibrium of all monomers.
 
 mod cases;
+mod lengths;
 mod search;
 
 use actin_sim::adapt::{Chosen, RodStretch, estimate};
@@ -18,7 +19,7 @@ use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let wanted = std::env::args().nth(1);
-    let mut searched = Vec::new();
+    let (mut searched, mut lengths) = (Vec::new(), Vec::new());
     println!(
         "| case | resolution | true | estimated | law | segments | junctions | walls | time |"
     );
@@ -48,10 +49,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         for most in [26, 104] {
             choose(&case, (0.001, Some(most)), length, (truth, seconds))?;
         }
+        lengths.extend(lengths::rows(&case)?);
     }
     println!("\n| case | wanted | chosen, monomers | fewest by search |");
     println!("|---|---:|---:|---|");
     for row in searched {
+        println!("{row}");
+    }
+    println!("\n| case | segments | number | true | estimated |");
+    println!("|---|---|---:|---:|---:|");
+    for row in lengths {
         println!("{row}");
     }
     Ok(())

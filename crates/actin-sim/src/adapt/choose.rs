@@ -1,16 +1,14 @@
 //! The sections that a wanted accuracy needs.
 
-use super::setting::{Lengths, SHORTEST_SEGMENTS_NM, Setting};
-use super::{
-    Chosen, ErrorEstimate, Located, Tried, at_rest, check, equilibrium, grade, halving, located,
-};
+use super::setting::{Lengths, Setting};
+use super::{Chosen, ErrorEstimate, Located, Tried, at_rest, check, equilibrium, finer, located};
 use crate::scene::{Adaptive, RodLaw, RodModel, Scene, SceneProblem, Task};
 use std::time::Instant;
 
 /// Most resolutions that are tried before all monomers.
 const MOST_TRIALS: usize = 6;
 /// By what share of each of its parts an estimate may be off: parts that cancel are no accuracy.
-const DOUBT: f64 = 0.2;
+pub(super) const DOUBT: f64 = 0.2;
 /// A trial that leaves more than this share of the error before it has not helped.
 const HELPS: f64 = 0.8;
 
@@ -164,12 +162,8 @@ impl Search<'_> {
             return Some(halved);
         }
         let scene = setting.apply(self.scene, self.lengths);
-        let shares = halving::of_stretches(&at_rest(&scene), &found.total, DOUBT);
-        let between_nm = [
-            SHORTEST_SEGMENTS_NM,
-            Setting::first(self.lengths).segment_nm,
-        ];
-        let graded = shares.and_then(|shares| grade::graded(&shares, between_nm));
+        let longest_nm = Setting::first(self.lengths).segment_nm;
+        let graded = finer::graded(&scene, &found.total, longest_nm);
         Some(graded.map_or(halved, |graded| setting.with_graded(graded)))
     }
 

@@ -20,6 +20,16 @@ struct Graded {
 }
 
 impl Graded {
+    /// With segments of twice the length, where these are whole and no longer than may be (nm).
+    fn longest(share: Share, longest_nm: f64) -> Self {
+        let may = share.stretch.segments.is_multiple_of(2)
+            && 2.0 * share.stretch.segment_nm() <= longest_nm * (1.0 + ROUND_OFF);
+        Self {
+            share,
+            halvings: if may { -1 } else { 0 },
+        }
+    }
+
     /// Segments per segment now, one length over the other.
     fn factor(&self) -> f64 {
         2f64.powi(self.halvings)
@@ -45,21 +55,9 @@ impl Graded {
         }
     }
 
-    fn doubled(&self) -> Self {
-        Self {
-            halvings: self.halvings - 1,
-            ..*self
-        }
-    }
-
     /// Error that halving takes away, per segment that it adds.
     fn gain(&self) -> f64 {
         (self.left() - self.halved().left()) / self.segments()
-    }
-
-    /// Error that doubling adds, per segment that it saves.
-    fn loss(&self) -> f64 {
-        2.0 * (self.doubled().left() - self.left()) / self.segments()
     }
 
     #[expect(
@@ -75,8 +73,8 @@ impl Graded {
     }
 }
 
-/// Stretches with segments between a shortest and a longest length (nm), marked in bulk: those are halved first that give most of
-/// the error for a segment, and those doubled that give least, until as much is left as halving all would leave.
+/// Stretches with segments between a shortest and a longest length (nm), marked in bulk: all are doubled that may be, then
+/// those halved that give most of the error for a segment, until as much is left as halving all would leave.
 ///
 /// Sizes of errors are added, of what is left: errors that cancel now need not do so afterwards. None where it
 /// takes about as many segments as halving all.
@@ -85,14 +83,10 @@ pub(super) fn graded(
     [shortest_nm, longest_nm]: [f64; 2],
 ) -> Option<Vec<RodStretch>> {
     let most_left = LEFT_BY_HALVING * shares.iter().map(|share| share.error).sum::<f64>().abs();
-    let now: f64 = shares
+    let longest = shares
         .iter()
-        .map(|share| share.stretch.segments as f64)
-        .sum();
-    let mut all: Vec<Graded> = shares
-        .iter()
-        .map(|&share| Graded { share, halvings: 0 })
-        .collect();
+        .map(|&share| Graded::longest(share, longest_nm));
+    let mut all: Vec<Graded> = longest.collect();
     while left(&all) > most_left {
         let may =
             |one: &&mut Graded| one.halvings < MOST_HALVINGS && one.segment_nm() > shortest_nm;
@@ -101,9 +95,10 @@ pub(super) fn graded(
         *best = best.halved();
     }
     even_out(&mut all);
-    coarsen(&mut all, most_left, longest_nm);
-    let needed: f64 = all.iter().map(Graded::segments).sum();
-    (needed <= WORTH * 2.0 * now).then(|| joined(all.iter().map(Graded::stretch)))
+    let now = shares.iter().map(|share| share.stretch.segments as f64);
+    let worth = WORTH * 2.0 * now.sum::<f64>();
+    let needed = all.iter().map(Graded::segments).sum::<f64>();
+    (needed <= worth).then(|| joined(all.iter().map(Graded::stretch)))
 }
 
 fn left(all: &[Graded]) -> f64 {
@@ -124,23 +119,6 @@ fn is_too_long(all: &[Graded], i: usize) -> bool {
     beside
         .map(Graded::segment_nm)
         .any(|next| all[i].segment_nm() > STEEPEST * next * (1.0 + ROUND_OFF))
-}
-
-/// Doubles what gives least of the error, as far as it may be left.
-fn coarsen(all: &mut [Graded], most_left: f64, longest_nm: f64) {
-    let mut order: Vec<usize> = (0..all.len()).collect();
-    order.sort_by(|&i, &j| all[i].loss().total_cmp(&all[j].loss()));
-    for i in order {
-        let before = all[i];
-        let is_whole = before.halvings > 0 || before.share.stretch.segments.is_multiple_of(2);
-        all[i] = before.doubled();
-        let fits = all[i].segment_nm() <= longest_nm * (1.0 + ROUND_OFF)
-            && left(all) <= most_left
-            && !is_too_long(all, i);
-        if !(is_whole && fits) {
-            all[i] = before;
-        }
-    }
 }
 
 #[cfg(test)]

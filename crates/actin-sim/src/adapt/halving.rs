@@ -28,19 +28,23 @@ pub(super) fn of_all(
     quantity: Quantity,
     value: f64,
 ) -> Result<f64, SceneProblem> {
-    let mut scene = assembly.scene.clone();
-    let spans = assembly.sections_of(0).iter();
-    let mut rods = 0;
-    for (section, span) in scene.filament.sections.iter_mut().zip(spans) {
-        if let Section::Rod { segments, .. } = section {
-            *segments = Some(2 * (span.points.len() - 1));
-            rods += 1;
-        }
-    }
-    if rods == 0 {
+    let scene = with_segments(assembly, 2);
+    if !scene.filament.sections.iter().any(Section::is_rod) {
         return Ok(0.0);
     }
     changed(&scene, quantity, value)
+}
+
+/// The scene of an assembly with so many times its segments, counted.
+pub(super) fn with_segments(assembly: &Assembly, times: usize) -> Scene {
+    let mut scene = assembly.scene.clone();
+    let spans = assembly.sections_of(0).iter();
+    for (section, span) in scene.filament.sections.iter_mut().zip(spans) {
+        if let Section::Rod { segments, .. } = section {
+            *segments = Some(times * (span.points.len() - 1));
+        }
+    }
+    scene
 }
 
 /// What each stretch does to the number, whose estimate is `found` in the equilibrium of the scene; none where a

@@ -15,6 +15,7 @@ mod adjoint;
 mod choose;
 mod chosen;
 mod defects;
+mod finer;
 mod grade;
 mod halving;
 mod ideal;
@@ -32,6 +33,7 @@ mod tests;
 
 pub use choose::choose;
 pub use chosen::{Chosen, Tried};
+pub use finer::finer;
 pub use scatter::{Scatter, scatter};
 pub use stretch::RodStretch;
 

@@ -1,12 +1,12 @@
 //! How a filament is resolved, and how it is resolved further.
 
 use super::defects::Contribution;
+use super::finer::parts;
 use super::ideal::PERIOD;
-use super::stretch::divided;
 use super::{Located, RodStretch, Tried, is_too_short};
 use crate::advice::{sections_of, segments_of};
 use crate::assembly::{count_monomers, whole_length_nm};
-use crate::scene::{Scene, SceneProblem, Section};
+use crate::scene::{Scene, SceneProblem};
 
 /// Segments to begin with: at least as long (nm), and at least this share of the filament.
 const FIRST_SEGMENTS: (f64, f64) = (20.0, 0.025);
@@ -76,19 +76,11 @@ impl Setting {
         let sections = sections_of(lengths.length_nm, &self.monomers, |length| {
             segments_of(length, self.segment_nm)
         });
-        let parts = sections.into_iter().flat_map(|section| self.part(section));
+        let parts = sections
+            .iter()
+            .flat_map(|section| parts(section, &self.graded));
         scene.filament.sections = parts.collect::<Vec<_>>().into();
         scene
-    }
-
-    /// A section, in several where it is a rod whose segments are graded.
-    fn part(&self, section: Section) -> Vec<Section> {
-        let (from_nm, to_nm) = section.span_nm();
-        let stretches = divided([from_nm, to_nm], &self.graded);
-        if !section.is_rod() || stretches.is_empty() {
-            return vec![section];
-        }
-        stretches.iter().map(RodStretch::section).collect()
     }
 
     /// Its rods, where their segments are graded.
