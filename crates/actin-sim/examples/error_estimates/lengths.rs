@@ -15,9 +15,13 @@ const FINEST: usize = 32;
 type Fallible<T> = Result<T, Box<dyn std::error::Error>>;
 
 /// Rows of one case: how many segments leave how much, halved evenly and where it counts.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "at least 1, and the conversion saturates"
+)]
 pub(super) fn rows(case: &Case) -> Fallible<Vec<String>> {
-    let first = (case.length_nm() / FIRST_NM).round().max(1.0);
-    let first = usize::try_from(first as u64)?;
+    let first = (case.length_nm() / FIRST_NM).round().max(1.0) as usize;
     let truth = value(case, &even(case, first * FINEST))?;
     let mut rows = Vec::new();
     for round in 0..=ROUNDS {

@@ -51,6 +51,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         lengths.extend(lengths::rows(&case)?);
     }
+    print_tables(&searched, &lengths);
+    Ok(())
+}
+
+/// Monomers beside the fewest, and segments.
+fn print_tables(searched: &[String], lengths: &[String]) {
     println!("\n| case | wanted | chosen, monomers | fewest by search |");
     println!("|---|---:|---:|---|");
     for row in searched {
@@ -61,7 +67,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for row in lengths {
         println!("{row}");
     }
-    Ok(())
 }
 
 /// One row: the monomers that were chosen for an error, and the fewest with which a filament meets it.
