@@ -160,6 +160,21 @@ fn adjoining_rods_of_one_length_are_one_rod() {
     }
 }
 
+/// What a wall does to the shear beside it is the same in a section of 5 nm, less than it reaches. A section that kept it to
+/// itself changed this couple by some thousandths.
+#[test]
+fn a_wall_reaches_beyond_a_section() {
+    let of = |sections: &[(f64, usize)]| {
+        let mut scene = scene(TURNED, sections);
+        scene.filament.rod.law = RodLaw::Homogenised;
+        of_segments(&scene, Quantity::EndCouple)
+    };
+    let (one, two) = (of(&[(160.0, 32)]), of(&[(155.0, 31), (160.0, 1)]));
+    // A joint is worth less than a segment.
+    let allowed = one.segments.abs() / 32.0;
+    assert!((one.value - two.value).abs() < allowed, "{one:?} {two:?}");
+}
+
 /// Where lengths jump the scheme stays of second order: halving all leaves a quarter.
 #[test]
 fn graded_rods_are_of_second_order() {

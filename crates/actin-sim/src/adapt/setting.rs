@@ -297,4 +297,32 @@ mod tests {
         let all = merged(vec![[300.0, 335.0], [40.0, 75.0]], 340.0, 35.0);
         assert_eq!(all, [[40.0, 75.0], [300.0, 340.0]]);
     }
+
+    /// Monomers cut the rods that they lie in, whose segments stay as long; what was tried with segments nowhere longer
+    /// is not tried again.
+    #[test]
+    fn graded_rods_are_cut_and_compared() {
+        let text = "Scene(filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 160.0)]), clamps: [Clamp(end: Start)], \
+                    task: Equilibrium())";
+        let scene = Scene::from_ron(text).unwrap();
+        let lengths = Lengths {
+            length_nm: 160.0,
+            rise_nm: 71.2 / 26.0,
+        };
+        let rod = |from_nm: f64, to_nm: f64, segments: usize| RodStretch {
+            from_nm,
+            to_nm,
+            segments,
+        };
+        let even = Setting::first(lengths);
+        let graded = even.with_graded(vec![rod(0.0, 40.0, 8), rod(40.0, 160.0, 6)]);
+        assert_eq!(graded.rods(&scene, lengths), graded.graded);
+        let mixed = graded.with_monomers(vec![[60.0, 100.0]]);
+        let rods = [rod(0.0, 40.0, 8), rod(40.0, 60.0, 1), rod(100.0, 160.0, 3)];
+        assert_eq!(mixed.rods(&scene, lengths), rods);
+        let tried = graded.tried(0.1);
+        assert!(even.is_no_finer_than(&tried) && graded.is_no_finer_than(&tried));
+        assert!(!mixed.is_no_finer_than(&tried));
+        assert!(!graded.is_no_finer_than(&even.tried(0.1)));
+    }
 }
