@@ -55,6 +55,7 @@ pub struct Adaptive {
 
 /// A number that is wanted of the equilibrium, with its largest relative error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Want {
     /// The displacement of the tip at the end.
@@ -100,6 +101,7 @@ pub enum Want {
 
 /// A number that is wanted of an equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Quantity {
     /// The displacement of the tip at the end (nm).

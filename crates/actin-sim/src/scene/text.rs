@@ -436,6 +436,14 @@ mod tests {
         for (one, message) in [
             ("filament.rod.lav=Fitted", "unknown key lav in RodModel"),
             ("filament.rod.law=Fittet", "unknown RodLaw Fittet"),
+            (
+                "filament.sections=Adaptive(length_nm: 60.0, want: Tip(error: 0.1, eror: 0.1))",
+                "unknown key eror in Tip",
+            ),
+            (
+                "task.error_of=Curvature(at_nm: 5.0, at: 6.0)",
+                "unknown key at in Curvature",
+            ),
             ("task.force_pn=zero", "task.force_pn: "),
             (
                 "loads[0].force_pn[1]=inf",
