@@ -42,15 +42,7 @@ pub fn finer(scene: &Scene, quantity: Quantity) -> Result<Scene, SceneProblem> {
     let longest_nm = rods.iter().map(RodStretch::segment_nm).fold(0.0, f64::max);
     let mut scene = scene.clone();
     scene.filament.sections = counted;
-    let found = ErrorEstimate {
-        quantity,
-        value,
-        error: segments,
-        law: 0.0,
-        segments,
-        junctions: 0.0,
-        walls: 0.0,
-    };
+    let found = ErrorEstimate::of_segments(quantity, value, segments);
     let finer = graded(&scene, &found, longest_nm);
     let finer = finer.unwrap_or_else(|| rods.iter().map(RodStretch::halved).collect());
     let sections = scene.filament.sections.iter();

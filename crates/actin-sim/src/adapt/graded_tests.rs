@@ -56,15 +56,7 @@ fn of_segments(scene: &Scene, quantity: Quantity) -> ErrorEstimate {
     let (assembly, state) = equilibrium(scene).unwrap();
     let value = value(&assembly, &state, quantity);
     let segments = of_all(&assembly, quantity, value).unwrap();
-    ErrorEstimate {
-        quantity,
-        value,
-        error: segments,
-        law: 0.0,
-        segments,
-        junctions: 0.0,
-        walls: 0.0,
-    }
+    ErrorEstimate::of_segments(quantity, value, segments)
 }
 
 fn size(shares: &[Share]) -> f64 {

@@ -80,6 +80,19 @@ pub struct ErrorEstimate {
 }
 
 impl ErrorEstimate {
+    /// One whose error is that of the lengths of segments alone.
+    fn of_segments(quantity: Quantity, value: f64, segments: f64) -> Self {
+        Self {
+            quantity,
+            value,
+            error: segments,
+            law: 0.0,
+            segments,
+            junctions: 0.0,
+            walls: 0.0,
+        }
+    }
+
     /// The value with the error added.
     pub fn corrected(&self) -> f64 {
         self.value + self.error

@@ -155,7 +155,9 @@ impl Setting {
             (&tried.graded, tried.segment_nm),
         );
         let is_longer = |s_nm: f64| length_at(other, s_nm) > length_at(own, s_nm);
-        tried.monomers_nm == self.monomers && !is_longer(f64::NAN) && !middles.any(is_longer)
+        tried.monomers_nm == self.monomers
+            && tried.segment_nm <= self.segment_nm
+            && !middles.any(is_longer)
     }
 
     /// Monomers where most of the error comes from, as far as `fits` allows; itself where there is no such place.
