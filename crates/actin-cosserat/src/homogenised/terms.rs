@@ -13,7 +13,7 @@ pub(crate) const SHEAR: f64 = 0.1;
 /// Curvature (rad/nm) about which the shift of the neutral axis becomes constant.
 pub(crate) const BENT: f64 = 2.5e-3;
 /// Extension over which tension gives way to compression.
-pub(crate) const SLACK: f64 = 7e-5;
+pub(crate) const SLACK: f64 = 2e-5;
 /// What bending (nm), shear and twist (nm^2) add to the extension at which bonds begin to give way.
 pub(crate) const TIGHT: [f64; 3] = [0.5, 5.0, 20.0];
 
@@ -39,7 +39,7 @@ pub enum Term {
     Stretch,
     /// `E^3`: tension stiffens, compression softens.
     StretchThrice,
-    /// `y^3 / (y + 7e-5)` of `y = max(-x, 0)`, `x = e + 0.5 r + 5 g + 20 kappa_3^2`: bonds that are pushed together
+    /// `y^3 / (y + 2e-5)` of `y = max(-x, 0)`, `x = e + 0.5 r + 5 g + 20 kappa_3^2`: bonds that are pushed together
     /// give way, unless bending, shear or twist has tightened them.
     Compression,
     /// `A`: bending.
@@ -66,8 +66,10 @@ pub enum Term {
     ShearCoupling,
     /// `G^2`.
     ShearTwice,
-    /// `E r G`.
-    StretchRootShear,
+    /// `G^3`.
+    ShearThrice,
+    /// `r^2 G`: strongly bent rods resist shear otherwise.
+    RootTwiceShear,
     /// `E^2 r`: bent rods stretch more easily.
     StretchTwiceRoot,
 }
@@ -203,7 +205,7 @@ impl Factors {
 
 impl Term {
     /// All terms, in the order of the coefficients of a law.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 23] = [
         Self::AnyStretch,
         Self::AnyBend,
         Self::AnyShear,
@@ -224,7 +226,8 @@ impl Term {
         Self::RootCoupling,
         Self::ShearCoupling,
         Self::ShearTwice,
-        Self::StretchRootShear,
+        Self::ShearThrice,
+        Self::RootTwiceShear,
         Self::StretchTwiceRoot,
     ];
 
@@ -232,17 +235,20 @@ impl Term {
     pub const fn degree(self) -> usize {
         match self {
             Self::AnyStretch | Self::AnyBend | Self::AnyShear | Self::Turn => 0,
-            Self::ShearTwice => 1,
-            Self::Compression | Self::StretchThrice => 2,
-            Self::StretchTwiceRoot => 3,
-            Self::StretchBend
-            | Self::StretchCoupling
-            | Self::ShearCoupling
-            | Self::StretchRootShear => 4,
-            Self::RootShear => 5,
-            Self::RootCoupling => 6,
-            Self::Bend | Self::BendRoot | Self::StretchRoot => 7,
-            Self::Stretch | Self::StretchShear => 8,
+            Self::ShearThrice => 2,
+            Self::StretchThrice => 4,
+            Self::StretchCoupling | Self::RootShear | Self::RootTwiceShear => 5,
+            Self::Compression
+            | Self::StretchRoot
+            | Self::StretchBend
+            | Self::StretchTwiceRoot
+            | Self::ShearTwice => 6,
+            Self::ShearCoupling => 7,
+            Self::Bend
+            | Self::BendRoot
+            | Self::Stretch
+            | Self::StretchShear
+            | Self::RootCoupling => 8,
             Self::Twist | Self::Shear | Self::Coupling => 9,
         }
     }
@@ -280,7 +286,8 @@ impl Term {
             Self::RootCoupling => coupled(ONE, root, ONE),
             Self::ShearCoupling => coupled(ONE, ONE, shear),
             Self::ShearTwice => [ONE, ONE, times(shear, shear), ONE, ONE],
-            Self::StretchRootShear => [stretch, root, shear, ONE, ONE],
+            Self::ShearThrice => [ONE, ONE, times(shear, times(shear, shear)), ONE, ONE],
+            Self::RootTwiceShear => [ONE, times(root, root), shear, ONE, ONE],
             Self::StretchTwiceRoot => [times(stretch, stretch), root, ONE, ONE, ONE],
         }
     }

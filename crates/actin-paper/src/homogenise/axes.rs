@@ -5,7 +5,7 @@
 pub(super) struct Axes {
     /// `kappa_3` (rad/nm).
     pub(super) twist: Vec<f64>,
-    /// `sigma_3` beyond that of the free filament of the same twist.
+    /// `sigma_3` beyond that of the free filament of the same twist, less its [shortening](super::filament::shortening).
     pub(super) extension: Vec<f64>,
     /// Angle between the vectors of curvature and of shear (deg). The filament turned end for end is
     /// the same, so that the opposite angle is no other.

@@ -1,7 +1,6 @@
 //! Coefficients of a law from cells: least squares on energy, loads and tangent, with a penalty where the law's own
 //! tangent is not positive.
 
-use super::region::Region;
 use super::rows::Row;
 use actin_cosserat::{Homogenised, HomogenisedForm, PotentialJet, Term};
 use actin_sim::ellipsoid::{SixMatrix, SixVector};
@@ -12,10 +11,8 @@ use rayon::prelude::*;
 const ROWS: f64 = 1000.0;
 /// Added to the scaled matrix: powers of a bounded variable are nearly dependent.
 const RIDGE: f64 = 1e-9;
-/// Eigenvalues of the law's tangent are held above this, with curvatures times these lengths (nm): 3 pN of shear,
-/// 0.75 pN nm^2 of twist, 1200 of bending.
+/// Eigenvalues of the law's tangent are held above this (pN).
 const LEAST: f64 = 3.0;
-const UNITS: [f64; 6] = [20.0, 20.0, 0.5, 1.0, 1.0, 1.0];
 /// Least coefficients (pN, pN nm^2) of the terms that are not bounded.
 const UNBOUNDED: [(Term, f64); 3] = [
     (Term::AnyStretch, 5e3),
@@ -50,6 +47,8 @@ pub(super) struct Weighted<'a> {
     pub(super) numbers: [f64; 7],
     /// Of entries of the upper triangle of the tangent.
     pub(super) tangent: Vec<(Place, f64)>,
+    /// Sums of couple and force that count as well, with what each of these adds.
+    pub(super) sums: Vec<SixVector>,
 }
 
 impl Weighted<'_> {
@@ -58,7 +57,12 @@ impl Weighted<'_> {
         let known = numbers(jet).into_iter().zip(self.numbers);
         let known = known.filter(|(_, weight)| *weight > 0.0);
         let entries = self.tangent.iter().map(|(at, w)| jet.tangent[*at] * w);
-        known.map(|(x, w)| x * w).chain(entries).collect()
+        let sums = self.sums.iter().map(|sum| sum.dot(&jet.loads));
+        known
+            .map(|(x, w)| x * w)
+            .chain(entries)
+            .chain(sums)
+            .collect()
     }
 
     /// The coefficients' equations: their matrix and right side.
@@ -139,18 +143,22 @@ impl<'a> Normal<'a> {
         normal.law(&Conditions::default().solve(&normal, None)?)
     }
 
-    /// The law of all terms that fits best among those with a positive tangent in the regions.
-    pub(super) fn positive(&self, regions: &[(Region, u64)]) -> Result<Homogenised, String> {
-        let places = regions.iter();
-        let places = places.flat_map(|(region, count)| region.strains(self.form, 0, *count));
-        let places: Vec<SixVector> = places.collect();
+    /// The law of all terms that fits best among those with a positive tangent at these strains.
+    pub(super) fn positive(
+        &self,
+        places: &[SixVector],
+        positivity: &Positivity,
+    ) -> Result<Homogenised, String> {
+        let rows: Vec<_> = self.unbounded().collect();
         let mut conditions = Conditions {
-            rows: self.unbounded().collect(),
+            hard: rows.len(),
+            rows,
+            strength: positivity.strength,
         };
         let mut found = conditions.solve(self, None)?;
         for _ in 0..ROUNDS {
             let law = self.law(&found)?;
-            let soft = |strain: &SixVector| self.soft_directions(&law, strain);
+            let soft = |strain: &SixVector| self.soft_directions(&law, strain, &positivity.units);
             let new: Vec<_> = places.par_iter().flat_map_iter(soft).collect();
             if new.is_empty() {
                 break;
@@ -172,20 +180,38 @@ impl<'a> Normal<'a> {
         Homogenised::new(self.form.clone(), of_term).map_err(|e| e.to_string())
     }
 
-    /// Conditions that the terms which are not bounded stay positive at any strain.
+    /// Conditions that the terms which are not bounded stay positive at any strain: under compression both that are.
     fn unbounded(&self) -> impl Iterator<Item = DVector<f64>> {
         let columns = columns(&self.terms);
-        let row = move |(term, least): (Term, f64)| {
-            let is_own = |(other, _): &(Term, usize)| f64::from(u8::from(*other == term)) / least;
-            DVector::from_iterator(columns.len(), columns.iter().map(is_own))
+        let compressed = |t: f64| {
+            let (_, least) = UNBOUNDED[0];
+            (Term::AnyStretch, least, Some(t))
         };
-        UNBOUNDED.into_iter().map(row)
+        let alone = UNBOUNDED
+            .into_iter()
+            .map(|(term, least)| (term, least, None));
+        let sides = (-4..=4).map(move |k| compressed(0.25 * f64::from(k)));
+        alone.chain(sides).map(move |(own, least, compressed)| {
+            let part = |&(term, power): &(Term, usize)| match compressed {
+                _ if term == own => 1.0 / least,
+                Some(t) if term == Term::Compression => {
+                    (0..power).fold(1.0, |product, _| product * t) / least
+                }
+                _ => 0.0,
+            };
+            DVector::from_iterator(columns.len(), columns.iter().map(part))
+        })
     }
 
     /// The two softest directions at a strain, if they are too soft: what each coefficient brings there, over the
     /// least stiffness that there should be.
-    fn soft_directions(&self, law: &Homogenised, strain: &SixVector) -> Vec<DVector<f64>> {
-        let unit = SixMatrix::from_diagonal(&UNITS.map(f64::recip).into());
+    fn soft_directions(
+        &self,
+        law: &Homogenised,
+        strain: &SixVector,
+        units: &[f64; 6],
+    ) -> Vec<DVector<f64>> {
+        let unit = SixMatrix::from_diagonal(&units.map(f64::recip).into());
         let eigen = (unit * law.tangent(strain) * unit).symmetric_eigen();
         let mut order: Vec<usize> = (0..6).collect();
         order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
@@ -194,13 +220,29 @@ impl<'a> Normal<'a> {
         if order.is_empty() {
             return Vec::new();
         }
-        let units = units(self.form, &self.terms, strain);
+        let units = self::units(self.form, &self.terms, strain);
         let row = |k: usize| {
             let direction = unit * eigen.eigenvectors.column(k);
             let stiffness = |jet: &PotentialJet| direction.dot(&(jet.tangent * direction)) / LEAST;
             DVector::from_iterator(units.len(), units.iter().map(stiffness))
         };
         order.into_iter().map(row).collect()
+    }
+}
+
+/// How a tangent is held positive.
+pub(super) struct Positivity {
+    /// Units of the strains (nm, 1): in them all directions are to be as stiff as [`LEAST`].
+    pub(super) units: [f64; 6],
+    /// Weight of a direction without stiffness, where an equation of the fit has 1.
+    pub(super) strength: f64,
+}
+
+impl Positivity {
+    /// The least eigenvalue (pN) of the tangent of a cell in these units.
+    pub(super) fn least(&self, row: &Row) -> f64 {
+        let unit = SixMatrix::from_diagonal(&self.units.map(f64::recip).into());
+        (unit * row.tangent * unit).symmetric_eigenvalues().min()
     }
 }
 
@@ -214,14 +256,23 @@ fn units(form: &HomogenisedForm, terms: &[Term], strain: &SixVector) -> Vec<Pote
 #[derive(Default)]
 struct Conditions {
     rows: Vec<DVector<f64>>,
+    /// How many of them, from the first, are to hold whatever that costs.
+    hard: usize,
+    /// Weight of the others.
+    strength: f64,
 }
 
-/// Weight of a direction without stiffness, where an equation of the fit has 1; and what is aimed at in a direction that
-/// was too soft.
-const STRENGTH: f64 = 10.0;
+/// What is aimed at in a direction that was too soft.
 const MARGIN: f64 = 1.3;
+/// Weight of what is to hold in any case.
+const HARD: f64 = 1e5;
 
 impl Conditions {
+    /// What the square of a lack weighs.
+    fn strength(&self, k: usize) -> f64 {
+        if k < self.hard { HARD } else { self.strength }
+    }
+
     /// Least squares, with the squares of what lacks in each direction added.
     fn solve(
         &self,
@@ -231,11 +282,12 @@ impl Conditions {
         let scale = normal.matrix.diagonal().map(|x| x.sqrt().max(1e-300));
         let mut found = start.unwrap_or_else(|| DVector::zeros(scale.len()));
         for _ in 0..NEWTON_STEPS {
-            let lacking = |row: &&DVector<f64>| row.dot(&found) < MARGIN;
+            let lacking = |(_, row): &(usize, &DVector<f64>)| row.dot(&found) < MARGIN;
             let (mut matrix, mut right) = (normal.matrix.clone(), normal.right.clone());
-            for row in self.rows.iter().filter(lacking) {
-                matrix.ger(STRENGTH, row, row, 1.0);
-                right.axpy(STRENGTH * MARGIN, row, 1.0);
+            for (k, row) in self.rows.iter().enumerate().filter(lacking) {
+                let strength = self.strength(k);
+                matrix.ger(strength, row, row, 1.0);
+                right.axpy(strength * MARGIN, row, 1.0);
             }
             let scaled = |i: usize, j: usize| {
                 matrix[(i, j)] / (scale[i] * scale[j]) + if i == j { RIDGE } else { 0.0 }
@@ -267,9 +319,11 @@ impl Conditions {
     /// What is made least, but for a constant.
     fn objective(&self, normal: &Normal<'_>, found: &DVector<f64>) -> f64 {
         let fit = found.dot(&(0.5 * (&normal.matrix * found) - &normal.right));
-        let lack = |row: &DVector<f64>| (MARGIN - row.dot(found)).max(0.0).powi(2);
-        let lacks: f64 = self.rows.iter().map(lack).sum();
-        fit + 0.5 * STRENGTH * lacks
+        let lack = |(k, row): (usize, &DVector<f64>)| {
+            self.strength(k) * (MARGIN - row.dot(found)).max(0.0).powi(2)
+        };
+        let lacks: f64 = self.rows.iter().enumerate().map(lack).sum();
+        fit + 0.5 * lacks
     }
 }
 

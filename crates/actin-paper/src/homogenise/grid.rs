@@ -4,7 +4,7 @@
 //! parameters and axes, is not computed again.
 
 use super::axes::Axes;
-use super::filament::{self, relax, strain, twisted};
+use super::filament::{self, relax, shortening, strain, twisted};
 use super::rows::{self, Row};
 use crate::Tell;
 use actin_sim::ellipsoid::{Cell, CellResponse, Control, EllipsoidParameters};
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use std::path::Path;
 
 /// Raised when results of the same parameters change.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Relative difference of the energy from which two minima of the same strains count as different.
 const SAME: f64 = 1e-7;
@@ -61,7 +61,7 @@ pub(super) fn compute(out: &Path, axes: &Axes, tell: Tell<'_>) -> Result<Vec<Row
 /// All points of one twist and one extension.
 fn slice(cell: &Cell, axes: &Axes, twist: f64, extension: f64) -> Result<Slice, String> {
     let natural = twisted(cell, twist)?;
-    let stretch = natural.strain[5] + extension;
+    let longest = natural.strain[5] + extension;
     let mut slice = Slice {
         rows: Vec::new(),
         branches: 0,
@@ -71,6 +71,7 @@ fn slice(cell: &Cell, axes: &Axes, twist: f64, extension: f64) -> Result<Slice, 
         for &shear in &axes.shear {
             let mut line: Vec<CellResponse> = Vec::new();
             for (k, &curvature) in axes.curvature.iter().enumerate() {
+                let stretch = longest - shortening(curvature, shear);
                 let point = [curvature, twist, shear, stretch, angle];
                 let starts = [line.last(), lower.get(k)];
                 let starts: Vec<&CellResponse> = starts.into_iter().flatten().collect();

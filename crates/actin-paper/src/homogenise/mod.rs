@@ -10,7 +10,6 @@ mod fit;
 mod grid;
 mod heat;
 mod law;
-mod paths;
 mod pictures;
 mod region;
 mod rows;

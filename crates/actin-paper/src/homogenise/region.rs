@@ -1,6 +1,6 @@
 //! Strains all over a region.
 
-use super::filament::strain;
+use super::filament::{shortening, strain};
 use actin_cosserat::HomogenisedForm;
 use actin_sim::ellipsoid::SixVector;
 
@@ -27,7 +27,10 @@ pub(super) struct Region {
     pub(super) curvature: f64,
     pub(super) twist: f64,
     pub(super) shear: f64,
+    /// Beyond the natural length of the twist, or of that and the bending and shear.
     pub(super) extension: [f64; 2],
+    /// Whether bending and shear [shorten](shortening) what the extension is measured from.
+    pub(super) is_shortened: bool,
 }
 
 impl Region {
@@ -39,16 +42,22 @@ impl Region {
             let twist = self.twist * side * side * side;
             let [least, most] = self.extension;
             let extension = pull * pull * if pull < 0.0 { least } else { most };
-            let stretch = form.natural_stretch(twist) + extension;
+            let (curvature, shear) = (self.curvature * a * a, self.shear * c * c);
+            let shorter = if self.is_shortened {
+                shortening(curvature, shear)
+            } else {
+                0.0
+            };
+            let natural = form.natural_stretch(twist) - shorter;
             let angle = std::f64::consts::TAU * d;
-            strain([
-                self.curvature * a * a,
-                twist,
-                self.shear * c * c,
-                stretch,
-                angle,
-            ])
+            strain([curvature, twist, shear, natural + extension, angle])
         };
         (skip + 1..=skip + count).map(draw).collect()
     }
+}
+
+/// So many strains of each region.
+pub(super) fn strains(form: &HomogenisedForm, regions: &[(Region, u64)]) -> Vec<SixVector> {
+    let of = |(region, count): &(Region, u64)| region.strains(form, 0, *count);
+    regions.iter().flat_map(of).collect()
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 pub(super) struct Row {
     /// Curvature (rad/nm), twist (rad/nm), shear, stretch, angle between curvature and shear (deg).
     pub(super) strain: [f64; 5],
-    /// Stretch beyond that of the free filament of the same twist.
+    /// Stretch beyond that of the free filament of the same twist, less its [shortening](super::filament::shortening).
     pub(super) extension: f64,
     /// Energy per length (pN).
     pub(super) energy: f64,

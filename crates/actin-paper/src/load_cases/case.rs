@@ -20,13 +20,10 @@ pub(super) enum Kind {
     /// Held at one end, pulled along the axis, then pushed across the tip with each force (pN). Read: how
     /// far the tip goes along the force (nm), from where the tension alone brought it.
     Cantilever {
-        /// From the wall to where the force acts, less half a rise. A force acts on monomers midway between
-        /// the last two, a rise before the end of their section.
+        /// From the wall to where the force acts, less half a rise: on monomers midway between the last two.
         rises: u32,
         tension_pn: f64,
         forces_pn: Vec<f64>,
-        /// Monomers in a section as long as the rod, loaded a rise earlier.
-        as_written: bool,
     },
     /// Both ends held against turning, the far one slides freely; pulled along, then pushed across. Read:
     /// displacement over force (nm/pN).
@@ -76,8 +73,8 @@ const HELD_DEG: [f64; 3] = [0.0, 80.0, -80.0];
 
 /// All cases; the first and last of each list if `quick`.
 pub(super) fn all(quick: bool) -> Vec<Case> {
-    let mut all = vec![cantilever(Group::Cantilever, 0.0, &ACROSS_PN, false)];
-    all.extend(PULL_PN.map(|pull| cantilever(Group::PulledCantilever, pull, &SMALL_PN, false)));
+    let mut all = vec![cantilever(Group::Cantilever, 0.0, &ACROSS_PN)];
+    all.extend(PULL_PN.map(|pull| cantilever(Group::PulledCantilever, pull, &SMALL_PN)));
     for (group, spans) in [(Group::Guided, GUIDED), (Group::Beside, SHORT)] {
         for rises in spans {
             all.extend(GUIDED_PULL_PN.map(|pull| guided(group, rises, pull)));
@@ -89,7 +86,6 @@ pub(super) fn all(quick: bool) -> Vec<Case> {
     for turn_deg in HELD_DEG {
         all.extend([1.0, -1.0].map(|sign| stretched(turn_deg, sign)));
     }
-    all.push(cantilever(Group::Beside, 0.0, &ACROSS_PN, true));
     if quick {
         all.retain(is_quick);
     }
@@ -99,11 +95,7 @@ pub(super) fn all(quick: bool) -> Vec<Case> {
 /// What takes little time and covers most of the table.
 fn is_quick(case: &Case) -> bool {
     match &case.kind {
-        Kind::Cantilever {
-            tension_pn,
-            as_written,
-            ..
-        } => !as_written && *tension_pn < 10.0,
+        Kind::Cantilever { tension_pn, .. } => *tension_pn < 10.0,
         Kind::Guided { rises, .. } => *rises == GUIDED[1],
         Kind::Linked { figure } => *figure == 5,
         Kind::Buckled { turn_deg } => (90.0..=180.0).contains(turn_deg),
@@ -112,20 +104,14 @@ fn is_quick(case: &Case) -> bool {
     }
 }
 
-fn cantilever(group: Group, tension_pn: f64, forces_pn: &[f64], as_written: bool) -> Case {
-    let written = if as_written {
-        ", length as written"
-    } else {
-        ""
-    };
+fn cantilever(group: Group, tension_pn: f64, forces_pn: &[f64]) -> Case {
     Case {
         group,
-        name: format!("160 nm, tension {tension_pn} pN{written}"),
+        name: format!("160 nm, tension {tension_pn} pN"),
         kind: Kind::Cantilever {
             rises: CANTILEVER,
             tension_pn,
             forces_pn: forces_pn.to_vec(),
-            as_written,
         },
     }
 }

@@ -99,7 +99,6 @@ fn cases_of(rises: u32) -> Vec<(&'static str, Case)> {
         rises,
         tension_pn: 0.0,
         forces_pn: vec![0.5],
-        as_written: false,
     };
     vec![
         ("guided, no tension", guided(Group::Beside, rises, 0.0)),

@@ -83,11 +83,6 @@ impl Rod {
 }
 
 impl Made {
-    /// Whether all of it is monomers.
-    pub(super) fn is_monomers(&self) -> bool {
-        matches!(self, Self::Mean { .. } | Self::Drawn { .. })
-    }
-
     /// A filament of this length (nm).
     pub(super) fn filament(&self, length_nm: f64) -> Filament {
         let all = || {

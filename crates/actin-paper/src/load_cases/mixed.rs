@@ -43,7 +43,6 @@ fn at_tip(lengths_nm: Vec<f64>) -> Set {
                 rises: 58,
                 tension_pn: 0.0,
                 forces_pn: vec![2.0],
-                as_written: true,
             },
         },
         quantities: &["tip at 2 pN (nm)"],

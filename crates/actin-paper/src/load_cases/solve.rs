@@ -128,22 +128,18 @@ struct Course<'a> {
     read: fn(f64, f64, f64) -> (String, f64),
 }
 
-fn course<'a>(kind: &'a Kind, made: &Made) -> Course<'a> {
+fn course(kind: &Kind) -> Course<'_> {
     match kind {
         Kind::Cantilever {
             rises,
             tension_pn,
             forces_pn,
-            as_written,
-        } => {
-            let is_longer = made.is_monomers() && !as_written;
-            Course {
-                far_end: None,
-                length_nm: length(*rises) + if is_longer { 1.5 } else { 0.5 } * RISE_NM,
-                read: |force, moved, _| (format!("tip at {force} pN (nm)"), moved),
-                ..across(*tension_pn, forces_pn)
-            }
-        }
+        } => Course {
+            far_end: None,
+            length_nm: length(*rises) + 0.5 * RISE_NM,
+            read: |force, moved, _| (format!("tip at {force} pN (nm)"), moved),
+            ..across(*tension_pn, forces_pn)
+        },
         Kind::Guided {
             rises,
             tension_pn,
@@ -194,7 +190,7 @@ fn along(length_nm: f64, turn_deg: f64, forces_pn: &[f64]) -> Course<'_> {
 
 /// A filament that is loaded step by step, read at each.
 fn loaded(kind: &Kind, made: &Made) -> Result<Found, String> {
-    let course = course(kind, made);
+    let course = course(kind);
     let before = course.before.len();
     let ends = follow(&course.scene(made)).map_err(|e| e.to_string())?;
     let assembly = &ends.assembly;

@@ -22,22 +22,23 @@ pub(crate) struct Potential {
     twist: [f64; 10],
     turn: [f64; 1],
     stretch: [f64; 9],
-    stretch_thrice: [f64; 3],
-    compression: [f64; 3],
-    bend: [f64; 8],
-    root: [f64; 8],
-    stretch_root: [f64; 8],
-    stretch_bend: [f64; 5],
+    stretch_thrice: [f64; 5],
+    compression: [f64; 7],
+    bend: [f64; 9],
+    root: [f64; 9],
+    stretch_root: [f64; 7],
+    stretch_bend: [f64; 7],
     shear: [f64; 10],
     stretch_shear: [f64; 9],
     coupling: [f64; 10],
-    stretch_coupling: [f64; 5],
+    stretch_coupling: [f64; 6],
     root_shear: [f64; 6],
-    root_coupling: [f64; 7],
-    shear_coupling: [f64; 5],
-    shear_twice: [f64; 2],
-    stretch_root_shear: [f64; 5],
-    stretch_twice_root: [f64; 4],
+    root_coupling: [f64; 9],
+    shear_coupling: [f64; 8],
+    shear_twice: [f64; 7],
+    shear_thrice: [f64; 3],
+    root_twice_shear: [f64; 6],
+    stretch_twice_root: [f64; 7],
 }
 
 impl Potential {
@@ -66,7 +67,8 @@ impl Potential {
             root_coupling: of(terms, Term::RootCoupling),
             shear_coupling: of(terms, Term::ShearCoupling),
             shear_twice: of(terms, Term::ShearTwice),
-            stretch_root_shear: of(terms, Term::StretchRootShear),
+            shear_thrice: of(terms, Term::ShearThrice),
+            root_twice_shear: of(terms, Term::RootTwiceShear),
             stretch_twice_root: of(terms, Term::StretchTwiceRoot),
         }
     }
@@ -355,10 +357,9 @@ impl<S: Simd> Strained<S> {
         sums.add_product(&law.root_coupling, [(2, root), (4, coupling)]);
         sums.add_product(&law.shear_coupling, [(3, shear), (4, coupling)]);
         sums.add_square(&law.shear_twice, (3, shear));
-        sums.add_triple(
-            &law.stretch_root_shear,
-            [(0, stretch), (2, root), (3, shear)],
-        );
+        sums.add_cube(&law.shear_thrice, (3, shear));
+        let twice = [(2, root), (2, root), (3, shear)];
+        sums.add_triple(&law.root_twice_shear, twice);
         let twice = [(0, stretch), (0, stretch), (2, root)];
         sums.add_triple(&law.stretch_twice_root, twice);
         sums.add_cube(&law.stretch_thrice, (0, stretch));

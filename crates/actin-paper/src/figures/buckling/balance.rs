@@ -32,7 +32,13 @@ pub(super) fn rest(case: &Case) -> Result<Outcome, String> {
     scene.path.clear();
     scene.task = Task::Dynamics(dynamics(LONGEST_NS, DRAG));
     let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
-    *assembly.system.state_mut() = from.system.state().clone();
+    let mut start = from.system.state().clone();
+    // What a motion books stands behind the controls of its scene.
+    let booked = assembly.system.state().controls.values().len() - start.controls.values().len();
+    (0..booked).for_each(|_| {
+        start.add_control(0.0);
+    });
+    *assembly.system.state_mut() = start;
     let (trajectory, report) = run_to_end(&mut assembly).map_err(|e| fail(&e))?;
     let last = trajectory
         .records

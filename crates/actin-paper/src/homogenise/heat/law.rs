@@ -1,7 +1,7 @@
 //! The law `Homogenised` of rods at a temperature, fitted to the mean loads and tangents of heated cells.
 
-use super::super::fit::{Normal, Weighted, coefficients, upper};
-use super::super::region::Region;
+use super::super::fit::{Normal, Positivity, Weighted, coefficients, upper};
+use super::super::region::{Region, strains};
 use super::super::rows::Row;
 use super::grid::HeatRow;
 use crate::Tell;
@@ -52,6 +52,7 @@ const POSITIVE: [(Region, u64); 2] = [
             twist: 0.048,
             shear: 0.05,
             extension: [-8e-3, 8e-3],
+            is_shortened: false,
         },
         4000,
     ),
@@ -61,10 +62,17 @@ const POSITIVE: [(Region, u64); 2] = [
             twist: 0.096,
             shear: 0.1,
             extension: [-0.016, 0.016],
+            is_shortened: false,
         },
         4000,
     ),
 ];
+
+/// How it is held positive.
+const POSITIVITY: Positivity = Positivity {
+    units: [20.0, 20.0, 0.5, 1.0, 1.0, 1.0],
+    strength: 10.0,
+};
 
 /// Strains at which the tangent is looked at that were not used to hold it positive.
 const LOOKS: u64 = 20_000;
@@ -78,7 +86,8 @@ pub(super) fn run(
 ) -> Result<(), String> {
     let form = form(rows)?;
     let weighted: Vec<Weighted<'_>> = rows.iter().map(HeatRow::weighted).collect();
-    let law = Normal::new(&form, &TERMS, &weighted).positive(&POSITIVE)?;
+    let law =
+        Normal::new(&form, &TERMS, &weighted).positive(&strains(&form, &POSITIVE), &POSITIVITY)?;
     let mut table = residuals(&law, rows);
     for ((region, _), name) in POSITIVE.into_iter().zip(["the range", "twice the range"]) {
         let strains = region.strains(law.form(), LOOKS, LOOKS);
@@ -135,6 +144,7 @@ impl HeatRow {
             tangent: upper()
                 .map(|at| (at, weight / (TANGENT * size(at))))
                 .collect(),
+            sums: Vec::new(),
         }
     }
 }

@@ -1,11 +1,12 @@
-//! Cells at strains that are no points of the grid, to test the law on.
+//! Cells at strains all over a region, and others to test the law on.
 
 use super::super::axes::Axes;
-use super::super::filament::{mean, strain, twisted};
-use super::super::region::evenly;
+use super::super::filament::{mean, shortening, strain, twisted};
+use super::super::region::{Region, evenly};
 use super::super::rows::Row;
 use super::RANGE;
-use actin_sim::ellipsoid::Cell;
+use actin_cosserat::HomogenisedForm;
+use actin_sim::ellipsoid::{Cell, SixVector};
 use rayon::prelude::*;
 
 /// Strains within the range, stretched by up to 3e-3, that are no points of the grid, others for each `seed`.
@@ -35,7 +36,7 @@ pub(super) fn other_rows(
     let mean = mean()?;
     let row = |&(mut point, extension): &([f64; 5], f64)| {
         let natural = twisted(&mean, point[1])?;
-        point[3] = natural.strain[5] + extension;
+        point[3] = natural.strain[5] + extension - shortening(point[0], point[2]);
         let own = twisted(cell, point[1])?;
         let [k, twist, shear, stretch, angle] = point;
         let strain = strain([k, twist, shear, stretch, angle.to_radians()]);
@@ -45,4 +46,27 @@ pub(super) fn other_rows(
         Ok(Row::new(point, extension, &response))
     };
     points.par_iter().map(row).collect()
+}
+
+/// Cells at `count` strains of each region, but for those without an equilibrium.
+pub(super) fn strained(
+    cell: &Cell,
+    form: &HomogenisedForm,
+    regions: &[(Region, u64)],
+) -> Result<Vec<Row>, String> {
+    let strains = |(region, count): &(Region, u64)| region.strains(form, 0, *count);
+    let strains: Vec<SixVector> = regions.iter().flat_map(strains).collect();
+    let row = |strain: &SixVector| -> Result<Option<Row>, String> {
+        let [k1, k2, twist, shear, _, stretch]: [f64; 6] = (*strain).into();
+        let natural = twisted(cell, twist)?;
+        let Ok(response) = cell.relax(strain, Some(&natural.displacements)) else {
+            return Ok(None);
+        };
+        let curvature = k1.hypot(k2);
+        let point = [curvature, twist, shear, stretch, k2.atan2(k1).to_degrees()];
+        let extension = stretch - natural.strain[5] + shortening(curvature, shear);
+        Ok(Some(Row::new(point, extension, &response)))
+    };
+    let rows: Result<Vec<Option<Row>>, String> = strains.par_iter().map(row).collect();
+    Ok(rows?.into_iter().flatten().collect())
 }

@@ -1,0 +1,179 @@
+//! Tables of how far a law follows cells.
+
+use super::super::axes::Axes;
+use super::super::fit::numbers;
+use super::super::region::Region;
+use super::super::rows::Row;
+use super::RANGE;
+use super::weights::{deviations, strain_sums};
+use actin_cosserat::Homogenised;
+use actin_sim::ellipsoid::SixVector;
+use std::fmt::Write as _;
+
+/// Strains at which the tangent is looked at that were not used to hold it positive.
+const LOOKS: u64 = 20_000;
+
+/// Root mean squares of the differences between a law and rows, in units of what counts as 1.
+pub(super) struct Residuals {
+    numbers: [f64; 7],
+    /// Of entries of the tangent over the roots of the rows' diagonal ones.
+    tangent: f64,
+    /// Share of the points where the tangent of the law is positive.
+    positive: f64,
+}
+
+impl Residuals {
+    pub(super) fn of<'a>(law: &Homogenised, rows: impl IntoIterator<Item = &'a Row>) -> Self {
+        let mut sums = [0.0; 7];
+        let (mut tangents, mut entries, mut positive, mut count) = (0.0, 0.0, 0.0, 0.0);
+        for row in rows {
+            let strain = row.six();
+            let jet = law.jet(&strain);
+            let law_numbers = numbers(&jet);
+            let ours = row_numbers(row);
+            for (q, size) in deviations(row).into_iter().enumerate() {
+                sums[q] += ((law_numbers[q] - ours[q]) / size).powi(2);
+            }
+            let tangent = jet.tangent;
+            let is_firm = (0..6).all(|k| row.tangent[(k, k)] > COMPARED[k]);
+            for (i, j) in (0..6)
+                .flat_map(|i| (0..6).map(move |j| (i, j)))
+                .filter(|_| is_firm)
+            {
+                let size = (row.tangent[(i, i)] * row.tangent[(j, j)]).sqrt();
+                tangents += ((tangent[(i, j)] - row.tangent[(i, j)]) / size).powi(2);
+                entries += 1.0;
+            }
+            positive += f64::from(u8::from(tangent.symmetric_eigenvalues().min() > 0.0));
+            count += 1.0;
+        }
+        Self {
+            numbers: sums.map(|sum: f64| (sum / count).sqrt()),
+            tangent: (tangents / f64::max(entries, 1.0)).sqrt(),
+            positive: positive / count,
+        }
+    }
+
+    pub(super) fn printed(&self) -> String {
+        let [w, m1, m2, m3, n1, n2, n3] = self.numbers;
+        let both = |a: f64, b: f64| (0.5 * (a * a + b * b)).sqrt();
+        format!(
+            "{w:.2} | {:.2} | {m3:.2} | {:.2} | {n3:.2} | {:.3} | {:.1} % |",
+            both(m1, m2),
+            both(n1, n2),
+            self.tangent,
+            100.0 * self.positive
+        )
+    }
+}
+
+/// Diagonal entries of the tangent (pN nm^2, pN) below which a state counts as one of no stiffness, where
+/// relative differences say nothing.
+const COMPARED: [f64; 6] = [1e3, 1e3, 500.0, 30.0, 30.0, 1e3];
+
+/// Energy, couple and force of a cell.
+fn row_numbers(row: &Row) -> [f64; 7] {
+    let [a, b, c, d, e, f] = row.loads.into();
+    [row.energy, a, b, c, d, e, f]
+}
+
+/// Residuals at each twist, and where the tangents of cell and law are not positive.
+pub(super) fn by_twist(law: &Homogenised, axes: &Axes, rows: &[&Row]) -> String {
+    let mut table = String::from(
+        "\n| twist (rad/nm) | energy | couple | twisting couple | shear force | tension | tangent | positive \
+         | cell positive |\n",
+    );
+    let _ = writeln!(table, "| ---: |{}", " ---: |".repeat(8));
+    for twist in &axes.twist {
+        let here = rows
+            .iter()
+            .filter(|row| row.strain[1].total_cmp(twist).is_eq());
+        let here: Vec<&Row> = here.copied().collect();
+        let firm = here
+            .iter()
+            .filter(|row| row.least_stiffness() > 0.0)
+            .count();
+        let _ = writeln!(
+            table,
+            "| {twist} | {} {:.1} % |",
+            Residuals::of(law, here.iter().copied()).printed(),
+            100.0 * firm as f64 / here.len() as f64
+        );
+    }
+    table
+}
+
+/// Differences of strain under given loads of cells that were not fitted: medians, and what nine of ten are within.
+pub(super) fn under_loads(law: &Homogenised, rows: &[Row]) -> String {
+    let mut table = String::from(
+        "\n| cells, twist free or held | bending | twist or its couple | shear | stretch |\n",
+    );
+    let _ = writeln!(table, "| --- |{}", " ---: |".repeat(4));
+    let tension = |row: &Row| row.loads[5];
+    let kinds: [(&str, fn(f64) -> bool); 3] = [
+        ("pulled", |n| n > 0.1),
+        ("neither", |n| n.abs() <= 0.1),
+        ("pushed", |n| n < -0.1),
+    ];
+    for (name, is_of) in kinds {
+        let here: Vec<[f64; 12]> = rows
+            .iter()
+            .filter(|row| is_of(tension(row)))
+            .map(|row| {
+                let off = law.loads(&row.six()) - row.loads;
+                strain_sums(row).map(|sum| sum.dot(&off))
+            })
+            .collect();
+        for (turn, first) in [("free", 0), ("held", 6)] {
+            let column = |places: &[usize]| {
+                let sizes = here.iter().map(|off| {
+                    let squares = places.iter().map(|k| off[first + k].powi(2));
+                    squares.sum::<f64>().sqrt()
+                });
+                let mut sizes: Vec<f64> = sizes.collect();
+                sizes.sort_by(f64::total_cmp);
+                let at = |share: usize| 100.0 * sizes[(sizes.len() - 1) * share / 100];
+                format!("{:.1}, {:.1} %", at(50), at(90))
+            };
+            let columns = [&[0, 1][..], &[2], &[3, 4], &[5]].map(column);
+            let _ = writeln!(table, "| {name}, {turn} | {} |", columns.join(" | "));
+        }
+    }
+    table
+}
+
+/// At how many strains, which were not used to hold it positive, the tangent is positive: within the range, and up
+/// to twice the range; and at how many strained cells the tangents of cell and law are.
+pub(super) fn stability(law: &Homogenised, cells: &[Row]) -> String {
+    let mut text = String::new();
+    let twice = |x: f64| 2.0 * x;
+    let beyond = Region {
+        curvature: twice(RANGE.curvature),
+        twist: twice(RANGE.twist),
+        shear: twice(RANGE.shear),
+        extension: RANGE.extension.map(twice),
+        ..RANGE
+    };
+    for (name, region) in [("the range", RANGE), ("twice the range", beyond)] {
+        let strains = region.strains(law.form(), LOOKS, LOOKS);
+        let least = |strain: &SixVector| law.tangent(strain).symmetric_eigenvalues().min();
+        let least: Vec<f64> = strains.iter().map(least).collect();
+        let positive = least.iter().filter(|x| **x > 0.0).count();
+        let _ = writeln!(
+            text,
+            "\nwithin {name}: tangent positive at {positive} of {LOOKS} strains, least eigenvalue {:.1} pN",
+            least.iter().copied().fold(f64::INFINITY, f64::min)
+        );
+    }
+    let is_stable = |row: &&Row| row.least_stiffness() > 0.0;
+    let of_cells = cells.iter().filter(is_stable).count();
+    let of_both = cells.iter().filter(is_stable);
+    let of_both = of_both.filter(|row| law.tangent(&row.six()).symmetric_eigenvalues().min() > 0.0);
+    let _ = writeln!(
+        text,
+        "\nof {} strained cells {of_cells} have a positive tangent, of these the law at {}",
+        cells.len(),
+        of_both.count()
+    );
+    text
+}
