@@ -14,6 +14,7 @@ use super::rows::Row;
 use crate::Tell;
 use actin_cosserat::{HomogenisedForm, Term};
 use actin_fit::{Mat, Observations, fit_linear};
+use actin_sim::ellipsoid::SixVector;
 use samples::other_rows;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -143,20 +144,11 @@ pub(super) fn run(
         fitted.len(),
         loaded.len()
     ));
-    let first = Normal::new(&form, &terms(), &weighted(&fitted, &loaded, None)).best(&terms())?;
-    let normal = Normal::new(&form, &terms(), &weighted(&fitted, &loaded, Some(&first)));
-    let firm = strained
-        .iter()
-        .filter(|row| POSITIVITY.least(row) > FIRM)
-        .map(Row::six);
-    let law = normal.positive(&firm.collect::<Vec<_>>(), &POSITIVITY)?;
+    let normal = normal(&form, &fitted, &loaded)?;
+    let law = normal.positive(&firm(&strained), &POSITIVITY)?;
     let mut table = stepwise(&normal, &fitted)?;
     let others = other_rows(&cell, axes, 1, OTHERS)?;
-    let mut drawn = Vec::new();
-    for seed in 1..=samplings {
-        let cell = filament::drawn(seed, 2 * PERIOD)?;
-        drawn.extend(other_rows(&cell, axes, seed, OF_DRAWN)?);
-    }
+    let drawn = of_drawn(axes, samplings)?;
     let cases = [
         ("with a positive tangent", fitted.clone()),
         ("other strains", others.iter().collect()),
@@ -176,6 +168,37 @@ pub(super) fn run(
     };
     write("law.md", table)?;
     write("mean_filament.csv", coefficients(&law))
+}
+
+/// The equations of all terms; loaded cells count as far as a first fit follows them.
+fn normal<'a>(
+    form: &'a HomogenisedForm,
+    strained: &[&Row],
+    loaded: &[Row],
+) -> Result<Normal<'a>, String> {
+    let terms = terms();
+    let first = Normal::new(form, &terms, &weighted(strained, loaded, None)).best(&terms)?;
+    Ok(Normal::new(
+        form,
+        &terms,
+        &weighted(strained, loaded, Some(&first)),
+    ))
+}
+
+/// Where the tangent is held positive.
+fn firm(strained: &[Row]) -> Vec<SixVector> {
+    let firm = strained.iter().filter(|row| POSITIVITY.least(row) > FIRM);
+    firm.map(Row::six).collect()
+}
+
+/// Strained cells with drawn bonds.
+fn of_drawn(axes: &Axes, samplings: u64) -> Result<Vec<Row>, String> {
+    let rows = (1..=samplings).map(|seed| {
+        let cell = filament::drawn(seed, 2 * PERIOD)?;
+        other_rows(&cell, axes, seed, OF_DRAWN)
+    });
+    let rows: Vec<Vec<Row>> = rows.collect::<Result<_, String>>()?;
+    Ok(rows.into_iter().flatten().collect())
 }
 
 /// A table of what each step brings.

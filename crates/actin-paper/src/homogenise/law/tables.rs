@@ -109,16 +109,15 @@ pub(super) fn under_loads(law: &Homogenised, rows: &[Row]) -> String {
         "\n| cells, twist free or held | bending | twist or its couple | shear | stretch |\n",
     );
     let _ = writeln!(table, "| --- |{}", " ---: |".repeat(4));
-    let tension = |row: &Row| row.loads[5];
-    let kinds: [(&str, fn(f64) -> bool); 3] = [
-        ("pulled", |n| n > 0.1),
-        ("neither", |n| n.abs() <= 0.1),
-        ("pushed", |n| n < -0.1),
-    ];
-    for (name, is_of) in kinds {
+    let kind = |row: &Row| match row.loads[5] {
+        n if n > 0.1 => "pulled",
+        n if n < -0.1 => "pushed",
+        _ => "neither",
+    };
+    for name in ["pulled", "neither", "pushed"] {
         let here: Vec<[f64; 12]> = rows
             .iter()
-            .filter(|row| is_of(tension(row)))
+            .filter(|row| kind(row) == name)
             .map(|row| {
                 let off = law.loads(&row.six()) - row.loads;
                 strain_sums(row).map(|sum| sum.dot(&off))

@@ -77,7 +77,6 @@ fn weights(row: &Row) -> (f64, f64) {
     let is_rest = is_small && twist.abs() < REST_TWIST && (pushed..rest).contains(&row.extension);
     let factor = match (is_straight, is_rest) {
         (true, true) => AT_REST,
-        (true, false) | (false, true) => 1.0,
         (false, false) if is_small => SMALL,
         _ => 1.0,
     };
