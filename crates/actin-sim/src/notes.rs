@@ -125,7 +125,7 @@ impl Assembly {
             format!(
                 "a rod of {shortest:.1} nm under the law Homogenised: it is as stiff across in all directions, but \
                  monomers between walls 60, 41, 30, 25 nm apart give way by up to 10, 25, 50, 55 % more or less than \
-                 on average. That average a rod has under tension within 7 % from 30 nm on, 10 % at 25 nm \
+                 on average. That average a rod has within 3 % from 41 nm on, 4 % at 30 nm, 7 % at 25 nm \
                  (cargo xtask load-cases --ends)"
             )
         })
