@@ -10,7 +10,7 @@ const COLD: &str = include_str!("mean_filament.csv");
 /// The same at 298 K, of `cargo xtask homogenise heat`.
 const AT_298_K: &str = include_str!("mean_filament_298_k.csv");
 
-/// Strains of the grid behind these numbers; bent cells that are free to shear are shorter.
+/// The range of the fit, whose cells reach a little beyond; stretch is counted from that of cells as bent and sheared.
 const RANGE: StrainRange = StrainRange {
     twist: 0.048,
     curvature: 0.01,

@@ -68,7 +68,7 @@ pub enum Term {
     ShearTwice,
     /// `G^3`.
     ShearThrice,
-    /// `r^2 G`: strongly bent rods resist shear otherwise.
+    /// `r^2 G`: strong bending resists shear less, or more, than `r G` says.
     RootTwiceShear,
     /// `E^2 r`: bent rods stretch more easily.
     StretchTwiceRoot,

@@ -27,7 +27,7 @@ fn strains() -> Vec<SixVector> {
     (0..60).map(|n| strain(n).component_mul(&size)).collect()
 }
 
-/// Eight-point differences; compression gives way over 7e-5, hence the small steps. The bounds are
+/// Eight-point differences; compression gives way over 2e-5, hence the small steps. The bounds are
 /// the rounding of energies of 10 pN and loads of 1e4 pN over the steps, tenfold.
 #[test]
 fn loads_and_tangent_are_exact() {

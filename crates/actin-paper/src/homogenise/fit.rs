@@ -1,5 +1,5 @@
-//! Coefficients of a law from cells: least squares on energy, loads and tangent, with a penalty where the law's own
-//! tangent is not positive.
+//! Coefficients of a law from cells: least squares on energy, loads, tangent and strain under given loads, with a
+//! penalty where the law's own tangent is not positive.
 
 use super::rows::Row;
 use actin_cosserat::{Homogenised, HomogenisedForm, PotentialJet, Term};
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 const ROWS: f64 = 1000.0;
 /// Added to the scaled matrix: powers of a bounded variable are nearly dependent.
 const RIDGE: f64 = 1e-9;
-/// Eigenvalues of the law's tangent are held above this (pN).
+/// Eigenvalues of the law's tangent are penalised below this (pN, in the units of [`Positivity`]).
 const LEAST: f64 = 3.0;
 /// Least coefficients (pN, pN nm^2) of the terms that are not bounded.
 const UNBOUNDED: [(Term, f64); 3] = [
@@ -143,7 +143,7 @@ impl<'a> Normal<'a> {
         normal.law(&Conditions::default().solve(&normal, None)?)
     }
 
-    /// The law of all terms that fits best among those with a positive tangent at these strains.
+    /// The law of all terms that fits best, with a penalty where its tangent is not positive at these strains.
     pub(super) fn positive(
         &self,
         places: &[SixVector],

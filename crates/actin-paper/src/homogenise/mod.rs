@@ -48,7 +48,7 @@ pub enum Part {
     Scatter,
     /// Energy, loads and tangent over all strains.
     Grid,
-    /// A law of rods fitted to the grid, which is computed if it is not there.
+    /// A law of rods fitted to strained and loaded cells and to parts of the grid, which is computed if it is not there.
     Law,
     /// Loads at a temperature.
     Heat,

@@ -1,10 +1,10 @@
-//! Points of the grid as rows of a table.
+//! Cells at given strains as rows of a table.
 
 use super::filament::strain;
 use actin_sim::ellipsoid::{CellResponse, SixMatrix, SixVector};
 use std::path::Path;
 
-/// A point of the grid.
+/// A cell: its strains, what it stores and what it bears.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
     /// Curvature (rad/nm), twist (rad/nm), shear, stretch, angle between curvature and shear (deg).

@@ -33,11 +33,11 @@ pub(super) fn rest(case: &Case) -> Result<Outcome, String> {
     scene.task = Task::Dynamics(dynamics(LONGEST_NS, DRAG));
     let mut assembly = Assembly::build(&scene).map_err(|e| fail(&e))?;
     let mut start = from.system.state().clone();
-    // What a motion books stands behind the controls of its scene.
+    // A motion appends controls for what it books; the equilibrium has none of them.
     let booked = assembly.system.state().controls.values().len() - start.controls.values().len();
-    (0..booked).for_each(|_| {
+    for _ in 0..booked {
         start.add_control(0.0);
-    });
+    }
     *assembly.system.state_mut() = start;
     let (trajectory, report) = run_to_end(&mut assembly).map_err(|e| fail(&e))?;
     let last = trajectory

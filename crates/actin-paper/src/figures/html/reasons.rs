@@ -343,9 +343,9 @@ const REASONS: [Reason; 23] = [
         artefact: "law",
         quantities: &["160-nm-tension-0-pN/", "Figure-6/"],
         cause: Cause::Elsewhere,
-        title: "Strong bending is beyond the data",
-        text: "At the wall of a cantilever under 5 pN and between close linkers the curvature exceeds the 0.01 per nm to \
-               which the law is fitted.",
+        title: "Strong bending is at the end of the data",
+        text: "At the wall of a cantilever under 5 pN and between close linkers the curvature exceeds 0.01 per nm, \
+               the range of the law, beyond which there are few cells.",
     },
     Reason {
         artefact: "law",

@@ -19,7 +19,8 @@ const TWIST: ([f64; 2], f64) = ([3e-4, 0.045], 0.1);
 const TWISTING: ([f64; 2], f64) = ([0.1, 400.0], 0.33);
 /// Cells beyond these strains are left out: curvature (rad/nm), twist (rad/nm), shear.
 const LARGEST: [f64; 3] = [0.016, 0.05, 0.04];
-/// Loads are raised in shares of this, in less where no equilibrium is found or the twist changes by more (rad/nm).
+/// First share of the loads. The next grow by half, and halve where no equilibrium is found or the twist changes by
+/// more than `JUMP` (rad/nm); below the least the cell is given up.
 const SHARE: f64 = 0.25;
 const SMALLEST: f64 = 0.01;
 const JUMP: f64 = 0.02;

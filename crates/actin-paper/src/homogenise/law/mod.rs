@@ -1,5 +1,6 @@
-//! The law `Homogenised` of rods fitted to the grid: what each term brings, and how it does on strains and
-//! bonds that entered nothing.
+//! The law `Homogenised` of rods, fitted to cells at random strains, to cells under random loads, and to the grid's
+//! straight, only bent and only sheared ones: what each term brings, and how it does on strains, loads and bonds that
+//! entered nothing.
 
 mod loaded;
 mod samples;
@@ -21,7 +22,7 @@ use std::path::Path;
 use tables::{Residuals, by_twist, stability, under_loads};
 use weights::weighted;
 
-/// What is fitted, and where the tangent is held positive.
+/// The range of the law: cells are strained a little beyond it.
 const RANGE: Region = Region {
     curvature: 0.01,
     twist: 0.048,
@@ -101,8 +102,8 @@ const STRAINED: [(Region, u64); 2] = [
     ),
 ];
 
-/// How the tangent is held positive where cells have a least eigenvalue above [`FIRM`] (pN) in these units: closer to where
-/// they lose their stiffness themselves, that would cost accuracy elsewhere.
+/// How the tangent is held positive where cells have a least eigenvalue above [`FIRM`] (pN) in these units: closer
+/// to where they lose their stiffness themselves, that would cost accuracy elsewhere.
 const POSITIVITY: Positivity = Positivity {
     units: [20.0, 20.0, 5.0, 1.0, 1.0, 20.0],
     strength: 0.5,
@@ -217,7 +218,7 @@ fn stepwise(normal: &Normal<'_>, rows: &[&Row]) -> Result<String, String> {
     Ok(table)
 }
 
-/// Whether a point is fitted.
+/// Whether a point of the grid is within the range.
 fn is_in_range(row: &Row) -> bool {
     let close = 1.0 + 1e-9;
     let [least, _] = RANGE.extension;
