@@ -67,12 +67,7 @@ impl Weighted<'_> {
 
     /// The coefficients' equations: their matrix and right side.
     fn equations(&self, form: &HomogenisedForm, terms: &[Term]) -> (DMatrix<f64>, DVector<f64>) {
-        let measured = PotentialJet {
-            energy: self.row.energy,
-            loads: self.row.loads,
-            tangent: self.row.tangent,
-        };
-        let right = self.of(&measured);
+        let right = self.of(&self.row.jet());
         let units = units(form, terms, &self.row.six());
         let left = units.iter().flat_map(|unit| self.of(unit));
         (
@@ -80,11 +75,6 @@ impl Weighted<'_> {
             DVector::from_vec(right),
         )
     }
-}
-
-/// Entries of the upper triangle.
-pub(super) fn upper() -> impl Iterator<Item = Place> {
-    (0..6).flat_map(|i| (i..6).map(move |j| (i, j)))
 }
 
 /// Normal equations of the coefficients of some terms.

@@ -1,6 +1,7 @@
 //! Cells at given strains as rows of a table.
 
 use super::filament::strain;
+use actin_cosserat::PotentialJet;
 use actin_sim::ellipsoid::{CellResponse, SixMatrix, SixVector};
 use std::path::Path;
 
@@ -43,7 +44,7 @@ pub(super) fn header() -> Vec<String> {
 }
 
 /// Entries of the upper triangle, row by row.
-fn upper() -> impl Iterator<Item = (usize, usize)> {
+pub(super) fn upper() -> impl Iterator<Item = (usize, usize)> {
     (0..6).flat_map(|i| (i..6).map(move |j| (i, j)))
 }
 
@@ -56,6 +57,15 @@ impl Row {
             energy: response.energy,
             loads: response.loads,
             tangent: response.tangent,
+        }
+    }
+
+    /// What it stores and bears, as a law has it.
+    pub(super) fn jet(&self) -> PotentialJet {
+        PotentialJet {
+            energy: self.energy,
+            loads: self.loads,
+            tangent: self.tangent,
         }
     }
 

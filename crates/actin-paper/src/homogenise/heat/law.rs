@@ -1,8 +1,8 @@
 //! The law `Homogenised` of rods at a temperature, fitted to the mean loads and tangents of heated cells.
 
-use super::super::fit::{Normal, Positivity, Weighted, coefficients, upper};
+use super::super::fit::{Normal, Positivity, Weighted, coefficients};
 use super::super::region::{Region, strains};
-use super::super::rows::Row;
+use super::super::rows::{Row, upper};
 use super::grid::HeatRow;
 use crate::Tell;
 use actin_cosserat::{Homogenised, HomogenisedForm, Term};

@@ -2,7 +2,7 @@
 
 use super::super::axes::Axes;
 use super::super::filament::{mean, shortening, strain, twisted};
-use super::super::region::{Region, evenly};
+use super::super::region::{self, Region, evenly};
 use super::super::rows::Row;
 use super::RANGE;
 use actin_cosserat::HomogenisedForm;
@@ -54,8 +54,7 @@ pub(super) fn strained(
     form: &HomogenisedForm,
     regions: &[(Region, u64)],
 ) -> Result<Vec<Row>, String> {
-    let strains = |(region, count): &(Region, u64)| region.strains(form, 0, *count);
-    let strains: Vec<SixVector> = regions.iter().flat_map(strains).collect();
+    let strains = region::strains(form, regions);
     let row = |strain: &SixVector| -> Result<Option<Row>, String> {
         let [k1, k2, twist, shear, _, stretch]: [f64; 6] = (*strain).into();
         let natural = twisted(cell, twist)?;

@@ -30,7 +30,7 @@ impl Residuals {
             let strain = row.six();
             let jet = law.jet(&strain);
             let law_numbers = numbers(&jet);
-            let ours = row_numbers(row);
+            let ours = numbers(&row.jet());
             for (q, size) in deviations(row).into_iter().enumerate() {
                 sums[q] += ((law_numbers[q] - ours[q]) / size).powi(2);
             }
@@ -71,12 +71,6 @@ impl Residuals {
 /// relative differences say nothing.
 const COMPARED: [f64; 6] = [1e3, 1e3, 500.0, 30.0, 30.0, 1e3];
 
-/// Energy, couple and force of a cell.
-fn row_numbers(row: &Row) -> [f64; 7] {
-    let [a, b, c, d, e, f] = row.loads.into();
-    [row.energy, a, b, c, d, e, f]
-}
-
 /// Residuals at each twist, and where the tangents of cell and law are not positive.
 pub(super) fn by_twist(law: &Homogenised, axes: &Axes, rows: &[&Row]) -> String {
     let mut table = String::from(
@@ -89,7 +83,7 @@ pub(super) fn by_twist(law: &Homogenised, axes: &Axes, rows: &[&Row]) -> String 
             .iter()
             .filter(|row| row.strain[1].total_cmp(twist).is_eq());
         let here: Vec<&Row> = here.copied().collect();
-        let firm = here
+        let stable = here
             .iter()
             .filter(|row| row.least_stiffness() > 0.0)
             .count();
@@ -97,7 +91,7 @@ pub(super) fn by_twist(law: &Homogenised, axes: &Axes, rows: &[&Row]) -> String 
             table,
             "| {twist} | {} {:.1} % |",
             Residuals::of(law, here.iter().copied()).printed(),
-            100.0 * firm as f64 / here.len() as f64
+            100.0 * stable as f64 / here.len() as f64
         );
     }
     table

@@ -1,7 +1,7 @@
 //! What energies, loads and tangents of relaxed cells weigh in the fit of the law without heat.
 
-use super::super::fit::{Weighted, upper};
-use super::super::rows::Row;
+use super::super::fit::Weighted;
+use super::super::rows::{Row, upper};
 use actin_cosserat::Homogenised;
 use actin_sim::ellipsoid::{SixMatrix, SixVector};
 
@@ -18,7 +18,7 @@ const BESIDE: f64 = 1.4;
 const SOFTEST: [f64; 6] = [5e3, 5e3, 300.0, 12.0, 12.0, 5e3];
 /// Cells with a diagonal entry below this, or an eigenvalue below that, are about to change their branch: their
 /// tangent says nothing of the others.
-const FIRM: [f64; 6] = [1e3, 1e3, -1.0, -1.0, -1.0, 1e3];
+const STIFF: [f64; 6] = [1e3, 1e3, -1.0, -1.0, -1.0, 1e3];
 const BRANCH: f64 = -50.0;
 /// Weights of a cell's numbers and of its tangent under given strains: straight, only bent or only sheared, and both; of
 /// pushed cells, which change their branch, the last.
@@ -159,7 +159,7 @@ fn compliance(tangent: &SixMatrix, is_held: bool) -> SixMatrix {
 /// Entries of the tangent that count, with their weights.
 fn entries(row: &Row) -> Vec<((usize, usize), f64)> {
     let diagonal = row.tangent.diagonal();
-    let is_firm = (0..6).all(|k| diagonal[k] > FIRM[k]) && row.least_stiffness() > BRANCH;
+    let is_firm = (0..6).all(|k| diagonal[k] > STIFF[k]) && row.least_stiffness() > BRANCH;
     let size = |k: usize| diagonal[k].max(SOFTEST[k]);
     let weight = |(i, j): (usize, usize)| {
         let beside = if i == j { 1.0 } else { BESIDE };
