@@ -21,7 +21,7 @@ use crate::fast::{Law, Potential};
 use crate::{RodKey, RodParameterError};
 use actin_mechanics::wide::Scalar;
 use nalgebra::{Matrix6, Vector6};
-use polynomial::{DEGREE, bounded_twist, polynomial};
+use polynomial::{DEGREE, bounded_twist, polynomial, value_of};
 pub(crate) use segment::STRAIGHT;
 use segment::joined;
 use terms::{BY_TWIST, Factors, InvariantJet, Invariants, Jet};
@@ -155,7 +155,8 @@ impl HomogenisedForm {
 
     /// Stretch of the straight rod of this twist without force.
     pub fn natural_stretch(&self, twist: f64) -> f64 {
-        self.natural_jet(twist)[0]
+        let [t, ..] = bounded_twist(twist);
+        self.rest + twist * value_of(&self.natural, t)
     }
 
     /// With two derivatives.
@@ -270,7 +271,12 @@ impl Homogenised {
 
     /// Energy per rest length (pN).
     pub fn energy_density(&self, strain: &SixVector) -> f64 {
-        self.sum(strain).value
+        let factors = Factors::at(self.form.invariants(strain));
+        let [t, ..] = bounded_twist(strain[2]);
+        let terms = Term::ALL.into_iter().zip(&self.coefficients);
+        terms.fold(0.0, |sum, (term, coefficients)| {
+            sum + term.value(&factors) * value_of(&coefficients[..], t)
+        })
     }
 
     /// Couple (pN nm) and force (pN), the gradient of [`energy_density`](Self::energy_density).

@@ -29,6 +29,15 @@ pub(super) fn polynomial(coefficients: &[f64], t: Jet) -> Jet {
     of([value, slope, bend], t)
 }
 
+/// The polynomial alone at `t`.
+#[inline]
+pub(super) fn value_of(coefficients: &[f64], t: f64) -> f64 {
+    coefficients
+        .iter()
+        .rev()
+        .fold(0.0, |value, c| value * t + c)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -292,6 +292,18 @@ impl Term {
         }
     }
 
+    /// The term without its polynomial and derivatives: what [`jet`](Self::jet) has as its value, to the last bit.
+    #[inline]
+    pub(super) fn value(self, of: &Factors) -> f64 {
+        if self == Self::Compression {
+            return compressed(of).value;
+        }
+        let factors = self.factors(of);
+        factors
+            .iter()
+            .fold(1.0, |value, [factor, ..]| value * factor)
+    }
+
     /// The term without its polynomial.
     pub(super) fn jet(self, of: &Factors) -> InvariantJet {
         if self == Self::Compression {

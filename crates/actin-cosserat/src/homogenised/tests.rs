@@ -35,6 +35,8 @@ fn loads_and_tangent_are_exact() {
     for strain in strains() {
         let (loads, tangent) = (law.loads(&strain), law.tangent(&strain));
         assert!((law.jet(&strain).loads - loads).amax() < 1e-12 * loads.amax());
+        let energy = law.energy_density(&strain);
+        assert!((law.jet(&strain).energy - energy).abs() <= 1e-14 * energy.abs());
         let scale = law.energy_density(&strain).abs().max(1.0);
         for k in 0..6 {
             let h = if k == 5 { 4e-6 } else { 1e-5 };
