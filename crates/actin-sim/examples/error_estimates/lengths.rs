@@ -57,7 +57,7 @@ fn row(case: &Case, name: &str, scene: &Scene, truth: f64) -> Fallible<String> {
 }
 
 fn value(case: &Case, scene: &Scene) -> Fallible<f64> {
-    Ok(case.value(&solved(scene)?.0))
+    Ok(case.value(&solved(scene)?))
 }
 
 /// The filament as one rod of so many segments.

@@ -28,7 +28,7 @@ pub(super) fn fewest(
         let mut scene = case.scene.clone();
         scene.filament.sections = sections(case.length_nm(), &stretches).into();
         scene.filament.rod.law = RodLaw::Homogenised;
-        let (assembly, _) = solved(&scene)?;
+        let assembly = solved(&scene)?;
         if (case.value(&assembly) / truth - 1.0).abs() <= error {
             let monomers = assembly.counts().monomers;
             return Ok(Some(Found {
