@@ -36,7 +36,7 @@ pub fn finer(scene: &Scene, quantity: Quantity) -> Result<Scene, SceneProblem> {
     check(scene, quantity)?;
     let (assembly, state) = equilibrium(scene)?;
     let value = value(&assembly, &state, quantity);
-    let segments = of_all(&assembly, quantity, value)?;
+    let segments = of_all((&assembly, &state), quantity, value)?;
     let counted = with_segments(&assembly, 1).filament.sections;
     let rods: Vec<RodStretch> = counted.iter().filter_map(RodStretch::of).collect();
     let longest_nm = rods.iter().map(RodStretch::segment_nm).fold(0.0, f64::max);

@@ -55,7 +55,7 @@ fn scene(rest: &str, sections: &[(f64, usize)]) -> Scene {
 fn of_segments(scene: &Scene, quantity: Quantity) -> ErrorEstimate {
     let (assembly, state) = equilibrium(scene).unwrap();
     let value = value(&assembly, &state, quantity);
-    let segments = of_all(&assembly, quantity, value).unwrap();
+    let segments = of_all((&assembly, &state), quantity, value).unwrap();
     ErrorEstimate::of_segments(quantity, value, segments)
 }
 

@@ -2,12 +2,14 @@
 //!
 //! Found by halving them, of a stretch with all others left as they are. The scheme is of second order also where
 //! lengths change from one segment to the next, since each half of a segment bends by the moment at its own node; what
-//! stretches do adds up, and no state has to be carried from one mesh to another, which would bring in errors
-//! of the same order. Rods of so few segments take next to no time beside the cells and walls of an estimate.
+//! stretches do adds up. The state of the undivided segments is where the search for the equilibrium begins, and
+//! nothing else: taken to another mesh it has errors of the same order.
 
+use super::nearby::equilibrium_near;
 use super::{ErrorEstimate, RodStretch, equilibrium, value};
 use crate::Assembly;
 use crate::scene::{Quantity, Scene, SceneProblem, Section};
+use actin_mechanics::State;
 
 /// Of an error of order 2 in the length of segments, what halving them leaves.
 pub(super) const LEFT_BY_HALVING: f64 = 0.25;
@@ -22,17 +24,17 @@ pub(super) struct Share {
     pub error: f64,
 }
 
-/// What halving all segments changes, and what that leaves.
+/// What halving all segments changes, and what that leaves; of an equilibrium with this value.
 pub(super) fn of_all(
-    assembly: &Assembly,
+    here: (&Assembly, &State),
     quantity: Quantity,
     value: f64,
 ) -> Result<f64, SceneProblem> {
-    let scene = with_segments(assembly, 2);
+    let scene = with_segments(here.0, 2);
     if !scene.filament.sections.iter().any(Section::is_rod) {
         return Ok(0.0);
     }
-    changed(&scene, quantity, value)
+    changed(&scene, here, (quantity, value))
 }
 
 /// The scene of an assembly with so many times its segments, counted.
@@ -57,6 +59,7 @@ pub(super) fn of_stretches(scene: &Scene, found: &ErrorEstimate, doubt: f64) -> 
         .filter_map(RodStretch::of)
         .map(|rod| rod.segments);
     let most = counted.sum::<usize>().div_ceil(MOST_STRETCHES);
+    let (assembly, state) = equilibrium(scene).ok()?;
     let mut shares = Vec::new();
     for (i, section) in sections.iter().enumerate() {
         let Some(rod) = RodStretch::of(section) else {
@@ -67,7 +70,8 @@ pub(super) fn of_stretches(scene: &Scene, found: &ErrorEstimate, doubt: f64) -> 
             let mut all: Vec<Section> = sections.iter().cloned().collect();
             all.splice(i..=i, rod.with_halved(&stretch));
             halved.filament.sections = all.into();
-            let error = changed(&halved, found.quantity, found.value).ok()?;
+            let error =
+                changed(&halved, (&assembly, &state), (found.quantity, found.value)).ok()?;
             shares.push(Share { stretch, error });
         }
     }
@@ -77,9 +81,13 @@ pub(super) fn of_stretches(scene: &Scene, found: &ErrorEstimate, doubt: f64) -> 
 }
 
 /// By how much more than to this scene the number changes when its segments are made shorter without end, if those that
-/// changed it from `value` are of half the length.
-fn changed(halved: &Scene, quantity: Quantity, value: f64) -> Result<f64, SceneProblem> {
-    let (assembly, state) = equilibrium(halved)?;
+/// changed it from `value` are of half the length; `near` is the equilibrium with that value.
+fn changed(
+    halved: &Scene,
+    near: (&Assembly, &State),
+    (quantity, value): (Quantity, f64),
+) -> Result<f64, SceneProblem> {
+    let (assembly, state) = equilibrium_near(halved, near)?;
     let halved = self::value(&assembly, &state, quantity);
     Ok((halved - value) / (1.0 - LEFT_BY_HALVING))
 }

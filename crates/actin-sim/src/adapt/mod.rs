@@ -19,6 +19,7 @@ mod finer;
 mod grade;
 mod halving;
 mod ideal;
+mod nearby;
 mod runs;
 mod scatter;
 mod section_loads;
@@ -214,7 +215,7 @@ fn located(
     let walls = sum(&at_walls);
     parts.extend(at_walls);
     let value = look.adjoint.value;
-    let segments = halving::of_all(assembly, quantity, value)?;
+    let segments = halving::of_all((assembly, state), quantity, value)?;
     let total = ErrorEstimate {
         quantity,
         value,
