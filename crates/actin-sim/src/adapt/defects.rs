@@ -2,6 +2,7 @@
 
 use super::adjoint::Adjoint;
 use super::ideal::{EndlessFilament, Ideal, PERIOD};
+use super::sampling::{Defect, Segments};
 use super::section_loads::{SectionLoads, Segment, linear, rotational, segments, six};
 use crate::assembly::{BodyKind, Rod};
 use crate::shape::axis::CrossSection;
@@ -9,8 +10,6 @@ use crate::{Assembly, SectionSpan};
 use actin_ellipsoid::SixVector;
 use actin_mechanics::{State, Vector3, rotation};
 
-/// Segments of one rod under whose loads a cell is relaxed; defects in between are linear.
-const SAMPLES: usize = 16;
 /// How far into a rod a junction is looked at (nm).
 const INTO_ROD_NM: f64 = 20.0;
 /// Cells on the way across a junction.
@@ -38,33 +37,41 @@ impl Look<'_> {
     /// Cells are relaxed where most of the wanted number comes from. None where one finds no minimum.
     pub(super) fn law(&self, span: &SectionSpan, rod: &Rod) -> Option<Vec<Contribution>> {
         let all = segments(self.assembly, self.state, span);
-        let share = |segment: &Segment| {
-            let weight = self.adjoint.weight(segment.s_nm);
-            let strain = segment.strain.component_mul(&weight);
-            segment.length_nm * strain.abs().sum()
+        let lengths = Segments {
+            s_nm: all.iter().map(|segment| segment.s_nm).collect(),
+            weights: all.iter().map(|segment| self.weight(segment)).collect(),
+            shares: all.iter().map(|segment| self.share(segment)).collect(),
         };
-        let shares: Vec<f64> = all.iter().map(share).collect();
-        let mut known: Vec<(f64, (SixVector, f64))> = Vec::new();
-        let mut last = None;
-        for i in sampled(&shares, SAMPLES) {
+        let errors = lengths.errors(self.adjoint.value, |i, near| {
             let segment = &all[i];
             let load = self.loads.at(segment.s_nm);
-            let response = self.mean.under(&load, last.as_ref())?;
-            let defect = response.strain - segment.strain;
-            let more = response.energy - energy_of(rod, &segment.strain);
-            known.push((segment.s_nm, (defect, more - load.dot(&defect))));
-            last = Some(response);
-        }
-        let part = |segment: &Segment| {
-            let (defect, stored) = interpolated(&known, segment.s_nm);
-            let of_length = self.adjoint.change(segment.s_nm, &defect, stored);
+            let cell = self.mean.under(&load, near)?;
+            let strain = cell.strain - segment.strain;
+            let more = cell.energy - energy_of(rod, &segment.strain);
+            Some((strain.push(more - load.dot(&strain)), cell))
+        })?;
+        let part = |(segment, error): (&Segment, f64)| {
             let half = 0.5 * segment.length_nm;
-            Contribution {
-                span_nm: [segment.s_nm - half, segment.s_nm + half],
-                error: segment.length_nm * of_length,
-            }
+            let span_nm = [segment.s_nm - half, segment.s_nm + half];
+            Contribution { span_nm, error }
         };
-        Some(all.iter().map(part).collect())
+        Some(all.iter().zip(errors).map(part).collect())
+    }
+
+    /// What a defect of a segment makes of the number.
+    fn weight(&self, segment: &Segment) -> Defect {
+        let Segment {
+            s_nm, length_nm, ..
+        } = *segment;
+        let stored = self.adjoint.change(s_nm, &SixVector::zeros(), 1.0);
+        self.adjoint.weight(s_nm).push(stored) * length_nm
+    }
+
+    /// How much of the number comes from a segment, about.
+    fn share(&self, segment: &Segment) -> f64 {
+        let weight = self.adjoint.weight(segment.s_nm);
+        let strain = segment.strain.component_mul(&weight);
+        segment.length_nm * strain.abs().sum()
     }
 
     /// What a junction makes of the stretch about it, but for the law of its rod.
@@ -88,7 +95,12 @@ impl Look<'_> {
         let along = (0.5 * (rod.to_nm - rod.from_nm)).min(INTO_ROD_NM);
         let to = self.node_near(rod, joint + out * along);
         let before = (from - out * 6.0 * rise).clamp(monomers.from_nm, monomers.to_nm);
-        let ideal = Ideal::along(self.mean, |s| self.loads.at(s), [before, to], ACROSS)?;
+        let ideal = Ideal::along(
+            self.mean,
+            |s| self.loads.at(s),
+            ([before, to], ACROSS),
+            None,
+        )?;
         let base = self.loads.cross_section(from);
         let at = |s_nm: f64| ideal.carry(base, [from, s_nm]);
         let (turn, shift) = mean_motion((self.assembly, self.state), monomers, from, at);
@@ -190,65 +202,4 @@ pub(super) fn mean_motion(
     }
     let n = near.len() as f64;
     (turn / n, shift / n)
-}
-
-/// At most `n` indices, ascending and with both ends, between which about the same sums of `shares` lie.
-fn sampled(shares: &[f64], n: usize) -> Vec<usize> {
-    if shares.len() <= n {
-        return (0..shares.len()).collect();
-    }
-    if shares.iter().sum::<f64>() <= 0.0 {
-        return sampled(&vec![1.0; shares.len()], n);
-    }
-    // A part that does not depend on the shares keeps gaps bounded.
-    let even = shares.iter().sum::<f64>() / shares.len() as f64;
-    let total = shares.iter().map(|share| share + even).sum::<f64>();
-    let mut chosen = vec![0];
-    let mut sum = 0.0;
-    for (i, share) in shares.iter().enumerate() {
-        sum += share + even;
-        if sum >= total * chosen.len() as f64 / (n - 1) as f64 && i > 0 {
-            chosen.push(i);
-        }
-    }
-    let last = shares.len() - 1;
-    if *chosen.last().expect("the first") != last {
-        chosen.push(last);
-    }
-    chosen
-}
-
-/// Linear between the two known values about a place.
-fn interpolated(known: &[(f64, (SixVector, f64))], s_nm: f64) -> (SixVector, f64) {
-    if known.len() == 1 {
-        return known[0].1;
-    }
-    let after = known
-        .partition_point(|k| k.0 < s_nm)
-        .clamp(1, known.len() - 1);
-    let (a, b) = (&known[after - 1], &known[after]);
-    let t = ((s_nm - a.0) / (b.0 - a.0)).clamp(0.0, 1.0);
-    let ((defect_a, stored_a), (defect_b, stored_b)) = (a.1, b.1);
-    (
-        defect_a * (1.0 - t) + defect_b * t,
-        stored_a * (1.0 - t) + stored_b * t,
-    )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Where all comes from one place, samples crowd there; both ends are among them.
-    #[test]
-    fn samples_follow_the_shares() {
-        assert_eq!(sampled(&[1.0; 5], 8), [0, 1, 2, 3, 4]);
-        let mut shares = vec![0.0; 100];
-        shares[..10].fill(1.0);
-        let chosen = sampled(&shares, 11);
-        assert_eq!((chosen[0], *chosen.last().unwrap()), (0, 99));
-        assert!(chosen.len() <= 12, "{chosen:?}");
-        let crowded = chosen.iter().filter(|&&i| i < 10).count();
-        assert!(crowded >= 5, "{chosen:?}");
-    }
 }

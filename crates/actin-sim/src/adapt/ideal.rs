@@ -95,28 +95,32 @@ impl EndlessFilament {
 #[derive(Clone, Debug)]
 pub(super) struct Ideal {
     samples: Vec<(f64, SixVector)>,
+    cells: Vec<CellResponse>,
 }
 
 impl Ideal {
     /// Of the stretch between two arc lengths (nm) under the loads of `load`, from evenly spaced samples; none where
-    /// a cell finds no minimum.
+    /// a cell finds no minimum. Each begins as that of `near` at its place, under similar loads, or as the one before.
     pub(super) fn along(
         filament: &EndlessFilament,
         load: impl Fn(f64) -> SixVector,
-        [from, to]: [f64; 2],
-        samples: u32,
+        ([from, to], samples): ([f64; 2], u32),
+        near: Option<&Self>,
     ) -> Option<Self> {
         let (from, to) = (from.min(to), from.max(to));
         let spacing = (to - from) / f64::from(samples);
-        let mut last = None;
-        let samples = (0..samples).map(|k| {
+        let mut ideal = Self {
+            samples: Vec::new(),
+            cells: Vec::new(),
+        };
+        for k in 0..samples {
             let s_nm = from + (f64::from(k) + 0.5) * spacing;
-            last = Some(filament.under(&load(s_nm), last.as_ref())?);
-            last.as_ref().map(|response| (s_nm, response.strain))
-        });
-        samples
-            .collect::<Option<_>>()
-            .map(|samples| Self { samples })
+            let start = near.map_or(ideal.cells.last(), |near| near.cells.get(k as usize));
+            let cell = filament.under(&load(s_nm), start)?;
+            ideal.samples.push((s_nm, cell.strain));
+            ideal.cells.push(cell);
+        }
+        Some(ideal)
     }
 
     pub(super) fn strain(&self, s_nm: f64) -> SixVector {

@@ -21,6 +21,7 @@ mod halving;
 mod ideal;
 mod nearby;
 mod runs;
+mod sampling;
 mod scatter;
 mod section_loads;
 mod setting;

@@ -98,10 +98,15 @@ impl Look<'_> {
             out: if is_start { 1.0 } else { -1.0 },
         };
         let azimuths: u32 = if self.is_free_to_roll() { 4 } else { 1 };
+        // Rods are the same however monomers are rolled.
+        let rods = self.short_rod(wall, rod)?;
         let mut defect = SixVector::zeros();
+        let mut ideal = None;
         for k in 0..azimuths {
             let roll = f64::from(k) * 360.0 / f64::from(azimuths);
-            defect += self.compare(wall, rod, roll)? / f64::from(azimuths);
+            let (of_roll, along) = self.compare(wall, &rods, roll, ideal.as_ref())?;
+            defect += of_roll / f64::from(azimuths);
+            ideal = Some(along);
         }
         let to = s_nm + wall.out * wall.compared_nm;
         Ok(Contribution {
@@ -110,40 +115,45 @@ impl Look<'_> {
         })
     }
 
-    /// The defect of a wall, its monomers rolled by an angle (deg).
-    fn compare(&self, wall: Wall, rod: &SectionSpan, roll: f64) -> Result<SixVector, SceneProblem> {
+    /// The short rod at a wall.
+    fn short_rod(&self, wall: Wall, rod: &SectionSpan) -> Result<(Assembly, State), SceneProblem> {
         let crate::Resolution::Rod { segment_nm } = rod.resolution else {
             unreachable!("asked of rods")
         };
         let length = wall.length_nm;
+        let segments = segments_of(length, segment_nm.min(SEGMENT_NM));
+        self.short(wall, Section::rod(0.0, length, Some(segments)), 0.0)
+    }
+
+    /// The defect of a wall against its short rod, its monomers rolled by an angle (deg), and what these do but for the wall,
+    /// found from what they do where they are rolled by another.
+    fn compare(
+        &self,
+        wall: Wall,
+        (rods, in_rods): &(Assembly, State),
+        roll: f64,
+        near: Option<&Ideal>,
+    ) -> Result<(SixVector, Ideal), SceneProblem> {
         let ellipsoids = Section::Ellipsoids {
             from_nm: 0.0,
-            to_nm: length,
+            to_nm: wall.length_nm,
             altered: None,
         };
-        let segments = segments_of(length, segment_nm.min(SEGMENT_NM));
         let (monomers, in_monomers) = self.short(wall, ellipsoids, roll)?;
-        let (rods, in_rods) = self.short(wall, Section::rod(0.0, length, Some(segments)), roll)?;
         let of_monomers = SectionLoads::of(&monomers, &in_monomers);
-        let of_rods = SectionLoads::of(&rods, &in_rods);
+        let of_rods = SectionLoads::of(rods, in_rods);
         let (from, to) = (wall.own(), wall.own() + wall.out * wall.compared_nm);
         let at = |s_nm: f64| of_rods.cross_section(s_nm);
-        let (turn, shift) = mean_motion(
-            (&monomers, &in_monomers),
-            &monomers.sections_of(0)[0],
-            to,
-            at,
-        );
-        let ideal = Ideal::along(self.mean, |s| of_monomers.at(s), [from, to], SAMPLES);
+        let here = (&monomers, &in_monomers);
+        let (turn, shift) = mean_motion(here, &monomers.sections_of(0)[0], to, at);
+        let loads = |s_nm: f64| of_monomers.at(s_nm);
+        let ideal = Ideal::along(self.mean, loads, ([from, to], SAMPLES), near);
         let ideal = ideal.ok_or_else(no_cell)?;
-        let law = of_law(
-            (&rods, &in_rods, &of_rods),
-            &rods.sections_of(0)[0],
-            &ideal,
-            [from, to],
-        );
+        let here = (rods, in_rods, &of_rods);
+        let law = of_law(here, &rods.sections_of(0)[0], &ideal, [from, to]);
         let body = of_rods.cross_section(to).1.inverse();
-        Ok(six(body * (turn - law.0), body * (shift - law.1)) * wall.out)
+        let defect = six(body * (turn - law.0), body * (shift - law.1)) * wall.out;
+        Ok((defect, ideal))
     }
 
     /// A short filament at a wall, in equilibrium next to where the filament itself is.
