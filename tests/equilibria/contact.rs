@@ -189,8 +189,9 @@ fn filaments_built_into_each_other_are_refused_or_noted() {
         format!(
             "Scene(
                 filaments: [
-                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 80.0)]),
+                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 80.0)], rod: RodModel(law: Fitted)),
                     Filament(sections: [Rod(from_nm: 0.0, to_nm: 80.0)], at_nm: ({x:?}, -40.0, 40.0),
+                        rod: RodModel(law: Fitted),
                         direction: (0.0, 1.0, 0.0)),
                 ],
                 repulsion: Repulsion(),

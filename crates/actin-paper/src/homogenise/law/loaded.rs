@@ -11,14 +11,14 @@ use std::f64::consts::TAU;
 
 /// Least and largest bending couple (pN nm), shear force, tension and compression (pN), twist (rad/nm), twisting couple
 /// (pN nm), with the share of the cells that have none.
-const COUPLE: ([f64; 2], f64) = ([0.1, 300.0], 0.15);
+const COUPLE: ([f64; 2], f64) = ([0.1, 800.0], 0.15);
 const SHEAR: ([f64; 2], f64) = ([0.02, 20.0], 0.2);
 const TENSION: ([f64; 2], f64) = ([0.3, 40.0], 0.55);
 const COMPRESSION: ([f64; 2], f64) = ([0.3, 20.0], 0.75);
 const TWIST: ([f64; 2], f64) = ([3e-4, 0.045], 0.1);
 const TWISTING: ([f64; 2], f64) = ([0.1, 400.0], 0.33);
 /// Cells beyond these strains are left out: curvature (rad/nm), twist (rad/nm), shear.
-const LARGEST: [f64; 3] = [0.016, 0.05, 0.04];
+const LARGEST: [f64; 3] = [0.022, 0.05, 0.04];
 /// First share of the loads. The next grow by half, and halve where no equilibrium is found or the twist changes by
 /// more than `JUMP` (rad/nm); below the least the cell is given up.
 const SHARE: f64 = 0.25;

@@ -102,11 +102,23 @@ const STRAINED: [(Region, u64); 2] = [
     ),
 ];
 
+/// The same for strong bending, at which the tangent is not held positive.
+const BENT: (Region, u64) = (
+    Region {
+        curvature: 0.022,
+        twist: 0.05,
+        shear: 0.016,
+        extension: [-2.2e-3, 5e-3],
+        is_shortened: true,
+    },
+    3000,
+);
+
 /// How the tangent is held positive where cells have a least eigenvalue above [`FIRM`] (pN) in these units: closer
 /// to where they lose their stiffness themselves, that would cost accuracy elsewhere.
 const POSITIVITY: Positivity = Positivity {
     units: [20.0, 20.0, 5.0, 1.0, 1.0, 20.0],
-    strength: 0.5,
+    strength: 0.2,
 };
 const FIRM: f64 = 30.0;
 
@@ -134,11 +146,12 @@ pub(super) fn run(
     let form = form(axes, grid)?;
     let (within, outside): (Vec<&Row>, Vec<&Row>) = grid.iter().partition(|row| is_in_range(row));
     let strained = samples::strained(&cell, &form, &STRAINED)?;
+    let bent = samples::strained(&cell, &form, &[BENT])?;
     // Of the grid what no random strain meets: straight cells, only bent and only sheared ones.
     let pure = within
         .iter()
         .filter(|row| row.strain[0] == 0.0 || row.strain[2] == 0.0);
-    let fitted: Vec<&Row> = strained.iter().chain(pure.copied()).collect();
+    let fitted: Vec<&Row> = strained.iter().chain(&bent).chain(pure.copied()).collect();
     let loaded = loaded::rows(&cell, &form, 0, LOADED);
     tell(format_args!(
         "{} strained cells, {} loaded ones of {LOADED}",

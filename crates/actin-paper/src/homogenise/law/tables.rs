@@ -97,18 +97,26 @@ pub(super) fn by_twist(law: &Homogenised, axes: &Axes, rows: &[&Row]) -> String 
     table
 }
 
+/// Cells bent beyond the range.
+const STRONGLY_BENT: &str = "strongly bent";
+
+/// The kind of a loaded cell.
+fn kind(row: &Row) -> &'static str {
+    match row.loads[5] {
+        _ if row.strain[0] > RANGE.curvature => STRONGLY_BENT,
+        n if n > 0.1 => "pulled",
+        n if n < -0.1 => "pushed",
+        _ => "neither",
+    }
+}
+
 /// Differences of strain under given loads of cells that were not fitted: medians, and what nine of ten are within.
 pub(super) fn under_loads(law: &Homogenised, rows: &[Row]) -> String {
     let mut table = String::from(
         "\n| cells, twist free or held | bending | twist or its couple | shear | stretch |\n",
     );
     let _ = writeln!(table, "| --- |{}", " ---: |".repeat(4));
-    let kind = |row: &Row| match row.loads[5] {
-        n if n > 0.1 => "pulled",
-        n if n < -0.1 => "pushed",
-        _ => "neither",
-    };
-    for name in ["pulled", "neither", "pushed"] {
+    for name in ["pulled", "neither", "pushed", STRONGLY_BENT] {
         let here: Vec<[f64; 12]> = rows
             .iter()
             .filter(|row| kind(row) == name)

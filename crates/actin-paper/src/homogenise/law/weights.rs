@@ -22,7 +22,7 @@ const STIFF: [f64; 6] = [1e3, 1e3, -1.0, -1.0, -1.0, 1e3];
 const BRANCH: f64 = -50.0;
 /// Weights of a cell's numbers and of its tangent under given strains: straight, only bent or only sheared, and both; of
 /// pushed cells, which change their branch, the last.
-const STRAIGHT_CELL: (f64, f64) = (24.0, 100.0);
+const STRAIGHT_CELL: (f64, f64) = (36.0, 150.0);
 const BENT_OR_SHEARED: (f64, f64) = (0.9, 1.4);
 const BOTH: (f64, f64) = (0.6, 0.6);
 /// How much more the tangent counts where the filament is at rest: the stiffness that users know. At other small strains,
@@ -49,7 +49,7 @@ const TWISTING: [f64; 2] = [0.3, 0.1];
 const UNITS: [f64; 6] = [0.05, 0.05, 2.0, 1.0, 1.0, 1.0];
 const SOFT: f64 = 2.0;
 /// The stiffness of a twist that is held (pN).
-const HELD: f64 = 1e15;
+const HELD: f64 = 1e9;
 
 /// What counts as a difference of 1 in each of the numbers of a row.
 pub(super) fn deviations(row: &Row) -> [f64; 7] {
