@@ -31,16 +31,18 @@ fn moved((assembly, outcome): &(Assembly, Outcome)) -> [f64; 3] {
 }
 
 /// Bent, pulled and sheared at once, and twisted by the pull. Without the half segment's energy at the free end the
-/// twist there would be off at any length of segments, and the order 1.
+/// twist there would be off at any length of segments, and the order 1. Segments are shorter than what a wall changes.
 #[test]
 fn combined_loads_converge_with_order_two() {
     let force = [0.5, 0.2, 10.0];
-    let tips = [16, 32, 64, 128].map(|n| moved(&solved(&scene(&rod(160.0, n), "", force))));
+    let tips = [32, 64, 128, 256].map(|n| moved(&solved(&scene(&rod(160.0, n), "", force))));
     for k in 0..3 {
         let [a, b, c, d] = tips.map(|tip| tip[k]);
         let orders = [(a - b) / (b - c), (b - c) / (c - d)].map(|ratio| ratio.abs().log2());
         println!("component {k}: {d:.6} nm, orders {orders:.3?}");
-        assert!(orders.iter().all(|order| (order - 2.0).abs() < 0.1));
+        // The last is the small difference of stretch and shortening, and nearer than its order.
+        let most = if k == 2 { 3.0 } else { 2.1 };
+        assert!(orders.iter().all(|order| (1.9..most).contains(order)));
     }
 }
 

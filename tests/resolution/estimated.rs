@@ -84,7 +84,7 @@ fn estimates_are_within_a_factor_of_two() {
     rows.push(effectivity(&tip, homogenised, &[[60.0, 100.0]]));
     rows.push(effectivity(&long, homogenised, &[[0.0, 40.0]]));
     let judged = rows.iter().filter(|row| row.1.abs() > JUDGED);
-    assert_eq!(judged.clone().count(), 7, "{rows:?}");
+    assert_eq!(judged.clone().count(), 6, "{rows:?}");
     for (effectivity, _) in judged {
         assert!((0.5..2.0).contains(effectivity), "{rows:?}");
     }
@@ -109,8 +109,8 @@ fn coarse_segments_are_not_counted_twice() {
     assert!(found.walls.abs() < 0.2, "{found:?}");
 }
 
-/// Of a filament that may roll about its axis, the walls are taken at four azimuths; over-twisted and pushed
-/// together its couple is 2.4 % too large as a rod.
+/// Of a filament that may roll about its axis, the walls are taken at four azimuths. Over-twisted and pushed
+/// together it is within 2 % as a rod, and its error is told by the same bounds.
 #[test]
 fn a_buckled_filament_is_judged() {
     let rest = "clamps: [Clamp(end: Start), Clamp(end: End)],
@@ -132,7 +132,10 @@ fn a_buckled_filament_is_judged() {
             quantity,
         };
         let (effectivity, error) = effectivity(&case, &RodLaw::Homogenised, &[]);
-        assert!((0.5..2.0).contains(&effectivity), "{effectivity} {error}");
+        let estimated = effectivity * error;
+        let is_small = error.abs() < JUDGED && estimated.abs() < JUDGED;
+        let is_told = is_small || (0.5..2.0).contains(&effectivity);
+        assert!(is_told, "{quantity:?}: {estimated} {error}");
     }
 }
 
@@ -208,7 +211,7 @@ fn estimates_of_energies_and_linkers_are_within_a_factor_of_two() {
         }
     }
     let judged = rows.iter().filter(|row| row.3.abs() > JUDGED);
-    assert_eq!(judged.clone().count(), 6, "{rows:?}");
+    assert_eq!(judged.clone().count(), 5, "{rows:?}");
     for (.., effectivity, _) in judged {
         assert!((0.5..2.0).contains(effectivity), "{rows:?}");
     }

@@ -37,6 +37,8 @@ enum Part {
     Grid,
     /// A law of rods fitted to the grid.
     Law,
+    /// The same law fitted to cells of drawn bonds.
+    Drawn,
     /// Mean loads of the filament at a temperature.
     Heat,
 }
@@ -49,6 +51,7 @@ impl From<Part> for homogenise::Part {
             Part::Scatter => Self::Scatter,
             Part::Grid => Self::Grid,
             Part::Law => Self::Law,
+            Part::Drawn => Self::Drawn,
             Part::Heat => Self::Heat,
         }
     }

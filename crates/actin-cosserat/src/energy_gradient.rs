@@ -1,6 +1,6 @@
 //! The force law that is the gradient of an energy.
 
-use crate::extended::ExtendedSegments;
+use crate::extended::{EndTwist, ExtendedSegments};
 use crate::fast::FastRod;
 use crate::{BendingElement, RodLayout, RodMaterial, SegmentCurvature, SegmentLaw, ShearElement};
 use actin_mechanics::{Interaction, Loads, RandomStress, SecondOrder, State, Stiffness};
@@ -65,6 +65,12 @@ impl EnergyGradient {
 }
 
 impl EnergyGradient {
+    /// Bending elements that twist more.
+    fn end_twists(&self) -> &[EndTwist] {
+        let extended = self.extended.as_ref();
+        extended.map_or(&[], |segments| segments.curvature.end_twists())
+    }
+
     /// The segments that curvature reaches.
     pub(crate) fn extended(&self) -> Option<&ExtendedSegments> {
         self.extended.as_ref()
@@ -103,7 +109,8 @@ pub(crate) fn write_bending_energies(
 }
 
 impl EnergyGradient {
-    /// The loads of any law, one element after the other; the reference of the fast path.
+    /// The loads of any law, one element after the other, but for what is more near ends; the reference of the
+    /// fast path.
     pub(crate) fn add_scalar_loads(&self, state: &State, loads: &mut Loads) {
         match &self.extended {
             None => self.add_shear_loads(state, loads),
@@ -173,6 +180,9 @@ impl Interaction for EnergyGradient {
             Some(rod) => rod.add_loads(&self.layout, state, loads),
             None => self.add_scalar_loads(state, loads),
         }
+        for end in self.end_twists() {
+            end.add_loads(&self.material, state, loads);
+        }
     }
 
     fn elements(&self) -> usize {
@@ -188,6 +198,9 @@ impl Interaction for EnergyGradient {
             Some(segments) => segments.write_energies(self.rod(), state, shear),
         }
         write_bending_energies(layout, material, state, bending);
+        for end in self.end_twists() {
+            bending[end.element] += end.energy(material, state);
+        }
     }
 
     fn random_stress(&self) -> Option<&dyn RandomStress> {
@@ -208,5 +221,8 @@ impl SecondOrder for EnergyGradient {
             Some(segments) => segments.add_stiffness(self.rod(), state, stiffness),
         }
         self.add_bending_stiffness(state, stiffness);
+        for end in self.end_twists() {
+            end.add_stiffness(&self.material, state, stiffness);
+        }
     }
 }

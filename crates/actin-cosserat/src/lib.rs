@@ -48,7 +48,8 @@ pub use elements::{RodElements, RodJoint, RodSegment};
 pub use energy_gradient::EnergyGradient;
 pub use error::{RodError, RodParameterError};
 pub use extended::{
-    END_SHEAR_NM, EndShear, JoinedElement, SegmentCurvature, SegmentLaw, TwistStability,
+    END_SHEAR_NM, END_TWIST_NM, EndShear, JoinedElement, SegmentCurvature, SegmentLaw,
+    TwistStability,
 };
 pub use homogenised::{Homogenised, HomogenisedForm, PotentialJet, StrainRange, Term};
 pub use key::RodKey;

@@ -255,4 +255,24 @@ impl RodMaterial {
             Kind::Potential(law) => law.joint_energy(kappa),
         }
     }
+
+    /// Energy per length (pN) of a twist (rad/nm) beyond that at rest alone.
+    pub(crate) fn twist_energy_density(&self, twist: f64) -> f64 {
+        self.bending_energy_density(self.rest_curvature + Vector3::z() * twist)
+    }
+
+    /// Its derivative (pN nm).
+    #[inline]
+    pub(crate) fn twist_couple(&self, twist: f64) -> f64 {
+        match &self.kind {
+            Kind::Laws(laws) => laws.bending_couple(Vector3::z() * twist).z,
+            Kind::Potential(law) => law.unrolled().twisting(twist),
+        }
+    }
+
+    /// Its second derivative (pN nm^2).
+    pub(crate) fn twist_tangent(&self, twist: f64) -> f64 {
+        let kappa = self.rest_curvature + Vector3::z() * twist;
+        self.bending_tangent(kappa)[(2, 2)]
+    }
 }

@@ -13,6 +13,8 @@
 //! the stress is `-L (n . sigma + w_1 m_1 . kappa_1 + w_2 m_2 . kappa_2)`, `w` 1/2 or, for a segment with one side, 1.
 //! Nine numbers a segment, none for bending elements.
 //!
+//! Near blocked ends, where elements twist otherwise, both sides count with the mean of what these do.
+//!
 //! Loads are those of these energies but for the torques about the third axes of frames, which are those of twist alone. Hardly
 //! anything resists a turn about the axis: with these torques, frames would turn until the stress bends them further in the
 //! direction in which they are bent already. In laws that are isotropic about the axis, bending and shear exert none.
@@ -212,7 +214,7 @@ impl RandomStress for EnergyGradient {
             state,
             stresses,
             |jet, material, around, xi| {
-                let bending = material.bending_tangent(around.curvature);
+                let (_, bending) = around.bending(material);
                 let mut jet = *jet;
                 jet.by_curvature += bending * around.covered;
                 let scale = kt / around.length;
@@ -242,8 +244,7 @@ impl RandomStress for EnergyGradient {
             state,
             stresses,
             |jet, material, around, _| {
-                let bending = material.bending_couple(around.curvature) * around.covered;
-                let couple = jet.couple + bending;
+                let couple = jet.couple + around.bending(material).0 * around.covered;
                 [jet.force, couple, couple]
             },
         );

@@ -34,8 +34,11 @@ fn joined(layout: RodLayout) -> EnergyGradient {
     let frames = layout.frames();
     let start = element([0, frames.start], 6.0);
     let end = element([frames.end - 1, layout.bending_chain().end], 8.0);
-    let curvature = SegmentCurvature::new(&layout, &[start], &[end])
-        .with_end_shear(&layout, [EndShear::Blocked, EndShear::Loose]);
+    let curvature = SegmentCurvature::new(&layout, &[start], &[end]).with_ends(
+        &layout,
+        [EndShear::Blocked, EndShear::Loose],
+        [0.0; 2],
+    );
     let law = SegmentLaw::of(&material(), None).unwrap();
     EnergyGradient::new(layout, material()).with_extension(law, curvature)
 }

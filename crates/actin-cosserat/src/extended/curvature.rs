@@ -1,6 +1,7 @@
 //! The mean curvature around each segment.
 
 use super::end_shear::{EndShear, factors};
+use super::end_twist::{EndTwist, end_twists};
 use crate::{BendingElement, RodLayout};
 use actin_mechanics::{State, Vector3};
 
@@ -32,6 +33,8 @@ pub struct SegmentCurvature {
     covered: Vec<f64>,
     /// Factor of each segment's shear.
     shear: Vec<f64>,
+    /// Bending elements near blocked ends.
+    end_twists: Vec<EndTwist>,
 }
 
 /// One of the elements around a segment.
@@ -77,6 +80,7 @@ impl SegmentCurvature {
             around: Vec::with_capacity(2 * segments + start.len() + end.len()),
             covered: Vec::with_capacity(segments),
             shear: vec![1.0; segments],
+            end_twists: Vec::new(),
         };
         curvature.offsets.push(0);
         for (k, frame) in layout.frames().enumerate() {
@@ -88,25 +92,25 @@ impl SegmentCurvature {
         curvature
     }
 
-    /// The same where the start and the end of the rod `layout` hold back the shear of the segments beside them, or
-    /// let them shear more. Meant for a potential.
+    /// The same where the start and the end of the rod `layout` change the shear and the twist beside them. The ends are
+    /// those of the rod or, `beyond_nm` its own, of rods that continue it. Meant for a potential.
     #[must_use]
-    pub fn with_end_shear(self, layout: &RodLayout, ends: [EndShear; 2]) -> Self {
-        self.with_end_shear_beyond(layout, ends, [0.0; 2])
-    }
-
-    /// The same where other rods continue this one, and the ends are theirs: so far beyond its own (nm).
-    #[must_use]
-    pub fn with_end_shear_beyond(
-        self,
-        layout: &RodLayout,
-        ends: [EndShear; 2],
-        beyond_nm: [f64; 2],
-    ) -> Self {
+    pub fn with_ends(self, layout: &RodLayout, ends: [EndShear; 2], beyond_nm: [f64; 2]) -> Self {
         Self {
             shear: factors(layout.segment_lengths(), ends, beyond_nm),
+            end_twists: end_twists(layout, ends, beyond_nm),
             ..self
         }
+    }
+
+    /// Bending elements near blocked ends.
+    pub(crate) fn end_twists(&self) -> &[EndTwist] {
+        &self.end_twists
+    }
+
+    /// What the element between these frames has of that.
+    pub(crate) fn end_twist(&self, frames: [usize; 2]) -> Option<&EndTwist> {
+        self.end_twists.iter().find(|end| end.joins(frames))
     }
 
     /// Factor by which `segment` counts its strains across: 1 but near ends.

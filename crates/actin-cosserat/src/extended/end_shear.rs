@@ -7,7 +7,8 @@
 /// [`END_SHEAR_NM`], under the tension and the shear that were measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum EndShear {
-    /// A section that is held: [`END_SHEAR_NM`] of shear are missing.
+    /// A section that is held: [`END_SHEAR_NM`] of shear are missing, and [`END_TWIST_NM`](super::END_TWIST_NM) of twist
+    /// added.
     Blocked,
     /// Nothing changes.
     #[default]

@@ -2,7 +2,7 @@
 
 use super::curvature::Around;
 use super::law::{MeanCurvature, SegmentJet};
-use super::{SegmentCurvature, SegmentLaw};
+use super::{EndTwist, SegmentCurvature, SegmentLaw};
 use crate::bending::BendingLoads;
 use crate::shear::ShearLoads;
 use crate::{RodLayout, RodMaterial, ShearElement};
@@ -53,6 +53,22 @@ pub(crate) struct SegmentAround {
     pub(crate) covered: f64,
     /// Whether there are elements on both sides.
     pub(crate) has_two_sides: bool,
+    /// Near blocked ends, the elements there with their shares in the mean.
+    ends: Vec<(EndTwist, f64)>,
+}
+
+impl SegmentAround {
+    /// Couple (pN nm) and tangent (pN nm^2) of bending at the mean curvature, as the elements around have them on average.
+    pub(crate) fn bending(&self, material: &RodMaterial) -> (Vector3, Matrix3) {
+        let beyond = self.curvature.z - material.rest_curvature().z;
+        let mut couple = material.bending_couple(self.curvature);
+        let mut tangent = material.bending_tangent(self.curvature);
+        for (end, share) in &self.ends {
+            couple.z += share * end.couple(material, beyond);
+            tangent[(2, 2)] += share * end.tangent(material, beyond);
+        }
+        (couple, tangent)
+    }
 }
 
 /// A bending element beside a segment.
@@ -99,6 +115,9 @@ impl ExtendedSegments {
             curvature: segment.curvature.kappa,
             covered: segment.curvature.covered,
             has_two_sides: sides.any(|side| Some(side) != first),
+            ends: (segment.around.iter())
+                .filter_map(|a| Some((*self.curvature.end_twist(a.frames)?, a.share)))
+                .collect(),
         };
         (jet, around)
     }

@@ -162,7 +162,7 @@ fn extended(layout: &RodLayout, law: &Named, is_joined: bool) -> Option<Extended
     let [start, end] = joined(layout, is_joined);
     let mut curvature = SegmentCurvature::new(layout, &start, &end);
     if law.1.potential().is_some() {
-        curvature = curvature.with_end_shear(layout, [EndShear::Loose, EndShear::Blocked]);
+        curvature = curvature.with_ends(layout, [EndShear::Loose, EndShear::Blocked], [0.0; 2]);
     }
     SegmentLaw::of(&law.1, law.2).map(|law| ExtendedSegments { law, curvature })
 }

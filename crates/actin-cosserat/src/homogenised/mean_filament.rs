@@ -1,13 +1,18 @@
-//! The law of the mean filament: its committed numbers, and how far their data reach.
+//! The laws of the mean filament and of drawn ones: their committed numbers, and how far their data reach.
 
 use super::{Homogenised, HomogenisedForm};
-use std::sync::LazyLock;
+use crate::Term;
+use std::collections::BTreeMap;
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 /// Coefficients of the mean filament without heat, as `cargo xtask homogenise law` writes them: stretch at rest, those
 /// of the natural stretch, then those of each term, from the constant up.
 const COLD: &str = include_str!("mean_filament.csv");
 
-/// The same at 298 K, of `cargo xtask homogenise heat`.
+/// The same of filaments of [`DRAWN_BONDS`](Homogenised::DRAWN_BONDS) drawn bonds, of `cargo xtask homogenise drawn`.
+const DRAWN: &str = include_str!("drawn_filament.csv");
+
+/// The same of the mean filament at 298 K, of `cargo xtask homogenise heat`.
 const AT_298_K: &str = include_str!("mean_filament_298_k.csv");
 
 /// The range of the fit, whose cells reach a little beyond; stretch is counted from that of cells as bent and sheared.
@@ -57,7 +62,52 @@ impl Homogenised {
         &LAW
     }
 
-    /// The free energy of the same filaments at [`HEATED_K`](Self::HEATED_K): what they store and bear on average while
+    /// The law of filaments whose interfaces have so many bonds each, drawn for each: what they store and bear on average.
+    /// They are softer than the mean filament, as compliances in a row are more than that of the mean stiffness.
+    ///
+    /// Cells were measured with [`DRAWN_BONDS`](Self::DRAWN_BONDS). What sets these apart from the mean filament is taken in
+    /// inverse proportion to the bonds; with fewer bonds the law is theirs.
+    ///
+    /// ```
+    /// use actin_cosserat::Homogenised;
+    /// use actin_mechanics::Vector3;
+    /// let bend = Vector3::x() * 1e-3;
+    /// let couple = |law: &Homogenised| law.joint_couple(bend).x;
+    /// let of = |bonds| couple(Homogenised::drawn_filament(bonds)) / couple(Homogenised::mean_filament());
+    /// assert!(of(64) < 0.98 && of(64) < of(640) && of(1_000_000_000) > 0.999_999);
+    /// assert_eq!(of(10), of(64));
+    /// ```
+    pub fn drawn_filament(bonds: usize) -> &'static Self {
+        // Programs have few of them, which materials keep for good.
+        static LAWS: Mutex<BTreeMap<usize, &'static Homogenised>> = Mutex::new(BTreeMap::new());
+        static DRAWN_LAW: LazyLock<Homogenised> = LazyLock::new(|| read(DRAWN));
+        let bonds = bonds.max(Self::DRAWN_BONDS);
+        let mut laws = LAWS.lock().unwrap_or_else(PoisonError::into_inner);
+        laws.entry(bonds).or_insert_with(|| {
+            let share = Self::DRAWN_BONDS as f64 / bonds as f64;
+            let law = Self::mean_filament().towards(&DRAWN_LAW, share);
+            Box::leak(Box::new(law.with_range(RANGE)))
+        })
+    }
+
+    /// Bonds of an interface with which cells of drawn bonds were measured: those of the paper.
+    pub const DRAWN_BONDS: usize = 64;
+
+    /// The law with this share of another one's numbers, up to all, and the rest of its own: beyond that its energy would not
+    /// be bounded as theirs are.
+    fn towards(&self, other: &Self, share: f64) -> Self {
+        let mixed = |own: &[f64], other: &[f64]| -> Vec<f64> {
+            let both = own.iter().zip(other);
+            both.map(|(a, b)| a + share * (b - a)).collect()
+        };
+        let (form, others) = (self.form(), other.form());
+        let form = HomogenisedForm::new(&mixed(form.natural(), others.natural()));
+        let numbers = |term: Term| mixed(self.coefficients(term), other.coefficients(term));
+        let law = form.and_then(|form| Self::new(form, numbers));
+        law.expect("mixed numbers of two laws make a law")
+    }
+
+    /// The free energy of mean filaments at [`HEATED_K`](Self::HEATED_K): what they store and bear on average while
     /// their monomers move.
     ///
     /// It is measured at cells of 36 nm. Shorter segments of a rod in a heat bath have motion of their own that the cells
@@ -100,12 +150,11 @@ fn read(text: &str) -> Homogenised {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Term;
 
     /// A line that is missing, or of a term that does not exist, would make another law.
     #[test]
     fn the_numbers_stand_under_the_names_of_the_terms() {
-        for text in [COLD, AT_298_K] {
+        for text in [COLD, DRAWN, AT_298_K] {
             let mut names = text.lines().filter_map(|line| line.split_once(','));
             assert_eq!(names.next().unwrap().0, "rest");
             assert_eq!(names.next().unwrap().0, "natural");

@@ -50,17 +50,20 @@ pub enum Part {
     Grid,
     /// A law of rods fitted to strained and loaded cells and to parts of the grid, which is computed if it is not there.
     Law,
+    /// The same law fitted to cells of drawn bonds.
+    Drawn,
     /// Loads at a temperature.
     Heat,
 }
 
 impl Part {
-    const ALL: [Self; 6] = [
+    const ALL: [Self; 7] = [
         Self::Checks,
         Self::Variants,
         Self::Scatter,
         Self::Grid,
         Self::Law,
+        Self::Drawn,
         Self::Heat,
     ];
 }
@@ -91,6 +94,10 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
             Part::Law => {
                 let grid = grid::compute(out, &axes, tell)?;
                 law::run(out, &axes, &grid, samplings, tell)?;
+            }
+            Part::Drawn => {
+                let grid = grid::compute(out, &axes, tell)?;
+                law::run_drawn(out, &axes, &grid, tell)?;
             }
             Part::Heat => heat::run(out, options.temperature_k, options.quick, tell)?,
         }

@@ -41,9 +41,10 @@ pub(crate) fn compared(
     let law = filament::law(name)?;
     let cases = case::all(quick);
     let monomers = monomers(None, &cases, quick, &|_| done())?;
+    let missing = || Err("not computed".to_owned());
     let rods = cases.par_iter().map(|case| -> Rods {
         let coarse = solve::solve(case, &Made::Rod(Rod::coarse(&law)));
-        [coarse, Err("not computed".to_owned())]
+        [coarse, missing(), missing()]
     });
     let rods: Vec<Rods> = rods.collect();
     let mut rows = Vec::new();

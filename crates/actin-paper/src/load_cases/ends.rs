@@ -93,7 +93,7 @@ fn cases_of(rises: u32) -> Vec<(&'static str, Case)> {
     };
     let twisted = Kind::Twisted {
         rises,
-        turns_deg: vec![40.0, -40.0, 120.0, -120.0],
+        turns_deg: vec![10.0, -10.0, 40.0, -40.0, 120.0, -120.0],
     };
     let cantilever = Kind::Cantilever {
         rises,

@@ -44,6 +44,8 @@ pub(super) struct Rod {
     pub segment_nm: f64,
     /// Length that is left out of a pure rod (nm): what an end correction would be.
     pub shorter_nm: f64,
+    /// Whether it stands for monomers with drawn bonds.
+    pub is_drawn: bool,
 }
 
 impl Rod {
@@ -53,6 +55,15 @@ impl Rod {
             law: law.clone(),
             segment_nm: 10.0,
             shorter_nm: 0.0,
+            is_drawn: false,
+        }
+    }
+
+    /// The same that stands for monomers with drawn bonds.
+    pub(super) fn of_drawn(law: &RodLaw) -> Self {
+        Self {
+            is_drawn: true,
+            ..Self::coarse(law)
         }
     }
 
@@ -99,6 +110,11 @@ impl Made {
             }
             Self::Rod(rod) => Filament {
                 rod: rod.model(),
+                monomers: if rod.is_drawn {
+                    Monomers::drawn(DRAWN, 0)
+                } else {
+                    Monomers::default()
+                },
                 ..Filament::new(vec![rod.section([0.0, length_nm - rod.shorter_nm])])
             },
             Self::Mixed {

@@ -123,6 +123,7 @@ impl Set {
             drawn: None,
             rod: (!values.is_empty()).then_some(sampled.mean),
             fine: None,
+            rod_of_drawn: None,
             error_mean: spread.filter(|_| is_whole),
             error_drawn: None,
             error_fine: None,

@@ -131,7 +131,8 @@ fn named(row: &Row) -> (String, String) {
 }
 
 fn of_rods(case: &Case, law: &RodLaw) -> Rods {
-    [Rod::coarse(law), Rod::fine(law)].map(|rod| solve::solve(case, &Made::Rod(rod)))
+    [Rod::coarse(law), Rod::fine(law), Rod::of_drawn(law)]
+        .map(|rod| solve::solve(case, &Made::Rod(rod)))
 }
 
 /// Filaments of monomers under all cases, side by side; what is in the folder is not computed again. `done` is

@@ -15,11 +15,12 @@ pub(super) struct Row {
     pub mean: Option<Sampled>,
     /// Filaments of drawn bonds, over samplings and azimuths.
     pub drawn: Option<Sampled>,
-    /// The rod with segments of 10 nm, and of 2.5 nm.
+    /// The rod with segments of 10 nm, of 2.5 nm, and of 10 nm in the place of drawn bonds.
     pub rod: Option<f64>,
     pub fine: Option<f64>,
-    /// Errors against the mean filament and the drawn ones, and that of the fine rod against the mean one:
-    /// relative, or the distance of centre lines (nm), or a spread over resolutions.
+    pub rod_of_drawn: Option<f64>,
+    /// Errors of the rod against the mean filament, of that of drawn bonds against these, and of the fine one against the
+    /// mean filament: relative, or the distance of centre lines (nm), or a spread over resolutions.
     pub error_mean: Option<f64>,
     pub error_drawn: Option<f64>,
     pub error_fine: Option<f64>,
@@ -41,8 +42,8 @@ pub(super) struct Monomers {
     pub failures: Vec<String>,
 }
 
-/// The rod under a case: with segments of 10 nm, and of 2.5 nm.
-pub(super) type Rods = [Result<Found, String>; 2];
+/// The rod under a case: with segments of 10 nm, of 2.5 nm, and of 10 nm in the place of drawn bonds.
+pub(super) type Rods = [Result<Found, String>; 3];
 
 /// Writhe by which equilibria differ that count as two (turns).
 const OTHER_STATE: f64 = 0.1;
@@ -98,6 +99,7 @@ pub(super) fn rows(
         drawn: None,
         rod: None,
         fine: None,
+        rod_of_drawn: None,
         error_mean: None,
         error_drawn: None,
         error_fine: None,
@@ -122,7 +124,7 @@ fn value_row(row: Row, monomers: &Monomers, rods: &Rods) -> Row {
             .collect();
         (!values.is_empty()).then(|| Sampled::of(values))
     };
-    let [rod, fine] = rods
+    let [rod, fine, rod_of_drawn] = rods
         .each_ref()
         .map(|rod| rod.as_ref().ok()?.value(&row.quantity));
     let (mean, drawn) = (sampled(&monomers.mean), sampled(&monomers.drawn));
@@ -131,7 +133,7 @@ fn value_row(row: Row, monomers: &Monomers, rods: &Rods) -> Row {
     };
     Row {
         error_mean: error(rod, mean),
-        error_drawn: error(rod, drawn),
+        error_drawn: error(rod_of_drawn, drawn),
         error_fine: error(fine, mean),
         scatter: drawn
             .map(|d| d.deviation / d.mean.abs())
@@ -140,6 +142,7 @@ fn value_row(row: Row, monomers: &Monomers, rods: &Rods) -> Row {
         drawn,
         rod,
         fine,
+        rod_of_drawn,
         ..row
     }
 }
@@ -167,7 +170,7 @@ fn shape_row(row: Row, monomers: &Monomers, rods: &Rods) -> Row {
     let apart = pairs.filter_map(|(i, k)| between(&drawn[i], &drawn[k]));
     Row {
         error_mean: to(&rods[0], &monomers.mean),
-        error_drawn: to(&rods[0], drawn),
+        error_drawn: to(&rods[2], drawn),
         error_fine: to(&rods[1], &monomers.mean),
         scatter: mean_of(apart.collect()),
         ..row
@@ -234,7 +237,7 @@ mod tests {
             drawn: drawn.map(found).into(),
             failures: Vec::new(),
         };
-        let rods = || [Ok(found(10.1)), Ok(found(10.0))];
+        let rods = || [Ok(found(10.1)), Ok(found(10.0)), Ok(found(10.1))];
         let row = |drawn| rows(Group::Cantilever, "c", "Law", &monomers(drawn), &rods()).remove(0);
         let near = row([9.9, 10.1]);
         assert!((near.error_mean.unwrap() - 0.01).abs() < 1e-12);
@@ -244,7 +247,7 @@ mod tests {
         assert_eq!(far.is_met(), [Some(true), Some(false)]);
         assert!(far.is_missed() && !near.is_missed());
         assert!((far.shares_of_bound()[1].unwrap() - (0.5 / 10.6) / 0.02).abs() < 1e-9);
-        let lost: Rods = [Err("no".into()), Err("no".into())];
+        let lost: Rods = [(); 3].map(|()| Err("no".into()));
         let rows = rows(Group::Cantilever, "c", "Law", &monomers([9.9, 10.1]), &lost);
         assert_eq!(rows[0].is_met(), [Some(false); 2]);
         assert_eq!(rows[0].note, "rod: no");

@@ -63,6 +63,7 @@ pub(super) fn rows(name: &str, law: &RodLaw, quick: bool) -> Vec<Row> {
             drawn: Some(known(drawn)),
             rod: rod.map(|(value, _)| value),
             fine: None,
+            rod_of_drawn: rod.map(|(value, _)| value),
             error_mean: error(mean[0]),
             error_drawn: error(drawn[0]),
             error_fine: None,

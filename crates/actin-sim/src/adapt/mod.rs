@@ -58,10 +58,11 @@ fn is_too_short(length_nm: f64, rise_nm: f64) -> bool {
 
 /// How far a number of an equilibrium is from that of the same filament with every monomer resolved.
 ///
-/// To first order in what rods and junctions do wrong. Monomers are those of the mean filament: filaments with drawn
-/// bonds scatter about it. Left out are how the force of a linker or a load enters the monomers about its place (a site
-/// follows the nearest monomer, which gives way and turns by itself, or a segment, which does not), and
-/// errors of the second order: those of laws without twist-stretch coupling (`Constant`) may be as large as the first.
+/// To first order in what rods and junctions do wrong. Monomers are those of the mean filament or, where the scene
+/// draws bonds for each interface, the mean over drawings, about which filaments scatter. Left out are how the force of
+/// a linker or a load enters the monomers about its place (a site follows the nearest monomer, which gives way and turns by
+/// itself, or a segment, which does not), and errors of the second order: those of laws without twist-stretch coupling
+/// (`Constant`) may be as large as the first.
 /// A rod that ends between two places of the lattice is longer or shorter than monomers can be; that is no part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorEstimate {
@@ -210,6 +211,7 @@ fn located(
             parts.extend(look.law(&run.span, rod).ok_or_else(wall::no_cell)?);
         }
     }
+    parts.extend(look.drawn(&runs)?);
     let law = sum(&parts);
     let junctions = sum(&look.junctions(&runs)?);
     let at_walls = look.walls(&runs)?;

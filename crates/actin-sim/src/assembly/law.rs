@@ -2,7 +2,8 @@
 
 use super::{Ranges, TwistWatch};
 use crate::scene::{
-    self, AlteredRod, ForceLaw, Material, RodLaw, RodLaws, RodModel, SceneProblem, Section, fitted,
+    self, AlteredRod, Filament, ForceLaw, Material, Monomers, RodLaw, RodLaws, RodModel,
+    SceneProblem, Section, fitted,
 };
 use actin_cosserat::{
     BendLaw, CubicShear, EndShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance,
@@ -31,14 +32,15 @@ pub(super) struct Law {
 }
 
 impl Law {
-    /// The law of section `i` of a filament of rods like `rod`, in a heat bath or not.
+    /// The law of section `i` of a filament, in a heat bath or not.
     pub(super) fn of_section(
         (i, section): (usize, &Section),
-        rod: &RodModel,
+        filament: &Filament,
         in_bath: bool,
     ) -> Result<Self, SceneProblem> {
+        let (rod, monomers) = (&filament.rod, &filament.monomers);
         let Some(altered) = section.altered_rod() else {
-            return Self::new(rod, in_bath);
+            return Self::new(rod, monomers, in_bath);
         };
         let key = format!("filament.sections[{i}].altered");
         let named = |problem: SceneProblem| match problem.key.strip_prefix("filament.rod") {
@@ -48,7 +50,7 @@ impl Law {
             },
             _ => problem,
         };
-        let law = Self::new(&section.rod_model(rod), in_bath).map_err(named)?;
+        let law = Self::new(&section.rod_model(rod), monomers, in_bath).map_err(named)?;
         law.altered(altered, &key)
     }
 
@@ -66,8 +68,8 @@ impl Law {
         Ok(Self { material, ..self })
     }
 
-    /// The law that a scene names, in a heat bath or not.
-    fn new(rod: &RodModel, in_bath: bool) -> Result<Self, SceneProblem> {
+    /// The law that a scene names, of filaments of these monomers, in a heat bath or not.
+    fn new(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Result<Self, SceneProblem> {
         let extends = !matches!(rod.law, RodLaw::Constant | RodLaw::PublishedExtension);
         if rod.force_law == ForceLaw::PaperBalance && extends {
             return Err(SceneProblem::new(
@@ -98,7 +100,7 @@ impl Law {
             }
             RodLaw::Fitted => with_laws(material, &fitted::laws())?,
             RodLaw::Homogenised if in_bath => heated(),
-            RodLaw::Homogenised | RodLaw::HomogenisedAthermal => athermal(),
+            RodLaw::Homogenised | RodLaw::HomogenisedAthermal => athermal(monomers),
             RodLaw::HomogenisedAt298K => heated(),
             RodLaw::Laws(laws) => with_laws(material, laws)?,
         };
@@ -137,14 +139,14 @@ impl Law {
         })
     }
 
-    /// The mean curvatures around segments and, of a potential, what the ends do to their shear.
+    /// The mean curvatures around segments and, of a potential, what the ends do to shear and twist.
     fn curvature(&self, layout: &RodLayout, around: &Around) -> SegmentCurvature {
         let [start, end] = &around.joined;
         let curvature = SegmentCurvature::new(layout, start, end);
         if self.material.potential().is_none() {
             return curvature;
         }
-        curvature.with_end_shear_beyond(layout, around.ends, around.beyond_nm)
+        curvature.with_ends(layout, around.ends, around.beyond_nm)
     }
 
     /// Whether strain of the rod knows of its curvature.
@@ -224,9 +226,13 @@ fn written(parameter: RodKey) -> &'static str {
 /// A material with or without a law of length against twist.
 type Parts = (RodMaterial, Option<TwistStretch>);
 
-/// The law of filaments without heat.
-fn athermal() -> Parts {
-    (RodMaterial::homogenised(Homogenised::mean_filament()), None)
+/// The law of filaments of these monomers without heat.
+fn athermal(monomers: &Monomers) -> Parts {
+    let law = match monomers.drawn_bonds() {
+        Some(bonds) => Homogenised::drawn_filament(bonds),
+        None => Homogenised::mean_filament(),
+    };
+    (RodMaterial::homogenised(law), None)
 }
 
 /// The law of filaments at 298 K.

@@ -18,7 +18,8 @@ pub enum RodLaw {
     CouplingEnergy,
     /// Laws fitted to filaments of monomers. The material must be left out.
     Fitted,
-    /// One potential of all strains: the energy of cells of monomers, in a heat bath (`thermal`) their free energy at
+    /// One potential of all strains: the energy of cells of monomers, of the mean filament or, where `monomers` draw
+    /// bonds for each interface, the mean over drawings. In a heat bath (`thermal`) the free energy of the mean filament at
     /// 298 K. The material must be left out.
     Homogenised,
     /// That without heat, in a heat bath too.

@@ -184,6 +184,12 @@ impl Monomers {
         }
     }
 
+    /// Where each interface has bonds of its own, how many: the harmonic mean of lateral and longitudinal ones.
+    pub(crate) fn drawn_bonds(&self) -> Option<usize> {
+        let (a, b) = (self.lateral_bonds, self.longitudinal_bonds);
+        (self.anchors == Anchors::Independent).then(|| 2 * a * b / (a + b))
+    }
+
     /// The default monomers with so many weighted bonds in each interface.
     pub fn weighted(points: usize) -> Self {
         Self {

@@ -5,7 +5,7 @@ use crate::Term;
 use crate::homogenised::{
     BENT, CURVATURE, EXTENSION, HomogenisedForm, Polynomial, SHEAR, SLACK, TIGHT, TWIST_SIZE,
 };
-use actin_mechanics::wide::{Simd, Wide3};
+use actin_mechanics::wide::{Scalar, Simd, Wide3};
 
 /// The law of [`Homogenised`]: what terms are multiplied by, as constants or as polynomials in the bounded
 /// twist.
@@ -71,6 +71,18 @@ impl Potential {
             root_twice_shear: of(terms, Term::RootTwiceShear),
             stretch_twice_root: of(terms, Term::StretchTwiceRoot),
         }
+    }
+}
+
+impl Potential {
+    /// Couple (pN nm) of a twist (rad/nm) alone, without bending: the third component of [`Law::bending`].
+    #[inline]
+    pub(crate) fn twisting(&self, k: f64) -> f64 {
+        let root = k.mul_add(k, TWIST_SIZE * TWIST_SIZE).sqrt();
+        let (t, ratio) = (k / root, TWIST_SIZE / root);
+        let [twist, slope] = jet(Scalar, &self.twist, t);
+        let by_t = slope * k * k * ratio * ratio / root;
+        2.0 * twist * k + self.turn[0] + by_t
     }
 }
 

@@ -33,9 +33,20 @@ fn magnitude(([least, most], none): ([f64; 2], f64), x: f64) -> f64 {
     least * (most / least).powf((x - none) / (1.0 - none))
 }
 
-/// `count` cells after the `skip` first, as rows; those without an equilibrium are left out.
-pub(super) fn rows(cell: &Cell, form: &HomogenisedForm, skip: u64, count: u64) -> Vec<Row> {
-    let row = |k| row(&loaded(cell, k)?, form);
+/// `count` loads after the `skip` first, as rows: the means of `each` of the cells under one load, the next of them under the
+/// next. Loads without an equilibrium are left out.
+pub(super) fn rows(
+    (cells, each): (&[Cell], usize),
+    form: &HomogenisedForm,
+    skip: u64,
+    count: u64,
+) -> Vec<Row> {
+    let row = |k: u64| {
+        let place = usize::try_from(k).expect("thousands of loads");
+        let own = cells.iter().cycle().skip(place * each % cells.len());
+        let all = own.take(each).map(|cell| loaded(cell, k));
+        row(&mean(&all.collect::<Option<Vec<_>>>()?), form)
+    };
     let places = skip + 1..=skip + count;
     places.into_par_iter().filter_map(row).collect()
 }
@@ -87,6 +98,18 @@ fn loaded(cell: &Cell, k: u64) -> Option<CellResponse> {
         }
     }
     reached
+}
+
+/// What cells in a row do under one load, by the length of one.
+fn mean(all: &[CellResponse]) -> CellResponse {
+    let share = (all.len() as f64).recip();
+    CellResponse {
+        strain: share * all.iter().map(|one| one.strain).sum::<SixVector>(),
+        energy: share * all.iter().map(|one| one.energy).sum::<f64>(),
+        loads: share * all.iter().map(|one| one.loads).sum::<SixVector>(),
+        tangent: share * all.iter().map(|one| one.tangent).sum::<SixMatrix>(),
+        ..all[0].clone()
+    }
 }
 
 /// The state seen from axes of which the first is along the shear.

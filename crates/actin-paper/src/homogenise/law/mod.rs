@@ -2,6 +2,7 @@
 //! straight, only bent and only sheared ones: what each term brings, and how it does on strains, loads and bonds that
 //! entered nothing.
 
+mod drawn;
 mod loaded;
 mod samples;
 mod tables;
@@ -142,17 +143,13 @@ pub(super) fn run(
     samplings: u64,
     tell: Tell<'_>,
 ) -> Result<(), String> {
-    let cell = mean()?;
+    let cell = [mean()?];
     let form = form(axes, grid)?;
     let (within, outside): (Vec<&Row>, Vec<&Row>) = grid.iter().partition(|row| is_in_range(row));
     let strained = samples::strained(&cell, &form, &STRAINED)?;
     let bent = samples::strained(&cell, &form, &[BENT])?;
-    // Of the grid what no random strain meets: straight cells, only bent and only sheared ones.
-    let pure = within
-        .iter()
-        .filter(|row| row.strain[0] == 0.0 || row.strain[2] == 0.0);
-    let fitted: Vec<&Row> = strained.iter().chain(&bent).chain(pure.copied()).collect();
-    let loaded = loaded::rows(&cell, &form, 0, LOADED);
+    let fitted: Vec<&Row> = strained.iter().chain(&bent).chain(pure(&within)).collect();
+    let loaded = loaded::rows((&cell, 1), &form, 0, LOADED);
     tell(format_args!(
         "{} strained cells, {} loaded ones of {LOADED}",
         fitted.len(),
@@ -161,7 +158,7 @@ pub(super) fn run(
     let normal = normal(&form, &fitted, &loaded)?;
     let law = normal.positive(&firm(&strained), &POSITIVITY)?;
     let mut table = stepwise(&normal, &fitted)?;
-    let others = other_rows(&cell, axes, 1, OTHERS)?;
+    let others = other_rows(&cell[0], axes, 1, OTHERS)?;
     let drawn = of_drawn(axes, samplings)?;
     let cases = [
         ("with a positive tangent", fitted.clone()),
@@ -172,16 +169,34 @@ pub(super) fn run(
     for (name, rows) in cases {
         let _ = writeln!(table, "| {name} | {}", Residuals::of(&law, rows).printed());
     }
-    let not_fitted = loaded::rows(&cell, &form, LOADED, OTHER_LOADED);
+    let not_fitted = loaded::rows((&cell, 1), &form, LOADED, OTHER_LOADED);
     table += &(stability(&law, &strained) + &by_twist(&law, axes, &within));
     table += &under_loads(&law, &not_fitted);
     tell(format_args!("{table}"));
-    let write = |file: &str, text: String| {
-        let path = out.join(file);
-        std::fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))
-    };
-    write("law.md", table)?;
-    write("mean_filament.csv", coefficients(&law))
+    write(out, "law.md", table)?;
+    write(out, "mean_filament.csv", coefficients(&law))
+}
+
+/// The same for filaments of drawn bonds.
+pub(super) fn run_drawn(
+    out: &Path,
+    axes: &Axes,
+    grid: &[Row],
+    tell: Tell<'_>,
+) -> Result<(), String> {
+    let within: Vec<&Row> = grid.iter().filter(|row| is_in_range(row)).collect();
+    drawn::run(out, axes, &pure(&within).collect::<Vec<_>>(), tell)
+}
+
+/// Of the grid what no random strain meets: straight cells, only bent and only sheared ones.
+fn pure<'a>(within: &[&'a Row]) -> impl Iterator<Item = &'a Row> {
+    let is_pure = |row: &&Row| row.strain[0] == 0.0 || row.strain[2] == 0.0;
+    within.iter().copied().filter(is_pure)
+}
+
+fn write(out: &Path, file: &str, text: String) -> Result<(), String> {
+    let path = out.join(file);
+    std::fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))
 }
 
 /// The equations of all terms; loaded cells count as far as a first fit follows them.
@@ -250,6 +265,11 @@ fn form(axes: &Axes, grid: &[Row]) -> Result<HomogenisedForm, String> {
     };
     let lengths: Option<Vec<f64>> = axes.twist.iter().map(natural).collect();
     let lengths = lengths.ok_or("a twist that the grid does not have")?;
+    fitted_form(axes, &lengths)
+}
+
+/// The form whose natural lengths are nearest to these, one for each twist.
+fn fitted_form(axes: &Axes, lengths: &[f64]) -> Result<HomogenisedForm, String> {
     // Relative differences count, but for 1e-5.
     let sizes: Vec<f64> = lengths.iter().map(|n| 1e-5 + 0.01 * n.abs()).collect();
     let units: Vec<_> = axes
@@ -259,7 +279,7 @@ fn form(axes: &Axes, grid: &[Row]) -> Result<HomogenisedForm, String> {
         .collect();
     let powers = units[0].len().min(axes.twist.len());
     let design = Mat::from_fn(units.len(), powers, |i, j| units[i][j]);
-    let observations = Observations::new(&lengths)
+    let observations = Observations::new(lengths)
         .and_then(|o| o.with_deviations(&sizes))
         .map_err(|e| e.to_string())?;
     let found = fit_linear(design.as_ref(), &observations).map_err(|e| e.to_string())?;

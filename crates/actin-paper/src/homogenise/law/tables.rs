@@ -143,6 +143,44 @@ pub(super) fn under_loads(law: &Homogenised, rows: &[Row]) -> String {
     table
 }
 
+/// By how much the law strains more under given loads than cells that were not fitted, each of which has bonds of its own:
+/// medians, so that what cells differ by cancels.
+pub(super) fn in_the_mean(law: &Homogenised, rows: &[Row]) -> String {
+    let mut table = String::from("\n| cells | number | bending | twist | shear | stretch |\n");
+    let _ = writeln!(table, "| --- |{}", " ---: |".repeat(5));
+    for name in ["pulled", "neither", "pushed", STRONGLY_BENT] {
+        let here: Vec<[f64; 4]> = rows
+            .iter()
+            .filter(|row| kind(row) == name)
+            .map(|row| more(law, row))
+            .collect();
+        let column = |k: usize| {
+            let mut all: Vec<f64> = here.iter().map(|more| more[k]).collect();
+            all.sort_by(f64::total_cmp);
+            format!("{:+.1} %", 100.0 * all[all.len() / 2])
+        };
+        let columns = [0, 1, 2, 3].map(column).join(" | ");
+        let _ = writeln!(table, "| {name} | {} | {columns} |", here.len());
+    }
+    table
+}
+
+/// By how much more a law bends, twists, shears and stretches under the loads of a cell, in the direction of its strain, as
+/// shares.
+fn more(law: &Homogenised, row: &Row) -> [f64; 4] {
+    let off = row.loads - law.loads(&row.six());
+    let sums = strain_sums(row);
+    let by = |k: usize| sums[k].dot(&off);
+    let [_, twist, _, stretch, angle] = row.strain;
+    let (sin, cos) = angle.to_radians().sin_cos();
+    [
+        cos * by(0) + sin * by(1),
+        by(2) * twist.signum(),
+        by(3),
+        by(5) * stretch.signum(),
+    ]
+}
+
 /// At how many strains, which were not used to hold it positive, the tangent is positive: within the range, and up
 /// to twice the range; and at how many strained cells the tangents of cell and law are.
 pub(super) fn stability(law: &Homogenised, cells: &[Row]) -> String {

@@ -83,7 +83,7 @@ impl<'a> Strand<'a> {
                 .map(|section| models::ellipsoids(&section.monomers(monomers), index))
                 .collect::<Result<_, _>>()?,
             laws: (filament.sections.iter().enumerate())
-                .map(|section| law::Law::of_section(section, &filament.rod, in_bath))
+                .map(|section| law::Law::of_section(section, filament, in_bath))
                 .collect::<Result<_, _>>()?,
             cross_section: CrossSection::new(density, area).map_err(|error| {
                 let rule = format!("the mass per length that follows must be {}", error.rule);

@@ -1,0 +1,284 @@
+//! How much more a rod twists near a wall.
+
+use super::end_shear::{END_SHEAR_NM, EndShear};
+use crate::bending::BendingLoads;
+use crate::{BendingElement, RodEnd, RodLayout, RodMaterial};
+use actin_mechanics::{Loads, Matrix3, State, Stiffness, Vector3, rotation};
+
+/// Length of filament by which twist is more beside a blocked end (nm).
+///
+/// A bond along a strand joins a monomer to the second next, and is turned by the twist of both gaps between them. Of those
+/// that end in the two monomers that a wall holds one is turned by a single gap, and resists less. Were strands all
+/// that resists twist, half a rise (1.4 nm) would be added.
+///
+/// # Source
+/// With what is firm there, the mean filament between walls 25 to 151 nm apart, turned by 10, 40 and 120 deg per 74 nm to either side
+/// (`cargo xtask load-cases --ends`): couples are met within 5 % from 41 nm on, without either they are 10 % too large at
+/// 120 deg and 75 % too small at 10 deg, where 25 nm apart.
+pub const END_TWIST_NM: f64 = 0.9;
+
+/// What resists twist beside a blocked end however little it is (pN nm^3), and from which twist on (rad/nm) its couple
+/// hardly grows.
+///
+/// Far from ends a filament twists at rest with hardly any stretch of its bonds, as its monomers rearrange. Those at a wall
+/// cannot.
+const FIRM: f64 = 22_000.0;
+const FIRM_TWIST: f64 = 1.5e-3;
+
+/// Where both fade out, as a line does: two bonds along a strand from the end (nm).
+const REACH_NM: f64 = 2.0 * END_SHEAR_NM;
+
+/// A bending element near a blocked end, whose twist is that of more length than its bending.
+///
+/// With `U` the energy of twist alone, `k` its twist beyond that at rest, `l` its rest distance and `a` the length added, it
+/// stores `(l + a) U(k l / (l + a))` in place of `l U(k)`. The mean curvature around its segments takes all of `k`: the added
+/// length shortens as it twists, as the rest does. With `f` its share of [`FIRM`] and `c` for [`FIRM_TWIST`] it stores
+/// `f c^2 (sqrt(1 + (k / c)^2) - 1)` beside that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct EndTwist {
+    /// Its number among the rod's bending elements.
+    pub(crate) element: usize,
+    /// The frames that it joins.
+    frames: [usize; 2],
+    /// Its rest distance (nm).
+    rest_distance: f64,
+    /// The length added (nm).
+    added: f64,
+}
+
+/// The bending elements of a rod near its blocked ends; these are its own or, `beyond` (nm), of rods that continue it.
+pub(super) fn end_twists(
+    layout: &RodLayout,
+    ends: [EndShear; 2],
+    beyond: [f64; 2],
+) -> Vec<EndTwist> {
+    let [at_start, at_end] = ends.map(|end| f64::from(u8::from(end == EndShear::Blocked)));
+    let length = layout.length();
+    // The first element stands for all from a wall, or from the middle of the first segment.
+    let mut from = match layout.wall(RodEnd::Start) {
+        Some(_) => 0.0,
+        None => 0.5 * layout.end_length(RodEnd::Start),
+    };
+    let elements = layout.bending_chain().zip(layout.voronoi_lengths());
+    let all = elements.enumerate().map(|(element, (frame, &own))| {
+        let to = from + own;
+        let by_start = added(beyond[0] + from, beyond[0] + to);
+        let by_end = added(beyond[1] + length - to, beyond[1] + length - from);
+        from = to;
+        EndTwist {
+            element,
+            frames: [frame, frame + 1],
+            rest_distance: own,
+            added: at_start * by_start + at_end * by_end,
+        }
+    });
+    all.filter(|one| one.added > 0.0).collect()
+}
+
+/// Length added between these distances from a blocked end (nm).
+fn added(from: f64, to: f64) -> f64 {
+    let within = |s: f64| {
+        let u = (s / REACH_NM).min(1.0);
+        END_TWIST_NM * u * (2.0 - u)
+    };
+    within(to) - within(from)
+}
+
+impl EndTwist {
+    /// The part of the twist `theta_3 / l` that it has.
+    pub(crate) fn factor(&self) -> f64 {
+        self.rest_distance / (self.rest_distance + self.added)
+    }
+
+    /// What resists a twist (rad/nm) beyond that at rest however little it is: energy (pN nm) with two derivatives.
+    fn firm(&self, beyond: f64) -> [f64; 3] {
+        let share = FIRM * self.added / END_TWIST_NM;
+        let root = (beyond / FIRM_TWIST).hypot(1.0);
+        [
+            share * FIRM_TWIST * FIRM_TWIST * (root - 1.0),
+            share * beyond / root,
+            share / root.powi(3),
+        ]
+    }
+
+    /// Whether it joins these frames.
+    pub(crate) fn joins(&self, frames: [usize; 2]) -> bool {
+        self.frames == frames
+    }
+
+    fn turn(&self, state: &State) -> Vector3 {
+        let [a, b] = self.frames.map(|frame| state.frames.orientation.get(frame));
+        rotation::log(a.inverse() * b)
+    }
+
+    /// Its twist beyond that at rest (rad/nm).
+    fn beyond(&self, material: &RodMaterial, turn: Vector3) -> f64 {
+        turn.z / self.rest_distance - material.rest_curvature().z
+    }
+
+    /// By how much more energy it has than as an element like others (pN nm).
+    pub(crate) fn energy(&self, material: &RodMaterial, state: &State) -> f64 {
+        let beyond = self.beyond(material, self.turn(state));
+        let energy = |twist| material.twist_energy_density(twist);
+        let [firm, ..] = self.firm(beyond);
+        let length = self.rest_distance + self.added;
+        length * energy(beyond * self.factor()) - self.rest_distance * energy(beyond) + firm
+    }
+
+    /// By how much more its couple is (pN nm) at a twist (rad/nm) beyond that at rest.
+    pub(crate) fn couple(&self, material: &RodMaterial, beyond: f64) -> f64 {
+        let couple = |twist| material.twist_couple(twist);
+        let [_, firm, _] = self.firm(beyond);
+        couple(beyond * self.factor()) - couple(beyond) + firm / self.rest_distance
+    }
+
+    /// The derivative of that (pN nm^2).
+    pub(crate) fn tangent(&self, material: &RodMaterial, beyond: f64) -> f64 {
+        let tangent = |twist| material.twist_tangent(twist);
+        let [.., firm] = self.firm(beyond);
+        self.factor() * tangent(beyond * self.factor()) - tangent(beyond)
+            + firm / self.rest_distance
+    }
+
+    /// Adds by how much its loads are more than those of an element like others.
+    pub(crate) fn add_loads(&self, material: &RodMaterial, state: &State, loads: &mut Loads) {
+        let turn = self.turn(state);
+        let couple = self.couple(material, self.beyond(material, turn));
+        let bending = BendingLoads::of_couple(Vector3::z() * couple, turn);
+        let [a, b] = self.frames;
+        loads.torque.add(a, bending.first);
+        loads.torque.add(b, bending.second);
+    }
+
+    /// Pushes by how much its stiffness is more than that of an element like others.
+    pub(crate) fn add_stiffness(
+        &self,
+        material: &RodMaterial,
+        state: &State,
+        stiffness: &mut Stiffness,
+    ) {
+        let beyond = self.beyond(material, self.turn(state));
+        let couple = Vector3::z() * self.couple(material, beyond);
+        let about = Vector3::z() * self.tangent(material, beyond);
+        let element = BendingElement {
+            rest_distance: self.rest_distance,
+        };
+        let [a, b] = self.frames.map(|frame| state.frames.orientation.get(frame));
+        element
+            .stiffness_of(couple, Matrix3::from_diagonal(&about), (a, b))
+            .push(self.frames, stiffness);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{EnergyGradient, Homogenised, SegmentCurvature, SegmentLaw, StraightRod, Walls};
+    use actin_mechanics::Interaction;
+    use actin_mechanics::testing::loads_of;
+
+    const BOTH: Walls = Walls {
+        start: true,
+        end: true,
+    };
+
+    /// However a rod is divided, and where it is continued, a blocked end adds its length.
+    #[test]
+    fn blocked_ends_add_their_length() {
+        let total = |lengths: &[f64], ends| -> f64 {
+            let layout = RodLayout::new(0, 1, lengths.to_vec(), BOTH).unwrap();
+            let all = end_twists(&layout, ends, [0.0; 2]);
+            all.iter().map(|one| one.added).sum()
+        };
+        for lengths in [
+            vec![10.0; 6],
+            vec![0.5; 120],
+            vec![1.0, 9.0, 50.0],
+            vec![60.0],
+        ] {
+            let both = total(&lengths, [EndShear::Blocked; 2]);
+            assert!((both - 2.0 * END_TWIST_NM).abs() < 1e-12);
+            let one = total(&lengths, [EndShear::Even, EndShear::Blocked]);
+            assert!((one - END_TWIST_NM).abs() < 1e-12);
+            let layout = RodLayout::new(0, 1, lengths.clone(), BOTH).unwrap();
+            assert!(end_twists(&layout, [EndShear::Loose; 2], [0.0; 2]).is_empty());
+        }
+        let behind = RodLayout::new(0, 0, vec![1.0; 20], Walls::default()).unwrap();
+        let whole = RodLayout::new(0, 1, vec![1.0; 24], BOTH).unwrap();
+        let ends = [EndShear::Blocked, EndShear::Loose];
+        let behind = end_twists(&behind, ends, [4.0, 0.0]);
+        let whole = end_twists(&whole, ends, [0.0; 2]);
+        assert!((behind[0].added - whole[5].added).abs() < 1e-15);
+    }
+
+    /// A rod of 80 nm between walls, twisted evenly, the added lengths too, and free of force along.
+    fn twisted_between_walls(segments: usize, twist: f64) -> (State, EnergyGradient) {
+        let mut state = State::default();
+        let rod = StraightRod {
+            walls: BOTH,
+            ..StraightRod::uniform(segments, 80.0 / segments as f64)
+        };
+        let layout = rod.push(&mut state).unwrap();
+        let curvature = SegmentCurvature::new(&layout, &[], &[]);
+        let curvature = curvature.with_ends(&layout, [EndShear::Blocked; 2], [0.0; 2]);
+        let mut turn = 0.0;
+        let elements = layout.bending_chain().zip(layout.voronoi_lengths());
+        for (frame, distance) in elements {
+            let end = curvature.end_twist([frame, frame + 1]);
+            turn += twist * distance / end.map_or(1.0, EndTwist::factor);
+            let q = rotation::exp(Vector3::z() * turn);
+            state.frames.orientation.set(frame + 1, q);
+        }
+        let form = Homogenised::mean_filament().form();
+        let mut z = 0.0;
+        for (k, i) in layout.points().skip(1).enumerate() {
+            let natural = form.natural_stretch(curvature.mean(k, &state).z);
+            z += layout.segment_lengths()[k] * (1.0 + natural);
+            state.points.position.set(i, Vector3::z() * z);
+        }
+        let material = RodMaterial::homogenised(Homogenised::mean_filament());
+        let law = SegmentLaw::of(&material, None).unwrap();
+        let rod = EnergyGradient::new(layout, material).with_extension(law, curvature);
+        (state, rod)
+    }
+
+    /// The couple of twist alone is that of the law.
+    #[test]
+    fn couples_of_twist_alone_are_those_of_the_law() {
+        for law in [
+            Homogenised::mean_filament(),
+            Homogenised::mean_filament_at_298_k(),
+        ] {
+            let material = RodMaterial::homogenised(law);
+            for twist in [-0.04, -1e-3, 0.0, 2e-3, 0.03] {
+                let expected = law.joint_couple(Vector3::z() * twist).z;
+                let error = material.twist_couple(twist) - expected;
+                assert!(
+                    error.abs() <= 1e-12 * (1.0 + expected.abs()),
+                    "{twist}: {error:e}"
+                );
+            }
+        }
+    }
+
+    /// Between walls a rod twists as one that is longer by their added lengths, however it is divided, but for what is firm
+    /// there: its energy and couple are those.
+    #[test]
+    fn walls_add_length_that_twists() {
+        let law = Homogenised::mean_filament();
+        let kappa = Vector3::z() * -0.02;
+        for segments in [1, 4, 40] {
+            let (state, rod) = twisted_between_walls(segments, kappa.z);
+            let ends = end_twists(rod.layout(), [EndShear::Blocked; 2], [0.0; 2]);
+            let firm = |end: &EndTwist| end.firm(kappa.z / end.factor())[0];
+            let firm: f64 = ends.iter().map(firm).sum();
+            let expected = (80.0 + 2.0 * END_TWIST_NM) * law.joint_energy(kappa) + firm;
+            assert!((rod.energy(&state) / expected - 1.0).abs() < 1e-12);
+            let wall = rod.layout().bending_chain().start;
+            let couple = loads_of(&rod, &state).torque.get(wall).z;
+            let [_, firm, _] = ends[0].firm(kappa.z / ends[0].factor());
+            let expected = law.joint_couple(kappa).z + firm / ends[0].rest_distance;
+            assert!((couple / expected - 1.0).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! Notes on the laws of rods: where they were not measured, and what they are worth.
+
+use crate::scene::{Filament, Material, Monomers, RodLaw, RodModel};
+use actin_cosserat::Homogenised;
+
+/// Persistence length (um) and twisting rigidity (pN nm^2) of free filaments of 110 nm at 298 K, from
+/// turns of cross-sections 22 to 66 nm apart; standard errors are 0.1 um and 0.5e2 pN nm^2 (monomers:
+/// 0.2 um and 1e2 pN nm^2, with the default bonds).
+///
+/// # Source
+/// `docs/measured/heat.md`, "Persistence length"; monomers: `docs/tables/bonds.md`, "Heat".
+type InBath = (f64, f64);
+
+const MONOMERS: InBath = (11.7, 7.6e3);
+
+/// The same of rods under a law whose parameters come from equilibria of monomers at zero
+/// temperature, with the law's name.
+fn fitted_without_heat(law: &RodLaw) -> Option<(&'static str, InBath)> {
+    match law {
+        RodLaw::Constant => Some(("Constant", (9.5, 1.30e4))),
+        RodLaw::PublishedExtension => Some(("PublishedExtension", (9.5, 4.8e3))),
+        RodLaw::CouplingEnergy => Some(("CouplingEnergy", (9.5, 4.8e3))),
+        RodLaw::Fitted => Some(("Fitted", (9.7, 4.6e3))),
+        _ => None,
+    }
+}
+
+/// The command that measures these.
+const COMMAND: &str = "cargo run --release -p actin-paper --example persistence_length";
+
+/// The notes on the laws of a filament's rods, in a heat bath of a temperature (K) or in none.
+pub(super) fn notes(filament: &Filament, bath_k: Option<f64>) -> Vec<String> {
+    let of_rod = |rod: RodModel| {
+        let law = match bath_k {
+            Some(temperature_k) => law_in_bath(&rod, temperature_k),
+            None => law_at_rest(&rod),
+        };
+        let bonds = drawn_bonds(&rod, &filament.monomers, bath_k.is_some());
+        law.into_iter().chain(bonds)
+    };
+    filament.rod_models().flat_map(of_rod).collect()
+}
+
+/// How far (K) from that of the free energy the temperature of a bath may be.
+const NEAR_K: f64 = 10.0;
+
+/// The note on the free energy at another temperature than the bath's.
+fn far_from(temperature_k: f64) -> Option<String> {
+    let own = Homogenised::HEATED_K;
+    ((temperature_k - own).abs() > NEAR_K).then(|| {
+        format!(
+            "rods under the law Homogenised in a heat bath of {temperature_k} K: their free energy is that of \
+             {own} K (cargo xtask homogenise heat --temperature {temperature_k} measures another)"
+        )
+    })
+}
+
+/// The note on a rod's law without a heat bath. None for constant rigidities that are not the published ones.
+fn law_at_rest(rod: &RodModel) -> Option<String> {
+    let note = match rod.law {
+        RodLaw::HomogenisedAt298K => HEATED,
+        RodLaw::Constant if rod.material == Material::Table4 => CONSTANT,
+        _ => return None,
+    };
+    Some(note.to_owned())
+}
+
+/// The note on rods under one potential that stand for monomers of other bonds than their filament's.
+fn drawn_bonds(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Option<String> {
+    let bonds = monomers
+        .drawn_bonds()
+        .filter(|_| rod.law.is_homogenised())?;
+    let is_heated = match rod.law {
+        RodLaw::Homogenised => in_bath,
+        _ => rod.law == RodLaw::HomogenisedAt298K,
+    };
+    let fewest = Homogenised::DRAWN_BONDS;
+    if is_heated {
+        Some(DRAWN_IN_BATH.to_owned())
+    } else {
+        (bonds < fewest).then(|| {
+            format!(
+                "rods under the law Homogenised beside monomers with {bonds} drawn bonds an interface: they are as stiff as \
+                 filaments with {fewest}, the fewest that the law tells apart"
+            )
+        })
+    }
+}
+
+/// The note on the free energy beside drawn bonds.
+const DRAWN_IN_BATH: &str = "rods under the law Homogenised at 298 K stand for the mean filament, also where monomers draw \
+    their bonds: with 64 an interface these have a persistence length of 10.9 um, the mean filament 11.7 um \
+    (docs/measured/heat.md)";
+
+/// The note on the published rigidities, by the number of bounds met (`docs/tables/load-cases.md`).
+const CONSTANT: &str = "rods under the law Constant, the published rigidities: of 92 numbers of filaments of monomers under \
+    other loads it meets 11 within what is asked of a law, Homogenised 82 (cargo xtask load-cases)";
+
+/// The note on the free energy without a heat bath.
+const HEATED: &str = "rods under the law HomogenisedAt298K without a heat bath: their free energy at 298 K is least where they \
+    are 0.46 % shorter than built, so that a rod held at both ends is under tension; without heat Homogenised is the \
+    energy of monomers at rest";
+
+/// The note on the energy without heat in a heat bath.
+const ATHERMAL: &str = "rods under the law HomogenisedAthermal in a heat bath: its energy is one at zero \
+    temperature, not a free energy. At 298 K free rods of 110 nm in segments of 10 nm have a persistence length of \
+    11.0 um and a twisting rigidity of 7.8e3 pN nm^2, monomers 11.7 um and 7.6e3 pN nm^2 (cargo xtask load-cases)";
+
+/// The note on a rod's law in a heat bath. None for constant rigidities that are not the published
+/// ones: they may be those at a temperature.
+fn law_in_bath(rod: &RodModel, temperature_k: f64) -> Option<String> {
+    if rod.law == RodLaw::Constant && rod.material != Material::Table4 {
+        return None;
+    }
+    match rod.law {
+        RodLaw::Homogenised | RodLaw::HomogenisedAt298K => return far_from(temperature_k),
+        RodLaw::HomogenisedAthermal => return Some(ATHERMAL.to_owned()),
+        _ => {}
+    }
+    let Some((name, (persistence, twist))) = fitted_without_heat(&rod.law) else {
+        let note = "rods under Laws in a heat bath: laws fitted to equilibria at zero temperature are not \
+                    free energies, so rods under them fluctuate differently from the filaments that \
+                    they were fitted to";
+        return Some(note.to_owned());
+    };
+    let (of_monomers, twist_of_monomers) = MONOMERS;
+    Some(format!(
+        "rods under the law {name} in a heat bath: its parameters come from equilibria of monomers \
+         at zero temperature, so it is not a free energy. At 298 K free filaments of 110 nm have, as \
+         such rods, a persistence length of {persistence:.1} um and a twisting rigidity of \
+         {twist:.1e} pN nm^2, as monomers {of_monomers:.1} um and {twist_of_monomers:.1e} pN nm^2 \
+         ({COMMAND})"
+    ))
+}
+#[cfg(test)]
+mod tests {
+    use super::super::tests::notes;
+    use super::*;
+
+    const BATH: &str = "drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+        thermal: (temperature_k: 298.0, seed: 1)";
+
+    fn rod(model: &str, x: f64) -> String {
+        format!(
+            "Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)], rod: RodModel({model}),
+                at_nm: ({x:?}, 0.0, 0.0)),"
+        )
+    }
+
+    /// A section's own law is what is noted; without heat the free energy is.
+    #[test]
+    fn laws_of_sections_are_noted() {
+        let filament = "Filament(sections: [
+            Rod(from_nm: 0.0, to_nm: 80.0),
+            Rod(from_nm: 80.0, to_nm: 160.0, altered: (law: HomogenisedAt298K)),
+        ], rod: RodModel(law: Fitted))";
+        let found = notes(filament, "");
+        assert_eq!(found, [HEATED]);
+        let heated = notes(filament, BATH);
+        assert_eq!(heated.len(), 1, "{heated:?}");
+        assert!(heated[0].starts_with("rods under the law Fitted in a heat bath"));
+    }
+
+    /// Each law once, however many filaments have it; none without heat, and none of filaments
+    /// without rods.
+    #[test]
+    fn laws_are_noted_where_heat_meets_them() {
+        let filaments = [
+            rod("law: Fitted", 0.0),
+            rod("", 20.0),
+            rod("law: Fitted", 40.0),
+            rod(
+                "law: Laws(twist: Sided(rest_pn_nm2: 300.0,
+                under: (rise_pn_nm2: 1e4, half_per_nm: 0.01, slow_per_nm: 0.01),
+                over: (rise_pn_nm2: 1e4, half_per_nm: 0.01, slow_per_nm: 0.01),
+                range_per_nm: 0.05))",
+                60.0,
+            ),
+            rod("material: PrecedingPaper", 80.0),
+            rod("law: HomogenisedAthermal", 120.0),
+            "Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0)],
+                rod: RodModel(law: CouplingEnergy), at_nm: (100.0, 0.0, 0.0))"
+                .to_owned(),
+        ]
+        .concat();
+        let found = notes(&filaments, BATH);
+        let begin: Vec<&str> = found
+            .iter()
+            .map(|note| note.split(':').next().unwrap())
+            .collect();
+        assert_eq!(
+            begin,
+            [
+                "a rod of 30.0 nm under the law Homogenised",
+                "rods under the law Fitted in a heat bath",
+                "rods under the law Constant in a heat bath",
+                "rods under Laws in a heat bath",
+                "rods under the law HomogenisedAthermal in a heat bath",
+            ]
+        );
+        let at_rest = notes(&filaments, "");
+        assert_eq!(at_rest.len(), 2, "{at_rest:?}");
+        assert_eq!(at_rest[1], CONSTANT);
+    }
+
+    /// The note on the published rigidities says what the table says.
+    #[test]
+    fn bounds_that_are_met_are_those_of_the_table() {
+        let table = include_str!("../../../../docs/tables/load-cases.md");
+        let met = |law: &str| -> [u32; 2] {
+            let rows = table.lines().map(|line| line.split('|').map(str::trim));
+            let rows = rows.map(Iterator::collect::<Vec<_>>);
+            let counts = rows.filter(|cells| cells.len() == 8 && cells[2] == law);
+            counts.fold([0; 2], |[met, all], cells| {
+                let (own, of) = cells[3].split_once(" of ").unwrap();
+                [
+                    met + own.parse::<u32>().unwrap(),
+                    all + of.parse::<u32>().unwrap(),
+                ]
+            })
+        };
+        let [[constant, all], [homogenised, _]] = ["Constant", "Homogenised"].map(met);
+        let said = format!("of {all} numbers");
+        assert!(CONSTANT.contains(&said), "{said}");
+        let said =
+            format!("meets {constant} within what is asked of a law, Homogenised {homogenised} (");
+        assert!(CONSTANT.contains(&said), "{said}");
+    }
+
+    /// Rods beside drawn bonds that their law does not know are noted.
+    #[test]
+    fn bonds_that_the_law_does_not_know_are_noted() {
+        let notes = |monomers: &str, task: &str| {
+            let filament = format!(
+                "Filament(sections: [Rod(from_nm: 0.0, to_nm: 160.0)], rod: RodModel(law: Homogenised),
+                    monomers: Monomers({monomers}))"
+            );
+            notes(&filament, task)
+        };
+        assert_eq!(notes("anchors: Independent", ""), [""; 0]);
+        let few = "anchors: Independent, lateral_bonds: 10, longitudinal_bonds: 10";
+        let found = notes(few, "");
+        let said = "with 10 drawn bonds an interface: they are as stiff as filaments with 64";
+        assert!(found[0].contains(said), "{found:?}");
+        assert_eq!(notes("anchors: Independent", BATH), [DRAWN_IN_BATH]);
+        assert_eq!(notes("", BATH), [""; 0]);
+    }
+}
