@@ -187,14 +187,16 @@ fn voronoi(lengths: &[f64], walls: Walls) -> Vec<f64> {
     first.into_iter().chain(inside).chain(last).collect()
 }
 
+/// Walls at both ends.
+#[cfg(test)]
+pub(crate) const BOTH: Walls = Walls {
+    start: true,
+    end: true,
+};
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const BOTH: Walls = Walls {
-        start: true,
-        end: true,
-    };
 
     /// Bending elements cover the rod exactly where both ends have walls; without walls the two
     /// outer half segments do not bend.

@@ -173,14 +173,10 @@ impl EndTwist {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::layout::BOTH;
     use crate::{EnergyGradient, Homogenised, SegmentCurvature, SegmentLaw, StraightRod, Walls};
     use actin_mechanics::Interaction;
     use actin_mechanics::testing::loads_of;
-
-    const BOTH: Walls = Walls {
-        start: true,
-        end: true,
-    };
 
     /// However a rod is divided, and where it is continued, a blocked end adds its length.
     #[test]

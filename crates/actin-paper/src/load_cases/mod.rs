@@ -131,8 +131,14 @@ fn named(row: &Row) -> (String, String) {
 }
 
 fn of_rods(case: &Case, law: &RodLaw) -> Rods {
-    [Rod::coarse(law), Rod::fine(law), Rod::of_drawn(law)]
-        .map(|rod| solve::solve(case, &Made::Rod(rod)))
+    let solved = |rod: Rod| solve::solve(case, &Made::Rod(rod));
+    let coarse = solved(Rod::coarse(law));
+    // Other laws know nothing of bonds.
+    let of_drawn = match law {
+        RodLaw::Homogenised | RodLaw::HomogenisedAthermal => solved(Rod::of_drawn(law)),
+        _ => coarse.clone(),
+    };
+    [coarse, solved(Rod::fine(law)), of_drawn]
 }
 
 /// Filaments of monomers under all cases, side by side; what is in the folder is not computed again. `done` is
