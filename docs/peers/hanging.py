@@ -52,7 +52,7 @@ def here(elements, rigidities, hold="Wall"):
     scene = f"""Scene(
     filament: Filament(
         sections: [Rod(from_nm: 0.0, to_nm: {LENGTH}, segments: {elements})],
-        rod: RodModel(material: Rigidities(shear_pn: {shear}, bend_pn_nm2: {bend})),
+        rod: RodModel(law: Constant, material: Rigidities(shear_pn: {shear}, bend_pn_nm2: {bend})),
     ),
     clamps: [Clamp(end: Start, hold: {hold})],
     loads: [Acceleration(acceleration_nm_per_ns2: (-{WEIGHT}, 0.0, 0.0))],

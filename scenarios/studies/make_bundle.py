@@ -28,7 +28,8 @@ def scene():
     print('    title: "A bundle of seven cross-linked filaments",')
     print("    filaments: [")
     for x, y in places:
-        print(f"        Filament(sections: [Rod(from_nm: 0.0, to_nm: {LENGTH}, segments: {SEGMENTS})], at_nm: ({x:.6f}, {y:.6f}, 0.0)),")
+        print(f"        Filament(sections: [Rod(from_nm: 0.0, to_nm: {LENGTH}, segments: {SEGMENTS})], at_nm: ({x:.6f}, {y:.6f}, 0.0),"
+              " rod: RodModel(law: Constant)),")
     print("    ],")
     print("    clamps: [")
     for i in range(7):

@@ -157,7 +157,7 @@ proptest! {
 #[test]
 fn a_motion_is_pushed_off_a_saddle_once_however_often_it_is_left() {
     let text = "Scene(
-        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 200.0, segments: 10)]),
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 200.0, segments: 10)], rod: RodModel(law: Constant)),
         clamps: [Clamp(end: Start), Clamp(end: End)],
         path: [Stage(set: [Shift(end: End, shift_nm: (0.0, 0.0, -60.0))], duration_ns: 4.0)],
         task: Dynamics(

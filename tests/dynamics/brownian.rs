@@ -20,7 +20,7 @@ const SECTIONS: [&str; 3] = [
 fn cantilever(sections: &str, task: &str) -> String {
     format!(
         "Scene(
-            filament: Filament(sections: [{sections}]),
+            filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: (4.0, 0.0, 0.0))],
             task: {task},
@@ -71,7 +71,7 @@ fn free_filaments_follow_a_flow() {
         let moved = |flow: &str| {
             let (assembly, records) = run(&format!(
                 "Scene(
-                    filament: Filament(sections: [{sections}]),
+                    filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)),
                     task: Brownian(duration_ms: 1e-3, temperature_k: 0.0, time_step_ns: 1.0, flow: {flow}),
                 )"
             ));
@@ -120,7 +120,7 @@ fn what_has_no_sense_is_refused() {
 fn default_step(rest: &str, task: &str) -> f64 {
     let text = format!(
         "Scene(
-            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 120.0, segments: 6)]),
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 120.0, segments: 6)], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start)],{rest}
             task: Brownian(duration_ms: 1.0, temperature_k: 298.0{task}),
         )"

@@ -12,9 +12,9 @@ fn colliding() -> System {
     let text = format!(
         "Scene(
             filaments: [
-                Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)]),
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)], rod: RodModel(law: Constant)),
                 Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 14.0), Rod(from_nm: 14.0, to_nm: 34.0, segments: 2)],
-                    at_nm: (8.0, -14.0, 13.0), direction: (0.0, 1.0, 0.1)),
+                    at_nm: (8.0, -14.0, 13.0), direction: (0.0, 1.0, 0.1), rod: RodModel(law: Constant)),
             ],
             repulsion: Repulsion(stiffness_pn_per_nm: 3000.0),
             {TASK},
@@ -115,9 +115,9 @@ fn the_time_step_knows_contact_before_it_happens() {
                 let text = format!(
                     "Scene(
                         filaments: [
-                            Filament(sections: [{section}]),
-                            Filament(sections: [{section}], at_nm: ({x:?}, 0.0, 0.0)),
-                            Filament(sections: [{section}], at_nm: (-{x:?}, 0.0, 0.0)),
+                            Filament(sections: [{section}], rod: RodModel(law: Constant)),
+                            Filament(sections: [{section}], at_nm: ({x:?}, 0.0, 0.0), rod: RodModel(law: Constant)),
+                            Filament(sections: [{section}], at_nm: (-{x:?}, 0.0, 0.0), rod: RodModel(law: Constant)),
                         ],
                         repulsion: Repulsion(stiffness_pn_per_nm: {stiffness:?}),
                         {TASK},
@@ -148,9 +148,9 @@ pub(crate) fn pushed_across(stiffness: &str, task: &str) -> String {
     format!(
         "Scene(
             filaments: [
-                Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], rod: RodModel(law: Constant)),
                 Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], at_nm: (12.0, -30.0, 30.0),
-                    direction: (0.0, 1.0, 0.0)),
+                    direction: (0.0, 1.0, 0.0), rod: RodModel(law: Constant)),
             ],
             clamps: [Clamp(end: Start), Clamp(end: End)],
             loads: [ForcePerLength(filament: 1, from_nm: 0.0, to_nm: 60.0, force_pn_per_nm: (-30.0, 0.0, 0.0))],
@@ -191,7 +191,7 @@ fn passing_through_between_records_fails() {
 #[test]
 fn a_motion_that_begins_late_goes_on() {
     let text = "Scene(
-        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], direction: (1.0, 1.0, 0.3)),
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], direction: (1.0, 1.0, 0.3), rod: RodModel(law: Constant)),
         clamps: [Clamp(end: Start)],
         loads: [Force(end: End, force_pn: (0.0, 0.0, 5.0), factor: Ramp(begin_ns: 0.21, duration_ns: 0.1))],
         task: Dynamics(duration_ns: 0.8, record_every_ns: 0.8),

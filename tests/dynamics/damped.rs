@@ -49,7 +49,7 @@ fn a_cantilever_creeps_as_its_modes_do() {
                 "Scene(
                     filament: Filament(sections: [
                         Rod(from_nm: 0.0, to_nm: 40.0, segments: {segments}),
-                    ]),
+                    ], rod: RodModel(law: Constant)),
                     clamps: [Clamp(end: Start)],
                     loads: [EndForce(end: End, force_pn: ({force:?}, 0.0, 0.0))],
                     task: Dynamics(
@@ -131,6 +131,7 @@ fn a_free_filament_turns_as_the_couple_says() {
                     filament: Filament(
                         sections: [{sections}],
                         monomers: (anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
+                        rod: RodModel(law: Constant),
                     ),
                     loads: [
                         EndForce(end: End, force_pn: (0.0, {force:?}, 0.0)),
@@ -167,7 +168,7 @@ fn let_go(integrator: &str, share: f64, rate: f64) -> Vec<Vector3> {
             filament: Filament(sections: [
                 Ellipsoids(from_nm: 0.0, to_nm: 80.0),
                 Rod(from_nm: 80.0, to_nm: 160.2),
-            ]),
+            ], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
             task: Dynamics(

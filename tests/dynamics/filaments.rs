@@ -34,7 +34,7 @@ pub(crate) const FILAMENTS: [Filament; 4] = [ELLIPSOIDS, ROD, MIXED, ROD_AT_BOTH
 
 /// The filament as built, free, with 16 bonds per interface.
 pub(crate) fn assemble(filament: Filament, law: ForceLaw) -> Assembly {
-    assemble_of(filament, &format!("force_law: {law:?}"))
+    assemble_of(filament, &format!("law: Constant, force_law: {law:?}"))
 }
 
 /// The same with its rods as a scene writes them.

@@ -19,10 +19,12 @@ fn tumbling() -> System {
                         Ellipsoids(from_nm: 0.0, to_nm: 22.0),
                         Rod(from_nm: 22.0, to_nm: 42.0, segments: 2),
                     ],
+                    rod: RodModel(law: Constant),
                     monomers: (anchors: Independent, seed: 1, lateral_bonds: 16, longitudinal_bonds: 16),
                 ),
                 (
                     sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)],
+                    rod: RodModel(law: Constant),
                     at_nm: (-20.0, 10.0, 5.0), direction: (1.0, 0.2, 0.5),
                 ),
             ],

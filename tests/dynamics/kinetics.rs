@@ -6,7 +6,7 @@ use actin_sim::{Assembly, Happening, Plan, Scene};
 fn moved(linkers: &str, task: &str) -> (Assembly, Vec<f64>, Vec<f64>, Vec<actin_sim::LinkerEvent>) {
     let text = format!(
         "Scene(
-            filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 14.0), Rod(from_nm: 14.0, to_nm: 64.0)]),
+            filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 14.0), Rod(from_nm: 14.0, to_nm: 64.0)], rod: RodModel(law: Constant)),
             linkers: [{linkers}],
             task: Dynamics({task}),
         )"
@@ -66,7 +66,7 @@ fn what_events_add_to_the_energy_is_booked() {
 #[test]
 fn a_motor_pulls_until_it_stalls() {
     let text = "Scene(
-        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 120.0)]),
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 120.0)], rod: RodModel(law: Constant)),
         clamps: [Clamp(end: Start)],
         linkers: [Linker(at_nm: 30.0, displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: 0.5,
             kinetics: Kinetics(seed: 3, steps: Stepping(step_nm: 2.0, rate_per_ns: 5.0, stall_pn: 6.0)))],

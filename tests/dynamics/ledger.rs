@@ -25,7 +25,7 @@ fn open(scene: &str, share: f64) -> (f64, f64) {
 fn scene(body: &str, task: &str) -> String {
     format!(
         "Scene(
-            filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 22.0), Rod(from_nm: 22.0, to_nm: 60.0)]),
+            filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 22.0), Rod(from_nm: 22.0, to_nm: 60.0)], rod: RodModel(law: Constant)),
             {body}
             task: Dynamics(duration_ns: 1.6, record_every_ns: 0.1, {task}),
         )"
@@ -135,8 +135,8 @@ fn energy_from_nowhere_is_told() {
     assert_eq!(told(driven, &bath, 0.5), None);
     assert_eq!(told(HELD, free, 0.0), None);
     assert_eq!(told("clamps: [Clamp(end: Start)],", free, 0.0), None);
-    let imperfect = "to_nm: 60.0)], imperfection: (amplitude_nm: 0.5, seed: 2))";
-    let crooked = scene(ramped, DRAG).replace("to_nm: 60.0)])", imperfect);
+    let imperfect = "to_nm: 60.0)], imperfection: (amplitude_nm: 0.5, seed: 2)";
+    let crooked = scene(ramped, DRAG).replace("to_nm: 60.0)]", imperfect);
     assert!(crooked.contains("imperfection"));
     assert_eq!(told_of(&crooked, 0.0), None);
     let note = told(driven, DRAG, 0.02).unwrap();

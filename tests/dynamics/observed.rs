@@ -31,7 +31,7 @@ fn mean(summary: &Summary, column: &str) -> MeanSummary {
 #[test]
 fn energies_are_those_of_equipartition() {
     let (assembly, records, summary) = run("Scene(
-        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)]),
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)], rod: RodModel(law: Constant)),
         clamps: [Clamp(end: Start)],
         observe: [Energies],
         burn_in_ns: 20.0,
@@ -68,7 +68,7 @@ fn free_rod() -> String {
         "Scene(
             filament: Filament(
                 sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: 10)],
-                rod: RodModel(material: Rigidities(
+                rod: RodModel(law: Constant, material: Rigidities(
                     shear_pn: (1e3, 1e3, 1e3), bend_pn_nm2: ({rigidity:?}, {rigidity:?}, {rigidity:?}),
                 )),
             ),

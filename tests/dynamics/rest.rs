@@ -7,7 +7,7 @@ fn pushed(filament: &str, task: &str) -> String {
     format!(
         "Scene(
             filament: Filament(
-                sections: [Rod(from_nm: 0.0, to_nm: 200.0, segments: 10)], {filament}
+                sections: [Rod(from_nm: 0.0, to_nm: 200.0, segments: 10)], rod: RodModel(law: Constant), {filament}
             ),
             clamps: [Clamp(end: Start), Clamp(end: End)],
             path: [Stage(set: [Shift(end: End, shift_nm: (0.0, 0.0, -60.0))], duration_ns: 5.0)],
@@ -120,11 +120,12 @@ fn a_motion_is_pushed_off_saddles() {
 /// A stable end is certified; one that still moves, that is warm or whose law has no energy is not.
 #[test]
 fn certificates_belong_to_motions_at_rest() {
-    let bent = |filament: &str, task: &str| {
+    let bent = |rod: &str, task: &str| {
         let text = format!(
             "Scene(
                 filament: Filament(
-                    sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)], {filament}
+                    sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)],
+                    rod: RodModel(law: Constant{rod}),
                 ),
                 clamps: [Clamp(end: Start)],
                 loads: [EndForce(end: End, force_pn: (2.0, 0.0, -1.0))],
@@ -141,7 +142,7 @@ fn certificates_belong_to_motions_at_rest() {
     assert_eq!(bent("", &format!("0.5, {drag}")), None);
     let bath = "thermal: (temperature_k: 1e-20, seed: 1)";
     assert_eq!(bent("", &format!("60.0, {drag}, {bath}")), None);
-    let printed = "rod: RodModel(force_law: PaperBalance),";
+    let printed = ", force_law: PaperBalance";
     assert_eq!(bent(printed, &format!("60.0, {drag}")), None);
 }
 
@@ -152,6 +153,7 @@ fn a_free_filament_is_neutral() {
         filament: Filament(
             sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)],
             imperfection: (amplitude_nm: 0.1, seed: 3),
+            rod: RodModel(law: Constant),
         ),
         task: Dynamics(
             duration_ns: 60.0, drag: (translational_per_ns: 3.0, rotational_per_ns: 3.0),
@@ -172,7 +174,7 @@ fn a_free_filament_is_neutral() {
 #[test]
 fn twist_that_slips_is_an_error() {
     let text = "Scene(
-        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)]),
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)], rod: RodModel(law: Constant)),
         clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
         path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 900.0))], duration_ns: 0.02)],
         task: Dynamics(
@@ -201,6 +203,7 @@ fn twist_that_slips_in_an_arc_is_an_error() {
     let text = "Scene(
         filament: Filament(
             sections: [Rod(from_nm: 0.0, to_nm: 100.0)], shape: Arc(radius_nm: 100.0),
+            rod: RodModel(law: Constant),
         ),
         clamps: [Clamp(end: Start), Clamp(end: End)],
         path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 900.0))], duration_ns: 0.05)],
@@ -224,7 +227,7 @@ fn twist_that_slips_in_an_arc_is_an_error() {
 fn hinged(load: &str, path: &str, end: &str) -> String {
     format!(
         "Scene(
-            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], rod: RodModel(law: Constant)),
             clamps: [
                 Clamp(end: Start, hold: Pin, hinge: (bend_pn_nm_per_rad: 100.0, twist_pn_nm_per_rad: 20.0)),
                 {end}

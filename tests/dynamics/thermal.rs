@@ -107,7 +107,7 @@ fn every_kind_of_body_has_the_temperature() {
 #[test]
 fn every_mode_of_a_clamped_rod_has_its_share() {
     let text = "Scene(
-        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)]),
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)], rod: RodModel(law: Constant)),
         clamps: [Clamp(end: Start)],
         task: Dynamics(duration_ns: 1.0),
     )";
@@ -151,7 +151,7 @@ fn every_mode_of_a_clamped_rod_has_its_share() {
 #[test]
 fn strong_and_unlike_drag_leaves_every_mode_its_share() {
     let text = "Scene(
-        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 20.0, segments: 2)]),
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 20.0, segments: 2)], rod: RodModel(law: Constant)),
         clamps: [Clamp(end: Start)],
         task: Dynamics(duration_ns: 1.0),
     )";
@@ -200,6 +200,7 @@ fn end_of_scene(seed: u64, record_every_ns: f64) -> State {
                     Rod(from_nm: 30.0, to_nm: 60.0),
                 ],
                 monomers: (anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
+                rod: RodModel(law: Constant),
             ),
             clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
             task: Dynamics(

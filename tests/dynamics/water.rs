@@ -7,7 +7,7 @@ use actin_sim::{Assembly, End, Plan, Record, Scene};
 fn tips(sections: &str, force_pn: f64, task: &str) -> (Vec<Vector3>, u64) {
     let text = format!(
         "Scene(
-            filament: Filament(sections: [{sections}]),
+            filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: ({force_pn:?}, 0.0, 0.0))],
             task: {task},
@@ -128,7 +128,7 @@ fn steps_in_water_are_those_of_the_stiffness() {
     let plan = |rest: &str| {
         let text = format!(
             "Scene(
-                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 3)]),
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 3)], rod: RodModel(law: Constant)),
                 task: Dynamics(duration_ns: 1.0{rest}),
             )"
         );

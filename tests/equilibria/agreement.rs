@@ -12,6 +12,7 @@ fn scene(task: &str) -> String {
                     Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
                 ],
                 monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
+                rod: RodModel(law: Constant),
             ),
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: (-2.0, 0.5, 0.0))],

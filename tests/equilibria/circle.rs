@@ -13,7 +13,7 @@ fn rolled(segments: usize, twist: f64, turn: f64) -> (Assembly, Outcome) {
         "Scene(
             filament: Filament(
                 sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
-                rod: RodModel(material: Rigidities(
+                rod: RodModel(law: Constant, material: Rigidities(
                     shear_pn: (1e5, 1e5, 1e5), bend_pn_nm2: ({BEND:?}, {BEND:?}, {twist:?}),
                 )),
             ),

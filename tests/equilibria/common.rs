@@ -59,7 +59,7 @@ pub(crate) fn cantilever(segments: usize, force: [f64; 3], task: &str) -> String
         "Scene(
             filament: Filament(
                 sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
-                rod: RodModel(material: Rigidities(
+                rod: RodModel(law: Constant, material: Rigidities(
                     shear_pn: ({SHEAR:?}, {SHEAR:?}, {SHEAR:?}),
                     bend_pn_nm2: ({BEND:?}, {BEND:?}, 1.3e4),
                 )),

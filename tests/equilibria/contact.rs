@@ -20,7 +20,7 @@ fn pushed(assembly: &Assembly, part: Part) -> (Vector3, f64) {
 fn pressed(section: &str, at_nm: f64, x_nm: f64) -> String {
     format!(
         "Scene(
-            filament: Filament(sections: [{section}]),
+            filament: Filament(sections: [{section}], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start)],
             repulsion: Repulsion(
                 filaments: false, stiffness_pn_per_nm: 1e4,
@@ -67,7 +67,7 @@ fn a_filament_lies_on_a_plane_at_the_depth_of_its_weight() {
     ] {
         let text = format!(
             "Scene(
-                filament: Filament(sections: [{section}], at_nm: (4.0, 0.0, 0.0)),
+                filament: Filament(sections: [{section}], at_nm: (4.0, 0.0, 0.0), rod: RodModel(law: Constant)),
                 clamps: [Clamp(end: Start, slides: Freely)],
                 loads: [ForcePerLength(force_pn_per_nm: (-{per_nm:?}, 0.0, 0.0))],
                 repulsion: Repulsion(planes: [Plane(at_nm: (0.0, 0.0, 0.0), normal: (3.0, 0.0, 0.0))]),
@@ -105,9 +105,9 @@ fn crossing(first: &str, shift_nm: f64) -> String {
     format!(
         "Scene(
             filaments: [
-                Filament(sections: [{first}]),
+                Filament(sections: [{first}], rod: RodModel(law: Constant)),
                 Filament(sections: [Rod(from_nm: 0.0, to_nm: 80.0, segments: 16)], at_nm: (9.0, -40.0, 40.0),
-                    direction: (0.0, 1.0, 0.0)),
+                    direction: (0.0, 1.0, 0.0), rod: RodModel(law: Constant)),
             ],
             clamps: [
                 Clamp(end: Start), Clamp(end: End),
@@ -165,7 +165,7 @@ fn crossing_filaments_bend_each_other() {
 #[test]
 fn what_is_pressed_through_a_wall_fails() {
     let text = "Scene(
-        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)], at_nm: (4.0, 0.0, 0.0)),
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)], at_nm: (4.0, 0.0, 0.0), rod: RodModel(law: Constant)),
         clamps: [Clamp(end: Start, slides: Freely)],
         loads: [ForcePerLength(force_pn_per_nm: (-500.0, 0.0, 0.0))],
         repulsion: Repulsion(planes: [Plane(at_nm: (0.0, 0.0, 0.0), normal: (1.0, 0.0, 0.0))]),
@@ -229,9 +229,9 @@ fn a_path_does_not_lead_filaments_through_each_other() {
         let text = format!(
             "Scene(
                 filaments: [
-                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], rod: RodModel(law: Constant)),
                     Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], at_nm: (7.5, -30.0, 30.0),
-                        direction: (0.0, 1.0, 0.0)),
+                        direction: (0.0, 1.0, 0.0), rod: RodModel(law: Constant)),
                 ],
                 clamps: [Clamp(end: Start), Clamp(end: End), Clamp(filament: 1, end: Start),
                     Clamp(filament: 1, end: End)],

@@ -65,6 +65,7 @@ impl Extreme {
             "Scene(
                 filament: Filament(
                     sections: [{}],
+                    rod: RodModel(law: Constant),
                     monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
                 ),
                 clamps: [{}],

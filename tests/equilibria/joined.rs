@@ -12,7 +12,7 @@ fn row(count: usize, linkers: &str, loads: &str, task: &str) -> String {
         format!(
             "Filament(
                 sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: 16)],
-                rod: RodModel(material: Rigidities(
+                rod: RodModel(law: Constant, material: Rigidities(
                     shear_pn: ({SHEAR:?}, {SHEAR:?}, {SHEAR:?}),
                     bend_pn_nm2: ({BEND:?}, {BEND:?}, 1.3e4),
                 )),
@@ -114,6 +114,7 @@ fn tied(task: &str) -> String {
                         Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
                     ],
                     monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
+                    rod: RodModel(law: Constant),
                 ),
                 Filament(
                     sections: [
@@ -122,6 +123,7 @@ fn tied(task: &str) -> String {
                     ],
                     monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
                     at_nm: (9.0, 2.0, 0.0), direction: (-0.1, 0.1, 1.0),
+                    rod: RodModel(law: Constant),
                 ),
             ],
             clamps: [Clamp(end: Start), Clamp(filament: 1, end: Start)],
@@ -157,7 +159,7 @@ fn a_string_between_its_ends_bends_a_rod_to_an_elastica() {
             "Scene(
                 filament: Filament(
                     sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
-                    rod: RodModel(material: Rigidities(
+                    rod: RodModel(law: Constant, material: Rigidities(
                         shear_pn: ({SHEAR:?}, {SHEAR:?}, {SHEAR:?}),
                         bend_pn_nm2: ({BEND:?}, {BEND:?}, 1.3e4),
                     )),

@@ -7,7 +7,7 @@ use actin_sim::{Assembly, BodyKind};
 
 /// A rod of 19 segments of 9.5 nm, both ends clamped, pulled round its axis in the middle.
 const PULLED_ROUND: &str = "Scene(
-    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 180.5, segments: 19)]),
+    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 180.5, segments: 19)], rod: RodModel(law: Constant)),
     clamps: [
         Clamp(end: Start, hold: TwoNodesAndFrame),
         Clamp(end: End, hold: TwoNodesAndFrame),
@@ -74,6 +74,7 @@ fn mixed(task: &str) -> String {
                     Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
                 ],
                 monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
+                rod: RodModel(law: Constant),
             ),
             clamps: [Clamp(end: Start)],
             linkers: [
@@ -127,7 +128,7 @@ fn dynamics_comes_to_rest_where_newton_ends() {
 fn a_filament_hangs_on_its_linker() {
     let (assembly, _) = solved(
         "Scene(
-            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], rod: RodModel(law: Constant)),
             loads: [EndForce(end: End, force_pn: (3.0, 0.0, 0.0))],
             linkers: [Linker(
                 at_nm: 0.0, anchor_nm: (-4.0, 0.0, 3.0), stiffness_pn_per_nm: 2.0,

@@ -11,7 +11,7 @@ const MIXED: &str =
 fn driven(filament: &str, end: &str, setting: &str) -> String {
     format!(
         "Scene(
-            filament: Filament({filament}),
+            filament: Filament({filament}, rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start), Clamp(end: End{end})],
             path: [Stage(set: [{setting}])],
             task: Equilibrium(accept_jumps: true, leave_saddles: 20),

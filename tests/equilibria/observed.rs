@@ -13,7 +13,7 @@ fn observed(load: &str, observe: &str) -> BTreeMap<String, f64> {
         "Scene(
             filament: Filament(
                 sections: [Rod(from_nm: 0.0, to_nm: {L:?}, segments: 32)],
-                rod: RodModel(material: Rigidities(
+                rod: RodModel(law: Constant, material: Rigidities(
                     shear_pn: (5e4, 5e4, 1e5), bend_pn_nm2: ({B:?}, {B:?}, 1e4),
                 )),
             ),

@@ -47,7 +47,7 @@ fn an_imperfection_chooses_the_side() {
 fn turned(sections: &str, degrees: f64, task: &str) -> String {
     format!(
         "Scene(
-            filament: Filament(sections: [{sections}]),
+            filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
             path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, {degrees:?}))])],
             task: Equilibrium({task}),

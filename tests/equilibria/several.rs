@@ -14,7 +14,8 @@ const MIXED: &str = "sections: [
 ], monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16)";
 
 /// A rod elsewhere, askew.
-const ASKEW: &str = "sections: [Rod(from_nm: 0.0, to_nm: 50.0, segments: 5)],
+const ASKEW: &str =
+    "rod: RodModel(law: Constant), sections: [Rod(from_nm: 0.0, to_nm: 50.0, segments: 5)],
     at_nm: (5.0, -20.0, 3.0), direction: (1.0, -0.4, 0.7), roll_deg: 25.0";
 
 fn pull(filament: usize, force: [f64; 3]) -> String {

@@ -13,6 +13,7 @@ fn buckled(sections: &str, turn: f64) -> String {
             filament: Filament(
                 sections: [{sections}],
                 monomers: Monomers(anchors: Independent, lateral_bonds: 32, longitudinal_bonds: 32),
+                rod: RodModel(law: Constant),
             ),
             clamps: [Clamp(end: Start), Clamp(end: End)],
             path: [
@@ -95,7 +96,7 @@ fn twist_and_writhe_of_monomers_make_their_link() {
 fn the_link_follows_the_path_in_time() {
     let (assembly, trajectory) = end_of(
         "Scene(
-            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 4)]),
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 4)], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start), Clamp(end: End)],
             path: [Stage(
                 set: [Turn(end: End, turn_deg: (0.0, 0.0, 90.0))],
@@ -122,7 +123,7 @@ fn a_free_or_tilted_end_has_no_link() {
         let path = format!("Stage(set: [Turn(end: Start, turn_deg: {turn})])");
         format!(
             "Scene(
-                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], rod: RodModel(law: Constant)),
                 clamps: [{clamps}],
                 path: [{path}],
                 task: Equilibrium(),

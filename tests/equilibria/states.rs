@@ -92,7 +92,7 @@ fn states_that_cost_nothing_to_reach_are_one() {
     let count = |ends: &str, law: &str| {
         let text = format!(
             "Scene(
-                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0{law})]),
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0{law})], rod: RodModel(law: Constant)),
                 {ends}
                 task: Equilibrium(states: 12),
             )"

@@ -12,7 +12,7 @@ const TIGHT: &str = "task: Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-8)";
 fn pulled_apart(sections: &str, [x, y, z]: [f64; 3]) -> (Assembly, Vector3, Stability) {
     let text = format!(
         "Scene(
-            filament: Filament(sections: [{sections}]),
+            filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)),
             loads: [
                 EndForce(end: End, force_pn: ({x:?}, {y:?}, {z:?})),
                 EndForce(end: Start, force_pn: ({:?}, {:?}, {:?})),
@@ -35,7 +35,7 @@ fn an_unheld_rod_turns_along_its_forces() {
     let rod = "Rod(from_nm: 0.0, to_nm: 60.0)";
     let (on_wall, _) = solved(&format!(
         "Scene(
-            filament: Filament(sections: [{rod}]),
+            filament: Filament(sections: [{rod}], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: (0.0, 0.0, 5.0))],
             {TIGHT},

@@ -29,7 +29,7 @@ pub(crate) fn twisting(
         "Scene(
             filament: Filament(
                 sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
-                rod: RodModel(material: Rigidities(
+                rod: RodModel(law: Constant, material: Rigidities(
                     shear_pn: ({shear:?}, {shear:?}, {shear:?}),
                     bend_pn_nm2: ({BEND:?}, {BEND:?}, {twist:?}),
                 )),

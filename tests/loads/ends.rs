@@ -121,7 +121,7 @@ fn a_pinned_chain_hangs_as_a_catenary() {
             "Scene(
                 filament: Filament(
                     sections: [Rod(from_nm: 0.0, to_nm: {length:?}, segments: {segments})],
-                    rod: RodModel(material: Rigidities(
+                    rod: RodModel(law: Constant, material: Rigidities(
                         shear_pn: (1e5, 1e5, 1e5), bend_pn_nm2: (0.1, 0.1, 10.0),
                     )),
                 ),
@@ -150,7 +150,7 @@ fn a_pinned_chain_hangs_as_a_catenary() {
 #[test]
 fn a_steady_stage_moves_at_constant_velocity() {
     let text = "Scene(
-        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], rod: RodModel(law: Constant)),
         clamps: [Clamp(end: Start), Clamp(end: End)],
         path: [Stage(set: [Shift(end: End, shift_nm: (0.4, 0.0, -2.0))], duration_ns: 4.0, pace: Steady)],
         task: Dynamics(duration_ns: 5.0, record_every_ns: 0.25,
@@ -181,7 +181,7 @@ fn a_hinge_past_half_a_turn_is_a_lost_turn() {
             "Scene(
                 filament: Filament(
                     sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: 16)],
-                    rod: RodModel(material: Rigidities(
+                    rod: RodModel(law: Constant, material: Rigidities(
                         shear_pn: (1e3, 1e3, 1e4), bend_pn_nm2: ({BEND:?}, {BEND:?}, {TWIST:?}),
                     )),
                 ),
@@ -219,7 +219,7 @@ fn a_hinge_that_is_bent_past_half_a_turn_is_told() {
     let turned = |degrees: f64| {
         let assembly = build(&format!(
             "Scene(
-                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], rod: RodModel(law: Constant)),
                 clamps: [Clamp(end: Start, hold: Pin,
                     hinge: (bend_pn_nm_per_rad: 100.0, twist_pn_nm_per_rad: 20.0))],
                 linkers: [Linker(at_nm: 100.0, displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: 10.0)],
@@ -246,7 +246,7 @@ fn a_hinge_that_is_bent_past_half_a_turn_is_told() {
 fn sliding(sections: &str, slides: &str) -> (Assembly, State, Loads) {
     let (assembly, trajectory) = run(&format!(
         "Scene(
-            filament: Filament(sections: [{sections}], shape: Arc(radius_nm: 60.0)),
+            filament: Filament(sections: [{sections}], shape: Arc(radius_nm: 60.0), rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start), Clamp(end: End, slides: {slides})],
             loads: [Force(at_nm: 40.0, force_pn: (20.0, 30.0, 10.0))],
             task: Dynamics(duration_ns: 0.2, drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0)),
@@ -325,7 +325,7 @@ fn pins_without_a_meaning_are_refused() {
     ] {
         let text = format!(
             "Scene(
-                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], rod: RodModel(law: Constant)),
                 clamps: [Clamp(end: Start, {clamp})],
                 path: [{path}],
                 task: Equilibrium(),

@@ -6,7 +6,7 @@ use actin_sim::Scene;
 fn refusal(load: &str, task: &str) -> String {
     let text = format!(
         "Scene(
-            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start)],
             loads: [{load}],
             task: {task},
@@ -131,7 +131,7 @@ fn couples_that_nothing_bears_are_refused() {
     let refusal = |loads: &str| {
         let text = format!(
             "Scene(
-                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], rod: RodModel(law: Constant)),
                 loads: [{loads}],
                 task: Equilibrium(),
             )"
@@ -155,7 +155,7 @@ fn couples_on_one_pin_are_refused() {
     let refusal = |clamps: &str| {
         let text = format!(
             "Scene(
-                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], rod: RodModel(law: Constant)),
                 clamps: [{clamps}],
                 loads: [Couple(end: End, couple_pn_nm: (1.0, 0.0, 0.0))],
                 task: Equilibrium(),
@@ -205,7 +205,7 @@ fn a_couple_along_two_pins_is_refused() {
     let message = |couples: &str| {
         let text = format!(
             "Scene(
-                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], rod: RodModel(law: Constant)),
                 clamps: [Clamp(end: Start, hold: Pin), Clamp(end: End, hold: Pin)],
                 loads: [{couples}],
                 task: {STATICS},

@@ -11,7 +11,7 @@ const SPECIMEN: f64 = 120.0;
 fn text(sections: &str, loads: &str) -> String {
     format!(
         "Scene(
-            filament: Filament(sections: [{sections}]),
+            filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start)],
             loads: [{loads}],
             task: Equilibrium(),
@@ -107,7 +107,7 @@ fn turned(sections: &str, axis: usize, angle: f64) -> (Assembly, f64) {
     let ([x, y, z], slides) = (turn, ["", "Freely", "AlongAxis"][axis]);
     let text = format!(
         "Scene(
-            filament: Filament(sections: [{sections}]),
+            filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start), Clamp(end: End, slides: {slides})],
             path: [Stage(set: [Turn(end: End, turn_deg: ({x:?}, {y:?}, {z:?}))])],
             task: Equilibrium(),

@@ -21,6 +21,7 @@ fn text(sections: &str, shape: &str, rest: &str) -> String {
             filament: Filament(
                 sections: [{sections}], shape: {shape},
                 at_nm: (3.0, -2.0, 5.0), direction: (1.0, 2.0, 2.0), roll_deg: 20.0,
+                rod: RodModel(law: Constant),
             ),
             {rest}
         )"

@@ -254,7 +254,7 @@ fn walls_bear_every_load_in_every_model() {
         "Ellipsoids(from_nm: 0.0, to_nm: 20.0), Rod(from_nm: 20.0, to_nm: 40.0)",
     ] {
         let text = format!(
-            "Scene(filament: Filament(sections: [{sections}]), clamps: [Clamp(end: Start)],
+            "Scene(filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)), clamps: [Clamp(end: Start)],
                 loads: [{loads}], task: Equilibrium())"
         );
         let (mut assembly, _) = run(&text);

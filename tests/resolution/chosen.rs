@@ -154,27 +154,6 @@ fn scenes_keep_what_is_asked() {
     assert!(assembly.notes()[0].starts_with("sections chosen for Tip within 1 %: a rod"));
 }
 
-/// A default law that is written cannot be told from one that is not: the note says which is taken, and what keeps it.
-#[test]
-fn the_law_that_is_taken_is_told() {
-    let law_and_note = |rod: &str| {
-        let sections = "Adaptive(length_nm: 160.0, want: Tip(error: 0.05))";
-        let built = Assembly::build(&scene(
-            &format!("{sections}, rod: RodModel({rod})"),
-            CANTILEVER,
-        ));
-        let assembly = built.unwrap();
-        let told = assembly.notes()[0].contains("Rods are under Homogenised");
-        (assembly.scene.filament.rod.law, told)
-    };
-    assert_eq!(law_and_note(""), (RodLaw::Homogenised, true));
-    assert_eq!(law_and_note("law: Constant"), (RodLaw::Homogenised, true));
-    assert_eq!(law_and_note("law: Fitted"), (RodLaw::Fitted, false));
-    let written = "law: Constant, material: Rigidities(
-        bend_pn_nm2: (3.9e4, 3.9e4, 1.3e4), shear_pn: (3.4e4, 3.4e4, 3.4e4))";
-    assert_eq!(law_and_note(written), (RodLaw::Constant, false));
-}
-
 /// Every filament is looked at, and one that is too short to be judged is resolved throughout.
 #[test]
 fn short_filaments_and_further_ones() {

@@ -16,6 +16,7 @@ fn settled(sections: &str, clamped: &str, loaded: &str) -> Settled {
             filament: Filament(
                 sections: [{sections}],
                 monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
+                rod: RodModel(law: Constant),
             ),
             clamps: [Clamp(end: {clamped})],
             loads: [EndForce(end: {loaded}, force_pn: ({x:?}, {y:?}, {z:?}))],

@@ -27,6 +27,7 @@ fn filament(ends: &[f64], monomers_first: bool, clamps: &str) -> Assembly {
             filament: Filament(
                 sections: [{sections}],
                 monomers: Monomers(anchors: Independent, seed: 5, lateral_bonds: 3, longitudinal_bonds: 3),
+                rod: RodModel(law: Constant),
             ),
             clamps: [{clamps}],
             task: Dynamics(duration_ns: 1.0),

@@ -54,7 +54,7 @@ impl Rod {
             "Scene(
                 filament: Filament(
                     sections: [Rod(from_nm: 0.0, to_nm: {length_nm:?}, segments: {segments})],
-                    rod: RodModel(force_law: {force_law}, material: Rigidities(
+                    rod: RodModel(law: Constant, force_law: {force_law}, material: Rigidities(
                         shear_pn: ({s1:?}, {s2:?}, {s3:?}),
                         bend_pn_nm2: ({b1:?}, {b2:?}, {b3:?}),
                     )),

@@ -48,7 +48,7 @@ fn rod(segments: usize) -> Assembly {
         "Scene(
             filament: Filament(sections: [
                 Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments}),
-            ]),
+            ], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start)],
             task: Dynamics(duration_ns: 100.0, record_every_ns: 0.1),
         )"

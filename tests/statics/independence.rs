@@ -41,6 +41,7 @@ fn settled(way: Way) -> Settled {
                     Rod(from_nm: 30.0, to_nm: 60.0, segments: 3),
                 ],
                 monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
+                rod: RodModel(law: Constant),
             ),
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: (2.0, 0.0, 0.0))],

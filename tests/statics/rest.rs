@@ -11,6 +11,7 @@ fn loads_at_rest(sections: &str, seed: u64, junction: &str, clamps: &str) -> (f6
                 sections: [{sections}],
                 monomers: Monomers(anchors: Independent, seed: {seed}),
                 junction: JunctionModel({junction}),
+                rod: RodModel(law: Constant),
             ),
             clamps: [{clamps}],
             task: Dynamics(duration_ns: 1.0),

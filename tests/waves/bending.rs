@@ -51,7 +51,7 @@ impl Mode {
             "Scene(
                 filament: Filament(
                     sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
-                    rod: RodModel(
+                    rod: RodModel(law: Constant, 
                         rotary_inertia: {inertia},
                         material: Rigidities(shear_pn: (3.4e4, 3.4e4, 3.4e4), bend_pn_nm2: ({BEND:?}, {BEND:?}, 1.3e4)),
                     ),

@@ -78,7 +78,7 @@ fn measured(wave: Wave, segments: usize, m: usize) -> f64 {
     let period = 2.0 * PI / (k * wave.speed());
     let mut assembly = build(&format!(
         "Scene(
-            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})]),
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start)],
             task: Dynamics(duration_ns: {:?}, record_every_ns: {:?}),
         )",

@@ -15,7 +15,7 @@ fn tumbling(turns: f64) -> Assembly {
     let duration = turns * std::f64::consts::TAU / SPIN[1];
     let mut assembly = build(&format!(
         "Scene(
-            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {SEGMENTS})]),
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {SEGMENTS})], rod: RodModel(law: Constant)),
             task: Dynamics(duration_ns: {duration:?}, record_every_ns: {:?}),
         )",
         duration / 100.0,

@@ -41,6 +41,8 @@ enum Part {
     Drawn,
     /// Mean loads of the filament at a temperature.
     Heat,
+    /// Monomers and rods under waves of load.
+    Waves,
 }
 
 impl From<Part> for homogenise::Part {
@@ -53,6 +55,7 @@ impl From<Part> for homogenise::Part {
             Part::Law => Self::Law,
             Part::Drawn => Self::Drawn,
             Part::Heat => Self::Heat,
+            Part::Waves => Self::Waves,
         }
     }
 }

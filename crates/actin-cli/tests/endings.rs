@@ -42,7 +42,7 @@ fn other_stable_states_are_told_where_there_are_signs_of_them() {
     for (force, likely) in [(2.0, false), (8.0, true)] {
         let place = Workplace::with(&format!(
             "Scene(
-                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 160.0)]),
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 160.0)], rod: RodModel(law: Constant)),
                 clamps: [Clamp(end: Start)],
                 loads: [EndForce(end: End, force_pn: (0.0, 0.0, -{force:?}))],
                 task: Equilibrium(),
@@ -151,7 +151,10 @@ fn a_motion_at_rest_says_in_what() {
 #[test]
 fn rest_that_is_not_certified_is_told() {
     let stop = "stop: (force_pn: 1e-3, torque_pn_nm: 1e-3, kinetic_pn_nm: 1e-6),";
-    let place = straight("rod: RodModel(force_law: PaperBalance),", &damped(stop));
+    let place = straight(
+        "rod: RodModel(law: Constant, force_law: PaperBalance),",
+        &damped(stop),
+    );
     let output = place.actin(&["run", "scene.ron", "--out", "a"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     let told = "note: the stop rule was met, but it is not known whether";

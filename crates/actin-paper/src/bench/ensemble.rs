@@ -78,7 +78,7 @@ fn scene(of: Replicated) -> String {
     };
     format!(
         "Scene(
-            filament: Filament(sections: [{sections}], monomers: Monomers(anchors: {anchors})),
+            filament: Filament(sections: [{sections}], monomers: Monomers(anchors: {anchors}), rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
             task: {task},

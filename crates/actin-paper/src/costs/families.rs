@@ -127,7 +127,7 @@ impl Parts {
         let (x, y) = (20 * (i / 100), 20 * (i % 100));
         writeln!(
             self.filaments,
-            "Filament(sections: [{sections}], at_nm: ({x}.0, {y}.0, 0.0)),"
+            "Filament(sections: [{sections}], at_nm: ({x}.0, {y}.0, 0.0), rod: RodModel(law: Constant)),"
         )
         .expect("a String takes any text");
     }
@@ -168,7 +168,7 @@ fn cantilever((length, section): &(f64, String), law: &str, task: &str) -> Parts
 /// On a wall and pulled along its axis: of any length the forces are larger than their rounding.
 fn pulled((_, section): &(f64, String)) -> Parts {
     Parts {
-        filaments: format!("Filament(sections: [{section}])"),
+        filaments: format!("Filament(sections: [{section}], rod: RodModel(law: Constant))"),
         clamps: "Clamp(end: Start)".into(),
         loads: "EndForce(end: End, force_pn: (0.0, 0.0, 1.0))".into(),
         task: STATICS.into(),
@@ -216,7 +216,7 @@ fn turned(count: usize) -> Parts {
 fn linkers(count: usize) -> Parts {
     let (_, section) = rod(count);
     let mut parts = Parts {
-        filaments: format!("Filament(sections: [{section}])"),
+        filaments: format!("Filament(sections: [{section}], rod: RodModel(law: Constant))"),
         clamps: "Clamp(end: Start)".into(),
         task: STATICS.into(),
         ..Parts::default()

@@ -55,6 +55,7 @@ fn neutral(filaments: &str, clamp: &str, modes: Modes) -> Result<Outcome, Outcom
             "Filament(
                 sections: [{model}(from_nm: 0.0, to_nm: {length}.0)],
                 monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
+                rod: RodModel(law: Constant),
                 at_nm: ({}.0, 0.0, 0.0),
             ),",
             20 * i

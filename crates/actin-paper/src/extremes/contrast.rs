@@ -31,7 +31,7 @@ fn scene(factor: f64, force: f64, task: &str) -> String {
                     Rod(from_nm: 20.0, to_nm: 60.0, segments: 4),
                 ],
                 monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
-                rod: RodModel(material: Rigidities(
+                rod: RodModel(law: Constant, material: Rigidities(
                     shear_pn: ({s:?}, {s:?}, {stretch:?}), bend_pn_nm2: ({b:?}, {b:?}, {twist:?}),
                 )),
             ),

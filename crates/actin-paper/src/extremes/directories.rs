@@ -9,7 +9,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 const SCENE: &str = "Scene(
-    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)]), clamps: [Clamp(end: Start)],
+    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)], rod: RodModel(law: Constant)), clamps: [Clamp(end: Start)],
     loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))], task: Equilibrium())";
 
 /// Changes a finished run directory, `run`, or what lies beside it.

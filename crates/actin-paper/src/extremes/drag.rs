@@ -138,6 +138,7 @@ fn scene(sections: &str, rest: &str, duration: f64, rate: f64, extra: &str) -> S
             filament: Filament(
                 sections: [{sections}],
                 monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
+                rod: RodModel(law: Constant),
             ),
             {rest}
             task: Dynamics(

@@ -19,7 +19,7 @@ const MOTION: &str = "Scene(
             Rod(from_nm: 8.0, to_nm: 28.0, segments: 2),
         ],
         monomers: Monomers(anchors: Independent, lateral_bonds: 4, longitudinal_bonds: 4),
-        rod: RodModel(material: Rigidities(
+        rod: RodModel(law: Constant, material: Rigidities(
             shear_pn: (1.6e4, 1.6e4, 3.4e4), bend_pn_nm2: (3.9e4, 3.9e4, 1.3e4),
         )),
     ),

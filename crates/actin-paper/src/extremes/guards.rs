@@ -66,7 +66,7 @@ pub(super) fn rows() -> Vec<Row> {
     SCENES
         .map(|(case, sections, task)| {
             let text = format!(
-                "Scene(filament: Filament(sections: [{sections}]), clamps: [Clamp(end: Start)],
+                "Scene(filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)), clamps: [Clamp(end: Start)],
                     task: {task})"
             );
             let clock = Instant::now();

@@ -20,6 +20,7 @@ const SCENE: &str = "Scene(
             Rod(from_nm: 14.0, to_nm: 34.0, segments: 4),
         ],
         monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
+        rod: RodModel(law: Constant),
     ),
     loads: [EndForce(end: End, force_pn: (1.0, 2.0, 3.0))],
     linkers: [Linker(at_nm: 10.0, radius_nm: 1.8, displaced_nm: (3.0, 0.0, 0.0),

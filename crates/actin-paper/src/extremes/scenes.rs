@@ -47,12 +47,18 @@ impl Parts {
             rest,
             task,
         } = self;
+        // Theory tells what rods of constant rigidities do.
+        let rod = if models.contains("rod:") {
+            ""
+        } else {
+            "rod: RodModel(law: Constant),"
+        };
         format!(
             "Scene(
                 filament: Filament(
                     sections: [{sections}],
                     monomers: Monomers(anchors: Independent, lateral_bonds: {BONDS}, longitudinal_bonds: {BONDS}),
-                    {models}
+                    {models} {rod}
                 ),
                 {rest}
                 task: {task},

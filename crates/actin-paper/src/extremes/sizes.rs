@@ -104,7 +104,9 @@ fn free(sections: &str) -> String {
 fn side_by_side(count: u32, sections: &str) -> String {
     let filament = |i: u32| {
         let at = 20 * i;
-        format!("Filament(sections: [{sections}], at_nm: ({at}.0, 0.0, 0.0)), ")
+        format!(
+            "Filament(sections: [{sections}], at_nm: ({at}.0, 0.0, 0.0), rod: RodModel(law: Constant)), "
+        )
     };
     let filaments = (0..count).map(filament).collect::<Vec<_>>().concat();
     format!("Scene(filaments: [{filaments}], task: {MOTION})")

@@ -180,10 +180,7 @@ fn fit_shear(data: &BendData, law: Stiffening) -> Result<Found, String> {
 /// How far a rod of this law goes where a filament was measured (nm); not a number if it has no
 /// equilibrium there.
 fn shift(is_tip: bool, point: &Point, law: Stiffening, cubic_pn: f64) -> f64 {
-    let rod = RodModel {
-        law: RodLaw::Laws(Box::new(laws(law, cubic_pn))),
-        ..RodModel::default()
-    };
+    let rod = RodModel::of_law(RodLaw::Laws(Box::new(laws(law, cubic_pn))));
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

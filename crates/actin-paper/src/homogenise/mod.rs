@@ -16,6 +16,7 @@ mod rows;
 mod scatter;
 pub(crate) mod surface;
 mod variants;
+mod waves;
 
 use crate::Tell;
 use std::fs;
@@ -54,10 +55,12 @@ pub enum Part {
     Drawn,
     /// Loads at a temperature.
     Heat,
+    /// Filaments of monomers and rods under waves of load, down to two monomers.
+    Waves,
 }
 
 impl Part {
-    const ALL: [Self; 7] = [
+    const ALL: [Self; 8] = [
         Self::Checks,
         Self::Variants,
         Self::Scatter,
@@ -65,6 +68,7 @@ impl Part {
         Self::Law,
         Self::Drawn,
         Self::Heat,
+        Self::Waves,
     ];
 }
 
@@ -100,6 +104,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
                 law::run_drawn(out, &axes, &grid, tell)?;
             }
             Part::Heat => heat::run(out, options.temperature_k, options.quick, tell)?,
+            Part::Waves => waves::run(out, options.quick, tell)?,
         }
         tell(format_args!(
             "{part:?}: {:.0} s\n",

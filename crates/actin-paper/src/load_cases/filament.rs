@@ -86,10 +86,7 @@ impl Rod {
     }
 
     fn model(&self) -> RodModel {
-        RodModel {
-            law: self.law.clone(),
-            ..RodModel::default()
-        }
+        RodModel::of_law(self.law.clone())
     }
 }
 

@@ -1,10 +1,10 @@
 //! Closed forms for twisted and pulled filaments, and statistics over samplings.
 
 use super::*;
-use actin_sim::{Monomers, RodModel};
+use actin_sim::{Monomers, RodLaw, RodModel};
 
 fn rod() -> Specimen {
-    Specimen::rod(75.0, Some(48), RodModel::default())
+    Specimen::rod(75.0, Some(48), RodModel::of_law(RodLaw::Constant))
 }
 
 fn monomers() -> Specimen {

@@ -26,9 +26,9 @@
 //!
 //! ```
 //! use actin_paper::measure::{Specimen, twist};
-//! use actin_sim::RodModel;
+//! use actin_sim::{RodLaw, RodModel};
 //! // The rod of Table 4 has B3 = 1.3e4 pN nm^2 at every angle.
-//! let rod = Specimen::rod(75.0, None, RodModel::default());
+//! let rod = Specimen::rod(75.0, None, RodModel::of_law(RodLaw::Constant));
 //! let curve = twist(&rod, &[-90.0, 180.0]).unwrap();
 //! assert!((curve.points[0].rigidity_pn_nm2 / 1.3e4 - 1.0).abs() < 1e-9);
 //! assert!((curve.points[1].torque_pn_nm - 1.3e4 * 3.14159265 / 75.0).abs() < 1e-4);

@@ -4,7 +4,9 @@ use super::follow::follow;
 use super::sweep::{far_end_shift, reaction};
 use super::*;
 use crate::run::run_to_end;
-use actin_sim::{Assembly, Filament, ForceLaw, Hold, Monomers, RodModel, Scene, Section, Summary};
+use actin_sim::{
+    Assembly, Filament, ForceLaw, Hold, Monomers, RodLaw, RodModel, Scene, Section, Summary,
+};
 use actin_sim::{End, Load, Setting, Slides, Stage};
 use std::f64::consts::PI;
 
@@ -15,7 +17,11 @@ fn helix() -> (f64, f64, f64) {
 }
 
 fn rod(length_nm: f64, segments: usize) -> Specimen {
-    Specimen::rod(length_nm, Some(segments), RodModel::default())
+    Specimen::rod(
+        length_nm,
+        Some(segments),
+        RodModel::of_law(RodLaw::Constant),
+    )
 }
 
 /// So many rises of monomers with 160 bonds per interface.
@@ -83,7 +89,7 @@ fn a_rod_that_is_soft_in_shear_shows_its_shearing_rigidity() {
             shear_pn: [50.0, 50.0, 3.4e4],
             bend_pn_nm2: [3.9e4, 3.9e4, 1.3e4],
         },
-        ..RodModel::default()
+        ..RodModel::of_law(RodLaw::Constant)
     };
     let curve = shear_by_force(&Specimen::rod(80.0, Some(64), model), &[0.01], 20.0).unwrap();
     let point = &curve.points[0];
@@ -190,14 +196,15 @@ fn pulling_and_turning_are_reciprocal() {
 /// twists as much as its parts in series.
 #[test]
 fn mixed_filaments_are_measured_like_any_other() {
-    let mixed = Specimen::new(Filament::new(vec![
-        Section::Ellipsoids {
-            from_nm: 0.0,
-            to_nm: 40.0,
-            altered: None,
-        },
-        Section::rod(40.0, 80.0, Some(4)),
-    ]));
+    let monomers = Section::Ellipsoids {
+        from_nm: 0.0,
+        to_nm: 40.0,
+        altered: None,
+    };
+    let mixed = Specimen::new(Filament {
+        rod: RodModel::of_law(RodLaw::Constant),
+        ..Filament::new(vec![monomers, Section::rod(40.0, 80.0, Some(4))])
+    });
     let whole = Specimen::ellipsoids(80.0, Monomers::default());
     let turns = [40.0, 80.0];
     let curve = twist(&mixed, &turns).unwrap();
@@ -302,7 +309,7 @@ fn values_and_models_that_cannot_be_measured_are_refused() {
 fn rods_without_a_potential_are_refused() {
     let model = RodModel {
         force_law: ForceLaw::PaperBalance,
-        ..RodModel::default()
+        ..RodModel::of_law(RodLaw::Constant)
     };
     let refused = twist(&Specimen::rod(40.0, Some(4), model), &[10.0]);
     assert!(

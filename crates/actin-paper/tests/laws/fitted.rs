@@ -7,13 +7,6 @@ use actin_sim::{Filament, JunctionModel, JunctionWeight, Monomers, RodLaw, RodMo
 /// Azimuths of the force (deg) between those of the fit.
 const AZIMUTHS_DEG: [f64; 4] = [45.0, 135.0, 225.0, 315.0];
 
-fn rod(law: RodLaw) -> RodModel {
-    RodModel {
-        law,
-        ..RodModel::default()
-    }
-}
-
 /// Length of so many rises (nm).
 fn rises(count: f64) -> f64 {
     count * Monomers::default().rise_nm
@@ -29,7 +22,7 @@ fn cantilevers_of_rod_and_monomers_bend_alike() {
     let curves: Vec<Curve<_>> = AZIMUTHS_DEG.into_iter().map(at).collect();
     let measured = sampled_by(&curves, |p| p.force_pn, |p| p.deflection_nm);
     let of = |law| {
-        let specimen = Specimen::rod(curves[0].length_nm, None, rod(law));
+        let specimen = Specimen::rod(curves[0].length_nm, None, RodModel::of_law(law));
         bend_by_tip_force(&specimen, &forces, 0.0).unwrap()
     };
     let (fitted, constant) = (of(RodLaw::Fitted), of(RodLaw::Constant));
@@ -57,7 +50,7 @@ fn rod_and_monomers_twist_and_shorten_alike() {
     ];
     let filament = Specimen::ellipsoids(rises(27.0), Monomers::default());
     let monomers = twist(&filament, &turns).unwrap();
-    let specimen = Specimen::rod(monomers.length_nm, None, rod(RodLaw::Fitted));
+    let specimen = Specimen::rod(monomers.length_nm, None, RodModel::of_law(RodLaw::Fitted));
     let fitted = twist(&specimen, &turns).unwrap();
     for (rod, filament) in fitted.points.iter().zip(&monomers.points) {
         let stiffer = rod.rigidity_pn_nm2 / filament.rigidity_pn_nm2 - 1.0;
@@ -85,7 +78,7 @@ fn tip(rod_nm: f64, force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
         Section::rod(boundary, 160.0, None),
     ];
     let specimen = Specimen::new(Filament {
-        rod: rod(law.clone()),
+        rod: RodModel::of_law(law.clone()),
         junction: JunctionModel {
             weight,
             ..JunctionModel::default()

@@ -59,10 +59,7 @@ fn a_twisted_rod_has_its_couple_and_length() {
         (RodLaw::Fitted, fitted),
     ];
     for (law, formula) in laws {
-        let rod = RodModel {
-            law,
-            ..RodModel::default()
-        };
+        let rod = RodModel::of_law(law);
         let mut specimen = Specimen::rod(75.0, None, rod);
         (specimen.solver.force_pn, specimen.solver.torque_pn_nm) = (1e-9, 1e-9);
         let turns = [-190.0, -90.0, -30.0, 30.0, 90.0, 190.0];

@@ -2,7 +2,7 @@
 
 use super::setting::{Lengths, Setting};
 use super::{Chosen, ErrorEstimate, Located, Tried, at_rest, check, equilibrium, finer, located};
-use crate::scene::{Adaptive, RodLaw, RodModel, Scene, SceneProblem, Task};
+use crate::scene::{Adaptive, Scene, SceneProblem, Task};
 use std::time::Instant;
 
 /// Most resolutions that are tried before all monomers.
@@ -29,7 +29,6 @@ pub fn choose(scene: &Scene, adaptive: &Adaptive) -> Result<(Scene, Chosen), Sce
     check(scene, adaptive.want.quantity())?;
     // A motion may have what an equilibrium cannot.
     at_rest(scene).validate()?;
-    let (scene, written) = (&with_law(scene), &scene.filament.rod);
     let mut search = Search {
         scene,
         adaptive,
@@ -45,7 +44,6 @@ pub fn choose(scene: &Scene, adaptive: &Adaptive) -> Result<(Scene, Chosen), Sce
         most_monomers: adaptive.monomers,
         is_met: estimate.is_none_or(|estimate| search.is_good(&estimate)),
         relative_error: estimate.map_or(0.0, |estimate| estimate.relative()),
-        takes_law: scene.filament.rod != *written,
         monomers: setting.count(scene, search.lengths)?,
         monomers_nm: setting.monomers.clone(),
         segment_nm: setting.segment_nm,
@@ -211,14 +209,4 @@ impl Search<'_> {
 fn bound(estimate: &ErrorEstimate) -> f64 {
     let doubt = DOUBT * estimate.size_of_parts();
     (estimate.error.abs() + doubt) / estimate.corrected().abs()
-}
-
-/// Rods that do not name a law have the one without a load case behind it.
-fn with_law(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    let rod = &mut scene.filament.rod;
-    if *rod == RodModel::default() {
-        rod.law = RodLaw::Homogenised;
-    }
-    scene
 }

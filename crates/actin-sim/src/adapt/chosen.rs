@@ -17,8 +17,6 @@ pub struct Chosen {
     pub is_met: bool,
     /// Estimated error over the corrected value; 0 where every monomer is resolved.
     pub relative_error: f64,
-    /// Whether rods are under `Homogenised` since every parameter of `rod` is its default, written or not.
-    pub takes_law: bool,
     /// Monomers that are resolved.
     pub monomers: usize,
     /// Where monomers are resolved (nm of arc length).
@@ -59,14 +57,8 @@ impl Chosen {
                 self.tried.len()
             )
         };
-        let law = if self.takes_law && self.estimate.is_some() {
-            ". Rods are under Homogenised, as every parameter of rod is its default; another law is kept, and Constant \
-             where its rigidities are written: material: Rigidities(..)"
-        } else {
-            ""
-        };
         format!(
-            "sections chosen for {} within {} %{limit}: {}{left}{missed}{law}",
+            "sections chosen for {} within {} %{limit}: {}{left}{missed}",
             self.quantity,
             100.0 * self.wanted_error,
             self.resolved()

@@ -37,7 +37,7 @@ const ADDED: f64 = 0.1;
 
 /// A rod of 160 nm, in sections that end at these places (nm), of so many segments each.
 fn scene(rest: &str, sections: &[(f64, usize)]) -> Scene {
-    let text = "Scene(filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 160.0)]), ";
+    let text = "Scene(filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 160.0)], rod: RodModel(law: Constant)), ";
     let mut scene =
         Scene::from_ron(&format!("{text}{rest})")).unwrap_or_else(|error| panic!("{error}"));
     let mut from_nm = 0.0;

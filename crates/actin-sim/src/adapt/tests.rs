@@ -46,7 +46,7 @@ fn scene(rest: &str, direction: usize, factor: f64) -> Scene {
         "Scene(
             filament: Filament(
                 sections: [Rod(from_nm: 0.0, to_nm: 160.0, segments: {SEGMENTS})],
-                rod: RodModel(material: Rigidities(
+                rod: RodModel(law: Constant, material: Rigidities(
                     bend_pn_nm2: ({:?}, {:?}, {:?}), shear_pn: ({:?}, {:?}, {:?}),
                 )),
             ),

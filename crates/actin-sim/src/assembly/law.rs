@@ -58,7 +58,7 @@ impl Law {
     fn altered(self, altered: &AlteredRod, key: &str) -> Result<Self, SceneProblem> {
         let softened = self.material.softened(&altered.factors()).map_err(|_| {
             let rule = "has factors of rigidities beside a law that is one potential of all strains: \
-                        leave them out";
+                        leave them out, or write law: Constant";
             SceneProblem::new(key, "", rule)
         })?;
         let material = softened.with_rest_curvature(altered.rest_curvature());
@@ -70,25 +70,7 @@ impl Law {
 
     /// The law that a scene names, of filaments of these monomers, in a heat bath or not.
     fn new(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Result<Self, SceneProblem> {
-        let extends = !matches!(rod.law, RodLaw::Constant | RodLaw::PublishedExtension);
-        if rod.force_law == ForceLaw::PaperBalance && extends {
-            return Err(SceneProblem::new(
-                "filament.rod.force_law",
-                "PaperBalance",
-                "PaperBalance takes the laws Constant and PublishedExtension only",
-            ));
-        }
-        if let Some(name) = rod
-            .law
-            .whole()
-            .filter(|_| rod.material != Material::default())
-        {
-            return Err(SceneProblem::new(
-                "filament.rod.material",
-                format!("{:?}", rod.material),
-                format!("the law {name} has a law for every deformation: leave the material out"),
-            ));
-        }
+        check_beside_law(rod)?;
         let rigidities = rod.material.rigidities();
         let material = RodMaterial::new(rigidities).map_err(refused("material"))?;
         let (material, twist_stretch) = match &rod.law {
@@ -176,6 +158,32 @@ impl Law {
             }
         }
     }
+}
+
+/// Refuses a balance or a material that the law of a rod leaves no room for.
+fn check_beside_law(rod: &RodModel) -> Result<(), SceneProblem> {
+    let extends = !matches!(rod.law, RodLaw::Constant | RodLaw::PublishedExtension);
+    if rod.force_law == ForceLaw::PaperBalance && extends {
+        return Err(SceneProblem::new(
+            "filament.rod.force_law",
+            "PaperBalance",
+            "PaperBalance takes the laws Constant and PublishedExtension only: write one of these",
+        ));
+    }
+    if let Some(name) = rod
+        .law
+        .whole()
+        .filter(|_| rod.material != Material::default())
+    {
+        return Err(SceneProblem::new(
+            "filament.rod.material",
+            format!("{:?}", rod.material),
+            format!(
+                "the law {name} has a law for every deformation: leave the material out, or write law: Constant"
+            ),
+        ));
+    }
+    Ok(())
 }
 
 fn refused(part: &'static str) -> impl Fn(RodParameterError) -> SceneProblem {

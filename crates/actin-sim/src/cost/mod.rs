@@ -290,7 +290,7 @@ mod tests {
     fn cost(sections: &str, task: &str) -> Cost {
         let text = format!(
             "Scene(
-                filament: Filament(sections: [{sections}]),
+                filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)),
                 clamps: [Clamp(end: Start)],
                 loads: [EndForce(end: End, force_pn: (1.0, 0.0, 0.0))],
                 task: {task},

@@ -36,7 +36,8 @@ pub(super) fn notes(filament: &Filament, bath_k: Option<f64>) -> Vec<String> {
             None => law_at_rest(&rod),
         };
         let bonds = drawn_bonds(&rod, &filament.monomers, bath_k.is_some());
-        law.into_iter().chain(bonds)
+        let others = is_of_others(&rod, &filament.monomers).then(|| OF_OTHERS.to_owned());
+        law.into_iter().chain(bonds).chain(others)
     };
     filament.rod_models().flat_map(of_rod).collect()
 }
@@ -64,6 +65,23 @@ fn law_at_rest(rod: &RodModel) -> Option<String> {
     };
     Some(note.to_owned())
 }
+
+/// Whether a rod under one potential stands for monomers that are not those of the potential.
+fn is_of_others(rod: &RodModel, monomers: &Monomers) -> bool {
+    let same = Monomers {
+        seed: monomers.seed,
+        anchors: monomers.anchors,
+        lateral_bonds: monomers.lateral_bonds,
+        longitudinal_bonds: monomers.longitudinal_bonds,
+        azimuth_deg: monomers.azimuth_deg,
+        mass_ag: monomers.mass_ag,
+        ..Monomers::default()
+    };
+    rod.law.is_homogenised() && *monomers != same
+}
+
+/// The note on rods of other monomers.
+const OF_OTHERS: &str = "rods under the law Homogenised stand for monomers of the default shape, lattice and bonds, which those     of this scene are not: resolve them, or write law: Constant with rigidities of your own";
 
 /// The note on rods under one potential that stand for monomers of other bonds than their filament's.
 fn drawn_bonds(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Option<String> {
@@ -167,7 +185,7 @@ mod tests {
     fn laws_are_noted_where_heat_meets_them() {
         let filaments = [
             rod("law: Fitted", 0.0),
-            rod("", 20.0),
+            rod("law: Constant", 20.0),
             rod("law: Fitted", 40.0),
             rod(
                 "law: Laws(twist: Sided(rest_pn_nm2: 300.0,
@@ -176,7 +194,7 @@ mod tests {
                 range_per_nm: 0.05))",
                 60.0,
             ),
-            rod("material: PrecedingPaper", 80.0),
+            rod("law: Constant, material: PrecedingPaper", 80.0),
             rod("law: HomogenisedAthermal", 120.0),
             "Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0)],
                 rod: RodModel(law: CouplingEnergy), at_nm: (100.0, 0.0, 0.0))"
@@ -225,6 +243,21 @@ mod tests {
         let said =
             format!("meets {constant} within what is asked of a law, Homogenised {homogenised} (");
         assert!(CONSTANT.contains(&said), "{said}");
+    }
+
+    /// The potential is that of the default monomers.
+    #[test]
+    fn other_monomers_are_noted() {
+        let notes = |monomers: &str, law: &str| {
+            let rod = "sections: [Rod(from_nm: 0.0, to_nm: 160.0)], rod: RodModel";
+            notes(
+                &format!("Filament({rod}({law}), monomers: Monomers({monomers}))"),
+                "",
+            )
+        };
+        assert_eq!(notes("lateral_rigidity_pn_per_nm: 500.0", ""), [OF_OTHERS]);
+        assert_eq!(notes("azimuth_deg: 20.0, lateral_bonds: 16", ""), [""; 0]);
+        assert_eq!(notes("turn_deg: -160.0", "law: Constant"), [CONSTANT]);
     }
 
     /// Rods beside drawn bonds that their law does not know are noted.

@@ -69,7 +69,7 @@ mod tests {
     fn limit_in(clamps: &str, loads: &str, task: &str) -> f64 {
         let text = format!(
             "Scene(
-                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)]),
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)], rod: RodModel(law: Constant)),
                 clamps: [{clamps}],
                 loads: [{loads}],
                 task: Dynamics({task}),

@@ -2,13 +2,23 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Constitutive law of a rod.
+/// Constitutive law of a rod. `Homogenised` is nearest to filaments of monomers; those named "to reproduce the paper" are for
+/// its figures.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum RodLaw {
-    /// The rigidities of the material at every strain.
+    /// One potential of all strains: the energy of cells of monomers, of the mean filament or, where `monomers` draw
+    /// bonds for each interface, the mean over drawings. In a heat bath (`thermal`) the free energy of the mean filament at
+    /// 298 K. The material must be left out.
     #[default]
+    Homogenised,
+    /// That without heat, in a heat bath too.
+    HomogenisedAthermal,
+    /// That at 298 K, without a heat bath too: 0.46 % shorter than built, so that a rod held at both ends is under tension.
+    HomogenisedAt298K,
+    /// The rigidities of the material at every strain: for a material of your own, for analytic limits, and to reproduce the
+    /// paper.
     Constant,
     /// The paper's twisting rigidity B3(kappa) and extension xi(kappa), all parameters as published,
     /// `p_0` included: to reproduce the paper.
@@ -16,16 +26,9 @@ pub enum RodLaw {
     /// The paper's B3(kappa) and an energy `C3 sigma_3 kappa_3` per length that couples stretch
     /// and twist: to reproduce the paper.
     CouplingEnergy,
-    /// Laws fitted to filaments of monomers. The material must be left out.
+    /// Laws of single deformations fitted to filaments of monomers, as the paper fits them: to go on from the paper. The
+    /// material must be left out.
     Fitted,
-    /// One potential of all strains: the energy of cells of monomers, of the mean filament or, where `monomers` draw
-    /// bonds for each interface, the mean over drawings. In a heat bath (`thermal`) the free energy of the mean filament at
-    /// 298 K. The material must be left out.
-    Homogenised,
-    /// That without heat, in a heat bath too.
-    HomogenisedAthermal,
-    /// That at 298 K, without a heat bath too: 0.46 % shorter than built, so that a rod held at both ends is under tension.
-    HomogenisedAt298K,
     /// Your own laws. Deformations without one keep the rigidity of the material.
     Laws(Box<RodLaws>),
 }

@@ -87,10 +87,21 @@ pub struct RodModel {
     pub force_law: ForceLaw,
     /// Rigidities.
     pub material: Material,
-    /// Constitutive law. `Fitted` and the laws `Homogenised` need the default material.
+    /// Constitutive law. `Fitted` and the laws `Homogenised` need the default material: a material of your own is written with
+    /// `law: Constant`.
     pub law: RodLaw,
     /// Transverse inertia of segments.
     pub rotary_inertia: RotaryInertia,
+}
+
+impl RodModel {
+    /// Rods under this law, all else as it is where a scene leaves it out.
+    pub fn of_law(law: RodLaw) -> Self {
+        Self {
+            law,
+            ..Self::default()
+        }
+    }
 }
 
 /// What the transverse inertia of a segment holds. It matters in `Dynamics` alone, and not for means and

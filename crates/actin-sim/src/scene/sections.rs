@@ -42,8 +42,6 @@ enum Left {
 #[serde(deny_unknown_fields)]
 pub struct Adaptive {
     /// Length of the filament; positive. It is rounded to whole monomers.
-    /// Where every parameter of the `rod` is its default, written or not, the rod is under `Homogenised`, and a note says
-    /// so.
     pub length_nm: f64,
     /// What is wanted, and how far it may be from the same filament with every monomer resolved.
     pub want: Want,

@@ -170,7 +170,7 @@ mod tests {
     fn build_for(sections: &str, clamps: &str, task: &str) -> Assembly {
         let text = format!(
             "Scene(
-                filament: Filament(sections: [{sections}]),
+                filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)),
                 clamps: [{clamps}],
                 linkers: [Linker(
                     at_nm: 20.0, displaced_nm: (3.0, 0.0, 0.0), stiffness_pn_per_nm: 10.0,

@@ -1,6 +1,6 @@
 //! What is varied in Figure 4 besides the resolution: what it is called, and what it changes in a scene.
 
-use actin_sim::{ForceLaw, JunctionWeight, Load, Material, Monomers, Scene};
+use actin_sim::{ForceLaw, JunctionWeight, Load, Material, Monomers, RodLaw, Scene};
 
 /// A load, a model and a set of parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,6 +129,7 @@ impl Variant {
             let times = stiffness_ratio();
             filament.monomers.lateral_rigidity_pn_per_nm *= times;
             filament.monomers.longitudinal_rigidity_pn_per_nm *= times;
+            filament.rod.law = RodLaw::Constant;
             filament.rod.material = Material::PrecedingPaper;
         }
         if self.weak {

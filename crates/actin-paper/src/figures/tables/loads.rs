@@ -9,7 +9,7 @@ use crate::measure::{
     bend_by_couples, bend_by_tip_force, shear_by_force, stretch_by_force, stretch_by_shift,
 };
 use actin_draw::report::write_csv;
-use actin_sim::{Monomers, RodModel};
+use actin_sim::{Monomers, RodLaw, RodModel};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -110,7 +110,7 @@ impl Measured {
             .map(|(seed, azimuth)| counted(progress, bent(kind, seed, azimuth)))
             .collect::<Result<_, _>>()?;
         let length = bent[0].couples.length_nm;
-        let rod = Specimen::rod(length, None, RodModel::default());
+        let rod = Specimen::rod(length, None, RodModel::of_law(RodLaw::Constant));
         let rod = shear_by_force(&rod, &SHEAR_PN[..1], 0.0).map_err(|e| e.to_string())?;
         Ok(Self::collect(
             &stretched,
