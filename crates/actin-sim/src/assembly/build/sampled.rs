@@ -1,15 +1,18 @@
 //! Monomers whose interfaces are quasi-harmonic: thermal motion of their bonds, and the chain that has its moments.
 //!
 //! A run of monomers, which may be several sections, moves freely in a heat bath of its own: what else acts on
-//! it in the scene adds its energy to that of the chain.
+//! it in the scene adds its energy to that of the chain. So what is found depends on the run alone, and is found once in a
+//! process: sections that follow a motion meet the same runs again and again.
 
 use super::strand::{Body, Strand};
 use crate::assembly::models;
 use crate::scene::{Interfaces, SceneProblem, Task};
-use actin_ellipsoid::{Fluctuations, Monomers, Placement, QuasiHarmonic};
+use actin_ellipsoid::{Anchors, Fluctuations, Link, Monomers, Placement, QuasiHarmonic};
 use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
 use actin_mechanics::{Interaction, State, System};
+use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
 /// Parts of the motion, each with noise of its own, as many at the same time as there are cores.
 const PARTS: u64 = 4;
@@ -21,6 +24,12 @@ const WARM_UP_NS: f64 = 5.0;
 const APART_NS: f64 = 0.05;
 /// Step as a share of the largest stable one, at which the potential energy is right to a thousandth.
 const SHARE: f64 = 0.5;
+
+/// Links that are kept of runs that have been sampled: 30 MB.
+const MOST_KEPT: usize = 50_000;
+
+/// Runs that have been sampled, by all that they depend on. Sampling repeats to the bit, so that nothing depends on what is kept.
+static KEPT: Mutex<BTreeMap<String, (Vec<Link>, Sampled)>> = Mutex::new(BTreeMap::new());
 
 /// How interfaces are sampled.
 #[derive(Clone, Copy, Debug)]
@@ -83,17 +92,16 @@ impl Strand<'_> {
         let mut chains: Vec<Option<QuasiHarmonic>> = vec![None; self.bodies.len()];
         let mut known = Vec::new();
         for sections in self.bonded_sections() {
-            let alone = self.alone(sections.clone())?;
-            let (chain, sampled) = alone.sample(sampling)?;
+            let (links, sampled) = self.sample_run(sections.clone(), sampling)?;
             known.push(sampled);
             let Body::Monomers(first) = &self.bodies[sections.start] else {
                 continue;
             };
             let run = Monomers {
-                count: alone.monomers.count,
+                count: sampled.monomers,
                 ..*first
             };
-            let chain = QuasiHarmonic::new(run, chain.links().to_vec());
+            let chain = QuasiHarmonic::new(run, links);
             let mut lower = 0;
             for i in sections {
                 let count = self.monomers_of(i);
@@ -102,6 +110,58 @@ impl Strand<'_> {
             }
         }
         Ok((chains, known))
+    }
+
+    /// The links of a run, sampled unless they are kept.
+    fn sample_run(
+        &self,
+        sections: Range<usize>,
+        sampling: Sampling,
+    ) -> Result<(Vec<Link>, Sampled), SceneProblem> {
+        let key = self.key(sections.clone(), sampling);
+        // Held meanwhile: who else needs this run waits for it.
+        let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = kept.get(&key) {
+            return Ok(known.clone());
+        }
+        let (chain, sampled) = self.alone(sections)?.sample(sampling)?;
+        let found = (chain.links().to_vec(), sampled);
+        let links: usize = kept.values().map(|(links, _)| links.len()).sum();
+        if links + found.0.len() > MOST_KEPT {
+            kept.clear();
+        }
+        kept.insert(key, found.clone());
+        Ok(found)
+    }
+
+    /// All that the links of a run depend on.
+    fn key(&self, sections: Range<usize>, sampling: Sampling) -> String {
+        let of_section = |i: usize| {
+            let (first, count) = (self.sampled_index(i), self.monomers_of(i));
+            (first, count, self.models[i].parameters())
+        };
+        let run: Vec<_> = sections.map(of_section).collect();
+        format!("{sampling:?} {run:?}")
+    }
+
+    /// The lattice index with which section `i` of a run is sampled. Where bonds depend on the geometry alone each monomer is as
+    /// any other, so that runs of one length are one.
+    fn sampled_index(&self, i: usize) -> i64 {
+        let index_of = |i: usize| match &self.bodies[i] {
+            Body::Monomers(monomers) => monomers.first_index,
+            Body::Rod(_) => 0,
+        };
+        let own = self
+            .bonded_sections()
+            .into_iter()
+            .find(|run| run.contains(&i));
+        let run = own.unwrap_or(i..i + 1);
+        let mut models = self.models[run.clone()].iter();
+        if models.all(|model| model.parameters().anchors == Anchors::Cubature) {
+            index_of(i) - index_of(run.start)
+        } else {
+            index_of(i)
+        }
     }
 
     fn monomers_of(&self, i: usize) -> usize {
@@ -119,14 +179,9 @@ impl Strand<'_> {
         let mut state = State::default();
         let mut own = Vec::new();
         for i in sections.clone() {
-            if let Body::Monomers(Monomers {
-                first_index, count, ..
-            }) = self.bodies[i]
-            {
-                let built =
-                    self.models[i].build(&mut state, &Placement::default(), first_index, count);
-                own.push((i, built.map_err(|error| refused(&error))?));
-            }
+            let (first, count) = (self.sampled_index(i), self.monomers_of(i));
+            let built = self.models[i].build(&mut state, &Placement::default(), first, count);
+            own.push((i, built.map_err(|error| refused(&error))?));
         }
         let mut bonds: Vec<Box<dyn Interaction>> = Vec::new();
         for (i, monomers) in &own {
@@ -228,4 +283,75 @@ impl Alone {
 )]
 fn times(whole: f64, part: f64) -> u64 {
     (whole / part).ceil() as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+    use crate::assembly::build::Stock;
+
+    const SAMPLING: Sampling = Sampling {
+        thermal_energy: 4.11,
+        duration_ns: 2.0,
+    };
+
+    /// What is asked of the monomers of a scene with these sections.
+    fn of<T>(sections: &str, anchors: &str, ask: impl Fn(&Strand<'_>) -> T) -> T {
+        let text = format!(
+            "Scene(
+                filament: Filament(
+                    sections: [{sections}],
+                    monomers: Monomers(anchors: {anchors}),
+                    rod: (law: Constant),
+                ),
+                task: Dynamics(duration_ns: 1.0),
+            )"
+        );
+        let scene = Scene::from_ron(&text).unwrap();
+        let mut strand = Strand::new((0, &scene.filament), [None; 2], 0, true).unwrap();
+        strand.push_bodies(&mut Stock::default()).unwrap();
+        ask(&strand)
+    }
+
+    const BEFORE: &str = "Rod(from_nm: 0.0, to_nm: 35.6), Ellipsoids(from_nm: 35.6, to_nm: 71.2),
+        Rod(from_nm: 71.2, to_nm: 142.4)";
+    const BEHIND: &str = "Rod(from_nm: 0.0, to_nm: 71.2), Ellipsoids(from_nm: 71.2, to_nm: 106.8),
+        Rod(from_nm: 106.8, to_nm: 142.4)";
+
+    /// What is kept is what would be found again: to the bit, whichever thread is first.
+    #[test]
+    fn sampling_repeats_to_the_bit() {
+        let found = [(); 2].map(|()| {
+            of(BEHIND, "Cubature", |strand| {
+                let alone = strand.alone(1..2).unwrap();
+                let (chain, sampled) = alone.sample(SAMPLING).unwrap();
+                (chain.links().to_vec(), sampled)
+            })
+        });
+        assert!(found[0] == found[1]);
+        let kept = of(BEHIND, "Cubature", |s| {
+            s.sample_run(1..2, SAMPLING).unwrap()
+        });
+        assert!(kept == found[0]);
+    }
+
+    /// A run is any other of its length where bonds are weighted, and its own where they are drawn.
+    #[test]
+    fn runs_are_known_by_what_bonds_depend_on() {
+        let key = |sections: &str, anchors: &str| {
+            of(sections, anchors, |strand| {
+                assert_eq!(strand.monomers_of(1), 13);
+                strand.key(1..2, SAMPLING)
+            })
+        };
+        assert_eq!(key(BEFORE, "Cubature"), key(BEHIND, "Cubature"));
+        assert_ne!(key(BEFORE, "Independent"), key(BEHIND, "Independent"));
+        let longer = Sampling {
+            duration_ns: 3.0,
+            ..SAMPLING
+        };
+        let other = of(BEFORE, "Cubature", |strand| strand.key(1..2, longer));
+        assert_ne!(other, key(BEFORE, "Cubature"));
+    }
 }
