@@ -181,7 +181,7 @@ fn check_scene(scene: &Scene) -> Result<(), SceneProblem> {
         Task::Dynamics(task) if task.leave_saddles > 0 => {
             refused("task.leave_saddles", "pushes off saddles")
         }
-        Task::Dynamics(_) => Ok(()),
-        Task::Brownian(_) | Task::Equilibrium(_) => refused("task", "tasks other than Dynamics"),
+        Task::Dynamics(_) | Task::Brownian(_) => Ok(()),
+        Task::Equilibrium(_) => refused("task", "Equilibrium: it is no motion"),
     }
 }
