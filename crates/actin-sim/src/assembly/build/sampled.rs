@@ -2,7 +2,8 @@
 //!
 //! A run of monomers, which may be several sections, moves freely in a heat bath of its own: what else acts on
 //! it in the scene adds its energy to that of the chain. So what is found depends on the run alone, and is found once in a
-//! process: sections that follow a motion meet the same runs again and again.
+//! process: sections that follow a motion meet the same runs again and again. Where bonds depend on the geometry alone each monomer
+//! is as any other: runs of one length are one, and a long one repeats the middle of a shorter one.
 
 use super::strand::{Body, Strand};
 use crate::assembly::models;
@@ -24,6 +25,12 @@ const WARM_UP_NS: f64 = 5.0;
 const APART_NS: f64 = 0.05;
 /// Step as a share of the largest stable one, at which the potential energy is right to a thousandth.
 const SHARE: f64 = 0.5;
+
+/// Most monomers of a section with weighted bonds that are sampled: four periods.
+const LONGEST: usize = 52;
+
+/// Links at either end of them that are not repeated in a longer one: a period. Bonds reach to the next but one.
+const BESIDE_ENDS: usize = 13;
 
 /// Links that are kept of runs that have been sampled: 30 MB.
 const MOST_KEPT: usize = 50_000;
@@ -61,6 +68,24 @@ impl Sampling {
             duration_ns: sampled_ns,
         })
     }
+}
+
+/// Monomers of a section that are sampled.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    section: usize,
+    /// Lattice index of the first.
+    first: i64,
+    count: usize,
+}
+
+/// So many links from fewer, the middle of which is repeated.
+fn prolonged(links: &[Link], count: usize) -> Vec<Link> {
+    let behind = links.len().saturating_sub(BESIDE_ENDS);
+    let middle = links[..behind].iter().skip(BESIDE_ENDS).cycle();
+    let more = middle.take(count - links.len());
+    let all = links[..behind].iter().chain(more).chain(&links[behind..]);
+    all.copied().collect()
 }
 
 /// The bonds of a run on their own.
@@ -118,50 +143,62 @@ impl Strand<'_> {
         sections: Range<usize>,
         sampling: Sampling,
     ) -> Result<(Vec<Link>, Sampled), SceneProblem> {
-        let key = self.key(sections.clone(), sampling);
+        let monomers = sections.clone().map(|i| self.monomers_of(i)).sum();
+        let pieces = self.pieces(sections);
+        let key = self.key(&pieces, sampling);
         // Held meanwhile: who else needs this run waits for it.
         let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = kept.get(&key) {
-            return Ok(known.clone());
+        if !kept.contains_key(&key) {
+            let (chain, sampled) = self.alone(&pieces)?.sample(sampling)?;
+            let found = (chain.links().to_vec(), sampled);
+            let links: usize = kept.values().map(|(links, _)| links.len()).sum();
+            if links + found.0.len() > MOST_KEPT {
+                kept.clear();
+            }
+            kept.insert(key.clone(), found);
         }
-        let (chain, sampled) = self.alone(sections)?.sample(sampling)?;
-        let found = (chain.links().to_vec(), sampled);
-        let links: usize = kept.values().map(|(links, _)| links.len()).sum();
-        if links + found.0.len() > MOST_KEPT {
-            kept.clear();
-        }
-        kept.insert(key, found.clone());
-        Ok(found)
-    }
-
-    /// All that the links of a run depend on.
-    fn key(&self, sections: Range<usize>, sampling: Sampling) -> String {
-        let of_section = |i: usize| {
-            let (first, count) = (self.sampled_index(i), self.monomers_of(i));
-            (first, count, self.models[i].parameters())
+        let (links, sampled) = &kept[&key];
+        let sampled = Sampled {
+            monomers,
+            ..*sampled
         };
-        let run: Vec<_> = sections.map(of_section).collect();
-        format!("{sampling:?} {run:?}")
+        Ok((prolonged(links, monomers - 1), sampled))
     }
 
-    /// The lattice index with which section `i` of a run is sampled. Where bonds depend on the geometry alone each monomer is as
-    /// any other, so that runs of one length are one.
-    fn sampled_index(&self, i: usize) -> i64 {
-        let index_of = |i: usize| match &self.bodies[i] {
+    /// What is sampled for a run.
+    fn pieces(&self, sections: Range<usize>) -> Vec<Piece> {
+        let mut models = self.models[sections.clone()].iter();
+        let is_weighted = models.all(|m| m.parameters().anchors == Anchors::Cubature);
+        let first_of = |i: usize| match &self.bodies[i] {
             Body::Monomers(monomers) => monomers.first_index,
             Body::Rod(_) => 0,
         };
-        let own = self
-            .bonded_sections()
-            .into_iter()
-            .find(|run| run.contains(&i));
-        let run = own.unwrap_or(i..i + 1);
-        let mut models = self.models[run.clone()].iter();
-        if models.all(|model| model.parameters().anchors == Anchors::Cubature) {
-            index_of(i) - index_of(run.start)
+        let from = if is_weighted {
+            first_of(sections.start)
         } else {
-            index_of(i)
-        }
+            0
+        };
+        let most = if is_weighted && sections.len() == 1 {
+            LONGEST
+        } else {
+            usize::MAX
+        };
+        let piece = |section: usize| Piece {
+            section,
+            first: first_of(section) - from,
+            count: self.monomers_of(section).min(most),
+        };
+        sections.map(piece).collect()
+    }
+
+    /// All that the links of a run depend on.
+    fn key(&self, pieces: &[Piece], sampling: Sampling) -> String {
+        let of_piece = |piece: &Piece| {
+            let parameters = self.models[piece.section].parameters();
+            (piece.first, piece.count, parameters)
+        };
+        let run: Vec<_> = pieces.iter().map(of_piece).collect();
+        format!("{sampling:?} {run:?}")
     }
 
     fn monomers_of(&self, i: usize) -> usize {
@@ -171,17 +208,18 @@ impl Strand<'_> {
         }
     }
 
-    /// The bonds of the monomers of these sections.
-    fn alone(&self, sections: Range<usize>) -> Result<Alone, SceneProblem> {
+    /// The bonds of the monomers of these pieces, which are one run.
+    fn alone(&self, pieces: &[Piece]) -> Result<Alone, SceneProblem> {
         let refused = |error: &dyn std::error::Error| {
             SceneProblem::new("filament.sections", "", error.to_string())
         };
         let mut state = State::default();
         let mut own = Vec::new();
-        for i in sections.clone() {
-            let (first, count) = (self.sampled_index(i), self.monomers_of(i));
-            let built = self.models[i].build(&mut state, &Placement::default(), first, count);
-            own.push((i, built.map_err(|error| refused(&error))?));
+        for piece in pieces {
+            let placement = Placement::default();
+            let built =
+                self.models[piece.section].build(&mut state, &placement, piece.first, piece.count);
+            own.push((piece.section, built.map_err(|error| refused(&error))?));
         }
         let mut bonds: Vec<Box<dyn Interaction>> = Vec::new();
         for (i, monomers) in &own {
@@ -324,7 +362,7 @@ mod tests {
     fn sampling_repeats_to_the_bit() {
         let found = [(); 2].map(|()| {
             of(BEHIND, "Cubature", |strand| {
-                let alone = strand.alone(1..2).unwrap();
+                let alone = strand.alone(&strand.pieces(1..2)).unwrap();
                 let (chain, sampled) = alone.sample(SAMPLING).unwrap();
                 (chain.links().to_vec(), sampled)
             })
@@ -342,7 +380,7 @@ mod tests {
         let key = |sections: &str, anchors: &str| {
             of(sections, anchors, |strand| {
                 assert_eq!(strand.monomers_of(1), 13);
-                strand.key(1..2, SAMPLING)
+                strand.key(&strand.pieces(1..2), SAMPLING)
             })
         };
         assert_eq!(key(BEFORE, "Cubature"), key(BEHIND, "Cubature"));
@@ -351,7 +389,23 @@ mod tests {
             duration_ns: 3.0,
             ..SAMPLING
         };
-        let other = of(BEFORE, "Cubature", |strand| strand.key(1..2, longer));
+        let other = of(BEFORE, "Cubature", |strand| {
+            strand.key(&strand.pieces(1..2), longer)
+        });
         assert_ne!(other, key(BEFORE, "Cubature"));
+    }
+    /// A long run has the ends of a shorter one and repeats its middle, where each link follows one like that which it followed there.
+    #[test]
+    fn long_runs_repeat_the_middle_of_shorter_ones() {
+        let long = "Ellipsoids(from_nm: 0.0, to_nm: 300.0)";
+        let (links, sampled) = of(long, "Cubature", |s| s.sample_run(0..1, SAMPLING).unwrap());
+        let short = "Ellipsoids(from_nm: 0.0, to_nm: 136.9)";
+        let (few, _) = of(short, "Cubature", |s| s.sample_run(0..1, SAMPLING).unwrap());
+        assert_eq!((few.len(), links.len()), (51, sampled.monomers - 1));
+        assert!(links.len() > 100);
+        assert!(links[..38] == few[..38] && links[38..63] == few[13..38]);
+        assert!(links[links.len() - 13..] == few[38..]);
+        let drawn = of(long, "Independent", |s| s.pieces(0..1)[0].count);
+        assert_eq!(drawn, sampled.monomers);
     }
 }
