@@ -101,7 +101,7 @@ impl Observer for First {
             checkpoint: pause.checkpoint(),
             pushes: Vec::new(),
             events: Vec::new(),
-            energy_at_switch_pn_nm: None,
+            behind_switch: None,
         })));
         ControlFlow::Break(())
     }

@@ -115,13 +115,6 @@ fn neighbouring_sections_are_one_chain() {
     assert!((two / one - 1.0).abs() < 0.02, "{one}, {two}");
 }
 
-/// Runs that are resumed sample again: to the bit, whichever thread is first.
-#[test]
-fn sampling_repeats_to_the_bit() {
-    let energies = [(); 2].map(|()| stretched("Ellipsoids(from_nm: 0.0, to_nm: 25.0)").to_bits());
-    assert_eq!(energies[0], energies[1]);
-}
-
 #[test]
 fn what_cannot_be_sampled_is_refused() {
     let refused = |task: &str| {

@@ -10,7 +10,7 @@ fn limit(sections: &str, rotary_inertia: &str) -> f64 {
         "Scene(
             filament: Filament(
                 sections: [{sections}],
-                rod: RodModel(rotary_inertia: {rotary_inertia}),
+                rod: RodModel(law: Constant, rotary_inertia: {rotary_inertia}),
             ),
             clamps: [Clamp(end: Start)],
             task: Dynamics(duration_ns: 1.0),

@@ -15,6 +15,19 @@ fn thermal() -> Scene {
     scene(108.0, 0.25, rest)
 }
 
+/// The same without inertia: three steps between switches and looks at each.
+fn overdamped() -> Scene {
+    let rest = "task: Brownian(
+            duration_ms: 1.6e-3,
+            temperature_k: 298.0,
+            seed: 7,
+            time_step_ns: 40.0,
+            record_every_ns: 80.0,
+            interfaces: QuasiHarmonic(sampled_ns: 20.0),
+        ),";
+    scene(108.0, 1.0, rest)
+}
+
 /// Takes records, and interrupts whenever it has been asked so many times.
 struct Stops {
     records: Vec<Record>,
@@ -43,9 +56,9 @@ impl Sink for Stops {
 }
 
 /// All records of the motion, the stretch of each, and how often it was interrupted.
-fn run(every: u32) -> (Vec<(usize, Record)>, u32) {
-    let follower = Follower::new(&thermal()).unwrap();
-    let follower = follower.with_criterion(Box::new(ToAndFro { every_ns: 0.5 }));
+fn run(scene: &Scene, every_ns: f64, every: u32) -> (Vec<(usize, Record)>, u32) {
+    let follower = Follower::new(scene).unwrap();
+    let follower = follower.with_criterion(Box::new(ToAndFro { every_ns }));
     let mut sink = Stops {
         records: Vec::new(),
         asked: 0,
@@ -78,15 +91,17 @@ fn run(every: u32) -> (Vec<(usize, Record)>, u32) {
 /// at which cells are switched included, and where checks and switches fall differently.
 #[test]
 fn an_interrupted_motion_is_the_same_to_the_bit() {
-    let (whole, none) = run(u32::MAX);
-    assert_eq!(none, 0);
-    assert!(whole.last().unwrap().0 >= 4);
-    for every in [1, 3, 7] {
-        let (parts, interruptions) = run(every);
-        assert!(interruptions > 1);
-        assert_eq!(parts.len(), whole.len());
-        for (part, one) in parts.iter().zip(&whole) {
-            assert_eq!(part, one);
+    for (scene, every_ns) in [(thermal(), 0.5), (overdamped(), 120.0)] {
+        let (whole, none) = run(&scene, every_ns, u32::MAX);
+        assert_eq!(none, 0);
+        assert!(whole.last().unwrap().0 >= 4);
+        for every in [1, 3, 7] {
+            let (parts, interruptions) = run(&scene, every_ns, every);
+            assert!(interruptions > 1);
+            assert_eq!(parts.len(), whole.len());
+            for (part, one) in parts.iter().zip(&whole) {
+                assert_eq!(part, one);
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Resolution that follows a motion: what a switch keeps, what it books, and what does not depend on it.
 
+mod brownian;
 mod heat;
 mod interrupted;
 mod kept;

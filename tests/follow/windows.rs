@@ -74,24 +74,39 @@ fn without_a_wish_there_are_no_monomers() {
     assert_eq!((counts.monomers, counts.bonds, counts.junctions), (0, 0, 0));
 }
 
-/// Monomers are about the site of a linker, and go with it as it steps.
+/// Monomers are about the site of a linker, and go with it as it steps, with inertia and without.
 #[test]
 fn a_window_follows_a_linker_that_steps() {
-    let text = "Scene(
-        filament: Filament(sections: Following(
-            length_nm: 180.0,
-            monomers_where: [Linker(linker: 0, within_nm: 5.0, beyond_nm: 15.0)],
-            least_ns: 0.2,
-        )),
+    check_window(
+        "Dynamics(duration_ns: 6.0, record_every_ns: 0.1,
+            drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0))",
+    );
+    check_window(
+        "Brownian(duration_ms: 6e-6, record_every_ns: 0.1, temperature_k: 298.0,
+            interfaces: QuasiHarmonic(sampled_ns: 20.0))",
+    );
+}
+
+fn check_window(task: &str) {
+    let text = format!(
+        "Scene(
+        filament: Filament(
+            sections: Following(
+                length_nm: 180.0,
+                monomers_where: [Linker(linker: 0, within_nm: 5.0, beyond_nm: 15.0)],
+                least_ns: 0.2,
+            ),
+            rod: RodModel(law: Homogenised),
+        ),
         clamps: [Clamp(end: Start)],
         linkers: [Linker(
             at_nm: 20.0, displaced_nm: (0.0, 0.0, 10.0), stiffness_pn_per_nm: 0.1, rest_length_nm: 10.0,
             kinetics: Kinetics(seed: 3, steps: Stepping(rate_per_ns: 3.0, step_nm: 11.0, stall_pn: 50.0)),
         )],
-        task: Dynamics(duration_ns: 6.0, record_every_ns: 0.1,
-            drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0)),
-    )";
-    let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}"));
+        task: {task},
+    )"
+    );
+    let scene = Scene::from_ron(&text).unwrap_or_else(|error| panic!("{error}"));
     let run = Follower::new(&scene).unwrap().run();
     let run = run.unwrap_or_else(|error| panic!("{error}"));
     assert!(run.stretches.len() >= 3);

@@ -70,13 +70,14 @@ use crate::{Flow, Friction};
 use actin_equilibrium::{ImplicitSolver, Layout, SolveError, StepSize};
 use actin_integrate::{Body, FailureKind, Noise, StepFailure, Stepper};
 use actin_mechanics::{Loads, Split, State, System, Thermostat, Vector3, Vectors, rotation};
+use std::ops::Range;
 use thiserror::Error;
 
 /// Parts the key of this noise from other uses of the same seed.
 const PURPOSE: [u8; 8] = *b"brownian";
 
-/// Steps at the start that are implicit altogether.
-const DAMPED_STEPS: u64 = 4;
+/// Midpoint steps at the start that are implicit altogether.
+pub const DAMPED_STEPS: u64 = 4;
 
 /// Longest turn (rad) that one iteration may ask for.
 const LARGEST_TURN: f64 = 0.5;
@@ -154,6 +155,8 @@ pub struct Brownian {
     stresses: Stresses,
     /// Whether steps are those with random stress.
     has_stress: bool,
+    /// Midpoint steps that are implicit altogether.
+    damped: Range<u64>,
     start: State,
     /// The frames half way through a step with random stress.
     middle: State,
@@ -189,6 +192,7 @@ impl Brownian {
             noise: Noise::of_purpose(PURPOSE, seed, elements),
             stresses: Stresses::new(system.interactions(), seed),
             has_stress: thermal_energy > 0.0,
+            damped: 0..DAMPED_STEPS,
             velocities: Velocities {
                 points: Vectors::zeros(state.points.len()),
                 frames: Vectors::zeros(state.frames.len()),
@@ -212,6 +216,16 @@ impl Brownian {
     pub fn by_midpoints(self) -> Self {
         Self {
             has_stress: false,
+            ..self
+        }
+    }
+
+    /// The same with [`DAMPED_STEPS`] midpoint steps from this one on implicit altogether, in place of those at the start: for
+    /// motion that goes on from a state out of balance.
+    #[must_use]
+    pub fn damped_from(self, step: u64) -> Self {
+        Self {
+            damped: step..step + DAMPED_STEPS,
             ..self
         }
     }
@@ -424,7 +438,7 @@ impl Stepper for Brownian {
         // What is driven goes on to the place of its time; free bodies have no velocity.
         if self.has_stress {
             self.step_stressed(system, (step, 1), h)?;
-        } else if step < DAMPED_STEPS {
+        } else if self.damped.contains(&step) {
             self.noise.draw_stream(step, (1.0, 1.0));
             system.drift(h);
             self.solve(system, h, h)?;

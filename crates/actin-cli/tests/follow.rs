@@ -22,6 +22,21 @@ const SWINGING: &str = "Scene(
     task: Dynamics(duration_ns: 300.0, record_every_ns: 0.1),
 )";
 
+/// A filament in water, whose cells are switched by what heat bends.
+const OVERDAMPED: &str = "Scene(
+    filament: Filament(
+        sections: Following(
+            length_nm: 108.0,
+            monomers_where: [Curvature(above_per_nm: 0.003, below_per_nm: 0.001)],
+            segments: 1,
+        ),
+        rod: RodModel(law: Constant),
+    ),
+    clamps: [Clamp(end: Start)],
+    task: Brownian(duration_ms: 0.03, temperature_k: 298.0, time_step_ns: 50.0,
+        interfaces: QuasiHarmonic(sampled_ns: 10.0)),
+)";
+
 /// Every file of the directory and of all stretches.
 fn assert_same(one: &Path, other: &Path) {
     assert_same_files(one, other);
@@ -56,6 +71,23 @@ fn a_motion_that_is_followed_goes_on_to_the_same_bytes() {
         assert_same(&place.path("whole"), &place.path("parts"));
         fs::remove_dir_all(place.path("parts")).unwrap();
     }
+}
+
+/// The same without inertia, killed twice.
+#[test]
+fn overdamped_motion_that_is_followed_goes_on_to_the_same_bytes() {
+    let place = Workplace::with(OVERDAMPED);
+    let whole = place.actin(&["--out", "whole"]);
+    assert_eq!(code(&whole), 0, "{}", stderr(&whole));
+    for stretch in ["0004", "0020"] {
+        let arguments = ["--out", "parts", "--checkpoint-every", "0.01", "--resume"];
+        let mut child = place.start(&arguments, &format!("parts/stretches/{stretch}/scene.ron"));
+        signal(&child, "-KILL");
+        child.wait().unwrap();
+    }
+    let output = place.actin(&["--out", "parts", "--resume"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_same(&place.path("whole"), &place.path("parts"));
 }
 
 /// A finished run is not resumed, not overwritten without being told to, and replaced where that is wanted, its stretches

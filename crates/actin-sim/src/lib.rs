@@ -55,10 +55,10 @@ pub use results::{
     ThermalSummary, WorkSummary, first_difference, replace_file,
 };
 pub use run::{
-    Arrival, At, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, LongestStep,
-    MotionPosition, Outcome, PathPosition, Plan, Progress, Record, RecordIter, Recorded, Records,
-    RelaxationTimes, Row, RowIter, RunError, RunPosition, SaddlePush, Saved, Sink, Slip,
-    StableState, StableStates, Status, Trajectory, near_equilibrium, solver,
+    Arrival, At, BehindSwitch, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip,
+    LongestStep, MotionPosition, Outcome, PathPosition, Plan, Progress, Record, RecordIter,
+    Recorded, Records, RelaxationTimes, Row, RowIter, RunError, RunPosition, SaddlePush, Saved,
+    Sink, Slip, StableState, StableStates, Status, Trajectory, near_equilibrium, solver,
 };
 pub use scene::fitted::laws as fitted_laws;
 #[cfg(feature = "schema")]

@@ -4,10 +4,10 @@ use super::cells::Cells;
 use super::criterion::{Criterion, Wish, cells, wish_of};
 use super::transfer::{Switch, Transfer};
 use crate::run::record;
-use crate::scene::{Dynamics, Scene, SceneProblem, Task};
+use crate::scene::{Scene, SceneProblem};
 use crate::{
-    Assembly, MotionPosition, Outcome, Plan, Progress, Record, Recorded, RunError, RunPosition,
-    Saved, Sink, Status, Trajectory,
+    Assembly, BehindSwitch, MotionPosition, Outcome, Plan, Progress, Record, Recorded, RunError,
+    RunPosition, Saved, Sink, Status, Trajectory,
 };
 use actin_integrate::{Checkpoint, Moment, Snapshot};
 use actin_mechanics::{Split, State};
@@ -278,7 +278,7 @@ impl Follower {
             time_ns: here.motion.time,
         };
         let old = left.assembly.system.state().in_motion(here.motion.clone());
-        let (state, switch) = transfer.state(&old, self.dynamics())?;
+        let (state, switch) = transfer.state(&old, &self.scene.task)?;
         stretch.beginning.switches_pn_nm += switch.energy_pn_nm;
         stretch.beginning.switch = Some(Switch {
             to_monomers,
@@ -291,7 +291,9 @@ impl Follower {
 
     /// From which step on each cell may be switched behind a switch at `step`.
     fn free_from(&self, left: &Stretch, is_monomers: &[bool], step: u64) -> Vec<u64> {
-        let length_ns = self.dynamics().time_step_ns.unwrap_or(self.least_ns);
+        let motion = self.scene.task.motion();
+        let length_ns = motion.and_then(|motion| motion.time_step_ns);
+        let length_ns = length_ns.unwrap_or(self.least_ns);
         let rest = whole_steps(self.least_ns / length_ns);
         let before = &left.beginning;
         let cells = before.free_from.iter().zip(&before.is_monomers);
@@ -321,13 +323,6 @@ impl Follower {
             }
         }
         spans
-    }
-
-    fn dynamics(&self) -> &Dynamics {
-        match &self.scene.task {
-            Task::Dynamics(dynamics) => dynamics,
-            _ => unreachable!("sections follow tasks of dynamics alone"),
-        }
     }
 
     /// Runs the whole motion into memory.
@@ -424,7 +419,10 @@ fn begun(assembly: &Assembly, state: State, (saved, position): (&Saved, &MotionP
             },
             pushes: Vec::new(),
             events: position.events.clone(),
-            energy_at_switch_pn_nm: Some(energy),
+            behind_switch: Some(BehindSwitch {
+                step,
+                energy_pn_nm: energy,
+            }),
         })),
         recorded: saved.recorded.behind_switch(assembly, first),
         wall_s: saved.wall_s,

@@ -2,28 +2,14 @@
 
 use super::field::{CrossSection, Field};
 use super::momentum::{Bodies, Momentum};
-use crate::scene::{Dynamics, SceneProblem};
+use crate::scene::{SceneProblem, Task};
 use crate::{Assembly, At, BodyKind};
-use actin_integrate::{Bath, Drag, Run};
-use actin_mechanics::{Shared, State, System, UnitQuaternion, Vector3};
+use actin_mechanics::{State, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Bodies at the same arc length to this (nm) are at the same place of the filament.
 const SAME_PLACE_NM: f64 = 1e-6;
-
-/// Rate (1/ns) of the drag in which new bodies settle: bonds (some 100 to 470 rad/ns) settle in it, a bend over 36 nm
-/// (33 rad/ns) by half, what is longer hardly moves. Rates of 30 and 120 leave jumps of energy as large.
-const SETTLING_RATE_PER_NS: f64 = 60.0;
-
-/// Time (ns) for which they settle.
-const SETTLING_NS: f64 = 0.15;
-
-/// Mixed with the step into the seed of a bath, so that what settles meets another noise than the motion does.
-const OTHER_NOISE: u64 = 0x5e77_1e5e;
-
-/// An odd number, the golden ratio of 2^64.
-const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// A switch of cells, and what it did.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,11 +45,7 @@ impl Transfer<'_> {
     ///
     /// # Errors
     /// New bodies that do not settle.
-    pub(super) fn state(
-        &self,
-        old: &State,
-        dynamics: &Dynamics,
-    ) -> Result<(State, Switch), SceneProblem> {
+    pub(super) fn state(&self, old: &State, task: &Task) -> Result<(State, Switch), SceneProblem> {
         let mut state = self.to.rest.clone();
         state.controls.clone_from(&old.controls);
         state.time = old.time;
@@ -71,16 +53,18 @@ impl Transfer<'_> {
         self.slide(old, &mut state);
         self.to.place_controls(&mut state, At::Time(self.time_ns));
         let bodies = self.bodies(&state, |s_nm| self.is_switched(s_nm));
-        let settled = self.settled(&state, &bodies, dynamics)?;
+        let settled = self.settled(&state, &bodies, task)?;
         let wanted = Momentum::of(old);
-        if dynamics.thermal.is_some() {
-            take_motion(&settled, &mut state, &bodies);
-        }
         take_places(&settled, &mut state, &bodies);
-        if dynamics.thermal.is_none() {
-            made.move_along(&mut state);
+        // Without inertia there is no motion to go on.
+        if let Task::Dynamics(dynamics) = task {
+            if dynamics.thermal.is_some() {
+                take_motion(&settled, &mut state, &bodies);
+            } else {
+                made.move_along(&mut state);
+            }
+            bodies.give(&mut state, wanted);
         }
-        bodies.give(&mut state, wanted);
         let switch = self.switch([old, &state]);
         Ok((state, switch))
     }
@@ -103,14 +87,14 @@ impl Transfer<'_> {
 
     /// Whether a body at an arc length (nm) belongs to a cell that is switched; monomers stand out at the ends of the
     /// filament.
-    fn is_switched(&self, s_nm: f64) -> bool {
+    pub(super) fn is_switched(&self, s_nm: f64) -> bool {
         let inside = s_nm.clamp(0.0, self.to.length_nm());
         let mut spans = self.spans_nm.iter();
         spans.any(|[from, to]| *from - SAME_PLACE_NM <= inside && inside <= *to + SAME_PLACE_NM)
     }
 
     /// Free bodies of the new filament at these arc lengths.
-    fn bodies(&self, state: &State, is_wanted: impl Fn(f64) -> bool) -> Bodies {
+    pub(super) fn bodies(&self, state: &State, is_wanted: impl Fn(f64) -> bool) -> Bodies {
         let (points, frames) = (self.to.points.iter(), self.to.frames.iter());
         let points = points.enumerate().filter(|(_, p)| is_wanted(p.s_nm));
         let frames = frames.enumerate().filter(|(_, f)| is_wanted(f.s_nm));
@@ -208,46 +192,6 @@ impl Transfer<'_> {
             field.of_rod(s_nm)
         }
     }
-
-    /// The state after new bodies have settled among the others, which are held: in a drag, or in the bath of the motion
-    /// under that drag.
-    fn settled(
-        &self,
-        state: &State,
-        bodies: &Bodies,
-        dynamics: &Dynamics,
-    ) -> Result<State, SceneProblem> {
-        let mut local = state.clone();
-        local.sliders = Shared::default();
-        let others = self.bodies(state, |s_nm| !self.is_switched(s_nm));
-        others.points.iter().for_each(|&i| local.points.hold(i));
-        others.frames.iter().for_each(|&i| local.frames.hold(i));
-        stop_all(&mut local);
-        let mut system = self.to.system.in_state(local);
-        let refused = |error: &dyn std::error::Error| {
-            let rule = format!(
-                "new bodies at {} place(s) do not settle at {:.4} ns: {error}",
-                bodies.points.len(),
-                self.time_ns
-            );
-            SceneProblem::new("filament.sections", "", rule)
-        };
-        let step = dynamics.time_step_ns.unwrap_or(SETTLING_NS);
-        let run = Run::over(dynamics.composition(), step, SETTLING_NS).map_err(|e| refused(&e))?;
-        let drag = Drag::new(SETTLING_RATE_PER_NS, SETTLING_RATE_PER_NS);
-        let drag = drag.map_err(|e| refused(&e))?;
-        let run = match &dynamics.thermal {
-            None => run.with_drag(drag),
-            Some(thermal) => {
-                // Far apart for neighbouring steps, so that no two runs settle with one noise.
-                let seed = thermal.seed ^ OTHER_NOISE.wrapping_add(self.step).wrapping_mul(SPREAD);
-                let bath = Bath::new(drag, thermal.energy_pn_nm(), seed);
-                run.with_bath(bath.map_err(|e| refused(&e))?)
-            }
-        };
-        run.execute(&mut system, &mut []).map_err(|e| refused(&e))?;
-        Ok(System::state(&system).clone())
-    }
 }
 
 /// New bodies with the cross-sections on which they stand.
@@ -308,15 +252,6 @@ fn places(bodies: impl Iterator<Item = (BodyKind, f64)>) -> BTreeMap<Key, usize>
         places.insert((kind as u8, unit, others), i);
     }
     places
-}
-
-fn stop_all(state: &mut State) {
-    for i in 0..state.points.len() {
-        state.points.velocity.set(i, Vector3::zeros());
-    }
-    for i in 0..state.frames.len() {
-        state.frames.angular_momentum.set(i, Vector3::zeros());
-    }
 }
 
 fn take_places(from: &State, to: &mut State, bodies: &Bodies) {

@@ -174,7 +174,7 @@ impl FollowedDirectory {
                 }
             }
             for note in one.notes {
-                if !all.notes.contains(&note) {
+                if !all.notes.iter().any(|told| is_alike(told, &note)) {
                     all.notes.push(note);
                 }
             }
@@ -260,6 +260,12 @@ fn remove_run(path: &Path) -> Result<(), RunDirectoryError> {
     }
     drop(lock);
     fs::remove_dir_all(path).map_err(io())
+}
+
+/// Whether two notes differ in numbers alone.
+fn is_alike(one: &str, other: &str) -> bool {
+    let words = |note: &str| -> String { note.chars().filter(|c| !c.is_ascii_digit()).collect() };
+    words(one) == words(other)
 }
 
 fn column(header: &csv::StringRecord, name: &str) -> io::Result<usize> {

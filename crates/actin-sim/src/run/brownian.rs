@@ -8,8 +8,9 @@ use super::unknowns::layout;
 use super::{Estimate, Failure, Outcome, Plan, Status, long_steps};
 use crate::Assembly;
 use crate::scene::{Brownian as Task, Fluid, SceneProblem, Task as AnyTask};
-use actin_brownian::{Brownian, Relaxation};
+use actin_brownian::{Brownian, Layout, Relaxation};
 use actin_integrate::{POSITION_VERLET, Run, Split};
+use actin_mechanics::System;
 
 /// Iterations of a step, about, by midpoints and with random stress.
 const ITERATIONS: [u64; 2] = [4, 6];
@@ -77,8 +78,7 @@ fn relaxation(assembly: &Assembly, fluid: &Fluid) -> Result<Relaxation, ScenePro
 pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
     let motion = task.as_motion();
-    let times = RelaxationTimes::of(&mut relaxation(assembly, &task.drag)?);
-    let fastest_ns = times.fastest_ns;
+    let fastest_ns = 1.0 / relaxation(assembly, &task.drag)?.highest_rate();
     if !(fastest_ns.is_finite() && fastest_ns > 0.0) {
         let rule = "has no stiffness by which a time step could be set: write time_step_ns";
         if task.time_step_ns.is_none() {
@@ -113,6 +113,30 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
     Ok(estimate)
 }
 
+impl Estimate {
+    /// The steps of overdamped motion of what `layout` lets move in `system`, in a fluid at rest.
+    ///
+    /// # Errors
+    /// Interactions without second derivatives.
+    pub(crate) fn stepper(
+        &self,
+        (assembly, task): (&Assembly, &Task),
+        system: &System,
+        layout: Layout,
+    ) -> Result<Brownian, SceneProblem> {
+        let friction = assembly.friction(&task.drag)?;
+        let noise = task.thermal();
+        let noise = noise.map_or((0.0, 0), |t| (t.energy_pn_nm(), t.seed));
+        let stepper = Brownian::new(system, layout, friction, noise)
+            .map_err(|error| SceneProblem::new("task", "", error.to_string()))?;
+        Ok(if self.has_random_stress() {
+            stepper
+        } else {
+            stepper.by_midpoints()
+        })
+    }
+}
+
 /// Runs the motion.
 pub(super) fn run(
     assembly: &Assembly,
@@ -124,18 +148,14 @@ pub(super) fn run(
     let refused = |error: &dyn std::error::Error| SceneProblem::new("task", "", error.to_string());
     let motion = task.as_motion();
     let mut system = assembly.system.in_state(assembly.system.state().clone());
-    let friction = assembly.friction(&task.drag)?;
-    let noise = motion
-        .thermal
-        .map_or((0.0, 0), |t| (t.energy_pn_nm(), t.seed));
-    // The order of unknowns is that of the state as built, wherever a run is resumed.
-    let mut stepper = Brownian::new(&system, layout(assembly)?, friction, noise)
-        .map_err(|error| refused(&error))?;
-    stepper = stepper.in_flow(task.flow.physical());
-    if !estimate.has_random_stress() {
-        stepper = stepper.by_midpoints();
-    }
     let mut recorder = Recorder::new(assembly, &motion, saved, sink);
+    // The order of unknowns is that of the state as built, wherever a run is resumed.
+    let mut stepper = estimate.stepper((assembly, task), &system, layout(assembly)?)?;
+    stepper = stepper.in_flow(task.flow.physical());
+    if let (Some(switch), None) = (recorder.behind_switch, motion.thermal) {
+        // New bodies and what they are joined to are out of balance. Noise would be too weak in such steps.
+        stepper = stepper.damped_from(switch.step);
+    }
     // The method is not looked at: the stepper makes the steps.
     let run = Run::new(&POSITION_VERLET, estimate.time_step_ns, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))

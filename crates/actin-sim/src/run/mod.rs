@@ -31,15 +31,17 @@ pub use plan::Plan;
 pub(crate) use recorder::record;
 pub use records::{At, Record, RecordIter, Records, Row, RowIter, Trajectory};
 pub use rest::SaddlePush;
-pub use sink::{Arrival, MotionPosition, PathPosition, Progress, RunPosition, Saved, Sink};
+pub use sink::{
+    Arrival, BehindSwitch, MotionPosition, PathPosition, Progress, RunPosition, Saved, Sink,
+};
 pub use slip::Slip;
 pub use start::near_equilibrium;
 pub use states::{StableState, StableStates};
 pub use steps::LongestStep;
 pub(crate) use taken::Carried;
 pub use taken::Recorded;
-pub(crate) use unknowns::layout;
 pub use unknowns::newton as solver;
+pub(crate) use unknowns::{layout, order};
 
 use crate::scene::{SceneProblem, Task};
 

@@ -2,12 +2,12 @@
 
 use super::hinge::HingeWatch;
 use super::rest::{RestJudge, SaddlePush, is_saddle};
-use super::sink::{Clock, MotionPosition, Saved};
+use super::sink::{BehindSwitch, Clock, MotionPosition, Saved};
 use super::slip::Lost;
 use super::taken::Taken;
 use super::{At, Progress, Record, Recorded, RunPosition, Sink};
 use crate::assembly::{Log, Ramp};
-use crate::scene::Dynamics;
+use crate::scene::{Dynamics, Task};
 use crate::{Assembly, Booked, LinkerEvent};
 use actin_equilibrium::Certificate;
 use actin_integrate::{
@@ -42,8 +42,10 @@ pub(super) struct Recorder<'a> {
     hinges: HingeWatch,
     /// The largest kinetic energy at a check (pN nm), known at the end.
     pub(super) largest_kinetic_pn_nm: f64,
-    /// Energy (pN nm) with which it began behind a switch of cells.
-    energy_at_switch: Option<f64>,
+    /// Where it began, if behind a switch of cells.
+    pub(super) behind_switch: Option<BehindSwitch>,
+    /// Steps between looks at whether the motion is to be left.
+    look_every: u64,
 }
 
 /// How a motion ended.
@@ -76,7 +78,7 @@ impl<'a> Recorder<'a> {
             Some(RunPosition::Motion(motion)) => Some(*motion),
             Some(RunPosition::Path(_)) => panic!("a path of equilibria is no motion in time"),
         };
-        let energy_at_switch = motion.as_ref().and_then(|m| m.energy_at_switch_pn_nm);
+        let behind_switch = motion.as_ref().and_then(|m| m.behind_switch);
         let (position, pushes, events) = match motion {
             None => (None, Vec::new(), Vec::new()),
             Some(motion) => (Some(motion.checkpoint), motion.pushes, motion.events),
@@ -102,7 +104,12 @@ impl<'a> Recorder<'a> {
             assembly,
             log: Arc::new(Mutex::new(events)),
             hinges: HingeWatch::new(assembly),
-            energy_at_switch,
+            behind_switch,
+            look_every: match assembly.scene.task {
+                // Steps are so long that much happens in each.
+                Task::Brownian(_) => 1,
+                _ => DEFAULT_CHECK_EVERY,
+            },
             largest_kinetic_pn_nm: 0.0,
         }
     }
@@ -176,12 +183,12 @@ impl<'a> Recorder<'a> {
     /// Energy with which the motion began (pN nm).
     pub(super) fn begun_with_pn_nm(&self) -> f64 {
         let built = || self.assembly.system.total_energy();
-        self.energy_at_switch.unwrap_or_else(built)
+        self.behind_switch.map_or_else(built, |s| s.energy_pn_nm)
     }
 
     /// Whether the motion began with the scene, not behind a switch of cells.
     pub(super) fn is_whole(&self) -> bool {
-        self.energy_at_switch.is_none()
+        self.behind_switch.is_none()
     }
 
     /// Time that the run has taken (s).
@@ -256,7 +263,7 @@ impl<'a> Recorder<'a> {
             events: self.events_until(checkpoint.here.step),
             checkpoint,
             pushes: self.pushes.clone(),
-            energy_at_switch_pn_nm: self.energy_at_switch,
+            behind_switch: self.behind_switch,
         }))
     }
 }
@@ -304,7 +311,7 @@ impl Observer for Recorder<'_> {
             self.last_good = Some((pause.checkpoint(), recorded));
             self.is_behind = false;
         }
-        let is_look = pause.step.is_multiple_of(DEFAULT_CHECK_EVERY);
+        let is_look = pause.step.is_multiple_of(self.look_every);
         self.is_interrupted = is_look && self.taken.sink.is_left(pause.step, pause.state())
             || self.taken.sink.is_interrupted();
         if self.is_interrupted || self.taken.sink.is_checkpoint_due() {

@@ -27,8 +27,8 @@ pub trait Sink {
         false
     }
 
-    /// Whether the motion is to be left in this state, after so many steps: asked at every hundredth step, at step
-    /// numbers that do not depend on interruptions. It is then as if interrupted.
+    /// Whether the motion is to be left in this state, after so many steps: asked at every hundredth step, at each of overdamped
+    /// motion, at step numbers that do not depend on interruptions. It is then as if interrupted.
     fn is_left(&mut self, _step: u64, _state: &State) -> bool {
         false
     }
@@ -102,8 +102,17 @@ pub struct MotionPosition {
     pub pushes: Vec<SaddlePush>,
     /// What happened to linkers so far.
     pub events: Vec<LinkerEvent>,
-    /// Energy with which it began, where it goes on behind a switch of cells (pN nm).
-    pub energy_at_switch_pn_nm: Option<f64>,
+    /// Where it began, where it goes on behind a switch of cells.
+    pub behind_switch: Option<BehindSwitch>,
+}
+
+/// Where a motion began that goes on behind a switch of cells.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BehindSwitch {
+    /// Steps up to there.
+    pub step: u64,
+    /// Its energy there (pN nm).
+    pub energy_pn_nm: f64,
 }
 
 /// Where a path of equilibria stands.

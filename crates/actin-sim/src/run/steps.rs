@@ -172,7 +172,7 @@ impl Estimate {
 
     /// Whether steps of overdamped motion are so long that what is faster is drawn anew in each: in a heat bath without bonds.
     /// Bonds of monomers, shorter than their slip, have no stiffness that random stress could go by.
-    pub(super) fn has_random_stress(&self) -> bool {
+    pub(crate) fn has_random_stress(&self) -> bool {
         let longest = self.longest_sound_step.as_ref();
         longest.is_some_and(|l| !l.has_bonds && self.exceeds(l.of_midpoints_ns))
     }

@@ -77,15 +77,15 @@ pub enum Interfaces {
     /// simulated first. It needs a temperature, and takes steps ten thousand times longer. Stiffness is that at
     /// this temperature without loads: it does not change with tension, twist or bending.
     QuasiHarmonic {
-        /// How long the motion of the bonds is simulated; positive, at most 20,000. By default 400 ns: seconds, or about a minute for
-        /// each micrometre of monomers, before anything else. The same for every seed of the task, so that it is no part of
-        /// their scatter.
+        /// How long the motion of the bonds is simulated; positive, at most 20,000. By default 400 ns: seconds before anything
+        /// else, or about a minute for each micrometre of monomers with drawn bonds. The same for every seed of the task, so
+        /// that it is no part of their scatter.
         #[serde(default = "sampled_ns")]
         sampled_ns: f64,
     },
 }
 
-/// Longest motion (ns) that interfaces are sampled from: an hour for each micrometre of monomers.
+/// Longest motion (ns) that interfaces are sampled from: an hour for each micrometre of monomers with drawn bonds.
 const MOST_SAMPLED_NS: f64 = 2e4;
 
 fn sampled_ns() -> f64 {

@@ -1,15 +1,19 @@
 //! Monomers whose interfaces are quasi-harmonic: thermal motion of their bonds, and the chain that has its moments.
 //!
 //! A run of monomers, which may be several sections, moves freely in a heat bath of its own: what else acts on
-//! it in the scene adds its energy to that of the chain.
+//! it in the scene adds its energy to that of the chain. So what is found depends on the run alone, and is found once in a
+//! process: sections that follow a motion meet the same runs again and again. Where bonds depend on the geometry alone each monomer
+//! is as any other: runs of one length are one, and a long one repeats the middle of a shorter one.
 
 use super::strand::{Body, Strand};
 use crate::assembly::models;
 use crate::scene::{Interfaces, SceneProblem, Task};
-use actin_ellipsoid::{Fluctuations, Monomers, Placement, QuasiHarmonic};
+use actin_ellipsoid::{Anchors, Fluctuations, Link, Monomers, Placement, QuasiHarmonic};
 use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
 use actin_mechanics::{Interaction, State, System};
+use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
 /// Parts of the motion, each with noise of its own, as many at the same time as there are cores.
 const PARTS: u64 = 4;
@@ -21,6 +25,18 @@ const WARM_UP_NS: f64 = 5.0;
 const APART_NS: f64 = 0.05;
 /// Step as a share of the largest stable one, at which the potential energy is right to a thousandth.
 const SHARE: f64 = 0.5;
+
+/// Most monomers of a section with weighted bonds that are sampled: four periods.
+const LONGEST: usize = 52;
+
+/// Links at either end of them that are not repeated in a longer one: a period. Bonds reach to the next but one.
+const BESIDE_ENDS: usize = 13;
+
+/// Links that are kept of runs that have been sampled: 30 MB.
+const MOST_KEPT: usize = 50_000;
+
+/// Runs that have been sampled, by all that they depend on. Sampling repeats to the bit, so that nothing depends on what is kept.
+static KEPT: Mutex<BTreeMap<String, (Vec<Link>, Sampled)>> = Mutex::new(BTreeMap::new());
 
 /// How interfaces are sampled.
 #[derive(Clone, Copy, Debug)]
@@ -54,6 +70,24 @@ impl Sampling {
     }
 }
 
+/// Monomers of a section that are sampled.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    section: usize,
+    /// Lattice index of the first.
+    first: i64,
+    count: usize,
+}
+
+/// So many links from fewer, the middle of which is repeated.
+fn prolonged(links: &[Link], count: usize) -> Vec<Link> {
+    let behind = links.len().saturating_sub(BESIDE_ENDS);
+    let middle = links[..behind].iter().skip(BESIDE_ENDS).cycle();
+    let more = middle.take(count - links.len());
+    let all = links[..behind].iter().chain(more).chain(&links[behind..]);
+    all.copied().collect()
+}
+
 /// The bonds of a run on their own.
 struct Alone {
     monomers: Monomers,
@@ -83,17 +117,16 @@ impl Strand<'_> {
         let mut chains: Vec<Option<QuasiHarmonic>> = vec![None; self.bodies.len()];
         let mut known = Vec::new();
         for sections in self.bonded_sections() {
-            let alone = self.alone(sections.clone())?;
-            let (chain, sampled) = alone.sample(sampling)?;
+            let (links, sampled) = self.sample_run(sections.clone(), sampling)?;
             known.push(sampled);
             let Body::Monomers(first) = &self.bodies[sections.start] else {
                 continue;
             };
             let run = Monomers {
-                count: alone.monomers.count,
+                count: sampled.monomers,
                 ..*first
             };
-            let chain = QuasiHarmonic::new(run, chain.links().to_vec());
+            let chain = QuasiHarmonic::new(run, links);
             let mut lower = 0;
             for i in sections {
                 let count = self.monomers_of(i);
@@ -104,6 +137,70 @@ impl Strand<'_> {
         Ok((chains, known))
     }
 
+    /// The links of a run, sampled unless they are kept.
+    fn sample_run(
+        &self,
+        sections: Range<usize>,
+        sampling: Sampling,
+    ) -> Result<(Vec<Link>, Sampled), SceneProblem> {
+        let monomers = sections.clone().map(|i| self.monomers_of(i)).sum();
+        let pieces = self.pieces(sections);
+        let key = self.key(&pieces, sampling);
+        // Held meanwhile: who else needs this run waits for it.
+        let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+        if !kept.contains_key(&key) {
+            let (chain, sampled) = self.alone(&pieces)?.sample(sampling)?;
+            let found = (chain.links().to_vec(), sampled);
+            let links: usize = kept.values().map(|(links, _)| links.len()).sum();
+            if links + found.0.len() > MOST_KEPT {
+                kept.clear();
+            }
+            kept.insert(key.clone(), found);
+        }
+        let (links, sampled) = &kept[&key];
+        let sampled = Sampled {
+            monomers,
+            ..*sampled
+        };
+        Ok((prolonged(links, monomers - 1), sampled))
+    }
+
+    /// What is sampled for a run.
+    fn pieces(&self, sections: Range<usize>) -> Vec<Piece> {
+        let mut models = self.models[sections.clone()].iter();
+        let is_weighted = models.all(|m| m.parameters().anchors == Anchors::Cubature);
+        let first_of = |i: usize| match &self.bodies[i] {
+            Body::Monomers(monomers) => monomers.first_index,
+            Body::Rod(_) => 0,
+        };
+        let from = if is_weighted {
+            first_of(sections.start)
+        } else {
+            0
+        };
+        let most = if is_weighted && sections.len() == 1 {
+            LONGEST
+        } else {
+            usize::MAX
+        };
+        let piece = |section: usize| Piece {
+            section,
+            first: first_of(section) - from,
+            count: self.monomers_of(section).min(most),
+        };
+        sections.map(piece).collect()
+    }
+
+    /// All that the links of a run depend on.
+    fn key(&self, pieces: &[Piece], sampling: Sampling) -> String {
+        let of_piece = |piece: &Piece| {
+            let parameters = self.models[piece.section].parameters();
+            (piece.first, piece.count, parameters)
+        };
+        let run: Vec<_> = pieces.iter().map(of_piece).collect();
+        format!("{sampling:?} {run:?}")
+    }
+
     fn monomers_of(&self, i: usize) -> usize {
         match &self.bodies[i] {
             Body::Monomers(monomers) => monomers.count,
@@ -111,22 +208,18 @@ impl Strand<'_> {
         }
     }
 
-    /// The bonds of the monomers of these sections.
-    fn alone(&self, sections: Range<usize>) -> Result<Alone, SceneProblem> {
+    /// The bonds of the monomers of these pieces, which are one run.
+    fn alone(&self, pieces: &[Piece]) -> Result<Alone, SceneProblem> {
         let refused = |error: &dyn std::error::Error| {
             SceneProblem::new("filament.sections", "", error.to_string())
         };
         let mut state = State::default();
         let mut own = Vec::new();
-        for i in sections.clone() {
-            if let Body::Monomers(Monomers {
-                first_index, count, ..
-            }) = self.bodies[i]
-            {
-                let built =
-                    self.models[i].build(&mut state, &Placement::default(), first_index, count);
-                own.push((i, built.map_err(|error| refused(&error))?));
-            }
+        for piece in pieces {
+            let placement = Placement::default();
+            let built =
+                self.models[piece.section].build(&mut state, &placement, piece.first, piece.count);
+            own.push((piece.section, built.map_err(|error| refused(&error))?));
         }
         let mut bonds: Vec<Box<dyn Interaction>> = Vec::new();
         for (i, monomers) in &own {
@@ -228,4 +321,91 @@ impl Alone {
 )]
 fn times(whole: f64, part: f64) -> u64 {
     (whole / part).ceil() as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+    use crate::assembly::build::Stock;
+
+    const SAMPLING: Sampling = Sampling {
+        thermal_energy: 4.11,
+        duration_ns: 2.0,
+    };
+
+    /// What is asked of the monomers of a scene with these sections.
+    fn of<T>(sections: &str, anchors: &str, ask: impl Fn(&Strand<'_>) -> T) -> T {
+        let text = format!(
+            "Scene(
+                filament: Filament(
+                    sections: [{sections}],
+                    monomers: Monomers(anchors: {anchors}),
+                    rod: (law: Constant),
+                ),
+                task: Dynamics(duration_ns: 1.0),
+            )"
+        );
+        let scene = Scene::from_ron(&text).unwrap();
+        let mut strand = Strand::new((0, &scene.filament), [None; 2], 0, true).unwrap();
+        strand.push_bodies(&mut Stock::default()).unwrap();
+        ask(&strand)
+    }
+
+    const BEFORE: &str = "Rod(from_nm: 0.0, to_nm: 35.6), Ellipsoids(from_nm: 35.6, to_nm: 71.2),
+        Rod(from_nm: 71.2, to_nm: 142.4)";
+    const BEHIND: &str = "Rod(from_nm: 0.0, to_nm: 71.2), Ellipsoids(from_nm: 71.2, to_nm: 106.8),
+        Rod(from_nm: 106.8, to_nm: 142.4)";
+
+    /// What is kept is what would be found again: to the bit, whichever thread is first.
+    #[test]
+    fn sampling_repeats_to_the_bit() {
+        let found = [(); 2].map(|()| {
+            of(BEHIND, "Cubature", |strand| {
+                let alone = strand.alone(&strand.pieces(1..2)).unwrap();
+                let (chain, sampled) = alone.sample(SAMPLING).unwrap();
+                (chain.links().to_vec(), sampled)
+            })
+        });
+        assert!(found[0] == found[1]);
+        let kept = of(BEHIND, "Cubature", |s| {
+            s.sample_run(1..2, SAMPLING).unwrap()
+        });
+        assert!(kept == found[0]);
+    }
+
+    /// A run is any other of its length where bonds are weighted, and its own where they are drawn.
+    #[test]
+    fn runs_are_known_by_what_bonds_depend_on() {
+        let key = |sections: &str, anchors: &str| {
+            of(sections, anchors, |strand| {
+                assert_eq!(strand.monomers_of(1), 13);
+                strand.key(&strand.pieces(1..2), SAMPLING)
+            })
+        };
+        assert_eq!(key(BEFORE, "Cubature"), key(BEHIND, "Cubature"));
+        assert_ne!(key(BEFORE, "Independent"), key(BEHIND, "Independent"));
+        let longer = Sampling {
+            duration_ns: 3.0,
+            ..SAMPLING
+        };
+        let other = of(BEFORE, "Cubature", |strand| {
+            strand.key(&strand.pieces(1..2), longer)
+        });
+        assert_ne!(other, key(BEFORE, "Cubature"));
+    }
+    /// A long run has the ends of a shorter one and repeats its middle, where each link follows one like that which it followed there.
+    #[test]
+    fn long_runs_repeat_the_middle_of_shorter_ones() {
+        let long = "Ellipsoids(from_nm: 0.0, to_nm: 300.0)";
+        let (links, sampled) = of(long, "Cubature", |s| s.sample_run(0..1, SAMPLING).unwrap());
+        let short = "Ellipsoids(from_nm: 0.0, to_nm: 136.9)";
+        let (few, _) = of(short, "Cubature", |s| s.sample_run(0..1, SAMPLING).unwrap());
+        assert_eq!((few.len(), links.len()), (51, sampled.monomers - 1));
+        assert!(links.len() > 100);
+        assert!(links[..38] == few[..38] && links[38..63] == few[13..38]);
+        assert!(links[links.len() - 13..] == few[38..]);
+        let drawn = of(long, "Independent", |s| s.pieces(0..1)[0].count);
+        assert_eq!(drawn, sampled.monomers);
+    }
 }
