@@ -147,7 +147,7 @@ fn filament(pulse: Pulse, segment: f64, beyond: Beyond) -> (Assembly, f64) {
     };
     let scene = format!(
         "Scene(
-            filament: Filament(sections: [{sections}], {rest}, rod: RodModel(law: Constant)),
+            filament: Filament(rod: RodModel(law: Constant), sections: [{sections}], {rest}),
             task: Dynamics(duration_ns: {time:?}, record_every_ns: {time:?}),
         )"
     );
