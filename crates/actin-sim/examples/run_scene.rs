@@ -24,7 +24,7 @@ fn main() -> Result<(), SimError> {
     directory.write(&plan, &trajectory, &outcome)?;
     let summary = directory.summary()?;
 
-    // A rod alone, of B1 = 3.9e4 pN nm^2; monomers that are bent this little are softer.
+    // A beam of the published B1 = 3.9e4 pN nm^2; filaments that are bent this little are softer.
     let rod = 0.1 * 160.0_f64.powi(3) / (3.0 * 3.9e4);
     let [moved, ..] = summary.tip_displacement_nm;
     println!(
@@ -35,7 +35,7 @@ fn main() -> Result<(), SimError> {
         "{} monomers, {} segments",
         summary.counts.monomers, summary.counts.segments
     );
-    assert!(moved > rod && moved < 1.2 * rod);
+    assert!(moved > 1.2 * rod && moved < 1.5 * rod);
     std::fs::remove_dir_all(folder).expect("the run has written it");
     Ok(())
 }
