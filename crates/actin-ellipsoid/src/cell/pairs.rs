@@ -11,8 +11,13 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 const OF_PAIR: usize = 2 * PER_MONOMER + STRAINS;
 type Row = SVector<f64, OF_PAIR>;
 type Square = SMatrix<f64, OF_PAIR, OF_PAIR>;
-/// How a bond's vector changes with the coordinates of its pair.
-type Gradients = SMatrix<f64, 3, OF_PAIR>;
+/// What a bond's vector depends on: a displacement of its upper end against the lower, the turns of both monomers, and the
+/// curvature, which is three each. The first is the same for all bonds of a pair.
+const OF_BOND: usize = 12;
+/// How a bond's vector changes with these.
+type Gradients = SMatrix<f64, 3, OF_BOND>;
+/// How these change with the coordinates of the pair.
+type Displaced = SMatrix<f64, OF_BOND, OF_PAIR>;
 
 /// Two neighbours in a cell.
 #[derive(Clone, Debug)]
@@ -105,13 +110,13 @@ impl CellPair {
     ///
     /// With `d` a bond's vector, `r` its length and `G` its derivatives, the energy `k/2 (r - L)^2` has the
     /// gradient `G^T f`, `f = k (1 - L/r) d`, and the second derivatives
-    /// `k (1 - L/r) G^T G + (k L / r^3) (G^T d) (G^T d)^T + f . d''`.
+    /// `k (1 - L/r) G^T G + (k L / r^3) (G^T d) (G^T d)^T + f . d''`. The sums over bonds are taken by what a bond depends on.
     fn derivatives(&self, lower: &Body, upper: &Body, motion: &Motion) -> OfPair {
-        let mut gradient = Row::zeros();
-        let mut hessian = Square::zeros();
+        let mut gradient = SVector::<f64, OF_BOND>::zeros();
+        let mut hessian = SMatrix::<f64, OF_BOND, OF_BOND>::zeros();
         let mut energy = 0.0;
         let mut curved = Curved::default();
-        let mut slopes = motion.slopes();
+        let mut slopes = Gradients::identity();
         let shift = motion.shift();
         let bend = motion.shift_by_curvature();
         for bond in &self.bonds {
@@ -122,27 +127,25 @@ impl CellPair {
                 let of_lower = lower.turn.first[a] * bond.lower;
                 slopes.set_column(3 + a, &-of_lower);
                 let of_upper = motion.rotation.value * (upper.turn.first[a] * bond.upper);
-                slopes.set_column(9 + a, &of_upper);
+                slopes.set_column(6 + a, &of_upper);
                 let of_bend = motion.rotation.first[a] * end * motion.length + bend.column(a);
-                slopes.set_column(12 + a, &of_bend);
+                slopes.set_column(9 + a, &of_bend);
             }
             let relative = bond.stiffness * (1.0 - bond.length / r);
-            let along: Row = slopes.tr_mul(&d);
+            let along = slopes.tr_mul(&d);
             energy += 0.5 * bond.stiffness * (r - bond.length).powi(2);
             gradient += along * relative;
             hessian += slopes.tr_mul(&slopes) * relative;
-            hessian.ger(
-                bond.stiffness * bond.length / (r * r * r),
-                &along,
-                &along,
-                1.0,
-            );
+            let turning = bond.stiffness * bond.length / (r * r * r);
+            hessian.ger(turning, &along, &along, 1.0);
             curved.add(relative * d, bond, end);
         }
+        let displaced = motion.displaced();
+        let mut hessian = displaced.tr_mul(&(hessian * displaced));
         curved.add_to(&mut hessian, lower, upper, motion);
         OfPair {
             energy,
-            gradient,
+            gradient: displaced.tr_mul(&gradient),
             hessian,
         }
     }
@@ -178,16 +181,21 @@ impl Motion {
         Matrix3::from_columns(&[0, 1, 2].map(column))
     }
 
-    /// The derivatives of a bond's vector that are the same for all bonds; the others are zero.
-    fn slopes(&self) -> Gradients {
-        let mut slopes = Gradients::zeros();
-        let mut set = |column: usize, block: Matrix3| {
-            slopes.fixed_view_mut::<3, 3>(0, column).copy_from(&block);
+    /// How what a bond depends on changes with the coordinates of its pair.
+    fn displaced(&self) -> Displaced {
+        let mut displaced = Displaced::zeros();
+        let mut set = |row: usize, column: usize, block: Matrix3| {
+            displaced
+                .fixed_view_mut::<3, 3>(row, column)
+                .copy_from(&block);
         };
-        set(0, -Matrix3::identity());
-        set(6, self.rotation.value);
-        set(15, self.jacobian.value * self.length);
-        slopes
+        set(0, 0, -Matrix3::identity());
+        set(0, 6, self.rotation.value);
+        set(0, 15, self.jacobian.value * self.length);
+        for (row, column) in [(3, 3), (6, 9), (9, 12)] {
+            set(row, column, Matrix3::identity());
+        }
+        displaced
     }
 }
 

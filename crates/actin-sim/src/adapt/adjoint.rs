@@ -203,6 +203,8 @@ pub(super) struct Adjoint {
     step: f64,
     sign: f64,
     is_energy: bool,
+    /// Along which the displacement of the tip is wanted, if it is.
+    tip: Option<Vector3>,
 }
 
 impl Adjoint {
@@ -244,6 +246,10 @@ impl Adjoint {
             step,
             sign: if is_clamp { -1.0 } else { 1.0 },
             is_energy: matches!(goal, Goal::Energy),
+            tip: match goal {
+                Goal::Tip(direction) => Some(direction),
+                _ => None,
+            },
         })
     }
 
@@ -263,6 +269,12 @@ impl Adjoint {
     pub(super) fn change(&self, s_nm: f64, defect: &SixVector, stored: f64) -> f64 {
         let by_loads = defect.dot(&self.weight(s_nm));
         by_loads + if self.is_energy { stored } else { 0.0 }
+    }
+
+    /// By how much more a number that is the displacement of the tip at `end` is of a place beside it, at rest.
+    pub(super) fn at_rest(&self, end: End, arm: Vector3) -> f64 {
+        let wanted = self.tip.filter(|_| end == End::End);
+        wanted.map_or(0.0, |direction| direction.dot(&arm))
     }
 }
 

@@ -1,7 +1,10 @@
 //! The sections that a wanted accuracy needs.
 
+use super::cells::Cells;
 use super::setting::{Lengths, Setting};
-use super::{Chosen, ErrorEstimate, Located, Tried, at_rest, check, equilibrium, finer, located};
+use super::{
+    Chosen, ErrorEstimate, Located, MISSED, Tried, at_rest, check, equilibrium, finer, located,
+};
 use crate::scene::{Adaptive, Scene, SceneProblem, Task};
 use std::time::Instant;
 
@@ -9,6 +12,8 @@ use std::time::Instant;
 const MOST_TRIALS: usize = 6;
 /// By what share of each of its parts an estimate may be off: parts that cancel are no accuracy.
 pub(super) const DOUBT: f64 = 0.2;
+/// Share of the wanted error that the part of the law may miss.
+const MISSED_OF_WANTED: f64 = 0.01;
 /// A trial that leaves more than this share of the error before it has not helped.
 const HELPS: f64 = 0.8;
 
@@ -33,6 +38,7 @@ pub fn choose(scene: &Scene, adaptive: &Adaptive) -> Result<(Scene, Chosen), Sce
         scene,
         adaptive,
         lengths: Lengths::of(scene, adaptive.length_nm)?,
+        cells: None,
         tried: Vec::new(),
         best: None,
         next: Vec::new(),
@@ -63,6 +69,8 @@ struct Search<'a> {
     scene: &'a Scene,
     adaptive: &'a Adaptive,
     lengths: Lengths,
+    /// Cells that are known, of a filament that is judged.
+    cells: Option<Cells>,
     tried: Vec<Tried>,
     /// The least bound of an error so far, as a share of the value, and what has it.
     best: Option<(f64, Setting, ErrorEstimate)>,
@@ -94,7 +102,14 @@ impl Search<'_> {
     /// Solves and judges one resolution.
     fn judge(&mut self, setting: &Setting) -> Result<Located, SceneProblem> {
         let (assembly, state) = equilibrium(&setting.apply(self.scene, self.lengths))?;
-        let found = located(&assembly, &state, self.adaptive.want.quantity())?;
+        let missed = MISSED.max(MISSED_OF_WANTED * self.adaptive.want.error());
+        let quantity = self.adaptive.want.quantity();
+        let cells = match self.cells.take() {
+            Some(cells) => cells,
+            None => Cells::of(&self.scene.filament.monomers)?,
+        };
+        let found = located((&assembly, &state), quantity, (&cells, missed))?;
+        self.cells = Some(cells);
         let relative = found.total.relative();
         if !relative.is_finite() {
             let rule = format!(

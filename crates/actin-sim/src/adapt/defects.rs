@@ -1,7 +1,8 @@
 //! What a stretch of filament does otherwise than monomers under the same loads would: law, junctions.
 
 use super::adjoint::Adjoint;
-use super::ideal::{EndlessFilament, Ideal, PERIOD};
+use super::cells::Cells;
+use super::ideal::{Ideal, PERIOD};
 use super::sampling::{Defect, Segments};
 use super::section_loads::{SectionLoads, Segment, linear, rotational, segments, six};
 use crate::assembly::{BodyKind, Rod};
@@ -28,13 +29,16 @@ pub(super) struct Look<'a> {
     pub state: &'a State,
     pub loads: &'a SectionLoads,
     pub adjoint: &'a Adjoint,
-    pub mean: &'a EndlessFilament,
+    pub cells: &'a Cells,
+    /// Share of the number that the law's part may miss.
+    pub missed: f64,
 }
 
 impl Look<'_> {
     /// What the law of a rod, or of several that follow one another, makes of each segment, against monomers under the same couple and force.
     ///
-    /// Cells are relaxed where most of the wanted number comes from. None where one finds no minimum.
+    /// Cells are relaxed where most of the wanted number comes from, and compared with the law far from ends. None where one
+    /// finds no minimum.
     pub(super) fn law(&self, span: &SectionSpan, rod: &Rod) -> Option<Vec<Contribution>> {
         let all = segments(self.assembly, self.state, span);
         let lengths = Segments {
@@ -42,20 +46,34 @@ impl Look<'_> {
             weights: all.iter().map(|segment| self.weight(segment)).collect(),
             shares: all.iter().map(|segment| self.share(segment)).collect(),
         };
-        let errors = lengths.errors(self.adjoint.value, |i, near| {
+        let errors = lengths.errors((self.adjoint.value, self.missed), |i| {
             let segment = &all[i];
             let load = self.loads.at(segment.s_nm);
-            let cell = self.mean.under(&load, near)?;
-            let strain = cell.strain - segment.strain;
-            let more = cell.energy - energy_of(rod, &segment.strain);
-            Some((strain.push(more - load.dot(&strain)), cell))
+            let cell = self.cells.under(&load)?;
+            let strain = cell.strain - segment.far;
+            let more = cell.energy - energy_of(rod, &segment.far);
+            Some(strain.push(more - load.dot(&strain)))
         })?;
-        let part = |(segment, error): (&Segment, f64)| {
-            let half = 0.5 * segment.length_nm;
-            let span_nm = [segment.s_nm - half, segment.s_nm + half];
-            Contribution { span_nm, error }
+        let part = |(segment, error): (&Segment, f64)| Contribution {
+            span_nm: segment.span_nm(),
+            error,
         };
         Some(all.iter().zip(errors).map(part).collect())
+    }
+
+    /// What the ends of a rod do to its segments beside them, taken from the number: what monomers do there is told in full.
+    pub(super) fn ends_of_rod(&self, span: &SectionSpan, rod: &Rod) -> Vec<Contribution> {
+        let all = segments(self.assembly, self.state, span);
+        let beside = all.iter().filter_map(|segment| {
+            let strain = segment.far - segment.strain;
+            let more = energy_of(rod, &segment.far) - segment.stored?;
+            let defect = strain.push(more - self.loads.at(segment.s_nm).dot(&strain));
+            Some(Contribution {
+                span_nm: segment.span_nm(),
+                error: self.weight(segment).dot(&defect),
+            })
+        });
+        beside.collect()
     }
 
     /// What a defect of a segment makes of the number.
@@ -95,12 +113,7 @@ impl Look<'_> {
         let along = (0.5 * (rod.to_nm - rod.from_nm)).min(INTO_ROD_NM);
         let to = self.node_near(rod, joint + out * along);
         let before = (from - out * 6.0 * rise).clamp(monomers.from_nm, monomers.to_nm);
-        let ideal = Ideal::along(
-            self.mean,
-            |s| self.loads.at(s),
-            ([before, to], ACROSS),
-            None,
-        )?;
+        let ideal = Ideal::along(self.cells, |s| self.loads.at(s), ([before, to], ACROSS))?;
         let base = self.loads.cross_section(from);
         let at = |s_nm: f64| ideal.carry(base, [from, s_nm]);
         let (turn, shift) = mean_motion((self.assembly, self.state), monomers, from, at);
@@ -117,15 +130,10 @@ impl Look<'_> {
         let defect = six(body * (all.0 - law.0), body * (all.1 - law.1)) * out;
         Some(Contribution {
             span_nm: [from.min(to), from.max(to)],
-            error: self.of_defect(&defect, to),
+            error: self
+                .adjoint
+                .change(to, &defect, ideal.stored(&defect, &self.loads.at(to))),
         })
-    }
-
-    /// What a turn and displacement in all (body axes) at a cross-section makes of the number. A wall or a
-    /// junction stores as a linear law does: half of what loads do along them.
-    pub(super) fn of_defect(&self, defect: &SixVector, s_nm: f64) -> f64 {
-        let stored = -0.5 * defect.dot(&self.loads.at(s_nm));
-        self.adjoint.change(s_nm, defect, stored)
     }
 
     fn node_near(&self, rod: &SectionSpan, s_nm: f64) -> f64 {

@@ -2,8 +2,8 @@
 //!
 //! [`estimate`] is what to call first: the error of one number of an equilibrium against the same filament with
 //! every monomer resolved, which is not computed. What the laws of rods, junctions and walls do otherwise than
-//! monomers under the same loads is found from periods of monomers (`ideal.rs`, `defects.rs`) and two short
-//! filaments at each wall (`wall.rs`); what that does to the number follows from one linear solve (`adjoint.rs`). The
+//! monomers under the same loads is found from periods of monomers (`ideal.rs`, `cells.rs`, `defects.rs`) and a short
+//! filament at each end (`wall.rs`, `short.rs`); what that does to the number follows from one linear solve (`adjoint.rs`). The
 //! part of the segments' lengths comes from halving them (`halving.rs`). [`choose`] resolves as monomers what the
 //! number needs, and grades the lengths of segments (`grade.rs`).
 //!
@@ -12,6 +12,7 @@
 //! S. Prudhomme, J. Comput. Phys. 182 (2002) 496.
 
 mod adjoint;
+mod cells;
 mod choose;
 mod chosen;
 mod defects;
@@ -25,6 +26,7 @@ mod sampling;
 mod scatter;
 mod section_loads;
 mod setting;
+mod short;
 mod stretch;
 mod wall;
 
@@ -43,12 +45,15 @@ use crate::scene::{Equilibrium, Hold, Load, Quantity, Scene, SceneProblem, Secti
 use crate::{Assembly, End, Plan, RunError};
 use actin_mechanics::State;
 use adjoint::Adjoint;
+use cells::Cells;
 use defects::{Contribution, Look};
 pub(crate) use ideal::{EndlessFilament, PERIOD};
 use runs::{Run, runs};
 use section_loads::SectionLoads;
 use serde::{Deserialize, Serialize};
 
+/// Share of a number that the part of the law may miss in an estimate.
+const MISSED: f64 = 5e-5;
 /// Rises below which the ends of a filament are not told apart.
 const SHORTEST_RISES: f64 = 16.0;
 
@@ -60,8 +65,9 @@ fn is_too_short(length_nm: f64, rise_nm: f64) -> bool {
 ///
 /// To first order in what rods and junctions do wrong. Monomers are those of the mean filament or, where the scene
 /// draws bonds for each interface, the mean over drawings, about which filaments scatter. Left out are how the force of
-/// a linker or a load enters the monomers about its place (a site follows the nearest monomer, which gives way and turns by
-/// itself, or a segment, which does not), and errors of the second order: those of laws without twist-stretch coupling
+/// a linker or of a load that is not at an end enters the monomers about its place (a site follows the nearest monomer, which gives way and turns by
+/// itself, or a segment, which does not), strains that change over the length of a few bonds, as those of under-twisted filaments
+/// that buckle, and errors of the second order: those of laws without twist-stretch coupling
 /// (`Constant`) may be as large as the first.
 /// A rod that ends between two places of the lattice is longer or shorter than monomers can be; that is no part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -72,13 +78,14 @@ pub struct ErrorEstimate {
     pub value: f64,
     /// What is to be added to it: the sum of the parts.
     pub error: f64,
-    /// From the laws of rods.
+    /// From the laws of rods, with what rods do beside their ends taken from the number.
     pub law: f64,
     /// From the lengths of segments.
     pub segments: f64,
     /// From junctions.
     pub junctions: f64,
-    /// From walls that hold rods.
+    /// From what monomers do at walls that hold rods, and at tips that bear a force. It may cancel with what rods do there;
+    /// each is doubted for itself.
     pub walls: f64,
 }
 
@@ -183,7 +190,9 @@ pub fn estimate(
     state: &State,
     quantity: Quantity,
 ) -> Result<ErrorEstimate, SceneProblem> {
-    located(assembly, state, quantity).map(|located| located.total)
+    let cells = Cells::of(assembly.monomers_of(0))?;
+    let located = located((assembly, state), quantity, (&cells, MISSED));
+    located.map(|located| located.total)
 }
 
 /// The number itself in some state, in its [unit](Quantity::unit).
@@ -191,10 +200,11 @@ pub fn value(assembly: &Assembly, state: &State, quantity: Quantity) -> f64 {
     Adjoint::value_of(quantity, assembly, state)
 }
 
+/// The same with where it comes from; with cells that are known, and the share of the number that the law's part may miss.
 fn located(
-    assembly: &Assembly,
-    state: &State,
+    (assembly, state): (&Assembly, &State),
     quantity: Quantity,
+    (cells, missed): (&Cells, f64),
 ) -> Result<Located, SceneProblem> {
     ensure_known(assembly, quantity)?;
     let look = Look {
@@ -202,21 +212,21 @@ fn located(
         state,
         loads: &SectionLoads::of(assembly, state),
         adjoint: &Adjoint::of(quantity, assembly, state)?,
-        mean: &EndlessFilament::of(assembly.monomers_of(0))?,
+        cells,
+        missed,
     };
     let runs = runs(assembly);
     let mut parts = Vec::new();
-    for run in &runs {
-        if let Some(rod) = run.rod {
-            parts.extend(look.law(&run.span, rod).ok_or_else(wall::no_cell)?);
-        }
+    for (span, rod) in runs.iter().filter_map(|run| Some((&run.span, run.rod?))) {
+        parts.extend(look.law(span, rod).ok_or_else(wall::no_cell)?);
+        parts.extend(look.ends_of_rod(span, rod));
     }
     parts.extend(look.drawn(&runs)?);
     let law = sum(&parts);
     let junctions = sum(&look.junctions(&runs)?);
-    let at_walls = look.walls(&runs)?;
-    let walls = sum(&at_walls);
-    parts.extend(at_walls);
+    let at_ends = look.ends(&runs)?;
+    let walls = sum(&at_ends);
+    parts.extend(at_ends);
     let value = look.adjoint.value;
     let segments = halving::of_all((assembly, state), quantity, value)?;
     let total = ErrorEstimate {
@@ -253,16 +263,6 @@ impl Look<'_> {
             self.junction(monomers, rod).ok_or_else(wall::no_cell)
         });
         pairs.collect()
-    }
-
-    fn walls(&self, runs: &[Run]) -> Result<Vec<Contribution>, SceneProblem> {
-        let ends = [(End::Start, runs.first()), (End::End, runs.last())];
-        let walls = ends.into_iter().filter_map(|(end, run)| {
-            self.assembly.clamp_at(0, end)?;
-            let rod = run.filter(|run| run.rod.is_some())?;
-            Some(self.wall(end, &rod.span))
-        });
-        walls.collect()
     }
 }
 

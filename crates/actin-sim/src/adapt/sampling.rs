@@ -9,18 +9,17 @@ const FIRST: usize = 5;
 const MOST: usize = 16;
 /// A rod of more segments is a long one. Along a shorter one loads change so much that each look needs the one beside it.
 const SHORT: usize = 2 * MOST;
-/// What may be missed between them: share of the error, or of the number.
-const MISSED: (f64, f64) = (0.01, 5e-5);
+/// What may be missed between them: share of the error.
+const MISSED: f64 = 0.01;
 
-/// A strain in body axes, then an energy per length.
+/// A strain in body axes, then an energy per length: of a stretch, or of one beyond another.
 pub(super) type Defect = SVector<f64, 7>;
 
-/// A segment that has been looked at, with what helps to look at others.
-pub(super) struct Known<C> {
+/// A segment that has been looked at.
+pub(super) struct Known {
     index: usize,
     s_nm: f64,
     defect: Defect,
-    cell: C,
 }
 
 /// The segments of a rod in order.
@@ -34,16 +33,16 @@ pub(super) struct Segments {
 }
 
 impl Segments {
-    /// What each makes of the number, whose value is given: its defect is looked at with that of the nearest known
-    /// one at hand, or is linear between two known ones.
+    /// What each makes of the number, whose value is given with the share of it that may be missed: its defect is looked at, or is
+    /// linear between two known ones.
     ///
     /// Both ends are known, and segments between which about the same shares lie. Then the gap is halved that misses
     /// most, by what a parabola through three known ones differs from the line between two, until all gaps together
     /// miss little. None where a look fails.
-    pub(super) fn errors<C>(
+    pub(super) fn errors(
         &self,
-        value: f64,
-        mut look: impl FnMut(usize, Option<&C>) -> Option<(Defect, C)>,
+        (value, missed): (f64, f64),
+        mut look: impl FnMut(usize) -> Option<Defect>,
     ) -> Option<Vec<f64>> {
         let mut known = Vec::new();
         let is_short = self.s_nm.len() <= SHORT;
@@ -55,45 +54,41 @@ impl Segments {
                 .map(|i| self.error(&known, i))
                 .collect();
             let error = errors.iter().sum::<f64>();
-            let missed: Vec<f64> = (1..known.len()).map(|k| self.missed(&known, k)).collect();
-            let allowed = (MISSED.0 * error.abs()).max(MISSED.1 * value.abs());
-            if known.len() >= MOST || missed.iter().sum::<f64>() <= allowed {
+            let gaps: Vec<f64> = (1..known.len()).map(|k| self.missed(&known, k)).collect();
+            let allowed = (MISSED * error.abs()).max(missed * value.abs());
+            if known.len() >= MOST || gaps.iter().sum::<f64>() <= allowed {
                 return Some(errors);
             }
-            let most = (0..missed.len()).max_by(|&a, &b| missed[a].total_cmp(&missed[b]))?;
+            let most = (0..gaps.len()).max_by(|&a, &b| gaps[a].total_cmp(&gaps[b]))?;
             let i = self.middle(known[most].index, known[most + 1].index);
             self.add(i, &mut known, &mut look)?;
         }
     }
 
     /// Looks at one more.
-    fn add<C>(
+    fn add(
         &self,
         index: usize,
-        known: &mut Vec<Known<C>>,
-        look: &mut impl FnMut(usize, Option<&C>) -> Option<(Defect, C)>,
+        known: &mut Vec<Known>,
+        look: &mut impl FnMut(usize) -> Option<Defect>,
     ) -> Option<()> {
-        let s_nm = self.s_nm[index];
-        let far = |one: &&Known<C>| (one.s_nm - s_nm).abs();
-        let nearest = known.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
-        let (defect, cell) = look(index, nearest.map(|one| &one.cell))?;
+        let defect = look(index)?;
         let place = known.partition_point(|one| one.index < index);
         let one = Known {
             index,
-            s_nm,
+            s_nm: self.s_nm[index],
             defect,
-            cell,
         };
         known.insert(place, one);
         Some(())
     }
 
-    fn error<C>(&self, known: &[Known<C>], index: usize) -> f64 {
+    fn error(&self, known: &[Known], index: usize) -> f64 {
         self.weights[index].dot(&interpolated(known, self.s_nm[index]))
     }
 
     /// What the line between known segments `k - 1` and `k` may miss.
-    fn missed<C>(&self, known: &[Known<C>], k: usize) -> f64 {
+    fn missed(&self, known: &[Known], k: usize) -> f64 {
         let (a, b) = (&known[k - 1], &known[k]);
         let by = |bend: Defect| -> f64 {
             let inside = a.index + 1..b.index;
@@ -124,8 +119,8 @@ impl Segments {
 }
 
 /// The second divided difference through three known ones.
-fn bend<C>([a, b, c]: [&Known<C>; 3]) -> Defect {
-    let slope = |a: &Known<C>, b: &Known<C>| (b.defect - a.defect) / (b.s_nm - a.s_nm);
+fn bend([a, b, c]: [&Known; 3]) -> Defect {
+    let slope = |a: &Known, b: &Known| (b.defect - a.defect) / (b.s_nm - a.s_nm);
     (slope(b, c) - slope(a, b)) / (c.s_nm - a.s_nm)
 }
 
@@ -156,7 +151,7 @@ fn spread(shares: &[f64], n: usize) -> Vec<usize> {
 }
 
 /// Linear between the two known values about a place.
-fn interpolated<C>(known: &[Known<C>], s_nm: f64) -> Defect {
+fn interpolated(known: &[Known], s_nm: f64) -> Defect {
     if known.len() == 1 {
         return known[0].defect;
     }
@@ -199,9 +194,9 @@ mod tests {
     /// The sum of errors for a defect of one component, and what was looked at.
     fn looked_at(defect: impl Fn(f64) -> f64) -> (f64, Vec<usize>) {
         let (segments, mut places) = (segments(), Vec::new());
-        let errors = segments.errors(0.0, |i, _: Option<&()>| {
+        let errors = segments.errors((0.0, 0.0), |i| {
             places.push(i);
-            Some((Defect::ith(0, defect(segments.s_nm[i])), ()))
+            Some(Defect::ith(0, defect(segments.s_nm[i])))
         });
         (errors.unwrap().iter().sum(), places)
     }
@@ -216,7 +211,7 @@ mod tests {
         let steep = |s_nm: f64| (-s_nm / 10.0).exp();
         let (sum, places) = looked_at(steep);
         let all: f64 = segments().s_nm.into_iter().map(steep).sum();
-        assert!((sum - all).abs() < MISSED.0 * all, "{sum} {all}");
+        assert!((sum - all).abs() < MISSED * all, "{sum} {all}");
         assert!(places.len() <= MOST, "{places:?}");
         let near = places[FIRST..].iter().filter(|&&i| i < 50).count();
         assert!(2 * near > places.len() - FIRST, "{places:?}");

@@ -1,6 +1,7 @@
 //! By how much filaments differ whose bonds are drawn: the error that no resolution takes away.
 
 use super::adjoint::Adjoint;
+use super::cells::Cells;
 use super::defects::{Contribution, Look};
 use super::ensure_known;
 use super::ideal::{EndlessFilament, PERIOD, drawn_monomers};
@@ -51,7 +52,7 @@ pub fn scatter(
     let length = assembly.length_nm() / f64::from(PLACES);
     let adjoint = Adjoint::of(quantity, assembly, state)?;
     let loads = SectionLoads::of(assembly, state);
-    let mean = EndlessFilament::of(written)?;
+    let mean = Cells::of(written)?;
     let changes = (0..PLACES).map(|place| changes_at(place, assembly, (&loads, &adjoint, &mean)));
     let changes: Vec<Vec<f64>> = changes.collect::<Result<_, _>>()?;
     let variance = if is_shared {
@@ -75,13 +76,13 @@ pub fn scatter(
 fn changes_at(
     place: u32,
     assembly: &Assembly,
-    (loads, adjoint, mean): (&SectionLoads, &Adjoint, &EndlessFilament),
+    (loads, adjoint, mean): (&SectionLoads, &Adjoint, &Cells),
 ) -> Result<Vec<f64>, SceneProblem> {
     let monomers = drawn_monomers(assembly.monomers_of(0));
     let length = assembly.length_nm() / f64::from(PLACES);
     let s_nm = length * (f64::from(place) + 0.5);
     let load = loads.at(s_nm);
-    let usual = mean.under(&load, None).ok_or_else(no_cell)?;
+    let usual = mean.under(&load).ok_or_else(no_cell)?;
     let change = |k: u32| {
         // Others at each place, where they are independent: their number counts.
         let is_shared = monomers.anchors == Anchors::Identical;
@@ -112,7 +113,7 @@ impl Look<'_> {
             if of_rods <= 0.0 {
                 return Ok(None);
             }
-            let changes = changes_at(place, self.assembly, (self.loads, self.adjoint, self.mean))?;
+            let changes = changes_at(place, self.assembly, (self.loads, self.adjoint, self.cells))?;
             let error = moments(&changes).0 * of_rods / length;
             Ok(Some(Contribution { span_nm, error }))
         };

@@ -4,6 +4,7 @@ use crate::assembly::{BodyKind, Part};
 use crate::shape::Ribbon;
 use crate::shape::axis::{Axis, CrossSection};
 use crate::{Assembly, SectionSpan};
+use actin_cosserat::FarFromEnds;
 use actin_ellipsoid::SixVector;
 use actin_mechanics::{Interaction, Loads, State, Vector3};
 use std::ops::Range;
@@ -107,6 +108,18 @@ pub(super) struct Segment {
     pub length_nm: f64,
     /// Curvature (mean of those at its nodes) and shear strain, body axes.
     pub strain: SixVector,
+    /// The strain that it would have under its loads far from the ends of its rod.
+    pub far: SixVector,
+    /// Its energy per length (pN), where an end makes it another than that of the law at its strain.
+    pub stored: Option<f64>,
+}
+
+impl Segment {
+    /// Where it begins and ends (nm).
+    pub(super) fn span_nm(&self) -> [f64; 2] {
+        let half = 0.5 * self.length_nm;
+        [self.s_nm - half, self.s_nm + half]
+    }
 }
 
 /// The segments of a section that is a rod.
@@ -127,11 +140,25 @@ pub(super) fn segments(assembly: &Assembly, state: &State, rod: &SectionSpan) ->
             let edge = state.points.position.get(b) - state.points.position.get(a);
             let along = state.frames.orientation.get(frame).inverse() * edge;
             let shear = along / (s_b - s_a) - Vector3::z();
+            let strain = six(0.5 * (curvature(s_a) + curvature(s_b)), shear);
+            let far = far_from_ends(assembly, state, frame);
             Segment {
                 s_nm: 0.5 * (s_a + s_b),
                 length_nm: s_b - s_a,
-                strain: six(0.5 * (curvature(s_a) + curvature(s_b)), shear),
+                strain,
+                far: far.map_or(strain, |far| six(far.curvature, far.strain)),
+                stored: far.map(|far| far.energy),
             }
         })
         .collect()
+}
+
+/// The segment of a rod that has a frame as it would be far from ends, if ends change it.
+fn far_from_ends(assembly: &Assembly, state: &State, frame: usize) -> Option<FarFromEnds> {
+    let mut rods = assembly.rods.iter();
+    let rod = rods.find(|rod| rod.layout.frames().contains(&frame))?;
+    let curvature = &rod.twist_watch.as_ref()?.curvature;
+    let (material, law) = &rod.law;
+    let k = frame - rod.layout.frames().start;
+    curvature.far_from_ends((&rod.layout, material, law), k, state)
 }

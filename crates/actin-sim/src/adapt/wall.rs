@@ -1,227 +1,204 @@
-//! What a wall does to monomers and not to a rod, from two short filaments that are solved for it.
+//! What an end of a filament does to monomers and not to a rod, from a short filament that is solved for it: of an end that is
+//! held at a wall, and of a free one that bears a force.
 
-use super::defects::{Contribution, Look, mean_motion, of_law};
-use super::ideal::{Ideal, mean_monomers};
-use super::section_loads::{SectionLoads, elastic_energy, linear, six};
-use crate::advice::segments_of;
-use crate::scene::{
-    Clamp, Equilibrium, Filament, Hold, Load, Scene, SceneProblem, Section, Slides, Task,
-};
-use crate::{Assembly, End, SectionSpan};
+use super::defects::{Contribution, Look, mean_motion};
+use super::ideal::{Ideal, PERIOD};
+use super::runs::Run;
+use super::sampling::Defect;
+use super::section_loads::{SectionLoads, elastic_energy, six};
+use super::short::Short;
+use crate::scene::{Load, SceneProblem};
+use crate::{End, SectionSpan};
 use actin_ellipsoid::SixVector;
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 use std::f64::consts::FRAC_PI_2;
 
 /// Length of the short filaments (rises).
 const LENGTH_RISES: f64 = 24.0;
-/// Where they are compared (rises from the wall): the mean of 13 monomers there.
+/// Where they are compared (rises from the wall or tip): the mean of 13 monomers there. What a wall does fades out over
+/// 5.5 nm, so that some per cent of its twist are missed; further away bent monomers differ from uniformly strained ones by more.
 const COMPARED_RISES: f64 = 10.0;
-/// Longest segments of the short rod (nm): what longer ones do is found by halving them.
-const SEGMENT_NM: f64 = 2.5;
 /// Cells on the way there.
-const SAMPLES: u32 = 4;
+const SAMPLES: u32 = 6;
+/// How far beside a tip its force is in the filament (nm).
+const BESIDE_NM: f64 = 1e-3;
+/// Azimuths that monomers are rolled to where they are free to roll.
+const AZIMUTHS: u32 = 4;
 /// A filament whose energy changes by less when it is rolled through a right angle is free to roll: pN nm, and share of
 /// its elastic energy.
 const FREE: (f64, f64) = (0.2, 0.01);
 
-/// How far they are solved.
-const TASK: Equilibrium = Equilibrium {
-    force_pn: 1e-6,
-    torque_pn_nm: 1e-6,
-    iterations: 400,
-    largest_step: 1.0,
-    smallest_step: 1.0,
-    leave_saddles: 0,
-    accept_jumps: false,
-    lowest_eigenvalue: false,
-    states: 0,
-    error_of: None,
-};
-
-/// One clamped end of a rod.
-#[derive(Clone, Copy)]
-struct Wall {
-    end: End,
-    /// Its arc length (nm).
-    s_nm: f64,
-    /// Arc length that the short filaments begin at (nm).
-    from_nm: f64,
-    length_nm: f64,
-    /// How far from the wall they are compared (nm).
-    compared_nm: f64,
-    /// 1 at the start, -1 at the end.
-    out: f64,
-}
-
-impl Wall {
-    /// Arc length of the wall in the short filaments.
-    fn own(&self) -> f64 {
-        if self.end == End::Start {
-            0.0
-        } else {
-            self.length_nm
-        }
-    }
-
-    fn far(&self) -> End {
-        if self.end == End::Start {
-            End::End
-        } else {
-            End::Start
-        }
-    }
-}
-
 impl Look<'_> {
-    /// What the wall at one end of the filament makes of the monomers that its rod stands for.
+    /// What the ends of the filament make of the monomers that its rods stand for.
     ///
-    /// Monomers and rod, 24 rises each, are clamped as the filament is; the far end is turned as its cross-section
-    /// there and slides under the force where they are compared. What monomers at about ten rises are further than the rod, but for its law
-    /// under the loads of the monomers, is the wall's.
+    /// At a wall monomers, 24 rises, are clamped as the filament is, under its force where they are compared. By how much
+    /// those about ten rises are further than an endless filament would be is the wall's. At a tip it is the tip that is further,
+    /// and its force acts beside the axis, on two monomers.
     ///
-    /// Where the filament is free to roll about its axis it settles where walls pull it least to either side: the
-    /// mean over four azimuths of the monomers is taken.
-    pub(super) fn wall(&self, end: End, rod: &SectionSpan) -> Result<Contribution, SceneProblem> {
+    /// Where the filament is free to roll about its axis the mean over four azimuths is taken. Which it rolls to is not known: what
+    /// walls store is least where it does, but what bent monomers do otherwise than uniformly strained ones is left out.
+    pub(super) fn ends(&self, runs: &[Run]) -> Result<Vec<Contribution>, SceneProblem> {
+        let ends = [(End::Start, runs.first()), (End::End, runs.last())];
+        let rods = ends.map(|(end, run)| (end, run.filter(|run| run.rod.is_some())));
+        let rods = rods
+            .iter()
+            .filter_map(|(end, run)| Some((*end, &run.as_ref()?.span)));
+        let (mut walls, mut tips) = (Vec::new(), Vec::new());
+        for (end, rod) in rods {
+            if self.assembly.clamp_at(0, end).is_some() {
+                walls.push(self.wall(end, rod));
+            } else if self.bears_force(end) {
+                tips.push(self.tip(end, rod));
+            }
+        }
+        let mut all = Vec::new();
+        for wall in walls {
+            let defect = self.of_wall(&wall)?;
+            let [held, compared, _] = wall.places().map(|place| wall.from_nm + place);
+            all.push(self.contribution([held, compared], compared, &defect));
+        }
+        for tip in tips {
+            let [_, compared, far] = tip.places();
+            let (defect, arms) = self.of_tip(&tip)?;
+            let [from, to] = [compared, far].map(|place| tip.from_nm + place);
+            // All that a tip bears is on this side of it.
+            let at = to - tip.out() * BESIDE_NM;
+            let mut part = self.contribution([from, to], at, &defect);
+            part.error += self.by_arm((tip.other(), at), arms);
+            all.push(part);
+        }
+        Ok(all)
+    }
+
+    /// What it makes of the number that the force on a tip acts beside the axis: by an arm in body axes, and in lab axes at
+    /// rest.
+    fn by_arm(&self, (end, at): (End, f64), [arm, at_rest]: [Vector3; 2]) -> f64 {
+        let motion = six(Vector3::zeros(), arm);
+        // It stores nothing by itself.
+        let stored = -motion.dot(&self.loads.at(at));
+        self.adjoint.change(at, &motion, stored) - self.adjoint.at_rest(end, at_rest)
+    }
+
+    fn contribution(&self, [a, b]: [f64; 2], at: f64, defect: &Defect) -> Contribution {
+        let motion = SixVector::from(defect.fixed_rows::<6>(0));
+        Contribution {
+            span_nm: [a.min(b), a.max(b)],
+            error: self.adjoint.change(at, &motion, defect[6]),
+        }
+    }
+
+    /// The short filament at a wall.
+    fn wall(&self, end: End, rod: &SectionSpan) -> Short {
         let rise = self.assembly.monomers_of(0).rise_nm;
         // Whole rises, and less than the filament: at its very end it carries nothing.
         let whole = (self.assembly.length_nm() / rise - 0.01).ceil() - 1.0;
-        let rises = whole.min(LENGTH_RISES);
-        let length_nm = rises * rise;
-        let is_start = end == End::Start;
-        let s_nm = if is_start { rod.from_nm } else { rod.to_nm };
-        let wall = Wall {
-            end,
-            s_nm,
-            from_nm: if is_start { s_nm } else { s_nm - length_nm },
+        let length_nm = whole.min(LENGTH_RISES) * rise;
+        let from_nm = if end == End::Start {
+            rod.from_nm
+        } else {
+            rod.to_nm - length_nm
+        };
+        Short {
+            held: end,
+            is_free: false,
+            from_nm,
             length_nm,
             compared_nm: (COMPARED_RISES * rise).min(0.5 * length_nm),
-            out: if is_start { 1.0 } else { -1.0 },
-        };
-        let azimuths: u32 = if self.is_free_to_roll() { 4 } else { 1 };
-        // Rods are the same however monomers are rolled.
-        let rods = self.short_rod(wall, rod)?;
-        let mut defect = SixVector::zeros();
-        let mut ideal = None;
+        }
+    }
+
+    /// What a wall does: motion of monomers where they are compared (body axes), and what they store.
+    fn of_wall(&self, wall: &Short) -> Result<Defect, SceneProblem> {
+        let [held, compared, _] = wall.places();
+        let load = |s_nm: f64| self.loads.at(wall.from_nm + s_nm);
+        // As far as monomers are compared.
+        let rise = self.assembly.monomers_of(0).rise_nm;
+        let last = compared + wall.out() * 0.5 * PERIOD as f64 * rise;
+        let ideal = Ideal::along(self.cells, load, ([held, last], SAMPLES)).ok_or_else(no_cell)?;
+        let azimuths: u32 = if self.is_free_to_roll() { AZIMUTHS } else { 1 };
+        let mut sum = Defect::zeros();
         for k in 0..azimuths {
             let roll = f64::from(k) * 360.0 / f64::from(azimuths);
-            let (of_roll, along) = self.compare(wall, &rods, roll, ideal.as_ref())?;
-            defect += of_roll / f64::from(azimuths);
-            ideal = Some(along);
+            let (monomers, state) = self.short(wall, roll)?;
+            let loads = SectionLoads::of(&monomers, &state);
+            let ideal = ideal.under(|s_nm| loads.at(s_nm));
+            let base = (Vector3::z() * held, UnitQuaternion::identity());
+            let at = |s_nm: f64| ideal.carry(base, [held, s_nm]);
+            let here = (&monomers, &state);
+            let (turn, shift) = mean_motion(here, &monomers.sections_of(0)[0], compared, at);
+            let body = at(compared).1.inverse();
+            let defect = six(body * turn, body * shift) * wall.out();
+            sum += defect.push(ideal.stored(&defect, &loads.at(compared)));
         }
-        let to = s_nm + wall.out * wall.compared_nm;
-        Ok(Contribution {
-            span_nm: [s_nm.min(to), s_nm.max(to)],
-            error: self.of_defect(&defect, to),
+        Ok(sum / f64::from(azimuths))
+    }
+
+    /// Whether the scene has a force on an end.
+    fn bears_force(&self, wanted: End) -> bool {
+        let mut loads = self.assembly.scene.loads.iter();
+        loads.any(|load| match load {
+            Load::EndForce { end, .. } => *end == wanted,
+            Load::Force(force) => force.end == Some(wanted),
+            _ => false,
         })
     }
 
-    /// The short rod at a wall.
-    fn short_rod(&self, wall: Wall, rod: &SectionSpan) -> Result<(Assembly, State), SceneProblem> {
-        let crate::Resolution::Rod { segment_nm } = rod.resolution else {
-            unreachable!("asked of rods")
+    /// The short filament at a tip.
+    fn tip(&self, end: End, rod: &SectionSpan) -> Short {
+        let rise = self.assembly.monomers_of(0).rise_nm;
+        let whole = (self.assembly.length_nm() / rise).floor();
+        // Tips are midway between two monomers.
+        let length_nm = (whole.min(LENGTH_RISES) - 0.5) * rise;
+        let (held, from_nm) = match end {
+            End::Start => (End::End, rod.from_nm),
+            End::End => (End::Start, rod.to_nm - length_nm),
         };
-        let length = wall.length_nm;
-        let segments = segments_of(length, segment_nm.min(SEGMENT_NM));
-        self.short(wall, Section::rod(0.0, length, Some(segments)), 0.0)
-    }
-
-    /// The defect of a wall against its short rod, its monomers rolled by an angle (deg), and what these do but for the wall,
-    /// found from what they do where they are rolled by another.
-    fn compare(
-        &self,
-        wall: Wall,
-        (rods, in_rods): &(Assembly, State),
-        roll: f64,
-        near: Option<&Ideal>,
-    ) -> Result<(SixVector, Ideal), SceneProblem> {
-        let ellipsoids = Section::Ellipsoids {
-            from_nm: 0.0,
-            to_nm: wall.length_nm,
-            altered: None,
-        };
-        let (monomers, in_monomers) = self.short(wall, ellipsoids, roll)?;
-        let of_monomers = SectionLoads::of(&monomers, &in_monomers);
-        let of_rods = SectionLoads::of(rods, in_rods);
-        let (from, to) = (wall.own(), wall.own() + wall.out * wall.compared_nm);
-        let at = |s_nm: f64| of_rods.cross_section(s_nm);
-        let here = (&monomers, &in_monomers);
-        let (turn, shift) = mean_motion(here, &monomers.sections_of(0)[0], to, at);
-        let loads = |s_nm: f64| of_monomers.at(s_nm);
-        let ideal = Ideal::along(self.mean, loads, ([from, to], SAMPLES), near);
-        let ideal = ideal.ok_or_else(no_cell)?;
-        let here = (rods, in_rods, &of_rods);
-        let law = of_law(here, &rods.sections_of(0)[0], &ideal, [from, to]);
-        let body = of_rods.cross_section(to).1.inverse();
-        let defect = six(body * (turn - law.0), body * (shift - law.1)) * wall.out;
-        Ok((defect, ideal))
-    }
-
-    /// A short filament at a wall, in equilibrium next to where the filament itself is.
-    fn short(
-        &self,
-        wall: Wall,
-        section: Section,
-        roll: f64,
-    ) -> Result<(Assembly, State), SceneProblem> {
-        let (origin, frame) = self.loads.cross_section(wall.s_nm);
-        let to_own = frame.inverse();
-        let far = wall.length_nm - wall.own();
-        let compared = wall.s_nm + wall.out * wall.compared_nm;
-        let (_, axes) = self.loads.cross_section(compared);
-        let force = to_own * (axes * linear(&self.loads.at(compared))) * wall.out;
-        let scene = self.short_scene(wall, section, roll, force);
-        let assembly = Assembly::build(&scene)?;
-        let mut state = assembly.system.state().clone();
-        let place = |s_nm: f64| {
-            let (place, axes) = self.loads.cross_section(wall.from_nm + s_nm);
-            let along = Vector3::z() * wall.own();
-            (to_own * (place - origin) + along, to_own * axes)
-        };
-        lay(&assembly, &mut state, far, place);
-        let mut newton = crate::run::solver(&assembly, &TASK)?;
-        let solved = newton.solve(&mut state, assembly.system.interactions());
-        solved.map_err(|failure| {
-            let rule = format!("the error at a wall is not known: {}", failure.cause);
-            SceneProblem::new("filament.sections", "", rule)
-        })?;
-        Ok((assembly, state))
-    }
-
-    /// Its scene. The far end bears `force`.
-    fn short_scene(&self, wall: Wall, section: Section, roll: f64, force: Vector3) -> Scene {
-        let whole = &self.assembly.scene.filament;
-        let rise = whole.monomers.rise_nm;
-        let mut monomers = mean_monomers(&whole.monomers);
-        let held = self.assembly.clamp_at(0, End::Start).is_some();
-        // Lattice index 0 is at arc length 0 where the start is held, half a rise before it else; here it is held.
-        let origin = if held { 0.0 } else { -0.5 * rise };
-        let index = ((wall.from_nm - origin) / rise).round();
-        monomers.azimuth_deg = (monomers.azimuth_deg + roll + index * monomers.turn_deg) % 360.0;
-        let mut filament = Filament::new(vec![section]);
-        filament.monomers = monomers;
-        filament.rod.clone_from(&whole.rod);
-        filament.junction = whole.junction;
-        Scene {
-            title: String::new(),
-            filament,
-            further: Vec::new(),
-            clamps: vec![
-                clamp(wall.end, Slides::Nowhere),
-                clamp(wall.far(), Slides::Freely),
-            ],
-            loads: vec![Load::EndForce {
-                filament: 0,
-                end: wall.far(),
-                force_pn: force.into(),
-            }],
-            linkers: Vec::new(),
-            repulsion: None,
-            path: Vec::new(),
-            observe: Vec::new(),
-            burn_in_ns: None,
-            output: crate::Output::default(),
-            task: Task::Equilibrium(TASK),
+        let compared_nm = length_nm - (COMPARED_RISES * rise).min(0.5 * length_nm);
+        Short {
+            held,
+            is_free: true,
+            from_nm,
+            length_nm,
+            compared_nm,
         }
+    }
+
+    /// The load of the filament at a place of the short one at a tip; at its end that just beside it.
+    fn load_at(&self, tip: &Short, s_nm: f64) -> SixVector {
+        let [.., far] = tip.places();
+        let inside = ((far - s_nm) * tip.out()).max(BESIDE_NM);
+        self.loads.at(tip.from_nm + far - tip.out() * inside)
+    }
+
+    /// What a tip does under its force: by how much further it is than an endless filament would be, with what it stores; and
+    /// how far its monomers are beside the axis, in body axes and in lab axes at rest.
+    fn of_tip(&self, tip: &Short) -> Result<(Defect, [Vector3; 2]), SceneProblem> {
+        let [_, compared, far] = tip.places();
+        let load = |s_nm: f64| self.load_at(tip, s_nm);
+        let ideal =
+            Ideal::along(self.cells, load, ([compared, far], SAMPLES)).ok_or_else(no_cell)?;
+        let (monomers, state) = self.short(tip, 0.0)?;
+        let base = SectionLoads::of(&monomers, &state).cross_section(compared);
+        let at = |s_nm: f64| ideal.carry(base, [compared, s_nm]);
+        let section = &monomers.sections_of(0)[0];
+        let (turn, shift) = mean_motion((&monomers, &state), section, compared, at);
+        let base = (base.0 + shift, rotation::exp(turn) * base.1);
+        let at = |s_nm: f64| ideal.carry(base, [compared, s_nm]);
+        let (mut arm, mut moved) = (Vector3::zeros(), Vector3::zeros());
+        let points = monomers.tip_points(tip.other());
+        for &i in points {
+            let s_nm = monomers.points[i].s_nm;
+            let own = monomers.rest.points.position.get(i) - Vector3::z() * s_nm;
+            let (place, axes) = at(s_nm);
+            arm += own;
+            moved += state.points.position.get(i) - (place + axes * own);
+        }
+        let each = tip.out() / points.len() as f64;
+        let shift = at(far).1.inverse() * moved * each;
+        let defect = six(Vector3::zeros(), shift);
+        let stored = ideal.stored(&defect, &load(far));
+        let arms = [arm, self.assembly.filaments[0].rotation * arm];
+        Ok((defect.push(stored), arms.map(|arm| arm * each)))
     }
 
     /// Whether all free bodies may be rolled about the axis, each turned back about its own, for nothing.
@@ -245,47 +222,6 @@ impl Look<'_> {
         let (most, share) = FREE;
         let limit = most.min(share * elastic_energy(self.assembly, self.state));
         (energy(&rolled) - energy(self.state)).abs() < limit
-    }
-}
-
-fn clamp(end: End, slides: Slides) -> Clamp {
-    Clamp {
-        filament: 0,
-        end,
-        hold: Hold::default(),
-        hinge: None,
-        slides,
-    }
-}
-
-/// Places the bodies of a short filament on cross-sections; those at its far end as one body.
-fn lay(
-    assembly: &Assembly,
-    state: &mut State,
-    far: f64,
-    place: impl Fn(f64) -> (Vector3, UnitQuaternion),
-) {
-    let sliding = assembly
-        .clamps
-        .iter()
-        .find(|clamp| clamp.slides == Slides::Freely);
-    let at_far = |held: &[usize], i: usize| held.contains(&i).then_some(far);
-    for i in 0..assembly.points.len() {
-        let s_nm = assembly.points[i].s_nm;
-        let at = sliding
-            .and_then(|clamp| at_far(&clamp.points, i))
-            .unwrap_or(s_nm);
-        let (there, axes) = place(at);
-        let arm = assembly.rest.points.position.get(i) - Vector3::z() * at;
-        state.points.position.set(i, there + axes * arm);
-    }
-    for i in 0..assembly.frames.len() {
-        let s_nm = assembly.frames[i].s_nm;
-        let at = sliding
-            .and_then(|clamp| at_far(&clamp.frames, i))
-            .unwrap_or(s_nm);
-        let q = place(at).1 * assembly.rest.frames.orientation.get(i);
-        state.frames.orientation.set(i, q);
     }
 }
 
