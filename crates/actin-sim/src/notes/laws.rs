@@ -81,7 +81,8 @@ fn is_of_others(rod: &RodModel, monomers: &Monomers) -> bool {
 }
 
 /// The note on rods of other monomers.
-const OF_OTHERS: &str = "rods under the law Homogenised stand for monomers of the default shape, lattice and bonds, which those     of this scene are not: resolve them, or write law: Constant with rigidities of your own";
+const OF_OTHERS: &str = "rods under the law Homogenised stand for monomers of the default shape, lattice and bonds, which those \
+    of this scene are not: resolve them, or write law: Constant with rigidities of your own";
 
 /// The note on rods under one potential that stand for monomers of other bonds than their filament's.
 fn drawn_bonds(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Option<String> {
