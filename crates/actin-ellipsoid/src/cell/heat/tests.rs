@@ -166,9 +166,9 @@ fn free_strains_fluctuate_by_their_compliance() {
         Strain(0.0),
         Load(20.0),
     ];
-    let free = cell.sample(&pulled, &heat(ROOM, 3000), None).unwrap();
+    let free = cell.sample(&pulled, &heat(ROOM, 12_000), None).unwrap();
     let there = cell
-        .sample(&held(free.strain.into()), &heat(ROOM, 3000), None)
+        .sample(&held(free.strain.into()), &heat(ROOM, 12_000), None)
         .unwrap();
     let block =
         |of: &SixMatrix| nalgebra::Matrix2::new(of[(2, 2)], of[(2, 5)], of[(5, 2)], of[(5, 5)]);
