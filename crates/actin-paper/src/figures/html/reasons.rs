@@ -219,10 +219,10 @@ const REASONS: [Reason; 23] = [
         artefact: "fig8",
         quantities: &["chosen/"],
         cause: Cause::Elsewhere,
-        title: "The thrust in under-twist takes every monomer for 2 %",
-        text: "This page asks for less than half of the monomers. Under-twisted monomers have several states; what is off \
-               by a rod's states cannot be told from what is off by its law, and no resolution is estimated to be within \
-               2 %. A rod is, and the couple and the heights need no monomer.",
+        title: "The thrust in under-twist is further off than the 2 % that are asked for",
+        text: "Errors are estimated from monomers under uniform strain. Under-twisted ones differ from these where they bend \
+               most, so that a quarter of monomers is estimated to be within 2 % and is not. A rod alone is, and the \
+               couple and the heights need no monomer.",
     },
     Reason {
         artefact: "fig10",
