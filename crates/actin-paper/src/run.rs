@@ -1,7 +1,7 @@
 //! Scenes of the repository, and runs into memory.
 
 use crate::workspace_root;
-use actin_sim::{Assembly, Outcome, Plan, RunError, Scene, Trajectory};
+use actin_sim::{Assembly, Clamp, End, Hold, Outcome, Plan, RunError, Scene, Slides, Trajectory};
 
 /// The scene in a file of the folder `scenarios`.
 pub(crate) fn scenario(file: &str) -> Result<Scene, String> {
@@ -18,4 +18,15 @@ pub(crate) fn run_to_end(assembly: &mut Assembly) -> Result<(Trajectory, Outcome
         *assembly.system.state_mut() = last.state.clone();
     }
     Ok((trajectory, outcome))
+}
+
+/// A wall at an end of filament 0, which slides so.
+pub(crate) fn clamp(end: End, slides: Slides) -> Clamp {
+    Clamp {
+        filament: 0,
+        end,
+        hold: Hold::Wall,
+        hinge: None,
+        slides,
+    }
 }

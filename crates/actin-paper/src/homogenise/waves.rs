@@ -8,10 +8,10 @@
 
 use super::checks::statistics;
 use crate::Tell;
-use crate::run::run_to_end;
+use crate::run::{clamp, run_to_end};
 use actin_sim::{
-    Assembly, Clamp, Couple, End, Equilibrium, Factor, Filament, Force, Hold, Load, Monomers,
-    Output, Pace, RodLaw, RodModel, Scene, Section, Setting, Slides, Stage, Task,
+    Assembly, Couple, End, Equilibrium, Factor, Filament, Force, Load, Monomers, Output, Pace,
+    RodLaw, RodModel, Scene, Section, Setting, Slides, Stage, Task,
 };
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -259,16 +259,6 @@ impl Wave {
         )]
         let segments = (2.0 * f64::from(self.half()) / segment).round() as usize;
         Section::rod(0.0, self.length_nm(), Some(segments))
-    }
-}
-
-fn clamp(end: End, slides: Slides) -> Clamp {
-    Clamp {
-        filament: 0,
-        end,
-        hold: Hold::Wall,
-        hinge: None,
-        slides,
     }
 }
 

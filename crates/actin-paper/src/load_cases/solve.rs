@@ -4,12 +4,11 @@ use super::case::{Case, Kind, TURNED_NM};
 use super::filament::{Made, RISE_NM};
 use crate::figures::linked::centre_line::CentreLine;
 use crate::measure::{Specimen, far_end_shift, follow, reaction, twist};
-use crate::run::{run_to_end, scenario};
+use crate::run::{clamp, run_to_end, scenario};
 use actin_mechanics::{State, Vector3};
 use actin_sim::shape::Ribbon;
 use actin_sim::{
-    Assembly, Clamp, End, Equilibrium, Hold, Load, Output, Part, Scene, Setting, Slides, Stage,
-    Task,
+    Assembly, End, Equilibrium, Hold, Load, Output, Part, Scene, Setting, Slides, Stage, Task,
 };
 use serde::{Deserialize, Serialize};
 
@@ -69,16 +68,6 @@ pub(super) fn solve(case: &Case, made: &Made) -> Result<Found, String> {
 
 fn length(rises: u32) -> f64 {
     f64::from(rises) * RISE_NM
-}
-
-fn clamp(end: End, slides: Slides) -> Clamp {
-    Clamp {
-        filament: 0,
-        end,
-        hold: Hold::Wall,
-        hinge: None,
-        slides,
-    }
 }
 
 fn force(force_pn: [f64; 3]) -> Load {
