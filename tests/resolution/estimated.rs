@@ -44,8 +44,7 @@ fn effectivity(case: &Case, law: &RodLaw, stretches: &[[f64; 2]]) -> (f64, f64) 
     (found.error / error, error / of_fine.value)
 }
 
-/// True errors (share of the value) that are judged: what a load does to the monomers that it acts on, which is left out, is
-/// half a per cent.
+/// True errors (share of the value) that are judged.
 const JUDGED: f64 = 0.01;
 
 /// Bounds as the issue of this work set them, before anything was measured: 0.5 to 2. True errors are up to 10 %.
@@ -235,6 +234,40 @@ fn estimates_of_energies_and_linkers_are_within_a_factor_of_two() {
     assert_eq!(judged.clone().count(), 5, "{rows:?}");
     for (.., effectivity, _) in judged {
         assert!((0.5..2.0).contains(effectivity), "{rows:?}");
+    }
+}
+
+/// Held at its start, with a linker beside the axis and a couple that act inside.
+const TURNED_INSIDE: &str = "clamps: [Clamp(end: Start)],
+    loads: [Couple(at_nm: 125.0, couple_pn_nm: (10.0, 0.0, 30.0))],
+    linkers: [
+        Linker(at_nm: 70.0, radius_nm: 3.0, azimuth_deg: 40.0, displaced_nm: (0.0, 8.0, 1.0), stiffness_pn_per_nm: 1.0),
+    ],
+    task: Equilibrium()";
+
+/// The monomer that a linker holds gives way and turns by itself, which makes up most of these errors of 0.4 % and more. The
+/// bounds are those of the other numbers; the last scene was written before it was solved.
+#[test]
+fn sites_give_way_as_monomers_do() {
+    let rise = 71.2 / 26.0;
+    let scenes = [
+        (PULLED_BY_LINKERS, 0),
+        (PULLED_BY_LINKERS, 1),
+        (TURNED_INSIDE, 0),
+    ];
+    for (rest, linker) in scenes {
+        for law in [RodLaw::Homogenised, RodLaw::Fitted] {
+            let case = Case {
+                length: 58.5 * rise,
+                rest,
+                quantity: Quantity::LinkerForce { linker },
+            };
+            let (effectivity, error) = effectivity(&case, &law, &[]);
+            assert!(
+                (0.5..2.0).contains(&effectivity),
+                "{linker} {law:?}: {effectivity} of {error}"
+            );
+        }
     }
 }
 

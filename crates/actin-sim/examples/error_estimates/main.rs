@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
     println!("alone: of the equilibrium of the chosen sections.\n");
     println!(
-        "| case | resolution | true | estimated | law | segments | junctions | walls | time | alone |"
+        "| case | resolution | true | estimated | law | segments | junctions | walls | sites | time | alone |"
     );
     println!("|---|---|---:|---:|---:|---:|---:|---:|---:|---:|");
     for case in cases()?
@@ -115,7 +115,7 @@ fn compare(
     let took = took / seconds;
     let percent = |part: f64| format!("{:.2}", 100.0 * part / truth);
     println!(
-        "| {} | {}, `{law:?}` | {} | {} | {} | {} | {} | {} | {took:.2} | |",
+        "| {} | {}, `{law:?}` | {} | {} | {} | {} | {} | {} | {} | {took:.2} | |",
         case.name,
         words(stretches),
         percent(truth - found.value),
@@ -124,6 +124,7 @@ fn compare(
         percent(found.segments),
         percent(found.junctions),
         percent(found.walls),
+        percent(found.sites),
     );
     Ok(())
 }

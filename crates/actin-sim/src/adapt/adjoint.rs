@@ -197,14 +197,16 @@ fn about_the_top(assembly: &Assembly, state: &State) -> (Vec<usize>, Vec<usize>)
 pub(super) struct Adjoint {
     /// The number.
     pub value: f64,
-    ahead: SectionLoads,
-    behind: SectionLoads,
+    ahead: (SectionLoads, State),
+    behind: (SectionLoads, State),
     /// Of the parameter that the loads are differentiated by.
     step: f64,
     sign: f64,
     is_energy: bool,
     /// Along which the displacement of the tip is wanted, if it is.
     tip: Option<Vector3>,
+    /// The linker whose force is wanted, if it is, and the loads that are its derivative.
+    linker: Option<(usize, Loads)>,
 }
 
 impl Adjoint {
@@ -237,7 +239,7 @@ impl Adjoint {
                 &scaled(&loads, &Loads::zeros(state), step),
                 f64::INFINITY,
             );
-            SectionLoads::of(assembly, &moved)
+            (SectionLoads::of(assembly, &moved), moved)
         };
         Ok(Self {
             value: goal.value(assembly, state),
@@ -248,6 +250,10 @@ impl Adjoint {
             is_energy: matches!(goal, Goal::Energy),
             tip: match goal {
                 Goal::Tip(direction) => Some(direction),
+                _ => None,
+            },
+            linker: match goal {
+                Goal::Linker { linker, .. } => Some((linker, loads)),
                 _ => None,
             },
         })
@@ -261,14 +267,41 @@ impl Adjoint {
     /// By how much the number changes per strain of a stretch at an arc length (nm) beyond what its model says, in
     /// body axes: per turn, then per displacement.
     pub(super) fn weight(&self, s_nm: f64) -> SixVector {
-        (self.ahead.at(s_nm) - self.behind.at(s_nm)) * (self.sign / (2.0 * self.step))
+        self.slope(self.of_both(|loads, _| loads.at(s_nm)))
+    }
+
+    /// What something is a step of the parameter ahead and behind.
+    pub(super) fn of_both(
+        &self,
+        what: impl Fn(&SectionLoads, &State) -> SixVector,
+    ) -> [SixVector; 2] {
+        [&self.ahead, &self.behind].map(|(loads, state)| what(loads, state))
+    }
+
+    /// Its derivative.
+    pub(super) fn slope(&self, [ahead, behind]: [SixVector; 2]) -> SixVector {
+        (ahead - behind) * (self.sign / (2.0 * self.step))
+    }
+
+    /// Derivative of the number by the place of a site of a linker, if it is the force of that (lab frame).
+    pub(super) fn by_site(&self, linker: usize, site: &Site) -> Vector3 {
+        let wanted = self.linker.as_ref().filter(|wanted| wanted.0 == linker);
+        let Some((_, loads)) = wanted else {
+            return Vector3::zeros();
+        };
+        let points = site.shares().iter().map(|&(i, _)| loads.force.get(i));
+        points.sum()
     }
 
     /// The change of the number where a stretch at an arc length (nm) is strained by `defect` beyond its model under the
     /// same loads, and stores `stored` (pN nm) beyond it at the same strains.
     pub(super) fn change(&self, s_nm: f64, defect: &SixVector, stored: f64) -> f64 {
-        let by_loads = defect.dot(&self.weight(s_nm));
-        by_loads + if self.is_energy { stored } else { 0.0 }
+        defect.dot(&self.weight(s_nm)) + self.of_stored(stored)
+    }
+
+    /// The change of the number where `stored` (pN nm) is stored at the same strains.
+    pub(super) fn of_stored(&self, stored: f64) -> f64 {
+        if self.is_energy { stored } else { 0.0 }
     }
 
     /// By how much more a number that is the displacement of the tip at `end` is of a place beside it, at rest.

@@ -188,7 +188,6 @@ pub(super) fn mean_motion(
     centre: f64,
     at: impl Fn(f64) -> CrossSection,
 ) -> (Vector3, Vector3) {
-    let span = &assembly.filaments[0];
     let far = |i: &usize| (assembly.points[*i].s_nm - centre).abs();
     let is_monomer = |i: &usize| assembly.points[*i].kind == BodyKind::Monomer;
     let mut near: Vec<usize> = section.points.clone().filter(is_monomer).collect();
@@ -199,15 +198,32 @@ pub(super) fn mean_motion(
     for &i in &near {
         let s_nm = assembly.points[i].s_nm;
         let (place, axes) = at(s_nm);
-        let turned = axes * span.rotation.inverse();
-        let arm = assembly.rest.points.position.get(i) - span.axis_place(s_nm);
-        let frame = assembly.points[i].frame.expect("a monomer has a frame");
-        let stands = turned * assembly.rest.frames.orientation.get(frame);
-        let own = rotation::log(state.frames.orientation.get(frame) * stands.inverse());
-        let moved = state.points.position.get(i) - (place + turned * arm);
+        let (own, moved, _) = own_motion((assembly, state), i, (s_nm, (place, axes)));
         turn += own;
         shift += moved - own.cross(&(place - pivot));
     }
     let n = near.len() as f64;
     (turn / n, shift / n)
+}
+
+/// Turn of a monomer, and displacement of its centre, against where it stands rigidly on a cross-section; and where that is from
+/// the axis (lab frame).
+pub(super) fn own_motion(
+    (assembly, state): (&Assembly, &State),
+    monomer: usize,
+    (s_nm, (place, axes)): (f64, CrossSection),
+) -> (Vector3, Vector3, Vector3) {
+    let span = &assembly.filaments[0];
+    let turned = axes * span.rotation.inverse();
+    let arm = turned * (assembly.rest.points.position.get(monomer) - span.axis_place(s_nm));
+    let frame = assembly.points[monomer]
+        .frame
+        .expect("a monomer has a frame");
+    let stands = turned * assembly.rest.frames.orientation.get(frame);
+    let turn = rotation::log(state.frames.orientation.get(frame) * stands.inverse());
+    (
+        turn,
+        state.points.position.get(monomer) - (place + arm),
+        arm,
+    )
 }

@@ -2,8 +2,9 @@
 //!
 //! [`estimate`] is what to call first: the error of one number of an equilibrium against the same filament with
 //! every monomer resolved, which is not computed. What the laws of rods, junctions and walls do otherwise than
-//! monomers under the same loads is found from periods of monomers (`ideal.rs`, `cells.rs`, `defects.rs`) and a short
-//! filament at each end (`wall.rs`, `short.rs`); what that does to the number follows from one linear solve (`adjoint.rs`). The
+//! monomers under the same loads is found from periods of monomers (`ideal.rs`, `cells.rs`, `defects.rs`) and short
+//! filaments at ends (`wall.rs`, `short.rs`) and where something acts inside (`site.rs`); what that does to the number
+//! follows from one linear solve (`adjoint.rs`). The
 //! part of the segments' lengths comes from halving them (`halving.rs`). [`choose`] resolves as monomers what the
 //! number needs, and grades the lengths of segments (`grade.rs`).
 //!
@@ -27,6 +28,7 @@ mod scatter;
 mod section_loads;
 mod setting;
 mod short;
+mod site;
 mod stretch;
 mod wall;
 
@@ -41,7 +43,7 @@ pub use finer::finer;
 pub use scatter::{Scatter, scatter};
 pub use stretch::RodStretch;
 
-use crate::scene::{Equilibrium, Hold, Load, Quantity, Scene, SceneProblem, Section, Slides, Task};
+use crate::scene::{Equilibrium, Hold, Quantity, Scene, SceneProblem, Section, Slides, Task};
 use crate::{Assembly, End, Plan, RunError};
 use actin_mechanics::State;
 use adjoint::Adjoint;
@@ -64,9 +66,8 @@ fn is_too_short(length_nm: f64, rise_nm: f64) -> bool {
 /// How far a number of an equilibrium is from that of the same filament with every monomer resolved.
 ///
 /// To first order in what rods and junctions do wrong. Monomers are those of the mean filament or, where the scene
-/// draws bonds for each interface, the mean over drawings, about which filaments scatter. Left out are how the force of
-/// a linker or of a load that is not at an end enters the monomers about its place (a site follows the nearest monomer, which gives way and turns by
-/// itself, or a segment, which does not), strains that change over the length of a few bonds, as those of under-twisted filaments
+/// draws bonds for each interface, the mean over drawings, about which filaments scatter. Left out are strains that change over
+/// the length of a few bonds, but for those at ends and where something acts, as those of under-twisted filaments
 /// that buckle, and errors of the second order: those of laws without twist-stretch coupling
 /// (`Constant`) may be as large as the first.
 /// A rod that ends between two places of the lattice is longer or shorter than monomers can be; that is no part of it.
@@ -87,6 +88,8 @@ pub struct ErrorEstimate {
     /// From what monomers do at walls that hold rods, and at tips that bear a force. It may cancel with what rods do there;
     /// each is doubted for itself.
     pub walls: f64,
+    /// From what monomers do about places inside rods at which a linker holds or a force or couple acts.
+    pub sites: f64,
 }
 
 impl ErrorEstimate {
@@ -100,6 +103,7 @@ impl ErrorEstimate {
             segments,
             junctions: 0.0,
             walls: 0.0,
+            sites: 0.0,
         }
     }
 
@@ -110,7 +114,11 @@ impl ErrorEstimate {
 
     /// The sum of the sizes of its parts.
     fn size_of_parts(&self) -> f64 {
-        self.law.abs() + self.segments.abs() + self.junctions.abs() + self.walls.abs()
+        self.law.abs()
+            + self.segments.abs()
+            + self.junctions.abs()
+            + self.walls.abs()
+            + self.sites.abs()
     }
 
     /// The estimate in a sentence, with how filaments with drawn bonds scatter, where it is known; none of a number that
@@ -123,6 +131,7 @@ impl ErrorEstimate {
             self.segments,
             self.junctions,
             self.walls,
+            self.sites,
         ];
         if !all.iter().all(|part| percent(*part).is_finite()) {
             return None;
@@ -138,10 +147,10 @@ impl ErrorEstimate {
                 percent(drawn.deviation)
             )
         });
-        let [error, law, segments, junctions, walls] = all.map(percent);
+        let [error, law, segments, junctions, walls, sites] = all.map(percent);
         Some(format!(
             "{} is {}, {} with its estimated error against every monomer ({error:+.2} %: laws {law:+.2}, segments \
-             {segments:+.2}, junctions {junctions:+.2}, walls {walls:+.2}){drawn}",
+             {segments:+.2}, junctions {junctions:+.2}, walls {walls:+.2}, sites {sites:+.2}){drawn}",
             self.quantity,
             self.quantity.show(self.value),
             self.quantity.show(self.corrected()),
@@ -227,16 +236,20 @@ fn located(
     let at_ends = look.ends(&runs)?;
     let walls = sum(&at_ends);
     parts.extend(at_ends);
+    let at_sites = look.sites(&runs)?;
+    let sites = sum(&at_sites);
+    parts.extend(at_sites);
     let value = look.adjoint.value;
     let segments = halving::of_all((assembly, state), quantity, value)?;
     let total = ErrorEstimate {
         quantity,
         value,
-        error: law + segments + junctions + walls,
+        error: law + segments + junctions + walls + sites,
         law,
         segments,
         junctions,
         walls,
+        sites,
     };
     Ok(Located { total, parts })
 }
@@ -304,18 +317,6 @@ fn at_rest(scene: &Scene) -> Scene {
         _ => Equilibrium::default(),
     });
     rest
-}
-
-/// What estimates of this scene leave out, in words, if there is anything.
-pub(crate) fn left_out(scene: &Scene) -> Option<&'static str> {
-    let is_inside = |load: &Load| match load {
-        Load::Force(force) => force.at_nm.is_some(),
-        Load::Couple(couple) => couple.at_nm.is_some(),
-        _ => false,
-    };
-    (!scene.linkers.is_empty() || scene.loads.iter().any(is_inside)).then_some(
-        "estimated errors leave out what linkers and loads do to the monomers about their sites",
-    )
 }
 
 /// Refuses scenes of which errors are not known.

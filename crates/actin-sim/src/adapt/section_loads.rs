@@ -88,7 +88,12 @@ impl SectionLoads {
 
     /// Couple (pN nm) and force (pN) that what is behind a cross-section exerts on what is before it, body axes.
     pub(super) fn at(&self, s_nm: f64) -> SixVector {
-        let behind = self.sums.partition_point(|b| b.0 > s_nm);
+        self.through(s_nm, s_nm)
+    }
+
+    /// The same through a cut at an arc length (nm), about another cross-section and in its axes.
+    pub(super) fn through(&self, cut_nm: f64, s_nm: f64) -> SixVector {
+        let behind = self.sums.partition_point(|b| b.0 > cut_nm);
         let (_, force, moment) = match behind {
             0 => BodyLoad::default(),
             n => self.sums[n - 1],

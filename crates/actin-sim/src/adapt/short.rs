@@ -4,7 +4,8 @@ use super::defects::Look;
 use super::ideal::mean_monomers;
 use super::section_loads::linear;
 use crate::scene::{
-    Clamp, Equilibrium, Filament, Hold, Load, Scene, SceneProblem, Section, Slides, Task,
+    Clamp, Couple, Equilibrium, Factor, Filament, Hold, Linker, LinkerSite, Load, Scene,
+    SceneProblem, Section, Slides, Task,
 };
 use crate::{Assembly, End};
 use actin_mechanics::{State, UnitQuaternion, Vector3};
@@ -23,6 +24,9 @@ const TASK: Equilibrium = Equilibrium {
     error_of: None,
 };
 
+/// Length of the spring by which a force acts on one (nm): it stays what it is wherever its site goes.
+const SPRING_NM: f64 = 1e5;
+
 /// Where a short filament is.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Short {
@@ -35,6 +39,55 @@ pub(super) struct Short {
     pub length_nm: f64,
     /// How far from its held end its loads are those of the filament (nm).
     pub compared_nm: f64,
+}
+
+/// What acts on a short filament at a place inside it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inside {
+    /// Where, in the short filament.
+    pub site: LinkerSite,
+    /// Force (pN, lab frame of the filament).
+    pub force: Vector3,
+    /// Couple (pN nm, lab frame of the filament).
+    pub couple: Vector3,
+}
+
+impl Inside {
+    /// Itself in a frame that is turned.
+    fn turned(self, to_own: &UnitQuaternion) -> Self {
+        Self {
+            site: self.site,
+            force: to_own * self.force,
+            couple: to_own * self.couple,
+        }
+    }
+
+    /// A force as a long soft spring exerts it at the site that stands at `place`.
+    fn spring(&self, place: Vector3) -> Linker {
+        Linker {
+            filament: 0,
+            at_nm: self.site.at_nm,
+            radius_nm: self.site.radius_nm,
+            azimuth_deg: self.site.azimuth_deg,
+            to: None,
+            anchor_nm: Some((place + self.force.normalize() * SPRING_NM).into()),
+            displaced_nm: None,
+            stiffness_pn_per_nm: self.force.norm() / SPRING_NM,
+            rest_length_nm: 0.0,
+            kinetics: None,
+        }
+    }
+
+    fn couple(&self) -> Load {
+        Load::Couple(Couple {
+            filament: 0,
+            end: None,
+            at_nm: Some(self.site.at_nm),
+            couple_pn_nm: self.couple.into(),
+            follows: false,
+            factor: Factor::default(),
+        })
+    }
 }
 
 impl Short {
@@ -68,11 +121,12 @@ impl Look<'_> {
     /// The monomers of a short filament, rolled by an angle (deg), in equilibrium.
     ///
     /// The end that is not held bears the force of the filament where they are compared; where it is not free it is turned as its
-    /// cross-section.
+    /// cross-section. Something may act inside.
     pub(super) fn short(
         &self,
         short: &Short,
         roll: f64,
+        inside: Option<&Inside>,
     ) -> Result<(Assembly, State), SceneProblem> {
         let [held, compared, far] = short.places();
         let (origin, frame) = self.loads.cross_section(short.from_nm + held);
@@ -80,16 +134,33 @@ impl Look<'_> {
         let at = short.from_nm + compared;
         let (_, axes) = self.loads.cross_section(at);
         let force = to_own * (axes * linear(&self.loads.at(at))) * short.out();
-        let assembly = Assembly::build(&self.short_scene(short, roll, force))?;
-        let mut state = assembly.system.state().clone();
         let place = |s_nm: f64| {
             let (place, axes) = self.loads.cross_section(short.from_nm + s_nm);
             let along = Vector3::z() * held;
             (to_own * (place - origin) + along, to_own * axes)
         };
+        let mut scene = self.short_scene(short, roll, force);
+        if let Some(inside) = inside.map(|inside| inside.turned(&to_own)) {
+            if inside.force.norm() > 0.0 {
+                scene
+                    .linkers
+                    .push(inside.spring(place(inside.site.at_nm).0));
+            }
+            if inside.couple.norm() > 0.0 {
+                scene.loads.push(inside.couple());
+            }
+        }
+        let assembly = Assembly::build(&scene)?;
+        let mut state = assembly.system.state().clone();
         lay(&assembly, &mut state, far, place);
         solve(&assembly, &mut state)?;
         Ok((assembly, state))
+    }
+
+    /// Arc length of lattice index 0 of the filament (nm).
+    pub(super) fn lattice_nm(&self) -> f64 {
+        let is_held = self.assembly.clamp_at(0, End::Start).is_some();
+        lattice_nm(is_held, self.assembly.monomers_of(0).rise_nm)
     }
 
     /// Its scene. The end that is not held bears `force`.
@@ -97,11 +168,8 @@ impl Look<'_> {
         let whole = &self.assembly.scene.filament;
         let rise = whole.monomers.rise_nm;
         let mut monomers = mean_monomers(&whole.monomers);
-        // Lattice index 0 is at arc length 0 where the start is held, half a rise before it else.
-        let origin = |is_held: bool| if is_held { 0.0 } else { -0.5 * rise };
-        let of_whole = origin(self.assembly.clamp_at(0, End::Start).is_some());
-        let own = origin(short.held == End::Start || !short.is_free);
-        let index = ((short.from_nm + own - of_whole) / rise).round();
+        let own = lattice_nm(short.held == End::Start || !short.is_free, rise);
+        let index = ((short.from_nm + own - self.lattice_nm()) / rise).round();
         monomers.azimuth_deg = (monomers.azimuth_deg + roll + index * monomers.turn_deg) % 360.0;
         let mut filament = Filament::new(vec![Section::Ellipsoids {
             from_nm: 0.0,
@@ -132,6 +200,11 @@ impl Look<'_> {
             task: Task::Equilibrium(TASK),
         }
     }
+}
+
+/// Arc length of lattice index 0 (nm): 0 where the start is held, half a rise before it else.
+fn lattice_nm(is_held: bool, rise_nm: f64) -> f64 {
+    if is_held { 0.0 } else { -0.5 * rise_nm }
 }
 
 fn clamp(end: End, slides: Slides) -> Clamp {

@@ -119,7 +119,7 @@ impl Look<'_> {
         let mut sum = Defect::zeros();
         for k in 0..azimuths {
             let roll = f64::from(k) * 360.0 / f64::from(azimuths);
-            let (monomers, state) = self.short(wall, roll)?;
+            let (monomers, state) = self.short(wall, roll, None)?;
             let loads = SectionLoads::of(&monomers, &state);
             let ideal = ideal.under(|s_nm| loads.at(s_nm));
             let base = (Vector3::z() * held, UnitQuaternion::identity());
@@ -177,7 +177,7 @@ impl Look<'_> {
         let load = |s_nm: f64| self.load_at(tip, s_nm);
         let ideal =
             Ideal::along(self.cells, load, ([compared, far], SAMPLES)).ok_or_else(no_cell)?;
-        let (monomers, state) = self.short(tip, 0.0)?;
+        let (monomers, state) = self.short(tip, 0.0, None)?;
         let base = SectionLoads::of(&monomers, &state).cross_section(compared);
         let at = |s_nm: f64| ideal.carry(base, [compared, s_nm]);
         let section = &monomers.sections_of(0)[0];

@@ -6,7 +6,7 @@
 
 mod laws;
 
-use crate::adapt::{Chosen, left_out};
+use crate::adapt::Chosen;
 use crate::assembly::{Rod, Sampled};
 use crate::scene::{Anchors, Monomers, Observable, Task};
 use crate::{Assembly, Outcome, Record, shape};
@@ -31,13 +31,6 @@ impl Assembly {
     /// Notes on this scene before it runs, a sentence or two each.
     pub fn notes(&self) -> Vec<String> {
         let mut notes: Vec<String> = self.chosen.iter().map(Chosen::note).collect();
-        if self
-            .chosen
-            .as_ref()
-            .is_some_and(|chosen| chosen.estimate.is_some())
-        {
-            notes.extend(left_out(&self.scene).map(str::to_owned));
-        }
         if self.scene.filament.sections.following().is_some() {
             let note = "sections follow the motion: numbers of bodies, time step and cost are those of a rod, with which it \
                         begins";
@@ -139,7 +132,6 @@ impl Outcome {
                         "how filaments with drawn bonds scatter is not known: {problem}"
                     ));
                 }
-                notes.extend(left_out(&assembly.scene).map(str::to_owned));
             }
             None => {}
         }
