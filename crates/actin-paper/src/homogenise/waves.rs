@@ -7,8 +7,11 @@
 //! loads at the same places.
 
 use super::checks::statistics;
+use super::rows;
 use crate::Tell;
 use crate::run::{clamp, run_to_end};
+use actin_cosserat::Homogenised;
+use actin_sim::ellipsoid::EllipsoidParameters;
 use actin_sim::{
     Assembly, Couple, End, Equilibrium, Factor, Filament, Force, Load, Monomers, Output, Pace,
     RodLaw, RodModel, Scene, Section, Setting, Slides, Stage, Task,
@@ -18,6 +21,8 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::Path;
 
+/// Rows of before a change of what is computed are not read.
+const VERSION: u32 = 1;
 /// Wavelengths (monomers).
 const WAVELENGTHS: [f64; 8] = [2.0, 3.0, 4.0, 6.0, 10.0, 18.0, 32.0, 60.0];
 /// The same where it has to be quick.
@@ -228,8 +233,8 @@ impl Wave {
         Ok(work / loads.map(|(_, load)| load * load).sum::<f64>())
     }
 
-    /// That of the mean filament, and errors of rods of each length of segments.
-    fn compare(&self) -> Result<(f64, Vec<f64>), String> {
+    /// That of the mean filament, then errors of rods of each length of segments.
+    fn compare(&self) -> Result<Vec<f64>, String> {
         let monomers = Section::Ellipsoids {
             from_nm: 0.0,
             to_nm: self.length_nm(),
@@ -240,15 +245,15 @@ impl Wave {
             ..Filament::new(vec![monomers])
         };
         let true_one = self.compliance(&monomers)?;
-        let errors = SEGMENTS.map(|segment| {
+        let mut found = vec![true_one];
+        for segment in SEGMENTS {
             let rod = Filament {
                 rod: RodModel::of_law(RodLaw::Homogenised),
                 ..Filament::new(vec![self.rod(segment)])
             };
-            Ok(self.compliance(&rod)? / true_one - 1.0)
-        });
-        let errors = errors.into_iter().collect::<Result<_, String>>()?;
-        Ok((true_one, errors))
+            found.push(self.compliance(&rod)? / true_one - 1.0);
+        }
+        Ok(found)
     }
 
     fn rod(&self, segment: f64) -> Section {
@@ -289,11 +294,35 @@ impl Row {
         }
     }
 
-    fn cells(&self) -> Result<String, String> {
+    /// For each wave how far monomers give way, and the errors of rods; read where a file has them.
+    fn found(&self, folder: &Path) -> Result<Vec<Vec<f64>>, String> {
+        let first = &self.waves[0];
+        let name = format!(
+            "{} {} {}.csv",
+            first.state.name,
+            first.kind.name(),
+            first.monomers
+        );
+        let path = folder.join(name.replace(['/', ' ', ','], "-"));
+        let (parameters, law) = (EllipsoidParameters::default(), Homogenised::mean_filament());
+        let key = format!(
+            "version {VERSION}, {parameters:?}, {law:?}, {:?}",
+            self.waves
+        );
+        if let Some(rows) = rows::read_numbers(&path, &key) {
+            return Ok(rows);
+        }
         let found = self.waves.iter().map(Wave::compare);
         let found = found.collect::<Result<Vec<_>, _>>()?;
+        let header = ["monomers", "error_10_nm", "error_1.4_nm"].map(str::to_owned);
+        rows::write_numbers(&path, &key, &header, found.iter().cloned())?;
+        Ok(found)
+    }
+
+    fn cells(&self, folder: &Path) -> Result<String, String> {
+        let found = self.found(folder)?;
         let first = &self.waves[0];
-        let (mean, deviation) = statistics(&found.iter().map(|one| one.0).collect::<Vec<_>>());
+        let (mean, deviation) = statistics(&found.iter().map(|one| one[0]).collect::<Vec<_>>());
         let mut row = format!(
             "| {} | {} | {} | {:.0} nm | {mean:.3e} ± {:.1} % |",
             first.state.name,
@@ -303,14 +332,14 @@ impl Row {
             100.0 * deviation / mean,
         );
         for k in 0..SEGMENTS.len() {
-            let errors: Vec<f64> = found.iter().map(|one| one.1[k]).collect();
+            let errors: Vec<f64> = found.iter().map(|one| one[k + 1]).collect();
             let _ = write!(row, " {:+.1} % |", 100.0 * statistics(&errors).0);
         }
         Ok(row + "\n")
     }
 }
 
-/// Prints and writes the table.
+/// Prints and writes the table. Rows that are there, computed with the same parameters and law, are kept.
 pub(super) fn run(out: &Path, quick: bool, tell: Tell<'_>) -> Result<(), String> {
     let wavelengths: &[f64] = if quick { &FEW } else { &WAVELENGTHS };
     let rows: Vec<Row> = STATES
@@ -322,8 +351,10 @@ pub(super) fn run(out: &Path, quick: bool, tell: Tell<'_>) -> Result<(), String>
         "| state | wave | monomers | wavelength | monomers give way (nm/pN, rad/(pN nm)) | rod of 10 nm segments | of 1.4 nm |\n\
          | --- | --- | ---: | ---: | ---: | ---: | ---: |\n",
     );
+    let folder = out.join("waves");
+    std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let rows = rows.par_iter().map(|row| {
-        let cells = row.cells();
+        let cells = row.cells(&folder);
         let (Ok(told) | Err(told)) = &cells;
         tell(format_args!("{}", told.trim_end()));
         cells
