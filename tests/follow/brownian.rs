@@ -215,3 +215,27 @@ fn a_flow_carries_what_is_switched() {
     assert!((drift.z - 0.5).abs() < 0.01);
     assert!((tangent / 0.5 - 1.0).abs() < 0.01, "{tangent}");
 }
+
+/// Cells of six short segments take steps that are a thousandth of those of one.
+#[test]
+fn short_segments_of_cells_are_noted() {
+    let note = |segments: usize, step: &str| {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: Following(
+                    length_nm: 108.0,
+                    monomers_where: [Curvature(above_per_nm: 0.005, below_per_nm: 0.003)],
+                    segments: {segments},
+                )),
+                task: Brownian(duration_ms: 0.001, temperature_k: 298.0, record_every_ns: 100.0, {step}),
+            )"
+        );
+        let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+        let notes = assembly.notes();
+        notes.into_iter().find(|note| note.contains("segments: 1"))
+    };
+    let noted = note(6, "").expect("steps are short");
+    assert!(noted.contains("1296 times"), "{noted}");
+    assert_eq!(note(1, ""), None);
+    assert_eq!(note(6, "time_step_ns: 0.001"), None);
+}

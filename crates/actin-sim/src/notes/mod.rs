@@ -8,7 +8,7 @@ mod laws;
 
 use crate::adapt::Chosen;
 use crate::assembly::{Rod, Sampled};
-use crate::scene::{Anchors, Monomers, Observable, Task};
+use crate::scene::{Anchors, Following, Monomers, Observable, Task};
 use crate::{Assembly, Outcome, Record, shape};
 use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
 
@@ -28,13 +28,30 @@ const LEDGER_OPEN: f64 = 0.01;
 const LEDGER_LEAST: f64 = 1e-3;
 
 impl Assembly {
+    /// Where cells that follow a motion have shorter segments than its time step needs.
+    fn note_on_short_segments(&self, following: &Following) -> Option<String> {
+        let segments = following.segments;
+        let Task::Brownian(motion) = &self.scene.task else {
+            return None;
+        };
+        let is_bound = motion.time_step_ns.is_none() && motion.thermal().is_some();
+        (is_bound && segments > 1).then(|| {
+            format!(
+                "cells of rod have {segments} segments, which bound the time step: with `segments: 1` in `Following` it \
+                 may be about {:.0} times longer",
+                (segments as f64).powi(4)
+            )
+        })
+    }
+
     /// Notes on this scene before it runs, a sentence or two each.
     pub fn notes(&self) -> Vec<String> {
         let mut notes: Vec<String> = self.chosen.iter().map(Chosen::note).collect();
-        if self.scene.filament.sections.following().is_some() {
+        if let Some(following) = self.scene.filament.sections.following() {
             let note = "sections follow the motion: numbers of bodies, time step and cost are those of a rod, with which it \
                         begins";
             notes.push(note.to_owned());
+            notes.extend(self.note_on_short_segments(following));
         }
         for filament in self.scene.filaments() {
             let sections = filament.sections.iter().filter(|s| !s.is_rod());
