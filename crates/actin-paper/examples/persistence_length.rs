@@ -5,8 +5,8 @@
 //!
 //! Free filaments in a heat bath; of the turn of one cross-section against another at distance `s`,
 //! `<cos theta> = exp(-s/lp)` and `<phi^2> = s kT/C`, where `theta` tilts the axis and `phi` goes
-//! about it. `near` takes neighbours; `far` takes the slopes between 1/5 and 3/5 of the length,
-//! which the wobble of single monomers does not enter. Errors are standard errors over seeds, by
+//! about it. `near` takes neighbours; `far` takes the slopes between 1/5 and 3/5 of 110 nm,
+//! which the wobble of single monomers does not enter; `further`, between 2/5 and 4/5. Errors are standard errors over seeds, by
 //! the jackknife; each seed is another noise and, of monomers, another sampling of anchors, but for
 //! the mean filament (`-mean`). Cases in `-water` move without inertia, their monomers with quasi-harmonic
 //! interfaces of other thermal motion in each seed. The case `cost` tells what the bath adds to a step.
@@ -48,8 +48,13 @@ struct Case {
     temperature: f64,
 }
 
+/// Length of the filaments, but for those in `-220` (nm).
+const LENGTH_NM: f64 = 110.0;
 const ROD: &str = "Rod(from_nm: 0.0, to_nm: 110.0, segments: 11)";
 const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 110.0)";
+/// Twice as long, so that ends matter less.
+const LONG_ROD: &str = "Rod(from_nm: 0.0, to_nm: 220.0, segments: 22)";
+const LONG_MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 220.0)";
 
 /// Names, sections and steps (ns) of filaments in water.
 const IN_WATER: [(&str, &str, f64); 3] = [
@@ -58,6 +63,10 @@ const IN_WATER: [(&str, &str, f64); 3] = [
     ("monomers-water", MONOMERS, 5.0),
 ];
 
+/// `Homogenised` as a scene with a heat bath takes it.
+const AT_298_K: &str = "HomogenisedAt298K";
+
+const MEAN: &str = "anchors: Cubature";
 const DRAWN: &str = "anchors: Independent, seed: SEED";
 /// Interfaces of the published rigidity, 392.0 and 582.4 kT/nm^2 (pN/nm), without the factor 1.4.
 const UNSCALED: &str = "anchors: Independent, seed: SEED, \
@@ -90,8 +99,11 @@ fn cases() -> Vec<Case> {
         rod_of("rod-published", "PublishedExtension"),
         rod_of("rod-coupling", "CouplingEnergy"),
         rod_of("rod-fitted", "Fitted"),
+        rod_of("rod-homogenised", AT_298_K),
+        rod_of("rod-homogenised-220", AT_298_K).of(LONG_ROD),
         case("monomers", MONOMERS, &PEFRL, 0.5, ROOM),
-        monomers_of("monomers-mean", &PEFRL, 0.5, "anchors: Cubature"),
+        monomers_of("monomers-mean", &PEFRL, 0.5, MEAN),
+        monomers_of("monomers-mean-220", &PEFRL, 0.5, MEAN).of(LONG_MONOMERS),
         case("monomers-fine", MONOMERS, &PEFRL, 0.25, ROOM),
         case("monomers-verlet", MONOMERS, &POSITION_VERLET, 0.4, ROOM),
         case("monomers-verlet", MONOMERS, &POSITION_VERLET, 0.2, ROOM),
@@ -214,7 +226,24 @@ impl Sums {
     }
 }
 
+impl Sums {
+    /// Frames of 110 nm of the filament.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "some tens"
+    )]
+    fn frames_of_110_nm(&self) -> usize {
+        (LENGTH_NM / self.spacing).round() as usize
+    }
+}
+
 impl Case {
+    /// The same of other sections.
+    fn of(self, sections: &'static str) -> Self {
+        Self { sections, ..self }
+    }
+
     fn scene(&self, seed: u64) -> Scene {
         let (sections, law) = (self.sections, self.law);
         let monomers = self.monomers.replace("SEED", &seed.to_string());
@@ -270,9 +299,10 @@ impl Case {
 
 /// Persistence lengths, rigidities and the energy of all seeds at a thermal energy `kt` (pN nm), in words.
 fn measured(sums: &[Sums], kt: f64) -> String {
-    let count = sums[0].turns.cosine.len();
-    let (near, far) = ((0, 1), (count / 5, 3 * count / 5));
     let spacing = sums[0].spacing;
+    let count = sums[0].frames_of_110_nm();
+    let (near, far) = ((0, 1), (count / 5, 3 * count / 5));
+    let further = (2 * count / 5, 4 * count / 5);
     let of = |&(a, b): &(usize, usize), get: fn(&Sums) -> &Vec<f64>, log: bool| {
         jackknife(sums, |chosen| {
             let at = |k: usize| {
@@ -285,11 +315,13 @@ fn measured(sums: &[Sums], kt: f64) -> String {
     let (bend, bend_error) = of(&near, |s| &s.turns.cosine, true);
     let (long, long_error) = of(&far, |s| &s.turns.cosine, true);
     let (turn, turn_error) = of(&far, |s| &s.turns.twist, false);
+    let (turn_further, further_error) = of(&further, |s| &s.turns.twist, false);
     let (energy, energy_error) = jackknife(sums, |chosen| {
         chosen.iter().map(|s| s.energy).sum::<f64>() / chosen.len() as f64
     });
     format!(
-        "h {:.2e} ns: near {:6.2} +- {:.2}, far {:6.2} +- {:.2}; kT lp {:.2e} +- {:.0e}, C {:.2e} +- {:.0e}; U/n \
+        "h {:.2e} ns: near {:6.2} +- {:.2}, far {:6.2} +- {:.2}; kT lp {:.2e} +- {:.0e}, C {:.2e} +- {:.0e}, \
+         further {:.2e} +- {:.0e}; U/n \
          {energy:.4} +- {energy_error:.4}",
         sums[0].step,
         bend / 1000.0,
@@ -300,5 +332,7 @@ fn measured(sums: &[Sums], kt: f64) -> String {
         kt * long_error,
         kt * turn,
         kt * turn_error,
+        kt * turn_further,
+        kt * further_error,
     )
 }

@@ -4,14 +4,14 @@ use crate::scene::{Filament, Material, Monomers, RodLaw, RodModel};
 use actin_cosserat::Homogenised;
 
 /// Persistence length (um) and twisting rigidity (pN nm^2) of free filaments of 110 nm at 298 K, from
-/// turns of cross-sections 22 to 66 nm apart; standard errors are 0.1 um and 0.5e2 pN nm^2 (monomers:
-/// 0.2 um and 1e2 pN nm^2, with the default bonds).
+/// turns of cross-sections 22 to 66 nm apart; standard errors are 0.1 um and 0.5e2 pN nm^2 (monomers,
+/// with the default bonds: 0.06 um and 0.3e2 pN nm^2).
 ///
 /// # Source
-/// `docs/measured/heat.md`, "Persistence length"; monomers: `docs/tables/bonds.md`, "Heat".
+/// `docs/measured/heat.md`, "Persistence length".
 type InBath = (f64, f64);
 
-const MONOMERS: InBath = (11.7, 7.6e3);
+const MONOMERS: InBath = (11.5, 7.6e3);
 
 /// The same of rods under a law whose parameters come from equilibria of monomers at zero
 /// temperature, with the law's name.
@@ -108,7 +108,7 @@ fn drawn_bonds(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Option<Str
 
 /// The note on the free energy beside drawn bonds.
 const DRAWN_IN_BATH: &str = "rods under the law Homogenised at 298 K stand for the mean filament, also where monomers draw \
-    their bonds: with 64 an interface these have a persistence length of 10.9 um, the mean filament 11.7 um \
+    their bonds: with 64 an interface these have a persistence length of 10.9 um, the mean filament 11.5 um \
     (docs/measured/heat.md)";
 
 /// The note on the published rigidities, by the number of bounds met (`docs/tables/load-cases.md`).
@@ -123,7 +123,7 @@ const HEATED: &str = "rods under the law HomogenisedAt298K without a heat bath: 
 /// The note on the energy without heat in a heat bath.
 const ATHERMAL: &str = "rods under the law HomogenisedAthermal in a heat bath: its energy is one at zero \
     temperature, not a free energy. At 298 K free rods of 110 nm in segments of 10 nm have a persistence length of \
-    11.0 um and a twisting rigidity of 7.8e3 pN nm^2, monomers 11.7 um and 7.6e3 pN nm^2 (cargo xtask load-cases)";
+    11.0 um and a twisting rigidity of 7.8e3 pN nm^2, monomers 11.5 um and 7.6e3 pN nm^2 (cargo xtask load-cases)";
 
 /// The note on a rod's law in a heat bath. None for constant rigidities that are not the published
 /// ones: they may be those at a temperature.
