@@ -31,8 +31,8 @@ const LENGTH_NM: f64 = 110.0;
 /// Persistence length (um) and twisting rigidity (pN nm^2) of the mean filament and of drawn ones, each
 /// with its standard error, measured with the same protocol (`docs/measured/heat.md`).
 const MONOMERS: [(&str, [f64; 2], [f64; 2]); 2] = [
-    ("persistence length", [11.49, 0.06], [10.90, 0.22]),
-    ("C", [7.63e3, 0.03e3], [7.4e3, 0.1e3]),
+    ("persistence length", [11.49, 0.06], [11.17, 0.12]),
+    ("C", [7.63e3, 0.03e3], [7.32e3, 0.06e3]),
 ];
 
 /// Both rows of a law.

@@ -108,7 +108,7 @@ fn drawn_bonds(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Option<Str
 
 /// The note on the free energy beside drawn bonds.
 const DRAWN_IN_BATH: &str = "rods under the law Homogenised at 298 K stand for the mean filament, also where monomers draw \
-    their bonds: with 64 an interface these have a persistence length of 10.9 um, the mean filament 11.5 um \
+    their bonds: with 64 an interface these have a persistence length of 11.2 um, the mean filament 11.5 um \
     (docs/measured/heat.md)";
 
 /// The note on the published rigidities, by the number of bounds met (`docs/tables/load-cases.md`).
