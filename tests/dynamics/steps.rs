@@ -2,7 +2,7 @@
 
 use crate::invariants::step;
 use actin_integrate::PEFRL;
-use actin_sim::{Assembly, Scene};
+use actin_sim::{Assembly, Plan, Scene};
 
 /// The stability limit (ns) of a filament on a wall.
 fn limit(sections: &str, rotary_inertia: &str) -> f64 {
@@ -60,4 +60,29 @@ fn steps_grow_with_rigid_segments() {
         assert!((pair[1] / pair[0] - 2.0).abs() < 0.15, "{limits:?}");
     }
     assert!(limits[3] > 10.0 * before);
+}
+
+/// The default step is half as long a share of its limit under a law that gives way to compression at once, also
+/// where one section alone is under it.
+#[test]
+fn the_law_of_a_section_shortens_the_step() {
+    let share = |altered: &str| {
+        let text = format!(
+            "Scene(
+                filament: Filament(
+                    sections: [Rod(from_nm: 0.0, to_nm: 80.0), Rod(from_nm: 80.0, to_nm: 160.0, {altered})],
+                    rod: RodModel(law: Constant),
+                ),
+                clamps: [Clamp(end: Start)],
+                task: Dynamics(duration_ns: 100.0),
+            )"
+        );
+        let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+        let plan = Plan::new(&assembly).unwrap();
+        let estimate = plan.estimate().unwrap();
+        estimate.time_step_ns / estimate.stability_limit_ns
+    };
+    let (alike, altered) = (share(""), share("altered: (law: Homogenised)"));
+    // Steps are rounded to whole ones between records.
+    assert!((altered / alike - 0.5).abs() < 0.01, "{altered} {alike}");
 }

@@ -9,7 +9,7 @@ use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
 use super::{Failure, Outcome, Status};
 use crate::scene::{
-    Dynamics, Fluid, Integrator, RodLaw, Scene, SceneProblem, StopTolerances, Task,
+    Dynamics, Filament, Fluid, Integrator, RodLaw, Scene, SceneProblem, StopTolerances, Task,
 };
 use crate::{Assembly, memory};
 use actin_brownian::Langevin;
@@ -165,13 +165,12 @@ fn share_of_laws(assembly: &Assembly, dynamics: &Dynamics) -> f64 {
     if !is_heated && is_dragged {
         return 1.0;
     }
-    let filaments = assembly.scene.filaments().enumerate();
-    let mut laws = filaments.filter(|(i, _)| assembly.counts_of(*i).segments > 0);
     let gives_way = |law: &RodLaw| match law {
         RodLaw::Homogenised => !is_heated,
         law => *law == RodLaw::HomogenisedAthermal,
     };
-    if laws.any(|(_, filament)| gives_way(&filament.rod.law)) {
+    let mut rods = assembly.scene.filaments().flat_map(Filament::rod_models);
+    if rods.any(|rod| gives_way(&rod.law)) {
         0.5
     } else {
         1.0
