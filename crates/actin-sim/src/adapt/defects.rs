@@ -1,7 +1,7 @@
 //! What a stretch of filament does otherwise than monomers under the same loads would: law, junctions.
 
 use super::adjoint::Adjoint;
-use super::cells::Cells;
+use super::cells::{Cells, size};
 use super::ideal::{Ideal, PERIOD};
 use super::sampling::{Defect, Segments};
 use super::section_loads::{SectionLoads, Segment, linear, rotational, segments, six};
@@ -13,6 +13,8 @@ use actin_mechanics::{State, Vector3, rotation};
 
 /// How far into a rod a junction is looked at (nm).
 const INTO_ROD_NM: f64 = 20.0;
+/// Loads of the halves of a segment that differ by a larger share are looked at both.
+const DIFFER: f64 = 0.1;
 /// Cells on the way across a junction.
 const ACROSS: u32 = 5;
 
@@ -47,18 +49,31 @@ impl Look<'_> {
             shares: all.iter().map(|segment| self.share(segment)).collect(),
         };
         let errors = lengths.errors((self.adjoint.value, self.missed), |i| {
-            let segment = &all[i];
-            let load = self.loads.at(segment.s_nm);
-            let cell = self.cells.under(&load)?;
-            let strain = cell.strain - segment.far;
-            let more = cell.energy - energy_of(rod, &segment.far);
-            Some(strain.push(more - load.dot(&strain)))
+            self.of_cells(&all[i], energy_of(rod, &all[i].far))
         })?;
         let part = |(segment, error): (&Segment, f64)| Contribution {
             span_nm: segment.span_nm(),
             error,
         };
         Some(all.iter().zip(errors).map(part).collect())
+    }
+
+    /// By how much more monomers are strained than a segment far from ends, under its load, with what they store beyond `energy`.
+    ///
+    /// A couple on the frame of a segment makes its load jump there: the mean of both halves is taken where they differ.
+    fn of_cells(&self, segment: &Segment, energy: f64) -> Option<Defect> {
+        let quarter = 0.25 * segment.length_nm;
+        let halves = [-quarter, quarter].map(|from| self.loads.at(segment.s_nm + from));
+        let middle = self.loads.at(segment.s_nm);
+        let differ = size(&(halves[1] - halves[0])) > DIFFER * size(&middle);
+        let loads = if differ { &halves[..] } else { &[middle][..] };
+        let mut mean = Defect::zeros();
+        for load in loads {
+            let cell = self.cells.under(load)?;
+            let strain = cell.strain - segment.far;
+            mean += strain.push(cell.energy - energy - load.dot(&strain));
+        }
+        Some(mean / loads.len() as f64)
     }
 
     /// What the ends of a rod do to its segments beside them, taken from the number: what monomers do there is told in full.
