@@ -219,10 +219,10 @@ const REASONS: [Reason; 23] = [
         artefact: "fig8",
         quantities: &["chosen/"],
         cause: Cause::Elsewhere,
-        title: "The thrust in under-twist is further off than the 2 % that are asked for",
-        text: "Errors are estimated from monomers under uniform strain. Under-twisted ones differ from these where they bend \
-               most, so that a quarter of monomers is estimated to be within 2 % and is not. A rod alone is, and the \
-               couple and the heights need no monomer.",
+        title: "The thrust in under-twist takes every monomer",
+        text: "Errors are estimated from monomers under uniform strain. Under-twisted ones differ from these where they \
+               bend most, and the estimate says that 2 % need them all. A rod alone is within 2 %, and the couple \
+               and the heights are given by one.",
     },
     Reason {
         artefact: "fig10",
