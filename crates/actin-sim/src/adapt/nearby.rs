@@ -9,9 +9,9 @@ use actin_mechanics::State;
 
 /// The equilibrium that a scene leads to, found from that of `near`, which differs in the segments of its rods alone.
 ///
-/// Newton's method takes a few steps from there, and from the built state as many as the scene itself. Solved from the
-/// built state are scenes of which no minimum is found from there, those with ends that slide or have hinges, and those with a
-/// path: it is the path that decides between minima.
+/// Newton's method takes a few steps from there, and from the built state as many as the scene itself; of a scene with a
+/// path it is the minimum at its end that is next to `near`, wherever the path would lead. Solved from the
+/// built state are scenes of which no minimum is found from there, and those with ends that slide or have hinges.
 pub(super) fn equilibrium_near(
     scene: &Scene,
     near: (&Assembly, &State),
@@ -28,8 +28,7 @@ fn found(assembly: &Assembly, near: (&Assembly, &State)) -> Option<State> {
         return None;
     };
     let mut clamps = assembly.scene.clamps.iter();
-    let has_path = !assembly.drive.is_still();
-    if has_path || clamps.any(|clamp| clamp.slides != Slides::Nowhere || clamp.hinge.is_some()) {
+    if clamps.any(|clamp| clamp.slides != Slides::Nowhere || clamp.hinge.is_some()) {
         return None;
     }
     let mut state = laid_along(assembly, near);
@@ -43,6 +42,8 @@ fn found(assembly: &Assembly, near: (&Assembly, &State)) -> Option<State> {
 /// Rods along those of another state, monomers as they are there.
 fn laid_along(assembly: &Assembly, (other, there): (&Assembly, &State)) -> State {
     let mut state = assembly.system.state().clone();
+    let end = assembly.drive.stages() as f64;
+    assembly.drive.place(&mut state, end);
     let axis = Axis::of(other, there);
     let span = &assembly.filaments[0];
     let rest = &assembly.rest;
