@@ -5,10 +5,13 @@ use actin_sim::{Assembly, Plan, Record, Scene, Summary, Task};
 /// What the ledger leaves open at its worst, and the most that was booked (pN nm), at a share of the default step.
 fn open(scene: &str, share: f64) -> (f64, f64) {
     let mut scene = Scene::from_ron(scene).unwrap_or_else(|e| panic!("{e}"));
-    let Task::Dynamics(dynamics) = &mut scene.task else {
-        panic!("a motion");
-    };
-    dynamics.step_safety *= share;
+    match &mut scene.task {
+        Task::Dynamics(dynamics) => dynamics.step_safety *= share,
+        Task::Brownian(brownian) => {
+            brownian.time_step_ns = brownian.time_step_ns.map(|h| share * h);
+        }
+        Task::Equilibrium(_) => panic!("a motion"),
+    }
     let assembly = Assembly::build(&scene).unwrap();
     let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
     let total = |r: &Record| r.potential_pn_nm() + r.kinetic_pn_nm;
@@ -22,13 +25,33 @@ fn open(scene: &str, share: f64) -> (f64, f64) {
     (left, size)
 }
 
+const SECTIONS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 22.0), Rod(from_nm: 22.0, to_nm: 60.0)";
+
 fn scene(body: &str, task: &str) -> String {
+    of_sections(
+        SECTIONS,
+        body,
+        &format!("Dynamics(duration_ns: 1.6, record_every_ns: 0.1, {task})"),
+    )
+}
+
+fn of_sections(sections: &str, body: &str, task: &str) -> String {
     format!(
         "Scene(
-            filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 22.0), Rod(from_nm: 22.0, to_nm: 60.0)], rod: RodModel(law: Constant)),
+            filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)),
             {body}
-            task: Dynamics(duration_ns: 1.6, record_every_ns: 0.1, {task}),
+            task: {task},
         )"
+    )
+}
+
+/// A rod without inertia in thin water. Monomers would be pushed through each other by what moves as fast.
+fn overdamped(body: &str, task: &str) -> String {
+    let water = "drag: Water(viscosity_mpa_s: 0.001)";
+    of_sections(
+        "Rod(from_nm: 0.0, to_nm: 60.0)",
+        body,
+        &format!("Brownian(duration_ms: 1.6e-6, record_every_ns: 0.1, {water}, {task})"),
     )
 }
 
@@ -101,6 +124,39 @@ fn heat_is_booked() {
         assert!(size > 100.0 && at_quarter < 0.01 * size, "{name}");
         assert!(at_default > 8.0 * at_quarter, "{name}");
     }
+}
+
+/// Without inertia or noise the same is booked, to a hundredth in steps of 0.004 ns and to the second order of the steps.
+/// Bounds set before.
+#[test]
+fn overdamped_motion_books_work_and_drag() {
+    for (name, body) in DRIVEN {
+        let text = overdamped(body, "temperature_k: 0.0, time_step_ns: 0.004");
+        let [(left, size), (at_half, _)] = [1.0, 0.5].map(|share| open(&text, share));
+        println!("{name}: {left:.1e}, {at_half:.1e} of {size:.2} pN nm");
+        assert!(size > 1.0 && left < 0.01 * size, "{name}");
+        assert!(left > at_half * 2.0_f64.powf(1.5), "{name}");
+    }
+}
+
+/// Noise changes the work on a filament that is nearly linear from run to run, not in the mean; heat is not booked with it.
+#[test]
+fn overdamped_motion_in_a_bath_books_work() {
+    let of = |temperature: f64, seed: u64| {
+        let task = format!("temperature_k: {temperature:?}, seed: {seed}, time_step_ns: 0.004");
+        let scene = Scene::from_ron(&overdamped(DRIVEN[4].1, &task)).unwrap();
+        let assembly = Assembly::build(&scene).unwrap();
+        let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
+        trajectory.records.last().unwrap().booked
+    };
+    let cold = of(0.0, 0).work_pn_nm;
+    let warm: Vec<f64> = (0..16).map(|seed| of(298.0, seed).work_pn_nm).collect();
+    let mean = warm.iter().sum::<f64>() / 16.0;
+    let variance = warm.iter().map(|w| (w - mean).powi(2)).sum::<f64>() / 15.0;
+    let error = (variance / 16.0).sqrt();
+    println!("work {cold:.2}, in a bath {mean:.2} +- {error:.2} pN nm");
+    assert!((mean - cold).abs() < 3.0 * error && error < 0.2 * cold);
+    assert!(of(298.0, 0).heat_pn_nm == 0.0 && of(0.0, 0).heat_pn_nm < -0.01 * cold);
 }
 
 /// Nothing is booked where nothing comes from outside.

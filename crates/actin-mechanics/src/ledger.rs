@@ -1,6 +1,6 @@
 //! Energy that comes from outside: the work of what is driven, and heat.
 
-use crate::{ControlId, Drive, Interaction, Loads, State};
+use crate::{ControlId, Drive, Interaction, Loads, State, Vectors, rotation};
 
 /// The controls of a state in which a [`System`](crate::System) books what comes from outside: without it, the
 /// energy of a motion is constant but for the error of the integrator.
@@ -28,6 +28,30 @@ impl Ledger {
         let by_controls = drive.work_of_controls(state, interactions, t);
         state.controls[self.work] += by_bodies + by_controls;
     }
+}
+
+/// Work (pN nm) of `loads` on free bodies that go from one state to another. Turns are those in body axes, which both states share.
+pub(crate) fn work_on_free(loads: &Loads, [from, to]: [&State; 2]) -> f64 {
+    let (places, frames) = (&from.points.position, &from.frames.orientation);
+    let mut moved = Vectors::zeros(from.points.len());
+    for i in 0..from.points.len() {
+        moved.set(i, to.points.position.get(i) - places.get(i));
+    }
+    let mut work = 0.0;
+    for i in (0..from.points.len()).filter(|&i| from.points.is_free(i)) {
+        work += loads.force.get(i).dot(&moved.get(i));
+    }
+    for slider in from.sliders.iter() {
+        let slid = slider.sliding_velocity(&moved);
+        for &i in &slider.points {
+            work += loads.force.get(i).dot(&slid);
+        }
+    }
+    for i in (0..from.frames.len()).filter(|&i| from.frames.is_free(i)) {
+        let turned = frames.get(i).inverse() * to.frames.orientation.get(i);
+        work += loads.torque.get(i).dot(&rotation::log(turned));
+    }
+    work
 }
 
 /// Rate at which held bodies work against the loads on them (pN nm per ns).

@@ -1,5 +1,6 @@
 //! A state with its interactions, split into drift and kick.
 
+use crate::ledger::work_on_free;
 use crate::{Interaction, Ledger, Loads, Motion, Residual, State, Vectors};
 use std::sync::Arc;
 
@@ -153,6 +154,20 @@ impl System {
     /// Books from now on what comes from outside.
     pub fn keep_ledger(&mut self, ledger: Ledger) {
         self.ledger = Some(ledger);
+    }
+
+    /// Whether what comes from outside is booked.
+    pub fn keeps_ledger(&self) -> bool {
+        self.ledger.is_some()
+    }
+
+    /// Books as heat what a step without inertia from `start`, where the loads were `before`, has taken from the
+    /// energy by moving free bodies: by the mean of the loads of its start and end. Evaluates the loads if they are not current.
+    pub fn book_overdamped_heat(&mut self, (start, before): (&State, &Loads)) {
+        self.loads();
+        let work = |loads: &Loads| work_on_free(loads, [start, &self.state]);
+        let mean = 0.5 * (work(before) + work(&self.loads));
+        self.book_heat(-mean);
     }
 
     /// The present state.

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 pub struct Booked {
     /// By ends, anchors and loads that move or change in time.
     pub work_pn_nm: f64,
-    /// By drag and, in a bath, noise: negative where drag takes more.
+    /// By drag and, in a bath, noise: negative where drag takes more. Not booked of overdamped motion in a bath.
     pub heat_pn_nm: f64,
     /// By linkers that broke, formed or stepped.
     pub events_pn_nm: f64,
@@ -31,7 +31,7 @@ pub(crate) type Column = (&'static str, fn(&Booked) -> f64);
 
 /// Adds what a motion books in to a state under construction; none of other tasks.
 pub(super) fn of_motion(task: &Task, state: &mut State) -> Option<Ledger> {
-    matches!(task, Task::Dynamics(_)).then(|| Ledger {
+    (!matches!(task, Task::Equilibrium(_))).then(|| Ledger {
         work: state.add_control(0.0),
         heat: state.add_control(0.0),
     })
@@ -56,7 +56,9 @@ impl Assembly {
     pub(crate) fn booked_columns(&self) -> Vec<Column> {
         let (is_driven, has_drag) = match &self.scene.task {
             Task::Dynamics(dynamics) => (Ramp::of(self).is_some(), dynamics.has_drag()),
-            _ => (false, false),
+            // What noise brings is not booked.
+            Task::Brownian(task) => (Ramp::of(self).is_some(), task.thermal().is_none()),
+            Task::Equilibrium(_) => (false, false),
         };
         let mut columns: Vec<Column> = Vec::new();
         if is_driven {

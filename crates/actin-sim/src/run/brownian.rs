@@ -163,13 +163,18 @@ pub(super) fn run(
         .and_then(|run| run.checking_every(1))
         .map_err(|error| refused(&error))?
         .stopping_from(recorder.drive(&mut system));
+    let begun = recorder.is_whole().then(|| system.total_energy());
     recorder.let_happen(&mut system);
+    if let Some(ledger) = assembly.ledger {
+        system.keep_ledger(ledger);
+    }
     let ending = recorder.execute_steps(&run, &mut stepper, &mut system);
     let ending = recorder.end(ending, &mut system);
     let wall_s = recorder.wall_s();
     let outcome = Outcome {
         force_evaluations: system.force_evaluations(),
         time_step_ns: Some(estimate.time_step_ns),
+        begun_with_pn_nm: begun,
         events: recorder.events(),
         ..Outcome::new(Status::Failed, wall_s)
     }
