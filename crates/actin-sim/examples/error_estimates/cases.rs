@@ -122,8 +122,8 @@ const TWO_LINKERS: &str = "clamps: [Clamp(end: Start)],
     ]";
 
 /// Others: the length in rises, and what holds and loads it.
-const OTHERS: [(&str, f64, &str, Quantity); 10] = {
-    use Quantity::{Curvature, EndCouple, EndForce, Energy, LinkerForce, Tip};
+const OTHERS: [(&str, f64, &str, Quantity); 11] = {
+    use Quantity::{Curvature, EndCouple, EndForce, Energy, Height, LinkerForce, Tip};
     [
         (
             "tip under tension, 300 nm",
@@ -185,6 +185,17 @@ const OTHERS: [(&str, f64, &str, Quantity); 10] = {
             LinkerForce { linker: 0 },
         ),
         (
+            "height, buckled, 1600 nm",
+            584.5,
+            "clamps: [Clamp(end: Start), Clamp(end: End)],
+            linkers: [Linker(at_nm: 800.3, displaced_nm: (500.0, 0.0, 0.0), stiffness_pn_per_nm: 1e-7)],
+            path: [Stage(
+                set: [Shift(end: Start, shift_nm: (0.0, 0.0, 40.0)), Shift(end: End, shift_nm: (0.0, 0.0, -40.0))],
+                duration_ns: 300.0,
+            )]",
+            Height,
+        ),
+        (
             "curvature at a linker, 200 nm",
             73.0,
             "clamps: [Clamp(end: Start), Clamp(end: End)],
@@ -209,8 +220,9 @@ pub(super) fn cases() -> Result<Vec<Case>, Box<dyn std::error::Error>> {
     }
     for (name, rises, rest, quantity) in OTHERS {
         let sections = format!("[Ellipsoids(from_nm: 0.0, to_nm: {:?})]", rises * RISE_NM);
-        let text =
-            format!("Scene(filament: Filament(sections: {sections}), {rest}, task: Equilibrium())");
+        let text = format!(
+            "Scene(filament: Filament(sections: {sections}), {rest}, task: Equilibrium(leave_saddles: 20, accept_jumps: true))"
+        );
         cases.push(Case {
             name,
             scene: Scene::from_ron(&text)?,

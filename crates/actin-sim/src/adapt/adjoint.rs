@@ -283,6 +283,13 @@ impl Adjoint {
         (ahead - behind) * (self.sign / (2.0 * self.step))
     }
 
+    /// Whether the number is the force of a linker.
+    pub(super) fn is_force_of(&self, linker: usize) -> bool {
+        self.linker
+            .as_ref()
+            .is_some_and(|wanted| wanted.0 == linker)
+    }
+
     /// Derivative of the number by the place of a site of a linker, if it is the force of that (lab frame).
     pub(super) fn by_site(&self, linker: usize, site: &Site) -> Vector3 {
         let wanted = self.linker.as_ref().filter(|wanted| wanted.0 == linker);

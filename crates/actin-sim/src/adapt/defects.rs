@@ -13,8 +13,12 @@ use actin_mechanics::{State, Vector3, rotation};
 
 /// How far into a rod a junction is looked at (nm).
 const INTO_ROD_NM: f64 = 20.0;
-/// Loads of the halves of a segment that differ by a larger share are looked at both.
+/// How far beside a place loads are those to one side of it (nm).
+const BESIDE_NM: f64 = 1e-6;
+/// Share by which loads within a segment have to differ to count as others.
 const DIFFER: f64 = 0.1;
+/// Scale of the strains under a load below which there is none: far above what solvers leave.
+const UNLOADED: f64 = 1e-8;
 /// Cells on the way across a junction.
 const ACROSS: u32 = 5;
 
@@ -49,7 +53,7 @@ impl Look<'_> {
             shares: all.iter().map(|segment| self.share(segment)).collect(),
         };
         let errors = lengths.errors((self.adjoint.value, self.missed), |i| {
-            self.of_cells(&all[i], energy_of(rod, &all[i].far))
+            self.of_segment(&all, i, rod)
         })?;
         let part = |(segment, error): (&Segment, f64)| Contribution {
             span_nm: segment.span_nm(),
@@ -58,22 +62,48 @@ impl Look<'_> {
         Some(all.iter().zip(errors).map(part).collect())
     }
 
-    /// By how much more monomers are strained than a segment far from ends, under its load, with what they store beyond `energy`.
+    /// The defect of segment `i` of a rod, against cells.
     ///
-    /// A couple on the frame of a segment makes its load jump there: the mean of both halves is taken where they differ.
-    fn of_cells(&self, segment: &Segment, energy: f64) -> Option<Defect> {
-        let quarter = 0.25 * segment.length_nm;
-        let halves = [-quarter, quarter].map(|from| self.loads.at(segment.s_nm + from));
+    /// A couple on the frame of a segment makes its load jump there. It has one strain for both halves, so that the segments
+    /// before and behind it tell what they do.
+    fn of_segment(&self, all: &[Segment], i: usize, rod: &Rod) -> Option<Defect> {
+        if !self.jumps(&all[i]) {
+            return self.of_cells(&all[i], rod);
+        }
+        let before = all[..i].iter().rev().find(|segment| !self.jumps(segment));
+        let behind = all[i..].iter().find(|segment| !self.jumps(segment));
+        let sides = before.into_iter().chain(behind);
+        let defects: Option<Vec<Defect>> = sides.map(|side| self.of_cells(side, rod)).collect();
+        let defects = defects?;
+        Some(defects.iter().sum::<Defect>() / (defects.len().max(1) as f64))
+    }
+
+    /// Whether what acts on the frame of a segment changes its load there.
+    fn jumps(&self, segment: &Segment) -> bool {
+        let beside = [-BESIDE_NM, BESIDE_NM].map(|from| self.loads.at(segment.s_nm + from));
+        let most = size(&beside[0]).max(size(&beside[1]));
+        most > UNLOADED && size(&(beside[1] - beside[0])) > DIFFER * most
+    }
+
+    /// By how much more monomers are strained than a segment far from ends, under its load, with what they store beyond it: the
+    /// mean of both halves, where their loads differ. Nothing without a load, where a number may depend on twist without bounds: rods
+    /// at rest may not resist it.
+    fn of_cells(&self, segment: &Segment, rod: &Rod) -> Option<Defect> {
+        let halves = segment.halves_nm().map(|s_nm| self.loads.at(s_nm));
         let middle = self.loads.at(segment.s_nm);
+        if size(&middle) < UNLOADED {
+            return Some(Defect::zeros());
+        }
+        let energy = energy_of(rod, &segment.far);
         let differ = size(&(halves[1] - halves[0])) > DIFFER * size(&middle);
         let loads = if differ { &halves[..] } else { &[middle][..] };
-        let mut mean = Defect::zeros();
+        let mut sum = Defect::zeros();
         for load in loads {
             let cell = self.cells.under(load)?;
             let strain = cell.strain - segment.far;
-            mean += strain.push(cell.energy - energy - load.dot(&strain));
+            sum += strain.push(cell.energy - energy - load.dot(&strain));
         }
-        Some(mean / loads.len() as f64)
+        Some(sum / loads.len() as f64)
     }
 
     /// What the ends of a rod do to its segments beside them, taken from the number: what monomers do there is told in full.
@@ -91,13 +121,15 @@ impl Look<'_> {
         beside.collect()
     }
 
-    /// What a defect of a segment makes of the number.
+    /// What a defect of a segment makes of the number: by the mean of its halves, where a couple on its frame makes them differ.
     fn weight(&self, segment: &Segment) -> Defect {
-        let Segment {
-            s_nm, length_nm, ..
-        } = *segment;
-        let stored = self.adjoint.change(s_nm, &SixVector::zeros(), 1.0);
-        self.adjoint.weight(s_nm).push(stored) * length_nm
+        let by_strain = if self.jumps(segment) {
+            let halves = segment.halves_nm().map(|s_nm| self.adjoint.weight(s_nm));
+            0.5 * (halves[0] + halves[1])
+        } else {
+            self.adjoint.weight(segment.s_nm)
+        };
+        by_strain.push(self.adjoint.of_stored(1.0)) * segment.length_nm
     }
 
     /// How much of the number comes from a segment, about.

@@ -69,7 +69,8 @@ fn is_too_short(length_nm: f64, rise_nm: f64) -> bool {
 /// draws bonds for each interface, the mean over drawings, about which filaments scatter. Left out are strains that change over
 /// the length of a few bonds, but for those at ends and where something acts, as those of under-twisted filaments
 /// that buckle, and errors of the second order: those of laws without twist-stretch coupling
-/// (`Constant`) may be as large as the first.
+/// (`Constant`) may be as large as the first. Left out, too, is what monomers do where a couple acts on a free end or, of a
+/// curvature, within two periods of its place; what a couple across the axis does inside a rod (1 % of a tip) is not told well.
 /// A rod that ends between two places of the lattice is longer or shorter than monomers can be; that is no part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorEstimate {
@@ -167,7 +168,7 @@ impl ErrorEstimate {
 #[derive(Clone, Debug)]
 struct Located {
     total: ErrorEstimate,
-    /// Of laws and walls.
+    /// Of laws, walls and sites.
     parts: Vec<Contribution>,
 }
 
@@ -236,7 +237,7 @@ fn located(
     let at_ends = look.ends(&runs)?;
     let walls = sum(&at_ends);
     parts.extend(at_ends);
-    let at_sites = look.sites(&runs)?;
+    let at_sites = look.sites(&runs, quantity)?;
     let sites = sum(&at_sites);
     parts.extend(at_sites);
     let value = look.adjoint.value;

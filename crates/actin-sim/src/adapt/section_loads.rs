@@ -125,6 +125,12 @@ impl Segment {
         let half = 0.5 * self.length_nm;
         [self.s_nm - half, self.s_nm + half]
     }
+
+    /// The middles of its halves (nm).
+    pub(super) fn halves_nm(&self) -> [f64; 2] {
+        let quarter = 0.25 * self.length_nm;
+        [self.s_nm - quarter, self.s_nm + quarter]
+    }
 }
 
 /// The segments of a section that is a rod.

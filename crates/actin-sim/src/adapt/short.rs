@@ -1,4 +1,4 @@
-//! Short filaments of monomers at an end of a filament, solved next to where it is, under the loads that it carries.
+//! Short filaments of monomers at an end of a filament or about a place inside, solved next to where it is, under the loads that it carries.
 
 use super::defects::Look;
 use super::ideal::mean_monomers;
@@ -62,7 +62,7 @@ impl Inside {
         }
     }
 
-    /// A force as a long soft spring exerts it at the site that stands at `place`.
+    /// A force as a long soft spring exerts it at the site, whose place on the axis is `place`.
     fn spring(&self, place: Vector3) -> Linker {
         Linker {
             filament: 0,
@@ -221,7 +221,10 @@ fn solve(assembly: &Assembly, state: &mut State) -> Result<(), SceneProblem> {
     let mut newton = crate::run::solver(assembly, &TASK)?;
     let solved = newton.solve(state, assembly.system.interactions());
     solved.map(|_| ()).map_err(|failure| {
-        let rule = format!("the error at an end is not known: {}", failure.cause);
+        let rule = format!(
+            "the error is not known where monomers are solved by themselves: {}",
+            failure.cause
+        );
         SceneProblem::new("filament.sections", "", rule)
     })
 }

@@ -11,7 +11,7 @@ use super::section_loads::{SectionLoads, six};
 use super::short::{Inside, Short};
 use super::wall::no_cell;
 use crate::assembly::{BodyKind, Part};
-use crate::scene::{Couple, Force, LinkerSite, Load, SceneProblem};
+use crate::scene::{Couple, Force, LinkerSite, Load, Quantity, SceneProblem};
 use crate::{Assembly, End, SectionSpan};
 use actin_coupling::{LinkerEnd, Site};
 use actin_ellipsoid::SixVector;
@@ -27,12 +27,12 @@ const SAMPLES: u32 = 4;
 const LEAST: f64 = 1e-3;
 /// How far behind a body loads are those behind it (nm).
 const BESIDE_NM: f64 = 1e-6;
-/// Share of its work that a spring does not store.
-const HALF: f64 = 0.5;
+/// Share that is stored of the work of what acts on a site that gives way in proportion.
+const STORED: f64 = 0.5;
 
 /// What acts inside a filament.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Acting {
+enum Acting {
     /// A linker, at its site or at its other one.
     Linker(usize, bool),
     /// A load at one place.
@@ -65,7 +65,7 @@ impl Acting {
     }
 
     /// Force (pN) and its moment, with couples (pN nm), about the lab origin.
-    pub(super) fn wrench(self, assembly: &Assembly, state: &State) -> (Vector3, Vector3) {
+    fn wrench(self, assembly: &Assembly, state: &State) -> (Vector3, Vector3) {
         match self {
             Self::Linker(i, is_other) => {
                 let linker = &assembly.linkers[i];
@@ -111,7 +111,7 @@ impl Acting {
     }
 
     /// The site of a linker.
-    pub(super) fn site(self, assembly: &Assembly) -> Option<(usize, &Site)> {
+    fn site(self, assembly: &Assembly) -> Option<(usize, &Site)> {
         match self {
             Self::Linker(i, false) => Some((i, assembly.linkers[i].site())),
             Self::Linker(i, true) => match assembly.linkers[i].end() {
@@ -147,11 +147,22 @@ fn total(loads: &Loads, state: &State) -> (Vector3, Vector3) {
 }
 
 impl Look<'_> {
-    /// What monomers would do about the places inside rods at which something acts.
-    pub(super) fn sites(&self, runs: &[Run]) -> Result<Vec<Contribution>, SceneProblem> {
+    /// What monomers would do about the places inside rods at which something acts: of a curvature, where that is not within
+    /// what they do.
+    pub(super) fn sites(
+        &self,
+        runs: &[Run],
+        quantity: Quantity,
+    ) -> Result<Vec<Contribution>, SceneProblem> {
+        let reach_nm = 2.0 * PERIOD as f64 * self.rise();
+        let is_seen = |s_nm: f64| match quantity {
+            Quantity::Curvature { at_nm } => (s_nm - at_nm).abs() >= reach_nm,
+            _ => true,
+        };
         let mut all = Vec::new();
         for (acting, site) in Acting::all(self.assembly) {
-            if self.is_in_rod(runs, site.at_nm) && self.is_felt(acting, site.at_nm) {
+            let s_nm = site.at_nm;
+            if is_seen(s_nm) && self.is_in_rod(runs, s_nm) && self.is_felt(acting, s_nm) {
                 all.push(self.site(acting, site)?);
             }
         }
@@ -171,29 +182,34 @@ impl Look<'_> {
             && walls.all(|(_, wall)| (s_nm - wall).abs() > self.rise())
     }
 
-    /// Whether what acts at a place is more than next to nothing beside what the filament carries there.
+    /// Whether what acts at a place is more than next to nothing beside what the filament carries there, or wanted.
     fn is_felt(&self, acting: Acting, s_nm: f64) -> bool {
-        let load = about(self.loads, s_nm, acting.wrench(self.assembly, self.state));
+        if matches!(acting, Acting::Linker(linker, _) if self.adjoint.is_force_of(linker)) {
+            return true;
+        }
+        let load = wrench_about(self.loads, s_nm, acting.wrench(self.assembly, self.state));
         size(&load) > LEAST * size(&self.loads.at(s_nm))
     }
 
     fn site(&self, acting: Acting, site: LinkerSite) -> Result<Contribution, SceneProblem> {
-        let short = self.about(site.at_nm);
+        let short = self.short_about(site.at_nm);
         let inside = self.inside(acting, site, &short);
         let [before, behind] = compared(&short, &inside, self.rise());
         let (at_site, across) = self.of_site(&short, &inside, [before, behind])?;
         let (weight, load) = self.adjoint.of_acting(acting, self.assembly, site.at_nm);
-        let stored = across[6] - HALF * at_site.dot(&load);
+        // Its weight is by what acts, which does its work on it.
+        let stored = across[6] + STORED * at_site.dot(&load);
         // What the filament carries behind all bodies that the site follows.
         let last = acting.bodies(self.assembly, self.state);
         let last = last.into_iter().fold(site.at_nm, f64::max) + BESIDE_NM;
         let through = self
             .adjoint
             .of_both(|loads, _| loads.through(last, site.at_nm));
+        let length_nm = self.assembly.length_nm();
         let motion = SixVector::from(across.fixed_rows::<6>(0));
         let by_motion = motion.dot(&self.adjoint.slope(through)) + at_site.dot(&weight);
         Ok(Contribution {
-            span_nm: [before, behind].map(|s_nm| short.from_nm + s_nm),
+            span_nm: [before, behind].map(|s_nm| (short.from_nm + s_nm).clamp(0.0, length_nm)),
             error: by_motion + self.adjoint.of_stored(stored),
         })
     }
@@ -203,7 +219,7 @@ impl Look<'_> {
     }
 
     /// The short filament about a place, on the lattice of the whole one. It may be longer than that.
-    fn about(&self, s_nm: f64) -> Short {
+    fn short_about(&self, s_nm: f64) -> Short {
         let rise = self.rise();
         let of_whole = self.lattice_nm();
         let nearest = ((s_nm - of_whole) / rise).round();
@@ -271,7 +287,7 @@ impl Look<'_> {
 }
 
 /// A force and its moment about the lab origin as couple and force about a cross-section, in its axes.
-fn about(loads: &SectionLoads, s_nm: f64, (force, moment): (Vector3, Vector3)) -> SixVector {
+fn wrench_about(loads: &SectionLoads, s_nm: f64, (force, moment): (Vector3, Vector3)) -> SixVector {
     let (place, axes) = loads.cross_section(s_nm);
     let body = axes.inverse();
     six(body * (moment - place.cross(&force)), body * force)
@@ -295,7 +311,8 @@ impl Adjoint {
     /// What a motion (body axes) of a site beyond its cross-section makes of the number, and what acts on it (couple and force about
     /// the cross-section, body axes).
     fn of_acting(&self, acting: Acting, assembly: &Assembly, s_nm: f64) -> (SixVector, SixVector) {
-        let both = self.of_both(|loads, state| about(loads, s_nm, acting.wrench(assembly, state)));
+        let both =
+            self.of_both(|loads, state| wrench_about(loads, s_nm, acting.wrench(assembly, state)));
         let [ahead, behind] = both;
         let load = 0.5 * (ahead + behind);
         let Some((linker, site)) = acting.site(assembly) else {
@@ -305,7 +322,7 @@ impl Adjoint {
         // At the state itself, which is between the two.
         let own = self.of_both(|loads, state| {
             let moment = site.position(state).cross(&slope);
-            about(loads, s_nm, (slope, moment))
+            wrench_about(loads, s_nm, (slope, moment))
         });
         (self.slope(both) + 0.5 * (own[0] + own[1]), load)
     }
