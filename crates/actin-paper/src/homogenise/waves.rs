@@ -306,7 +306,7 @@ impl Row {
         let path = folder.join(name.replace(['/', ' ', ','], "-"));
         let (parameters, law) = (EllipsoidParameters::default(), Homogenised::mean_filament());
         let key = format!(
-            "version {VERSION}, {parameters:?}, {law:?}, {:?}",
+            "version {VERSION}, {parameters:?}, {law:?}, {:?}, {SEGMENTS:?} {SLIGHT:?} {ABOUT:?} {BEYOND:?} {LEAST:?}",
             self.waves
         );
         if let Some(rows) = rows::read_numbers(&path, &key) {

@@ -38,7 +38,7 @@ impl Assembly {
         (is_bound && segments > 1).then(|| {
             format!(
                 "cells of rod have {segments} segments, which bound the time step: with `segments: 1` in `Following` it \
-                 may be about {:.0} times longer",
+                 may be up to {:.0} times longer",
                 (segments as f64).powi(4)
             )
         })
