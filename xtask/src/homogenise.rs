@@ -31,6 +31,8 @@ enum Part {
     Checks,
     /// Size of the cell, what ties it to its axis, number of samplings.
     Variants,
+    /// Where a twisted and bent cell has several states, and how it bends in a plane.
+    States,
     /// Scatter over drawn bonds.
     Scatter,
     /// Energy, loads and tangent over all strains.
@@ -50,6 +52,7 @@ impl From<Part> for homogenise::Part {
         match part {
             Part::Checks => Self::Checks,
             Part::Variants => Self::Variants,
+            Part::States => Self::States,
             Part::Scatter => Self::Scatter,
             Part::Grid => Self::Grid,
             Part::Law => Self::Law,

@@ -30,8 +30,10 @@ impl Ledger {
     }
 }
 
-/// Work (pN nm) of `loads` on free bodies that go from one state to another. Turns are those in body axes, which both states share.
-pub(crate) fn work_on_free(loads: &Loads, [from, to]: [&State; 2]) -> f64 {
+/// Sum of the works (pN nm) of two loads on free bodies that go from one state to another. Turns are those in body axes, which both
+/// states share.
+pub(crate) fn work_on_free([a, b]: [&Loads; 2], [from, to]: [&State; 2]) -> f64 {
+    let force = |i: usize| a.force.get(i) + b.force.get(i);
     let (places, frames) = (&from.points.position, &from.frames.orientation);
     let mut moved = Vectors::zeros(from.points.len());
     for i in 0..from.points.len() {
@@ -39,17 +41,18 @@ pub(crate) fn work_on_free(loads: &Loads, [from, to]: [&State; 2]) -> f64 {
     }
     let mut work = 0.0;
     for i in (0..from.points.len()).filter(|&i| from.points.is_free(i)) {
-        work += loads.force.get(i).dot(&moved.get(i));
+        work += force(i).dot(&moved.get(i));
     }
     for slider in from.sliders.iter() {
         let slid = slider.sliding_velocity(&moved);
         for &i in &slider.points {
-            work += loads.force.get(i).dot(&slid);
+            work += force(i).dot(&slid);
         }
     }
     for i in (0..from.frames.len()).filter(|&i| from.frames.is_free(i)) {
         let turned = frames.get(i).inverse() * to.frames.orientation.get(i);
-        work += loads.torque.get(i).dot(&rotation::log(turned));
+        let torque = a.torque.get(i) + b.torque.get(i);
+        work += torque.dot(&rotation::log(turned));
     }
     work
 }

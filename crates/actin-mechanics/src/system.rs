@@ -165,9 +165,8 @@ impl System {
     /// energy by moving free bodies: by the mean of the loads of its start and end. Evaluates the loads if they are not current.
     pub fn book_overdamped_heat(&mut self, (start, before): (&State, &Loads)) {
         self.loads();
-        let work = |loads: &Loads| work_on_free(loads, [start, &self.state]);
-        let mean = 0.5 * (work(before) + work(&self.loads));
-        self.book_heat(-mean);
+        let both = work_on_free([before, &self.loads], [start, &self.state]);
+        self.book_heat(-0.5 * both);
     }
 
     /// The present state.

@@ -18,7 +18,7 @@ pub use response::{CellResponse, Control};
 
 use crate::{EllipsoidModel, InterfaceKind};
 use actin_mechanics::Vector3;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Rotation3};
 use std::f64::consts::{PI, TAU};
 
 /// Coordinates of one monomer of a cell: displacement, then turn.
@@ -86,16 +86,35 @@ impl Cell {
     /// Fewer than three monomers, so many that they do not return to the azimuth of the first (whole
     /// numbers of 13 do with the default helix), and bonds that cannot be found.
     pub fn new(model: &EllipsoidModel, monomers: usize, hold: Hold) -> Result<Self, CellError> {
+        Self::with_turn(model, monomers, model.parameters().turn, hold)
+    }
+
+    /// The same of a filament that has been twisted: each monomer is turned about the axis by `turn` (rad) from the one before,
+    /// its bonds are those of the built filament. Strains are in frames that do not turn with it.
+    ///
+    /// With a curvature that is constant in these frames it is bent in a plane. One that is twisted by its strain is bent along
+    /// a helix: its curvature turns with its frames.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new): the monomers have to return to the azimuth of the first with this turn.
+    pub fn with_turn(
+        model: &EllipsoidModel,
+        monomers: usize,
+        turn: f64,
+        hold: Hold,
+    ) -> Result<Self, CellError> {
         let helix = model.helix();
-        let turn = model.parameters().turn * monomers as f64;
-        let missing = (turn + PI).rem_euclid(TAU) - PI;
+        let all = turn * monomers as f64;
+        let missing = (all + PI).rem_euclid(TAU) - PI;
         if monomers < 3 || missing.abs() > 1e-9 {
             return Err(CellError::NoPeriod { monomers, missing });
         }
-        let place = |(index, _): (i64, usize)| {
+        let twist = turn - model.parameters().turn;
+        let place = |(index, k): (i64, usize)| {
             let height = Vector3::z() * helix.arc_length(index);
             let axes = helix.orientation(index).to_rotation_matrix().into_inner();
-            (helix.centre(index) - height, axes)
+            let turned = Rotation3::from_axis_angle(&Vector3::z_axis(), twist * k as f64);
+            (turned * (helix.centre(index) - height), turned * axes)
         };
         let indices = || (0_i64..).zip(0..monomers);
         let places: Vec<_> = indices().map(place).collect();

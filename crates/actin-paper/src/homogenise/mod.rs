@@ -14,6 +14,7 @@ mod pictures;
 mod region;
 mod rows;
 mod scatter;
+mod states;
 pub(crate) mod surface;
 mod variants;
 mod waves;
@@ -45,6 +46,8 @@ pub enum Part {
     Checks,
     /// What must not matter: size of the cell, what ties it to its axis, number of samplings.
     Variants,
+    /// Where a cell has several states, and how it bends in a plane.
+    States,
     /// Scatter over drawn bonds.
     Scatter,
     /// Energy, loads and tangent over all strains.
@@ -60,9 +63,10 @@ pub enum Part {
 }
 
 impl Part {
-    const ALL: [Self; 8] = [
+    const ALL: [Self; 9] = [
         Self::Checks,
         Self::Variants,
+        Self::States,
         Self::Scatter,
         Self::Grid,
         Self::Law,
@@ -90,6 +94,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
         match part {
             Part::Checks => checks::run(out, samplings, tell)?,
             Part::Variants => variants::run(out, samplings, tell)?,
+            Part::States => states::run(out, tell)?,
             Part::Scatter => scatter::run(out, samplings, tell)?,
             Part::Grid => {
                 let grid = grid::compute(out, &axes, tell)?;

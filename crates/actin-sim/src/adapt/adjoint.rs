@@ -90,6 +90,17 @@ impl Goal {
         }
     }
 
+    /// The linker whose force this is, if it is, and the derivative of that by the place of its end (lab frame).
+    fn by_end_of_linker(&self, assembly: &Assembly) -> Option<(usize, Vector3)> {
+        match *self {
+            Self::Linker { linker, along } => {
+                let stiffness = assembly.scene.linkers[linker].stiffness_pn_per_nm;
+                Some((linker, along * stiffness))
+            }
+            _ => None,
+        }
+    }
+
     /// Bodies on whose places the value depends, but for those of a clamp: points, frames.
     fn bodies(&self, assembly: &Assembly, state: &State) -> (Vec<usize>, Vec<usize>) {
         match self {
@@ -205,8 +216,8 @@ pub(super) struct Adjoint {
     is_energy: bool,
     /// Along which the displacement of the tip is wanted, if it is.
     tip: Option<Vector3>,
-    /// The linker whose force is wanted, if it is, and the loads that are its derivative.
-    linker: Option<(usize, Loads)>,
+    /// The linker whose force is wanted, if it is, and the derivative of that by the place of its end (lab frame).
+    linker: Option<(usize, Vector3)>,
 }
 
 impl Adjoint {
@@ -252,10 +263,7 @@ impl Adjoint {
                 Goal::Tip(direction) => Some(direction),
                 _ => None,
             },
-            linker: match goal {
-                Goal::Linker { linker, .. } => Some((linker, loads)),
-                _ => None,
-            },
+            linker: goal.by_end_of_linker(assembly),
         })
     }
 
@@ -285,19 +293,14 @@ impl Adjoint {
 
     /// Whether the number is the force of a linker.
     pub(super) fn is_force_of(&self, linker: usize) -> bool {
-        self.linker
-            .as_ref()
-            .is_some_and(|wanted| wanted.0 == linker)
+        self.by_end_of(linker).is_some()
     }
 
-    /// Derivative of the number by the place of a site of a linker, if it is the force of that (lab frame).
-    pub(super) fn by_site(&self, linker: usize, site: &Site) -> Vector3 {
-        let wanted = self.linker.as_ref().filter(|wanted| wanted.0 == linker);
-        let Some((_, loads)) = wanted else {
-            return Vector3::zeros();
-        };
-        let points = site.shares().iter().map(|&(i, _)| loads.force.get(i));
-        points.sum()
+    /// Derivative of the number by the place of the end of a linker, if it is the force of that; with its sign changed that by
+    /// the place of its site (lab frame).
+    pub(super) fn by_end_of(&self, linker: usize) -> Option<Vector3> {
+        let wanted = self.linker.filter(|wanted| wanted.0 == linker);
+        wanted.map(|wanted| wanted.1)
     }
 
     /// The change of the number where a stretch at an arc length (nm) is strained by `defect` beyond its model under the

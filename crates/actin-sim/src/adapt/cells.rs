@@ -31,7 +31,7 @@ impl Cells {
     /// The cell under a load (body axes), found from that under the nearest known; none without a minimum.
     pub(super) fn under(&self, load: &SixVector) -> Option<Rc<CellResponse>> {
         let mut known = self.known.borrow_mut();
-        let apart = |(other, _): &(SixVector, Rc<CellResponse>)| size(&(load - other));
+        let apart = |(other, _): &(SixVector, Rc<CellResponse>)| strain_scale(&(load - other));
         let nearest = known.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
         if let Some((other, cell)) = nearest
             && other == load
@@ -46,7 +46,7 @@ impl Cells {
 }
 
 /// By how much a load strains a filament, about.
-pub(super) fn size(load: &SixVector) -> f64 {
+pub(super) fn strain_scale(load: &SixVector) -> f64 {
     let [couple, force] = ALIKE;
     (load.fixed_rows::<3>(0).norm() / couple).hypot(load.fixed_rows::<3>(3).norm() / force)
 }

@@ -13,7 +13,7 @@ const MOST_TRIALS: usize = 6;
 /// By what share of each of its parts an estimate may be off: parts that cancel are no accuracy.
 pub(super) const DOUBT: f64 = 0.2;
 /// Share of the wanted error that the part of the law may miss.
-const MISSED_OF_WANTED: f64 = 0.01;
+const MISSED_OF_WANTED: f64 = 0.05;
 /// A trial that leaves more than this share of the error before it has not helped.
 const HELPS: f64 = 0.8;
 
@@ -87,6 +87,10 @@ impl Search<'_> {
                 return Ok((setting, None));
             }
             let found = self.judge(&setting)?;
+            if let Some(next) = self.with_states(&setting, &found) {
+                setting = next;
+                continue;
+            }
             if self.is_good(&found.total) {
                 return Ok((setting, Some(found.total)));
             }
@@ -97,6 +101,19 @@ impl Search<'_> {
         }
         let (_, setting, estimate) = self.best.clone().expect("the first trial is one");
         Ok((setting, Some(estimate)))
+    }
+
+    /// Monomers, too, where they have several states, of which rods and estimates know one; none where that is no more, or more than
+    /// is allowed.
+    fn with_states(&self, setting: &Setting, found: &Located) -> Option<Setting> {
+        let more = setting.resolving(&found.several_states, self.lengths);
+        let is_new = more != *setting && self.tried.len() < MOST_TRIALS;
+        let more = if more.is_mostly_monomers(self.lengths) || !self.is_judged(&more) {
+            setting.all_monomers(self.lengths)
+        } else {
+            more
+        };
+        (is_new && self.fits(&more)).then_some(more)
     }
 
     /// Solves and judges one resolution.

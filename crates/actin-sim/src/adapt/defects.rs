@@ -1,7 +1,7 @@
 //! What a stretch of filament does otherwise than monomers under the same loads would: law, junctions.
 
 use super::adjoint::Adjoint;
-use super::cells::{Cells, size};
+use super::cells::{Cells, strain_scale};
 use super::ideal::{Ideal, PERIOD};
 use super::sampling::{Defect, Segments};
 use super::section_loads::{SectionLoads, Segment, linear, rotational, segments, six};
@@ -14,7 +14,7 @@ use actin_mechanics::{State, Vector3, rotation};
 /// How far into a rod a junction is looked at (nm).
 const INTO_ROD_NM: f64 = 20.0;
 /// How far beside a place loads are those to one side of it (nm).
-const BESIDE_NM: f64 = 1e-6;
+pub(super) const BESIDE_NM: f64 = 1e-6;
 /// Share by which loads within a segment have to differ to count as others.
 const DIFFER: f64 = 0.1;
 /// Scale of the strains under a load below which there is none: far above what solvers leave.
@@ -81,8 +81,8 @@ impl Look<'_> {
     /// Whether what acts on the frame of a segment changes its load there.
     fn jumps(&self, segment: &Segment) -> bool {
         let beside = [-BESIDE_NM, BESIDE_NM].map(|from| self.loads.at(segment.s_nm + from));
-        let most = size(&beside[0]).max(size(&beside[1]));
-        most > UNLOADED && size(&(beside[1] - beside[0])) > DIFFER * most
+        let most = strain_scale(&beside[0]).max(strain_scale(&beside[1]));
+        most > UNLOADED && strain_scale(&(beside[1] - beside[0])) > DIFFER * most
     }
 
     /// By how much more monomers are strained than a segment far from ends, under its load, with what they store beyond it: the
@@ -91,11 +91,11 @@ impl Look<'_> {
     fn of_cells(&self, segment: &Segment, rod: &Rod) -> Option<Defect> {
         let halves = segment.halves_nm().map(|s_nm| self.loads.at(s_nm));
         let middle = self.loads.at(segment.s_nm);
-        if size(&middle) < UNLOADED {
+        if strain_scale(&middle) < UNLOADED {
             return Some(Defect::zeros());
         }
         let energy = energy_of(rod, &segment.far);
-        let differ = size(&(halves[1] - halves[0])) > DIFFER * size(&middle);
+        let differ = strain_scale(&(halves[1] - halves[0])) > DIFFER * strain_scale(&middle);
         let loads = if differ { &halves[..] } else { &[middle][..] };
         let mut sum = Defect::zeros();
         for load in loads {

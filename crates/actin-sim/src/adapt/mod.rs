@@ -67,8 +67,8 @@ fn is_too_short(length_nm: f64, rise_nm: f64) -> bool {
 ///
 /// To first order in what rods and junctions do wrong. Monomers are those of the mean filament or, where the scene
 /// draws bonds for each interface, the mean over drawings, about which filaments scatter. Left out are strains that change over
-/// the length of a few bonds, but for those at ends and where something acts, as those of under-twisted filaments
-/// that buckle, and errors of the second order: those of laws without twist-stretch coupling
+/// the length of a few bonds, but for those at ends and where something acts, other states that monomers have where they are under-twisted
+/// and bent (a note of the run tells where), and errors of the second order: those of laws without twist-stretch coupling
 /// (`Constant`) may be as large as the first. Left out, too, is what monomers do where a couple acts on a free end or, of a
 /// curvature, within two periods of its place; what a couple across the axis does inside a rod (1 % of a tip) is not told well.
 /// A rod that ends between two places of the lattice is longer or shorter than monomers can be; that is no part of it.
@@ -170,6 +170,8 @@ struct Located {
     total: ErrorEstimate,
     /// Of laws, walls and sites.
     parts: Vec<Contribution>,
+    /// Where monomers have several states, of which rods know one (nm).
+    several_states: Vec<[f64; 2]>,
 }
 
 /// The error of a number of an equilibrium of `assembly`, in whose scene everything stands for itself: `state` is the
@@ -232,14 +234,10 @@ fn located(
         parts.extend(look.ends_of_rod(span, rod));
     }
     parts.extend(look.drawn(&runs)?);
-    let law = sum(&parts);
-    let junctions = sum(&look.junctions(&runs)?);
-    let at_ends = look.ends(&runs)?;
-    let walls = sum(&at_ends);
-    parts.extend(at_ends);
-    let at_sites = look.sites(&runs, quantity)?;
-    let sites = sum(&at_sites);
-    parts.extend(at_sites);
+    let (law, junctions) = (sum(&parts), sum(&look.junctions(&runs)?));
+    let (at_ends, at_sites) = (look.ends(&runs)?, look.sites(&runs, quantity)?);
+    let (walls, sites) = (sum(&at_ends), sum(&at_sites));
+    parts.extend(at_ends.into_iter().chain(at_sites));
     let value = look.adjoint.value;
     let segments = halving::of_all((assembly, state), quantity, value)?;
     let total = ErrorEstimate {
@@ -252,7 +250,12 @@ fn located(
         walls,
         sites,
     };
-    Ok(Located { total, parts })
+    let several_states = assembly.several_states(state);
+    Ok(Located {
+        total,
+        parts,
+        several_states: several_states.iter().map(|one| one.1).collect(),
+    })
 }
 
 /// Refuses filaments of which errors are not known.

@@ -189,6 +189,19 @@ impl Setting {
         marked
     }
 
+    /// Monomers, too, in all periods that these stretches (nm) reach into.
+    pub(super) fn resolving(&self, stretches: &[[f64; 2]], lengths: Lengths) -> Self {
+        let bin = lengths.bin_nm();
+        let bins = contributions(&[], lengths.length_nm, bin);
+        let is_in = |[a, b]: [f64; 2]| stretches.iter().any(|[from, to]| *from < b && a < *to);
+        let more = bins
+            .iter()
+            .map(|one| one.span_nm)
+            .filter(|span| is_in(*span));
+        let all = self.monomers.iter().copied().chain(more).collect();
+        self.with_monomers(merged(all, lengths.length_nm, bin))
+    }
+
     /// Of a rod the one stretch of at most `most` monomers that leaves least of the error, of as many periods as `fits` allows; none
     /// where not even one does.
     pub(super) fn window(

@@ -2,8 +2,8 @@
 //! solved for it: the monomer there gives way and turns by itself, and those about it are not strained uniformly.
 
 use super::adjoint::Adjoint;
-use super::cells::size;
-use super::defects::{Contribution, Look, mean_motion, own_motion};
+use super::cells::strain_scale;
+use super::defects::{BESIDE_NM, Contribution, Look, mean_motion, own_motion};
 use super::ideal::{Ideal, PERIOD};
 use super::runs::Run;
 use super::sampling::Defect;
@@ -25,8 +25,6 @@ const SIDE_RISES: f64 = 30.0;
 const SAMPLES: u32 = 4;
 /// Share of what the filament carries at a place below which what acts there is nothing.
 const LEAST: f64 = 1e-3;
-/// How far behind a body loads are those behind it (nm).
-const BESIDE_NM: f64 = 1e-6;
 /// Share that is stored of the work of what acts on a site that gives way in proportion.
 const STORED: f64 = 0.5;
 
@@ -84,7 +82,7 @@ impl Acting {
     fn bodies(self, assembly: &Assembly, state: &State) -> Vec<f64> {
         let (points, frames): (Vec<usize>, Vec<usize>) = match self {
             Self::Linker(..) => {
-                let Some((_, site)) = self.site(assembly) else {
+                let Some(site) = self.site(assembly) else {
                     return Vec::new();
                 };
                 let shares = site.shares().iter().filter(|share| share.1 > 0.0);
@@ -111,11 +109,11 @@ impl Acting {
     }
 
     /// The site of a linker.
-    fn site(self, assembly: &Assembly) -> Option<(usize, &Site)> {
+    fn site(self, assembly: &Assembly) -> Option<&Site> {
         match self {
-            Self::Linker(i, false) => Some((i, assembly.linkers[i].site())),
+            Self::Linker(i, false) => Some(assembly.linkers[i].site()),
             Self::Linker(i, true) => match assembly.linkers[i].end() {
-                LinkerEnd::Site(site) => Some((i, site)),
+                LinkerEnd::Site(site) => Some(site),
                 LinkerEnd::Anchor(_) => None,
             },
             Self::Load(_) => None,
@@ -188,7 +186,7 @@ impl Look<'_> {
             return true;
         }
         let load = wrench_about(self.loads, s_nm, acting.wrench(self.assembly, self.state));
-        size(&load) > LEAST * size(&self.loads.at(s_nm))
+        strain_scale(&load) > LEAST * strain_scale(&self.loads.at(s_nm))
     }
 
     fn site(&self, acting: Acting, site: LinkerSite) -> Result<Contribution, SceneProblem> {
@@ -315,10 +313,16 @@ impl Adjoint {
             self.of_both(|loads, state| wrench_about(loads, s_nm, acting.wrench(assembly, state)));
         let [ahead, behind] = both;
         let load = 0.5 * (ahead + behind);
-        let Some((linker, site)) = acting.site(assembly) else {
+        let by_end = match acting {
+            Acting::Linker(i, is_other) => self
+                .by_end_of(i)
+                .zip(acting.site(assembly))
+                .map(|(slope, site)| (if is_other { slope } else { -slope }, site)),
+            Acting::Load(_) => None,
+        };
+        let Some((slope, site)) = by_end else {
             return (self.slope(both), load);
         };
-        let slope = self.by_site(linker, site);
         // At the state itself, which is between the two.
         let own = self.of_both(|loads, state| {
             let moment = site.position(state).cross(&slope);

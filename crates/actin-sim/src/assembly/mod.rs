@@ -23,6 +23,7 @@ mod ramp;
 mod range;
 mod reaction;
 mod repelled;
+mod several_states;
 mod slip;
 mod unstable_twist;
 

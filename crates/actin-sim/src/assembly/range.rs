@@ -305,7 +305,10 @@ pub(super) fn curvatures<'a>(
 }
 
 /// What these are beyond the curvature at rest.
-fn bends<'a>(rod: &'a Rod, state: &'a State) -> impl Iterator<Item = (f64, Vector3)> + 'a {
+pub(super) fn bends<'a>(
+    rod: &'a Rod,
+    state: &'a State,
+) -> impl Iterator<Item = (f64, Vector3)> + 'a {
     let rest = rod.ranges.rest;
     curvatures(rod, state).map(move |(s, kappa)| (s, kappa - rest))
 }

@@ -11,6 +11,7 @@ use crate::assembly::{Rod, Sampled};
 use crate::scene::{Anchors, Following, Monomers, Observable, Task};
 use crate::{Assembly, Outcome, Record, shape};
 use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
+use actin_mechanics::State;
 
 /// Length (nm) of a rod under `Homogenised` below which the direction of a load across it matters.
 ///
@@ -152,6 +153,7 @@ impl Outcome {
             }
             None => {}
         }
+        notes.extend(several_states(assembly, &last.state));
         notes.extend(assembly.note_on_rates(&last.state));
         notes.extend(self.note_on_ledger(assembly, last));
         let is_motion = !matches!(assembly.scene.task, Task::Equilibrium(_));
@@ -206,6 +208,25 @@ fn unknown_twist(assembly: &Assembly, last: &Record) -> Vec<String> {
             )
         })
         .collect()
+}
+
+/// The note on rods whose monomers would have several states: not in a heat bath, which takes them from one to another.
+fn several_states(assembly: &Assembly, state: &State) -> Option<String> {
+    let found = assembly.several_states(state);
+    if found.is_empty() || assembly.scene.thermal().is_some() {
+        return None;
+    }
+    let place = |(filament, [from, to]): &(usize, [f64; 2])| match filament {
+        0 => format!("from {from:.0} to {to:.0} nm"),
+        _ => format!("of filament {filament} from {from:.0} to {to:.0} nm"),
+    };
+    let places: Vec<String> = found.iter().map(place).collect();
+    Some(format!(
+        "monomers that are under-twisted and bent as the rod {} snap between states whose couples about the axis differ by 10 to 60 \
+         pN nm. A rod has one of them, and its estimated error knows no other: monomers there show them (cargo xtask homogenise \
+         states)",
+        places.join(", ")
+    ))
 }
 
 /// The note on weighted bonds that are too few to represent all.
