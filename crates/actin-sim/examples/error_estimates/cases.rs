@@ -122,7 +122,7 @@ const TWO_LINKERS: &str = "clamps: [Clamp(end: Start)],
     ]";
 
 /// Others: the length in rises, and what holds and loads it.
-const OTHERS: [(&str, f64, &str, Quantity); 11] = {
+const OTHERS: [(&str, f64, &str, Quantity); 12] = {
     use Quantity::{Curvature, EndCouple, EndForce, Energy, Height, LinkerForce, Tip};
     [
         (
@@ -194,6 +194,17 @@ const OTHERS: [(&str, f64, &str, Quantity); 11] = {
                 duration_ns: 300.0,
             )]",
             Height,
+        ),
+        (
+            "couple, snapping",
+            110.0,
+            "clamps: [Clamp(end: Start), Clamp(end: End)],
+            linkers: [Linker(at_nm: 150.6, displaced_nm: (100.0, 0.0, 0.0), stiffness_pn_per_nm: 1e-5)],
+            path: [
+                Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, -300.0))]),
+                Stage(set: [Shift(end: End, shift_nm: (0.0, 0.0, -15.0))]),
+            ]",
+            EndCouple,
         ),
         (
             "curvature at a linker, 200 nm",

@@ -21,8 +21,8 @@ const HELPS: f64 = 0.8;
 /// monomers where the wanted number needs them, down to every monomer. A rod without parameters is one under
 /// `Homogenised`.
 ///
-/// Judged in the equilibrium that the scene leads to, also of a scene that asks for a motion. Each trial is solved,
-/// [estimated](super::estimate), and what contributes most is resolved; where that does not help, since junctions
+/// Judged in the equilibrium that the scene leads to, also of a scene that asks for a motion. Each trial is solved. Where monomers
+/// have several states they are resolved at once; else it is [estimated](super::estimate), and what contributes most is resolved; where that does not help, since junctions
 /// cost more than monomers gain, all of the filament is. With a largest number of monomers, and the wanted error beyond
 /// it, that resolution of those tried is taken whose estimate, with a fifth of each of its parts, is least.
 ///
@@ -43,12 +43,12 @@ pub fn choose(scene: &Scene, adaptive: &Adaptive) -> Result<(Scene, Chosen), Sce
         best: None,
         next: Vec::new(),
     };
-    let (setting, estimate) = search.run()?;
+    let (leaves_states, setting, estimate) = search.run()?;
     let chosen = Chosen {
         quantity: adaptive.want.quantity(),
         wanted_error: adaptive.want.error(),
         most_monomers: adaptive.monomers,
-        is_met: estimate.is_none_or(|estimate| search.is_good(&estimate)),
+        is_met: !leaves_states && estimate.is_none_or(|estimate| search.is_good(&estimate)),
         relative_error: estimate.map_or(0.0, |estimate| estimate.relative()),
         monomers: setting.count(scene, search.lengths)?,
         monomers_nm: setting.monomers.clone(),
@@ -61,8 +61,8 @@ pub fn choose(scene: &Scene, adaptive: &Adaptive) -> Result<(Scene, Chosen), Sce
     Ok((setting.apply(scene, search.lengths), chosen))
 }
 
-/// A resolution with the error that it leaves; none where that is every monomer.
-type Judged = (Setting, Option<ErrorEstimate>);
+/// Whether monomers have several states where it has rods; a resolution; the error that it leaves, none where it is every monomer.
+type Judged = (bool, Setting, Option<ErrorEstimate>);
 
 /// A choice under way.
 struct Search<'a> {
@@ -72,8 +72,9 @@ struct Search<'a> {
     /// Cells that are known, of a filament that is judged.
     cells: Option<Cells>,
     tried: Vec<Tried>,
-    /// The least bound of an error so far, as a share of the value, and what has it.
-    best: Option<(f64, Setting, ErrorEstimate)>,
+    /// The least bound of an error so far, as a share of the value, of those without rods whose monomers have several states if there
+    /// is one; and what has it.
+    best: Option<((bool, f64), Setting, ErrorEstimate)>,
     /// What is to be tried after all that follows from the present trial, last first.
     next: Vec<Setting>,
 }
@@ -84,7 +85,7 @@ impl Search<'_> {
         loop {
             if setting.is_all_monomers(self.lengths) {
                 self.ensure_fits(&setting)?;
-                return Ok((setting, None));
+                return Ok((false, setting, None));
             }
             let found = self.judge(&setting)?;
             if let Some(next) = self.with_states(&setting, &found) {
@@ -92,26 +93,31 @@ impl Search<'_> {
                 continue;
             }
             if self.is_good(&found.total) {
-                return Ok((setting, Some(found.total)));
+                let leaves_states = !found.several_states.is_empty();
+                return Ok((leaves_states, setting, Some(found.total)));
             }
             match self.follow(&setting, &found) {
                 Some(next) => setting = next,
                 None => break,
             }
         }
-        let (_, setting, estimate) = self.best.clone().expect("the first trial is one");
-        Ok((setting, Some(estimate)))
+        let best = self.best.clone();
+        let ((leaves_states, _), setting, estimate) = best.expect("the first trial is one");
+        Ok((leaves_states, setting, Some(estimate)))
     }
 
     /// Monomers, too, where they have several states, of which rods and estimates know one; none where that is no more, or more than
     /// is allowed.
     fn with_states(&self, setting: &Setting, found: &Located) -> Option<Setting> {
         let more = setting.resolving(&found.several_states, self.lengths);
-        let is_new = more != *setting && self.tried.len() < MOST_TRIALS;
-        let more = if more.is_mostly_monomers(self.lengths) || !self.is_judged(&more) {
-            setting.all_monomers(self.lengths)
-        } else {
+        let is_new = more != *setting;
+        let is_one = self.tried.len() < MOST_TRIALS
+            && !more.is_mostly_monomers(self.lengths)
+            && self.is_judged(&more);
+        let more = if is_one {
             more
+        } else {
+            setting.all_monomers(self.lengths)
         };
         (is_new && self.fits(&more)).then_some(more)
     }
@@ -136,7 +142,7 @@ impl Search<'_> {
             return Err(SceneProblem::new("filament.sections.want", "", rule));
         }
         self.tried.push(setting.tried(relative));
-        let bound = bound(&found.total);
+        let bound = (!found.several_states.is_empty(), bound(&found.total));
         if self.best.as_ref().is_none_or(|best| bound < best.0) {
             self.best = Some((bound, setting.clone(), found.total));
         }

@@ -13,7 +13,8 @@ pub struct Chosen {
     pub wanted_error: f64,
     /// The most monomers that were allowed; none without a limit.
     pub most_monomers: Option<usize>,
-    /// Whether the wanted error is met, also where each part of the estimate is a fifth off. Always so without a limit.
+    /// Whether the wanted error is met, also where each part of the estimate is a fifth off, and monomers have one state wherever there
+    /// are rods. Always so without a limit.
     pub is_met: bool,
     /// Estimated error over the corrected value; 0 where every monomer is resolved.
     pub relative_error: f64,
