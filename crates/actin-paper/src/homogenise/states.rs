@@ -14,9 +14,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// Turns per monomer at which the lattice closes, by the twist: turns, and monomers.
-const CLOSED: [(u8, u8); 12] = [
+const CLOSED: [(u8, u8); 14] = [
     (10, 21),
     (9, 19),
+    (17, 36),
     (8, 17),
     (15, 32),
     (7, 15),
@@ -26,17 +27,21 @@ const CLOSED: [(u8, u8); 12] = [
     (11, 24),
     (5, 11),
     (9, 20),
+    (13, 29),
     (4, 9),
 ];
 /// Tensions (pN).
 const TENSIONS: [f64; 4] = [-20.0, 0.0, 10.0, 40.0];
-/// Steps of curvature (rad/nm), and how many.
+/// Steps of curvature (rad/nm), how many are looked at, and how many more it is bent before it goes back.
 const STEP: f64 = 1e-3;
-const STEPS: u32 = 26;
+const STEPS: u32 = 30;
+const MORE: u32 = 6;
+/// Steps in which the cell is twisted before.
+const TWISTED: u32 = 10;
 /// Curvature at which bending is compared, in steps.
 const BENT: usize = 2;
-/// States whose energies differ by a smaller share are one.
-const SAME: f64 = 1e-6;
+/// States whose couples about the axis differ by less are one (pN nm).
+const SAME: f64 = 0.5;
 
 /// Prints and writes the table.
 pub(super) fn run(out: &Path, tell: Tell<'_>) -> Result<(), String> {
@@ -90,30 +95,35 @@ struct Bent {
 
 impl Bent {
     fn new(cell: &Cell, (twist, tension): (f64, f64)) -> Result<Self, String> {
-        let at = |step: u32, near: Option<&CellResponse>| {
-            let bend = Control::Strain(STEP * f64::from(step));
-            let twist = Control::Strain(twist);
+        let at = |bent: u32, twisted: u32, near: Option<&CellResponse>| {
+            let bend = Control::Strain(STEP * f64::from(bent));
+            let twist = Control::Strain(twist * f64::from(twisted) / f64::from(TWISTED));
             relax(
                 cell,
                 [bend, NONE, twist, FREE, FREE, Control::Load(tension)],
                 near,
             )
         };
-        let (mut there, mut back) = (Vec::new(), Vec::new());
-        for step in 0..=STEPS {
-            there.push(at(step, there.last())?);
+        let mut straight = at(0, 0, None)?;
+        for twisted in 1..=TWISTED {
+            straight = at(0, twisted, Some(&straight))?;
         }
-        for step in (0..=STEPS).rev() {
-            back.push(at(step, back.last().or(there.last()))?);
+        let mut there = vec![straight];
+        for bent in 1..=STEPS + MORE {
+            there.push(at(bent, TWISTED, there.last())?);
         }
-        back.reverse();
-        let differ = |(a, b): (&CellResponse, &CellResponse)| {
-            let is_other = (a.energy - b.energy).abs() > SAME * a.energy.abs().max(1.0);
-            is_other.then(|| (a.loads[2] - b.loads[2]).abs())
-        };
+        let mut back: Vec<CellResponse> = there.last().cloned().into_iter().collect();
+        for bent in (0..STEPS + MORE).rev() {
+            back.push(at(bent, TWISTED, back.last())?);
+        }
+        let both = there.iter().zip(back.iter().rev()).take(STEPS as usize + 1);
+        let apart = both.map(|(a, b)| {
+            let apart = (a.loads[2] - b.loads[2]).abs();
+            Some(apart).filter(|apart| *apart > SAME)
+        });
         Ok(Self {
             couple: there[BENT].loads[0],
-            apart: there.iter().zip(&back).map(differ).collect(),
+            apart: apart.collect(),
         })
     }
 

@@ -12,7 +12,7 @@ use std::time::Instant;
 const MOST_TRIALS: usize = 6;
 /// By what share of each of its parts an estimate may be off: parts that cancel are no accuracy.
 pub(super) const DOUBT: f64 = 0.2;
-/// Share of the wanted error that the part of the law may miss.
+/// Share of the wanted error that the part of the law may miss: a quarter of [`DOUBT`] of it.
 const MISSED_OF_WANTED: f64 = 0.05;
 /// A trial that leaves more than this share of the error before it has not helped.
 const HELPS: f64 = 0.8;
@@ -21,9 +21,9 @@ const HELPS: f64 = 0.8;
 /// monomers where the wanted number needs them, down to every monomer. A rod without parameters is one under
 /// `Homogenised`.
 ///
-/// Judged in the equilibrium that the scene leads to, also of a scene that asks for a motion. Each trial is solved. Where monomers
-/// have several states they are resolved at once; else it is [estimated](super::estimate), and what contributes most is resolved; where that does not help, since junctions
-/// cost more than monomers gain, all of the filament is. With a largest number of monomers, and the wanted error beyond
+/// Judged in the equilibrium that the scene leads to, also of a scene that asks for a motion. Each trial is solved and
+/// [estimated](super::estimate). Where monomers have several states they are resolved, else what contributes most to the error; where
+/// that does not help, since junctions cost more than monomers gain, all of the filament is. With a largest number of monomers, and the wanted error beyond
 /// it, that resolution of those tried is taken whose estimate, with a fifth of each of its parts, is least.
 ///
 /// # Errors
@@ -41,14 +41,21 @@ pub fn choose(scene: &Scene, adaptive: &Adaptive) -> Result<(Scene, Chosen), Sce
         cells: None,
         tried: Vec::new(),
         best: None,
+        after_states: false,
         next: Vec::new(),
     };
-    let (leaves_states, setting, estimate) = search.run()?;
+    let Judged {
+        setting,
+        estimate,
+        several_states,
+    } = search.run()?;
+    let is_good = estimate.is_none_or(|estimate| search.is_good(&estimate));
     let chosen = Chosen {
         quantity: adaptive.want.quantity(),
         wanted_error: adaptive.want.error(),
         most_monomers: adaptive.monomers,
-        is_met: !leaves_states && estimate.is_none_or(|estimate| search.is_good(&estimate)),
+        is_met: is_good && several_states.is_empty(),
+        several_states_nm: several_states,
         relative_error: estimate.map_or(0.0, |estimate| estimate.relative()),
         monomers: setting.count(scene, search.lengths)?,
         monomers_nm: setting.monomers.clone(),
@@ -61,8 +68,23 @@ pub fn choose(scene: &Scene, adaptive: &Adaptive) -> Result<(Scene, Chosen), Sce
     Ok((setting.apply(scene, search.lengths), chosen))
 }
 
-/// Whether monomers have several states where it has rods; a resolution; the error that it leaves, none where it is every monomer.
-type Judged = (bool, Setting, Option<ErrorEstimate>);
+/// A resolution that has been judged.
+#[derive(Clone)]
+struct Judged {
+    setting: Setting,
+    /// The error that it leaves; none where it is every monomer.
+    estimate: Option<ErrorEstimate>,
+    /// Where it has rods whose monomers would have several states (nm).
+    several_states: Vec<[f64; 2]>,
+}
+
+impl Judged {
+    /// Less is better: whether states are left, then the bound of the error.
+    fn rank(&self) -> (bool, f64) {
+        let error = self.estimate.as_ref().map_or(0.0, bound);
+        (!self.several_states.is_empty(), error)
+    }
+}
 
 /// A choice under way.
 struct Search<'a> {
@@ -72,9 +94,10 @@ struct Search<'a> {
     /// Cells that are known, of a filament that is judged.
     cells: Option<Cells>,
     tried: Vec<Tried>,
-    /// The least bound of an error so far, as a share of the value, of those without rods whose monomers have several states if there
-    /// is one; and what has it.
-    best: Option<((bool, f64), Setting, ErrorEstimate)>,
+    /// The best so far.
+    best: Option<Judged>,
+    /// Whether the trial before was followed for the states of its monomers: its estimate said nothing of them.
+    after_states: bool,
     /// What is to be tried after all that follows from the present trial, last first.
     next: Vec<Setting>,
 }
@@ -85,41 +108,42 @@ impl Search<'_> {
         loop {
             if setting.is_all_monomers(self.lengths) {
                 self.ensure_fits(&setting)?;
-                return Ok((false, setting, None));
+                return Ok(Judged {
+                    setting,
+                    estimate: None,
+                    several_states: Vec::new(),
+                });
             }
             let found = self.judge(&setting)?;
-            if let Some(next) = self.with_states(&setting, &found) {
-                setting = next;
-                continue;
+            if self.is_good(&found.total) && found.several_states.is_empty() {
+                break;
             }
-            if self.is_good(&found.total) {
-                let leaves_states = !found.several_states.is_empty();
-                return Ok((leaves_states, setting, Some(found.total)));
-            }
-            match self.follow(&setting, &found) {
+            let next = self.with_states(&setting, &found);
+            let is_for_states = next.is_some();
+            match next.or_else(|| self.follow(&setting, &found)) {
                 Some(next) => setting = next,
                 None => break,
             }
+            self.after_states = is_for_states;
         }
-        let best = self.best.clone();
-        let ((leaves_states, _), setting, estimate) = best.expect("the first trial is one");
-        Ok((leaves_states, setting, Some(estimate)))
+        Ok(self.best.clone().expect("the first trial is one"))
     }
 
     /// Monomers, too, where they have several states, of which rods and estimates know one; none where that is no more, or more than
     /// is allowed.
     fn with_states(&self, setting: &Setting, found: &Located) -> Option<Setting> {
-        let more = setting.resolving(&found.several_states, self.lengths);
-        let is_new = more != *setting;
-        let is_one = self.tried.len() < MOST_TRIALS
-            && !more.is_mostly_monomers(self.lengths)
-            && self.is_judged(&more);
-        let more = if is_one {
-            more
-        } else {
-            setting.all_monomers(self.lengths)
-        };
-        (is_new && self.fits(&more)).then_some(more)
+        if found.several_states.is_empty() {
+            return None;
+        }
+        let fits = |more: &Setting| self.fits(more);
+        let more = setting.resolving(&found.several_states, self.lengths, fits);
+        let all = setting.all_monomers(self.lengths);
+        let is_all = self.tried.len() >= MOST_TRIALS || more.is_mostly_monomers(self.lengths);
+        if is_all && self.fits(&all) {
+            return Some(all);
+        }
+        let is_new = more != *setting && self.tried.len() < MOST_TRIALS;
+        (is_new && self.is_judged(&more)).then_some(more)
     }
 
     /// Solves and judges one resolution.
@@ -142,9 +166,14 @@ impl Search<'_> {
             return Err(SceneProblem::new("filament.sections.want", "", rule));
         }
         self.tried.push(setting.tried(relative));
-        let bound = (!found.several_states.is_empty(), bound(&found.total));
-        if self.best.as_ref().is_none_or(|best| bound < best.0) {
-            self.best = Some((bound, setting.clone(), found.total));
+        let judged = Judged {
+            setting: setting.clone(),
+            estimate: Some(found.total),
+            several_states: found.several_states.clone(),
+        };
+        let best = self.best.as_ref();
+        if best.is_none_or(|best| judged.rank() < best.rank()) {
+            self.best = Some(judged);
         }
         Ok(found)
     }
@@ -159,7 +188,9 @@ impl Search<'_> {
         let all = setting.all_monomers(self.lengths);
         let may_be_all = self.fits(&all);
         let helped = match self.tried.as_slice() {
-            [.., before, last] => last.relative_error < HELPS * before.relative_error,
+            [.., before, last] if !self.after_states => {
+                last.relative_error < HELPS * before.relative_error
+            }
             _ => true,
         };
         let is_last = self.tried.len() >= MOST_TRIALS;

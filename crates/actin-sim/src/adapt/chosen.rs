@@ -16,6 +16,9 @@ pub struct Chosen {
     /// Whether the wanted error is met, also where each part of the estimate is a fifth off, and monomers have one state wherever there
     /// are rods. Always so without a limit.
     pub is_met: bool,
+    /// Where rods are left whose monomers would have several states (nm of arc length).
+    #[serde(default)]
+    pub several_states_nm: Vec<[f64; 2]>,
     /// Estimated error over the corrected value; 0 where every monomer is resolved.
     pub relative_error: f64,
     /// Monomers that are resolved.
@@ -51,6 +54,12 @@ impl Chosen {
         });
         let missed = if self.is_met {
             String::new()
+        } else if !self.several_states_nm.is_empty() {
+            format!(
+                ". Its error is not known: where it is a rod from {}, monomers would have several states, and those are more than \
+                 are allowed",
+                places(&self.several_states_nm)
+            )
         } else {
             format!(
                 ". What is wanted is not met within so many monomers; of {} resolutions tried this one has the least \
@@ -68,9 +77,7 @@ impl Chosen {
 
     /// What is resolved how.
     fn resolved(&self) -> String {
-        let stretches = self.monomers_nm.iter();
-        let stretches = stretches.map(|[from, to]| format!("{from:.0} to {to:.0} nm"));
-        let monomers = stretches.collect::<Vec<_>>().join(", ");
+        let monomers = places(&self.monomers_nm);
         match (monomers.is_empty(), self.estimate) {
             (true, _) => format!("a rod of segments of {}", self.segments()),
             (false, Some(_)) => {
@@ -93,6 +100,13 @@ impl Chosen {
         });
         stretches.collect::<Vec<_>>().join(", ")
     }
+}
+
+/// Stretches in words.
+fn places(stretches: &[[f64; 2]]) -> String {
+    let stretches = stretches.iter();
+    let stretches = stretches.map(|[from, to]| format!("{from:.0} to {to:.0} nm"));
+    stretches.collect::<Vec<_>>().join(", ")
 }
 
 /// A resolution that was tried.

@@ -68,7 +68,7 @@ fn is_too_short(length_nm: f64, rise_nm: f64) -> bool {
 /// To first order in what rods and junctions do wrong. Monomers are those of the mean filament or, where the scene
 /// draws bonds for each interface, the mean over drawings, about which filaments scatter. Left out are strains that change over
 /// the length of a few bonds, but for those at ends and where something acts, other states that monomers have where they are under-twisted
-/// and bent (a note of the run tells where), and errors of the second order: those of laws without twist-stretch coupling
+/// and bent (a run that estimates an error notes where), and errors of the second order: those of laws without twist-stretch coupling
 /// (`Constant`) may be as large as the first. Left out, too, is what monomers do where a couple acts on a free end or, of a
 /// curvature, within two periods of its place; what a couple across the axis does inside a rod (1 % of a tip) is not told well.
 /// A rod that ends between two places of the lattice is longer or shorter than monomers can be; that is no part of it.
@@ -250,7 +250,7 @@ fn located(
         walls,
         sites,
     };
-    let several_states = assembly.several_states(state);
+    let several_states = assembly.several_states(state, |_| true);
     Ok(Located {
         total,
         parts,

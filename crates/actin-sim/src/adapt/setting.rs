@@ -189,17 +189,30 @@ impl Setting {
         marked
     }
 
-    /// Monomers, too, in all periods that these stretches (nm) reach into.
-    pub(super) fn resolving(&self, stretches: &[[f64; 2]], lengths: Lengths) -> Self {
+    /// Monomers, too, in the periods that these stretches (nm) reach into, in as many as `fits` allows.
+    pub(super) fn resolving(
+        &self,
+        stretches: &[[f64; 2]],
+        lengths: Lengths,
+        fits: impl Fn(&Self) -> bool,
+    ) -> Self {
         let bin = lengths.bin_nm();
         let bins = contributions(&[], lengths.length_nm, bin);
         let is_in = |[a, b]: [f64; 2]| stretches.iter().any(|[from, to]| *from < b && a < *to);
-        let more = bins
+        let mut resolved = self.clone();
+        for span in bins
             .iter()
             .map(|one| one.span_nm)
-            .filter(|span| is_in(*span));
-        let all = self.monomers.iter().copied().chain(more).collect();
-        self.with_monomers(merged(all, lengths.length_nm, bin))
+            .filter(|span| is_in(*span))
+        {
+            let mut monomers = resolved.monomers.clone();
+            monomers.push(span);
+            let more = self.with_monomers(merged(monomers, lengths.length_nm, bin));
+            if fits(&more) {
+                resolved = more;
+            }
+        }
+        resolved
     }
 
     /// Of a rod the one stretch of at most `most` monomers that leaves least of the error, of as many periods as `fits` allows; none

@@ -153,7 +153,7 @@ impl Outcome {
             }
             None => {}
         }
-        notes.extend(several_states(assembly, &last.state));
+        notes.extend(several_states(assembly, &last.state, error.is_some()));
         notes.extend(assembly.note_on_rates(&last.state));
         notes.extend(self.note_on_ledger(assembly, last));
         let is_motion = !matches!(assembly.scene.task, Task::Equilibrium(_));
@@ -210,9 +210,11 @@ fn unknown_twist(assembly: &Assembly, last: &Record) -> Vec<String> {
         .collect()
 }
 
-/// The note on rods whose monomers would have several states: not in a heat bath, which takes them from one to another.
-fn several_states(assembly: &Assembly, state: &State) -> Option<String> {
-    let found = assembly.several_states(state);
+/// The note on rods whose monomers would have several states: of those under a potential or, where errors are estimated, of all. Not
+/// in a heat bath, which takes monomers from one to another.
+fn several_states(assembly: &Assembly, state: &State, is_estimated: bool) -> Option<String> {
+    let is_asked = |rod: &Rod| is_estimated || rod.law.0.potential().is_some();
+    let found = assembly.several_states(state, is_asked);
     if found.is_empty() || assembly.scene.thermal().is_some() {
         return None;
     }
@@ -222,9 +224,9 @@ fn several_states(assembly: &Assembly, state: &State) -> Option<String> {
     };
     let places: Vec<String> = found.iter().map(place).collect();
     Some(format!(
-        "monomers that are under-twisted and bent as the rod {} snap between states whose couples about the axis differ by 10 to 60 \
-         pN nm. A rod has one of them, and its estimated error knows no other: monomers there show them (cargo xtask homogenise \
-         states)",
+        "the rod {} is under-twisted and bent so that monomers would have several states, whose couples about the axis differ by 5 to \
+         110 pN nm. A rod has one of them, and an estimated error is that against the same one. Resolve monomers there to tell them \
+         apart (cargo xtask homogenise states)",
         places.join(", ")
     ))
 }
