@@ -87,7 +87,7 @@ pub(super) fn run(out: &Path, tell: Tell<'_>) -> Result<(), String> {
 
 /// A cell that is bent step by step, and back.
 struct Bent {
-    /// Couple that it takes at the second step (pN nm).
+    /// Couple that it takes at the step [`BENT`] (pN nm).
     couple: f64,
     /// By how much the couples about the axis differ between both ways (pN nm), where they lead to two states; by step.
     apart: Vec<Option<f64>>,
@@ -112,7 +112,7 @@ impl Bent {
         for bent in 1..=STEPS + MORE {
             there.push(at(bent, TWISTED, there.last())?);
         }
-        let mut back: Vec<CellResponse> = there.last().cloned().into_iter().collect();
+        let mut back = vec![there[there.len() - 1].clone()];
         for bent in (0..STEPS + MORE).rev() {
             back.push(at(bent, TWISTED, back.last())?);
         }

@@ -124,6 +124,13 @@ impl Setting {
         }
     }
 
+    /// The same with monomers in a stretch (nm), too.
+    fn with_span(&self, span: [f64; 2], lengths: Lengths) -> Self {
+        let mut monomers = self.monomers.clone();
+        monomers.push(span);
+        self.with_monomers(merged(monomers, lengths.length_nm, lengths.bin_nm()))
+    }
+
     /// Segments of half the length, where these are the larger part of the error.
     pub(super) fn halved(&self, found: &Located, limit: f64) -> Option<Self> {
         let rest = found.total.error - found.total.segments;
@@ -178,9 +185,7 @@ impl Setting {
             if left <= MARK_TO * limit || sign * part.error <= 0.0 {
                 break;
             }
-            let mut monomers = marked.monomers.clone();
-            monomers.push(part.span_nm);
-            let more = self.with_monomers(merged(monomers, lengths.length_nm, bin));
+            let more = marked.with_span(part.span_nm, lengths);
             if fits(&more) {
                 left -= sign * part.error;
                 marked = more;
@@ -196,18 +201,11 @@ impl Setting {
         lengths: Lengths,
         fits: impl Fn(&Self) -> bool,
     ) -> Self {
-        let bin = lengths.bin_nm();
-        let bins = contributions(&[], lengths.length_nm, bin);
         let is_in = |[a, b]: [f64; 2]| stretches.iter().any(|[from, to]| *from < b && a < *to);
         let mut resolved = self.clone();
-        for span in bins
-            .iter()
-            .map(|one| one.span_nm)
-            .filter(|span| is_in(*span))
-        {
-            let mut monomers = resolved.monomers.clone();
-            monomers.push(span);
-            let more = self.with_monomers(merged(monomers, lengths.length_nm, bin));
+        let periods = periods(lengths.length_nm, lengths.bin_nm());
+        for span in periods.into_iter().filter(|span| is_in(*span)) {
+            let more = resolved.with_span(span, lengths);
             if fits(&more) {
                 resolved = more;
             }
@@ -257,14 +255,20 @@ fn length_at((graded, segment_nm): (&Vec<RodStretch>, f64), s_nm: f64) -> f64 {
     stretch.map_or(segment_nm, RodStretch::segment_nm)
 }
 
-/// What stretches of one period contribute.
-fn contributions(parts: &[Contribution], length_nm: f64, bin: f64) -> Vec<Contribution> {
+/// Stretches of about one period, in order (nm).
+fn periods(length_nm: f64, bin: f64) -> Vec<[f64; 2]> {
     let n = segments_of(length_nm, bin);
     let width = length_nm / n as f64;
-    let span = |k: usize| [k as f64 * width, (k + 1) as f64 * width];
     (0..n)
-        .map(|k| {
-            let [from, to] = span(k);
+        .map(|k| [k as f64 * width, (k + 1) as f64 * width])
+        .collect()
+}
+
+/// What stretches of one period contribute.
+fn contributions(parts: &[Contribution], length_nm: f64, bin: f64) -> Vec<Contribution> {
+    periods(length_nm, bin)
+        .into_iter()
+        .map(|[from, to]| {
             let share = |part: &Contribution| {
                 let [a, b] = part.span_nm;
                 let inside = b.min(to) - a.max(from);
