@@ -23,6 +23,10 @@ pub struct Run {
     pub(crate) h: f64,
     pub(crate) steps: u64,
     pub(crate) first_step: u64,
+    /// Time of step number 0 (ns).
+    pub(crate) time_offset: f64,
+    /// Whether stages at the ends of steps are merged.
+    pub(crate) merges_steps: bool,
     pub(crate) drag: Drag,
     pub(crate) bath: Option<Bath>,
     pub(crate) observe_every: u64,
@@ -71,6 +75,8 @@ impl Run {
             h,
             steps,
             first_step: 0,
+            time_offset: 0.0,
+            merges_steps: true,
             drag: Drag::NONE,
             bath: None,
             observe_every: DEFAULT_OBSERVE_EVERY,
@@ -222,6 +228,27 @@ impl Run {
         Self { first_step, ..self }
     }
 
+    /// The same with the time (ns) of step number 0, for continuations with another step length.
+    #[must_use]
+    pub fn with_time_offset(self, time_offset: f64) -> Self {
+        Self {
+            time_offset,
+            ..self
+        }
+    }
+
+    /// The same without merging the last stage of a step with the first of the next.
+    ///
+    /// Every step then ends in the same bits, however a run is divided by
+    /// [`continuing_from`](Self::continuing_from); it costs one more stage a step.
+    #[must_use]
+    pub fn without_merged_steps(self) -> Self {
+        Self {
+            merges_steps: false,
+            ..self
+        }
+    }
+
     /// The method.
     pub fn scheme(&self) -> &'static Composition {
         self.scheme
@@ -272,7 +299,7 @@ impl Run {
 
     /// Advances `system` by `steps` steps, the first of which has the number `first_step`.
     pub(crate) fn advance(&self, system: &mut impl Thermostat, first_step: u64, steps: u64) {
-        if !system.has_step_end() {
+        if self.merges_steps && !system.has_step_end() {
             self.advance_at_once(system, first_step, steps);
             return;
         }
@@ -292,7 +319,7 @@ impl Run {
 
     /// Time of a step number (ns).
     pub(crate) fn time(&self, step: u64) -> f64 {
-        step as f64 * self.h
+        self.time_offset + step as f64 * self.h
     }
 }
 

@@ -1,7 +1,7 @@
 //! How a `System` goes on: by steps in time, or to an equilibrium.
 
 use crate::errors;
-use crate::system::System;
+use crate::system::{Clock, System};
 use crate::watch::Watch;
 use actin_equilibrium::{
     Equilibrium, Layout, Newton, NewtonFailure, NewtonOptions, Residual, SolveError,
@@ -16,15 +16,10 @@ use pyo3::types::PyDict;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Saddles that are left on the way to an equilibrium, as by default in scenes.
-const SADDLES: usize = 8;
-
 /// Ends steps when Python wants them to, or when a function of Python has raised something.
 struct Looker {
     watch: Watch,
     raised: Arc<Mutex<Option<PyErr>>>,
-    /// Steps made.
-    step: u64,
 }
 
 impl Looker {
@@ -39,8 +34,7 @@ impl Observer for Looker {
         ControlFlow::Continue(())
     }
 
-    fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
-        self.step = pause.step;
+    fn pause(&mut self, _pause: &Pause<'_>) -> ControlFlow<()> {
         if self.has_raised() || self.watch.is_interrupted() {
             return ControlFlow::Break(());
         }
@@ -50,12 +44,14 @@ impl Observer for Looker {
 
 #[pymethods]
 impl System {
-    /// Makes steps in time of length `h`, by default the longest stable one with some room.
+    /// Makes steps in time of length `h`, by default half the longest stable one.
     ///
     /// `drag` are the rates at which velocities and angular momenta decay, `thermal_energy` (k T) makes noise to go
-    /// with them. What is set stays for later steps. Raises `RunFailed` where numbers explode; the system then is
-    /// where it last was sound, which `steps` and `time` tell. Ctrl-C ends the steps.
-    #[pyo3(signature = (number = 1, *, h = None, scheme = None, drag = None, thermal_energy = None, seed = 1))]
+    /// with them, with a `seed` of 1 by default. What is set stays for later steps. The default length is estimated
+    /// again when bodies, terms or clamps have been added and when `scheme` changes. `step(a)` and `step(b)` together
+    /// equal `step(a + b)` to the bit. Raises `RunFailed` where numbers explode; the system then is where it last
+    /// was sound, which `steps` and `time` tell. Ctrl-C ends the steps.
+    #[pyo3(signature = (number = 1, *, h = None, scheme = None, drag = None, thermal_energy = None, seed = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn step(
         &mut self,
@@ -65,40 +61,38 @@ impl System {
         scheme: Option<&str>,
         drag: Option<[f64; 2]>,
         thermal_energy: Option<f64>,
-        seed: u64,
+        seed: Option<u64>,
     ) -> PyResult<()> {
         if let Some(drag) = drag {
             self.settings.drag = drag;
         }
         if let Some(energy) = thermal_energy {
-            self.settings.bath = (energy > 0.0).then_some((energy, seed));
+            self.settings.thermal_energy = (energy > 0.0).then_some(energy);
         }
+        self.settings.seed = seed.unwrap_or(self.settings.seed);
         self.settings.scheme = self.scheme(scheme)?;
-        let h = match h.or(self.settings.step) {
+        self.settings.step = h.or(self.settings.step);
+        let h = match self.settings.step {
             Some(h) => h,
-            None => self.stable_step(None, actin_integrate::SAFETY)?,
+            None => self.default_step()?,
         };
-        self.settings.step = Some(h);
         let run = self.plan(h, number)?;
         let watch = Watch::new(None);
         let mut looker = Looker {
             watch,
             raised: Arc::clone(&self.error),
-            step: self.steps,
         };
         let mechanics = &mut self.mechanics;
         let ended = py.detach(|| run.execute(mechanics, &mut [&mut looker]));
-        self.raise()?;
-        let before = self.steps;
         match ended {
             Ok(outcome) => {
-                self.steps = outcome.steps;
-                self.time += (self.steps - before) as f64 * h;
+                self.clock.steps += outcome.steps;
+                self.raise()?;
                 looker.watch.into_error().map_or(Ok(()), Err)
             }
             Err(failure) => {
-                self.steps = failure.last_good_step;
-                self.time += (self.steps - before) as f64 * h;
+                self.clock.steps = failure.last_good_step;
+                self.raise()?;
                 Err(self.failed(py, &failure))
             }
         }
@@ -134,11 +128,15 @@ impl System {
             ..NewtonOptions::default()
         };
         let mut newton = self.newton(options)?;
+        let saddles = self.settings_of_equilibrium().map_or_else(
+            || actin_sim::Equilibrium::default().leave_saddles,
+            |settings| settings.leave_saddles,
+        );
         let mut state = self.state().clone();
         let mut watch = Watch::new(None);
         let interactions = self.mechanics.interactions();
         let solved = py.detach(|| {
-            newton.minimize_observed(&mut state, interactions, SADDLES, &mut |_| {
+            newton.minimize_observed(&mut state, interactions, saddles, &mut |_| {
                 if watch.is_interrupted() {
                     return ControlFlow::Break(());
                 }
@@ -157,25 +155,46 @@ impl System {
 
 impl System {
     /// The run of so many steps from here on.
-    fn plan(&self, h: f64, number: u64) -> PyResult<Run> {
+    fn plan(&mut self, h: f64, number: u64) -> PyResult<Run> {
         let [translational, rotational] = self.settings.drag;
         let drag = Drag::new(translational, rotational).map_err(errors::value)?;
         let run = Run::new(self.settings.scheme, h, number).map_err(errors::value)?;
-        let run = run.continuing_from(self.steps);
-        match self.settings.bath {
-            None => Ok(run.with_drag(drag)),
-            Some((energy, seed)) => {
-                let bath = Bath::new(drag, energy, seed).map_err(errors::value)?;
+        self.clock.set_step(h);
+        let Clock { steps, offset, .. } = self.clock;
+        let run = run.continuing_from(steps).with_time_offset(offset);
+        match self.settings.thermal_energy {
+            None => Ok(run.with_drag(drag).without_merged_steps()),
+            Some(energy) => {
+                let bath = Bath::new(drag, energy, self.settings.seed).map_err(errors::value)?;
                 Ok(run.with_bath(bath))
             }
         }
     }
 
+    /// The default time step, estimated where that of the scheme is not known.
+    fn default_step(&mut self) -> PyResult<f64> {
+        let scheme = self.settings.scheme;
+        let known = self.settings.estimated.filter(|(of, _)| *of == scheme);
+        let step = match known {
+            Some((_, step)) => step,
+            None => self.stable_step(None, actin_integrate::SAFETY)?,
+        };
+        self.settings.estimated = Some((scheme, step));
+        Ok(step)
+    }
+
+    /// The settings of the scene, if it asks for an equilibrium.
+    fn settings_of_equilibrium(&self) -> Option<&actin_sim::Equilibrium> {
+        match &self.assembly.as_ref()?.scene.task {
+            Task::Equilibrium(settings) => Some(settings),
+            _ => None,
+        }
+    }
+
     /// The solver of what may move here.
     fn newton(&self, options: NewtonOptions) -> PyResult<Newton> {
-        if let Some(assembly) = &self.assembly
+        if let (Some(assembly), Some(settings)) = (&self.assembly, self.settings_of_equilibrium())
             && self.state().points.len() == assembly.points.len()
-            && let Task::Equilibrium(settings) = &assembly.scene.task
         {
             return solver(assembly, settings).map_err(errors::value);
         }

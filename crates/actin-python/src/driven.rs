@@ -7,13 +7,15 @@ use std::sync::Arc;
 /// Bodies that move as one.
 #[derive(Clone, Debug)]
 pub(crate) struct Motion {
+    /// When it begins.
+    pub(crate) begin: f64,
     /// Held points, and where they began.
     pub(crate) points: Vec<(usize, Vector3)>,
     /// Held frames, and how they began.
     pub(crate) frames: Vec<(usize, UnitQuaternion)>,
     /// What they turn about, as it began.
     pub(crate) about: Vector3,
-    /// Times, ascending from 0.
+    /// Times since its beginning, ascending from 0.
     pub(crate) times: Vec<f64>,
     /// Displacements at these times.
     pub(crate) displacements: Vec<Vector3>,
@@ -23,9 +25,27 @@ pub(crate) struct Motion {
     pub(crate) free: Vec<Vector3>,
 }
 
-/// What all moved bodies do.
+/// Prescribed motion of held bodies and controls.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Motions(pub(crate) Vec<Motion>);
+pub(crate) struct Motions {
+    /// Factors in time and the path of a scene.
+    pub(crate) of_scene: Option<Arc<dyn Drive>>,
+    pub(crate) own: Vec<Motion>,
+}
+
+impl Motions {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.of_scene.is_none() && self.own.is_empty()
+    }
+
+    /// Ends the motion of points and frames.
+    pub(crate) fn take(&mut self, points: &[usize], frames: &[usize]) {
+        for motion in &mut self.own {
+            motion.points.retain(|(i, _)| !points.contains(i));
+            motion.frames.retain(|(i, _)| !frames.contains(i));
+        }
+    }
+}
 
 /// A matrix that crosses a vector with another.
 fn cross(v: Vector3) -> Matrix3 {
@@ -67,7 +87,7 @@ impl Motion {
     }
 
     fn place(&self, state: &mut State, time: f64) {
-        let (i, share, length) = self.interval(time);
+        let (i, share, length) = self.interval(time - self.begin);
         let between = |all: &[Vector3]| all[i] + (all[i + 1] - all[i]) * share;
         let rate =
             |all: &[Vector3]| length.map_or_else(Vector3::zeros, |l| (all[i + 1] - all[i]) / l);
@@ -95,7 +115,10 @@ impl Motion {
 
 impl Drive for Motions {
     fn place(&self, state: &mut State, time: f64) {
-        self.0.iter().for_each(|motion| motion.place(state, time));
+        if let Some(drive) = &self.of_scene {
+            drive.place(state, time);
+        }
+        self.own.iter().for_each(|motion| motion.place(state, time));
     }
 }
 

@@ -136,13 +136,13 @@ impl System {
     /// Time that steps have taken.
     #[getter]
     fn time(&self) -> f64 {
-        self.time
+        self.clock.time()
     }
 
     /// Steps made.
     #[getter]
     fn steps(&self) -> u64 {
-        self.steps
+        self.clock.steps
     }
 
     /// Curvature of a rod at its joints, body axes, `[joints, 3]`: two of bending, one of twist.
@@ -193,7 +193,7 @@ impl System {
             state.points.len(),
             state.frames.len(),
             names.join(", "),
-            self.time
+            self.clock.time()
         )
     }
 }

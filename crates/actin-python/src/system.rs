@@ -9,8 +9,8 @@ use crate::scene::Scene;
 use crate::terms::{Applied, Field, Term};
 use actin_integrate::Composition;
 use actin_mechanics::{
-    Interaction, Point, PointLoad, Slider, Spring, Springs, State, System as Mechanics, Vector3,
-    Weight,
+    ControlId, Drive, Interaction, Point, PointLoad, Slider, Spring, Springs, State,
+    System as Mechanics, Vector3, Weight,
 };
 use actin_sim::{Assembly, Plan, Task};
 use pyo3::exceptions::{PyIndexError, PyValueError};
@@ -21,12 +21,16 @@ use std::sync::{Arc, Mutex};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Settings {
     pub(crate) scheme: &'static Composition,
-    /// Time step; found from the stiffness where there is none.
+    /// Time step as set by the caller or the scene.
     pub(crate) step: Option<f64>,
+    /// Default time step with its scheme; `None` until it is needed, and after bodies, terms or clamps have changed.
+    pub(crate) estimated: Option<(&'static Composition, f64)>,
     /// Rates of drag, translational and rotational.
     pub(crate) drag: [f64; 2],
-    /// Thermal energy and seed.
-    pub(crate) bath: Option<(f64, u64)>,
+    /// Thermal energy; none without noise.
+    pub(crate) thermal_energy: Option<f64>,
+    /// Seed of the noise.
+    pub(crate) seed: u64,
 }
 
 impl Default for Settings {
@@ -34,9 +38,38 @@ impl Default for Settings {
         Self {
             scheme: &actin_integrate::PEFRL,
             step: None,
+            estimated: None,
             drag: [0.0; 2],
-            bath: None,
+            thermal_energy: None,
+            seed: 1,
         }
+    }
+}
+
+/// Number of steps made and their time.
+///
+/// The time is a product, so that it does not depend on how many calls the steps were made in.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Clock {
+    pub(crate) steps: u64,
+    /// Length of the present steps.
+    h: f64,
+    /// Time of step number 0 if all steps had this length; 0 if they have.
+    pub(crate) offset: f64,
+}
+
+impl Clock {
+    pub(crate) fn time(&self) -> f64 {
+        self.offset + self.steps as f64 * self.h
+    }
+
+    /// Goes on in steps of length `h`.
+    pub(crate) fn set_step(&mut self, h: f64) {
+        // Before the first step there is no time to keep.
+        if self.steps > 0 && h.to_bits() != self.h.to_bits() {
+            self.offset = self.time() - self.steps as f64 * h;
+        }
+        self.h = h;
     }
 }
 
@@ -57,10 +90,8 @@ pub(crate) struct System {
     /// The scene that it is made of.
     pub(crate) assembly: Option<Arc<Assembly>>,
     /// Controls of the loads that were added here, or of those of the scene.
-    factors: Vec<actin_mechanics::ControlId>,
-    /// Steps made.
-    pub(crate) steps: u64,
-    pub(crate) time: f64,
+    factors: Vec<ControlId>,
+    pub(crate) clock: Clock,
     /// What a function of Python has raised within a step.
     pub(crate) error: Arc<Mutex<Option<PyErr>>>,
 }
@@ -75,8 +106,7 @@ impl System {
             settings: Settings::default(),
             assembly: None,
             factors: Vec::new(),
-            steps: 0,
-            time: 0.0,
+            clock: Clock::default(),
             error: Arc::default(),
         };
         system.terms.push(Term::Own(system.applied.clone()));
@@ -90,9 +120,12 @@ impl System {
         let terms = terms.map(|term| -> Box<dyn Interaction> { Box::new(term) });
         let time = state.time;
         self.mechanics = Mechanics::new(state, terms.collect());
-        if !self.motions.0.is_empty() {
+        self.settings.estimated = None;
+        if !self.motions.is_empty() {
             self.mechanics.set_drive(Box::new(self.motions.clone()));
-            self.mechanics.state_mut().time = time;
+            let state = self.mechanics.state_mut();
+            state.time = time;
+            self.motions.place(state, time);
         }
     }
 
@@ -129,14 +162,18 @@ fn settings_of(assembly: &Assembly, plan: &Plan<'_>) -> PyResult<Settings> {
     let step = plan.estimate().map(|estimate| estimate.time_step_ns);
     match &assembly.scene.task {
         Task::Equilibrium(_) => Ok(Settings::default()),
-        Task::Dynamics(task) if task.drag.fluid().is_none() => Ok(Settings {
-            scheme: task.integrator.composition(),
-            step,
-            drag: task.drag.rates().into(),
-            bath: task
-                .thermal
-                .map(|thermal| (thermal.energy_pn_nm(), thermal.seed)),
-        }),
+        Task::Dynamics(task) if task.drag.fluid().is_none() => {
+            let scheme = task.integrator.composition();
+            let is_set = task.time_step_ns.is_some();
+            Ok(Settings {
+                scheme,
+                step: step.filter(|_| is_set),
+                estimated: step.map(|step| (scheme, step)),
+                drag: task.drag.rates().into(),
+                thermal_energy: task.thermal.map(|thermal| thermal.energy_pn_nm()),
+                seed: task.thermal.map_or(1, |thermal| thermal.seed),
+            })
+        }
         Task::Brownian(_) | Task::Dynamics(_) => Err(PyValueError::new_err(
             "motion in a fluid is made by actin.run: the drag of a System is numerical damping",
         )),
@@ -180,6 +217,9 @@ impl System {
     }
 
     /// The bodies and interactions of a scene as built, with the method, time step, drag and heat of its task.
+    ///
+    /// In a motion, steps follow the factors of loads in time and the path of the scene. The path of equilibria is
+    /// followed by `set_path`.
     #[staticmethod]
     fn from_scene(py: Python<'_>, scene: &Bound<'_, Scene>) -> PyResult<Self> {
         let scene = scene.get();
@@ -204,6 +244,10 @@ impl System {
         let count = assembly.system.interactions().len();
         let terms = (0..count).map(|i| Term::OfScene(Arc::clone(&assembly), i));
         let mut system = Self::of(assembly.system.state().clone(), terms.collect());
+        if matches!(assembly.scene.task, Task::Dynamics(_)) {
+            system.motions.of_scene = assembly.drive_in_time().map(Arc::from);
+            system.renew(assembly.system.state().clone());
+        }
         system.settings = settings;
         system.factors = assembly.load_controls().to_vec();
         system.assembly = Some(assembly);
@@ -352,11 +396,10 @@ impl System {
         Ok(())
     }
 
-    /// Holds points and frames where they are.
+    /// Holds points and frames where they are; those that are driven stop.
     #[pyo3(signature = (points = Vec::new(), frames = Vec::new()))]
     fn hold(&mut self, points: Vec<usize>, frames: Vec<usize>) -> PyResult<()> {
-        points.iter().try_for_each(|&i| self.point(i).map(drop))?;
-        frames.iter().try_for_each(|&i| self.frame(i).map(drop))?;
+        self.take_from_drives(&points, &frames)?;
         let state = self.mechanics.state_mut();
         for i in points {
             state.points.hold(i);
@@ -370,8 +413,7 @@ impl System {
     /// Lets held points and frames go, from rest.
     #[pyo3(signature = (points = Vec::new(), frames = Vec::new()))]
     fn release(&mut self, points: Vec<usize>, frames: Vec<usize>) -> PyResult<()> {
-        points.iter().try_for_each(|&i| self.point(i).map(drop))?;
-        frames.iter().try_for_each(|&i| self.frame(i).map(drop))?;
+        self.take_from_drives(&points, &frames)?;
         let state = self.mechanics.state_mut();
         for i in points {
             state.points.release(i);
@@ -382,10 +424,11 @@ impl System {
         Ok(())
     }
 
-    /// Holds bodies and moves them as one: at each of `times`, which ascend from 0, they have a `displacement` `[t,
-    /// 3]` and are turned by a `rotation` vector `[t, 3]` (rad, lab axes) from where they are now, about a place
-    /// that moves along (that of the first point by default). Between times both change at constant rates; behind
-    /// the last all stands still. Along `slides` the points are not moved but slide freely as one body.
+    /// Holds bodies and moves them as one: at each of `times`, which count from now and ascend from 0, they have a
+    /// `displacement` `[t, 3]` and are turned by a `rotation` vector `[t, 3]` (rad, lab axes) from where they are
+    /// now, about a place that moves along (that of the first point by default). Between times both change at
+    /// constant rates; behind the last all stands still. Along `slides` the points are not moved but slide freely
+    /// as one body.
     #[pyo3(signature = (times, *, points = Vec::new(), frames = Vec::new(), displacement = None, rotation = None,
         about = None, slides = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
@@ -413,6 +456,7 @@ impl System {
         };
         let state = self.mechanics.state();
         let motion = Motion {
+            begin: state.time,
             about: about.or(first).unwrap_or_else(Vector3::zeros),
             points: points
                 .iter()
@@ -427,14 +471,12 @@ impl System {
             rotations,
             free,
         };
-        self.motions.0.push(motion);
-        let mut state = self.mechanics.state().clone();
-        state.time = self.time;
-        self.renew(state);
+        self.motions.own.push(motion);
+        self.renew(self.state().clone());
         Ok(())
     }
 
-    /// Puts loads and held ends of a scene where its path has them after `u` stages.
+    /// Puts loads and held ends of a scene of equilibria where its path has them after `u` stages.
     fn set_path(&mut self, u: f64) -> PyResult<()> {
         let assembly = self.assembly.clone();
         let Some(assembly) = assembly.filter(|assembly| !assembly.drive.is_still()) else {
@@ -442,6 +484,11 @@ impl System {
                 "only a System of a scene with a path has one",
             ));
         };
+        if self.motions.of_scene.is_some() {
+            return Err(PyValueError::new_err(
+                "the path of a motion follows the time of its steps: step there, or make a scene of an Equilibrium",
+            ));
+        }
         let stages = assembly.drive.stages() as f64;
         if !(0.0..=stages).contains(&u) {
             return Err(PyValueError::new_err(format!(
@@ -461,12 +508,52 @@ impl System {
                 "there are {count} loads with factors, but no load {load}"
             ))
         })?;
+        if self.is_driven(control) {
+            return Err(PyValueError::new_err(format!(
+                "the factor of load {load} follows the time of the steps, by its factor in the scene or by the path: \
+                 change it there"
+            )));
+        }
         self.mechanics.state_mut().controls[control] = factor;
         Ok(())
     }
 }
 
 impl System {
+    /// Whether the scene sets a control anew at every step.
+    fn is_driven(&self, control: ControlId) -> bool {
+        self.motions.of_scene.as_ref().is_some_and(|drive| {
+            let mut state = self.state().clone();
+            state.controls[control] = f64::NAN;
+            drive.place(&mut state, self.clock.time());
+            !state.controls[control].is_nan()
+        })
+    }
+
+    /// Ends the prescribed motion of points and frames, and refuses those that the scene moves.
+    fn take_from_drives(&mut self, points: &[usize], frames: &[usize]) -> PyResult<()> {
+        points.iter().try_for_each(|&i| self.point(i).map(drop))?;
+        frames.iter().try_for_each(|&i| self.frame(i).map(drop))?;
+        if let (Some(_), Some(assembly)) = (&self.motions.of_scene, &self.assembly) {
+            for clamp in &assembly.clamps {
+                let point = points.iter().find(|i| clamp.points.contains(i));
+                let frame = frames.iter().find(|i| clamp.frames.contains(i));
+                let body = point.map(|i| ("point", i)).or(frame.map(|i| ("frame", i)));
+                if let Some((kind, i)) = body {
+                    return Err(PyValueError::new_err(format!(
+                        "{kind} {i} belongs to a clamp of the scene, which steps place: change the clamp in the scene"
+                    )));
+                }
+            }
+        }
+        self.settings.estimated = None;
+        self.motions.take(points, frames);
+        if !self.motions.is_empty() {
+            self.renew(self.state().clone());
+        }
+        Ok(())
+    }
+
     /// Lets points, which are held, slide along a direction as one body; returns the unit vector.
     fn slide(&mut self, points: &[usize], direction: Vector3) -> PyResult<Vec<Vector3>> {
         let unit = direction.try_normalize(0.0);

@@ -200,3 +200,142 @@ def test_heat_has_its_temperature():
     system.step(200, h=0.1, drag=(1.0, 1.0), thermal_energy=4.1, seed=3)
     expected = 1.5 * 500 * 4.1
     assert abs(system.kinetic_energy - expected) < 4 * 4.1 * np.sqrt(1.5 * 500)
+
+
+def gas(seed=3, **keys):
+    """Free points in heat."""
+    system = actin.System()
+    system.add_points(np.zeros((500, 3)), 1.0)
+    return system, dict(h=0.1, drag=(0.5, 0.5), thermal_energy=4.1, seed=seed) | keys
+
+
+def thread(**keys):
+    """A rod that swings without heat."""
+    system = actin.System()
+    beam = rod(system, segments=8, length=80.0)
+    system.add_force([beam.points[1] - 1], (0.0, 0.0, -2.0))
+    return system, keys
+
+
+def driven(**keys):
+    """A rod whose end is moved as time goes."""
+    system, keys = thread(**keys)
+    system.drive([0.0, 1.0], points=[0], displacement=[(0, 0, 0), (0.0, 3.0, 0.0)])
+    return system, keys
+
+
+@pytest.mark.parametrize("make", [gas, thread, driven, lambda: thread(scheme="vefrl", drag=(0.1, 0.1))])
+def test_steps_in_parts_are_the_same_steps(make):
+    """To the bit: places, motion, time and count, whatever the parts."""
+    whole, keys = make()
+    whole.step(137, **keys)
+    for parts in ([137], [100, 37], [1] * 137, [64, 0, 3, 70]):
+        system, keys = make()
+        for number in parts:
+            system.step(number, **keys)
+        for name in ("position", "velocity", "quaternion", "angular_momentum"):
+            assert np.array_equal(getattr(system, name), getattr(whole, name)), (name, parts[:3])
+        assert (system.steps, system.time) == (137, whole.time)
+
+
+def test_points_in_parts_of_steps_diffuse():
+    """Mean square displacement of 500 points from thermal velocities: 6 kT / (m g^2) (g t - 1 + exp(-g t)), within five
+    standard errors."""
+    system, keys = gas()
+    system.velocity = np.random.default_rng(1).normal(scale=np.sqrt(4.1), size=(500, 3))
+    for _ in range(400):
+        system.step(1, **keys)
+    g, t = 0.5, system.time
+    theory = 6 * 4.1 / g**2 * (g * t - 1 + np.exp(-g * t))
+    squares = np.sum(system.position**2, axis=1)
+    assert abs(squares.mean() - theory) < 5 * theory * np.sqrt(2 / 3 / 500)
+
+
+def test_time_goes_on_where_the_step_changes():
+    system, _ = thread()
+    for number, h in ((10, 1e-3), (5, 2e-3), (7, 2e-3), (1, 1e-3)):
+        system.step(number, h=h)
+    # A few roundings of a sum.
+    assert system.time == pytest.approx(0.035, rel=1e-14) and system.steps == 23
+    with pytest.raises(actin.RunFailed) as caught:
+        system.step(1000, h=10.0)
+    assert caught.value.time_ns == pytest.approx(0.035 + (caught.value.step - 23) * 10.0, rel=1e-12)
+    assert system.time == pytest.approx(0.035, rel=1e-14)
+
+
+def test_a_drive_begins_when_it_is_called():
+    system, keys = thread()
+    system.step(100, h=0.005)
+    system.drive([0.0, 1.0], points=[0], displacement=[(0, 0, 0), (0.0, 3.0, 0.0)])
+    assert np.array_equal(system.position[0], (0, 0, 0))
+    system.step(100, h=0.005)
+    assert system.position[0, 1] == pytest.approx(1.5, rel=1e-12)
+    # A term that is added does not move it, and one that is held stays.
+    system.add_weight((0, 0, -1.0))
+    assert system.position[0, 1] == pytest.approx(1.5, rel=1e-12)
+    system.hold([0])
+    system.step(100, h=0.005)
+    assert system.position[0, 1] == pytest.approx(1.5, rel=1e-12)
+
+
+def test_the_default_step_follows_the_stiffness():
+    """Two points on a spring have the frequency sqrt(2 k / m)."""
+    system = actin.System()
+    system.add_points([(0, 0, 0), (1.0, 0, 0)], 1.0)
+    system.add_springs([(0, 1)], stiffness=10.0, rest_length=1.0)
+    system.step(1)
+    first = system.time
+    system.add_springs([(0, 1)], stiffness=990.0, rest_length=1.0)
+    system.step(1)
+    # The estimate of the frequency is good to a percent.
+    assert system.time - first == pytest.approx(first / 10, rel=0.03)
+    second = system.time
+    system.step(1, scheme="position-verlet")
+    assert system.time - second == pytest.approx(system.stable_step("position-verlet"), rel=1e-9)
+    system.step(1, h=1e-3)
+    system.add_springs([(0, 1)], stiffness=1.0, rest_length=1.0)
+    before = system.time
+    system.step(1)
+    assert system.time - before == pytest.approx(1e-3, rel=1e-9)
+
+
+def test_the_seed_stays():
+    system, keys = gas()
+    system.step(1, **keys)
+    system.step(1)
+    again, keys = gas()
+    again.step(2, **keys)
+    assert np.array_equal(system.position, again.position)
+
+
+FACTORS = [
+    {"Ramp": {"duration_ns": 0.5}},
+    {"Sine": {"period_ns": 0.5}},
+    {"Table": {"time_ns": [0.0, 0.3, 1.0], "factor": [0.0, 1.0, -1.0]}},
+]
+
+
+@pytest.mark.parametrize("factor", FACTORS)
+def test_a_scene_by_hand_follows_factors_in_time(motion, factor):
+    force = {"end": "End", "force_pn": [-2.0, 0.0, 0.0], "factor": factor}
+    scene = motion.set("loads", [{"Force": force}])
+    run = actin.run(scene)
+    system = actin.System.from_scene(scene)
+    system.step(scene.check()["steps"])
+    assert np.abs(system.position - run.position_nm[-1]).max() < 1e-9
+    with pytest.raises(ValueError, match="load 0 follows the time"):
+        system.set_factor(0, 0.5)
+
+
+def test_a_scene_by_hand_follows_its_path(motion):
+    shift = {"duration_ns": 0.6, "set": [{"Shift": {"end": "Start", "shift_nm": [0.0, 1.0, 0.0]}}]}
+    scene = motion.set("path", [shift])
+    run = actin.run(scene)
+    system = actin.System.from_scene(scene)
+    system.step(scene.check()["steps"])
+    assert np.abs(system.position - run.position_nm[-1]).max() < 1e-9
+    assert np.ptp(system.position[:, 1]) > 0.1
+    with pytest.raises(ValueError, match="follows the time"):
+        system.set_path(0.5)
+    with pytest.raises(ValueError, match="clamp of the scene"):
+        system.release([0])

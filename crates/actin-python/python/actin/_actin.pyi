@@ -127,7 +127,11 @@ class System:
         """A system without bodies."""
     @staticmethod
     def from_scene(scene: Scene) -> System:
-        """The bodies and interactions of a scene as built, with the method, time step, drag and heat of its task."""
+        """The bodies and interactions of a scene as built, with the method, time step, drag and heat of its task.
+
+        In a motion, steps follow the factors of loads in time and the path of the scene. The path of equilibria is followed
+        by `set_path`.
+        """
     def add_points(self, position: ArrayLike, mass: ArrayLike) -> int:
         """Adds points at rest, `[k, 3]`, with a mass for all or for each; returns the index of the first."""
     def add_rod(
@@ -169,7 +173,7 @@ class System:
     def apply_torque(self, torque: ArrayLike) -> None:
         """Torques on frames in lab axes, `[m, 3]`, beside all others until they are set again."""
     def hold(self, points: Sequence[int] = ..., frames: Sequence[int] = ...) -> None:
-        """Holds points and frames where they are."""
+        """Holds points and frames where they are; those that are driven stop."""
     def release(self, points: Sequence[int] = ..., frames: Sequence[int] = ...) -> None:
         """Lets held points and frames go, from rest."""
     def drive(
@@ -183,12 +187,12 @@ class System:
         about: ArrayLike | None = None,
         slides: ArrayLike | None = None,
     ) -> None:
-        """Holds bodies and moves them as one: at each of `times`, which ascend from 0, they have a `displacement`
-        `[t, 3]` and are turned by a `rotation` vector `[t, 3]` (rad, lab axes) from where they are now, about a place that
-        moves along (that of the first point by default). Between times both change at constant rates; behind the last all
-        stands still. Along `slides` the points are not moved but slide freely as one body."""
+        """Holds bodies and moves them as one: at each of `times`, which count from now and ascend from 0, they have a
+        `displacement` `[t, 3]` and are turned by a `rotation` vector `[t, 3]` (rad, lab axes) from where they are now,
+        about a place that moves along (that of the first point by default). Between times both change at constant rates;
+        behind the last all stands still. Along `slides` the points are not moved but slide freely as one body."""
     def set_path(self, u: float) -> None:
-        """Puts loads and held ends of a scene where its path has them after `u` stages."""
+        """Puts loads and held ends of a scene of equilibria where its path has them after `u` stages."""
     def set_factor(self, load: int, factor: float) -> None:
         """Sets the factor of a load: by its index in the scene, or as it was returned."""
     def step(
@@ -199,13 +203,15 @@ class System:
         scheme: _Scheme | None = None,
         drag: Sequence[float] | None = None,
         thermal_energy: float | None = None,
-        seed: int = 1,
+        seed: int | None = None,
     ) -> None:
-        """Makes steps in time of length `h`, by default the longest stable one with some room.
+        """Makes steps in time of length `h`, by default half the longest stable one.
 
         `drag` are the rates at which velocities and angular momenta decay, `thermal_energy` (k T) makes noise to go with
-        them. What is set stays for later steps. Raises `RunFailed` where numbers explode; the system then is where it last
-        was sound, which `steps` and `time` tell. Ctrl-C ends the steps.
+        them, with a `seed` of 1 by default. What is set stays for later steps. The default length is estimated again when
+        bodies, terms or clamps have been added and when `scheme` changes. `step(a)` and `step(b)` together equal
+        `step(a + b)` to the bit. Raises `RunFailed` where numbers explode; the system then is where it last was sound,
+        which `steps` and `time` tell. Ctrl-C ends the steps.
         """
     def stable_step(self, scheme: _Scheme | None = None, safety: float = ...) -> float:
         """The longest stable time step of a method at the present stiffness, times `safety`."""

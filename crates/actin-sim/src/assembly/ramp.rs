@@ -158,6 +158,11 @@ impl Ramp {
 }
 
 impl Assembly {
+    /// Motion in time of what the scene moves: factors of loads, anchors and held ends; `None` where all of it stays.
+    pub fn drive_in_time(&self) -> Option<Box<dyn actin_mechanics::Drive>> {
+        Ramp::of(self).map(|ramp| Box::new(ramp) as Box<dyn actin_mechanics::Drive>)
+    }
+
     /// Puts factors of loads, anchors and held bodies where the scene has them at that time or place of its
     /// path.
     pub fn place_controls(&self, state: &mut State, at: At) {
