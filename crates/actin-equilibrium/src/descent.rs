@@ -8,7 +8,7 @@ use crate::history::Verdict;
 use crate::motion::StepSize;
 use crate::options::NewtonOptions;
 use crate::outcome::SolveError;
-use actin_mechanics::{Interaction, State};
+use actin_mechanics::{Interaction, State, Vectors};
 use composed::Composed;
 
 /// Part of the predicted decrease that is enough (Armijo).
@@ -73,6 +73,10 @@ pub(crate) struct Descent {
     carried: State,
     beyond: Evaluation,
     anchor: Option<Anchor>,
+    /// The largest distance of a point from the first one at the start (nm).
+    pub(crate) size: f64,
+    /// Positions at the start.
+    start: Vectors,
     /// Largest displacement in a step (nm).
     farthest: f64,
     /// Part of the step limits that is used at present.
@@ -97,8 +101,10 @@ impl Descent {
         options: &NewtonOptions,
     ) -> Self {
         let here = Evaluation::new(interactions, state);
+        let size = size(state);
         Self {
             state: state.clone(),
+            start: state.points.position.clone(),
             there: here.clone(),
             carried: state.clone(),
             beyond: here.clone(),
@@ -107,7 +113,8 @@ impl Descent {
             anchor: None,
             farthest: options
                 .largest_displacement
-                .min(FARTHEST * size(state).max(options.turn_length)),
+                .min(FARTHEST * size.max(options.turn_length)),
+            size,
             reach: 1.0,
             rest: 0,
             cubic: 0.0,
@@ -116,6 +123,14 @@ impl Descent {
             composed: Composed::new(options),
             options: *options,
         }
+    }
+
+    /// Whether a body has gone so far that only a motion without end leads there.
+    pub(crate) fn is_far(&self) -> bool {
+        let limit = FARTHEST * self.size.max(self.options.turn_length);
+        let positions = self.state.points.position.iter();
+        let mut moved = positions.zip(self.start.iter()).map(|(x, from)| x - from);
+        moved.any(|moved| moved.norm() > limit)
     }
 
     pub(crate) fn is_on_excursion(&self) -> bool {

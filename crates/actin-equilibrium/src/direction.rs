@@ -175,6 +175,39 @@ impl Solver {
         )
     }
 
+    /// The loads of the last assembly that act along motions without stiffness, their norms over all bodies;
+    /// `None` where some stiffness is negative.
+    pub(crate) fn unresisted(&mut self) -> Option<Residual> {
+        let shift = self.least_shift();
+        if !self.factorize(shift).is_positive() {
+            return None;
+        }
+        // (K + s M) p = f: where K does nothing, s M p = f.
+        let mut part = self.plain_step();
+        for (part, mass) in part.iter_mut().zip(&self.metric) {
+            *part *= shift * mass;
+        }
+        Some(self.layout.total(&part))
+    }
+
+    /// The norms of the loads of the last assembly over all bodies.
+    pub(crate) fn total(&self) -> Residual {
+        self.layout.total(&self.reduced)
+    }
+
+    /// Whether the stiffness of the last assembly is zero or negative along some motion, within rounding.
+    pub(crate) fn has_weak_mode(&mut self) -> bool {
+        let shift = self.least_shift();
+        !self.factorize(-shift).is_positive()
+    }
+
+    /// The least multiple of the metric that rounding of the stiffness does not hide.
+    fn least_shift(&mut self) -> f64 {
+        self.factorize(0.0);
+        let largest = LEAST_ROUNDINGS * f64::EPSILON * self.largest_in_metric();
+        largest.max(f64::MIN_POSITIVE)
+    }
+
     /// The step of the last factor for the loads of the last assembly.
     pub(crate) fn plain_step(&mut self) -> Vec<f64> {
         let mut step = self.reduced.clone();

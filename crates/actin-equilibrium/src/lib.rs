@@ -29,6 +29,7 @@ mod group;
 mod history;
 mod implicit;
 mod layout;
+mod load_scale;
 mod mode;
 mod motion;
 mod nearest;

@@ -75,6 +75,17 @@ impl Layout {
             })
     }
 
+    /// The norms, over all nodes together, of numbers that are laid out as generalised loads.
+    pub(crate) fn total(&self, reduced: &[f64]) -> Residual {
+        let norms = self
+            .nodes()
+            .map(|(node, range)| self.norms(node, &reduced[range]));
+        norms.fold(Residual::default(), |total, of_node| Residual {
+            force: total.force.hypot(of_node.force),
+            torque: total.torque.hypot(of_node.torque),
+        })
+    }
+
     /// Whether the loads of each node are within `limit`, or within `multiple` times what rounding
     /// leaves of them at that node. Rounding that is not finite allows nothing.
     pub(crate) fn are_within(

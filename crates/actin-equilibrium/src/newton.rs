@@ -26,6 +26,7 @@ use crate::descent::Descent;
 use crate::direction::Solver;
 use crate::history::{Iteration, SolverWork};
 use crate::layout::Layout;
+use crate::load_scale::LoadScale;
 use crate::options::{NewtonOptions, OptionsError};
 use crate::outcome::{Convergence, Equilibrium, NewtonFailure, SolveError};
 use actin_mechanics::Residual;
@@ -38,6 +39,9 @@ const AT_FLOOR: f64 = 8.0;
 pub(crate) const NEAR_FLOOR: f64 = 100.0;
 /// A residual that falls less than by this factor in a step does not fall any more.
 pub(crate) const STILL_FALLING: f64 = 0.5;
+/// A failed solve has no equilibrium if more than this share of its residual acts along motions without
+/// stiffness.
+const UNRESISTED: f64 = 0.5;
 
 /// A solver for equilibria of one model: layout, options, and the memory of earlier solves.
 ///
@@ -278,8 +282,11 @@ impl Run<'_> {
         self.solver
             .assemble(self.interactions, &descent.state, &descent.here.loads);
         self.measure(descent);
-        if let Some(ending) = self.ending(descent) {
+        if let Some(ending) = self.ending(descent)? {
             return Ok(Some(ending));
+        }
+        if descent.is_far() && self.solver.has_weak_mode() {
+            return Err(SolveError::Unbounded);
         }
         if descent.stays_blocked() {
             return self.give_up(descent, SolveError::PassesThrough);
@@ -316,30 +323,80 @@ impl Run<'_> {
 
     /// Whether the present state is an equilibrium.
     ///
-    /// An excursion that ends in an equilibrium above where it began has not paid: it is taken
+    /// Within the tolerance steps are made as long as they halve the residual, until it is small against the
+    /// loads too. An excursion that ends in an equilibrium above where it began has not paid: it is taken
     /// back, so that a solve never ends above its start.
-    fn ending(&self, descent: &mut Descent) -> Option<Convergence> {
+    ///
+    /// # Errors
+    /// If the remaining load acts along motions without stiffness.
+    fn ending(&mut self, descent: &mut Descent) -> Result<Option<Convergence>, SolveError> {
         let tolerance = &self.options.tolerance;
-        if self.residual.is_within(tolerance) {
-            return (!descent.gives_up_excursion()).then_some(Convergence::Converged);
-        }
         let falling = self.residual.relative_to(tolerance) < STILL_FALLING * self.previous;
+        if self.residual.is_within(tolerance) {
+            if falling && self.is_worth_another_step(descent) || descent.gives_up_excursion() {
+                return Ok(None);
+            }
+            return self.accept(descent, Convergence::Converged);
+        }
         let at_floor = !falling && self.solver.is_at_floor(tolerance, AT_FLOOR);
-        (at_floor && !descent.is_on_excursion()).then_some(Convergence::FloorReached)
+        if at_floor && !descent.is_on_excursion() {
+            return self.accept(descent, Convergence::FloorReached);
+        }
+        Ok(None)
     }
 
-    /// No step helps or none is allowed any more: either the floor is reached, about which steps may
-    /// wander, or something is wrong.
+    /// Whether a residual within the tolerance is neither small against the loads nor, where no load is
+    /// applied, what rounding leaves.
+    fn is_worth_another_step(&self, descent: &Descent) -> bool {
+        let scale = LoadScale::new(self.interactions, &descent.state);
+        let is_rounding = self.solver.is_at_floor(&Residual::default(), AT_FLOOR);
+        !scale.dwarfs(&self.residual, self.arms(descent)) && (scale.is_loaded || !is_rounding)
+    }
+
+    /// The ending, unless a part of the loads acts along motions without stiffness: it would move bodies
+    /// without end.
+    fn accept(
+        &mut self,
+        descent: &Descent,
+        ending: Convergence,
+    ) -> Result<Option<Convergence>, SolveError> {
+        let scale = LoadScale::new(self.interactions, &descent.state);
+        let arms = self.arms(descent);
+        if scale.dwarfs(&self.residual, arms) {
+            return Ok(Some(ending));
+        }
+        match self.solver.unresisted() {
+            Some(unresisted) if !scale.outweighs(&unresisted, arms) => Err(SolveError::Unbounded),
+            _ => Ok(Some(ending)),
+        }
+    }
+
+    /// Shortest and longest arm of a force (nm).
+    fn arms(&self, descent: &Descent) -> [f64; 2] {
+        let shortest = self.options.turn_length;
+        [shortest, descent.size.max(shortest)]
+    }
+
+    /// No step helps or none is allowed any more: either the tolerance or the floor is reached, about which
+    /// steps may wander, or something is wrong.
     fn give_up(
-        &self,
+        &mut self,
         descent: &Descent,
         cause: SolveError,
     ) -> Result<Option<Convergence>, SolveError> {
         let tolerance = &self.options.tolerance;
-        if !descent.is_on_excursion() && self.solver.is_at_floor(tolerance, NEAR_FLOOR) {
-            Ok(Some(Convergence::FloorReached))
-        } else {
-            Err(cause)
+        if !descent.is_on_excursion() {
+            if self.residual.is_within(tolerance) {
+                return self.accept(descent, Convergence::Converged);
+            }
+            if self.solver.is_at_floor(tolerance, NEAR_FLOOR) {
+                return self.accept(descent, Convergence::FloorReached);
+            }
+        }
+        let all = self.solver.total();
+        match self.solver.unresisted() {
+            Some(part) if !part.is_within(&all.scaled(UNRESISTED)) => Err(SolveError::Unbounded),
+            _ => Err(cause),
         }
     }
 }

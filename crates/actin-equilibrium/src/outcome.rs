@@ -8,7 +8,7 @@ use thiserror::Error;
 /// Why a solve that ended well ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convergence {
-    /// The residual is within the tolerance.
+    /// The residual is within the tolerance, and at most 1e-8 of the largest load or no longer halved by a step.
     Converged,
     /// The residual is above the tolerance and does not fall any more, but the loads of each body
     /// are within the tolerance or within 8 times what rounding leaves of them at that body (100
@@ -60,6 +60,12 @@ pub enum SolveError {
     /// Energy or loads at the start are not finite.
     #[error("energy or loads at the start are not finite")]
     NotFinite,
+    /// The energy has no minimum.
+    #[error(
+        "a load acts along a motion that nothing resists, so that the energy falls without bound; hold a body \
+         there, or balance the loads"
+    )]
+    Unbounded,
     /// Too many steps.
     #[error("{0} steps were not enough")]
     IterationLimit(usize),
