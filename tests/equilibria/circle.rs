@@ -1,6 +1,6 @@
 //! A rod rolled up by turning its end, which moves freely: couples only, so uniform curvature.
 
-use crate::common::{BEND, LENGTH, PRECISION, build, run};
+use crate::common::{BEND, LENGTH, PRECISION, build, failure, run, run_anyway};
 use crate::theory::{bisect, second_order_limit};
 use actin_mechanics::Vector3;
 use actin_sim::{Assembly, End, Failure, Outcome, RunError};
@@ -92,4 +92,37 @@ fn a_rod_that_twists_easily_leaves_the_plane() {
     });
     let limit = second_order_limit("roll-up loses stability", values, exact, 0.08);
     assert!(limit.abs() < 1e-5, "{limit:e}");
+}
+
+/// A couple about a fixed axis on the free end of a rod that twists no easier than it bends rolls it up as far as
+/// half a turn, where it loses its stability: the path ends there and the message gives the reason.
+#[test]
+fn a_couple_on_a_free_end_rolls_up_half_a_turn() {
+    let couple = 2.0 * PI * BEND / LENGTH;
+    let mut assembly = build(&format!(
+        "Scene(
+            filament: Filament(
+                sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: 40)],
+                rod: RodModel(law: Constant, material: Rigidities(
+                    shear_pn: (1e5, 1e5, 1e5), bend_pn_nm2: ({BEND:?}, {BEND:?}, {BEND:?}),
+                )),
+            ),
+            clamps: [Clamp(end: Start)],
+            loads: [Couple(end: End, couple_pn_nm: (0.0, {couple:?}, 0.0))],
+            path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)])],
+            task: Equilibrium(),
+        )"
+    ));
+    let (_, outcome) = run_anyway(&mut assembly);
+    let (failure, _) = failure(outcome);
+    let message = failure.to_string();
+    println!("{message}");
+    let Failure::PathEnded { failure, .. } = failure else {
+        panic!("{message}");
+    };
+    // Half a turn of the end, up to a segment.
+    assert!((failure.parameter - 0.5).abs() < 1.0 / 40.0, "{message}");
+    for part in ["loses its stability: ", "at half a turn", "slides: Freely"] {
+        assert!(message.contains(part), "{part:?} in {message}");
+    }
 }

@@ -146,10 +146,10 @@ fn percent(share: f64) -> String {
 fn print_other_states(summary: &Summary) {
     if let Some(states) = &summary.states {
         println!("{states}");
-    } else if summary.other_states_likely {
+    } else if summary.saddles_left + summary.jumps > 0 {
         println!(
-            "other stable states are likely: {} saddle(s) and {} sudden jump(s) on the way; another \
-             start or direction may end elsewhere",
+            "{} saddle(s) were left and {} sudden jump(s) made on the way: there are other stable states, \
+             and this one may not be connected to the start; `states: 24` of the task looks for others",
             summary.saddles_left, summary.jumps
         );
     }
@@ -170,7 +170,8 @@ fn stability_in_words(stability: &StabilitySummary) -> String {
         stability.unresolved_eigenvalues,
     ) {
         (0, 0) => "stable".into(),
-        (0, modes) => format!("stable but for {modes} neutral mode(s)"),
+        (0, 1) => "stable up to 1 neutral mode".into(),
+        (0, modes) => format!("stable up to {modes} neutral modes"),
         (negative, _) => format!("a SADDLE, with {negative} negative eigenvalue(s)"),
     }
 }

@@ -6,7 +6,7 @@
 pub struct Certificate {
     /// Number of eigenvalues below `-resolution`.
     pub negative: usize,
-    /// Number of eigenvalues that cannot be told from zero.
+    /// Number of neutral modes: eigenvalues that cannot be distinguished from zero.
     pub unresolved: usize,
     /// The resolution (pN/nm), divided by the metric's smallest weight: the larger of eight times
     /// the unit round-off times the largest diagonal entry of `|L| |D| |L^T|`, and of the change

@@ -12,10 +12,12 @@
 //! of exactly zero as it has unknowns: changes in proportion to them would leave them zero, and the
 //! signs of their pivots mean nothing.
 
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, Stability};
 use crate::direction::Solver;
 use crate::evaluation::Evaluation;
 use crate::factor::Inertia;
+use crate::newton::Newton;
+use crate::outcome::SolveError;
 use actin_mechanics::{Interaction, State, Xorshift};
 
 /// Counts the eigenvalues of the stiffness of the last assembly, made at `state`.
@@ -31,6 +33,56 @@ pub(crate) fn certify(
         resolve(solver, state, interactions, &mut certificate);
     }
     certificate
+}
+
+impl Newton {
+    /// The lowest eigenvalue of the stiffness at `state` that is not neutral (pN/nm), to 1e-9 of it; `None` if all
+    /// are neutral. Neutral ones are counted by [`certify`](Newton::certify).
+    ///
+    /// # Errors
+    /// If an interaction has no potential or no second derivatives.
+    pub fn lowest_eigenvalue(
+        &mut self,
+        state: &State,
+        interactions: &[Box<dyn Interaction>],
+    ) -> Result<Option<f64>, SolveError> {
+        let neutral = match self.certify(state, interactions)?.stability() {
+            Stability::Neutral { modes } => modes,
+            Stability::Stable | Stability::Saddle { .. } => {
+                let mode = self.lowest_mode(state, interactions)?;
+                return Ok(mode.map(|mode| mode.eigenvalue));
+            }
+        };
+        self.solver.prepare(state, interactions)?;
+        Ok(first_above(&mut self.solver, neutral))
+    }
+}
+
+/// The lowest eigenvalue of the stiffness of the last assembly with more than `count` below it, by bisection;
+/// `None` if there are no more.
+fn first_above(solver: &mut Solver, count: usize) -> Option<f64> {
+    if count >= solver.layout.unknowns() {
+        return None;
+    }
+    let mut has_more = |value: f64| solver.factorize(-value).negative > count;
+    let mut bounds = [0.0, 1.0];
+    while !has_more(bounds[1]) {
+        bounds = [bounds[1], FASTER * bounds[1]];
+        if !bounds[1].is_finite() {
+            return None;
+        }
+    }
+    if bounds[0] == 0.0 {
+        bounds[0] = bounds[1];
+        while has_more(bounds[0]) {
+            bounds = [bounds[0] / FASTER, bounds[0]];
+        }
+    }
+    while bounds[1] > (1.0 + PRECISION) * bounds[0] {
+        let middle = (bounds[0] * bounds[1]).sqrt();
+        bounds[usize::from(has_more(middle))] = middle;
+    }
+    Some(bounds[1])
 }
 
 /// Counts with a stiffness that is known up to `uncertainty` (largest sum of a row); three
@@ -171,6 +223,10 @@ fn largest_row_sum(solver: &mut Solver, mut matrix: Vec<f64>) -> f64 {
     sums.into_iter().fold(0.0, f64::max)
 }
 
+/// Factor by which bounds of an eigenvalue are moved apart.
+const FASTER: f64 = 16.0;
+/// Relative precision of an eigenvalue found by bisection.
+const PRECISION: f64 = 1e-9;
 /// Roundings of the largest entry that assembly and factorisation may have made.
 const ROUNDINGS: f64 = 8.0;
 /// Growth over the largest diagonal entry that is taken for accurate.

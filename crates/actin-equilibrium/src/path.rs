@@ -1,7 +1,7 @@
 //! Equilibria along a path of controls, with automatic steps.
 //!
-//! Steps shrink where Newton fails or the equilibrium moves too far, and grow where it has
-//! none. At a limit point, beyond which there is no equilibrium near by, the steps shrink to the
+//! Steps shrink where Newton fails, or where the equilibrium moves too far or otherwise than the path
+//! predicts, and grow where iterations are few. At a limit point, beyond which there is no equilibrium near by, the steps shrink to the
 //! smallest and the path ends with a report of the last equilibrium.
 
 use crate::evaluation::{Evaluation, passes_through};
@@ -22,6 +22,10 @@ const SUDDEN: f64 = 4.0;
 /// Motion (rad, or strain of neighbours) below which nothing is a jump: the bend of a filament
 /// with a tiny imperfection at its critical load grows suddenly, too, but stays small in a step.
 const SMALL_MOTION: f64 = 0.1;
+/// Motion (rad, or strain of neighbours) below which it does not matter whether it was predicted.
+const NEGLIGIBLE_MOTION: f64 = 1e-3;
+/// Share of a motion that is not along the predicted one, above which the motion is unexplained.
+const UNEXPLAINED: f64 = 0.5;
 
 /// A path of controls, from parameter 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -222,6 +226,7 @@ impl<'a> Walk<'a> {
         set: Set<'_>,
         companion: &mut dyn PathObserver,
     ) -> Result<(), (f64, PathError)> {
+        let rate = self.rate(state, set);
         loop {
             let next = self.next_parameter();
             let is_smallest = self.at.step <= self.options.smallest_step;
@@ -236,22 +241,82 @@ impl<'a> Walk<'a> {
                     let far = moved.rotation > self.options.largest_turn
                         || moved.strain > self.options.largest_strain
                         || self.is_sudden(&equilibrium, &moved, next);
+                    let unexplained = equilibrium.saddles_left == 0
+                        && motion(&moved) > NEGLIGIBLE_MOTION
+                        && (rate.as_ref())
+                            .is_some_and(|rate| self.deviates((state, &trial), rate, next));
                     let accepted = is_smallest && self.options.jumps == Jumps::Accept;
-                    if !far || accepted {
+                    if accepted || !far && (!unexplained || is_smallest) {
                         self.adapt(&equilibrium);
-                        return self.arrive(state, trial, next, equilibrium, far, companion);
+                        let jumped = far || unexplained;
+                        return self.arrive(state, trial, next, equilibrium, jumped, companion);
                     }
                     PathError::Jump(moved)
                 }
                 Err(cause) => cause,
             };
-            if is_smallest || cause == PathError::Interrupted {
+            if cause == PathError::Interrupted {
                 return Err((next, cause));
+            }
+            if is_smallest {
+                return Err((next, self.lost_stability(state, next, set).unwrap_or(cause)));
             }
             let at = &mut self.at;
             at.refused += 1;
             at.step = (0.5 * (next - at.parameter)).max(self.options.smallest_step);
         }
+    }
+
+    /// The loss of stability as the cause why no stable equilibrium is near: the path continues, but as a saddle.
+    fn lost_stability(&mut self, state: &State, next: f64, set: Set<'_>) -> Option<PathError> {
+        let predicted = self.predict(state, next, set).ok()?;
+        let nearest = self.newton.nearest(&predicted, self.interactions);
+        let negative = nearest.ok().flatten()?.certificate.negative;
+        (negative > 0).then_some(PathError::Unstable { negative })
+    }
+
+    /// Motion of the unknowns per parameter at the present equilibrium: that of the last step, or after
+    /// the first equilibrium and after a jump that of the linear response. `None` if the stiffness is not
+    /// positive beyond rounding.
+    fn rate(&mut self, state: &State, set: Set<'_>) -> Option<Vec<f64>> {
+        if let Some((previous, before)) = &self.at.previous {
+            let from = state.in_motion(previous.clone());
+            let mut rate = self.newton.layout().difference(&from, state);
+            let per = 1.0 / (self.at.parameter - before);
+            rate.iter_mut().for_each(|rate| *rate *= per);
+            return Some(rate);
+        }
+        let solver = &mut self.newton.solver;
+        solver.prepare(state, self.interactions).ok()?;
+        if solver.has_weak_mode() {
+            return None;
+        }
+        let mut moved = state.clone();
+        let step = self.options.smallest_step;
+        set(&mut moved, self.at.parameter + step);
+        let after = self.newton.generalised_loads(&moved, self.interactions);
+        let before = self.newton.generalised_loads(state, self.interactions);
+        let loads = after.iter().zip(&before).map(|(a, b)| (a - b) / step);
+        let mut rate: Vec<f64> = loads.collect();
+        let solver = &mut self.newton.solver;
+        solver.factorize(0.0);
+        solver.solve(&mut rate);
+        Some(rate)
+    }
+
+    /// Whether the way to the next equilibrium is not, for the most part, along `rate`, by up to a few times
+    /// what the parameter lets expect.
+    fn deviates(&self, (from, to): (&State, &State), rate: &[f64], next: f64) -> bool {
+        let way = self.newton.layout().difference(from, to);
+        let metric = &self.newton.solver.metric;
+        let product = |a: &[f64], b: &[f64]| -> f64 {
+            let terms = a.iter().zip(b).zip(metric);
+            terms.map(|((a, b), m)| m * a * b).sum()
+        };
+        let along = product(&way, rate) / product(rate, rate).max(f64::MIN_POSITIVE);
+        let along = along.clamp(0.0, SUDDEN * (next - self.at.parameter));
+        let off: Vec<f64> = way.iter().zip(rate).map(|(w, r)| w - along * r).collect();
+        product(&off, &off) > UNEXPLAINED * UNEXPLAINED * product(&way, &way)
     }
 
     /// Whether an equilibrium is much further than the last step lets expect: a snap through.

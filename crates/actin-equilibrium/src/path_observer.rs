@@ -18,7 +18,8 @@ pub struct PathPoint<'a> {
     pub equilibrium: &'a Equilibrium,
     /// How far free bodies have gone since the last point.
     pub moved: StepSize,
-    /// Whether the point is further from the last one than the options allow.
+    /// Whether the point is further from the last one than the options allow, or elsewhere than the path
+    /// predicts, even after the smallest step: it may lie on another branch.
     pub jumped: bool,
     /// What the solver has done so far.
     pub work: SolverWork,

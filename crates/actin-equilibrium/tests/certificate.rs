@@ -188,3 +188,28 @@ fn neutral_modes_of_rods_and_springs_are_counted() {
     assert_eq!(stability(&state, &terms), Stability::Neutral { modes: 11 });
     assert!(Layout::free(&state).unknowns_of(F(1)).is_none());
 }
+
+/// The lowest eigenvalue that is not neutral: of a chain of four springs (10 pN/nm) with one end held, 8 of whose
+/// modes are neutral, `4 k sin^2(pi / 18)`; none where all are neutral, and a negative one of a saddle.
+#[test]
+fn neutral_modes_are_left_out_of_the_lowest_eigenvalue() {
+    let lowest = |state: &State, terms: &Terms| {
+        let mut newton = Newton::new(Layout::free(state), NewtonOptions::default()).unwrap();
+        newton.lowest_eigenvalue(state, terms).unwrap()
+    };
+    let mut chain = State::default();
+    for z in 0..5 {
+        point(&mut chain, Vector3::z() * f64::from(z));
+    }
+    chain.points.hold(0);
+    let springs = (0..4).map(|i| (i, i + 1, 10.0, 1.0)).collect();
+    let terms: Terms = vec![Box::new(Springs(springs))];
+    let exact = 40.0 * (std::f64::consts::PI / 18.0).sin().powi(2);
+    let found = lowest(&chain, &terms).unwrap();
+    println!("lowest eigenvalue {found} instead of {exact} pN/nm");
+    // The precision of the bisection.
+    assert!((found / exact - 1.0).abs() < 2e-9, "{found}");
+    assert_eq!(lowest(&bodies(1, 1), &vec![]), None);
+    let saddle: Terms = vec![Box::new(Wells(vec![(0, diagonal([0.0, -2.0, 5.0]))]))];
+    assert!((lowest(&bodies(1, 0), &saddle).unwrap() + 2.0).abs() < 1e-12);
+}

@@ -12,17 +12,20 @@ use std::ops::ControlFlow;
 
 type Terms = Vec<Box<dyn Interaction>>;
 
-/// A shallow arch of two bars, half span 10 nm and rise 2 nm, its top free to move up and down,
-/// with `force` down on it at control 1.
-fn arch(force: f64) -> (State, Terms, Newton) {
+/// Rise (nm) of an arch.
+const RISE: f64 = 2.0;
+
+/// A shallow arch of two bars, half span 10 nm, its top free to move up and down, with `force` down on it at
+/// control 1.
+fn arch(rise: f64, force: f64) -> (State, Terms, Newton) {
     let mut state = State::default();
     for x in [-10.0, 10.0] {
         let i = point(&mut state, Vector3::x() * x);
         state.points.hold(i);
     }
-    point(&mut state, Vector3::y() * 2.0);
+    point(&mut state, Vector3::y() * rise);
     let control = state.add_control(0.0);
-    let rest = 104.0f64.sqrt();
+    let rest = rise.hypot(10.0);
     let springs = Springs(vec![(0, 2, 50.0, rest), (1, 2, 50.0, rest)]);
     let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::y() * -force, control);
     let top = Group::sliding(vec![2], vec![], Vector3::y());
@@ -32,15 +35,15 @@ fn arch(force: f64) -> (State, Terms, Newton) {
 }
 
 /// The force on the top at height `y`, and the largest: `L^3 = L0 a^2` there.
-fn arch_force(y: f64) -> f64 {
+fn arch_force(rise: f64, y: f64) -> f64 {
     let length = (100.0 + y * y).sqrt();
-    2.0 * 50.0 * (104.0f64.sqrt() / length - 1.0) * y
+    2.0 * 50.0 * (rise.hypot(10.0) / length - 1.0) * y
 }
 
-fn arch_limit() -> (f64, f64) {
-    let length = (104.0f64.sqrt() * 100.0).cbrt();
+fn arch_limit(rise: f64) -> (f64, f64) {
+    let length = (rise.hypot(10.0) * 100.0).cbrt();
     let y = (length * length - 100.0).sqrt();
-    (y, arch_force(y))
+    (y, arch_force(rise, y))
 }
 
 fn proportional(state: &mut State, parameter: f64) {
@@ -51,8 +54,8 @@ fn proportional(state: &mut State, parameter: f64) {
 /// At a limit point the path ends just before it and reports the last equilibrium.
 #[test]
 fn a_limit_point_ends_the_path() {
-    let (y, limit) = arch_limit();
-    let (mut state, terms, mut newton) = arch(2.0 * limit);
+    let (y, limit) = arch_limit(RISE);
+    let (mut state, terms, mut newton) = arch(RISE, 2.0 * limit);
     let path = Path::new(PathOptions::default()).unwrap();
     let failure = path
         .follow(
@@ -71,7 +74,7 @@ fn a_limit_point_ends_the_path() {
     assert!(matches!(failure.cause, PathError::Jump(_)), "{failure}");
     let reached = state.points.position.get(2).y;
     assert!(reached > y && reached < y + 0.05, "{reached}");
-    assert!((arch_force(reached) - failure.parameter * 2.0 * limit).abs() < 1e-7);
+    assert!((arch_force(RISE, reached) - failure.parameter * 2.0 * limit).abs() < 1e-7);
     let last = failure.equilibrium.as_ref().unwrap();
     assert!(!last.is_saddle());
     let message = failure.to_string();
@@ -85,8 +88,8 @@ fn a_limit_point_ends_the_path() {
 /// With jumps accepted the arch snaps through, once, to the branch beyond.
 #[test]
 fn a_jump_may_be_accepted() {
-    let (_, limit) = arch_limit();
-    let (mut state, terms, mut newton) = arch(2.0 * limit);
+    let (_, limit) = arch_limit(RISE);
+    let (mut state, terms, mut newton) = arch(RISE, 2.0 * limit);
     let options = PathOptions {
         jumps: Jumps::Accept,
         ..PathOptions::default()
@@ -108,7 +111,7 @@ fn a_jump_may_be_accepted() {
     assert_eq!(jumps, 1);
     let y = state.points.position.get(2).y;
     assert!(
-        y < -2.0 && (arch_force(y) - 2.0 * limit).abs() < 1e-7,
+        y < -2.0 && (arch_force(RISE, y) - 2.0 * limit).abs() < 1e-7,
         "{y}"
     );
     assert!(!end.equilibrium.is_saddle());
@@ -222,8 +225,8 @@ fn a_prescribed_turn_of_720_degrees() {
 /// The observer ends a path at the equilibrium that it has just seen.
 #[test]
 fn a_path_can_be_interrupted() {
-    let (_, limit) = arch_limit();
-    let (mut state, terms, mut newton) = arch(0.5 * limit);
+    let (_, limit) = arch_limit(RISE);
+    let (mut state, terms, mut newton) = arch(RISE, 0.5 * limit);
     let mut seen = Vec::new();
     let failure = Path::new(PathOptions::default())
         .unwrap()
@@ -255,4 +258,31 @@ fn options_are_checked() {
     };
     let message = "first_step must be at least the smallest step, but is 0.000001";
     assert_eq!(Path::new(options).unwrap_err().to_string(), message);
+}
+
+/// A very shallow arch snaps through by less than what counts as a jump by its size: reported all the same.
+#[test]
+fn a_small_snap_is_reported() {
+    let rise = 0.2;
+    let (_, limit) = arch_limit(rise);
+    let (mut state, terms, mut newton) = arch(rise, 2.0 * limit);
+    let mut jumps = Vec::new();
+    let end = Path::new(PathOptions::default())
+        .unwrap()
+        .follow(
+            &mut newton,
+            &mut state,
+            &terms,
+            &mut proportional,
+            &mut |p| {
+                jumps.extend(p.jumped.then_some(p.parameter));
+                ControlFlow::Continue(())
+            },
+        )
+        .unwrap();
+    println!("jumps at {jumps:?}, {} steps refused", end.refused);
+    assert_eq!(jumps.len(), 1);
+    // Within the smallest step of the limit.
+    assert!((jumps[0] - 0.5).abs() < 2e-4, "{jumps:?}");
+    assert!(state.points.position.get(2).y < -rise);
 }

@@ -33,7 +33,7 @@ class Certificate:
     negative_eigenvalues: int
     """More than none is a saddle."""
     unresolved_eigenvalues: int
-    """How many cannot be told from zero: floppy modes, rigid motions of what floats."""
+    """Number of neutral modes, which cannot be distinguished from zero: floppy modes and rigid motions."""
     resolution: float
     """Below this magnitude eigenvalues cannot be told from zero (pN/nm)."""
     residual_force: float
@@ -47,6 +47,14 @@ class Certificate:
     def stable(self) -> bool:
         """Whether all eigenvalues are positive beyond doubt: a minimum of the energy."""
         return self.negative_eigenvalues == 0 and self.unresolved_eigenvalues == 0
+
+    @property
+    def words(self) -> str:
+        """"stable", "stable up to 1 neutral mode", or how many negative eigenvalues a saddle has."""
+        negative, neutral = self.negative_eigenvalues, self.unresolved_eigenvalues
+        if negative > 0:
+            return f"a saddle with {negative} negative eigenvalue{'s' if negative > 1 else ''}"
+        return "stable" if neutral == 0 else f"stable up to {neutral} neutral mode{'s' if neutral > 1 else ''}"
 
 
 @dataclass(frozen=True)
@@ -260,9 +268,7 @@ def _rows(run: Run) -> list[tuple[str, str]]:
     ]
     certificate = run.certificate
     if certificate is not None:
-        negative, unresolved = certificate.negative_eigenvalues, certificate.unresolved_eigenvalues
-        words = "stable" if certificate.stable else f"{negative} negative, {unresolved} unresolved eigenvalues"
-        rows.append(("certificate", words))
+        rows.append(("certificate", certificate.words))
     if summary.get("failure"):
         rows.append(("failure", summary["failure"]))
     rows += [("note", note) for note in run.notes]
@@ -326,7 +332,7 @@ class Equilibrium:
 
     @property
     def lowest_eigenvalue(self) -> float | None:
-        """Lowest eigenvalue of the stiffness (pN/nm), if the task asks for `lowest_eigenvalue`."""
+        """Lowest eigenvalue of the stiffness that is not neutral (pN/nm), if the task asks for `lowest_eigenvalue`."""
         return self.run.summary["lowest_stiffness_eigenvalue"]
 
     @property

@@ -9,11 +9,11 @@ use super::taken::Taken;
 use super::unknowns::newton;
 use super::{At, Failure, Outcome, Progress, Record, Recorded, RunPosition, Status};
 use crate::adapt::{ErrorEstimate, Scatter, estimate, scatter};
-use crate::scene::{Equilibrium as Settings, Quantity, SceneProblem};
+use crate::scene::{Equilibrium as Settings, Load, Quantity, SceneProblem};
 use crate::{Assembly, Booked};
 use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path,
-    PathFailure, PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
+    PathError, PathFailure, PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
 };
 use actin_mechanics::{Loads, Residual, State, System};
 use std::ops::ControlFlow;
@@ -23,8 +23,8 @@ use std::ops::ControlFlow;
 pub struct EquilibriumReport {
     /// Counts of negative and unresolved eigenvalues of the stiffness.
     pub certificate: Certificate,
-    /// Lowest eigenvalue of the stiffness (pN/nm; turns count as displacements over 1 nm), if the
-    /// scene asks for it.
+    /// Lowest eigenvalue of the stiffness that is not neutral (pN/nm; turns count as displacements over
+    /// 1 nm), if the scene asks for it.
     pub lowest_eigenvalue: Option<f64>,
     /// Newton steps of the whole path.
     pub newton_iterations: u64,
@@ -94,6 +94,24 @@ fn place(assembly: &Assembly, stages_done: usize) -> String {
     match assembly.drive.stages() {
         0 => String::new(),
         stages => format!("in stage {} of {stages}, ", stages_done + 1),
+    }
+}
+
+/// What the loads of a scene have to do with the loss of stability that ends its path.
+fn hint(assembly: &Assembly, cause: &PathError) -> &'static str {
+    let is_on_free_end = |load: &Load| match load {
+        Load::Couple(couple) => couple.end.is_some_and(|end| {
+            let clamp = assembly.clamp_at(couple.filament, end);
+            !couple.follows && clamp.is_none()
+        }),
+        _ => false,
+    };
+    let is_unstable = matches!(cause, PathError::Unstable { .. });
+    if is_unstable && assembly.scene.loads.iter().any(is_on_free_end) {
+        "; a couple about a fixed axis on a free end loses its stability at half a turn of the end, or before \
+         where the filament twists easily: to turn the end further, clamp it with `slides: Freely` and `Turn` it"
+    } else {
+        ""
     }
 }
 
@@ -185,7 +203,12 @@ impl<'a> Follower<'a> {
             Some(_) if self.is_interrupted => None,
             Some(failure) => {
                 let place = place(self.assembly, self.position.stage);
-                Some(Failure::PathEnded { place, failure })
+                let hint = hint(self.assembly, &failure.cause);
+                Some(Failure::PathEnded {
+                    place,
+                    failure,
+                    hint,
+                })
             }
             None => {
                 self.is_interrupted = false;
@@ -317,7 +340,7 @@ impl<'a> Follower<'a> {
                     attempted: 0.0,
                     equilibrium: None,
                     work: failure.work,
-                    cause: actin_equilibrium::PathError::NoEquilibrium(failure),
+                    cause: PathError::NoEquilibrium(failure),
                     points: 0,
                 }))
             }
@@ -446,8 +469,8 @@ pub(super) fn record(system: &System, u: f64, state: &State) -> Record {
 }
 
 fn lowest_eigenvalue(newton: &mut Newton, system: &System, state: &State) -> Option<f64> {
-    let mode = newton.lowest_mode(state, system.interactions());
-    mode.ok().flatten().map(|mode| mode.eigenvalue)
+    let lowest = newton.lowest_eigenvalue(state, system.interactions());
+    lowest.ok().flatten()
 }
 
 /// The error of a number, or why it is not known, and where it is how filaments with drawn bonds scatter.

@@ -118,7 +118,7 @@ impl Outcome {
         self.equilibrium.as_ref()?.floor
     }
 
-    /// The lowest eigenvalue of the stiffness at an equilibrium, where the scene asks for it.
+    /// The lowest eigenvalue of the stiffness at an equilibrium that is not neutral, where the scene asks for it.
     pub fn lowest_eigenvalue(&self) -> Option<f64> {
         self.equilibrium.as_ref()?.lowest_eigenvalue
     }
@@ -170,6 +170,8 @@ pub enum Failure {
         place: String,
         /// Where and why.
         failure: Box<PathFailure>,
+        /// What the loads of the scene have to do with it; empty where nothing is known.
+        hint: &'static str,
     },
     /// Equilibria were reached, but the last does not tell what a load does: which, and in what it is
     /// lost.
@@ -205,7 +207,11 @@ pub enum Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::PathEnded { place, failure } => write!(f, "{place}{failure}"),
+            Self::PathEnded {
+                place,
+                failure,
+                hint,
+            } => write!(f, "{place}{failure}{hint}"),
             Self::LoadLost(problem) | Self::Saddle(problem) => write!(f, "{problem}"),
             Self::BeyondUse(worst) => {
                 write!(f, "the model does not apply to the result: {}", worst[0])?;

@@ -268,7 +268,7 @@ pub struct Equilibrium {
     pub leave_saddles: usize,
     /// Whether the path continues beyond a sudden jump to another equilibrium; otherwise it ends there.
     pub accept_jumps: bool,
-    /// Whether the lowest eigenvalue of the stiffness is computed at the end.
+    /// Whether the lowest eigenvalue of the stiffness that is not neutral is computed at the end.
     pub lowest_eigenvalue: bool,
     /// From how many starts other stable states are looked for, drawn at random about the equilibrium at the
     /// end and about those that are found; at most 10000. `summary.json` lists them by energy,

@@ -52,7 +52,6 @@ impl Summary {
             saddles_left: outcome.saddles_left,
             pushes: outcome.pushes.clone(),
             jumps: outcome.jumps,
-            other_states_likely: outcome.saddles_left + outcome.jumps > 0,
             energy_pn_nm: EnergySummary::new(assembly, last),
             tip_nm: first.tip_nm,
             tip_displacement_nm: first.tip_displacement_nm,

@@ -63,10 +63,6 @@ pub struct Summary {
     /// How often a path of equilibria went on from where a sudden jump led.
     #[serde(default)]
     pub jumps: usize,
-    /// Whether other stable states are likely: a saddle that was left has one on either side, and a
-    /// path back jumps elsewhere. Where this is false there may still be others.
-    #[serde(default)]
-    pub other_states_likely: bool,
     /// Energies.
     pub energy_pn_nm: EnergySummary,
     /// Position of the tip of filament 0 (nm, lab frame): that of its end, or that of its start if
@@ -164,7 +160,7 @@ pub struct StabilitySummary {
     pub stable: bool,
     /// Number of negative eigenvalues: more than none is a saddle.
     pub negative_eigenvalues: usize,
-    /// Number of eigenvalues that cannot be told from zero.
+    /// Number of neutral modes: eigenvalues that cannot be distinguished from zero.
     pub unresolved_eigenvalues: usize,
     /// Below this magnitude eigenvalues cannot be told from zero (pN/nm).
     pub resolution_pn_per_nm: f64,

@@ -67,7 +67,6 @@ const KEYS: &[&str] = &[
     "/beyond_use",
     "/saddles_left",
     "/jumps",
-    "/other_states_likely",
 ];
 
 /// The keys that other programs rely on, nested ones included.
