@@ -89,9 +89,9 @@ impl Extreme {
             (Some(failure), _) => failure.to_string(),
             (None, found) => format!("{:?}", found.as_ref().unwrap().certificate.stability()),
         };
-        // A path that ended at a jump goes across it, and says so.
+        // A path that ended at a large jump goes across it, and counts it.
         let crosses = self.task.contains("accept_jumps");
-        assert_eq!(report.jumps > 0, crosses, "{}", self.name);
+        assert!(report.jumps > 0 || !crosses, "{}", self.name);
         let steps = failure.as_ref().map(|f| f.work.iterations);
         let found = report.equilibrium.as_ref();
         let steps = steps.max(found.map(|f| f.newton_iterations)).unwrap();

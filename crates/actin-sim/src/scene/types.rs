@@ -266,7 +266,8 @@ pub struct Equilibrium {
     /// How often, for one equilibrium, a saddle is left along its lowest mode. With 0 the path follows
     /// saddles. A run whose last equilibrium is a saddle fails; its results are written.
     pub leave_saddles: usize,
-    /// Whether the path continues beyond a sudden jump to another equilibrium; otherwise it ends there.
+    /// Whether the path continues beyond a large sudden jump to another equilibrium; otherwise it ends there.
+    /// Small ones are counted only.
     pub accept_jumps: bool,
     /// Whether the lowest eigenvalue of the stiffness that is not neutral is computed at the end.
     pub lowest_eigenvalue: bool,
