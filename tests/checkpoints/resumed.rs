@@ -183,6 +183,26 @@ fn a_motion_is_pushed_off_a_saddle_once_however_often_it_is_left() {
     compare(&scene, &[3 * before, 2, 1]);
 }
 
+/// A pinned rod that a couple spins through several turns: how many there were is in the checkpoint.
+#[test]
+fn turns_of_a_couple_go_on_to_the_same_bits() {
+    for task in [
+        "Dynamics(duration_ns: 1.6, record_every_ns: 0.1)",
+        "Brownian(duration_ms: 1.6e-6, record_every_ns: 0.1, temperature_k: 0.0, time_step_ns: 0.01,
+             drag: Water(viscosity_mpa_s: 0.001))",
+    ] {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], rod: RodModel(law: Constant)),
+                clamps: [Clamp(end: Start, hold: Pin)],
+                loads: [Couple(end: Start, couple_pn_nm: (0.0, 0.0, 200.0))],
+                task: {task},
+            )"
+        );
+        compare(&Scene::from_ron(&text).unwrap(), &[9, 3, 5]);
+    }
+}
+
 /// Filaments in contact, in time and along a path: which neighbours are known, and the pattern of the stiffness,
 /// are not in a checkpoint.
 #[test]

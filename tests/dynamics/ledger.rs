@@ -1,6 +1,7 @@
 //! The energy of a motion less what has come from outside: ends and loads that move, drag and heat.
 
 use actin_sim::{Assembly, Plan, Record, Scene, Summary, Task};
+use std::f64::consts::TAU;
 
 /// What the ledger leaves open at its worst, and the most that was booked (pN nm), at a share of the default step.
 fn open(scene: &str, share: f64) -> (f64, f64) {
@@ -200,4 +201,34 @@ fn energy_from_nowhere_is_told() {
         note.contains("a shorter time_step_ns makes it less"),
         "{note}"
     );
+}
+
+/// A pinned end that a couple spins through several turns: its energy is counted beyond the first, with its work and
+/// with drag. Bounds set before: as above.
+#[test]
+fn turns_of_a_couple_are_booked() {
+    let body = "clamps: [Clamp(end: Start, hold: Pin)],
+         loads: [Couple(end: Start, couple_pn_nm: (0.0, 0.0, 200.0),
+             factor: Table(time_ns: [0.0, 0.8, 1.6], factor: [1.0, 2.0, -1.0]))],";
+    let dynamics = "Dynamics(duration_ns: 1.6, record_every_ns: 0.1";
+    let water = "drag: Water(viscosity_mpa_s: 0.001)";
+    for (task, bound) in [
+        (format!("{dynamics})"), 1e-3),
+        (
+            format!("{dynamics}, drag: (translational_per_ns: 0.5, rotational_per_ns: 0.5))"),
+            1e-3,
+        ),
+        (
+            format!(
+                "Brownian(duration_ms: 1.6e-6, record_every_ns: 0.1, {water}, temperature_k: 0.0, time_step_ns: 0.004)"
+            ),
+            0.01,
+        ),
+    ] {
+        let rod = "Rod(from_nm: 0.0, to_nm: 60.0)";
+        let (left, size) = open(&of_sections(rod, body, &task), 1.0);
+        println!("{task}: {left:.1e} of {size:.2} pN nm");
+        // More work than the couple does in two turns.
+        assert!(size > 400.0 * 2.0 * TAU && left < bound * size, "{task}");
+    }
 }

@@ -173,7 +173,6 @@ fn loads_with_a_potential_conserve_energy() {
         .map(|e| (e - totals[0]).abs())
         .fold(0.0, f64::max);
     println!("energy: {worst:.1e} off, {kinetic:.0} pN nm at most in motion");
-    // Couples turn the tip by less than a full turn, up to which their energy is known.
     assert!(kinetic > 50.0, "{kinetic}");
     // PEFRL at a quarter of its limit: far below a thousandth of what is exchanged.
     assert!(worst < 1e-4 * kinetic, "{worst} of {kinetic}");

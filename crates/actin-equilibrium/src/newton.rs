@@ -246,6 +246,7 @@ impl Run<'_> {
         observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
     ) -> Result<(Convergence, f64), SolveError> {
         Solver::check(self.interactions)?;
+        count_turns(self.interactions, state);
         let mut descent = Descent::new(self.interactions, state, self.options);
         self.solver.work.evaluations += 1;
         if !descent.here.is_finite() {
@@ -307,6 +308,7 @@ impl Run<'_> {
             };
             return self.give_up(descent, cause);
         };
+        count_turns(self.interactions, &mut descent.state);
         self.solver.work.iterations += 1;
         self.history.push(Iteration {
             energy: before,
@@ -398,5 +400,11 @@ impl Run<'_> {
             Some(part) if !part.is_within(&all.scaled(UNRESISTED)) => Err(SolveError::Unbounded),
             _ => Err(cause),
         }
+    }
+}
+
+fn count_turns(interactions: &[Box<dyn Interaction>], state: &mut State) {
+    for interaction in interactions {
+        interaction.count_turns(state);
     }
 }

@@ -44,11 +44,13 @@ pub struct Couple {
     moment: Vector3,
     kind: CoupleKind,
     control: ControlId,
+    /// Control that holds `psi` of the first frame of the chain (rad).
+    turned: ControlId,
 }
 
 impl Couple {
     /// The couple `moment` (lab frame, at control value 1) on frames in the orientations that they have
-    /// now, each with its share; `control` is its factor.
+    /// now, each with its share; `control` is its factor. Adds a control in which turns are counted.
     ///
     /// ```
     /// use actin_mechanics::{
@@ -59,7 +61,7 @@ impl Couple {
     /// let frame = Frame { orientation: UnitQuaternion::identity(), inertia };
     /// let i = state.frames.push(frame);
     /// let factor = state.add_control(1.0);
-    /// let couple = Couple::new(&state, &[(i, 1.0)], Vector3::z() * 3.0, CoupleKind::Axial, factor);
+    /// let couple = Couple::new(&mut state, &[(i, 1.0)], Vector3::z() * 3.0, CoupleKind::Axial, factor);
     /// // A turn of half a radian about the axis: the work is 3 times 0.5.
     /// state.frames.orientation.set(i, UnitQuaternion::new(Vector3::z() * 0.5));
     /// assert!((couple.energy(&state) + 1.5).abs() < 1e-15);
@@ -69,7 +71,7 @@ impl Couple {
     /// # Panics
     /// If `state` has no such frame or control, or if the couple or a share is not finite.
     pub fn new(
-        state: &State,
+        state: &mut State,
         shares: &[(usize, f64)],
         moment: Vector3,
         kind: CoupleKind,
@@ -105,12 +107,14 @@ impl Couple {
             moment,
             kind,
             control,
+            turned: state.add_control(0.0),
         }
     }
 
     /// Counts turns from frame to frame of a chain, so that the potential has no jump where a frame passes
-    /// a full turn: `psi`, known up to two turns, is that next to the `psi` of the frame before. Of the
-    /// first frame, which should be next to one that is held, it lies within one turn of zero.
+    /// a full turn: `psi`, known up to two turns, is taken nearest to the `psi` of the frame before. The
+    /// first frame should be next to one that is held; its turns are
+    /// [counted](Interaction::count_turns) as it moves.
     ///
     /// The frames are in the orientations in which `psi` is zero.
     ///
@@ -143,6 +147,13 @@ impl Couple {
         let size = self.moment.norm();
         (size > 0.0).then(|| (size, self.moment / size))
     }
+}
+
+/// `psi` about `axis` of a frame in orientation `now`, known up to two turns: the value nearest to `near`.
+fn twist(axis: Vector3, [now, rest]: [UnitQuaternion; 2], near: f64) -> f64 {
+    let turn = now * rest.inverse();
+    let known = 2.0 * turn.imag().dot(&axis).atan2(turn.w);
+    known + 2.0 * TAU * ((near - known) / (2.0 * TAU)).round()
 }
 
 /// An axis of the lab as the body sees it now, and as it saw it at the beginning.
@@ -179,22 +190,29 @@ impl Interaction for Couple {
         self.shares.len()
     }
 
-    /// `-M psi`. `psi` is known up to two turns, which are counted along the frames that the couple acts on,
-    /// or along a [chain](Self::counted_along). A follower has no potential: zero.
+    /// `-M psi`. Turns are counted along the frames that the couple acts on, or along a
+    /// [chain](Self::counted_along), from the last [count](Interaction::count_turns) of the first frame.
+    /// A follower has no potential: zero.
     fn write_energies(&self, state: &State, energies: &mut [f64]) {
         energies.fill(0.0);
         let Some((size, axis)) = self.axis().filter(|_| self.is_conservative()) else {
             return;
         };
         let factor = state.controls[self.control] * size;
-        let mut psi = 0.0;
+        let mut psi = state.controls[self.turned];
         for &(i, rest, element) in &self.chain {
-            let turn = state.frames.orientation.get(i) * rest.inverse();
-            let known = 2.0 * turn.imag().dot(&axis).atan2(turn.w);
-            psi = known + 2.0 * TAU * ((psi - known) / (2.0 * TAU)).round();
+            psi = twist(axis, [state.frames.orientation.get(i), rest], psi);
             if let Some(element) = element {
                 energies[element] = -factor * self.shares[element].1 * psi;
             }
+        }
+    }
+
+    fn count_turns(&self, state: &mut State) {
+        if let (Some((_, axis)), Some(&(i, rest, _))) = (self.axis(), self.chain.first()) {
+            let now = state.frames.orientation.get(i);
+            let counted = &mut state.controls[self.turned];
+            *counted = twist(axis, [now, rest], *counted);
         }
     }
 
@@ -239,7 +257,7 @@ mod tests {
             });
         }
         let moment = Vector3::new(1.2, -3.0, 1.8);
-        let couple = Couple::new(&state, &[(0, 0.25), (1, 0.75)], moment, kind, control);
+        let couple = Couple::new(&mut state, &[(0, 0.25), (1, 0.75)], moment, kind, control);
         for i in 0..2 {
             let q = rotation::exp(turn) * state.frames.orientation.get(i);
             state.frames.orientation.set(i, q);
@@ -292,7 +310,7 @@ mod tests {
             })
             .collect();
         let moment = Vector3::z() * 3.0;
-        let couple = Couple::new(&state, &[(8, 1.0)], moment, CoupleKind::Axial, control);
+        let couple = Couple::new(&mut state, &[(8, 1.0)], moment, CoupleKind::Axial, control);
         let couple = couple.counted_along(&state, &frames);
         for turns in [0.3, 0.99, 1.01, 2.7, -3.4] {
             for &i in &frames {
@@ -305,6 +323,38 @@ mod tests {
             let work = 3.0 * TAU * turns;
             let energy = couple.energy(&state);
             assert!((energy + work).abs() < 1e-12, "{turns}: {energy}");
+        }
+    }
+
+    /// A frame that turns freely through several turns, forward and back: the work is the couple times the
+    /// angle if turns are counted on the way.
+    #[test]
+    fn turns_of_a_free_frame_are_counted_in_motion() {
+        let (start, couple) = turned(CoupleKind::Axial, Vector3::zeros());
+        let axis = Vector3::new(1.2, -3.0, 1.8);
+        let (mut state, size) = (start.clone(), 0.8 * axis.norm());
+        for step in (-40_i32..=70).chain((-90..70).rev()) {
+            let angle = 0.3 * f64::from(step);
+            for i in 0..2 {
+                let turn = rotation::exp(axis.normalize() * angle);
+                let q = turn * start.frames.orientation.get(i);
+                // The quaternion that is continuous in the angle.
+                let sign = if (0.5 * angle).cos() * (turn.w) < 0.0 {
+                    -1.0
+                } else {
+                    1.0
+                };
+                let q = UnitQuaternion::new_unchecked(q.into_inner() * sign);
+                state.frames.orientation.set(i, q);
+            }
+            if step == -40 {
+                // The first angle is reached from zero by less than a turn each time.
+                state.controls[couple.turned] = angle;
+            }
+            couple.count_turns(&mut state);
+            // Rounding of angles up to 27 rad.
+            let error = couple.energy(&state) + size * angle;
+            assert!(error.abs() < 1e-12 * size, "{angle}: {error}");
         }
     }
 

@@ -30,6 +30,11 @@ pub trait Interaction: Debug + Send + Sync {
         true
     }
 
+    /// Counts in the controls of `state` the turns of bodies on which the energy depends. Between two counts
+    /// a body turns by less than a full turn; [`System`](crate::System) and solvers count whenever bodies
+    /// have moved.
+    fn count_turns(&self, _state: &mut State) {}
+
     /// The second derivatives of the energy, where the interaction knows them.
     fn second_order(&self) -> Option<&dyn SecondOrder> {
         None

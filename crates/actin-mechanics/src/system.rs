@@ -218,6 +218,7 @@ impl System {
             }
             self.loads.clear();
             for interaction in self.interactions.iter() {
+                interaction.count_turns(&mut self.state);
                 interaction.add_loads(&self.state, &mut self.loads);
             }
             self.force_evaluations += 1;

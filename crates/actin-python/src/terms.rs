@@ -45,6 +45,10 @@ impl Interaction for Term {
         self.inner().is_conservative()
     }
 
+    fn count_turns(&self, state: &mut State) {
+        self.inner().count_turns(state);
+    }
+
     fn second_order(&self) -> Option<&dyn SecondOrder> {
         self.inner().second_order()
     }

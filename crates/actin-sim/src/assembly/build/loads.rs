@@ -24,8 +24,8 @@ impl Builder<'_> {
                 SceneProblem::new(format!("loads[{i}]"), "", error.to_string())
             };
             let interaction = self.load(load, control, &mut nodes).map_err(refused)?;
-            let acts = load.end().is_some() || load.written().1.iter().all(|x| *x == 0.0);
-            if !acts && !self.moves(&*interaction, control) {
+            let is_zero = load.written().1.iter().all(|x| *x == 0.0);
+            if !is_zero && !self.moves(&*interaction, control) {
                 let rule = "acts on held bodies alone, which it does not move";
                 return Err(load.problem(i, rule.to_owned()));
             }
@@ -47,7 +47,7 @@ impl Builder<'_> {
 
     /// The interaction that a load is; `control` is its factor.
     fn load(
-        &self,
+        &mut self,
         load: &Load,
         control: ControlId,
         nodes: &mut Nodes,
@@ -81,8 +81,10 @@ impl Builder<'_> {
                     CoupleKind::Axial
                 };
                 let shares = self.couple_shares(load);
+                let chain = self.chain(load.filament());
+                let state = &mut self.stock.state;
                 let couple = FrameCouple::new(state, &shares, size, kind, control);
-                Box::new(couple.counted_along(state, &self.chain(load.filament())))
+                Box::new(couple.counted_along(state, &chain))
             }
         })
     }
@@ -214,13 +216,13 @@ impl Builder<'_> {
         }
     }
 
-    /// The last segment of a rod, or half of each of the last two monomers.
+    /// The cross-section at the end of a rod, or half of each of the last two monomers.
     fn end_frames(&self, strand: &Strand<'_>, end: End) -> Shares {
         let state = &self.stock.state;
         match &strand.bodies[strand.filament.end_index(end)] {
             Body::Rod(layout) => {
                 let end = models::rod_end(end);
-                // A wall frame that is free is the cross-section at a hinge.
+                // A wall frame that is free is the cross-section at the end.
                 let wall = layout.wall(end).filter(|wall| state.frames.is_free(*wall));
                 vec![(wall.unwrap_or_else(|| layout.end_frame(end)), 1.0)]
             }

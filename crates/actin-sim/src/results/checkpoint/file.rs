@@ -15,7 +15,7 @@ use std::path::Path;
 const MAGIC: &[u8; 8] = b"ACTINCKP";
 /// Version of the format: to be raised with every change of a byte,
 /// those of the records included.
-const FORMAT: u32 = 7;
+const FORMAT: u32 = 8;
 /// Bytes of the header: magic, version, length and checksum of the contents, checksum of these.
 const HEADER: usize = 8 + 4 + 8 + 4 + 4;
 /// Version of the program.
