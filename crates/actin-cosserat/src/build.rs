@@ -29,6 +29,10 @@ pub struct StraightRod {
     pub rotary_inertia: RotaryInertia,
     /// Where it has wall frames.
     pub walls: Walls,
+    /// At which other ends it has a free frame, the cross-section at the last node, for couples that act
+    /// there: half a segment of bending joins it to the frame of the last segment, as at a wall. It has a
+    /// quarter of the inertia of that segment, which lacks it.
+    pub free_walls: Walls,
 }
 
 /// What the transverse inertia of a segment holds.
@@ -56,6 +60,7 @@ impl StraightRod {
             cross_section: CrossSection::actin(),
             rotary_inertia: RotaryInertia::default(),
             walls: Walls::default(),
+            free_walls: Walls::default(),
         }
     }
 
@@ -97,7 +102,8 @@ impl StraightRod {
     /// the segments' frames, then the wall frame at the end, as far as there are walls.
     ///
     /// A node has half the mass of each segment that it joins. Wall frames are held; they have
-    /// the inertia of the segment beside them, in case they are driven.
+    /// the inertia of the segment beside them, in case they are driven. Free ones, at
+    /// [`free_walls`](Self::free_walls), share it.
     ///
     /// # Errors
     /// No segment, or one whose length is not positive and finite; the state is then unchanged.
@@ -129,8 +135,12 @@ impl StraightRod {
         }
         let first_point = state.points.len();
         self.push_nodes(state);
-        if self.walls.start {
-            self.push_wall(lengths[0], state);
+        let has_wall = Walls {
+            start: self.walls.start || self.free_walls.start,
+            end: self.walls.end || self.free_walls.end,
+        };
+        if has_wall.start {
+            self.push_wall(lengths[0], self.walls.start, state);
         }
         let mut layouts = Vec::with_capacity(parts.len());
         let mut done = 0;
@@ -138,17 +148,21 @@ impl StraightRod {
             let is_joined = [i > 0, i + 1 < parts.len()];
             let own = &lengths[done..done + count];
             let first_frame = state.frames.len();
-            self.push_segments(own, is_joined, state);
+            let shares_inertia = [
+                is_joined[0] || self.shares_inertia(RodEnd::Start),
+                is_joined[1] || self.shares_inertia(RodEnd::End),
+            ];
+            self.push_segments(own, shares_inertia, state);
             done += count;
             if is_joined[1] {
                 let mean = 0.5 * (lengths[done - 1] + lengths[done]);
                 state.frames.push(self.frame(0.5 * mean, mean));
-            } else if self.walls.end {
-                self.push_wall(own[count - 1], state);
+            } else if has_wall.end {
+                self.push_wall(own[count - 1], self.walls.end, state);
             }
             let walls = Walls {
-                start: is_joined[0] || self.walls.start,
-                end: is_joined[1] || self.walls.end,
+                start: is_joined[0] || has_wall.start,
+                end: is_joined[1] || has_wall.end,
             };
             let first_point = first_point + done - count;
             layouts.push(RodLayout::new(
@@ -161,12 +175,13 @@ impl StraightRod {
         Ok(layouts)
     }
 
-    /// Pushes the frames of a part's segments; a segment beside another part lacks a quarter of its inertia.
-    fn push_segments(&self, lengths: &[f64], is_joined: [bool; 2], state: &mut State) {
+    /// Pushes the frames of a part's segments; a segment beside a free frame lacks a quarter of its inertia for
+    /// each.
+    fn push_segments(&self, lengths: &[f64], shares_inertia: [bool; 2], state: &mut State) {
         for (k, &length) in lengths.iter().enumerate() {
             let is_beside = [k == 0, k + 1 == lengths.len()];
-            let sides = is_beside.iter().zip(is_joined);
-            let lacking = sides.filter(|(beside, joined)| **beside && *joined).count();
+            let sides = is_beside.iter().zip(shares_inertia);
+            let lacking = sides.filter(|(beside, shares)| **beside && *shares).count();
             let own = match lacking {
                 0 => length,
                 sides => length * (1.0 - 0.25 * sides as f64),
@@ -190,9 +205,20 @@ impl StraightRod {
         }
     }
 
-    fn push_wall(&self, length: f64, state: &mut State) {
-        let wall = state.frames.push(self.frame(length, length));
-        state.frames.hold(wall);
+    /// Whether the end segment shares its inertia with a free wall frame.
+    fn shares_inertia(&self, end: RodEnd) -> bool {
+        match end {
+            RodEnd::Start => self.free_walls.start && !self.walls.start,
+            RodEnd::End => self.free_walls.end && !self.walls.end,
+        }
+    }
+
+    fn push_wall(&self, length: f64, is_held: bool, state: &mut State) {
+        let piece = if is_held { length } else { 0.25 * length };
+        let wall = state.frames.push(self.frame(piece, length));
+        if is_held {
+            state.frames.hold(wall);
+        }
     }
 
     /// A frame with the inertia of a piece, so long, of a segment.

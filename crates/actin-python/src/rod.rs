@@ -134,6 +134,7 @@ impl RodArguments<'_> {
                 start: needs_wall(0),
                 end: needs_wall(1),
             },
+            free_walls: Walls::default(),
         };
         let layout = rod.push(state).map_err(errors::value)?;
         layout.place(state, &nodes).map_err(errors::value)?;

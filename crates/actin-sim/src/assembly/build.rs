@@ -21,11 +21,12 @@ use super::{
 use crate::adapt;
 use crate::follow;
 use crate::observe::{EnergyNames, Observers};
-use crate::scene::{End, HeldEnds, Scene, SceneProblem, Section};
+use crate::scene::{End, Filament, HeldEnds, Load, Scene, SceneProblem, Section};
 use actin_coupling::Linker;
 use actin_mechanics::{ControlId, Interaction, State, System};
 pub(crate) use sampled::Sampled;
 use sampled::Sampling;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use strand::{Body, Strand};
 
@@ -112,13 +113,15 @@ impl<'a> Builder<'a> {
         let held = HeldEnds::of(scene);
         let in_bath = scene.thermal().is_some();
         let mut first_section = 0;
+        let mut couples = couples_nm(scene);
         let mut strands = Vec::new();
         for (i, filament) in scene.filaments().enumerate() {
             let clamps = [End::Start, End::End].map(|end| {
                 let clamp = held.clamp_at(i, end)?;
                 Some(&scene.clamps[clamp])
             });
-            let strand = Strand::new((i, filament), clamps, first_section, in_bath);
+            let ends = (clamps, couples.remove(&i).unwrap_or_default());
+            let strand = Strand::new((i, filament), ends, first_section, in_bath);
             strands.push(strand.map_err(|p| p.with_filament(&scene.filament_key(i)))?);
             first_section += filament.sections.len();
         }
@@ -225,4 +228,20 @@ impl<'a> Builder<'a> {
         }
         scene
     }
+}
+
+/// Arc lengths (nm) at which couples act on each filament.
+fn couples_nm(scene: &Scene) -> BTreeMap<usize, Vec<f64>> {
+    let mut all: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    for load in &scene.loads {
+        let Load::Couple(couple) = load else { continue };
+        let length = |filament: &Filament| filament.length_nm();
+        let place = match couple.end {
+            Some(End::Start) => Some(0.0),
+            Some(End::End) => scene.filament_at(couple.filament).map(length),
+            None => couple.at_nm,
+        };
+        all.entry(couple.filament).or_default().extend(place);
+    }
+    all
 }

@@ -6,7 +6,8 @@ use actin_brownian::{Cylinder, Dashpot, Friction, TurnDashpot};
 use actin_cosserat::{RodEnd, RodLayout};
 use actin_mechanics::Vector3;
 
-/// Share of the friction of a segment that the frames of one junction have at most.
+/// Share of the friction of a segment that the frames of one junction have at most, and that of the
+/// cross-section at its end.
 const OF_SEGMENT: f64 = 0.25;
 
 impl Assembly {
@@ -76,6 +77,9 @@ impl FilamentDrag<'_> {
             match self.assembly.frames[frame].kind {
                 BodyKind::Junction => self.add_junction(frame, friction),
                 BodyKind::Joint => friction.turns.push(self.turn(frame, self.rise())),
+                BodyKind::Wall if self.is_end_of_rod(frame) => {
+                    self.share_turns(frame, |length| OF_SEGMENT * length, friction);
+                }
                 _ => {}
             }
         }
@@ -141,8 +145,27 @@ impl FilamentDrag<'_> {
         }
     }
 
+    /// Whether a wall frame is free, as the cross-section on which a couple acts, and no hinge.
+    fn is_end_of_rod(&self, frame: usize) -> bool {
+        let mut ends = [End::Start, End::End].into_iter();
+        self.assembly.rest.frames.is_free(frame)
+            && ends.all(|end| {
+                let hinge = self.assembly.hinge_frames(self.filament, end);
+                hinge.is_none_or(|[_, wall]| wall != frame)
+            })
+    }
+
     /// Gives a frame of a junction its share of the turns of the nearest segment.
     fn add_junction(&self, frame: usize, friction: &mut Friction) {
+        let filament = self.assembly.scene.filament_at(self.filament);
+        let attached = filament.map_or(1, |f| f.junction.attached_monomers) as f64;
+        let share = |length: f64| f64::min(self.rise(), OF_SEGMENT * length / attached);
+        self.share_turns(frame, share, friction);
+    }
+
+    /// Gives a frame the friction of turns of a part of the nearest segment, which lacks it; `share` is the
+    /// length of that part (nm) by the length of the segment.
+    fn share_turns(&self, frame: usize, share: impl Fn(f64) -> f64, friction: &mut Friction) {
         let place = |f: usize| self.assembly.frames[f].s_nm;
         let spans = &self.assembly.filaments[self.filament];
         let rods = spans.sections.clone().filter_map(|i| self.rod(i));
@@ -150,10 +173,8 @@ impl FilamentDrag<'_> {
         let distance = |f: usize| (place(f) - place(frame)).abs();
         let (length, segment) = segments
             .min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))
-            .expect("a junction is at a rod");
-        let filament = self.assembly.scene.filament_at(self.filament);
-        let attached = filament.map_or(1, |f| f.junction.attached_monomers) as f64;
-        let share = self.turn(frame, f64::min(self.rise(), OF_SEGMENT * length / attached));
+            .expect("such a frame is at a rod");
+        let share = self.turn(frame, share(length));
         let mut turns = friction.turns.iter_mut();
         if let Some(turn) = turns.find(|turn| turn.frame == segment) {
             turn.friction -= share.friction;

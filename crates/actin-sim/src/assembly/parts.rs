@@ -21,7 +21,7 @@ pub enum BodyKind {
     Segment = 2,
     /// The frame of a junction's bond.
     Junction = 3,
-    /// A held frame that stands for a wall.
+    /// The cross-section at the end of a rod: held by a wall, or free where a couple acts on it.
     Wall = 4,
     /// The cross-section between two rods.
     Joint = 5,

@@ -78,12 +78,13 @@ pub struct Couple {
     /// Index of the filament.
     #[serde(default)]
     pub filament: usize,
-    /// Which end: the last segment of a rod, or half on each of the last two monomers. It must be free or
-    /// pinned. Exactly one of `end` and `at_nm` is given.
+    /// Which end: the cross-section at the last node of a rod, which half a segment of bending joins to the last
+    /// segment as at a wall, or half on each of the last two monomers. It must be free or pinned. Exactly one of
+    /// `end` and `at_nm` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub end: Option<End>,
     /// Arc length, from 0 to the length of the filament: shared between the two segments or monomers
-    /// whose middles are next to it.
+    /// whose middles are next to it, or between the last segment and the cross-section at the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_nm: Option<f64>,
     /// Couple in the lab frame; finite. Its work is its size times the twist about its axis, so it has a

@@ -347,7 +347,8 @@ mod tests {
             )"
         );
         let scene = Scene::from_ron(&text).unwrap();
-        let mut strand = Strand::new((0, &scene.filament), [None; 2], 0, true).unwrap();
+        let mut strand =
+            Strand::new((0, &scene.filament), ([None; 2], Vec::new()), 0, true).unwrap();
         strand.push_bodies(&mut Stock::default()).unwrap();
         ask(&strand)
     }

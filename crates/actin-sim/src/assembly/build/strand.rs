@@ -33,6 +33,8 @@ pub(super) struct Strand<'a> {
     pub(super) hinges: [Option<Hinge>; 2],
     /// The held frames behind these springs.
     pub(super) hinge_frames: [Option<usize>; 2],
+    /// Arc lengths at which couples act (nm).
+    couples_nm: Vec<f64>,
     /// Index of its first section among those of all filaments.
     pub(super) first_section: usize,
     /// Where arc length begins, and the turn from a filament along lab +z.
@@ -52,11 +54,11 @@ pub(super) struct Strand<'a> {
 }
 
 impl<'a> Strand<'a> {
-    /// Filament `index` of a scene, with what is held at its ends, whose sections stand behind
-    /// `first_section` others, in a heat bath or not.
+    /// Filament `index` of a scene, with what is held at its ends and where couples act (nm), whose sections
+    /// stand behind `first_section` others, in a heat bath or not.
     pub(super) fn new(
         (index, filament): (usize, &'a Filament),
-        clamps: [Option<&Clamp>; 2],
+        (clamps, couples_nm): ([Option<&Clamp>; 2], Vec<f64>),
         first_section: usize,
         in_bath: bool,
     ) -> Result<Self, SceneProblem> {
@@ -71,6 +73,7 @@ impl<'a> Strand<'a> {
             holds,
             hinges: clamps.map(|clamp| clamp.and_then(|c| c.hinge)),
             hinge_frames: [None; 2],
+            couples_nm,
             first_section,
             placement: Placement {
                 rotation: filament.rotation(),
@@ -249,10 +252,16 @@ impl<'a> Strand<'a> {
     ) -> StraightRod {
         let lengths = spacing.iter().zip(segments);
         let lengths = lengths.map(|(&length, &count)| std::iter::repeat_n(length, count));
+        let is_at = |i, end| i == self.filament.end_index(end);
         let wall = |i, end| {
-            let at_this_end = i == self.filament.end_index(end);
             let hold = self.holds[end as usize];
-            at_this_end && (hold == Some(Hold::Wall) || self.hinges[end as usize].is_some())
+            is_at(i, end) && (hold == Some(Hold::Wall) || self.hinges[end as usize].is_some())
+        };
+        // Without a frame at the end, half a segment would not feel a couple that acts there.
+        let free_wall = |i, end, length: f64| {
+            let turns = matches!(self.holds[end as usize], None | Some(Hold::Pin));
+            let outer = |s_nm: &f64| (s_nm - self.end_nm(end)).abs() < 0.5 * length;
+            is_at(i, end) && turns && self.couples_nm.iter().any(outer)
         };
         StraightRod {
             start: self.axis_at(self.resolved[first].from_nm),
@@ -263,6 +272,10 @@ impl<'a> Strand<'a> {
             walls: Walls {
                 start: wall(first, End::Start),
                 end: wall(past - 1, End::End),
+            },
+            free_walls: Walls {
+                start: free_wall(first, End::Start, spacing[0]),
+                end: free_wall(past - 1, End::End, spacing[spacing.len() - 1]),
             },
         }
     }
