@@ -206,6 +206,28 @@ impl<'a> Particles<'a> {
         velocities.resize(self.count(), Vector3::zeros());
         velocities
     }
+
+    /// Masses of all particles (ag), held ones included; zero of ends of linkers.
+    pub fn masses_ag(&self) -> Vec<f64> {
+        let points = &self.assembly.rest.points;
+        let mut masses: Vec<f64> = (0..points.len()).map(|i| points.mass(i)).collect();
+        masses.resize(self.count(), 0.0);
+        masses
+    }
+
+    /// Principal moments of inertia of all particles (ag nm^2, axes of the particle's frame); zero of nodes and
+    /// of ends of linkers, which are points.
+    pub fn moments_of_inertia_ag_nm2(&self) -> Vec<Vector3> {
+        let frames = &self.assembly.rest.frames;
+        let points = self.assembly.points.iter();
+        let moments = points.map(|point| {
+            let inverse = point.frame.map(|frame| frames.inverse_moments(frame));
+            inverse.map_or_else(Vector3::zeros, |inverse| inverse.map(f64::recip))
+        });
+        let mut all: Vec<_> = moments.collect();
+        all.resize(self.count(), Vector3::zeros());
+        all
+    }
 }
 
 /// Runs of monomers, across sections that are bonded to each other, and the rods, as points.

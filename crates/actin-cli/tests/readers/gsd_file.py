@@ -1,17 +1,21 @@
 """Opens run.gsd with the package gsd and compares it with states.npz of the same run."""
 
+import re
+
 import gsd.hoomd
 import gsd.pygsd
 import numpy as np
 
 states = np.load("run/states.npz")
 points = states["s_nm"].size
+# The scene as resolved names its time step.
+time_step_ns = float(re.search("time_step_ns: ([0-9.e-]+)", open("run/scene.ron").read()).group(1))
 with gsd.hoomd.open("run.gsd") as trajectory:
     assert len(trajectory) == states["time_ns"].size > 2
     for i, frame in enumerate(trajectory):
         frame.validate()
         particles = frame.particles
-        assert frame.configuration.step == i
+        assert abs(frame.configuration.step * time_step_ns - states["time_ns"][i]) < 1e-9
         assert frame.log["time_ns"][0] == states["time_ns"][i]
         # Single precision of the same numbers.
         assert (particles.position[:points] == states["position_nm"][i].astype(np.float32)).all()
@@ -40,6 +44,20 @@ with gsd.hoomd.open("run.gsd") as trajectory:
     assert abs(np.pi * shapes["node"]["diameter"] ** 2 / 4 - 38.5) < 1e-9
     assert (frame.log["particles/s_nm"][:points] == states["s_nm"]).all()
     assert (frame.log["particles/filament"][:points] == states["filament"]).all()
+
+    # A monomer's mass and those of nodes, in proportion to length; a solid ellipsoid's moments of inertia.
+    mass, moments = particles.mass, particles.moment_inertia
+    monomer = 0.0697
+    assert np.allclose(mass[:points][monomers], monomer, rtol=1e-6)
+    per_nm = monomer / (71.2 / 26)
+    rod = states["s_nm"][~monomers]
+    assert np.isclose(mass[:points][~monomers].sum(), per_nm * np.ptp(rod), rtol=1e-6)
+    for own, axes in ((first, (1.9, 2.7, 2.7)), (second, (2.0, 2.5, 2.5))):
+        a, b, c = axes
+        solid = monomer / 5 * np.array([b * b + c * c, a * a + c * c, a * a + b * b])
+        assert np.allclose(moments[:points][monomers & own], solid, rtol=1e-6)
+    assert not moments[:points][~monomers].any()
+    assert not mass[points:].any() and not moments[points:].any()
 
     bonds = {name: frame.bonds.group[frame.bonds.typeid == i] for i, name in enumerate(frame.bonds.types)}
     count = {name: len(pairs) for name, pairs in bonds.items()}

@@ -1,10 +1,16 @@
 //! GSD with the schema `hoomd`, version 1.4: one frame for each record.
 //!
-//! Lengths are nm, velocities nm/ns. Frames hold `particles/position`, `particles/orientation` (w, x, y, z) and
-//! `particles/velocity`; everything that does not change stands in the first one, from which readers take it for
-//! all others. `configuration/step` counts records; `log/time_ns` (`log/path` of equilibria) has their times, and
+//! Lengths are nm, times ns, masses ag (1e-21 kg) and moments of inertia ag nm^2. Frames hold
+//! `particles/position`, `particles/orientation` (w, x, y, z) and `particles/velocity`; everything that does not
+//! change stands in the first one, from which readers take it for all others. `particles/mass` and
+//! `particles/moment_inertia` are those of the bodies: nodes of rods are points without moments of inertia, and
+//! ends of linkers have no mass either. `configuration/step` is the number of time steps since the start, of
+//! equilibria the number of the record. `log/time_ns` (`log/path` of equilibria) has the times, and
 //! `log/particles/s_nm` and `log/particles/filament` the arc length and filament of each particle, -1 of ends of
 //! linkers.
+//!
+//! Runs are not periodic, which the schema cannot say: `configuration/box` is four times as large as the run, so that
+//! no nearest image is another one than the particle itself.
 //!
 //! # Source
 //! GSD documentation, "HOOMD schema" and "Shape visualization" (glotzerlab/gsd).
@@ -12,8 +18,8 @@
 mod layer;
 
 use crate::{BondKind, ExportError, FinishedRun, Particles, Shape, extent};
-use actin_sim::At;
 use actin_sim::mechanics::{State, Vector3};
+use actin_sim::{At, Task};
 use layer::{Chunk, Header, Writer};
 use std::io::{self, Seek, Write};
 
@@ -36,7 +42,8 @@ pub fn write_gsd(run: &FinishedRun, out: &mut (impl Write + Seek)) -> Result<(),
         if i == 0 {
             write_fixed(&mut writer, &particles, edges)?;
         }
-        writer.write("configuration/step", &Chunk::U64(vec![i as u64]), 1)?;
+        let step = step(run, i);
+        writer.write("configuration/step", &Chunk::U64(vec![step]), 1)?;
         write_moving(&mut writer, &particles, &state)?;
         let (name, at) = match run.at()[i] {
             At::Time(time) => ("log/time_ns", time),
@@ -46,6 +53,24 @@ pub fn write_gsd(run: &FinishedRun, out: &mut (impl Write + Seek)) -> Result<(),
         writer.end_frame();
     }
     Ok(writer.finish(&HEADER)?)
+}
+
+/// Number of time steps before record `i`; its own number in a run without time steps.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "times and steps are positive, and runs have fewer than 2^53 steps"
+)]
+fn step(run: &FinishedRun, i: usize) -> u64 {
+    let time_step_ns = match &run.assembly().scene.task {
+        Task::Dynamics(task) => task.time_step_ns,
+        Task::Brownian(task) => task.time_step_ns,
+        Task::Equilibrium(_) => None,
+    };
+    match (run.at()[i], time_step_ns) {
+        (At::Time(time_ns), Some(length_ns)) => (time_ns / length_ns).round() as u64,
+        _ => i as u64,
+    }
 }
 
 /// What is the same in all frames.
@@ -67,6 +92,10 @@ fn write_fixed(
     let diameter = |&sort: &usize| 2.0 * particles.species[sort].shape.radius_nm();
     let diameters = single(particles.sort.iter().map(diameter));
     writer.write("particles/diameter", &diameters, 1)?;
+    writer.write("particles/mass", &single(particles.masses_ag()), 1)?;
+    let moments = particles.moments_of_inertia_ag_nm2().into_iter();
+    let moments = single(moments.flat_map(<[f64; 3]>::from));
+    writer.write("particles/moment_inertia", &moments, 3)?;
     write_places_along(writer, particles)?;
     write_bonds(writer, particles)
 }
