@@ -173,18 +173,20 @@ fn couples_on_one_pin_are_refused() {
     assert_eq!(refusal(pins), "");
 }
 
-/// What acts on held bodies alone moves nothing: the place of a load lies behind a clamp.
+/// What acts on held bodies alone moves nothing: the place of a load lies behind a clamp, or the end slides along
+/// another axis.
 #[test]
 fn loads_on_held_bodies_are_refused() {
     for load in [
         "Force(at_nm: 0.0, force_pn: (1.0, 0.0, 0.0))",
         "ForcePerLength(to_nm: 1.0, force_pn_per_nm: (1.0, 0.0, 0.0))",
         "Couple(at_nm: 0.0, couple_pn_nm: (0.0, 0.0, 1.0))",
+        "EndForce(end: End, force_pn: (1.0, 0.0, 0.0))",
     ] {
         let text = format!(
             "Scene(
                 filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 60.0)]),
-                clamps: [Clamp(end: Start)],
+                clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
                 loads: [{load}],
                 task: {STATICS},
             )"

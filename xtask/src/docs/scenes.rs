@@ -169,7 +169,9 @@ fn words(value: &Value) -> String {
 
 /// The unit that the name of a key ends in.
 fn unit(key: &str) -> &'static str {
-    const UNITS: [(&str, &str); 13] = [
+    const UNITS: [(&str, &str); 15] = [
+        ("_pn_nm_per_rad", "pN nm/rad"),
+        ("_pn_nm_per_nm", "pN nm/nm"),
         ("_pn_per_nm", "pN/nm"),
         ("_per_ns", "1/ns"),
         ("_per_nm", "rad/nm"),

@@ -43,7 +43,8 @@ pub enum Observable {
     },
     /// Curvature at an arc length, about the axes of the cross-section as built and in size:
     /// `curvature[0]_at_80nm_x_rad_per_nm`, `curvature[0]_at_80nm_rad_per_nm`. As in `profile.csv`, straight
-    /// lines between its places.
+    /// lines between its places. In a heat bath such a mean of two values fluctuates less than either, on a rod
+    /// midway with half of the variance: for fluctuations ask at a place of `profile.csv`.
     Curvature {
         /// Index of the filament.
         #[serde(default)]
@@ -52,7 +53,8 @@ pub enum Observable {
         at_nm: f64,
     },
     /// Twist beyond that of the helix at an arc length, positive for over-twist:
-    /// `twist[0]_at_80nm_rad_per_nm`. As in `profile.csv`, straight lines between its places.
+    /// `twist[0]_at_80nm_rad_per_nm`. As in `profile.csv`, straight lines between its places, with the
+    /// variance of a mean midway between two, as under `Curvature`.
     Twist {
         /// Index of the filament.
         #[serde(default)]
@@ -61,7 +63,8 @@ pub enum Observable {
         at_nm: f64,
     },
     /// Strain of the centre line at an arc length, along the axes of the cross-section as built: shear
-    /// `strain[0]_at_80nm_x`, `strain[0]_at_80nm_y`, stretch `strain[0]_at_80nm_z`.
+    /// `strain[0]_at_80nm_x`, `strain[0]_at_80nm_y`, stretch `strain[0]_at_80nm_z`. Straight lines between
+    /// the middles of segments, with the variance of a mean midway between two, as under `Curvature`.
     Strain {
         /// Index of the filament.
         #[serde(default)]

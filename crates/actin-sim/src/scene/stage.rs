@@ -1,7 +1,8 @@
 //! The rules of a path: what its stages may set, and how long they take.
 
 use super::rules::{all_finite, finite, positive, show};
-use super::{End, HeldEnds, Hold, Scene, SceneProblem, Setting, Stage};
+use super::support::is_along;
+use super::{End, HeldEnds, Hold, Scene, SceneProblem, Setting, Slides, Stage};
 
 /// Checks that what stage `i` sets exists and may be set.
 pub(super) fn check(
@@ -37,6 +38,7 @@ pub(super) fn check(
             } => {
                 all_finite(&key("shift_nm"), shift_nm)?;
                 check_held(&key(""), filament, end)?;
+                check_shift((scene, held), &key("shift_nm"), (filament, end), shift_nm)?;
             }
             Setting::Turn {
                 filament,
@@ -64,6 +66,33 @@ fn check_held(
     }
     let rule = "this end is free: only a clamped end can be moved";
     Err(SceneProblem::new(format!("{prefix}end"), show(end), rule))
+}
+
+/// An end is not shifted along directions in which it slides.
+fn check_shift(
+    (scene, held): (&Scene, &HeldEnds),
+    key: &str,
+    (filament, end): (usize, End),
+    shift_nm: [f64; 3],
+) -> Result<(), SceneProblem> {
+    let clamp = held.clamp_at(filament, end);
+    let axis = scene.filament_at(filament).map(|f| f.axis_at(end));
+    let (Some(clamp), Some(axis)) = (clamp, axis) else {
+        return Ok(());
+    };
+    let slides = scene.clamps[clamp].slides;
+    if !is_along(shift_nm.into(), &slides.directions(axis)) {
+        return Ok(());
+    }
+    let remedy = match slides {
+        Slides::Freely => "leave the shift out, or let the clamp slide AlongAxis or Nowhere",
+        _ => "shift it across its axis only, or let the clamp slide Nowhere",
+    };
+    let rule = format!(
+        "moves this end along directions in which clamps[{clamp}].slides = {slides:?} leaves it free, and \
+         would do nothing there: {remedy}"
+    );
+    Err(SceneProblem::new(key, show(shift_nm), rule))
 }
 
 /// What is turned from outside is held, and does not turn by itself.

@@ -53,6 +53,12 @@ pub(crate) fn is_across(vector: Vector3, axis: Vector3) -> bool {
     vector.cross(&axis).norm() > WRITTEN * vector.norm()
 }
 
+/// Whether `vector` has a component along one of some orthonormal `directions`, beyond what six digits leave open.
+pub(super) fn is_along(vector: Vector3, directions: &[Vector3]) -> bool {
+    let along = directions.iter().map(|d| d.dot(&vector).powi(2));
+    along.sum::<f64>().sqrt() > WRITTEN * vector.norm()
+}
+
 /// Forces that do not balance along a direction in which nothing is held have no equilibrium. Where
 /// they do balance they have one: the filament turns until their couple vanishes.
 ///

@@ -90,8 +90,8 @@ pub enum Setting {
         filament: usize,
         /// Which end. It must be clamped.
         end: End,
-        /// Displacement in the lab frame; finite. Components along which the clamp slides have no
-        /// effect.
+        /// Displacement in the lab frame; finite, without a component along a direction in which the clamp
+        /// slides.
         shift_nm: [f64; 3],
     },
     /// Turn of a clamped end from how it was built, about the clamped point.
