@@ -138,6 +138,7 @@ fn main() -> ExitCode {
 }
 
 fn carry_out(command: Command) -> Result<(), Failure> {
+    actin_sim::mechanics::wide::chosen_arch().map_err(Failure::Input)?;
     signals::outlive_file_size_limit()
         .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
     match command {

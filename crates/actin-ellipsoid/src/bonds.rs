@@ -10,7 +10,7 @@ mod sums;
 use crate::kernel::AddLoads;
 use crate::table::{BondTable, Relative};
 use crate::{Bond, EllipsoidModel, InterfaceError, InterfaceKind, Monomers};
-use actin_mechanics::wide::Arch;
+use actin_mechanics::wide::{self, Arch};
 use actin_mechanics::{Interaction, Loads, Matrix3, SecondOrder, State, Vector3};
 
 /// The harmonic bonds of a run of consecutive monomers: term `bonds`, one element per interface.
@@ -99,7 +99,7 @@ impl Bonds {
             monomers,
             pairs,
             tables,
-            arch: Arch::new(),
+            arch: wide::arch(),
         })
     }
 

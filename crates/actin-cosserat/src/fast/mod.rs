@@ -67,7 +67,7 @@ mod separate;
 
 use crate::extended::ExtendedSegments;
 use crate::{RodLayout, RodMaterial};
-use actin_mechanics::wide::Arch;
+use actin_mechanics::wide::{self, Arch};
 use actin_mechanics::{Loads, State, Vector3};
 use laws::{
     Bend, Bent, ConstantBend, ConstantTwist, CubicAcross, Laws, Length, LinearShear, NaturalLength,
@@ -136,7 +136,7 @@ impl FastRod {
 
     /// Adds the loads of all elements.
     pub(crate) fn add_loads(&self, layout: &RodLayout, state: &State, loads: &mut Loads) {
-        self.add_loads_on(Arch::new(), layout, state, loads);
+        self.add_loads_on(wide::arch(), layout, state, loads);
     }
 
     /// The same with a choice of instructions.

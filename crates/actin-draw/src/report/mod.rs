@@ -86,6 +86,9 @@ pub struct Row {
     /// Where `paper`, or the bound that decides, comes from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<Origin>,
+    /// Standard error of a fitted parameter, which bounds how well rounding determines it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub standard_error: Option<f64>,
 }
 
 impl Row {
@@ -107,6 +110,7 @@ impl Row {
             pass: None,
             note: note.into(),
             origin: None,
+            standard_error: None,
         }
     }
 

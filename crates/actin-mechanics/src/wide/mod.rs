@@ -3,7 +3,8 @@
 //! The hot loops (the drift of frames, the loads between neighbours) do the same arithmetic for
 //! every body. States are structures of arrays so that a loop can take as many
 //! bodies at a time as the processor has lanes: eight with AVX-512, four with AVX2, one where there is nothing better.
-//! Which it is, is found out when the program runs; no compiler option is needed.
+//! The instruction set is detected when the program starts; no compiler option is needed. The environment
+//! variable `ACTIN_SIMD` sets it ([`arch`]).
 //!
 //! # How to read a wide function
 //! It is written once, generic over `S: Simd`, for bodies that stand in the lanes of `S::f64s`.
@@ -39,11 +40,13 @@
 
 mod columns;
 mod functions;
+mod instructions;
 mod rotations;
 mod vectors;
 
 pub use columns::{Columns, ColumnsMut, ShiftedDown, ShiftedUp, Sums};
 pub use functions::{clamp, cosine_and_sinc, tanh};
+pub use instructions::{INSTRUCTIONS, arch, chosen_arch};
 pub use pulp::{Arch, Scalar, Simd, WithSimd};
 pub use rotations::{
     WideQuaternion, log_with_coefficient, matrix, product, product_about_z, relative, turn,
@@ -58,10 +61,10 @@ pub use vectors::{
 /// More lanes than any processor has.
 const MOST_LANES: usize = 16;
 
-/// Runs `loop_` with as many lanes as this processor has.
+/// Runs `loop_` with the instruction set of [`arch`].
 #[inline]
 pub fn dispatch<L: WithSimd>(loop_: L) -> L::Output {
-    Arch::new().dispatch(loop_)
+    arch().dispatch(loop_)
 }
 
 #[cfg(test)]

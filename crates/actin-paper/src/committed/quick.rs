@@ -17,6 +17,9 @@ const REWRITES_FULL: &str = "cargo xtask reproduce-figures && cargo xtask docs \
 /// Rows agree within this share: another processor rounds otherwise, which moves numbers by up to 2e-8
 /// (measured with another library of elementary functions; the last digits of a residual of 1e-7 pN).
 const AGREES: f64 = 1e-6;
+/// Fitted parameters agree within this share of their standard error: such a step changes the sum of squares by
+/// 1e-6 of its variance, so the fitted curve is the same.
+const AGREES_IN_STANDARD_ERRORS: f64 = 1e-3;
 /// The same of Figures 5 and 6, whose filaments hang in linkers and have soft directions: there 2e-5.
 const AGREES_IF_FREE: f64 = 1e-4;
 
@@ -140,8 +143,9 @@ fn difference(row: &Row, old: &Row, file: &str) -> Option<String> {
     let is_free = ["fig5", "fig6"].contains(&row.artefact)
         || (row.artefact == "law" && row.quantity.starts_with("Figure-"));
     let share = if is_free { AGREES_IF_FREE } else { AGREES };
-    let differs =
-        |a: f64, b: f64| (a - b).abs() > f64::max(share * a.abs().max(b.abs()), floor(row.unit));
+    let flat = AGREES_IN_STANDARD_ERRORS * old.standard_error.unwrap_or(0.0);
+    let floor = floor(row.unit).max(flat);
+    let differs = |a: f64, b: f64| (a - b).abs() > f64::max(share * a.abs().max(b.abs()), floor);
     let expected = row
         .paper
         .zip(old.paper)

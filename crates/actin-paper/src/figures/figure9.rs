@@ -128,16 +128,20 @@ fn polynomial_rows(fits: &TwistFits) -> Vec<Row> {
 
 fn lambda_rows(fits: &TwistFits) -> Vec<Row> {
     let published = TanhTwist::published().lambda;
-    let ours = fits.tanh.fit.parameters.iter().zip(published).zip(1..);
+    let fit = &fits.tanh.fit;
+    let ours = fit.parameters.iter().zip(published).zip(1..);
     let rows = ours.map(|((&ours, paper), i)| {
-        Row::measured(
+        let row = Row::measured(
             ID,
             format!("lambda/{i}"),
             if i == 3 { "" } else { "rad/nm" },
             ours,
             "the refitted form meets the rows better with other parameters; no verdict",
-        )
-        .beside(paper, Origin::Derived)
+        );
+        Row {
+            standard_error: fit.precision.standard_error(i - 1),
+            ..row.beside(paper, Origin::Derived)
+        }
     });
     rows.collect()
 }

@@ -1,0 +1,68 @@
+//! Instruction set of the vector code.
+
+use pulp::Arch;
+use std::sync::OnceLock;
+
+/// Environment variable that sets the instruction set: `scalar`, `avx2` or `avx512`.
+pub const INSTRUCTIONS: &str = "ACTIN_SIMD";
+
+/// Returns the instruction set that all vector code of this process uses: the best one of the
+/// processor, or the one that the environment variable `ACTIN_SIMD` names. The variable does not
+/// affect other libraries, such as faer.
+///
+/// # Panics
+/// If `ACTIN_SIMD` is invalid ([`chosen_arch`] returns the reason).
+#[inline]
+pub fn arch() -> Arch {
+    static ARCH: OnceLock<Arch> = OnceLock::new();
+    *ARCH.get_or_init(|| chosen_arch().unwrap_or_else(|error| panic!("{error}")))
+}
+
+/// Instruction set that `ACTIN_SIMD` names, or the best one of the processor without it.
+///
+/// # Errors
+/// An unknown name, or an instruction set that the processor does not have.
+pub fn chosen_arch() -> Result<Arch, String> {
+    match std::env::var(INSTRUCTIONS) {
+        Err(std::env::VarError::NotPresent) => Ok(Arch::new()),
+        Ok(name) => named(&name),
+        Err(error) => Err(format!("{INSTRUCTIONS}: {error}")),
+    }
+}
+
+/// Instruction set by name.
+fn named(name: &str) -> Result<Arch, String> {
+    let arch = match name {
+        "scalar" => Some(Arch::Scalar),
+        #[cfg(target_arch = "x86_64")]
+        "avx2" => pulp::x86::V3::try_new().map(Arch::V3),
+        #[cfg(target_arch = "x86_64")]
+        "avx512" => pulp::x86::V4::try_new().map(Arch::V4),
+        #[cfg(not(target_arch = "x86_64"))]
+        "avx2" | "avx512" => None,
+        _ => {
+            return Err(format!(
+                "{INSTRUCTIONS} = \"{name}\": must be one of scalar, avx2, avx512"
+            ));
+        }
+    };
+    arch.ok_or_else(|| format!("{INSTRUCTIONS} = \"{name}\": this processor does not have it"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Valid names select their instruction set, and a misspelt one is an error that lists them.
+    #[test]
+    fn instruction_sets_have_names() {
+        assert!(matches!(named("scalar"), Ok(Arch::Scalar)));
+        for name in ["avx2", "avx512"] {
+            let arch = named(name).map(|arch| format!("{arch:?}"));
+            let best = format!("{:?}", Arch::new());
+            assert!(arch.is_ok() || !best.starts_with("V4"), "{name}: {arch:?}");
+        }
+        let error = named("AVX2").unwrap_err();
+        assert!(error.contains("scalar, avx2, avx512"), "{error}");
+    }
+}
