@@ -1,7 +1,7 @@
 //! What checks and checkpoints cost in time. Nothing is asserted. The table of checks in
 //! `docs/measured/motion.md` is what `cost_of_checks` prints.
 
-use crate::common::{build, checkpoints};
+use super::common::{build, checkpoints};
 use actin_integrate::{DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Run, advance, stable_step};
 use actin_mechanics::System;
 use actin_sim::{MotionPosition, Plan, Recorded, RunDirectory, RunPosition, Scene, Sink};

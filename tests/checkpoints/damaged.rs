@@ -1,7 +1,7 @@
 //! Checkpoints with a byte changed, a piece cut off or another owner: refused, in words, and never
 //! with a panic.
 
-use crate::common::{Choice, advance, build, checkpoints};
+use super::common::{Choice, advance, build, checkpoints};
 use actin_sim::{CheckpointError, Damage, Plan, RunDirectory, Scene, Status};
 use std::fs;
 use tempfile::TempDir;

@@ -1,6 +1,6 @@
 //! A disk that refuses: the last checkpoint stays, the run goes on, and the next attempt succeeds.
 
-use crate::common::{Choice, advance, build, checkpoints};
+use super::common::{Choice, advance, build, checkpoints};
 use actin_sim::{Plan, RunDirectory, RunPosition, Sink};
 use std::fs;
 

@@ -1,7 +1,7 @@
 //! Runs that observe and keep no states: interrupted anywhere, they leave the bytes of a run that was not; and
 //! their files are those of a run that keeps states.
 
-use crate::common::{Leaving, build, checkpoints};
+use super::common::{Leaving, build, checkpoints};
 use actin_sim::{Plan, Records, RunDirectory, Scene, Status};
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,6 +1,6 @@
 //! A run that was left and taken up again gives what a run gives that was not.
 
-use crate::common::{Choice, IN_TIME, advance};
+use super::common::{Choice, IN_TIME, advance};
 use actin_sim::{Outcome, Plan, Record, RunDirectory, Scene, Status, Trajectory};
 use proptest::prelude::*;
 use std::fs;

@@ -1,6 +1,6 @@
 //! Overdamped motion of scenes: where it comes to rest, how fast, and its noise.
 
-use crate::contact::pushed_across;
+use super::contact::pushed_across;
 use actin_sim::mechanics::Vector3;
 use actin_sim::{Assembly, End, Plan, Record, Scene};
 

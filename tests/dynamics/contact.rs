@@ -1,6 +1,6 @@
 //! Filaments that fly into each other and into walls: order, energy, momenta, time step.
 
-use crate::record::scientific;
+use super::record::scientific;
 use actin_integrate::{Drag, PEFRL, POSITION_VERLET, advance};
 use actin_mechanics::{State, System, Vector3};
 use actin_sim::{Assembly, Plan, Scene, Trajectory};

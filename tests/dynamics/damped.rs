@@ -1,7 +1,7 @@
 //! Filaments under drag from none to far beyond what a step resolves: they drift, turn, creep and
 //! rest as theory says.
 
-use crate::modes::Modes;
+use super::modes::Modes;
 use actin_mechanics::{State, Vector3, rotation};
 use actin_sim::advice::SLOW_MOTION;
 use actin_sim::{Assembly, End, Scene, Trajectory};

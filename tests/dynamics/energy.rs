@@ -3,11 +3,11 @@
 //! A level is an energy in kBT: per degree of freedom where all of them are heated, per slow mode
 //! where only slow modes move.
 
-use crate::filaments::{
+use super::filaments::{
     ELLIPSOIDS, FILAMENTS, Filament, MIXED, ROD, ROD_AT_BOTH_ENDS, assemble, heat,
 };
-use crate::modes::Modes;
-use crate::record::EnergyRecord;
+use super::modes::Modes;
+use super::record::EnergyRecord;
 use actin_integrate::{PEFRL, largest_frequency, stable_step};
 use actin_mechanics::System;
 use actin_sim::ForceLaw;

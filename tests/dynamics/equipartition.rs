@@ -9,7 +9,7 @@
 //! - `M^-1 grad U`, which weighs each mode by the square of its frequency: the fastest modes, which a
 //!   step that is too long makes too warm.
 
-use crate::filaments::KBT;
+use super::filaments::KBT;
 use actin_integrate::{
     Bath, Drag, PEFRL, Run, SAFETY, advance, advance_in, largest_frequency, stable_step,
 };

@@ -1,7 +1,7 @@
 //! What every step keeps to round-off: the way back, momentum and angular momentum.
 
-use crate::filaments::{FILAMENTS, distances, in_flight};
-use crate::record::scientific;
+use super::filaments::{FILAMENTS, distances, in_flight};
+use super::record::scientific;
 use actin_integrate::{Composition, Drag, PEFRL, advance, largest_frequency, stable_step};
 
 use actin_mechanics::{State, System};

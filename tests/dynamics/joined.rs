@@ -1,8 +1,8 @@
 //! Two free filaments that linkers join, tumbling: what stays to round-off.
 
-use crate::filaments::fly;
-use crate::invariants::{scales, step};
-use crate::record::scientific;
+use super::filaments::fly;
+use super::invariants::{scales, step};
+use super::record::scientific;
 use actin_integrate::{Drag, PEFRL, advance};
 use actin_mechanics::{System, Vector3};
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};

@@ -2,8 +2,8 @@
 //!
 //! Every state here is twisted and stretched, so that what couples the two is at work.
 
-use crate::filaments::{Filament, MIXED, ROD, ROD_AT_BOTH_ENDS, assemble_of, distances, fly_off};
-use crate::record::{EnergyRecord, scientific};
+use super::filaments::{Filament, MIXED, ROD, ROD_AT_BOTH_ENDS, assemble_of, distances, fly_off};
+use super::record::{EnergyRecord, scientific};
 use actin_integrate::{Drag, PEFRL, advance, largest_frequency, stable_step};
 
 use actin_mechanics::{State, System};

@@ -1,6 +1,6 @@
 //! Modes of a filament at rest, and motion in the slow ones only.
 
-use crate::filaments::{KBT, degrees_of_freedom, normal};
+use super::filaments::{KBT, degrees_of_freedom, normal};
 use actin_mechanics::Xorshift;
 use actin_mechanics::{Loads, State, System, Vector3, rotation};
 use nalgebra::{DMatrix, DVector};

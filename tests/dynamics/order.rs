@@ -1,7 +1,7 @@
 //! Order of convergence of whole states.
 
-use crate::filaments::{FILAMENTS, Filament, KBT, degrees_of_freedom, distances, in_flight};
-use crate::record::scientific;
+use super::filaments::{FILAMENTS, Filament, KBT, degrees_of_freedom, distances, in_flight};
+use super::record::scientific;
 use actin_integrate::{
     Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, VEFRL, advance,
     largest_frequency,

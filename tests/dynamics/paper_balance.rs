@@ -1,9 +1,9 @@
 //! The same runs with the balance as the paper prints it, which has no potential: reported beside
 //! those of the gradient law, and held to what is documented.
 
-use crate::filaments::{Filament, MIXED, ROD, ROD_AT_BOTH_ENDS, assemble, heat};
-use crate::modes::Modes;
-use crate::record::EnergyRecord;
+use super::filaments::{Filament, MIXED, ROD, ROD_AT_BOTH_ENDS, assemble, heat};
+use super::modes::Modes;
+use super::record::EnergyRecord;
 use actin_integrate::{PEFRL, stable_step};
 use actin_mechanics::State;
 use actin_sim::{Assembly, ForceLaw, Resolution, SectionSpan};

@@ -1,6 +1,6 @@
 //! Monomers whose interfaces are quasi-harmonic: against motion with their bonds, and beside rods.
 
-use crate::filaments::KBT;
+use super::filaments::KBT;
 use actin_sim::ellipsoid::{Fluctuations, Monomers};
 use actin_sim::{Assembly, Plan, Scene};
 

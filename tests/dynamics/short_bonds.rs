@@ -1,7 +1,7 @@
 //! Why monomers at room temperature are hard on an integrator: some bonds are very short.
 
-use crate::filaments::{ELLIPSOIDS, assemble, heat};
-use crate::record::EnergyRecord;
+use super::filaments::{ELLIPSOIDS, assemble, heat};
+use super::record::EnergyRecord;
 use actin_ellipsoid::{Bonds, EllipsoidModel, EllipsoidParameters, Placement};
 use actin_integrate::{PEFRL, largest_frequency, stable_step};
 use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3};

@@ -1,6 +1,6 @@
 //! Time steps: what a junction costs, and how they grow with segments.
 
-use crate::invariants::step;
+use super::invariants::step;
 use actin_integrate::PEFRL;
 use actin_sim::{Assembly, Plan, Scene};
 

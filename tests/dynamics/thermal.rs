@@ -3,8 +3,8 @@
 //! Estimates are held to 4.5 standard errors, found from the scatter of blocks that are long
 //! against the slowest relaxation that matters; seeds are fixed.
 
-use crate::filaments::{FILAMENTS, KBT, assemble};
-use crate::modes::Modes;
+use super::filaments::{FILAMENTS, KBT, assemble};
+use super::modes::Modes;
 use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
 
 use actin_mechanics::{State, System};

@@ -1,6 +1,6 @@
 //! Newton's method and damped dynamics end in the same state.
 
-use crate::common::{build, run, solved};
+use super::common::{build, run, solved};
 
 /// A short filament of both kinds, bent askew.
 fn scene(task: &str) -> String {

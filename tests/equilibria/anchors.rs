@@ -1,6 +1,6 @@
 //! Anchors that a path moves, and linkers whose sites change their model.
 
-use crate::common::{build, run, solved};
+use super::common::{build, run, solved};
 use actin_mechanics::Vector3;
 use actin_sim::Assembly;
 

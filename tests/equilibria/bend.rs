@@ -1,6 +1,6 @@
 //! The 45-degree bend of Bathe and Bolourchi: a curved cantilever pulled out of its plane.
 
-use crate::common::{frame, material, point, to};
+use super::common::{frame, material, point, to};
 use crate::theory::second_order_limit;
 use actin_cosserat::{RodElements, RodJoint, RodSegment};
 use actin_equilibrium::{Layout, Newton};

@@ -1,6 +1,6 @@
 //! Columns: critical loads from the stiffness turning singular, and what comes after.
 
-use crate::common::{
+use super::common::{
     BEND, LENGTH, SHEAR, build, cantilever, critical, frame, material, newton, point, solved, to,
 };
 use crate::theory::second_order_limit;

@@ -1,6 +1,6 @@
 //! A rod rolled up by turning its end, which moves freely: couples only, so uniform curvature.
 
-use crate::common::{BEND, LENGTH, PRECISION, build, failure, run, run_anyway};
+use super::common::{BEND, LENGTH, PRECISION, build, failure, run, run_anyway};
 use crate::theory::{bisect, second_order_limit};
 use actin_mechanics::Vector3;
 use actin_sim::{Assembly, End, Failure, Outcome, RunError};

@@ -1,7 +1,7 @@
 //! Rods whose natural length follows their twist, in compression: beyond a bound their twist is
 //! unstable wherever the mesh resolves it (`docs/statics.md`, "Extended rods in compression").
 
-use crate::common::{build, run, run_anyway};
+use super::common::{build, run, run_anyway};
 use actin_cosserat::{Rigidities, TwistStretch};
 use actin_mechanics::testing::stiffness_matrix;
 use actin_mechanics::{UnitQuaternion, Vector3};

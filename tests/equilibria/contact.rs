@@ -1,6 +1,6 @@
 //! Equilibria in contact: against closed forms, beam theory, and whatever the filament is resolved into.
 
-use crate::common::{build, failure, run_anyway, solved};
+use super::common::{build, failure, run_anyway, solved};
 use actin_mechanics::testing::resultant;
 use actin_mechanics::{Loads, Vector3};
 use actin_sim::{Assembly, Failure, Part, Summary};

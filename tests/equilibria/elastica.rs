@@ -1,6 +1,6 @@
 //! The cantilever under a force across its tip against the exact elastica.
 
-use crate::common::{BEND, LENGTH, SHEAR, cantilever, solved};
+use super::common::{BEND, LENGTH, SHEAR, cantilever, solved};
 use crate::theory::second_order_limit;
 use actin_sim::End;
 

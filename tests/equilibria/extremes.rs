@@ -1,10 +1,10 @@
 //! What no sensible scene asks for: each ends in a certified equilibrium or in a report that says
 //! why not, in a bounded number of steps; never in a wrong answer.
 //!
-//! `cargo test -p actin-sim --test equilibria extremes -- --nocapture` prints
+//! `cargo test -p actin-sim --test integration equilibria::extremes -- --nocapture` prints
 //! the table of `docs/measured/statics.md`.
 
-use crate::common::{build, run, run_anyway};
+use super::common::{build, run, run_anyway};
 use actin_equilibrium::{PathFailure, Stability};
 use actin_mechanics::Vector3;
 use actin_sim::{Assembly, End, Failure, Load, Outcome, Record, RunError, Trajectory};

@@ -8,7 +8,7 @@
 //! Source: van der Heijden and Thompson, Nonlinear Dynamics 21 (2000) 71; the case is that of
 //! Gazzola et al., R. Soc. Open Sci. 5 (2018) 171628, Section 4.
 
-use crate::common::to;
+use super::common::to;
 use crate::theory::second_order_limit;
 use actin_cosserat::{
     EnergyGradient, Rigidities, RodEnd, RodLayout, RodMaterial, StraightRod, Walls,

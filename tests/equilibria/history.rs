@@ -1,6 +1,6 @@
 //! The residual falls quadratically near the solution.
 
-use crate::common::{build, newton};
+use super::common::{build, newton};
 
 /// Newton's method on the exact second derivative: each residual is at most a constant times the
 /// square of the one before. A missing or wrong term makes the fall linear.

@@ -1,6 +1,6 @@
 //! Rods under the potential of the mean filament: convergence, what the filament's monomers do, certificates.
 
-use crate::common::{build, solved};
+use super::common::{build, solved};
 use actin_mechanics::testing::assert_is_balanced;
 use actin_mechanics::{Xorshift, perturb};
 use actin_sim::{Assembly, Outcome, Part};

@@ -1,7 +1,7 @@
 //! Filaments joined by linkers between two sites, and a filament joined to itself.
 
-use crate::agreement::assert_dynamics_ends_with_newton;
-use crate::common::{BEND, LENGTH, SHEAR, build, cantilever, newton, solved, to};
+use super::agreement::assert_dynamics_ends_with_newton;
+use super::common::{BEND, LENGTH, SHEAR, build, cantilever, newton, solved, to};
 use actin_equilibrium::{BodyOrder, Layout, Newton};
 use actin_mechanics::{State, Vector3};
 use actin_sim::{Assembly, End};

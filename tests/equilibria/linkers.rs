@@ -1,7 +1,7 @@
 //! Filaments held by linkers: a value from outside, balance, and dynamics beside statics.
 
-use crate::agreement::assert_dynamics_ends_with_newton;
-use crate::common::solved;
+use super::agreement::assert_dynamics_ends_with_newton;
+use super::common::solved;
 use actin_mechanics::{Vector3, rotation};
 use actin_sim::{Assembly, BodyKind};
 

@@ -1,7 +1,7 @@
 //! Twist that is lost between held ends is said wherever twist plus writhe can tell it, and nothing is
 //! said to be lost that is not.
 
-use crate::common::{build, failure, run, run_anyway};
+use super::common::{build, failure, run, run_anyway};
 use actin_sim::{Failure, Plan, Summary};
 
 const MIXED: &str =

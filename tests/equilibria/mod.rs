@@ -27,6 +27,4 @@ mod second_derivatives;
 mod several;
 mod shape;
 mod states;
-#[path = "../theory.rs"]
-mod theory;
 mod unheld;

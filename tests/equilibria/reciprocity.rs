@@ -1,7 +1,7 @@
 //! Maxwell and Betti: the couple at a held end changes with its shift as the force changes with its
 //! turn, in differences of equilibria that are solved one by one.
 
-use crate::common::{newton, solved};
+use super::common::{newton, solved};
 use actin_mechanics::{Loads, State, Vector3, rotation};
 use actin_sim::Assembly;
 

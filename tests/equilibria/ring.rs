@@ -1,6 +1,6 @@
 //! Michell's ring: a closed rod that is twisted snaps out of its plane.
 
-use crate::common::{PRECISION, frame, material, point, to};
+use super::common::{PRECISION, frame, material, point, to};
 use crate::theory::{bisect, second_order_limit};
 use actin_cosserat::{RodElements, RodJoint, RodSegment};
 use actin_equilibrium::{Layout, Newton};

@@ -1,6 +1,6 @@
 //! Paths that end on a saddle, and twist that slips on the way: neither is a result.
 
-use crate::common::{build, cantilever, failure, run, run_anyway};
+use super::common::{build, cantilever, failure, run, run_anyway};
 use actin_sim::{Failure, Plan, Scene, Status};
 
 /// The straight column beyond its critical load of 3.76 pN is kept by `leave_saddles: 0` and reported

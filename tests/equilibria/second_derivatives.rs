@@ -4,7 +4,7 @@
 //! product of its torque with its turn, since `f` is read in axes that turn along. A block that
 //! is missing, doubled or put in the wrong place shows as an error of order one.
 
-use crate::common::{build, newton};
+use super::common::{build, newton};
 use actin_mechanics::testing::derivative;
 use actin_mechanics::{Coordinates, Loads, Vector3};
 use actin_mechanics::{Xorshift, perturb};

@@ -1,7 +1,7 @@
 //! Several filaments: independent where nothing joins them, the same wherever they lie, and moved
 //! along a path each by itself.
 
-use crate::common::{build, run, solved};
+use super::common::{build, run, solved};
 use actin_mechanics::Xorshift;
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use actin_sim::{Assembly, End, Filament, Load, Scene, Setting, Slides, Stage};

@@ -1,6 +1,6 @@
 //! Twist, writhe and link of simulated filaments.
 
-use crate::common::{build, run};
+use super::common::{build, run};
 use actin_sim::At;
 use actin_sim::shape::{Ribbon, link};
 use actin_sim::{Assembly, Trajectory};

@@ -1,6 +1,6 @@
 //! Other stable states of a scene: that they are what they are said to be, and the same every time.
 
-use crate::common::{build, solved};
+use super::common::{build, solved};
 use actin_sim::{Assembly, Equilibrium, Outcome, RunDirectory, StableStates, Trajectory};
 
 /// 80 nm of monomers pressed together by a tenth, between clamped ends.

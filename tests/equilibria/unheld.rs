@@ -1,7 +1,7 @@
 //! Filaments that nothing holds, under forces that balance: they turn until the couple of the forces
 //! vanishes, and the certificate counts the rigid motions that are left.
 
-use crate::common::solved;
+use super::common::solved;
 use actin_equilibrium::Stability;
 use actin_mechanics::Vector3;
 use actin_sim::{Assembly, End};

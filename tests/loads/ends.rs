@@ -1,6 +1,6 @@
 //! Ends that are pinned, hinged by a spring, and moved at constant velocity.
 
-use crate::common::{BEND, LENGTH, SHEAR, TWIST, build, cantilever, run};
+use super::common::{BEND, LENGTH, SHEAR, TWIST, build, cantilever, run};
 use crate::theory::{bisect, second_order_limit};
 use actin_mechanics::{Loads, State, Vector3, rotation};
 use actin_sim::{Assembly, End, Failure, Plan, RunError, Scene};

@@ -11,5 +11,3 @@ mod rods;
 mod sections;
 mod shapes;
 mod statics;
-#[path = "../theory.rs"]
-mod theory;

@@ -1,6 +1,6 @@
 //! Motion under loads that change in time, and under those that turn along.
 
-use crate::common::{BEND, DENSITY, LENGTH, SHEAR, cantilever, run};
+use super::common::{BEND, DENSITY, LENGTH, SHEAR, cantilever, run};
 use actin_sim::{Assembly, End, Trajectory};
 use nalgebra::Complex;
 use std::f64::consts::TAU;

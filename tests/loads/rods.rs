@@ -1,6 +1,6 @@
 //! Rods next to rods: what they share, and what each has of its own.
 
-use crate::common::{build, run};
+use super::common::{build, run};
 use crate::theory::second_order_limit;
 use actin_mechanics::testing::{assert_is_balanced, assert_is_gradient, assert_is_stiffness};
 use actin_mechanics::{Vector3, Xorshift, perturb, rotation};

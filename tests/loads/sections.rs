@@ -1,6 +1,6 @@
 //! Stretches of monomers that differ from the rest of their filament.
 
-use crate::common::run;
+use super::common::run;
 use actin_mechanics::{Vector3, Xorshift, perturb, rotation};
 use actin_sim::{Assembly, End, Scene};
 

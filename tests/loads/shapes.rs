@@ -1,6 +1,6 @@
 //! Filaments that are built bent: where their bodies, ends and sites are, and what they bear.
 
-use crate::common::{build, run};
+use super::common::{build, run};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use actin_sim::{Assembly, End};
 use std::f64::consts::FRAC_PI_2;

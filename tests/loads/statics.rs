@@ -1,6 +1,6 @@
 //! Equilibria under loads of every kind against closed solutions of rods.
 
-use crate::common::{
+use super::common::{
     BEND, DENSITY, LENGTH, SHEAR, TWIST, cantilever, deflection_under_uniform_force, run, twisting,
 };
 use crate::theory::second_order_limit;

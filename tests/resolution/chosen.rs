@@ -1,6 +1,6 @@
 //! Resolutions that the program chooses.
 
-use crate::{CANTILEVER, LONG_CANTILEVER, TWIST, scene, solved};
+use super::{CANTILEVER, LONG_CANTILEVER, TWIST, scene, solved};
 use actin_sim::adapt::{ErrorEstimate, estimate};
 use actin_sim::{Assembly, Plan, Quantity, RodLaw, Scene, Section, Summary};
 

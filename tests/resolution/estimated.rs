@@ -1,6 +1,6 @@
 //! Estimates beside the truth.
 
-use crate::{CANTILEVER, LONG_CANTILEVER, PULLED_ASIDE, TWIST, scene, solved};
+use super::{CANTILEVER, LONG_CANTILEVER, PULLED_ASIDE, TWIST, scene, solved};
 use actin_sim::adapt::{estimate, scatter, value};
 use actin_sim::{Quantity, RodLaw, Section};
 

@@ -1,6 +1,6 @@
 //! What the clamp bears, and how the energies of an equilibrium add up.
 
-use crate::common::{Settled, free_bodies, settle};
+use super::common::{Settled, free_bodies, settle};
 use actin_mechanics::{Loads, Vector3};
 use actin_sim::{End, RunDirectory};
 use std::collections::BTreeMap;

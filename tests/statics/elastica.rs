@@ -1,7 +1,7 @@
 //! A pure rod under a force across its tip against the exact elastica, and what the clamps do
 //! to it.
 
-use crate::common::{Rod, orders};
+use super::common::{Rod, orders};
 
 /// `alpha = F L^2 / B` and the deflection over the length of the inextensible, unshearable rod.
 /// Source: Bisshopp and Drucker, Q. Appl. Math. 3 (1945) 272, evaluated from its elliptic integrals.

@@ -1,6 +1,6 @@
 //! The first flexural frequency of a clamped rod against theory.
 
-use crate::common::{build, orders, run};
+use super::common::{build, orders, run};
 use actin_mechanics::Vector3;
 use actin_sim::Assembly;
 

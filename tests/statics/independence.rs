@@ -1,6 +1,6 @@
 //! An equilibrium belongs to the energy: drag, time step and integrator only lead there.
 
-use crate::common::{Settled, settle};
+use super::common::{Settled, settle};
 use actin_sim::End;
 
 /// Tolerance of the residual, in pN and in pN nm.

@@ -1,6 +1,6 @@
 //! A thick, soft-sheared cantilever against Timoshenko's beam.
 
-use crate::common::{Rod, orders};
+use super::common::{Rod, orders};
 
 /// Deflection of the tip under a force of 15 (length 3, radius 0.25, E = 1e6, G = 1e4, shear
 /// factor 4/3). Source: Gazzola et al., R. Soc. Open Sci. 5 (2018) 171628, Section 4.

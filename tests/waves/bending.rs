@@ -1,6 +1,6 @@
 //! Slow bending of a clamped rod: what a rigid segment's rotary inertia costs it, and the mesh.
 
-use crate::field::{Motion, build, frequency_of, set};
+use super::field::{Motion, build, frequency_of, set};
 use actin_mechanics::Vector3;
 use actin_sim::{Assembly, Trajectory};
 use std::f64::consts::PI;

@@ -5,7 +5,7 @@
 //! away). So the frequencies are `2 c/h sin(k h/2)` with `k = (2m - 1) pi / 2L`, without an error
 //! of the mesh beyond that formula.
 
-use crate::field::{Motion, build, frequency_of, set};
+use super::field::{Motion, build, frequency_of, set};
 use actin_mechanics::Vector3;
 use actin_sim::Assembly;
 use std::f64::consts::PI;

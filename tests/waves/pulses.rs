@@ -6,7 +6,7 @@
 //! not the junction's doing: an axial pulse twists them too, and there they hardly resist. Where the filament is a rod throughout, the same share is what the
 //! mesh and the making of the pulse leave behind.
 
-use crate::field::{Motion, build, set};
+use super::field::{Motion, build, set};
 use actin_mechanics::{State, Vector3};
 use actin_sim::{Assembly, End, shape};
 use std::f64::consts::TAU;

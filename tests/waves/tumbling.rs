@@ -1,6 +1,6 @@
 //! A free rod that tumbles, against the free symmetric top.
 
-use crate::field::{build, set_spin};
+use super::field::{build, set_spin};
 use actin_mechanics::{State, Vector3, rotation};
 use actin_sim::Assembly;
 

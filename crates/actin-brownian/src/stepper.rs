@@ -37,7 +37,7 @@
 //! Friction is that half way and its noise that of the start, as Fixman has it: the elements that are stiff make of the two a
 //! mobility that depends on the shape, and with friction or noise of another place the drift that goes with it is lost.
 //!
-//! Measured on free rods (`cargo test --release -p actin-brownian --test long_waves -- --ignored --nocapture`): `1 - cos` of the angle
+//! Measured on free rods (`cargo test --release -p actin-brownian --test integration long_waves:: -- --ignored --nocapture`): `1 - cos` of the angle
 //! over one and over ten segments over its exact value, 400,000 steps each:
 //!
 //! | segments | step (ns) | one segment | ten segments |

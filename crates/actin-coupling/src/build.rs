@@ -46,7 +46,7 @@ pub fn push_junction_frames(
 /// more of a short wave comes back: for 80 nm of monomers beside 80 nm of rod in 8 segments the limit is 0.57
 /// of the rod's without it, 0.97 with 5.5, 0.98 with 6.1, 0.99 with 7.5 nm (`actin check`), and of an axial pulse 20 nm
 /// wide 3.1 % come back without it, 4.1, 4.2 and 4.3 % with it, of one of 40 nm 2.5, 2.6, 2.6, 2.7 %
-/// (`cargo test --workspace --test waves pulses -- --nocapture`).
+/// (`cargo test --workspace --test integration waves::pulses -- --nocapture`).
 const SWING_NM: f64 = 6.1;
 
 /// Inertia of the junction frame of a monomer at an axial distance (nm).

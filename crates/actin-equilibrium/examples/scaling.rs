@@ -3,7 +3,7 @@
 //!
 //! `cargo run --release -p actin-equilibrium --example scaling`
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/integration/common/mod.rs"]
 mod common;
 
 use actin_equilibrium::{Layout, Newton, NewtonOptions};

@@ -1,7 +1,6 @@
 //! Rods in long steps beside the worm-like chain: their own chain of segments exactly, and the continuous one.
 
-mod common;
-
+use crate::common;
 use actin_brownian::mechanics::{PointLoad, UnitQuaternion, Vector3, Xorshift, rotation};
 use common::{advance, free_rod, rigidities, tip};
 

@@ -1,7 +1,6 @@
 //! Equilibrium distributions.
 
-mod common;
-
+use crate::common;
 use actin_brownian::{Brownian, Relaxation, StepLimits};
 use actin_cosserat::{EnergyGradient, Rigidities, RodMaterial, StraightRod};
 use actin_mechanics::{PointLoad, State, System, Vector3};

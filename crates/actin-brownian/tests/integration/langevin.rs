@@ -1,7 +1,6 @@
 //! Motion with inertia in a fluid: drift, diffusion and energy at friction however strong.
 
-mod common;
-
+use crate::common;
 use actin_brownian::Langevin;
 use actin_cosserat::StraightRod;
 use actin_integrate::{POSITION_VERLET, Stepper, largest_frequency, stable_step};

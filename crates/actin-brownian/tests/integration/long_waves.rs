@@ -1,8 +1,7 @@
 //! How warm bending is in long steps: the mean of `1 - cos` of the angle between segments of a free rod, over its
 //! exact value.
 
-mod common;
-
+use crate::common;
 use actin_brownian::mechanics::{Vector3, rotation};
 use common::{advance, free_rod, rigidities};
 

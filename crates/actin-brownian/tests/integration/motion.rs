@@ -1,7 +1,6 @@
 //! Diffusion, relaxation, and the order of the step.
 
-mod common;
-
+use crate::common;
 use actin_brownian::{Flow, Relaxation};
 use actin_cosserat::{RodClamp, RodEnd, RodLayout, StraightRod};
 use actin_mechanics::{State, System, UnitQuaternion, Vector3, rotation};

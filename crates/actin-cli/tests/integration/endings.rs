@@ -1,7 +1,6 @@
 //! How runs end: results beyond use, saddles, twist that is lost, residuals at the floor of rounding.
 
-mod workplace;
-
+use crate::workplace;
 use std::fs;
 use workplace::{Workplace, code, stderr, stdout};
 

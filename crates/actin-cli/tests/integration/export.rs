@@ -4,8 +4,7 @@
 //! `ACTIN_READERS` names, or python3. Where one is missing its test says so and skips, unless
 //! `ACTIN_REQUIRE_READERS` lists it.
 
-mod workplace;
-
+use crate::workplace;
 use std::env;
 use std::fs;
 use std::path::Path;
@@ -59,7 +58,7 @@ fn read(place: &Workplace, script: &str, packages: &[&str]) {
             return;
         }
     }
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/readers");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/integration/readers");
     let output = Command::new(&python)
         .arg(folder.join(script))
         .current_dir(place.path(""))

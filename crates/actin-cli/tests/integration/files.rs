@@ -2,8 +2,7 @@
 //! computed is lost, and nothing goes that a run has not written.
 #![cfg(unix)]
 
-mod common;
-
+use crate::common;
 use common::{ATTEMPTS, MOTION, Workplace, assert_same_files, code, contents, stderr, stdout};
 use std::fs;
 use std::os::unix::fs::symlink;

@@ -1,8 +1,7 @@
 //! Runs of sections that follow a motion: their directories, interrupted, killed, resumed and replaced.
 #![cfg(unix)]
 
-mod common;
-
+use crate::common;
 use common::{Workplace, assert_same_files, code, signal, stderr, stdout};
 use std::fs;
 use std::path::Path;

@@ -1,7 +1,6 @@
 //! What deliberate mistakes print, line by line: `scenarios/bad/printed.txt`.
 
-mod workplace;
-
+use crate::workplace;
 use std::fs;
 use std::path::Path;
 use workplace::{Workplace, code, stderr, stdout};

@@ -1,7 +1,6 @@
 //! Scenes from standard input, and keys that arguments set.
 
-mod workplace;
-
+use crate::workplace;
 use std::fs;
 use std::io::Write;
 use std::process::{Command, Stdio};

@@ -1,7 +1,6 @@
 //! The built program, from its arguments to its exit code, its two streams and its files.
 
-mod workplace;
-
+use crate::workplace;
 use actin_sim::Scene;
 use std::fs;
 use std::path::{Path, PathBuf};

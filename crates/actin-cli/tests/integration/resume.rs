@@ -2,8 +2,7 @@
 //! exit code and the bytes of the files.
 #![cfg(unix)]
 
-mod common;
-
+use crate::common;
 use common::{
     MOTION, PATH, Workplace, assert_same_files, code, contents, files, observed, signal, stderr,
 };

@@ -1,8 +1,7 @@
 //! A sweep as a workflow for Snakemake, killed half way and run again.
 #![cfg(unix)]
 
-mod workplace;
-
+use crate::workplace;
 use std::fs;
 use std::os::unix::process::CommandExt;
 use std::path::Path;

@@ -1,7 +1,6 @@
 //! The studies of the book: their scenes and sweeps run in short, and their scripts draw what they left.
 
-mod workplace;
-
+use crate::workplace;
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};

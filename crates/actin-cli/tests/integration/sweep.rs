@@ -1,7 +1,6 @@
 //! `actin sweep`: from a sweep and a scene to one table, however it is interrupted.
 
-mod workplace;
-
+use crate::workplace;
 use std::fs;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};

@@ -1,7 +1,6 @@
 //! Filaments along points of a file: beside the scene, in the working directory, and in a sweep.
 
-mod workplace;
-
+use crate::workplace;
 use std::fs::{self, File};
 use std::process::Command;
 use workplace::{Workplace, code, stderr, stdout};

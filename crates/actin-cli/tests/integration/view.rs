@@ -1,8 +1,7 @@
 //! `actin view`: its page in a browser, its films, and what it says of directories that are not whole.
 
-mod workplace;
-
-#[path = "../../actin-view/tests/chromium/mod.rs"]
+use crate::workplace;
+#[path = "../../../actin-view/tests/chromium/mod.rs"]
 mod chromium;
 
 use chromium::{Mode, browser, count, probed};

@@ -6,7 +6,7 @@
 //! folder is kept. A few cases of each kind are tried with the other tests; `cargo xtask trials` tries
 //! thousands.
 
-#[path = "../common/mod.rs"]
+#[path = "../integration/common/mod.rs"]
 mod common;
 mod kills;
 mod metamorphic;

@@ -1,7 +1,6 @@
 //! The gradient law: that it is one, what follows from invariance, and states known by hand.
 
-mod common;
-
+use crate::common;
 use actin_cosserat::{EnergyGradient, Rigidities, RodEnd, RodLayout, RodMaterial, StraightRod};
 use actin_mechanics::Xorshift;
 use actin_mechanics::testing::{

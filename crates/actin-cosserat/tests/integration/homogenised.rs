@@ -1,7 +1,6 @@
 //! Rods under one potential for all strains: gradients, uniform states, and what is refused.
 
-mod common;
-
+use crate::common;
 use actin_cosserat::{
     BendingElement, EndShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance, Rigidities,
     RodElements, RodError, RodKey, RodLayout, RodMaterial, SegmentCurvature, SegmentLaw,

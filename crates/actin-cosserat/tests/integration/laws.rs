@@ -1,7 +1,6 @@
 //! Rods with laws that are more than constants: they remain gradients, and what follows.
 
-mod common;
-
+use crate::common;
 use actin_cosserat::{
     BendLaw, BendingElement, CubicShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance,
     PolynomialStretch, Rigidities, RigidityFactors, RodLayout, RodMaterial, RootedStretch,

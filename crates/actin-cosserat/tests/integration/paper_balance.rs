@@ -1,7 +1,6 @@
 //! The printed law: that it is the gradient law at first order, and what it does not keep.
 
-mod common;
-
+use crate::common;
 use actin_cosserat::{EnergyGradient, PaperBalance, Rigidities, RodMaterial, StraightRod};
 use actin_mechanics::testing::{loads_of, resultant};
 use actin_mechanics::{Interaction, Loads, State, Vector3, rotation};

@@ -1,7 +1,6 @@
 //! The second derivatives of the gradient law: that they are such, and what follows at rest.
 
-mod common;
-
+use crate::common;
 use actin_cosserat::{EnergyGradient, RodLayout, StraightRod};
 use actin_mechanics::Xorshift;
 use actin_mechanics::testing::assert_is_stiffness;

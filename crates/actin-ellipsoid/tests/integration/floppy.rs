@@ -5,8 +5,7 @@
 //! relative rotations about the triangle's normal add up to zero. That leaves 5N - 7 of 6N.
 //! Both the differences of the loads and the second derivatives say so.
 
-mod common;
-
+use crate::common;
 use actin_mechanics::testing::{loads_of, stiffness_matrix};
 use actin_mechanics::{Interaction, State, Vector3, rotation};
 use common::{filament, models};

@@ -1,7 +1,6 @@
 //! Loads of bonds: gradient of the energy, balance, invariance, closed forms of one interface.
 
-mod common;
-
+use crate::common;
 use actin_ellipsoid::EllipsoidModel;
 use actin_mechanics::testing::{
     assert_is_balanced, assert_is_gradient, assert_is_invariant, derivative, loads_of,

@@ -1,7 +1,6 @@
 //! The built filament: at rest whatever the seed, the same monomers whatever is built.
 
-mod common;
-
+use crate::common;
 use actin_ellipsoid::{Anchors, EllipsoidModel, EllipsoidParameters, Placement};
 use actin_mechanics::testing::loads_of;
 use actin_mechanics::{Interaction, State, Vector3, rotation};

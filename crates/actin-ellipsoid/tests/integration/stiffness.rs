@@ -1,7 +1,6 @@
 //! Second derivatives of bonds: those of the energy, near rest and far from it.
 
-mod common;
-
+use crate::common;
 use actin_mechanics::testing::{assert_is_stiffness, loads_of, stiffness_matrix};
 use actin_mechanics::{State, Vector3};
 use actin_mechanics::{Xorshift, perturb};

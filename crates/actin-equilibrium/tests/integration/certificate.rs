@@ -1,7 +1,6 @@
 //! Certificates of stiffness that is exactly zero somewhere: what nothing acts on is neutral.
 
-mod common;
-
+use crate::common;
 use Coordinates::{Frame as F, Point as P};
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability};
 use actin_mechanics::{

@@ -1,7 +1,6 @@
 //! Cost grows linearly with the number of bodies.
 
-mod common;
-
+use crate::common;
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Residual};
 use actin_mechanics::{Interaction, PointLoad, State, Vector3};
 use common::{ACTIN, Rod, actin, in_order};

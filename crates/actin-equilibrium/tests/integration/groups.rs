@@ -1,7 +1,6 @@
 //! Bodies that move as one, and what is refused.
 
-mod common;
-
+use crate::common;
 use actin_equilibrium::{Group, Layout, LayoutError, Newton, NewtonOptions, Pivot, Stability};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, Slider, State, Vector3, rotation};
 use common::{Springs, actin, frame, in_order, point};

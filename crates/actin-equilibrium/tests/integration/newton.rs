@@ -1,7 +1,6 @@
 //! Newton's method: speed near the solution, the right solution, and what it does when it cannot.
 
-mod common;
-
+use crate::common;
 use actin_equilibrium::{
     Convergence, Iteration, Layout, Newton, NewtonOptions, Residual, SolveError, Stability, Verdict,
 };

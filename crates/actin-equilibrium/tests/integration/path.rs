@@ -1,7 +1,6 @@
 //! Paths of controls: prescribed turns, buckling, limit points, interruption.
 
-mod common;
-
+use crate::common;
 use actin_equilibrium::{
     Group, Jumps, Layout, Newton, NewtonOptions, Path, PathError, PathOptions, Saddles,
 };

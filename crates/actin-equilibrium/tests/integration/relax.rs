@@ -1,8 +1,7 @@
 //! An equilibrium in one call: that of a solver with default options, off saddles, or the reason
 //! why there is none.
 
-mod common;
-
+use crate::common;
 use actin_equilibrium::{
     Coordinates, EquilibriumError, Interaction, Loads, Matrix3, Newton, NewtonOptions, PointLoad,
     SecondOrder, SolveError, State, Stiffness, Vector3, relax,

@@ -1,7 +1,6 @@
 //! Certificates, lowest modes, and the way off a saddle.
 
-mod common;
-
+use crate::common;
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability, StepSize};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, State, Vector3};
 use actin_mechanics::{Xorshift, perturb};

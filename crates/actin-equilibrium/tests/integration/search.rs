@@ -1,7 +1,6 @@
 //! Several stable equilibria: that a search finds those that there are, and no others.
 
-mod common;
-
+use crate::common;
 use actin_equilibrium::{
     Equilibrium, Found, Iteration, Known, Newton, NewtonOptions, Search, SearchObserver, SolveError,
 };

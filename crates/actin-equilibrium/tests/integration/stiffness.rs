@@ -1,7 +1,6 @@
 //! The assembled stiffness is the second derivative of the energy in the unknowns.
 
-mod common;
-
+use crate::common;
 use actin_equilibrium::{Group, Layout, Pivot};
 use actin_mechanics::testing::assert_is_gradient;
 use actin_mechanics::{Interaction, PointLoad, Vector3};

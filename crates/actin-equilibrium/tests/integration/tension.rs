@@ -1,7 +1,6 @@
 //! Straight rods under tensions that no rod bears: linear, and where it gives way in shear.
 
-mod common;
-
+use crate::common;
 use actin_equilibrium::Convergence;
 use actin_mechanics::{Interaction, PointLoad, State, UnitQuaternion, Vector3};
 use common::{ACTIN, Rod};

@@ -1,8 +1,7 @@
 //! Stated uncertainties against what they mean: over repeats with fresh noise, the true value lies
 //! within 1 standard error in 68.3 % and within 1.96 in 95 % of them.
 
-mod common;
-
+use crate::common;
 use actin_fit::{
     Bounds, Data, LevenbergMarquardt, Model, Observations, Polynomial, Precision, Starts,
 };

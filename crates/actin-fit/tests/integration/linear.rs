@@ -1,7 +1,6 @@
 //! Linear least squares: exact recovery, normal equations, weights, rank and refusals.
 
-mod common;
-
+use crate::common;
 use actin_fit::{Data, FitError, Mat, Observations, Polynomial, fit_linear};
 use common::{Gauss, places};
 use proptest::prelude::*;

@@ -1,7 +1,6 @@
 //! Levenberg-Marquardt: recovery, bounds, what is not determined, several starts, refusals.
 
-mod common;
-
+use crate::common;
 use actin_fit::{
     Bounds, ClosureModel, Data, Fit, FitError, LevenbergMarquardt, Model, Observations, Options,
     Polynomial, Starts, Status, Termination, check_gradient,

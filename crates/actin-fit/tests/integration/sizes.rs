@@ -1,7 +1,6 @@
 //! Data, deviations and places of any size: right to a stated accuracy, or refused by name.
 
-mod common;
-
+use crate::common;
 use actin_fit::{
     Bounds, ClosureModel, Data, Fit, FitError, LevenbergMarquardt, Mat, Model, Observations,
     Polynomial, Starts, Status, fit_linear,

@@ -1,7 +1,6 @@
 //! Leaving a run and taking it up again: every bit and every count as if it had not been left.
 
-mod common;
-
+use crate::common;
 use actin_integrate::{
     Bath, Checkpoint, Composition, Drag, Moment, Observer, Pause, Run, RunOutcome, StopRule,
 };

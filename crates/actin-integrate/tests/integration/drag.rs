@@ -1,7 +1,6 @@
 //! Drag is exact, and leaves equilibria where they are.
 
-mod common;
-
+use crate::common;
 use actin_integrate::{
     Composition, Drag, PEFRL, POSITION_VERLET, Reason, Run, StopRule, VEFRL, advance,
 };

@@ -1,7 +1,6 @@
 //! More energy than there can be: where it is noticed, and what is named.
 
-mod common;
-
+use crate::common;
 use actin_integrate::{
     Body, Checkpoint, FailureKind, Moment, Observer, PEFRL, POSITION_VERLET, Pause, Run,
     RunFailure, RunSettingError, largest_frequency, stable_step,

@@ -1,7 +1,6 @@
 //! How soon a broken state is noticed, counted in evaluations of the loads.
 
-mod common;
-
+use crate::common;
 use actin_integrate::{
     Body, Checkpoint, DEFAULT_CHECK_EVERY, Moment, Observer, POSITION_VERLET, Run, RunFailure,
     VELOCITY_VERLET, largest_frequency,

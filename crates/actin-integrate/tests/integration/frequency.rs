@@ -1,7 +1,6 @@
 //! The largest frequency against spectra that are known in closed form.
 
-mod common;
-
+use crate::common;
 use actin_integrate::{
     Drag, FrequencyError, KRYLOV_VECTORS, POSITION_VERLET, advance, largest_frequency,
     largest_frequency_with, stable_step,

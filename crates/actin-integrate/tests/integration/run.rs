@@ -1,7 +1,6 @@
 //! The run loop: observers, stop rule, interruption, failure, continuation.
 
-mod common;
-
+use crate::common;
 use actin_integrate::{
     Body, Drag, FailureKind, Moment, Observer, PEFRL, POSITION_VERLET, Reason, Run,
     RunSettingError, StopRule, VEFRL, largest_frequency, stable_step,

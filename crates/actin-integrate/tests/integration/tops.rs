@@ -1,7 +1,6 @@
 //! Order, reversal, momenta and energy on free tops that spin about different axes.
 
-mod common;
-
+use crate::common;
 use actin_integrate::{
     Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, VEFRL, VELOCITY_VERLET,
     advance, largest_frequency, stable_step,

@@ -7,8 +7,6 @@
 //! # Source
 //! <https://www.itl.nist.gov/div898/strd/>
 
-#[path = "../common/mod.rs"]
-mod common;
 
 mod dual;
 mod linear;

@@ -1,6 +1,6 @@
 //! The nonlinear problems: their functions, and their data as NIST gives them.
 
-use crate::dual::{Dual, variables};
+use super::dual::{Dual, variables};
 use actin_fit::{Data, Model, Observations};
 use std::f64::consts::PI;
 

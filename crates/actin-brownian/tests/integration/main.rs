@@ -1,0 +1,9 @@
+//! Overdamped motion.
+
+mod chain;
+mod common;
+mod equilibrium;
+mod hydrodynamics;
+mod langevin;
+mod long_waves;
+mod motion;

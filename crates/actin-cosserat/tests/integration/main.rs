@@ -1,0 +1,9 @@
+//! Rods.
+
+mod cantilever;
+mod common;
+mod energy_gradient;
+mod homogenised;
+mod laws;
+mod paper_balance;
+mod stiffness;

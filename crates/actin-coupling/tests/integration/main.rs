@@ -1,0 +1,5 @@
+//! Junctions, linkers and contacts.
+
+mod junction;
+mod linker;
+mod repulsion;

@@ -1,0 +1,8 @@
+//! Least squares.
+
+mod common;
+mod coverage;
+mod linear;
+mod nist;
+mod nonlinear;
+mod sizes;

@@ -1,0 +1,12 @@
+//! Tests across crates: scenes against theory, other methods and their own files.
+
+mod checkpoints;
+mod dynamics;
+mod equilibria;
+mod follow;
+mod front_door;
+mod loads;
+mod resolution;
+mod statics;
+mod theory;
+mod waves;
