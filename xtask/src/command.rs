@@ -1,12 +1,12 @@
 //! Commands of cargo in this workspace.
 
 use anyhow::{Context, Result, bail};
-use std::io::{BufRead, BufReader};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, ExitCode};
 
 /// The folder of the workspace's manifest.
-pub(crate) fn workspace_root() -> PathBuf {
+fn workspace_root() -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
     folder.expect("xtask lies one folder below").to_path_buf()
 }
@@ -18,34 +18,37 @@ pub(crate) fn cargo(arguments: &[&str]) -> Command {
     command
 }
 
-/// Executes a command. Its lines go through this program's standard output, so that it does not fail
-/// where its reader has gone.
+/// Executes a command.
 ///
 /// # Errors
 /// If it does not start or does not succeed.
 pub(crate) fn execute(command: &mut Command) -> Result<()> {
-    let mut child = command
-        .stdout(Stdio::piped())
-        .spawn()
+    let status = command
+        .status()
         .with_context(|| format!("{} did not start", command.get_program().display()))?;
-    let output = child.stdout.take().expect("it is piped");
-    for line in BufReader::new(output).split(b'\n') {
-        println!("{}", String::from_utf8_lossy(&line?));
-    }
-    if child.wait()?.success() {
+    if status.success() {
         return Ok(());
     }
     bail!("{command:?} failed")
 }
 
-/// Executes this task again in a program that is compiled as a user's is, if this one is not.
-///
-/// # Errors
-/// If it fails there.
-pub(crate) fn optimised(task: impl FnOnce() -> Result<()>) -> Result<()> {
-    if !cfg!(debug_assertions) {
-        return task();
+/// Runs a study of `actin-studies` in the release profile; its exit code.
+pub(crate) fn study(arguments: &[OsString]) -> ExitCode {
+    let mut command = cargo(&[
+        "run",
+        "--quiet",
+        "--release",
+        "--package",
+        "actin-studies",
+        "--",
+    ]);
+    match command.args(arguments).status() {
+        Ok(status) => status.code().map_or(ExitCode::FAILURE, |code| {
+            ExitCode::from(u8::try_from(code).unwrap_or(1))
+        }),
+        Err(error) => {
+            eprintln!("error: cargo did not start: {error}");
+            ExitCode::FAILURE
+        }
     }
-    let mut command = cargo(&["run", "--quiet", "--release", "--package", "xtask", "--"]);
-    execute(command.args(std::env::args_os().skip(1)))
 }

@@ -42,7 +42,7 @@ use std::path::{Path, PathBuf};
 pub type Tell<'a> = &'a (dyn Fn(fmt::Arguments<'_>) + Sync);
 
 /// The folder of the workspace that this crate was built in.
-fn workspace_root() -> PathBuf {
+pub fn workspace_root() -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     folder
         .ancestors()

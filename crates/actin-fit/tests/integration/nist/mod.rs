@@ -7,7 +7,6 @@
 //! # Source
 //! <https://www.itl.nist.gov/div898/strd/>
 
-
 mod dual;
 mod linear;
 mod nonlinear;

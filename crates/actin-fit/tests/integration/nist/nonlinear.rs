@@ -1,7 +1,7 @@
 //! All nonlinear problems, each from the far and from the near start that NIST gives.
 
-use crate::common::{digits, errors, least_digits};
 use super::problems::{Problem, all};
+use crate::common::{digits, errors, least_digits};
 use actin_fit::{Bounds, Fit, LevenbergMarquardt, Starts};
 
 /// Linearisations and evaluations from the far and from the near start, as measured.

@@ -2,7 +2,6 @@
 
 mod peers;
 
-use crate::command::optimised;
 use actin_paper::bench;
 use anyhow::{Error, Result};
 
@@ -24,12 +23,10 @@ pub(crate) struct Options {
 pub(crate) fn run(options: Options) -> Result<()> {
     let Options { cases, json, peers } = options;
     let options = bench::Options { cases, json };
-    optimised(|| {
-        let ours = bench::run(&options, &|line| println!("{line}")).map_err(Error::msg)?;
-        if peers {
-            println!("");
-            peers::compare(&ours, &|line| println!("{line}"));
-        }
-        Ok(())
-    })
+    let ours = bench::run(&options, &|line| println!("{line}")).map_err(Error::msg)?;
+    if peers {
+        println!("");
+        peers::compare(&ours, &|line| println!("{line}"));
+    }
+    Ok(())
 }

@@ -3,9 +3,9 @@
 //! What each runs is in `docs/peers`. A peer that is not installed is left out, and it is said how to
 //! install it.
 
-use crate::command::workspace_root;
 use actin_paper::Tell;
 use actin_paper::bench::Entry;
+use actin_paper::workspace_root;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

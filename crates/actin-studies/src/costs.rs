@@ -1,6 +1,5 @@
 //! `cargo xtask costs`: what scenes cost beside what `actin check` estimates, in a release build.
 
-use crate::command::optimised;
 use actin_paper::costs;
 use anyhow::{Error, Result};
 
@@ -29,5 +28,5 @@ pub(crate) fn run(options: Options) -> Result<()> {
         largest,
         quick,
     };
-    optimised(|| costs::run(&options, &|line| println!("{line}")).map_err(Error::msg))
+    costs::run(&options, &|line| println!("{line}")).map_err(Error::msg)
 }

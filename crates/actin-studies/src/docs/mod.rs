@@ -6,9 +6,9 @@ mod scenes;
 mod tables;
 mod words;
 
-use crate::command::workspace_root;
 use actin_draw::report;
 use actin_paper::committed::{REFERENCE, by_name};
+use actin_paper::workspace_root;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -4,6 +4,9 @@ use super::files;
 use clap::CommandFactory;
 use std::path::Path;
 
+/// Commands of `xtask` itself.
+const TASKS: [&str; 2] = ["check", "trials"];
+
 /// Where test programs lie: `tests/NAME/main.rs` or `tests/NAME.rs`, from the root and in each crate.
 const KINDS: [(&str, &str); 3] = [
     ("--test", "tests"),
@@ -14,10 +17,8 @@ const KINDS: [(&str, &str); 3] = [
 /// Commands with a task, a test program or an example that does not exist.
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let arguments = crate::Arguments::command();
-    let tasks: Vec<&str> = arguments
-        .get_subcommands()
-        .map(clap::Command::get_name)
-        .collect();
+    let studies = arguments.get_subcommands().map(clap::Command::get_name);
+    let tasks: Vec<&str> = studies.chain(TASKS).collect();
     let mut all = Vec::new();
     for (file, text) in files(root, "md")? {
         let name = file.strip_prefix(root).unwrap_or(&file).display();

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// A file that cannot be read.
-pub(crate) fn findings(root: &Path) -> Result<Vec<String>, String> {
+fn findings(root: &Path) -> Result<Vec<String>, String> {
     let sources = files(root, "rs")?;
     let mut all = dependencies::findings(root)?;
     all.extend(paths::findings(root)?);
@@ -64,7 +64,7 @@ mod tests {
     /// The workspace keeps its own rules.
     #[test]
     fn the_workspace_is_tidy() {
-        let root = crate::command::workspace_root();
+        let root = actin_paper::workspace_root();
         let findings = super::findings(&root).expect("the workspace can be read");
         assert!(findings.is_empty(), "{}", findings.join("\n"));
     }

@@ -6,7 +6,7 @@ use std::process::{Command, Output, Stdio};
 
 /// Runs a task; its reader has gone before it starts, or takes all.
 fn task(arguments: &[&str], out: Option<&Path>, has_reader: bool) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_actin-studies"));
     command.args(arguments).args(out.map(Path::as_os_str));
     command.stderr(Stdio::piped());
     if has_reader {

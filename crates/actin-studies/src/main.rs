@@ -1,0 +1,76 @@
+//! Studies behind the documents: `cargo xtask <study>` runs this program in the release profile. A closed pipe on
+//! standard output does not end it.
+
+#[macro_use]
+#[path = "../../actin-cli/src/streams.rs"]
+mod streams;
+
+mod bench;
+mod bonds;
+mod costs;
+mod docs;
+mod extremes;
+mod figures;
+mod fit;
+mod homogenise;
+mod load_cases;
+#[cfg(test)]
+mod tidy;
+mod tradeoff;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Studies behind the documents.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Debug, Subcommand)]
+enum Task {
+    /// Measures rates of fixed cases beside their targets.
+    Bench(bench::Options),
+    /// Measures what scenes cost beside their estimates, and how that grows with their size.
+    Costs(costs::Options),
+    /// Compares drawn and weighted bonds, and the shortest bond, on the paper's tables and figures.
+    Bonds(bonds::Options),
+    /// Takes every number of a scene to its limits and lists the outcomes.
+    Extremes(extremes::Options),
+    /// Fits a rod's laws to tables or to filaments of monomers.
+    FitParameters(fit::Options),
+    /// Measures what monomers store per length under all strains, on a grid.
+    Homogenise(homogenise::Options),
+    /// Measures how far rods under a law are from filaments of monomers, load case by load case.
+    LoadCases(load_cases::Options),
+    /// Computes figures and tables of the paper and compares them with it.
+    ReproduceFigures(figures::Options),
+    /// Checks or writes the generated pages of the book: keys of scenes, tables of results.
+    Docs(docs::Options),
+    /// Measures what each saving of time costs in accuracy, scene by scene.
+    Tradeoff(tradeoff::Options),
+}
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().task {
+        Task::Bench(options) => bench::run(options),
+        Task::Bonds(options) => bonds::run(options),
+        Task::Costs(options) => costs::run(options),
+        Task::Extremes(options) => extremes::run(options),
+        Task::FitParameters(options) => fit::run(options),
+        Task::Homogenise(options) => homogenise::run(options),
+        Task::LoadCases(options) => load_cases::run(options),
+        Task::ReproduceFigures(options) => figures::run(options),
+        Task::Docs(options) => docs::run(&options).map_err(anyhow::Error::msg),
+        Task::Tradeoff(options) => tradeoff::run(options),
+    };
+    match outcome.and_then(|()| streams::ending().map_err(anyhow::Error::msg)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
