@@ -14,7 +14,6 @@ mod figures;
 mod fit;
 mod homogenise;
 mod load_cases;
-#[cfg(test)]
 mod tidy;
 mod tradeoff;
 

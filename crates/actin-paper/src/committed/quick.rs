@@ -14,14 +14,47 @@ const REWRITES: &str = "cargo xtask reproduce-figures --quick --write";
 const REWRITES_FULL: &str = "cargo xtask reproduce-figures && cargo xtask docs \
     target/figures/report.json --write";
 
-/// Rows agree within this share: another processor rounds otherwise, which moves numbers by up to 2e-8
-/// (measured with another library of elementary functions; the last digits of a residual of 1e-7 pN).
+/// Rows agree within this share: a residual of 1e-7 pN, the stop rule of all equilibria, determines tips, energies and
+/// couples to 2e-8. With AVX2 instead of AVX-512 in all libraries no other row moves by more than 1e-7.
 const AGREES: f64 = 1e-6;
 /// Fitted parameters agree within this share of their standard error: such a step changes the sum of squares by
 /// 1e-6 of its variance, so the fitted curve is the same.
 const AGREES_IN_STANDARD_ERRORS: f64 = 1e-3;
-/// The same of Figures 5 and 6, whose filaments hang in linkers and have soft directions: there 2e-5.
-const AGREES_IF_FREE: f64 = 1e-4;
+
+/// Rows that rounding moves further: artefact, part of the quantity, the share within which they agree (`None`: they
+/// are not compared), and the reason. Filaments of monomers have a zero-stiffness mode per monomer at rest, so that
+/// several states lie close together and rounding selects one of them.
+///
+/// The shares are 5 to 10 times the differences between AVX-512 and scalar code, which differ in every sum.
+const SENSITIVE: [(&str, &str, Option<f64>, &str); 16] = [
+    ("fig10", "over/270", None, SEVERAL),
+    ("fig10", "over/360", None, SEVERAL),
+    (
+        "fig10",
+        "order_difference",
+        None,
+        "difference of two states",
+    ),
+    ("fig10", "under/180", None, UNDER_TWISTED),
+    ("fig8", "under/180", None, UNDER_TWISTED),
+    ("fig8", "over/180", Some(0.03), BUCKLED),
+    ("fig4", "full", Some(2e-4), ZERO_STIFFNESS),
+    ("fig5", "", Some(1e-3), ZERO_STIFFNESS),
+    ("fig6", "", Some(1e-3), ZERO_STIFFNESS),
+    ("law", "Figure-", Some(1e-3), ZERO_STIFFNESS),
+    ("law", "S3-at--", None, COMPRESSED),
+    ("table4", "s3/by-force/-", None, COMPRESSED),
+    ("table4", "s3/by-shift/-", None, COMPRESSED),
+    ("table4", "s1", Some(1e-3), ZERO_STIFFNESS),
+    ("table4", "b1/couples", Some(1e-3), ZERO_STIFFNESS),
+    ("table4", "at-rest", Some(1e-3), ZERO_STIFFNESS),
+];
+const SEVERAL: &str = "several equilibria beyond half a turn of over-twist";
+const UNDER_TWISTED: &str =
+    "monomers that are under-twisted and bent have several states at one strain";
+const BUCKLED: &str = "spread of buckled states that differ by 3e-4";
+const ZERO_STIFFNESS: &str = "monomers under small loads";
+const COMPRESSED: &str = "compressed monomers buckle at once, into one of several states";
 
 /// Smallest difference that counts, by unit: what a residual of 1e-7 pN leaves of a zero.
 fn floor(unit: &str) -> f64 {
@@ -31,13 +64,15 @@ fn floor(unit: &str) -> f64 {
     }
 }
 
-/// Whether rounding decides a number: beyond half a turn over-twisted filaments have several equilibria, and
-/// one of two of them is met with another library of elementary functions.
-fn is_decided_by_rounding(row: &Row) -> bool {
-    row.artefact == "fig10"
-        && ["over/270", "over/360"]
-            .iter()
-            .any(|turn| row.quantity.contains(turn))
+/// The share within which a row agrees on every machine; `None` if rounding selects the state.
+fn agreement(row: &Row) -> Option<f64> {
+    // Without monomers a state is unique, except beyond half a turn.
+    let is_rod = row.quantity.ends_with("/rod");
+    let listed = SENSITIVE.iter().find(|(artefact, part, _, reason)| {
+        let is_exempt = is_rod && *reason != SEVERAL;
+        *artefact == row.artefact && row.quantity.contains(part) && !is_exempt
+    });
+    listed.map_or(Some(AGREES), |(_, _, share, _)| *share)
 }
 
 /// Whether a full run computes the number from the same scene and settings: parameters, fits of the paper's
@@ -55,7 +90,7 @@ fn is_in_full(row: &Row) -> bool {
         }
         "table4" => is_mean || quantity.starts_with("printed/") || quantity.starts_with("s_p"),
         "fig5" | "fig6" => quantity.starts_with("energy/"),
-        "fig7" | "fig8" | "fig10" => is_rod && !is_decided_by_rounding(row),
+        "fig7" | "fig8" | "fig10" => is_rod && agreement(row).is_some(),
         _ => false,
     }
 }
@@ -111,7 +146,7 @@ pub(crate) fn stale(rows: &[Row]) -> Result<Vec<String>, String> {
 fn against_quick(rows: &[Row], quick: &Report) -> Vec<String> {
     let ours = by_name(rows.to_vec());
     let artefacts: BTreeSet<&str> = rows.iter().map(|row| row.artefact).collect();
-    let compared = ours.iter().filter(|(_, row)| !is_decided_by_rounding(row));
+    let compared = ours.iter().filter(|(_, row)| agreement(row).is_some());
     let changed = compared.filter_map(|(name, row)| {
         match quick.get(name) {
             None => Some(format!("is not in {COMMITTED}")),
@@ -140,9 +175,7 @@ fn against_full(rows: &[Row], full: &Report) -> Vec<String> {
 
 /// Number, expected number or verdict that differs, with both values.
 fn difference(row: &Row, old: &Row, file: &str) -> Option<String> {
-    let is_free = ["fig5", "fig6"].contains(&row.artefact)
-        || (row.artefact == "law" && row.quantity.starts_with("Figure-"));
-    let share = if is_free { AGREES_IF_FREE } else { AGREES };
+    let share = agreement(row)?;
     let flat = AGREES_IN_STANDARD_ERRORS * old.standard_error.unwrap_or(0.0);
     let floor = floor(row.unit).max(flat);
     let differs = |a: f64, b: f64| (a - b).abs() > f64::max(share * a.abs().max(b.abs()), floor);
@@ -214,8 +247,11 @@ mod tests {
         };
         assert_eq!(told("fig8", "order_difference", 1e-10, 3e-10), 0);
         assert_eq!(told("fig8", "height", 10.0, 10.0002), 1);
-        assert_eq!(told("fig6", "node_spread", 10.0, 10.0002), 0);
+        assert_eq!(told("fig6", "node_spread", 10.0, 10.002), 0);
         assert_eq!(told("fig10", "height/over/270/rod-40", 28.8, 29.2), 0);
+        assert_eq!(told("fig10", "height/over/270/rod", 28.8, 29.2), 0);
+        assert_eq!(told("fig8", "height/under/180/rod-40", 28.8, 29.2), 0);
+        assert_eq!(told("fig8", "height/under/180/rod", 28.8, 29.2), 1);
         assert_eq!(told("fig10", "height/under/270/rod-40", 28.8, 29.2), 1);
     }
 

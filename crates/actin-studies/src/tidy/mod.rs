@@ -1,37 +1,20 @@
 //! What neither compiler nor lints check: the invariants of `docs/architecture.md`.
 
+#[cfg(test)]
 mod book;
+#[cfg(test)]
 mod commands;
+#[cfg(test)]
 mod dependencies;
+#[cfg(test)]
 mod paths;
+#[cfg(test)]
 mod sizes;
+#[cfg(test)]
 mod words;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// Everything that is not tidy, one line each.
-///
-/// # Errors
-/// A file that cannot be read.
-fn findings(root: &Path) -> Result<Vec<String>, String> {
-    let sources = files(root, "rs")?;
-    let mut all = dependencies::findings(root)?;
-    all.extend(paths::findings(root)?);
-    all.extend(book::findings(root)?);
-    all.extend(commands::findings(root)?);
-    all.extend(crate::docs::findings(root)?);
-    for (path, text) in &sources {
-        let name = path
-            .strip_prefix(root)
-            .unwrap_or(path)
-            .display()
-            .to_string();
-        all.extend(sizes::findings(&name, text));
-        all.extend(words::findings(&name, text));
-    }
-    Ok(all)
-}
 
 /// All files below `root` with this extension and their texts, build output left out.
 pub(crate) fn files(root: &Path, extension: &str) -> Result<Vec<(PathBuf, String)>, String> {
@@ -61,11 +44,36 @@ fn read(path: &Path) -> Result<String, String> {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
+
+    /// Everything that is not tidy, one line each.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    fn findings(root: &Path) -> Result<Vec<String>, String> {
+        let sources = files(root, "rs")?;
+        let mut all = dependencies::findings(root)?;
+        all.extend(paths::findings(root)?);
+        all.extend(book::findings(root)?);
+        all.extend(commands::findings(root)?);
+        all.extend(crate::docs::findings(root)?);
+        for (path, text) in &sources {
+            let name = path
+                .strip_prefix(root)
+                .unwrap_or(path)
+                .display()
+                .to_string();
+            all.extend(sizes::findings(&name, text));
+            all.extend(words::findings(&name, text));
+        }
+        Ok(all)
+    }
+
     /// The workspace keeps its own rules.
     #[test]
     fn the_workspace_is_tidy() {
         let root = actin_paper::workspace_root();
-        let findings = super::findings(&root).expect("the workspace can be read");
+        let findings = findings(&root).expect("the workspace can be read");
         assert!(findings.is_empty(), "{}", findings.join("\n"));
     }
 }
