@@ -281,10 +281,9 @@ impl<'a> Walk<'a> {
     fn rate(&mut self, state: &State, set: Set<'_>) -> Option<Vec<f64>> {
         if let Some((previous, before)) = &self.at.previous {
             let from = state.in_motion(previous.clone());
-            let mut rate = self.newton.layout().difference(&from, state);
-            let per = 1.0 / (self.at.parameter - before);
-            rate.iter_mut().for_each(|rate| *rate *= per);
-            return Some(rate);
+            let way = self.newton.layout().difference(&from, state);
+            let stretch = self.at.parameter - before;
+            return Some(way.into_iter().map(|way| way / stretch).collect());
         }
         let solver = &mut self.newton.solver;
         solver.prepare(state, self.interactions).ok()?;
