@@ -52,7 +52,7 @@ fn tip(force: f64, n: usize) -> [f64; 3] {
         joints.push(RodJoint::curved([own - 1, own], arc * share, curvature));
     }
     let control = state.add_control(1.0);
-    let load = PointLoad::new(&state, vec![(n, 1.0)], Vector3::y() * force, control);
+    let load = PointLoad::new(&state, vec![(n, 1.0)], Vector3::y() * force, control).unwrap();
     let material = material([SHEAR, SHEAR, STRETCH], [BEND; 3]);
     let rod = RodElements::new(material, segments, joints).unwrap();
     let terms: Vec<Box<dyn Interaction>> = vec![Box::new(rod), Box::new(load)];

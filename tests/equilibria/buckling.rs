@@ -93,7 +93,7 @@ fn pinned_column() {
     let values = MESHES.map(|n| {
         let (state, parts, order) = column(n, false);
         let control = state.controls.ids().next().unwrap();
-        let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), control);
+        let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), control).unwrap();
         let slider = Group::sliding(vec![n], vec![], Vector3::z());
         let layout = Layout::new(&state, Some(&order), vec![slider]).unwrap();
         let mut newton = Newton::new(layout, to(1e-9)).unwrap();
@@ -116,7 +116,7 @@ fn clamped_column() {
         let joint = RodJoint::straight([n - 1, held], distance);
         parts.joints.push(joint);
         let control = state.controls.ids().next().unwrap();
-        let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), control);
+        let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), control).unwrap();
         let slider = Group::sliding(vec![n], vec![held], Vector3::z());
         let layout = Layout::new(&state, Some(&order), vec![slider]).unwrap();
         let mut newton = Newton::new(layout, to(1e-9)).unwrap();
@@ -136,7 +136,7 @@ fn greenhills_column() {
         let weight = |k: usize| if k == n { 0.5 } else { 1.0 } / n as f64;
         let shares = (1..=n).map(|k| (k, weight(k))).collect();
         let control = state.controls.ids().next().unwrap();
-        let load = PointLoad::new(&state, shares, -Vector3::z(), control);
+        let load = PointLoad::new(&state, shares, -Vector3::z(), control).unwrap();
         let layout = Layout::new(&state, Some(&order), vec![]).unwrap();
         let mut newton = Newton::new(layout, to(1e-9)).unwrap();
         let terms: Vec<Box<dyn Interaction>> = vec![Box::new(parts.rod()), Box::new(load)];

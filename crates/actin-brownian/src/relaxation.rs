@@ -5,8 +5,14 @@ use actin_equilibrium::{ImplicitSolver, Layout, SolveError};
 use actin_mechanics::{Loads, System, Xorshift};
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Iterations of the subspace: each gains at least the ratio of rates inside to those outside it.
+/// Most iterations of the subspace: each gains at least the ratio of rates inside to those outside it.
 const ITERATIONS: usize = 60;
+
+/// Relative change of all rates in an iteration below which the iteration has converged.
+const CONVERGED: f64 = 1e-8;
+
+/// Change of a rate over the highest of those that are asked for, below which it is zero to round-off.
+const ZERO: f64 = 1e-12;
 
 /// Vectors of the subspace beyond those that are asked for.
 const BEYOND: usize = 8;
@@ -67,7 +73,7 @@ fn lowest(stiffness: &mut ImplicitSolver, fluid: &ImplicitSolver, count: usize) 
     let mut vectors: Vec<Vec<f64>> = (0..size)
         .map(|_| (0..n).map(|_| noise.sample()).collect())
         .collect();
-    let mut rates = Vec::new();
+    let mut rates: Vec<f64> = Vec::new();
     for _ in 0..ITERATIONS {
         for v in &mut vectors {
             *v = fluid.times(v);
@@ -86,11 +92,21 @@ fn lowest(stiffness: &mut ImplicitSolver, fluid: &ImplicitSolver, count: usize) 
             sum
         });
         vectors = combined.collect();
+        let before = rates;
         rates = eigen.eigenvalues.iter().map(|rate| rate - SHIFT).collect();
+        rates.sort_by(f64::total_cmp);
+        rates.truncate(count);
+        if has_converged(&before, &rates) {
+            break;
+        }
     }
-    rates.sort_by(f64::total_cmp);
-    rates.truncate(count);
     rates
+}
+
+fn has_converged(before: &[f64], now: &[f64]) -> bool {
+    let zero = ZERO * now.last().map_or(0.0, |rate| rate.abs());
+    let is_settled = |(a, b): (&f64, &f64)| (a - b).abs() <= zero.max(CONVERGED * b.abs());
+    before.len() == now.len() && before.iter().zip(now).all(is_settled)
 }
 
 /// Makes vectors orthonormal in the metric of the friction, twice, so that round-off does not spoil it.

@@ -5,7 +5,6 @@
 
 use actin_sim::{SceneError, SceneText};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use std::io::{IsTerminal, stderr};
 
 /// Columns of a line that are shown.
 const WIDTH: usize = 120;
@@ -24,11 +23,6 @@ pub(crate) fn of(text: &SceneText, mistake: &SceneError) -> String {
     let line = AnnotationKind::Primary.span(span).label(meant);
     let snippet = Snippet::source(text.written()).annotation(line);
     let group = Group::with_level(Level::ERROR).element(snippet);
-    let renderer = if stderr().is_terminal() {
-        Renderer::styled()
-    } else {
-        Renderer::plain()
-    };
-    let shown = renderer.term_width(WIDTH).render(&[group]);
+    let shown = Renderer::plain().term_width(WIDTH).render(&[group]);
     format!("\n{shown}")
 }

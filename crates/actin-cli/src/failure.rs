@@ -142,10 +142,18 @@ fn all(name: &str, text: &SceneText, first: SceneError) -> Failure {
     listed(name, text, &mistakes)
 }
 
+/// Most mistakes that are listed.
+const LISTED: usize = 20;
+
 /// Mistakes of a file of this name, each with its line underlined.
 pub(crate) fn listed(name: &str, text: &SceneText, mistakes: &[SceneError]) -> Failure {
-    let told = mistakes.iter().map(|mistake| shown(name, text, mistake));
-    Failure::Input(told.collect::<Vec<_>>().join("\nerror: "))
+    let told = mistakes.iter().take(LISTED);
+    let told = told.map(|mistake| shown(name, text, mistake));
+    let mut told = told.collect::<Vec<_>>().join("\nerror: ");
+    if mistakes.len() >= LISTED {
+        told += &format!("\nerror: {name} may have more mistakes: these are the first {LISTED}");
+    }
+    Failure::Input(told)
 }
 
 /// A mistake with its place and the line that is to blame.

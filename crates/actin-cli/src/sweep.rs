@@ -14,11 +14,15 @@ use std::time::Duration;
 pub(crate) const EXIT_CODES: &str = "Exit codes:
     0  done; runs that failed are rows of runs.csv, with the reason
     2  bad input: sweep, scene, arguments or directory
+    3  every run failed; runs.csv has the reasons
    74  results could not be written; once the cause is removed, --resume goes on
   130  interrupted: runs that have ended stay, the others have checkpoints; --resume continues";
 
 /// Points that `--check` shows of one key, and refusals that it shows.
 const SHOWN: usize = 8;
+
+/// Points that `--check` builds at most.
+const BUILT: usize = 1000;
 
 #[derive(Debug, Args)]
 pub(crate) struct SweepArguments {
@@ -94,7 +98,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let resume = arguments.resume || arguments.only.is_some() || arguments.emit.is_some();
     let directory = SweepDirectory::create(&out, &opened, resume)?;
     if let Some(Engine::Snakemake) = arguments.emit {
-        directory.write_snakemake(&opened, &opened.price())?;
+        directory.write_snakemake(&opened, &opened.price(usize::MAX))?;
         println!(
             "a workflow of {} runs is in {out}; to run it: cd {out} && snakemake --cores all",
             opened.design.len(),
@@ -144,12 +148,21 @@ fn finish(arguments: &SweepArguments, out: &Path, ended: Ended) -> Result<(), Fa
     let (out, sweep) = (out.display(), arguments.sweep.display());
     if ended.is_interrupted() {
         let (done, of) = (ended.ended, ended.of);
+        let table = match arguments.only {
+            None => " and are in runs.csv and table.csv",
+            Some(_) => "",
+        };
         return Err(Failure::Interrupted(format!(
-            "{done} of {of} runs have ended, the others that had begun have checkpoints; to continue: \
+            "{done} of {of} runs have ended{table}, the others that had begun have checkpoints; to continue: \
              actin sweep {sweep} --out {out} --resume"
         )));
     }
     let (runs, failed) = (ended.of, ended.failed);
+    if failed == runs && arguments.only.is_none() {
+        return Err(Failure::Numerical(format!(
+            "all {runs} run(s) failed: {out}/runs.csv says why"
+        )));
+    }
     let failures = match failed {
         0 => "none failed".to_owned(),
         failed => format!("{failed} failed, runs.csv says why"),
@@ -185,7 +198,7 @@ fn check(opened: &Opened) {
     if let (Some(first), Some(last)) = (design.seeds.first(), design.seeds.last()) {
         println!("  seeds {first} to {last}");
     }
-    let priced = opened.price();
+    let priced = opened.price(BUILT);
     let refused = priced.refused.len();
     println!(
         "an estimated {:.2} s on one core of the reference machine, the longest run {:.2} s; {:.0} MB for each",
@@ -193,8 +206,17 @@ fn check(opened: &Opened) {
         priced.longest_s,
         (priced.bytes / 1e6).ceil()
     );
+    let of_points = if priced.points < design.points.len() {
+        println!(
+            "  extrapolated from {} points, drawn at random",
+            priced.points
+        );
+        format!(" of these {}", priced.points)
+    } else {
+        String::new()
+    };
     if refused > 0 {
-        println!("{refused} point(s) will fail:");
+        println!("{refused} point(s){of_points} will fail:");
     }
     for (point, why) in priced.refused.iter().take(SHOWN) {
         println!("  point {point}: {why}");

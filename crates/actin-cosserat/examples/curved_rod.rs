@@ -14,11 +14,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // At rest: curved about body axis d2 with a radius of 100 nm; a third component would twist it.
     let radius = 100.0;
-    rod.bend(&mut state, |_s| Vector3::y() / radius);
+    rod.bend(&mut state, |_s| Vector3::y() / radius)?;
     let law = RodElements::at_rest(&state, &rod, RodMaterial::new(rigidities)?)?;
 
     // At the start: straight.
-    rod.bend(&mut state, |_s| Vector3::zeros());
+    rod.bend(&mut state, |_s| Vector3::zeros())?;
     let energy = law.energy(&state);
     let theory = rigidities.bend.y * rod.length() / (2.0 * radius * radius);
     println!("energy: {energy:.1} pN nm; B L / 2 R^2 = {theory:.1} pN nm");

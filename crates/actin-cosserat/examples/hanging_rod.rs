@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // In a centrifuge, at two million times the acceleration of gravity (nm/ns^2).
     let acceleration = 0.02;
-    let weight = Weight::new(&mut state, Vector3::z() * -acceleration);
+    let weight = Weight::new(&mut state, Vector3::z() * -acceleration)?;
     relax(&mut state, &[Box::new(law), Box::new(weight)])?;
 
     let tip = state.points.position.get(rod.end_point(RodEnd::End));

@@ -106,7 +106,8 @@ impl StraightRod {
     /// [`free_walls`](Self::free_walls), share it.
     ///
     /// # Errors
-    /// No segment, or one whose length is not positive and finite; the state is then unchanged.
+    /// No segment, one whose length or inertia (or the inverse of either) is not positive and finite, a node or
+    /// an orientation that is not finite; the state is then unchanged.
     pub fn push(&self, state: &mut State) -> Result<RodLayout, RodError> {
         let layouts = self.push_in_parts(&[self.segment_lengths.len()], state)?;
         layouts.into_iter().next().ok_or(RodError::NoSegments)
@@ -121,8 +122,8 @@ impl StraightRod {
     /// lacks it.
     ///
     /// # Errors
-    /// A part without segments, numbers that do not add up to all segments, a length that is not positive
-    /// and finite; the state is then unchanged.
+    /// A part without segments, numbers that do not add up to all segments, and as [`push`](Self::push); the
+    /// state is then unchanged.
     pub fn push_in_parts(
         &self,
         parts: &[usize],
@@ -130,11 +131,15 @@ impl StraightRod {
     ) -> Result<Vec<RodLayout>, RodError> {
         let lengths = &self.segment_lengths;
         check_lengths(lengths)?;
+        self.check_frames()?;
+        let nodes = self.nodes()?;
         if parts.contains(&0) || parts.iter().sum::<usize>() != lengths.len() {
             return Err(RodError::NoSegments);
         }
         let first_point = state.points.len();
-        self.push_nodes(state);
+        for node in nodes {
+            state.points.push(node);
+        }
         let has_wall = Walls {
             start: self.walls.start || self.free_walls.start,
             end: self.walls.end || self.free_walls.end,
@@ -190,19 +195,48 @@ impl StraightRod {
         }
     }
 
-    fn push_nodes(&self, state: &mut State) {
+    /// The nodes, each valid.
+    fn nodes(&self) -> Result<Vec<Point>, RodError> {
         let lengths = &self.segment_lengths;
         let axis = self.orientation * Vector3::z();
         let mut s = 0.0;
-        for node in 0..=lengths.len() {
+        let node = |node| {
             let before = if node == 0 { 0.0 } else { lengths[node - 1] };
             let after = lengths.get(node).copied().unwrap_or(0.0);
             s += before;
-            state.points.push(Point {
+            let point = Point {
                 position: self.start + axis * s,
                 mass: self.cross_section.mass(0.5 * (before + after)),
-            });
+            };
+            let is_placed = point.position.iter().all(|x| x.is_finite());
+            match (is_placed, point.is_valid()) {
+                (false, _) => Err(RodError::Place { node }),
+                (true, false) => Err(self.inertia_refused(node.min(lengths.len() - 1))),
+                (true, true) => Ok(point),
+            }
+        };
+        (0..=lengths.len()).map(node).collect()
+    }
+
+    /// Refuses segments whose frames are not valid: the smallest piece that has a frame of its own is a
+    /// quarter of a segment, at a free wall.
+    fn check_frames(&self) -> Result<(), RodError> {
+        let is_refused = |&length: &f64| {
+            let pieces = [0.25 * length, length];
+            !pieces
+                .iter()
+                .all(|&piece| self.frame(piece, length).is_valid())
+        };
+        let refused = self.segment_lengths.iter().position(is_refused);
+        if self.orientation.coords.iter().any(|q| !q.is_finite()) {
+            return Err(RodError::Place { node: 0 });
         }
+        refused.map_or(Ok(()), |segment| Err(self.inertia_refused(segment)))
+    }
+
+    fn inertia_refused(&self, segment: usize) -> RodError {
+        let value = self.segment_lengths[segment];
+        RodError::SegmentInertia { segment, value }
     }
 
     /// Whether the end segment shares its inertia with a free wall frame.
@@ -340,11 +374,32 @@ mod tests {
         }
     }
 
+    /// Lengths from the smallest to the largest double, a start and an orientation that are not finite: errors,
+    /// never a panic or a body that cannot move.
     #[test]
     fn a_refused_rod_leaves_the_state_alone() {
         let mut state = State::default();
-        assert!(StraightRod::uniform(0, 1.0).push(&mut state).is_err());
-        assert!(StraightRod::uniform(2, 0.0).push(&mut state).is_err());
+        let lengths = [0.0, f64::NAN, f64::MAX, 1e308, 1e-308, 5e-324];
+        let rods = lengths.map(|length| StraightRod::uniform(2, length));
+        let nowhere = StraightRod {
+            start: Vector3::y() * f64::NAN,
+            ..StraightRod::uniform(2, 1.0)
+        };
+        let turned = StraightRod {
+            orientation: UnitQuaternion::new(Vector3::y() * f64::NAN),
+            ..StraightRod::uniform(2, 1.0)
+        };
+        let few = [StraightRod::uniform(0, 1.0), nowhere, turned];
+        for rod in rods.iter().chain(&few) {
+            for rotary_inertia in [RotaryInertia::CrossSection, RotaryInertia::RigidSegment] {
+                let rod = StraightRod {
+                    rotary_inertia,
+                    ..rod.clone()
+                };
+                assert!(rod.push(&mut state).is_err(), "{rod:?}");
+                assert!(rod.push_in_parts(&[1, 1], &mut state).is_err(), "{rod:?}");
+            }
+        }
         assert_eq!(state, State::default());
     }
 }

@@ -4,6 +4,7 @@
 //!
 //! [`EnergyGradient`]: crate::EnergyGradient
 
+use crate::layout::is_length;
 use crate::{BendingElement, RodError, RodLayout, RodMaterial, ShearElement};
 use actin_mechanics::{
     Interaction, InternalCouple, InternalForce, Loads, RandomStress, SecondOrder, State, Stiffness,
@@ -77,10 +78,10 @@ impl RodJoint {
 /// let mut state = State::default();
 /// let rod = StraightRod::uniform(50, 1.0).push(&mut state)?;
 /// let material = RodMaterial::new(Rigidities::table4())?;
-/// rod.bend(&mut state, |_| Vector3::x() / 100.0);
+/// rod.bend(&mut state, |_| Vector3::x() / 100.0)?;
 /// let law = RodElements::at_rest(&state, &rod, material)?;
 /// assert!(law.energy(&state) < 1e-12);
-/// rod.bend(&mut state, |_| Vector3::zeros());
+/// rod.bend(&mut state, |_| Vector3::zeros())?;
 /// // The outer half segments have no joint, so that 49 of the 50 nm bend.
 /// assert!((law.energy(&state) - 3.9e4 * 49.0 / 2e4).abs() < 1e-9);
 /// # Ok::<(), actin_cosserat::RodError>(())
@@ -98,7 +99,8 @@ impl RodElements {
     /// The rod that these segments and joints make up.
     ///
     /// # Errors
-    /// A rest length or distance that is not positive and finite; a potential.
+    /// A rest length or distance that is not positive and finite, or whose inverse is not; a rest shape
+    /// that is not finite; a potential.
     pub fn new(
         material: RodMaterial,
         segments: Vec<RodSegment>,
@@ -116,6 +118,10 @@ impl RodElements {
             if !is_length(value) {
                 return Err(RodError::JointDistance { joint, value });
             }
+            let mut offsets = each.offsets.iter().flat_map(|q| q.coords.iter());
+            if !offsets.all(|component| component.is_finite()) {
+                return Err(RodError::RestShape { joint });
+            }
         }
         Ok(Self {
             material,
@@ -128,7 +134,7 @@ impl RodElements {
     /// curved like; rest lengths are those of the layout.
     ///
     /// # Errors
-    /// A potential.
+    /// A potential, or orientations that are not finite.
     ///
     /// # Panics
     /// If `state` does not have the rod's bodies.
@@ -137,7 +143,6 @@ impl RodElements {
         layout: &RodLayout,
         material: RodMaterial,
     ) -> Result<Self, RodError> {
-        check_laws(&material)?;
         let bodies = layout.points().zip(layout.frames());
         let segments = bodies.zip(layout.segment_lengths());
         let segments = segments.map(|((i, frame), &rest_length)| RodSegment {
@@ -152,11 +157,7 @@ impl RodElements {
             let curvature = element.curvature(q.get(a), q.get(a + 1));
             RodJoint::curved([a, a + 1], rest_distance, curvature)
         });
-        Ok(Self {
-            material,
-            segments: segments.collect(),
-            joints: joints.collect(),
-        })
+        Self::new(material, segments.collect(), joints.collect())
     }
 
     /// The segments.
@@ -184,10 +185,6 @@ impl RodElements {
 fn check_laws(material: &RodMaterial) -> Result<(), RodError> {
     let laws = material.laws().map(|_| ());
     laws.ok_or(RodError::Potential("RodElements"))
-}
-
-fn is_length(value: f64) -> bool {
-    value.is_finite() && value > 0.0
 }
 
 impl RodSegment {
@@ -362,7 +359,9 @@ mod tests {
         let layout = rod.push_clamped(RodClamp::Wall, RodEnd::End, &mut state);
         let layout = layout.unwrap();
         let material = RodMaterial::new(Rigidities::table4()).unwrap();
-        layout.bend(&mut state, |s| Vector3::new(0.02 * s, -0.1, 0.05));
+        layout
+            .bend(&mut state, |s| Vector3::new(0.02 * s, -0.1, 0.05))
+            .unwrap();
         let law = RodElements::at_rest(&state, &layout, material).unwrap();
         (state, law)
     }

@@ -25,16 +25,49 @@ pub enum RodError {
     /// A rod without segments.
     #[error("segments = 0: a rod has at least one")]
     NoSegments,
-    /// A segment without length.
-    #[error("rest length of segment {segment} = {value} nm: must be positive and finite")]
+    /// A segment without a length that can be computed with.
+    #[error(
+        "rest length of segment {segment} = {value} nm: must be positive and finite, and so must its inverse"
+    )]
     SegmentLength {
         /// Which segment, counted from 0.
         segment: usize,
         /// Its rest length (nm).
         value: f64,
     },
-    /// A joint without a distance between its frames.
-    #[error("rest distance of joint {joint} = {value} nm: must be positive and finite")]
+    /// A segment whose inertia overflows or underflows.
+    #[error(
+        "rest length of segment {segment} = {value} nm: its mass and moments of inertia, and their inverses, \
+         must be positive and finite"
+    )]
+    SegmentInertia {
+        /// Which segment, counted from 0.
+        segment: usize,
+        /// Its rest length (nm).
+        value: f64,
+    },
+    /// A rod whose start, orientation or nodes are not finite.
+    #[error("the place of node {node} of a rod and its orientation must be finite")]
+    Place {
+        /// Which node, counted from 0.
+        node: usize,
+    },
+    /// A rest shape that is not finite.
+    #[error("the rest shape of joint {joint} must be finite")]
+    RestShape {
+        /// Which joint, counted from 0.
+        joint: usize,
+    },
+    /// A curvature that is not finite.
+    #[error("the curvature at s = {s} nm must be finite")]
+    Curvature {
+        /// Rest arc length from node 0 (nm).
+        s: f64,
+    },
+    /// A joint without a distance between its frames that can be computed with.
+    #[error(
+        "rest distance of joint {joint} = {value} nm: must be positive and finite, and so must its inverse"
+    )]
     JointDistance {
         /// Which joint, counted from 0.
         joint: usize,

@@ -41,7 +41,7 @@ impl RodLayout {
     /// with the given rest lengths (nm).
     ///
     /// # Errors
-    /// No segment, or one whose length is not positive and finite.
+    /// No segment, or one whose length or whose inverse is not positive and finite.
     ///
     /// # Panics
     /// If there is a wall at the start but no frame before `first_frame` that could be it.
@@ -57,6 +57,10 @@ impl RodLayout {
             "the wall frame stands before the first segment's frame"
         );
         let voronoi_lengths = voronoi(&segment_lengths, walls);
+        let refused = (0..).zip(&voronoi_lengths).find(|(_, l)| !is_length(**l));
+        if let Some((joint, &value)) = refused {
+            return Err(RodError::JointDistance { joint, value });
+        }
         Ok(Self {
             first_point,
             first_frame,
@@ -169,13 +173,18 @@ pub(crate) fn check_lengths(lengths: &[f64]) -> Result<(), RodError> {
     if lengths.is_empty() {
         return Err(RodError::NoSegments);
     }
-    match lengths.iter().position(|l| !(l.is_finite() && *l > 0.0)) {
+    match lengths.iter().position(|l| !is_length(*l)) {
         Some(segment) => Err(RodError::SegmentLength {
             segment,
             value: lengths[segment],
         }),
         None => Ok(()),
     }
+}
+
+/// Whether a rest length and its inverse, which strains are multiplied with, are positive and finite.
+pub(crate) fn is_length(value: f64) -> bool {
+    value.is_finite() && value > 0.0 && value.recip().is_finite()
 }
 
 /// Rest distances of the frames that bending elements join.

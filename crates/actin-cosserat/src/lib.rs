@@ -67,6 +67,6 @@ pub use strain_laws::StrainLaws;
 /// The crate of points, frames, loads and interactions that rods are made of.
 pub use actin_mechanics as mechanics;
 pub use actin_mechanics::{
-    Interaction, Loads, PointLoad, SecondOrder, Springs, State, System, UnitQuaternion, Vector3,
-    Weight,
+    Interaction, LoadError, Loads, PointLoad, SecondOrder, Springs, State, System, UnitQuaternion,
+    Vector3, Weight,
 };

@@ -28,20 +28,32 @@ impl RodLayout {
     /// let mut state = State::default();
     /// let rod = StraightRod::uniform(100, 1.0).push(&mut state)?;
     /// // A full circle about d2: of 100 segments the last ends where the first begins.
-    /// rod.bend(&mut state, |_| Vector3::y() * (2.0 * PI / 100.0));
+    /// rod.bend(&mut state, |_| Vector3::y() * (2.0 * PI / 100.0))?;
     /// let x = &state.points.position;
     /// assert!((x.get(100) - x.get(0)).norm() < 1e-12);
     /// # Ok::<(), actin_cosserat::RodError>(())
     /// ```
     ///
+    /// # Errors
+    /// A curvature that is not finite; the state is then unchanged.
+    ///
     /// # Panics
     /// If `state` does not have the rod's bodies.
-    pub fn bend(&self, state: &mut State, curvature: impl Fn(f64) -> Vector3) {
+    pub fn bend(
+        &self,
+        state: &mut State,
+        curvature: impl Fn(f64) -> Vector3,
+    ) -> Result<(), RodError> {
         let places = &self.element_positions()[self.segments()..];
         let elements = places.iter().zip(self.voronoi_lengths());
-        for (first, (&s, &distance)) in self.bending_chain().zip(elements) {
-            let turn = rotation::exp(curvature(s) * distance);
-            let q = state.frames.orientation.get(first) * turn;
+        let turn = |(&s, &distance): (&f64, &f64)| {
+            let angle = curvature(s) * distance;
+            let is_finite = angle.iter().all(|a| a.is_finite());
+            is_finite.then_some(angle).ok_or(RodError::Curvature { s })
+        };
+        let turns: Vec<Vector3> = elements.map(turn).collect::<Result<_, _>>()?;
+        for (first, turn) in self.bending_chain().zip(turns) {
+            let q = state.frames.orientation.get(first) * rotation::exp(turn);
             state.frames.orientation.set(first + 1, q);
         }
         let bodies = self.points().zip(self.frames());
@@ -50,6 +62,7 @@ impl RodLayout {
             let next = state.points.position.get(node) + along;
             state.points.position.set(node + 1, next);
         }
+        Ok(())
     }
 
     /// Puts the nodes to the given places (nm, lab frame), and the segments' frames along the
@@ -106,7 +119,7 @@ mod tests {
             let mut state = State::default();
             let rod = StraightRod::uniform(5, 2.0);
             let layout = rod.push_clamped(RodClamp::Wall, end, &mut state).unwrap();
-            layout.bend(&mut state, helix);
+            layout.bend(&mut state, helix).unwrap();
             let q = |i| state.frames.orientation.get(i);
             let places = &layout.element_positions()[5..];
             for (k, a) in layout.bending_chain().take(5).enumerate() {
@@ -120,6 +133,17 @@ mod tests {
                 assert!(sigma.norm() < 1e-14);
             }
         }
+    }
+
+    #[test]
+    fn a_curvature_that_is_not_finite_leaves_the_state_alone() {
+        let mut state = State::default();
+        let layout = StraightRod::uniform(3, 1.0).push(&mut state).unwrap();
+        let before = state.clone();
+        let curvature = |s: f64| Vector3::x() * if s > 1.5 { f64::NAN } else { 0.1 };
+        let refused = layout.bend(&mut state, curvature);
+        assert_eq!(refused, Err(RodError::Curvature { s: 2.0 }));
+        assert_eq!(state, before);
     }
 
     /// Nodes are where they were put, segments lie along them, and nothing twists on the way.

@@ -3,8 +3,8 @@
 
 use crate::Site;
 use actin_mechanics::{
-    ControlId, Coordinates, Interaction, Loads, SecondOrder, State, Stiffness, UnitQuaternion,
-    Vector3,
+    ControlId, Coordinates, Interaction, LoadError, Loads, SecondOrder, State, Stiffness,
+    UnitQuaternion, Vector3,
 };
 
 /// Whether a force keeps its direction.
@@ -42,45 +42,43 @@ impl SiteForce {
     /// let site = Site::on_rod(&rod, RodPlace { segment: 1, fraction: 0.25, ..RodPlace::default() })?;
     /// let factor = state.add_control(1.0);
     /// let force = Vector3::x() * 4.0;
-    /// let load = SiteForce::new(&state, vec![(site, 1.0)], force, ForceKind::Dead, factor);
+    /// let load = SiteForce::new(&state, vec![(site, 1.0)], force, ForceKind::Dead, factor)?;
     /// let mut loads = Loads::zeros(&state);
     /// load.add_loads(&state, &mut loads);
     /// assert_eq!([1, 2].map(|i| loads.force.get(i).x), [3.0, 1.0]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
+    /// # Errors
+    /// A control that `state` does not have, a force or a weight that is not finite.
+    ///
     /// # Panics
-    /// If `state` has no such control or body, or if the force or a weight is not finite.
+    /// If `state` does not have the bodies of a site.
     pub fn new(
         state: &State,
         sites: Vec<(Site, f64)>,
         force: Vector3,
         kind: ForceKind,
         control: ControlId,
-    ) -> Self {
-        assert!(
-            state.controls.has(control),
-            "a force has {control:?}, which the state does not have"
-        );
-        assert!(
-            force.iter().all(|f| f.is_finite()),
-            "a force must be finite, got {force:?}"
-        );
+    ) -> Result<Self, LoadError> {
+        if !state.controls.has(control) {
+            return Err(LoadError::Control(control));
+        }
+        LoadError::unless_finite("force", force)?;
+        if let Some(&(_, weight)) = sites.iter().find(|(_, weight)| !weight.is_finite()) {
+            return Err(LoadError::Share(weight));
+        }
         let begin = |(site, weight): (Site, f64)| {
-            assert!(
-                weight.is_finite(),
-                "weights of a force must be finite, got {weight}"
-            );
             let place = site.position(state);
             let rest = state.frames.orientation.get(site.frame());
             (site, weight, place, rest)
         };
-        Self {
+        Ok(Self {
             sites: sites.into_iter().map(begin).collect(),
             force,
             kind,
             control,
-        }
+        })
     }
 
     /// Its factor.
@@ -177,7 +175,7 @@ mod tests {
         };
         let sites = vec![(site(0, 1.8), 2.0), (site(2, 0.0), 0.5)];
         let force = Vector3::new(0.4, -1.0, 2.0);
-        let load = SiteForce::new(&state, sites, force, kind, control);
+        let load = SiteForce::new(&state, sites, force, kind, control).unwrap();
         perturb(&mut state, &mut Xorshift::new(2), 0.5, 0.3);
         (state, load)
     }

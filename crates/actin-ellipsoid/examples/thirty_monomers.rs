@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // 100 pN along z, shared by the last two monomers, which are free to turn.
     let force = 100.0;
     let ends = [monomers.point(28), monomers.point(29)];
-    let load = PointLoad::shared(&mut state, &ends, Vector3::z() * force);
+    let load = PointLoad::shared(&mut state, &ends, Vector3::z() * force)?;
     let mean_height = |state: &State| {
         0.5 * ends
             .map(|i| state.points.position.get(i).z)

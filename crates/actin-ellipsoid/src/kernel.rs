@@ -142,13 +142,19 @@ impl AddLoads<'_> {
 
     /// Points of some bodies of the run.
     fn points(&self, bodies: &Range<usize>) -> Range<usize> {
-        self.monomers.point(bodies.start)..self.monomers.point(bodies.end)
+        shifted(bodies, self.monomers.first_point)
     }
 
     /// Frames of some bodies of the run.
     fn frames(&self, bodies: &Range<usize>) -> Range<usize> {
-        self.monomers.frame(bodies.start)..self.monomers.frame(bodies.end)
+        shifted(bodies, self.monomers.first_frame)
     }
+}
+
+/// A range of monomers of a run as a range of bodies of the state.
+#[inline(always)]
+fn shifted(bodies: &Range<usize>, first: usize) -> Range<usize> {
+    first + bodies.start..first + bodies.end
 }
 
 /// The bodies of a run, to be read.
@@ -162,13 +168,13 @@ impl Pairs<'_> {
     /// Points of some bodies of the run.
     #[inline(always)]
     fn points(&self, bodies: &Range<usize>) -> Range<usize> {
-        self.monomers.point(bodies.start)..self.monomers.point(bodies.end)
+        shifted(bodies, self.monomers.first_point)
     }
 
     /// Frames of some bodies of the run.
     #[inline(always)]
     fn frames(&self, bodies: &Range<usize>) -> Range<usize> {
-        self.monomers.frame(bodies.start)..self.monomers.frame(bodies.end)
+        shifted(bodies, self.monomers.first_frame)
     }
 
     /// The bodies of a group.

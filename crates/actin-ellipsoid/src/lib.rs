@@ -54,5 +54,5 @@ pub use quasi_harmonic::{Fluctuations, FluctuationsError, Link, Pose, QuasiHarmo
 /// The crate of points, frames, loads and interactions that monomers are made of.
 pub use actin_mechanics as mechanics;
 pub use actin_mechanics::{
-    Interaction, Loads, PointLoad, State, System, UnitQuaternion, Vector3, Weight,
+    Interaction, LoadError, Loads, PointLoad, State, System, UnitQuaternion, Vector3, Weight,
 };

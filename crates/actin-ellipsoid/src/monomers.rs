@@ -8,7 +8,7 @@ use thiserror::Error;
 const LARGEST_INDEX: i64 = 1 << 53;
 
 /// A run of monomers that cannot be built.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LatticeError {
     /// No monomers.
@@ -22,6 +22,12 @@ pub enum LatticeError {
         /// Number of monomers.
         count: usize,
     },
+    /// A placement with a component that is not finite.
+    #[error(
+        "a filament is turned by {} and shifted by {} nm: all components must be finite",
+        .0.rotation.coords.transpose(), .0.translation.transpose()
+    )]
+    Placement(Placement),
 }
 
 /// Where a filament is put: first turned about the origin, then shifted.
@@ -40,6 +46,14 @@ impl Default for Placement {
             rotation: UnitQuaternion::identity(),
             translation: Vector3::zeros(),
         }
+    }
+}
+
+impl Placement {
+    fn is_finite(&self) -> bool {
+        let rotation = self.rotation.coords.iter();
+        let mut all = rotation.chain(&self.translation);
+        all.all(|component| component.is_finite())
     }
 }
 
@@ -78,6 +92,9 @@ impl Monomers {
                 count,
             });
         }
+        if !placement.is_finite() {
+            return Err(LatticeError::Placement(*placement));
+        }
         let monomers = Self {
             first_point: state.points.len(),
             first_frame: state.frames.len(),
@@ -98,21 +115,38 @@ impl Monomers {
     }
 
     /// Point of monomer `k` of the run.
+    ///
+    /// # Panics
+    /// If the run has no monomer `k`.
+    #[inline]
     pub fn point(&self, k: usize) -> usize {
+        self.assert_has(k);
         self.first_point + k
     }
 
     /// Frame of monomer `k` of the run.
+    ///
+    /// # Panics
+    /// If the run has no monomer `k`.
+    #[inline]
     pub fn frame(&self, k: usize) -> usize {
+        self.assert_has(k);
         self.first_frame + k
     }
 
     /// Lattice index of monomer `k` of the run.
     ///
     /// # Panics
-    /// If `k` is beyond any lattice (2^63).
+    /// If the run has no monomer `k`.
     pub fn index(&self, k: usize) -> i64 {
+        self.assert_has(k);
         self.first_index + i64::try_from(k).expect("a run is shorter than 2^63")
+    }
+
+    #[inline]
+    fn assert_has(&self, k: usize) {
+        let count = self.count;
+        assert!(k < count, "monomer {k} of a run of {count} monomers");
     }
 
     /// Lattice indices of the run.
@@ -125,7 +159,7 @@ impl Monomers {
 #[cfg(test)]
 mod tests {
     use crate::{EllipsoidModel, EllipsoidParameters, LatticeError, Placement};
-    use actin_mechanics::State;
+    use actin_mechanics::{State, UnitQuaternion, Vector3};
 
     /// Beyond 2^53 neighbouring monomers would stand in one place.
     #[test]
@@ -142,5 +176,37 @@ mod tests {
         }
         assert!(build(1 << 53, 1).is_ok() && build(-(1 << 53), 2).is_ok());
         assert_eq!(state.points.len(), 3);
+    }
+
+    #[test]
+    fn placements_that_are_not_finite_are_refused() {
+        let model = EllipsoidModel::new(EllipsoidParameters::default()).unwrap();
+        let mut state = State::default();
+        let shifted = Placement {
+            translation: Vector3::x() * f64::INFINITY,
+            ..Placement::default()
+        };
+        let turned = Placement {
+            rotation: UnitQuaternion::new(Vector3::x() * f64::NAN),
+            ..Placement::default()
+        };
+        for placement in [shifted, turned] {
+            let refused = model.build(&mut state, &placement, 0, 2);
+            assert!(matches!(refused, Err(LatticeError::Placement(_))));
+        }
+        assert_eq!(state, State::default());
+    }
+
+    /// Only monomers of the run have a point, a frame and a lattice index.
+    #[test]
+    fn monomers_beyond_the_run_are_refused() {
+        let model = EllipsoidModel::new(EllipsoidParameters::default()).unwrap();
+        let mut state = State::default();
+        let run = model.build(&mut state, &Placement::default(), 0, 2);
+        let run = run.unwrap();
+        assert_eq!((run.point(1), run.frame(1), run.index(1)), (1, 1, 1));
+        assert!(std::panic::catch_unwind(|| run.point(2)).is_err());
+        assert!(std::panic::catch_unwind(|| run.frame(2)).is_err());
+        assert!(std::panic::catch_unwind(|| run.index(2)).is_err());
     }
 }

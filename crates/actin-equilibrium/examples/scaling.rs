@@ -35,7 +35,7 @@ fn rod(segments: usize, again: bool) {
     };
     let mut state = rod.state();
     let control = state.add_control(2.0 * (160.0 / length).powi(2));
-    let load = PointLoad::new(&state, vec![(segments, 1.0)], Vector3::x(), control);
+    let load = PointLoad::new(&state, vec![(segments, 1.0)], Vector3::x(), control).unwrap();
     let mut terms = rod.interactions();
     terms.push(Box::new(load));
     let mut newton = rod.newton(&state);
@@ -54,7 +54,7 @@ fn filament(monomers: usize) {
     let length = 160.0 * monomers as f64 / 60.0;
     let control = state.add_control(2.0 * (160.0 / length).powi(2));
     let shares = vec![(monomers - 1, 0.5), (monomers - 2, 0.5)];
-    let load = PointLoad::new(&state, shares, Vector3::x(), control);
+    let load = PointLoad::new(&state, shares, Vector3::x(), control).unwrap();
     let terms: Vec<Box<dyn Interaction>> = vec![Box::new(bonds), Box::new(load)];
     let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).expect("it fits");
     let mut newton = Newton::new(layout, NewtonOptions::default()).expect("they are the defaults");

@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         rest_length,
     });
     let springs = Springs::new(&state, springs.to_vec())?;
-    let weight = Weight::new(&mut state, Vector3::z() * -acceleration);
+    let weight = Weight::new(&mut state, Vector3::z() * -acceleration)?;
     relax(&mut state, &[Box::new(springs), Box::new(weight)])?;
 
     let sinks = -state.points.position.get(body).z;

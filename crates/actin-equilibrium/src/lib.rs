@@ -66,6 +66,6 @@ pub use search::{Distinct, Found, Known, Search, SearchObserver};
 /// The crate of points, frames, loads and interactions whose equilibria are found.
 pub use actin_mechanics as mechanics;
 pub use actin_mechanics::{
-    Coordinates, Interaction, Loads, Matrix3, Point, PointLoad, Residual, SecondOrder, Spring,
-    Springs, State, Stiffness, Vector3, Weight,
+    Coordinates, Interaction, LoadError, Loads, Matrix3, Point, PointLoad, Residual, SecondOrder,
+    Spring, Springs, State, Stiffness, Vector3, Weight,
 };

@@ -64,6 +64,6 @@ pub use stop::{StopRule, StopRuleError};
 /// The crate of points, frames, loads and interactions that are set in motion.
 pub use actin_mechanics as mechanics;
 pub use actin_mechanics::{
-    Frame, Inertia, Interaction, Loads, Point, PointLoad, Residual, Split, Spring, Springs, State,
-    System, Thermostat, UnitQuaternion, Vector3, Vectors, Weight,
+    Frame, Inertia, Interaction, LoadError, Loads, Point, PointLoad, Residual, Split, Spring,
+    Springs, State, System, Thermostat, UnitQuaternion, Vector3, Vectors, Weight,
 };

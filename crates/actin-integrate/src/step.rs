@@ -27,7 +27,7 @@ pub const SAFETY: f64 = 0.5;
 ///
 /// # Errors
 /// A frequency that is not positive and finite (a system without stiffness has no largest step),
-/// or a safety factor outside (0, 1].
+/// a safety factor outside (0, 1], or two numbers whose step overflows or underflows.
 ///
 /// ```
 /// use actin_integrate::{POSITION_VERLET, stable_step};
@@ -40,7 +40,11 @@ pub fn stable_step(scheme: &Composition, frequency: f64, safety: f64) -> Result<
     if !(safety > 0.0 && safety <= 1.0) {
         return Err(StepError::Safety(safety));
     }
-    Ok(safety * scheme.stability_limit / frequency)
+    let step = safety * scheme.stability_limit / frequency;
+    if !(step.is_finite() && step > 0.0) {
+        return Err(StepError::Step { step, frequency });
+    }
+    Ok(step)
 }
 
 /// Why no step could be given.
@@ -53,6 +57,16 @@ pub enum StepError {
     /// The safety factor is outside (0, 1].
     #[error("the safety factor must be above 0 and at most 1, got {0}")]
     Safety(f64),
+    /// The step is infinite or zero in double precision.
+    #[error(
+        "the time step at a largest frequency of {frequency} rad/ns is {step} ns: must be positive and finite"
+    )]
+    Step {
+        /// Step (ns).
+        step: f64,
+        /// Largest frequency (rad/ns).
+        frequency: f64,
+    },
 }
 
 #[cfg(test)]
@@ -73,6 +87,10 @@ mod tests {
                 stable_step(&PEFRL, 1.0, bad),
                 Err(StepError::Safety(_))
             ));
+        }
+        for (frequency, safety) in [(1e-309, 0.5), (1e308, 1e-308)] {
+            let refused = stable_step(&PEFRL, frequency, safety);
+            assert!(matches!(refused, Err(StepError::Step { .. })));
         }
     }
 }

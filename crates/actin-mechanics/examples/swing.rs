@@ -1,9 +1,9 @@
 //! A body on a spring under gravity, stepped by hand: its period and its rest place against theory.
 
-use actin_mechanics::{Point, Split, Spring, SpringError, Springs, State, System, Vector3, Weight};
+use actin_mechanics::{Point, Split, Spring, Springs, State, System, Vector3, Weight};
 use std::f64::consts::TAU;
 
-fn main() -> Result<(), SpringError> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (mass, stiffness, rest_length, gravity): (f64, f64, f64, f64) = (2.0, 50.0, 1.0, 9.81);
     let mut state = State::default();
     let points = [0.0, -1.0].map(|height| {
@@ -17,7 +17,7 @@ fn main() -> Result<(), SpringError> {
         rest_length,
     };
     let springs = Springs::new(&state, vec![spring])?;
-    let weight = Weight::new(&mut state, Vector3::z() * -gravity);
+    let weight = Weight::new(&mut state, Vector3::z() * -gravity)?;
     let mut system = System::new(state, vec![Box::new(springs), Box::new(weight)]);
 
     // Position Verlet over one period, in 1000 steps; the body starts where the spring is at rest.

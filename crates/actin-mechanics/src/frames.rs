@@ -16,6 +16,17 @@ pub struct Frame {
     pub inertia: Inertia,
 }
 
+impl Frame {
+    /// Whether the orientation is finite, and the moments of inertia and their inverses are positive and
+    /// finite.
+    pub fn is_valid(&self) -> bool {
+        let is_oriented = self.orientation.coords.iter().all(|q| q.is_finite());
+        let moments = [self.inertia.axial, self.inertia.transverse];
+        let mut both = moments.iter().flat_map(|&m| [m, 1.0 / m]);
+        is_oriented && both.all(is_inertia)
+    }
+}
+
 /// All frames of a state. Every frame is a symmetric top.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frames {
@@ -66,20 +77,18 @@ impl Frames {
     /// Appends a frame at rest and returns its index.
     ///
     /// # Panics
-    /// If a moment of inertia, or its inverse, is not positive and finite.
+    /// If the frame is not [valid](Frame::is_valid).
     pub fn push(&mut self, frame: Frame) -> usize {
+        assert!(
+            frame.is_valid(),
+            "an orientation must be finite, moments of inertia and their inverses positive and finite, \
+             got {frame:?}"
+        );
         let Inertia {
             axis,
             axial,
             transverse,
         } = frame.inertia;
-        assert!(
-            [axial, transverse]
-                .iter()
-                .all(|m| is_inertia(*m) && is_inertia(1.0 / m)),
-            "moments of inertia and their inverses must be positive and finite, got {axial} axial, \
-             {transverse} transverse"
-        );
         self.orientation.push(frame.orientation);
         self.angular_momentum.push(Vector3::zeros());
         self.inertias.inverse_transverse.push(1.0 / transverse);

@@ -53,7 +53,7 @@ pub use inertia::{Axis, Inertia, InertiaError};
 pub use interaction::Interaction;
 pub use internal::{InternalCouple, InternalForce};
 pub use ledger::Ledger;
-pub use load::PointLoad;
+pub use load::{LoadError, PointLoad};
 pub use loads::Loads;
 pub use motion::Motion;
 pub use points::{Point, Points};

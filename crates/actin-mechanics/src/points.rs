@@ -14,6 +14,14 @@ pub struct Point {
     pub mass: f64,
 }
 
+impl Point {
+    /// Whether the position is finite, and the mass and its inverse are positive and finite.
+    pub fn is_valid(&self) -> bool {
+        let is_placed = self.position.iter().all(|x| x.is_finite());
+        is_placed && is_inertia(self.mass) && is_inertia(1.0 / self.mass)
+    }
+}
+
 /// All points of a state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points {
@@ -60,17 +68,15 @@ impl Points {
     /// Appends a point at rest and returns its index.
     ///
     /// # Panics
-    /// If the mass, or its inverse, is not positive and finite.
+    /// If the point is not [valid](Point::is_valid).
     pub fn push(&mut self, point: Point) -> usize {
-        let inverse = 1.0 / point.mass;
         assert!(
-            is_inertia(point.mass) && is_inertia(inverse),
-            "a mass and its inverse must be positive and finite, got {}",
-            point.mass
+            point.is_valid(),
+            "a position must be finite, a mass and its inverse positive and finite, got {point:?}"
         );
         self.position.push(point.position);
         self.velocity.push(Vector3::zeros());
-        self.masses.inverse.push(inverse);
+        self.masses.inverse.push(1.0 / point.mass);
         self.len() - 1
     }
 

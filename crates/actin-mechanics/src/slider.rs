@@ -127,7 +127,7 @@ mod tests {
         });
         let control = state.add_control(1.0);
         let force = Vector3::new(3.0, 4.0, 2.0);
-        let load = PointLoad::new(&state, vec![(1, 1.0)], force, control);
+        let load = PointLoad::new(&state, vec![(1, 1.0)], force, control).unwrap();
         let mut system = System::new(state, vec![Box::new(load)]);
         assert!((system.residual().force - 2.0).abs() < 1e-15);
         system.kick(0.5, 0.5);

@@ -1,6 +1,6 @@
 //! Weight: a force per mass that is the same everywhere.
 
-use crate::{ControlId, Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
+use crate::{ControlId, Interaction, LoadError, Loads, SecondOrder, State, Stiffness, Vector3};
 
 /// The weight of all points under a uniform acceleration, scaled by a control: term `weight`, one
 /// element.
@@ -21,26 +21,24 @@ impl Weight {
     /// ```
     /// use actin_mechanics::{Interaction, Loads, Point, State, Vector3, Weight};
     /// let mut state = State::default();
-    /// let weight = Weight::new(&mut state, Vector3::z() * -9.81);
+    /// let weight = Weight::new(&mut state, Vector3::z() * -9.81)?;
     /// let stone = state.points.push(Point { position: Vector3::z() * 2.0, mass: 3.0 });
     /// let mut loads = Loads::zeros(&state);
     /// weight.add_loads(&state, &mut loads);
     /// assert!((loads.force.get(stone).z + 3.0 * 9.81).abs() < 1e-14);
     /// // m g h
     /// assert!((weight.energy(&state) - 3.0 * 9.81 * 2.0).abs() < 1e-14);
+    /// # Ok::<(), actin_mechanics::LoadError>(())
     /// ```
     ///
-    /// # Panics
-    /// If the acceleration is not finite.
-    pub fn new(state: &mut State, acceleration: Vector3) -> Self {
-        assert!(
-            acceleration.iter().all(|a| a.is_finite()),
-            "an acceleration must be finite, got {acceleration:?}"
-        );
-        Self {
+    /// # Errors
+    /// An acceleration that is not finite; the state is then unchanged.
+    pub fn new(state: &mut State, acceleration: Vector3) -> Result<Self, LoadError> {
+        LoadError::unless_finite("acceleration", acceleration)?;
+        Ok(Self {
             acceleration,
             control: state.add_control(1.0),
-        }
+        })
     }
 
     /// Its factor.
@@ -92,7 +90,7 @@ mod tests {
 
     fn stones() -> (State, Weight) {
         let mut state = State::default();
-        let weight = Weight::new(&mut state, Vector3::new(0.5, 0.0, -2.0));
+        let weight = Weight::new(&mut state, Vector3::new(0.5, 0.0, -2.0)).unwrap();
         for mass in [1.0, 3.0] {
             state.points.push(Point {
                 position: Vector3::repeat(mass),
@@ -100,6 +98,15 @@ mod tests {
             });
         }
         (state, weight)
+    }
+
+    #[test]
+    fn accelerations_that_are_not_finite_are_refused() {
+        let mut state = State::default();
+        for bad in [f64::NAN, f64::INFINITY] {
+            assert!(Weight::new(&mut state, Vector3::x() * bad).is_err());
+        }
+        assert_eq!(state, State::default());
     }
 
     /// All stones fall alike; one that is held keeps its weight, and falls like the others as soon

@@ -345,7 +345,7 @@ impl System {
     fn add_weight(&mut self, acceleration: &Bound<'_, PyAny>) -> PyResult<usize> {
         let acceleration = vector(acceleration, "acceleration")?;
         let control = self.add(|state| {
-            let weight = Weight::new(state, acceleration.into());
+            let weight = Weight::new(state, acceleration.into()).map_err(errors::value)?;
             let control = weight.control();
             Ok((Some(Term::Own(Arc::new(weight))), control))
         })?;
@@ -361,7 +361,7 @@ impl System {
         }
         points.iter().try_for_each(|&i| self.point(i).map(drop))?;
         let control = self.add(|state| {
-            let load = PointLoad::shared(state, &points, force.into());
+            let load = PointLoad::shared(state, &points, force.into()).map_err(errors::value)?;
             let control = load.control();
             Ok((Some(Term::Own(Arc::new(load))), control))
         })?;

@@ -3,6 +3,8 @@
 use crate::random::{self, between};
 use crate::sweep::{Axis, Samples, Sweep};
 use actin_sim::Override;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 /// All points of a sweep, and the seeds with which each is run.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,6 +77,23 @@ impl Design {
         }
     }
 
+    /// At most `most` points, in order: all, or one drawn from each of `most` equal parts, the first and the last
+    /// point among them. The same design gives the same points.
+    pub(crate) fn drawn(&self, most: usize) -> Vec<usize> {
+        let count = self.points.len();
+        if count <= most {
+            return (0..count).collect();
+        }
+        let mut random = ChaCha8Rng::seed_from_u64(0);
+        let part = |k: usize| k * count / most;
+        let mut drawn: Vec<usize> = (0..most)
+            .map(|k| random.random_range(part(k)..part(k + 1)))
+            .collect();
+        drawn[0] = 0;
+        drawn[most - 1] = count - 1;
+        drawn
+    }
+
     /// What a point sets.
     pub fn overrides(&self, point: usize) -> impl Iterator<Item = Override> {
         let pairs = self.keys.iter().zip(&self.points[point]);
@@ -139,5 +158,27 @@ impl Axis {
                 over,
             } => random::points(*number, *seed, *plan, over),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A million points cost as many builds as a thousand: the first, the last, one of each part.
+    #[test]
+    fn of_many_points_few_are_drawn() {
+        let design = |count: usize| Design {
+            keys: Vec::new(),
+            points: vec![Vec::new(); count],
+            seeds: Vec::new(),
+        };
+        assert_eq!(design(3).drawn(3), [0, 1, 2]);
+        let drawn = design(1_000_000).drawn(1000);
+        assert_eq!((drawn.len(), drawn[0], drawn[999]), (1000, 0, 999_999));
+        assert!((0..1000).all(|k| drawn[k] / 1000 == k));
+        // Not every thousandth: a grid whose last axis has a thousand values shows more than one of them.
+        let last: std::collections::BTreeSet<_> = drawn.iter().map(|k| k % 1000).collect();
+        assert!(last.len() > 500, "{}", last.len());
     }
 }

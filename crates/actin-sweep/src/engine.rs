@@ -63,9 +63,10 @@ impl Ended {
 }
 
 impl SweepDirectory {
-    /// Makes all runs that have not ended, and writes `runs.csv` and `table.csv` when all have.
+    /// Makes all runs that have not ended, and writes `runs.csv` and `table.csv`. If it is interrupted, runs that have
+    /// not ended are `unfinished` there.
     ///
-    /// The tables are the same, to the byte, on any number of threads, and however often the sweep was
+    /// The tables of all runs are the same, to the byte, on any number of threads, and however often the sweep was
     /// interrupted or killed on the way.
     ///
     /// # Errors
@@ -80,9 +81,7 @@ impl SweepDirectory {
         let _lock = self.lock()?;
         let all: Vec<usize> = (0..opened.design.len()).collect();
         let ended = self.make_runs(opened, &all, settings, progress)?;
-        if !ended.is_interrupted() {
-            Table::new(opened, self)?.write(self)?;
-        }
+        Table::new(opened, self).write(self)?;
         Ok(ended)
     }
 

@@ -34,6 +34,8 @@ pub struct Priced {
     pub bytes: f64,
     /// Points that the rules of a scene refuse, and why.
     pub refused: Vec<(usize, String)>,
+    /// Number of points that were built; where the sweep has more, its time is extrapolated from them.
+    pub points: usize,
 }
 
 impl Opened {
@@ -160,7 +162,7 @@ impl Opened {
         before.for_each(|one| drop(text.set(one)));
         let mut seen = BTreeSet::new();
         for (k, row) in axis.rows().iter().enumerate() {
-            if !seen.insert(row.clone()) {
+            if !seen.insert(row.iter().map(|value| kind(value)).collect::<Vec<_>>()) {
                 continue;
             }
             let mut text = text.clone();
@@ -209,10 +211,13 @@ impl Opened {
             .collect()
     }
 
-    /// What all runs cost: the first of each point is built, none is run.
-    pub fn price(&self) -> Priced {
+    /// Cost of all runs: the first run of at most `most` points is built, none is run. Of more points one is drawn
+    /// from each of `most` equal parts of the design, the first and the last point among them.
+    pub fn price(&self, most: usize) -> Priced {
         let mut all = Priced::default();
-        for point in 0..self.design.points.len() {
+        let points = self.design.drawn(most);
+        all.points = points.len();
+        for point in points {
             match self.price_point(point) {
                 Err(why) => all.refused.push((point, why)),
                 Ok((seconds, bytes)) => {
@@ -222,6 +227,7 @@ impl Opened {
                 }
             }
         }
+        all.seconds *= self.design.points.len() as f64 / all.points as f64;
         all
     }
 
@@ -232,6 +238,16 @@ impl Opened {
         let assembly = Assembly::build(&scene).map_err(in_words)?;
         let cost = Plan::new(&assembly).map_err(in_words)?.cost();
         Ok((cost.seconds.total(), cost.bytes))
+    }
+}
+
+/// Values of one kind fit the same keys: all decimal numbers are of one kind, and so are all whole numbers that are
+/// not negative. Any other value is a kind of its own.
+fn kind(value: &str) -> &str {
+    match (value.parse::<u64>(), value.parse::<f64>()) {
+        (Ok(_), _) => "1",
+        (_, Ok(number)) if number.is_finite() && value.contains(['.', 'e', 'E']) => "1.0",
+        _ => value,
     }
 }
 

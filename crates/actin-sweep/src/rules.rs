@@ -2,9 +2,16 @@
 
 use crate::sweep::{Axis, Ron, Scale, Span, Sweep};
 use actin_sim::{Override, SceneProblem};
+use std::collections::BTreeSet;
 
 /// Most runs of a sweep: each has a directory.
 const MOST_RUNS: f64 = 1e6;
+
+/// Most keys that a sweep sets and varies: each is compared with the others.
+const MOST_KEYS: usize = 1000;
+
+/// Most broken rules that are listed.
+const MOST_PROBLEMS: usize = 20;
 
 type Checked = Result<(), SceneProblem>;
 
@@ -14,7 +21,7 @@ pub(crate) fn problems(sweep: &Sweep) -> Vec<SceneProblem> {
     let mut note = |checked: Checked| {
         let is_new = |p: &SceneProblem| found.iter().all(|f| f.key != p.key);
         let new = checked.err().filter(is_new);
-        found.extend(new);
+        found.extend(new.filter(|_| found.len() < MOST_PROBLEMS));
     };
     for (i, value) in sweep.set.iter().enumerate() {
         note(check_path(&format!("set[{i}].key"), &value.key));
@@ -24,8 +31,9 @@ pub(crate) fn problems(sweep: &Sweep) -> Vec<SceneProblem> {
     }
     note(check_twice(sweep));
     note(some("results", sweep.results.len(), "result"));
-    for i in 0..sweep.results.len() {
-        note(check_result(sweep, i));
+    let mut before = BTreeSet::new();
+    for (i, name) in sweep.results.iter().enumerate() {
+        note(check_result(i, name, before.insert(name)));
     }
     note(check_samples(sweep));
     note(check_runs(sweep));
@@ -142,36 +150,53 @@ fn check_path(at: &str, key: &str) -> Checked {
     }
 }
 
-/// A key is varied once, and nothing above or below it.
+/// A key is varied once, and nothing above or below it; no value replaces one that is set before.
 fn check_twice(sweep: &Sweep) -> Checked {
-    let mut seen: Vec<&str> = Vec::new();
-    for (i, axis) in sweep.vary.iter().enumerate() {
-        for key in axis.keys() {
-            let other = seen.iter().find(|other| overlap(key, other));
-            if let Some(other) = other {
-                let rule = format!("is varied already, as {other}");
-                return Err(SceneProblem::new(format!("vary[{i}]"), key, rule));
-            }
-            seen.push(key);
+    let set = sweep.set.iter().enumerate();
+    let set = set.map(|(i, value)| (format!("set[{i}]"), value.key.as_str(), false));
+    let vary = sweep.vary.iter().enumerate().flat_map(|(i, axis)| {
+        let keys = axis.keys().into_iter();
+        keys.map(move |key| (format!("vary[{i}]"), key, true))
+    });
+    let mut seen: Vec<(String, &str, bool)> = Vec::new();
+    for (place, key, is_varied) in set.chain(vary) {
+        if seen.len() == MOST_KEYS {
+            let rule = format!("a sweep sets and varies at most {MOST_KEYS} keys");
+            return Err(SceneProblem::new(place, key, rule));
         }
+        for (other_place, other, other_is_varied) in &seen {
+            let replaces = is_within(other, key);
+            if replaces && !other_is_varied {
+                let rule = format!(
+                    "would replace {other_place}, which sets {other} for all runs: remove one of the two"
+                );
+                return Err(SceneProblem::new(place, key, rule));
+            }
+            if *other_is_varied && (replaces || is_within(key, other)) {
+                let rule = format!("is varied already, as {other}");
+                return Err(SceneProblem::new(place, key, rule));
+            }
+        }
+        seen.push((place, key, is_varied));
     }
     Ok(())
 }
 
-/// Whether one of two keys is the other or lies below it.
-fn overlap(one: &str, other: &str) -> bool {
-    let is_within = |key: &str, above: &str| {
-        let rest = key.strip_prefix(above);
-        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+/// Whether a key is `above` or lies below it. Filament 0 may stand alone or in a list.
+fn is_within(key: &str, above: &str) -> bool {
+    let own = |key: &str| match key.strip_prefix("filaments[0]") {
+        Some(rest) => format!("filament{rest}"),
+        None => key.to_owned(),
     };
-    is_within(one, other) || is_within(other, one)
+    let (key, above) = (own(key), own(above));
+    let rest = key.strip_prefix(&above);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }
 
-fn check_result(sweep: &Sweep, i: usize) -> Checked {
-    let name = &sweep.results[i];
+fn check_result(i: usize, name: &str, is_new: bool) -> Checked {
     let rule = if name == "wall_s" {
         "differs from run to run: the table holds what does not"
-    } else if sweep.results[..i].contains(name) {
+    } else if !is_new {
         "is in the list already"
     } else {
         return Ok(());

@@ -4,7 +4,9 @@ use crate::files::{self, RUNS, TABLE};
 use crate::run::summary;
 use crate::{Opened, SweepDirectory, SweepError, chosen};
 use serde_json::Value;
-use std::io;
+
+/// Status of a run that has not ended.
+const UNFINISHED: &str = "unfinished";
 
 /// The rows of all runs, in order.
 #[derive(Debug)]
@@ -24,6 +26,15 @@ pub(crate) struct Row {
 }
 
 impl Row {
+    /// The row of a run that has not ended.
+    fn unfinished(results: usize) -> Self {
+        Self {
+            status: UNFINISHED.to_owned(),
+            failure: String::new(),
+            results: vec![None; results],
+        }
+    }
+
     /// The results of these names in a summary.
     pub(crate) fn of(summary: &Value, names: &[String]) -> Self {
         let text = |key: &str| summary[key].as_str().unwrap_or_default().to_owned();
@@ -51,20 +62,15 @@ impl Row {
 }
 
 impl<'a> Table<'a> {
-    /// Reads the summaries of all runs.
-    pub(crate) fn new(opened: &'a Opened, directory: &SweepDirectory) -> Result<Self, SweepError> {
+    /// Reads the summaries of all runs that have ended.
+    pub(crate) fn new(opened: &'a Opened, directory: &SweepDirectory) -> Self {
         let results = &opened.sweep.results;
-        let row = |run| {
-            let path = directory.run(run);
-            let missing = || SweepError::io(&path)(io::ErrorKind::NotFound.into());
-            let summary = summary(&path).ok_or_else(missing)?;
-            Ok(Row::of(&summary, results))
+        let row = |run| match summary(&directory.run(run)) {
+            Some(summary) => Row::of(&summary, results),
+            None => Row::unfinished(results.len()),
         };
-        let rows: Result<_, SweepError> = (0..opened.design.len()).map(row).collect();
-        Ok(Self {
-            opened,
-            rows: rows?,
-        })
+        let rows = (0..opened.design.len()).map(row).collect();
+        Self { opened, rows }
     }
 
     pub(crate) fn write(&self, directory: &SweepDirectory) -> Result<(), SweepError> {
@@ -110,7 +116,8 @@ impl<'a> Table<'a> {
         let rows = chunks.map(|(point, rows)| {
             let failed = rows.iter().filter(|row| !row.failure.is_empty());
             let first = failed.clone().next().map(|row| row.failure.clone());
-            let counts = [rows.len(), failed.count()].map(|n| n.to_string());
+            let ended = rows.iter().filter(|row| row.status != UNFINISHED);
+            let counts = [ended.count(), failed.count()].map(|n| n.to_string());
             let results = (0..sweep.results.len()).flat_map(|k| {
                 let numbers = rows
                     .iter()

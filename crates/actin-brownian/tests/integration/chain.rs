@@ -30,7 +30,9 @@ impl Chain {
                 let control = state.add_control(1.0);
                 let ends = vec![(tip(rod), 1.0), (rod.points().start, -1.0)];
                 let force = Vector3::z() * self.force;
-                vec![Box::new(PointLoad::new(state, ends, force, control))]
+                vec![Box::new(
+                    PointLoad::new(state, ends, force, control).unwrap(),
+                )]
             });
         let (warm, each) = (steps / 20, steps / BLOCKS);
         advance(&mut system, &mut stepper, (0, warm), h, |_| ());

@@ -95,7 +95,7 @@ fn a_rod_in_a_field_has_the_distribution_of_langevin() {
     let law = EnergyGradient::new(rod.clone(), RodMaterial::new(soft).unwrap());
     let ends = vec![(tip(&rod), 1.0), (rod.points().start, -1.0)];
     let control = state.add_control(1.0);
-    let load = PointLoad::new(&state, ends, Vector3::x() * (a * kt / length), control);
+    let load = PointLoad::new(&state, ends, Vector3::x() * (a * kt / length), control).unwrap();
     let mut friction = friction_of(&rod);
     for dashpot in &mut friction.dashpots {
         dashpot.friction.z = 0.1 * dashpot.friction.x;

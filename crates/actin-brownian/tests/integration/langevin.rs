@@ -18,7 +18,7 @@ fn pulled(segments: usize, direction: Vector3, factor: f64) -> (System, Langevin
         (i, if is_end { 0.5 } else { 1.0 })
     });
     let control = state.add_control(1.0);
-    let load = PointLoad::new(&state, shares.collect(), direction, control);
+    let load = PointLoad::new(&state, shares.collect(), direction, control).unwrap();
     let mut friction = friction_of(&rod);
     for dashpot in &mut friction.dashpots {
         dashpot.friction *= factor;
@@ -144,7 +144,7 @@ fn inertia_hardly_shows_in_water() {
             (rod.points().start + 3, -2.0),
             (tip(rod), 1.0),
         ];
-        vec![Box::new(PointLoad::new(state, bend, Vector3::x(), control)) as _]
+        vec![Box::new(PointLoad::new(state, bend, Vector3::x(), control).unwrap()) as _]
     };
     let bow = |system: &System| {
         let x = |i: usize| system.state().points.position.get(i).x;

@@ -122,7 +122,8 @@ fn bending_relaxes_as_that_of_slender_rods() {
 /// Tip of a bent rod after 200 ns of relaxing, in so many steps.
 fn relaxed(steps: u64) -> Vector3 {
     let (mut system, mut stepper, rod) = free_rod(16, 160.0, (0.0, 0), |_, _| Vec::new());
-    rod.bend(system.state_mut(), |_| Vector3::new(0.01, 0.004, 0.002));
+    rod.bend(system.state_mut(), |_| Vector3::new(0.01, 0.004, 0.002))
+        .unwrap();
     let h = 200.0 / steps as f64;
     advance(&mut system, &mut stepper, (0, steps), h, |_| ());
     let x = &system.state().points.position;

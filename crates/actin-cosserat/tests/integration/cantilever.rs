@@ -90,7 +90,7 @@ fn deflection(clamp: RodClamp, segments: usize) -> f64 {
     let control = state.add_control(0.0);
     let tip = layout.end_point(RodEnd::End);
     let force = Vector3::x() * (rigidities.bend.x / (length * length));
-    let load = PointLoad::new(&state, vec![(tip, 1.0)], force, control);
+    let load = PointLoad::new(&state, vec![(tip, 1.0)], force, control).unwrap();
     let law = EnergyGradient::new(layout, RodMaterial::new(rigidities).unwrap());
     let terms: Vec<Box<dyn Interaction>> = vec![Box::new(law), Box::new(load)];
     let mut system = System::new(state, terms);

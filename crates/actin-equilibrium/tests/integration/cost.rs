@@ -25,7 +25,7 @@ fn work(segments: usize, order: Order) -> actin_equilibrium::SolverWork {
     };
     let mut state = rod.state();
     let control = state.add_control(1e-6);
-    let load = PointLoad::new(&state, vec![(segments, 1.0)], Vector3::x(), control);
+    let load = PointLoad::new(&state, vec![(segments, 1.0)], Vector3::x(), control).unwrap();
     let mut terms = rod.interactions();
     terms.push(Box::new(load));
     let layout = order(&rod, &state);
@@ -63,7 +63,7 @@ fn floppy(monomers: usize) -> (u64, u64, f64) {
     let (mut state, bonds) = actin::filament(monomers, 10, 5);
     let control = state.add_control(2.0 * (60.0 / monomers as f64).powi(2));
     let shares = vec![(monomers - 1, 0.5), (monomers - 2, 0.5)];
-    let load = PointLoad::new(&state, shares, Vector3::x(), control);
+    let load = PointLoad::new(&state, shares, Vector3::x(), control).unwrap();
     let terms: Vec<Box<dyn Interaction>> = vec![Box::new(bonds), Box::new(load)];
     let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).unwrap();
     let tolerance = Residual {

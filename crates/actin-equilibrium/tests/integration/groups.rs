@@ -73,7 +73,8 @@ fn sliding_bodies_of_the_state_are_groups() {
         mass: 0.1394,
     });
     let control = state.add_control(1.0);
-    let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::new(3.0, 9.0, 0.0), control);
+    let load =
+        PointLoad::new(&state, vec![(2, 1.0)], Vector3::new(3.0, 9.0, 0.0), control).unwrap();
     let springs = Springs(vec![(0, 1, 6.0, 1.0)]);
     let terms: Terms = vec![Box::new(springs), Box::new(load)];
     let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
@@ -102,7 +103,8 @@ fn a_rigid_group_turns_into_the_force() {
         vec![(2, 1.0)],
         Vector3::new(0.0, 1.0, -3.0),
         control,
-    );
+    )
+    .unwrap();
     let springs = Springs(vec![(0, 1, 20.0, 0.5)]);
     let terms: Terms = vec![Box::new(springs), Box::new(load)];
     let layout = Layout::new(&state, None, vec![bar]).unwrap();

@@ -14,7 +14,7 @@ type Terms = Vec<Box<dyn Interaction>>;
 fn cantilever(rod: &Rod, force: Vector3) -> (State, Terms) {
     let mut state = rod.state();
     let control = state.add_control(1.0);
-    let load = PointLoad::new(&state, vec![(rod.segments, 1.0)], force, control);
+    let load = PointLoad::new(&state, vec![(rod.segments, 1.0)], force, control).unwrap();
     let mut terms = rod.interactions();
     terms.push(Box::new(load));
     (state, terms)
@@ -118,7 +118,7 @@ fn floppy_filaments_are_neutral_at_rest_and_solved_under_load() {
     let (mut state, bonds) = actin::filament(n, 32, 5);
     let control = state.add_control(0.0);
     let shares = vec![(n - 1, 0.5), (n - 2, 0.5)];
-    let load = PointLoad::new(&state, shares, Vector3::x(), control);
+    let load = PointLoad::new(&state, shares, Vector3::x(), control).unwrap();
     let terms: Terms = vec![Box::new(bonds), Box::new(load)];
     let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).unwrap();
     let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
@@ -147,7 +147,7 @@ fn a_strand_without_shear_stiffness_hangs_along_the_force() {
     let n = 16;
     let (mut state, bonds) = bonded_filament(n, 16);
     let control = state.add_control(5.0);
-    let load = PointLoad::new(&state, vec![(n - 1, 1.0)], Vector3::x(), control);
+    let load = PointLoad::new(&state, vec![(n - 1, 1.0)], Vector3::x(), control).unwrap();
     let terms: Terms = vec![Box::new(bonds), Box::new(load)];
     let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
     let equilibrium = newton.minimize(&mut state, &terms, 3).unwrap();
@@ -241,7 +241,7 @@ fn the_floor_of_one_body_hides_nothing_of_another() {
     state.points.hold(2);
     state.points.position.set(1, Vector3::new(0.01, 0.0, 0.9));
     let control = state.add_control(1e-4);
-    let load = PointLoad::new(&state, vec![(1, 1.0)], -Vector3::z(), control);
+    let load = PointLoad::new(&state, vec![(1, 1.0)], -Vector3::z(), control).unwrap();
     let springs = Springs(vec![(0, 1, 1e-3, 1.0), (2, 3, 0.1, 1.0)]);
     let terms: Terms = vec![Box::new(springs), Box::new(load)];
     let layout = Layout::new(&state, Some(&in_order(&state)), Vec::new()).unwrap();
@@ -265,12 +265,8 @@ fn too_few_steps_keep_the_best_state() {
     let control = state.add_control(20.0);
     let middle = vec![(ACTIN.segments / 2, 1.0)];
     let mut terms = ACTIN.interactions();
-    terms.push(Box::new(PointLoad::new(
-        &state,
-        middle,
-        Vector3::x(),
-        control,
-    )));
+    let load = PointLoad::new(&state, middle, Vector3::x(), control).unwrap();
+    terms.push(Box::new(load));
     let start: f64 = terms.iter().map(|term| term.energy(&state)).sum();
     let options = NewtonOptions {
         iterations: 1,
@@ -299,7 +295,7 @@ fn a_free_body_under_a_dead_load_fails() {
     point(&mut state, Vector3::zeros());
     point(&mut state, Vector3::x());
     let control = state.add_control(1.0);
-    let load = PointLoad::new(&state, vec![(0, 1.0)], Vector3::y(), control);
+    let load = PointLoad::new(&state, vec![(0, 1.0)], Vector3::y(), control).unwrap();
     let terms: Terms = vec![Box::new(Springs(vec![(0, 1, 1.0, 1.0)])), Box::new(load)];
     let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
     let failure = newton.solve(&mut state, &terms).unwrap_err();
@@ -406,7 +402,7 @@ fn stiffness_without_scale_is_refused() {
         }
         state.points.hold(0);
         let control = state.add_control(1.0);
-        let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::z(), control);
+        let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::z(), control).unwrap();
         let springs = Springs(vec![(0, 1, stiffness, 1.0), (1, 2, stiffness, 1.0)]);
         let terms: Terms = vec![Box::new(springs), Box::new(load)];
         let layout = Layout::new(&state, Some(&in_order(&state)), Vec::new()).unwrap();
@@ -437,7 +433,7 @@ fn long_floppy_filaments_hardly_overshoot() {
     let (mut state, bonds) = actin::filament(n, 10, 5);
     let control = state.add_control(2.0 * (60.0 / n as f64).powi(2));
     let shares = vec![(n - 1, 0.5), (n - 2, 0.5)];
-    let load = PointLoad::new(&state, shares, Vector3::x(), control);
+    let load = PointLoad::new(&state, shares, Vector3::x(), control).unwrap();
     let terms: Terms = vec![Box::new(bonds), Box::new(load)];
     let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).unwrap();
     let options = NewtonOptions {

@@ -26,7 +26,7 @@ fn arch(rise: f64, force: f64) -> (State, Terms, Newton) {
     let control = state.add_control(0.0);
     let rest = rise.hypot(10.0);
     let springs = Springs(vec![(0, 2, 50.0, rest), (1, 2, 50.0, rest)]);
-    let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::y() * -force, control);
+    let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::y() * -force, control).unwrap();
     let top = Group::sliding(vec![2], vec![], Vector3::y());
     let layout = Layout::new(&state, None, vec![top]).unwrap();
     let newton = Newton::new(layout, NewtonOptions::default()).unwrap();
@@ -126,7 +126,7 @@ const COLUMN: Rod = Rod {
 fn compressed() -> (State, Terms) {
     let mut state = COLUMN.state();
     let control = state.add_control(0.0);
-    let load = PointLoad::new(&state, vec![(32, 1.0)], Vector3::z() * -6.0, control);
+    let load = PointLoad::new(&state, vec![(32, 1.0)], Vector3::z() * -6.0, control).unwrap();
     let mut terms = COLUMN.interactions();
     terms.push(Box::new(load));
     (state, terms)

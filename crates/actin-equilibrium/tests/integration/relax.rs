@@ -16,7 +16,7 @@ fn a_column_under_too_much_force_buckles() {
     let mut terms = ACTIN.interactions();
     let critical = (0.5 * std::f64::consts::PI / ACTIN.length).powi(2) * ACTIN.bending.x;
     let force = Vector3::z() * (-1.5 * critical);
-    terms.push(Box::new(PointLoad::at(&mut state, 16, force)));
+    terms.push(Box::new(PointLoad::at(&mut state, 16, force).unwrap()));
     let mut straight = state.clone();
     let layout = actin_equilibrium::Layout::free(&straight);
     let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
@@ -63,7 +63,7 @@ const UNCLAMPED: Rod = Rod {
 /// What keeps a rod from an equilibrium under a force across its tip (pN).
 fn failure(mut state: State, rod: &Rod, force: f64) -> SolveError {
     let mut terms = rod.interactions();
-    let load = PointLoad::at(&mut state, rod.segments, Vector3::x() * force);
+    let load = PointLoad::at(&mut state, rod.segments, Vector3::x() * force).unwrap();
     terms.push(Box::new(load));
     match relax(&mut state, &terms) {
         Err(EquilibriumError::Newton(failure)) => failure.cause,
@@ -143,7 +143,9 @@ fn tip_moved(rod: &Rod, turn: UnitQuaternion, force: f64) -> f64 {
     let before = rod.tip(&state);
     let mut terms = rod.interactions();
     let force = turn * Vector3::x() * force;
-    terms.push(Box::new(PointLoad::at(&mut state, rod.segments, force)));
+    terms.push(Box::new(
+        PointLoad::at(&mut state, rod.segments, force).unwrap(),
+    ));
     relax(&mut state, &terms).unwrap();
     (rod.tip(&state) - before).norm()
 }

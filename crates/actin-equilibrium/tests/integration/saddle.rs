@@ -19,7 +19,7 @@ const COLUMN: Rod = Rod {
 fn compressed(force: f64) -> (State, Terms) {
     let mut state = COLUMN.state();
     let control = state.add_control(1.0);
-    let load = PointLoad::new(&state, vec![(16, 1.0)], Vector3::z() * -force, control);
+    let load = PointLoad::new(&state, vec![(16, 1.0)], Vector3::z() * -force, control).unwrap();
     let mut terms = COLUMN.interactions();
     terms.push(Box::new(load));
     (state, terms)
@@ -201,7 +201,7 @@ fn what_drifts_has_no_equilibrium_near_by() {
     point(&mut state, Vector3::zeros());
     point(&mut state, Vector3::x() * 3.0);
     let control = state.add_control(1.0);
-    let load = PointLoad::new(&state, vec![(1, 1.0)], Vector3::x() * 0.5, control);
+    let load = PointLoad::new(&state, vec![(1, 1.0)], Vector3::x() * 0.5, control).unwrap();
     let terms: Terms = vec![Box::new(Springs(vec![(1, 0, 10.0, 3.0)])), Box::new(load)];
     let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
     assert_eq!(newton.nearest(&state, &terms).unwrap(), None);

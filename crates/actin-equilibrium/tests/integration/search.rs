@@ -21,7 +21,7 @@ fn column(share: f64) -> (State, Vec<Box<dyn Interaction>>, Newton) {
     let critical = std::f64::consts::PI.powi(2) * 3.0e4 / (4.0 * COLUMN.length.powi(2));
     let control = state.add_control(1.0);
     let force = Vector3::z() * (-share * critical);
-    let load = PointLoad::new(&state, vec![(16, 1.0)], force, control);
+    let load = PointLoad::new(&state, vec![(16, 1.0)], force, control).unwrap();
     let mut terms = COLUMN.interactions();
     terms.push(Box::new(load));
     let newton = Newton::new(COLUMN.layout(&state), NewtonOptions::default()).unwrap();

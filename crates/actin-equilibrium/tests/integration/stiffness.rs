@@ -58,7 +58,8 @@ fn stiffness_of_groups_includes_the_second_order_of_their_turn() {
         vec![(5, 1.0)],
         Vector3::new(300.0, 20.0, -100.0),
         control,
-    );
+    )
+    .unwrap();
     let interactions: Vec<Box<dyn Interaction>> = vec![Box::new(bonds), Box::new(load)];
     let ends = Group::rigid(vec![4, 5], vec![4, 5]);
     let inner = Group {

@@ -22,7 +22,7 @@ fn pulled(force: f64, turn: UnitQuaternion) -> (State, Vec<Box<dyn Interaction>>
     }
     let control = state.add_control(1.0);
     let force = turn * Vector3::z() * force;
-    let load = PointLoad::new(&state, vec![(SHORT.segments, 1.0)], force, control);
+    let load = PointLoad::new(&state, vec![(SHORT.segments, 1.0)], force, control).unwrap();
     let mut terms = SHORT.interactions();
     terms.push(Box::new(load));
     (state, terms)

@@ -51,7 +51,7 @@ impl Observe for TangentCorrelation {
     fn check(&self, assembly: &Assembly, _estimate: Option<&Estimate>) -> Checked {
         let s_nm = Ribbon::of(assembly, self.filament, &assembly.rest).frame_s_nm;
         let most = s_nm[s_nm.len() - 1] - s_nm[0];
-        if self.over_nm <= most + SAME_PLACE_NM {
+        if most > 0.0 && self.over_nm <= most + SAME_PLACE_NM {
             return Ok(());
         }
         let rule = format!("must be at most {most:?}, from the first cross-section to the last");
@@ -66,13 +66,13 @@ fn correlation(ribbon: &Ribbon, over_nm: f64) -> f64 {
     let (mut sum, mut count, mut upper) = (0.0, 0.0, 0);
     for lower in 0..s_nm.len() {
         let place = s_nm[lower] + over_nm;
+        upper = upper.max(lower + 1);
         while upper < s_nm.len() && s_nm[upper] < place - SAME_PLACE_NM {
             upper += 1;
         }
         if upper == s_nm.len() {
             break;
         }
-        // The frame before it is `lower` itself at the least: the distance is positive.
         let before = upper - 1;
         let share = (place - s_nm[before]) / (s_nm[upper] - s_nm[before]);
         let cosine = |k: usize| normals[lower].dot(&normals[k]);

@@ -31,8 +31,8 @@ impl RunDirectory {
     /// # Errors
     /// A path that is no directory; a directory in which another run goes on or that is not empty
     /// (unless `overwrite`); with `overwrite`, one without a manifest, one that holds something that
-    /// would have to go and that the manifest does not list, one whose `scene.ron` was changed after the
-    /// run, or a link to a directory; a refusal of the file system. Nothing has been removed then,
+    /// would have to go and that the manifest does not list, one in which a text (`scene.ron`, tables) was
+    /// changed after the run, or a link to a directory; a refusal of the file system. Nothing has been removed then,
     /// unless the file system refuses half way.
     pub fn create(path: impl AsRef<Path>, overwrite: bool) -> Result<Self, RunDirectoryError> {
         Self::create_locked(path, overwrite).map(|(directory, _)| directory)
@@ -85,18 +85,19 @@ impl RunDirectory {
         matches!((file, folder), (Ok(file), Ok(folder)) if file.starts_with(&folder))
     }
 
-    /// Refuses to go on in a directory that holds something in the place of a run's file which is not.
+    /// Refuses to go on in a directory that holds something else in the place of a run's file.
     ///
     /// To be called when its checkpoint has been read: where there is no manifest, the checkpoint tells
     /// that a run was here, and what it has written is listed now.
     ///
     /// # Errors
-    /// The file or link, or a refusal of the file system.
+    /// The file or link, a text that was changed after the run wrote it, or a refusal of the file system.
     pub fn reopen(&self) -> Result<(), RunDirectoryError> {
         let listed = Manifest::read(&self.path)?;
         let mut manifest = listed.map_or_else(|| Manifest::of_all_in(&self.path), Ok)?;
         manifest.add(BEFORE_RESULTS);
         manifest.ensure_own(&self.path)?;
+        manifest.ensure_unchanged(&self.path)?;
         manifest.write(&self.path)
     }
 
@@ -115,7 +116,7 @@ impl RunDirectory {
             return Err(RunDirectoryError::NoManifest { path: path.clone() });
         };
         manifest.ensure_own(path)?;
-        manifest.ensure_scene_unchanged(path)?;
+        manifest.ensure_unchanged(path)?;
         Ok(Some(manifest))
     }
 }

@@ -36,7 +36,7 @@ pub enum RunDirectoryError {
         /// The file, folder or link.
         path: PathBuf,
     },
-    /// The scene of an earlier run is no longer what that run has written.
+    /// A text of an earlier run is no longer what that run has written.
     #[error(
         "{} has been changed since the run wrote it: it is left alone; move it, or name another directory",
         .path.display()

@@ -7,9 +7,9 @@ use super::RunDirectoryError;
 use super::atomic::{self, UNFINISHED};
 use super::names::{FILES, MANIFEST, PICTURES, SCENE, SUMMARY, picture_index};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, FileType};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// What the file says it is.
@@ -32,6 +32,9 @@ pub(super) struct Manifest {
     version: u32,
     /// CRC-32 (IEEE) of `scene.ron` as the run has written it: people edit that file.
     scene_crc32: Option<u32>,
+    /// The same of other texts, by name: as they are, and as they are about to be.
+    #[serde(default)]
+    crc32: BTreeMap<String, BTreeSet<u32>>,
     /// Names that the run has written or is about to write, relative to the directory.
     files: BTreeSet<String>,
 }
@@ -43,6 +46,7 @@ impl Manifest {
             format: FORMAT.into(),
             version: VERSION,
             scene_crc32: None,
+            crc32: BTreeMap::new(),
             files: BTreeSet::new(),
         }
     }
@@ -117,6 +121,24 @@ impl Manifest {
         self.scene_crc32 = Some(crc32fast::hash(text.as_bytes()));
     }
 
+    /// Notes what a text will hold, once the unfinished file beside it has its name; until then it may be as it was.
+    ///
+    /// # Errors
+    /// A refusal of the file system.
+    pub(super) fn note_text(&mut self, folder: &Path, name: &str) -> Result<(), RunDirectoryError> {
+        let path = folder.join(name);
+        let known = self.crc32.entry(name.to_owned()).or_default();
+        let now = checksum(&path)?;
+        known.retain(|sum| Some(*sum) == now);
+        known.extend(checksum(&atomic::unfinished(&path))?);
+        Ok(())
+    }
+
+    /// Forgets what a text holds, which is about to be written in another way.
+    pub(super) fn forget_text(&mut self, name: &str) {
+        self.crc32.remove(name);
+    }
+
     /// The names that are listed.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(String::as_str)
@@ -142,24 +164,21 @@ impl Manifest {
         }
     }
 
-    /// Refuses a folder whose `scene.ron` is no longer what the run has written.
+    /// Refuses a folder in which a text is no longer what the run has written.
     ///
     /// # Errors
     /// That file, or a refusal of the file system.
-    pub(super) fn ensure_scene_unchanged(&self, folder: &Path) -> Result<(), RunDirectoryError> {
-        let path = folder.join(SCENE);
-        let Some(expected) = self.scene_crc32 else {
-            return Ok(());
-        };
-        match fs::read(&path) {
-            Ok(text) if crc32fast::hash(&text) != expected => {
-                Err(RunDirectoryError::Changed { path })
+    pub(super) fn ensure_unchanged(&self, folder: &Path) -> Result<(), RunDirectoryError> {
+        let scene = self.scene_crc32.map(|sum| (SCENE, BTreeSet::from([sum])));
+        let others = self.crc32.iter();
+        let others = others.map(|(name, known)| (name.as_str(), known.clone()));
+        for (name, known) in scene.into_iter().chain(others) {
+            let path = folder.join(name);
+            if checksum(&path)?.is_some_and(|sum| !known.contains(&sum)) {
+                return Err(RunDirectoryError::Changed { path });
             }
-            Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                Err(RunDirectoryError::io(&path)(error))
-            }
-            _ => Ok(()),
         }
+        Ok(())
     }
 
     /// Removes what is listed, complete or not; the summary first, which says that the rest is there.
@@ -170,6 +189,25 @@ impl Manifest {
             remove_if_there(&atomic::unfinished(&path))?;
         }
         Ok(())
+    }
+}
+
+/// CRC-32 of a file; `None` if there is none.
+fn checksum(path: &Path) -> Result<Option<u32>, RunDirectoryError> {
+    let sum = || {
+        let mut file = fs::File::open(path)?;
+        let (mut hasher, mut chunk) = (crc32fast::Hasher::new(), vec![0; 1 << 16]);
+        loop {
+            match file.read(&mut chunk)? {
+                0 => return Ok::<u32, io::Error>(hasher.finalize()),
+                read => hasher.update(&chunk[..read]),
+            }
+        }
+    };
+    match sum() {
+        Ok(sum) => Ok(Some(sum)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(RunDirectoryError::io(path)(error)),
     }
 }
 

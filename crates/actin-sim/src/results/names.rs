@@ -38,6 +38,9 @@ pub(super) const FILES: [&str; 14] = [
     SWITCHES,
 ];
 
+/// Tables, which people open and may save with changes.
+pub(super) const TABLES: [&str; 5] = [ENERGIES, EVENTS, OBSERVABLES, PROFILE, SUMMARY];
+
 /// What a run writes before it has results.
 pub(super) const BEFORE_RESULTS: [&str; 3] = [SCENE, CHECKPOINT, RECORDS];
 

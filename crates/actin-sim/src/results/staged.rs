@@ -3,7 +3,7 @@
 use super::RunDirectoryError;
 use super::atomic::{self, sync, sync_all};
 use super::manifest::{Manifest, remove_if_there};
-use super::names::{PICTURES, SUMMARY, picture_index, picture_name};
+use super::names::{PICTURES, SUMMARY, TABLES, picture_index, picture_name};
 use std::fs::{self, File};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
@@ -69,6 +69,7 @@ impl<'a> Staged<'a> {
         let unfinished = |i| atomic::unfinished(&self.path(i));
         sync_all(self.count(), unfinished)
             .map_err(|(p, error)| RunDirectoryError::io(&p)(error))?;
+        self.note_tables()?;
         remove_if_there(&self.folder.join(SUMMARY))?;
         self.remove_old_pictures()?;
         for i in 0..self.count() {
@@ -81,6 +82,18 @@ impl<'a> Staged<'a> {
             sync(folder).map_err(RunDirectoryError::io(folder))?;
         }
         Ok(())
+    }
+
+    /// Notes what tables will hold, so that later changes are noticed.
+    fn note_tables(&self) -> Result<(), RunDirectoryError> {
+        let Some(mut manifest) = Manifest::read(self.folder)? else {
+            return Ok(());
+        };
+        let is_staged = |name: &&&str| self.files.contains(&self.folder.join(name));
+        for name in TABLES.iter().filter(is_staged) {
+            manifest.note_text(self.folder, name)?;
+        }
+        manifest.write(self.folder)
     }
 
     fn remove_old_pictures(&self) -> Result<(), RunDirectoryError> {

@@ -19,9 +19,63 @@ use super::{RunDirectoryError, clock, finite::ensure_finite_in};
 use crate::{Assembly, BodyKind, FilamentSpan, Record, Records};
 use actin_mechanics::State;
 use npyz::{NpyWriter, WriterBuilder};
-use std::io::{self, Seek, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
+
+/// A writer that fails once. What is written after its first error is dropped: a `ZipWriter` that is dropped writes its
+/// directory, and would print the error on standard error.
+struct Silent<W> {
+    out: W,
+    /// Place after the last byte, once writing has failed.
+    lost: Option<u64>,
+}
+
+impl<W: Write + Seek> Silent<W> {
+    fn new(out: W) -> Self {
+        Self { out, lost: None }
+    }
+
+    fn check<T>(&mut self, done: io::Result<T>) -> io::Result<T> {
+        if done.is_err() {
+            self.lost = Some(0);
+        }
+        done
+    }
+}
+
+impl<W: Write + Seek> Write for Silent<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if let Some(place) = &mut self.lost {
+            *place += bytes.len() as u64;
+            return Ok(bytes.len());
+        }
+        let written = self.out.write(bytes);
+        self.check(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        if self.lost.is_some() {
+            return Ok(());
+        }
+        let flushed = self.out.flush();
+        self.check(flushed)
+    }
+}
+
+impl<W: Write + Seek> Seek for Silent<W> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        if let Some(place) = &mut self.lost {
+            *place = match to {
+                SeekFrom::Start(place) => place,
+                SeekFrom::Current(by) | SeekFrom::End(by) => place.saturating_add_signed(by),
+            };
+            return Ok(*place);
+        }
+        let sought = self.out.seek(to);
+        self.check(sought)
+    }
+}
 
 /// One array of a state's components.
 type Component = fn(&State) -> &[f64];
@@ -133,15 +187,9 @@ impl<'a> States<'a> {
         records: &dyn Records,
         out: &mut (impl Write + Seek),
     ) -> io::Result<()> {
-        let mut archive = ZipWriter::new(out);
-        match self.write_arrays(records, &mut archive) {
-            Ok(()) => archive.finish().map(drop).map_err(io::Error::from),
-            Err(error) => {
-                // Dropped, it would try to write its directory, fail again, and say so on standard error.
-                std::mem::forget(archive);
-                Err(error)
-            }
-        }
+        let mut archive = ZipWriter::new(Silent::new(out));
+        self.write_arrays(records, &mut archive)?;
+        archive.finish().map(drop).map_err(io::Error::from)
     }
 
     fn write_arrays<W: Write + Seek>(

@@ -21,6 +21,9 @@ const OF_FASTEST: f64 = 50.0;
 /// Slowest motions that are looked for; up to six of each free filament meet no resistance.
 const SLOWEST: usize = 24;
 
+/// Most degrees of freedom for which relaxation times are computed, in some tenths of a second.
+const MOST_DOFS: usize = 5000;
+
 /// A rate below this share of the highest is zero to round-off.
 const UNRESISTED: f64 = 1e-12;
 
@@ -54,13 +57,17 @@ impl RelaxationTimes {
 }
 
 impl Plan<'_> {
-    /// How filaments relax in the fluid of the task; none of other tasks. Takes the time of some hundred steps.
+    /// How filaments relax in the fluid of the task, in the time of some hundred steps. `None` of other tasks, and of
+    /// more than 5000 degrees of freedom.
     pub fn relaxation_times(&self) -> Option<RelaxationTimes> {
         let fluid = match &self.scene().task {
             AnyTask::Brownian(task) => &task.drag,
             AnyTask::Dynamics(dynamics) => dynamics.drag.fluid()?,
             AnyTask::Equilibrium(_) => return None,
         };
+        if self.assembly().counts().dofs > MOST_DOFS {
+            return None;
+        }
         let mut relaxation = relaxation(self.assembly(), fluid).ok()?;
         Some(RelaxationTimes::of(&mut relaxation))
     }

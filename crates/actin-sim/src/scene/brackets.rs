@@ -5,20 +5,19 @@
 //! lines that are not indented as what they belong to.
 
 use super::SceneError;
-use super::outline::{Misfit, Outline, line_and_column};
-
-/// Most keys and elements of a text that is searched: the time grows with their square.
-const MOST_NODES: usize = 5000;
+use super::outline::{MOST_DEPTH, Misfit, Outline, line_and_column};
 
 /// The mistake in the brackets of a text that is no RON; none where they say nothing.
 pub(super) fn mistake(text: &str) -> Option<SceneError> {
     let outline = Outline::of(text);
-    if outline.nodes.len() > MOST_NODES {
-        return None;
+    if let Some(at) = outline.too_deep {
+        let message = format!("brackets are nested more than {MOST_DEPTH} deep here");
+        return Some(SceneError::new(line_and_column(text, at), &message));
     }
     let signs = Signs {
         text,
         outline: &outline,
+        lines: lines(text),
     };
     if let Some(Misfit { at, open: None }) = outline.misfit {
         let closing = &text[at..=at];
@@ -46,13 +45,38 @@ fn is_unclosed(open: Option<(char, usize)>, close: Option<usize>) -> bool {
 struct Signs<'a> {
     text: &'a str,
     outline: &'a Outline,
+    lines: Vec<Line>,
+}
+
+/// A line of the text.
+struct Line {
+    /// Its first byte.
+    start: usize,
+    /// Blanks at its beginning.
+    indent: usize,
+    /// Its first byte that is not white.
+    begin: usize,
+}
+
+fn lines(text: &str) -> Vec<Line> {
+    let mut start = 0;
+    let line = |content: &str| {
+        let line = Line {
+            start,
+            indent: content.len() - content.trim_start_matches([' ', '\t']).len(),
+            begin: start + content.len() - content.trim_start().len(),
+        };
+        start += content.len();
+        line
+    };
+    text.split_inclusive('\n').map(line).collect()
 }
 
 impl Signs<'_> {
     /// What a closing bracket of this node is missing before, if one seems to be.
     fn missing_before(&self, node: usize, is_broken: bool) -> Option<usize> {
         let (kind, open) = self.outline.nodes[node].open?;
-        let children: Vec<_> = self.outline.children(Some(node)).collect();
+        let children = self.outline.children(Some(node));
         let has_keys = children
             .first()
             .is_some_and(|&first| self.outline.nodes[first].key.is_some());
@@ -109,22 +133,17 @@ impl Signs<'_> {
         SceneError::new(line_and_column(self.text, at), &message)
     }
 
+    /// Number of the line of a place, from 0.
     fn line(&self, at: usize) -> usize {
-        line_and_column(self.text, at).0
+        self.lines.partition_point(|line| line.start <= at) - 1
     }
 
-    fn line_start(&self, at: usize) -> usize {
-        self.text[..at].rfind('\n').map_or(0, |end| end + 1)
-    }
-
-    /// Blanks at the beginning of the line.
     fn indent(&self, at: usize) -> usize {
-        let line = &self.text[self.line_start(at)..];
-        line.chars().take_while(|c| *c == ' ' || *c == '\t').count()
+        self.lines[self.line(at)].indent
     }
 
     fn begins_line(&self, at: usize) -> bool {
-        self.text[self.line_start(at)..at].trim().is_empty()
+        at <= self.lines[self.line(at)].begin
     }
 }
 

@@ -11,17 +11,25 @@ use super::{Scene, SceneError, SceneProblem, validate};
 use serde::de::DeserializeOwned;
 
 /// Most mistakes that are looked for.
-const MOST: usize = 50;
+const MOST: usize = 20;
+
+/// Most bytes that are read to find mistakes: each takes a reading of the whole text.
+const MOST_BYTES: usize = 2_000_000;
+
+/// Number of mistakes that are looked for in a text: fewer in a long one.
+fn most(text: &str) -> usize {
+    (MOST_BYTES / text.len().max(1)).clamp(1, MOST)
+}
 
 /// What is wrong with a text: what cannot be read, and the rules that are broken, in the order of the text and
-/// of the rules.
+/// of the rules; 20 of either at most, and fewer in a text of more than 100 kB.
 ///
 /// Rules are checked where all of the text means something: those of numbers first, those of the whole scene
 /// if numbers break none.
 pub(super) fn all(text: &str) -> (Vec<SceneError>, Vec<SceneProblem>) {
     let Readings { value, mistakes } = read_all::<Written>(text, "Scene");
     let problems = match value.map(Scene::try_from) {
-        Some(Ok(scene)) => validate::problems(&scene),
+        Some(Ok(scene)) => validate::problems(&scene, most(text)),
         Some(Err(problem)) => vec![problem],
         None => Vec::new(),
     };
@@ -72,7 +80,7 @@ struct Search<'a> {
 impl Search<'_> {
     /// Reads until nothing more is refused; what is left, if that can be read.
     fn read<T: DeserializeOwned>(&mut self) -> Option<T> {
-        for _ in 0..MOST {
+        for _ in 0..most(self.text) {
             match read_refusing(&self.left, self.text, self.name) {
                 Ok(value) => return Some(value),
                 Err(refusal) => self.note(refusal)?,

@@ -3,6 +3,7 @@
 use super::rules::{non_negative, positive, show};
 use super::{End, HeldEnds, Linker, Scene, SceneProblem, Section};
 use serde::{Deserialize, Serialize};
+use std::collections::HashSet;
 
 /// Share of a motion that means leave out by default.
 const BURN_IN: f64 = 0.2;
@@ -195,9 +196,6 @@ impl Observable {
     /// Refuses observable `i` of a scene where it makes no sense.
     fn check(self, i: usize, (scene, held): (&Scene, &HeldEnds)) -> Result<(), SceneProblem> {
         let key = format!("observe[{i}]");
-        if scene.observe[..i].contains(&self) {
-            return Err(SceneProblem::new(key, "", "is in the list already"));
-        }
         let length = match self.filament() {
             None => 0.0,
             Some(index) => {
@@ -276,8 +274,14 @@ pub(super) fn check_all(
     held: &HeldEnds,
     note: &mut impl FnMut(Result<(), SceneProblem>),
 ) {
+    let mut before = HashSet::new();
     for (i, one) in scene.observe.iter().enumerate() {
-        note(one.check(i, (scene, held)));
+        if before.insert(show(one)) {
+            note(one.check(i, (scene, held)));
+        } else {
+            let rule = "is in the list already";
+            note(Err(SceneProblem::new(format!("observe[{i}]"), "", rule)));
+        }
     }
     note(check_burn_in(scene));
 }

@@ -5,6 +5,9 @@
 
 use std::ops::Range;
 
+/// Most brackets within each other; RON's own limit.
+pub(super) const MOST_DEPTH: usize = 128;
+
 /// One step of a path: a key of a structure or an index of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Step {
@@ -39,6 +42,8 @@ pub(super) struct Node {
     pub(super) open: Option<(char, usize)>,
     /// The bracket that closes it.
     pub(super) close: Option<usize>,
+    /// The nodes in its bracket, in order.
+    pub(super) children: Vec<usize>,
 }
 
 /// A closing bracket that closes nothing, or another bracket than the last that is open.
@@ -53,8 +58,12 @@ pub(super) struct Misfit {
 #[derive(Debug)]
 pub(super) struct Outline {
     pub(super) nodes: Vec<Node>,
+    /// The nodes in no bracket, in order.
+    roots: Vec<usize>,
     /// The first bracket that does not fit.
     pub(super) misfit: Option<Misfit>,
+    /// The first bracket beyond [`MOST_DEPTH`], where reading stopped.
+    pub(super) too_deep: Option<usize>,
 }
 
 impl Outline {
@@ -64,15 +73,18 @@ impl Outline {
             text,
             at: 0,
             nodes: Vec::new(),
+            roots: Vec::new(),
             levels: Vec::new(),
             current: None,
-            index: 0,
             misfit: None,
+            too_deep: None,
         };
         reader.scan();
         Self {
             nodes: reader.nodes,
+            roots: reader.roots,
             misfit: reader.misfit,
+            too_deep: reader.too_deep,
         }
     }
 
@@ -93,9 +105,8 @@ impl Outline {
     /// The node itself, or what it holds behind `Some(...)` and the names of choices.
     pub(super) fn innermost(&self, mut node: usize) -> usize {
         loop {
-            let children: Vec<_> = self.children(Some(node)).collect();
             let is_list = self.nodes[node].open.is_some_and(|open| open.0 == '[');
-            match children[..] {
+            match self.children(Some(node))[..] {
                 [only]
                     if !is_list
                         && self.nodes[only].key.is_none()
@@ -109,18 +120,16 @@ impl Outline {
     }
 
     /// The nodes in the bracket of a node; at the top those that are in none.
-    pub(super) fn children(&self, parent: Option<usize>) -> impl Iterator<Item = usize> {
-        let nodes = self.nodes.iter().enumerate();
-        nodes
-            .filter(move |(_, node)| node.parent == parent)
-            .map(|(i, _)| i)
+    pub(super) fn children(&self, parent: Option<usize>) -> &[usize] {
+        parent.map_or(&self.roots, |parent| &self.nodes[parent].children)
     }
 
     /// The node that a step leads to from another one. `Some(...)`, the name of a choice and the top
     /// take no step; numbers of a vector have indices.
     pub(super) fn below(&self, node: Option<usize>, step: &Step) -> Option<usize> {
-        let host = node.or_else(|| self.children(None).next())?;
-        self.children(Some(self.innermost(host))).find(|&child| {
+        let host = node.or_else(|| self.roots.first().copied())?;
+        let mut children = self.children(Some(self.innermost(host))).iter().copied();
+        children.find(|&child| {
             let child = &self.nodes[child];
             match step {
                 Step::Key(key) => child.key.as_ref() == Some(key),
@@ -154,8 +163,8 @@ impl Outline {
         for step in steps.iter().rev() {
             match step {
                 Step::Key(key) if path.is_empty() => path.clone_from(key),
-                Step::Key(key) => path = format!("{path}.{key}"),
-                Step::Index(index) => path = format!("{path}[{index}]"),
+                Step::Key(key) => path.extend([".", key]),
+                Step::Index(index) => path.push_str(&format!("[{index}]")),
             }
         }
         path
@@ -194,13 +203,13 @@ struct Reader<'a> {
     text: &'a str,
     at: usize,
     nodes: Vec<Node>,
-    /// Nodes whose brackets are open, with the index of the next element in each.
-    levels: Vec<(usize, usize)>,
+    roots: Vec<usize>,
+    /// Nodes whose brackets are open.
+    levels: Vec<usize>,
     /// The node that is being read.
     current: Option<usize>,
-    /// Index of the next node outside of all brackets.
-    index: usize,
     misfit: Option<Misfit>,
+    too_deep: Option<usize>,
 }
 
 impl Reader<'_> {
@@ -229,7 +238,7 @@ impl Reader<'_> {
         }
         let end = self.text.len();
         self.end(end);
-        for (node, _) in std::mem::take(&mut self.levels) {
+        for node in std::mem::take(&mut self.levels) {
             self.nodes[node].value.end = end;
             self.nodes[node].until = end;
         }
@@ -240,23 +249,27 @@ impl Reader<'_> {
         if let Some(node) = self.current {
             return node;
         }
-        let (parent, index) = match self.levels.last_mut() {
-            None => (None, &mut self.index),
-            Some((parent, index)) => (Some(*parent), index),
+        let node = self.nodes.len();
+        let parent = self.levels.last().copied();
+        let siblings = match parent {
+            None => &mut self.roots,
+            Some(parent) => &mut self.nodes[parent].children,
         };
+        let index = siblings.len();
+        siblings.push(node);
         self.nodes.push(Node {
             parent,
             key: None,
-            index: *index,
+            index,
             start: self.at,
             value: self.at..self.at,
             until: self.text.len(),
             open: None,
             close: None,
+            children: Vec::new(),
         });
-        *index += 1;
-        self.current = Some(self.nodes.len() - 1);
-        self.nodes.len() - 1
+        self.current = Some(node);
+        node
     }
 
     /// Ends the node that is being read.
@@ -298,10 +311,15 @@ impl Reader<'_> {
 
     fn open(&mut self, kind: char) {
         let at = self.at;
+        if self.levels.len() == MOST_DEPTH {
+            self.too_deep = Some(at);
+            self.at = self.text.len();
+            return;
+        }
         self.token(|reader| reader.at += 1);
         let node = self.current.take().expect("a token belongs to a node");
         self.nodes[node].open = Some((kind, at));
-        self.levels.push((node, 0));
+        self.levels.push(node);
     }
 
     /// Closes the last bracket of this kind, and leaves those within it unclosed; the last of all where there
@@ -315,9 +333,9 @@ impl Reader<'_> {
             ']' => '[',
             _ => '{',
         };
-        let last = self.levels.last().map(|level| level.0);
-        let is_meant = |level: &(usize, usize)| {
-            self.nodes[level.0]
+        let last = self.levels.last().copied();
+        let is_meant = |level: &usize| {
+            self.nodes[*level]
                 .open
                 .is_some_and(|open| open.0 == opening)
         };
@@ -330,11 +348,11 @@ impl Reader<'_> {
             return;
         };
         let levels = self.levels.split_off(closed);
-        for &(node, _) in &levels[1..] {
+        for &node in &levels[1..] {
             self.nodes[node].value.end = at;
             self.nodes[node].until = at;
         }
-        let node = levels[0].0;
+        let node = levels[0];
         self.nodes[node].close = Some(at);
         self.nodes[node].value.end = self.at;
         self.current = Some(node);

@@ -11,29 +11,24 @@ impl SceneText {
     /// # Errors
     /// A file that cannot be read, or a row in it that is no point, at the key that names the file.
     pub fn read_points(&mut self, folder: &Path) -> Result<(), SceneError> {
-        let mut done = 0;
-        loop {
-            let outline = Outline::of(self.text());
-            let is_file = |i: &usize| {
-                let path = outline.path(*i);
-                outline.nodes[*i].start >= done && path.ends_with(".shape.file")
+        let outline = Outline::of(self.text());
+        let mut parts = Vec::new();
+        for (i, node) in outline.nodes.iter().enumerate() {
+            let path = match node.key.as_deref() {
+                Some("file") => outline.path(i),
+                _ => continue,
             };
-            let Some(node) = (0..outline.nodes.len()).find(is_file) else {
-                return Ok(());
-            };
-            let (start, value) = (outline.nodes[node].start, outline.nodes[node].value.clone());
-            let path = outline.path(node);
-            done = value.end;
-            // What is no string, RON refuses.
-            let Ok(Some(file)) = ron::from_str::<Option<String>>(&self.text()[value.clone()])
-                .or_else(|_| ron::from_str(&self.text()[value.clone()]).map(Some))
-            else {
+            let value = &self.text()[node.value.clone()];
+            let file = ron::from_str::<Option<String>>(value);
+            let file = file.or_else(|_| ron::from_str(value).map(Some));
+            // RON refuses what is not a string.
+            let (true, Ok(Some(file))) = (path.ends_with(".shape.file"), file) else {
                 continue;
             };
             let refused = |rule: String| {
                 let problem = SceneProblem::new(&path, format!("{file:?}"), rule);
                 self.placed(SceneError::new(
-                    line_and_column(self.text(), start),
+                    line_and_column(self.text(), node.start),
                     &problem.to_string(),
                 ))
             };
@@ -43,34 +38,45 @@ impl SceneText {
                 .map(|[x, y, z]| format!("({x:?}, {y:?}, {z:?})"))
                 .collect();
             let inserted = format!("nm: [{}]", written.join(", "));
-            done = start + inserted.len();
-            self.replace(start..value.end, &inserted);
+            parts.push((node.start..node.value.end, inserted));
         }
+        self.replace(&parts);
+        Ok(())
     }
 }
 
 /// The points of a file.
 pub(super) fn points(path: &Path) -> Result<Vec<[f64; 3]>, String> {
     let text = std::fs::read_to_string(path).map_err(|error| format!("cannot be read: {error}"))?;
-    let mut points = Vec::new();
-    for (i, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
-        if line.trim().is_empty() {
-            continue;
-        }
-        let numbers: Result<Vec<f64>, _> = line.split(',').map(|n| n.trim().parse()).collect();
-        match numbers.ok().and_then(|numbers| numbers.try_into().ok()) {
-            Some(point) => points.push(point),
-            // Headings.
-            None if i == 0 => {}
-            None => {
-                return Err(format!(
-                    "line {}: must be three numbers x, y, z (nm)",
-                    i + 1
-                ));
-            }
-        }
-    }
-    Ok(points)
+    let rows = text.trim_start_matches('\u{feff}').lines().zip(1..);
+    let mut rows = rows.filter(|(line, _)| !line.trim().is_empty()).peekable();
+    rows.next_if(|(line, _)| is_heading(line));
+    rows.map(|(line, number)| point(line).ok_or_else(|| refusal(line, number)))
+        .collect()
+}
+
+fn point(line: &str) -> Option<[f64; 3]> {
+    let numbers = line.split(',').map(|number| number.trim().parse().ok());
+    let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
+    numbers.try_into().ok()
+}
+
+/// Whether no word of a row is a number.
+fn is_heading(line: &str) -> bool {
+    let mut words = line.split(|c: char| c.is_whitespace() || c == ',' || c == ';');
+    words.all(|word| word.parse::<f64>().is_err())
+}
+
+fn refusal(line: &str, number: usize) -> String {
+    let separator = match line.trim() {
+        line if line.contains(';') => ", not by semicolons",
+        line if line.contains('\t') => ", not by tabs",
+        line if line.contains(' ') && !line.contains(',') => ", not by spaces",
+        _ => "",
+    };
+    format!(
+        "line {number}: must be three numbers x, y, z (nm) with decimal points, separated by commas{separator}"
+    )
 }
 
 #[cfg(test)]
@@ -110,8 +116,19 @@ mod tests {
     fn files_without_points_are_refused() {
         let told = |csv| read(csv).map(|_| ()).unwrap_err().to_string();
         let place = "4:23: filament.shape.file = \"trace.csv\": ";
-        let rule = "line 2: must be three numbers x, y, z (nm)";
-        assert_eq!(told("0,0,0\n1,2\n"), format!("{place}{rule}"));
+        let rule = "must be three numbers x, y, z (nm) with decimal points, separated by commas";
+        for (csv, line, more) in [
+            ("0,0,0\n1,2\n", 2, ""),
+            // The first row is a heading only if no word of it is a number.
+            ("0,0,O\n0,0,41\n", 1, ""),
+            ("x,y,z\n0,0\n", 2, ""),
+            ("0;0;0\n0;0;41\n", 1, ", not by semicolons"),
+            ("0,5;0,0;0,0\n", 1, ", not by semicolons"),
+            ("x y z\n0 0 0\n", 2, ", not by spaces"),
+            ("0\t0\t0\n", 1, ", not by tabs"),
+        ] {
+            assert_eq!(told(csv), format!("{place}line {line}: {rule}{more}"));
+        }
         let mut text = SceneText::new(SCENE);
         let missing = text.read_points(Path::new("/nowhere")).unwrap_err();
         assert!(

@@ -27,16 +27,16 @@ const MOST_STATES: usize = 10_000;
 /// # Errors
 /// The first rule that is broken.
 pub(crate) fn validate(scene: &Scene) -> Result<(), SceneProblem> {
-    problems(scene).into_iter().next().map_or(Ok(()), Err)
+    problems(scene, 1).into_iter().next().map_or(Ok(()), Err)
 }
 
-/// Every broken rule, one for each key: those of numbers and names, or, where they break none, those of the
-/// whole scene.
-pub(super) fn problems(scene: &Scene) -> Vec<SceneProblem> {
+/// The first `most` broken rules, one for each key: those of numbers and names, or, where they break none, those
+/// of the whole scene.
+pub(super) fn problems(scene: &Scene, most: usize) -> Vec<SceneProblem> {
     let mut found = Vec::new();
     let held = HeldEnds::of(scene);
     let mut note = |checked: Result<(), SceneProblem>| {
-        let problem = checked.err();
+        let problem = checked.err().filter(|_| found.len() < most);
         let is_new = |p: &SceneProblem| found.iter().all(|f: &SceneProblem| f.key != p.key);
         let new = problem.filter(is_new);
         found.extend(new);

@@ -113,7 +113,7 @@ fn chain(held: bool) -> (State, Vec<Box<dyn Interaction>>, Layout) {
         state.frames.hold(0);
     }
     let control: ControlId = state.add_control(1.0);
-    let force = PointLoad::new(&state, vec![(bodies - 1, 1.0)], Vector3::x(), control);
+    let force = PointLoad::new(&state, vec![(bodies - 1, 1.0)], Vector3::x(), control).unwrap();
     let joints = |step| {
         let ends = [Vector3::new(0.4, 0.1, 0.9), Vector3::new(-0.2, 0.3, -0.8)];
         Joints { bodies, step, ends }

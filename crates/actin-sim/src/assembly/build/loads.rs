@@ -10,6 +10,7 @@ use actin_ellipsoid::Monomers;
 use actin_mechanics::{
     ControlId, Couple as FrameCouple, CoupleKind, Interaction, Loads, PointLoad, Residual, Vector3,
 };
+use std::error::Error;
 
 /// Frames, each with its share of a couple.
 type Shares = Vec<(usize, f64)>;
@@ -20,7 +21,7 @@ impl Builder<'_> {
         let mut nodes = Nodes::default();
         for (i, load) in self.scene.loads.iter().enumerate() {
             let control = self.stock.state.add_control(UNSET);
-            let refused = |error: LinkerError| {
+            let refused = |error: Box<dyn Error>| {
                 SceneProblem::new(format!("loads[{i}]"), "", error.to_string())
             };
             let interaction = self.load(load, control, &mut nodes).map_err(refused)?;
@@ -51,7 +52,7 @@ impl Builder<'_> {
         load: &Load,
         control: ControlId,
         nodes: &mut Nodes,
-    ) -> Result<Box<dyn Interaction>, LinkerError> {
+    ) -> Result<Box<dyn Interaction>, Box<dyn Error>> {
         let size = Vector3::from(load.written().1);
         let state = &self.stock.state;
         Ok(match (load, load.resultant(self.scene)) {
@@ -59,11 +60,11 @@ impl Builder<'_> {
                 let points = self.tip(*filament, *end);
                 let share = 1.0 / points.len() as f64;
                 let shares = points.iter().map(|&point| (point, share)).collect();
-                Box::new(PointLoad::new(state, shares, size, control))
+                Box::new(PointLoad::new(state, shares, size, control)?)
             }
             (Load::Acceleration(load), _) => {
                 let masses = self.masses(load.filament);
-                Box::new(PointLoad::new(state, masses, size, control))
+                Box::new(PointLoad::new(state, masses, size, control)?)
             }
             (_, Resultant::Force(_)) => {
                 let kind = if load.follows() {
@@ -72,7 +73,7 @@ impl Builder<'_> {
                     ForceKind::Dead
                 };
                 let sites = self.sites(load, nodes)?;
-                Box::new(SiteForce::new(state, sites, size, kind, control))
+                Box::new(SiteForce::new(state, sites, size, kind, control)?)
             }
             (_, Resultant::Couple(_)) => {
                 let kind = if load.follows() {
