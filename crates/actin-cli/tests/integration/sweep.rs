@@ -211,9 +211,32 @@ fn a_signal_leaves_checkpoints() {
     Command::new("kill").args(["-INT", &id]).status().unwrap();
     let output = child.wait_with_output().unwrap();
     assert_eq!(code(&output), 130, "{}", stderr(&output));
-    let message = "interrupted: 0 of 12 runs have ended, the others that had begun have checkpoints; to \
-                   continue: actin sweep sweep.ron --out a --resume\n";
+    let message = "interrupted: 0 of 12 runs have ended and are in runs.csv and table.csv, the others that had begun \
+                   have checkpoints; to continue: actin sweep sweep.ron --out a --resume\n";
     assert_eq!(stderr(&output), message);
+    // Both tables stand, with what has not ended.
+    let runs = read(&place, "a/runs.csv");
+    assert_eq!(runs.matches(",unfinished,").count(), 12, "{runs}");
+    let table = read(&place, "a/table.csv");
+    let counts: Vec<&str> = table
+        .lines()
+        .skip(1)
+        .filter_map(|row| row.split(',').nth(3))
+        .collect();
+    assert_eq!(counts, ["0"; 4], "{table}");
+}
+
+/// A sweep without any result is a failure, whose table has the reasons.
+#[test]
+fn a_sweep_of_which_every_run_fails_is_a_failure() {
+    let place = place(&SWEEP.replace("0.0, -1.5, inf", "inf"));
+    let output = place.actin(&["sweep", "sweep.ron", "--out", "a"]);
+    assert_eq!(code(&output), 3, "{}", stderr(&output));
+    assert_eq!(
+        stderr(&output),
+        "error: all 6 run(s) failed: a/runs.csv says why\n"
+    );
+    assert!(read(&place, "a/runs.csv").contains("must be finite"));
 }
 
 /// What is written in place of what, and what it prints.
@@ -262,6 +285,16 @@ const MISTAKES: &[(&str, &str, &str)] = &[
         "filament.sections[1].to_nm",
         "loads[0].force_pn",
         "sweep.ron:6:9: vary[1] = loads[0].force_pn: is varied already, as loads[0].force_pn[2]",
+    ),
+    (
+        "filament.rod.law",
+        "loads[0].force_pn[2]",
+        "sweep.ron:5:9: vary[0] = loads[0].force_pn[2]: would replace set[0], which sets loads[0].force_pn[2]",
+    ),
+    (
+        "filament.rod.law\", value: Fitted",
+        "filaments[0].sections[1].to_nm\", value: 30.0",
+        "sweep.ron:6:9: vary[1] = filament.sections[1].to_nm: would replace set[0], which sets filaments[0]",
     ),
     ("scene.ron", "absent.ron", "absent.ron: "),
 ];
@@ -383,9 +416,9 @@ fn a_result_that_is_lacking_is_told() {
     )
     .unwrap();
     let output = place.actin(&["sweep", "sweep.ron", "--out", "out"]);
-    assert_done(&output);
-    let told = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(told.starts_with("1 run(s), 1 failed"), "{told}");
+    assert_eq!(code(&output), 3, "{}", stdout(&output));
+    let told = stderr(&output);
+    assert!(told.starts_with("error: all 1 run(s) failed"), "{told}");
     let reason = "its summary has no value of filaments[1].tip_nm[0]";
     for table in ["out/runs.csv", "out/table.csv"] {
         let text = read(&place, table);

@@ -139,6 +139,11 @@ impl Contacts {
         &self.capsules
     }
 
+    /// Number of pairs of capsules whose distance is computed in each evaluation of the loads, near `state`.
+    pub fn pairs(&self, state: &State) -> usize {
+        self.neighbours(state).pairs.len()
+    }
+
     /// Depth over the distance of contact, two radii, at which the force of a crossing is greatest.
     pub fn yield_depth() -> f64 {
         1.0 - Kernel::YIELD

@@ -32,6 +32,12 @@ pub(crate) struct Touching {
 }
 
 impl Repelled {
+    /// Number of pairs of capsules that are near each other.
+    pub(crate) fn pairs(&self, state: &State) -> usize {
+        let contacts = self.contacts.as_ref();
+        contacts.map_or(0, |contacts| contacts.pairs(state))
+    }
+
     /// Where surfaces are nearest to each other, and to each wall, as far as they are near.
     pub(crate) fn touching(&self, state: &State) -> Vec<Touching> {
         let between = self.contacts.iter().filter_map(|contacts| {

@@ -8,11 +8,12 @@ mod newton;
 mod rates;
 
 pub use rates::{
-    BONDS_PER_S, DIRECTORY_S, DRAWN_BONDS_PER_S, ELEMENTS_PER_S, FILAMENTS_PER_S,
-    FINAL_BODIES_PER_S, FLUID_BODIES_PER_S, LAW_ELEMENTS_PER_S, MONOMERS_PER_S, MOVED_BODIES_PER_S,
-    NEWTON_BONDS_PER_S, NEWTON_ELEMENTS_PER_S, NEWTON_LAW_ELEMENTS_PER_S, NEWTON_MONOMERS_PER_S,
-    NEWTON_TERMS_PER_S, NOISY_BODIES_PER_S, RECORD_S, RECORDED_BODIES_PER_S, REFERENCE,
-    SOLID_ANGLES_PER_S, STAGES_PER_S, TERMS_PER_S, TRIAL_BODIES_PER_S,
+    BONDS_PER_S, BROWNIAN_CONTACTS_PER_S, CONTACTS_PER_S, DIRECTORY_S, DRAWN_BONDS_PER_S,
+    ELEMENTS_PER_S, FILAMENTS_PER_S, FINAL_BODIES_PER_S, FLUID_BODIES_PER_S, LAW_ELEMENTS_PER_S,
+    MONOMERS_PER_S, MOVED_BODIES_PER_S, NEWTON_BONDS_PER_S, NEWTON_CONTACTS_PER_S,
+    NEWTON_ELEMENTS_PER_S, NEWTON_LAW_ELEMENTS_PER_S, NEWTON_MONOMERS_PER_S, NEWTON_TERMS_PER_S,
+    NOISY_BODIES_PER_S, RECORD_S, RECORDED_BODIES_PER_S, REFERENCE, SOLID_ANGLES_PER_S,
+    STAGES_PER_S, TERMS_PER_S, TRIAL_BODIES_PER_S,
 };
 
 use crate::scene::{Anchors, Dynamics, Filament, RodLaw, RodModel, Task};
@@ -41,8 +42,9 @@ pub struct Cost {
     pub seconds: Seconds,
     /// Memory (bytes) of a run into a directory, where records go to the disk.
     pub bytes: f64,
-    /// Whether the scene has repulsion, whose work is in none of these numbers.
-    pub is_repelled: bool,
+    /// Pairs of near segments and monomers between which repulsion is evaluated, as built; `None` without
+    /// repulsion.
+    pub contacts: Option<usize>,
 }
 
 /// Time on one core of the reference machine (s), by what it goes into.
@@ -101,7 +103,15 @@ impl Cost {
                     + elements.bodies / MOVED_BODIES_PER_S
                     + seconds_of_noise(assembly, dynamics, estimate)
             }
-            _ => newton::counted(evaluations, equilibria) * elements.seconds_of_newton_step(),
+            (_, estimate) => {
+                let contacts_per_s = match estimate {
+                    Some(_) => BROWNIAN_CONTACTS_PER_S,
+                    None => NEWTON_CONTACTS_PER_S,
+                };
+                let contacts = elements.contacts / contacts_per_s;
+                newton::counted(evaluations, equilibria)
+                    * (elements.seconds_of_newton_step() + contacts)
+            }
         };
         Self {
             work: elements.work,
@@ -113,7 +123,7 @@ impl Cost {
                 results: elements.seconds_of_results(assembly, records),
             },
             bytes: assembly.bytes,
-            is_repelled: assembly.scene.repulsion.is_some(),
+            contacts: contacts(assembly),
         }
     }
 
@@ -158,11 +168,10 @@ impl fmt::Display for Cost {
             time(results),
             memory::in_words(self.bytes)
         )?;
-        if self.is_repelled {
+        if let Some(contacts) = self.contacts {
             write!(
                 f,
-                "; contacts of the repulsion and their search are not counted: filaments side by side take several \
-                 times as long"
+                "; {contacts} contacts of the repulsion are counted, as built: more take longer, in proportion"
             )?;
         }
         Ok(())
@@ -191,6 +200,13 @@ struct Elements {
     following: f64,
     terms: f64,
     bodies: f64,
+    /// Pairs between which repulsion is evaluated.
+    contacts: f64,
+}
+
+fn contacts(assembly: &Assembly) -> Option<usize> {
+    let repelled = assembly.repelled.as_ref()?;
+    Some(repelled.pairs(&assembly.rest))
 }
 
 impl Elements {
@@ -203,6 +219,7 @@ impl Elements {
             following: 0.0,
             terms: assembly.terms.len() as f64,
             bodies: (assembly.points.len() + assembly.frames.len()) as f64,
+            contacts: contacts(assembly).unwrap_or(0) as f64,
         };
         for (i, filament) in assembly.scene.filaments().enumerate() {
             let one = Evaluated::of_one(assembly, i);
@@ -229,6 +246,7 @@ impl Elements {
             + self.constant / ELEMENTS_PER_S
             + self.following / LAW_ELEMENTS_PER_S
             + self.terms / TERMS_PER_S
+            + self.contacts / CONTACTS_PER_S
     }
 
     fn seconds_of_newton_step(&self) -> f64 {
@@ -341,22 +359,44 @@ mod tests {
         assert!((noise - 24_000.0 / NOISY_BODIES_PER_S).abs() < 1e-12);
     }
 
-    /// What repulsion takes is not estimated, which is said.
+    /// Two filaments side by side have contacts that take time, far from each other none; without repulsion they
+    /// are not mentioned.
     #[test]
-    fn contacts_are_said_not_to_count() {
-        let text = "Scene(
-            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
-            repulsion: Repulsion(),
-            task: Dynamics(duration_ns: 1.0),
-        )";
-        let said = |text: &str| {
-            let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
-            let cost = Plan::new(&assembly).unwrap().cost();
-            cost.to_string()
-                .contains("contacts of the repulsion and their search are not counted")
+    fn contacts_count() {
+        let of = |apart: f64, repulsion: &str| {
+            let text = format!(
+                "Scene(
+                    filaments: [
+                        Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)]),
+                        Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)], at_nm: ({apart:?}, 0.0, 0.0)),
+                    ],
+                    {repulsion}
+                    task: Dynamics(duration_ns: 1.0, time_step_ns: 0.001),
+                )"
+            );
+            let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+            Plan::new(&assembly).unwrap().cost()
         };
-        assert!(said(text));
-        assert!(!said(&text.replace("repulsion: Repulsion(),", "")));
+        let near = of(8.0, "repulsion: Repulsion(),");
+        let far = of(80.0, "repulsion: Repulsion(),");
+        // 8 nm apart: at least each segment with the one beside it and with its neighbours.
+        let pairs = near.contacts.unwrap();
+        assert!(pairs >= 16 && far.contacts == Some(0), "{pairs}");
+        let more = near.seconds.solve - far.seconds.solve;
+        let expected = 4000.0 * pairs as f64 / CONTACTS_PER_S;
+        assert!((more / expected - 1.0).abs() < 1e-9);
+        assert!(near.to_string().contains("contacts of the repulsion"));
+        assert!(!of(80.0, "").to_string().contains("contacts"));
+    }
+
+    /// Each start of a search for other states is an equilibrium of its own.
+    #[test]
+    fn starts_of_a_search_count() {
+        let rod = "Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)";
+        let one = cost(rod, "Equilibrium()");
+        let many = cost(rod, "Equilibrium(states: 100)");
+        assert_eq!(many.equilibria, 101);
+        assert!(many.seconds.solve > 100.0 * one.seconds.solve);
     }
 
     /// An equilibrium is estimated without time steps, and for less than the motion towards it.

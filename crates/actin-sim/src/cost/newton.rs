@@ -28,6 +28,10 @@ const DRIVEN: Steps = [0.5, 2.0, 9.0];
 /// The same where the ends of a filament are pushed together, which buckles: 15, 20 to 40, 40 to 50.
 const PUSHED: Steps = [15.0, 29.0, 42.0];
 
+/// From a random start about an equilibrium to a stable state: 50 to 72, 213 to 247, and, of bonds that snap, some
+/// 4000.
+const SEARCHED: Steps = [60.0, 230.0, 4000.0];
+
 /// More monomers in a row than these take more steps from rest, by a power of their number.
 const SHORT: f64 = 60.0;
 /// That power. Drawn bonds: 28 of 300, 44 of 600, 69 of 1200, 141 of 2400. Weighted ones, which leave all
@@ -57,8 +61,10 @@ pub(super) fn steps(assembly: &Assembly) -> (u64, u64) {
     let kind = kind(assembly);
     let scene = &assembly.scene;
     let from_rest = from_rest(assembly, kind);
+    let starts = task.states as f64;
+    let searched = starts * SEARCHED[kind as usize];
     if scene.path.is_empty() {
-        return (from_rest as u64, 1);
+        return ((from_rest + searched) as u64, 1 + starts as u64);
     }
     let each = points_of_stage(task);
     let stages = scene.path.iter().enumerate().map(|(i, stage)| {
@@ -69,8 +75,8 @@ pub(super) fn steps(assembly: &Assembly) -> (u64, u64) {
     // Loads that no stage sets act from the start.
     let is_loaded = !scene.linkers.is_empty() || scene.loads.len() > set_loads(assembly);
     let first = if is_loaded { from_rest } else { 0.0 };
-    let steps = first + stages.sum::<f64>();
-    let equilibria = 1.0 + each * scene.path.len() as f64;
+    let steps = first + stages.sum::<f64>() + searched;
+    let equilibria = 1.0 + each * scene.path.len() as f64 + starts;
     (steps.round() as u64, equilibria as u64)
 }
 

@@ -34,6 +34,12 @@ pub const NEWTON_LAW_ELEMENTS_PER_S: f64 = 2.5e5;
 pub const TERMS_PER_S: f64 = 1.0e7;
 /// The same of a Newton step.
 pub const NEWTON_TERMS_PER_S: f64 = 1.2e6;
+/// Pairs of near capsules per second, in whole steps of a motion.
+pub const CONTACTS_PER_S: f64 = 4.0e7;
+/// The same of a step of overdamped motion, whose matrix they fill.
+pub const BROWNIAN_CONTACTS_PER_S: f64 = 5.0e5;
+/// The same of a Newton step to an equilibrium.
+pub const NEWTON_CONTACTS_PER_S: f64 = 6.0e4;
 /// Filaments per second that are read, checked and built, beside their bonds.
 pub const FILAMENTS_PER_S: f64 = 4.0e4;
 /// Bonds per second that are drawn; weighted ones are known for the default geometry.

@@ -240,6 +240,25 @@ fn what_the_filament_does_not_have_is_refused() {
     );
 }
 
+/// However short the distance is, the mean is over pairs; a single cross-section has none.
+#[test]
+fn tangents_correlate_over_any_distance() {
+    for over in ["1e-300", "1e-10", "1e-9", "1e-3"] {
+        let scene = |segments| {
+            build(&format!(
+                "Scene(filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: {segments})]),
+                 observe: [TangentCorrelation(over_nm: {over})], task: Equilibrium())"
+            ))
+        };
+        let assembly = scene(6);
+        assert!(Plan::new(&assembly).is_ok());
+        // Straight: all cosines are 1.
+        let row = observe(&assembly, &assembly.rest);
+        assert!((row[0] - 1.0).abs() < 1e-12, "{over}: {row:?}");
+        assert!(Plan::new(&scene(1)).is_err());
+    }
+}
+
 /// A column for each end; the start of a filament that is clamped there stays.
 #[test]
 fn ends_are_told_apart() {

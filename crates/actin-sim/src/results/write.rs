@@ -385,6 +385,76 @@ mod tests {
         assert_eq!(all_names(&folder.path().join(PICTURES)).len(), 3);
     }
 
+    /// A text that somebody has changed is refused by name, to go on as to overwrite, and stays.
+    #[test]
+    fn tables_that_were_changed_are_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path();
+        let directory = RunDirectory::create(path, false).unwrap();
+        let assembly = fixture::clamped_start();
+        let trajectory = fixture::trajectory(&assembly);
+        let outcome = fixture::outcome();
+        let write = || directory.write(&plan(&assembly), &trajectory, &outcome);
+        // Twice, as a run does that was interrupted and goes on.
+        write().unwrap();
+        directory.reopen().unwrap();
+        write().unwrap();
+        for name in [ENERGIES, PROFILE, SUMMARY, SCENE] {
+            let file = path.join(name);
+            let written = fs::read(&file).unwrap();
+            fs::write(&file, "mine").unwrap();
+            let both = [
+                directory.reopen(),
+                RunDirectory::create(path, true).map(drop),
+            ];
+            for refused in both {
+                let message = refused.unwrap_err().to_string();
+                let expected = format!("{name} has been changed since the run wrote it");
+                assert!(message.contains(&expected), "{message}");
+            }
+            assert_eq!(fs::read(&file).unwrap(), b"mine");
+            fs::write(&file, written).unwrap();
+        }
+        directory.reopen().unwrap();
+        RunDirectory::create(path, true).unwrap();
+    }
+
+    /// A writer that is full anywhere, also where the directory of the archive begins, gives an error; what the
+    /// archive writes when it is dropped is lost in silence.
+    #[test]
+    fn a_full_disk_is_one_error() {
+        struct Full(io::Cursor<Vec<u8>>, u64);
+        impl Write for Full {
+            fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+                if self.0.position() + bytes.len() as u64 > self.1 {
+                    return Err(io::ErrorKind::StorageFull.into());
+                }
+                self.0.write(bytes)
+            }
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+        impl io::Seek for Full {
+            fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
+                self.0.seek(to)
+            }
+        }
+        let assembly = fixture::clamped_start();
+        let trajectory = fixture::trajectory(&assembly);
+        let tables = Tables::new(&assembly);
+        let written = |room| {
+            let mut full = Full(io::Cursor::default(), room);
+            let written = tables.states.write(&trajectory, &mut full);
+            written.map(|()| full.0.into_inner().len() as u64)
+        };
+        let whole = written(u64::MAX).unwrap();
+        for room in [0, whole / 2, whole - 100, whole - 1] {
+            let error = written(room).unwrap_err();
+            assert!(error.to_string().contains("no storage space"), "{error}");
+        }
+    }
+
     /// A file that no run has written, or a link, in the place of a result: refused by name, and stays.
     #[test]
     fn results_do_not_replace_the_files_of_others() {

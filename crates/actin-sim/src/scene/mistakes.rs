@@ -189,6 +189,26 @@ mod tests {
         }
     }
 
+    /// Of 5000 clamps at one end 20 are told; of a text of a megabyte as many mistakes as two readings show.
+    #[test]
+    fn of_many_mistakes_the_first_are_found() {
+        let many = |what: &str, count: usize| {
+            let clamps = vec![what; count].join(", ");
+            SCENE.replace("[Clamp(end: Start)]", &format!("[{clamps}]"))
+        };
+        let (errors, problems) = all(&many("Clamp(end: Start)", 5000));
+        assert_eq!((errors.len(), problems.len()), (0, 20));
+        assert_eq!(problems[0].key, "clamps[1].end");
+        let (errors, _) = all(&many("Clamp(end: Begin)", 1000));
+        assert_eq!(errors.len(), 20);
+        let (errors, _) = all(&many("Clamp(end: Begin)", 60_000));
+        assert_eq!(errors.len(), 1);
+        let (errors, _) = all(&"(".repeat(200_000));
+        assert_eq!(errors.len(), 1);
+        let expected = "1:129: brackets are nested more than 128 deep here";
+        assert_eq!(errors[0].to_string(), expected);
+    }
+
     /// Broken rules of numbers are found together; those of the whole scene where there are none.
     #[test]
     fn broken_rules_are_found_together() {

@@ -407,3 +407,22 @@ impl Reader<'_> {
         self.skip_to(&format!("\"{}", "#".repeat(marks)));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Reading stops at brackets within each other that RON would not read: each bracket is a node, and the work for
+    /// the path of a node grows with its depth.
+    #[test]
+    fn deep_brackets_end_the_outline() {
+        for bracket in ["(", "[", "{", "(a: "] {
+            let outline = Outline::of(&bracket.repeat(250_000));
+            assert_eq!(outline.nodes.len(), MOST_DEPTH);
+            assert_eq!(outline.too_deep, Some(MOST_DEPTH * bracket.len()));
+        }
+        let flat = Outline::of(&format!("Scene(a: [{}])", "b(), ".repeat(1000)));
+        assert_eq!((flat.nodes.len(), flat.too_deep), (1002, None));
+        assert_eq!(flat.children(Some(1)).len(), 1000);
+    }
+}
