@@ -20,8 +20,12 @@ pub(crate) fn check(source: &SceneArguments) -> Result<(), Failure> {
         println!("// note: {note}");
     }
     if let Some(estimate) = plan.estimate() {
-        if let Some(times) = plan.relaxation_times() {
-            print_relaxation(&times);
+        match plan.relaxation_times() {
+            Some(times) => print_relaxation(&times),
+            None if matches!(assembly.scene.task, Task::Brownian(_)) => {
+                println!("// relaxation times are computed of at most 5000 degrees of freedom");
+            }
+            None => {}
         }
         print_step(estimate);
     }
