@@ -27,35 +27,40 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 /// directory, and would print the error on standard error.
 struct Silent<W> {
     out: W,
-    /// Place after the last byte, once writing has failed.
-    lost: Option<u64>,
+    /// Place in the file, as the archive sees it.
+    place: u64,
+    has_failed: bool,
 }
 
 impl<W: Write + Seek> Silent<W> {
     fn new(out: W) -> Self {
-        Self { out, lost: None }
+        Self {
+            out,
+            place: 0,
+            has_failed: false,
+        }
     }
 
     fn check<T>(&mut self, done: io::Result<T>) -> io::Result<T> {
-        if done.is_err() {
-            self.lost = Some(0);
-        }
+        self.has_failed |= done.is_err();
         done
     }
 }
 
 impl<W: Write + Seek> Write for Silent<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if let Some(place) = &mut self.lost {
-            *place += bytes.len() as u64;
-            return Ok(bytes.len());
-        }
-        let written = self.out.write(bytes);
-        self.check(written)
+        let written = if self.has_failed {
+            bytes.len()
+        } else {
+            let written = self.out.write(bytes);
+            self.check(written)?
+        };
+        self.place += written as u64;
+        Ok(written)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        if self.lost.is_some() {
+        if self.has_failed {
             return Ok(());
         }
         let flushed = self.out.flush();
@@ -65,15 +70,17 @@ impl<W: Write + Seek> Write for Silent<W> {
 
 impl<W: Write + Seek> Seek for Silent<W> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        if let Some(place) = &mut self.lost {
-            *place = match to {
-                SeekFrom::Start(place) => place,
-                SeekFrom::Current(by) | SeekFrom::End(by) => place.saturating_add_signed(by),
-            };
-            return Ok(*place);
-        }
-        let sought = self.out.seek(to);
-        self.check(sought)
+        self.place = match (self.has_failed, to) {
+            (false, to) => {
+                let sought = self.out.seek(to);
+                self.check(sought)?
+            }
+            (true, SeekFrom::Start(place)) => place,
+            (true, SeekFrom::Current(by) | SeekFrom::End(by)) => {
+                self.place.saturating_add_signed(by)
+            }
+        };
+        Ok(self.place)
     }
 }
 

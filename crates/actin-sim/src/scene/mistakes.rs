@@ -199,8 +199,9 @@ mod tests {
         let (errors, problems) = all(&many("Clamp(end: Start)", 5000));
         assert_eq!((errors.len(), problems.len()), (0, 20));
         assert_eq!(problems[0].key, "clamps[1].end");
+        // Every second reading finds that a blanked key is missing.
         let (errors, _) = all(&many("Clamp(end: Begin)", 1000));
-        assert_eq!(errors.len(), 20);
+        assert_eq!(errors.len(), 10);
         let (errors, _) = all(&many("Clamp(end: Begin)", 60_000));
         assert_eq!(errors.len(), 1);
         let (errors, _) = all(&"(".repeat(200_000));
