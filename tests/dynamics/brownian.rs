@@ -166,7 +166,11 @@ fn long_steps_are_told() {
     let notes = |sections: &str, temperature: f64, step: &str| {
         let task = format!("Brownian(duration_ms: 1e-5, temperature_k: {temperature:?}{step})");
         let assembly = Assembly::build(&Scene::from_ron(&cantilever(sections, &task)).unwrap());
-        Plan::new(&assembly.unwrap()).unwrap().notes()
+        let notes = Plan::new(&assembly.unwrap()).unwrap().notes();
+        notes
+            .into_iter()
+            .map(|note| note.message)
+            .collect::<Vec<_>>()
     };
     let told = |notes: &[String]| {
         notes

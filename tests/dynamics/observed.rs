@@ -204,7 +204,11 @@ fn means_of_one_record_are_noted() {
     let notes = |task: &str, scene: &str| {
         let text = heated(")])", scene, task);
         let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
-        Plan::new(&assembly).unwrap().notes()
+        let notes = Plan::new(&assembly).unwrap().notes();
+        notes
+            .into_iter()
+            .map(|note| note.message)
+            .collect::<Vec<_>>()
     };
     // The burn-in of 0.4 ns leaves the end alone.
     let told = notes("duration_ns: 2.0, record_every_ns: 2.0", "");

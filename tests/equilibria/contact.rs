@@ -201,7 +201,11 @@ fn filaments_built_into_each_other_are_refused_or_noted() {
     };
     let problem = |x| {
         let scene = actin_sim::Scene::from_ron(&scene(x)).unwrap();
-        Assembly::build(&scene).map(|assembly| assembly.notes())
+        let notes = Assembly::build(&scene).map(|assembly| assembly.notes());
+        notes.map(|notes| {
+            let messages = notes.into_iter().map(|note| note.message);
+            messages.collect::<Vec<_>>()
+        })
     };
     let refused = problem(2.0).unwrap_err().to_string();
     assert!(

@@ -259,8 +259,8 @@ fn short_segments_of_cells_are_noted() {
             )"
         );
         let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
-        let notes = assembly.notes();
-        let note = notes.into_iter().find(|note| note.contains("segments: 1"));
+        let mut notes = assembly.notes().into_iter().map(|note| note.message);
+        let note = notes.find(|note| note.contains("segments: 1"));
         let plan = Plan::new(&assembly).unwrap();
         (note, plan.estimate().unwrap().time_step_ns)
     };

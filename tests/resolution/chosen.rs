@@ -92,7 +92,11 @@ fn monomers_that_snap_are_resolved() {
             !chosen.is_met && !chosen.several_states_nm.is_empty(),
             "{chosen:?}"
         );
-        assert!(assembly.notes()[0].contains("Its error is not known"));
+        assert!(
+            assembly.notes()[0]
+                .message
+                .contains("Its error is not known")
+        );
         let rod = scene("[Rod(from_nm: 0.0, to_nm: 301.0, segments: 30)]", &rest);
         let solved = solved(&rod);
         let told = estimate(&solved, solved.system.state(), Quantity::EndCouple).unwrap();
@@ -153,7 +157,7 @@ fn a_number_of_monomers_is_kept() {
         assert_eq!(assembly.counts().monomers, chosen.monomers, "{chosen:?}");
         assert!(chosen.monomers <= most, "{chosen:?}");
         assert_eq!(chosen.is_met, is_met, "{chosen:?}");
-        let note = &assembly.notes()[0];
+        let note = &assembly.notes()[0].message;
         assert_eq!(note.contains("is not met within"), !is_met, "{note}");
         let mut rod = assembly.scene.clone();
         let whole = Section::rod(0.0, assembly.length_nm(), None);
@@ -207,7 +211,11 @@ fn scenes_keep_what_is_asked() {
     let assembly = Assembly::build(&scene).unwrap();
     let written = Scene::from_ron(&assembly.scene.to_ron()).unwrap();
     assert_eq!(written, assembly.scene);
-    assert!(assembly.notes()[0].starts_with("sections chosen for Tip within 1 %: a rod"));
+    assert!(
+        assembly.notes()[0]
+            .message
+            .starts_with("sections chosen for Tip within 1 %: a rod")
+    );
 }
 
 /// Every filament is looked at, and one that is too short to be judged is resolved throughout.

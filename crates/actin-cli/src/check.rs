@@ -16,9 +16,6 @@ pub(crate) fn check(source: &SceneArguments) -> Result<(), Failure> {
     print_counts(assembly);
     print_linkers(assembly);
     print_thermal(assembly, plan.estimate());
-    for note in assembly.notes() {
-        println!("// note: {note}");
-    }
     if let Some(estimate) = plan.estimate() {
         match plan.relaxation_times() {
             Some(times) => print_relaxation(&times),
@@ -29,8 +26,8 @@ pub(crate) fn check(source: &SceneArguments) -> Result<(), Failure> {
         }
         print_step(estimate);
     }
-    for note in plan.notes() {
-        println!("// note: {note}");
+    for note in opened.notes(&plan) {
+        println!("// {note}");
     }
     println!("// cost: {}", plan.cost());
     println!("// cheaper: {}", plan.advice());

@@ -2,7 +2,7 @@
 
 use crate::{SceneArguments, excerpt};
 use actin_sim::{
-    Assembly, CheckpointError, Drawn, Plan, RunDirectoryError, Scene, SceneError, SceneText,
+    Assembly, CheckpointError, Drawn, Note, Plan, RunDirectoryError, Scene, SceneError, SceneText,
 };
 use std::fmt;
 use std::io::Read;
@@ -69,6 +69,11 @@ pub(crate) struct Opened {
 }
 
 impl Opened {
+    /// Notes and warnings that are known before the run.
+    pub(crate) fn notes(&self, plan: &Plan<'_>) -> Vec<Note> {
+        [self.assembly.notes(), plan.notes()].concat()
+    }
+
     /// Reads the scene, sets what the arguments set, and builds it.
     pub(crate) fn open(source: &SceneArguments) -> Result<Self, Failure> {
         let name = source.scene.display().to_string();

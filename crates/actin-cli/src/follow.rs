@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &RunArguments, opened: &Opened) -> Result<(), Failu
         beginnings,
     };
     let summary = chain.advance()?;
-    print(&summary, &out);
+    print(&summary, &opened.notes(&opened.plan()?), &out);
     if let Some(following) = &summary.following {
         println!(
             "{} switch(es) added {:.4} pN nm; {:.0} % of the cells were monomers",

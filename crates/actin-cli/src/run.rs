@@ -17,8 +17,8 @@ use std::time::Instant;
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let opened = Opened::open(&arguments.source)?;
     let plan = opened.plan()?;
-    for note in plan.notes() {
-        println!("note: {note}");
+    for note in opened.notes(&plan) {
+        println!("{note}");
     }
     if opened
         .assembly
@@ -63,7 +63,7 @@ fn run_plan(arguments: &RunArguments, opened: &Opened, plan: &Plan<'_>) -> Resul
     let written = directory.write(plan, &checkpoints, &outcome);
     let removed = written.and_then(|summary| directory.remove_checkpoint().map(|()| summary));
     let summary = removed.map_err(|error| unwritten(arguments, &directory, error))?;
-    print(&summary, &out);
+    print(&summary, &opened.notes(plan), &out);
     Ok(())
 }
 
@@ -343,7 +343,7 @@ impl Task<'_> {
             .write(self.plan, checkpoints, &failed.outcome)
         {
             Ok(summary) => {
-                print_remarks(&summary);
+                print_remarks(&summary, &self.opened.notes(self.plan));
                 let place = self.directory.path().display();
                 Failure::Numerical(format!("{why}; {kept} in {place}"))
             }

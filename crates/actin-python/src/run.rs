@@ -123,7 +123,12 @@ impl Job<'_> {
             return Err(interrupted(py, error, run));
         }
         match failure {
-            None => run.ok_or_else(|| PyValueError::new_err("the run has no record")),
+            None => {
+                let run = run.ok_or_else(|| PyValueError::new_err("the run has no record"))?;
+                py.import("actin.results")?
+                    .call_method1("emit_warnings", (&run,))?;
+                Ok(run)
+            }
             Some(failure) => Err(failed(py, &failure, run)),
         }
     }

@@ -159,7 +159,13 @@ impl Scene {
         found.set_item("seconds", plan.cost().seconds.total())?;
         found.set_item("cost", plan.cost().to_string())?;
         found.set_item("advice", plan.advice().to_string())?;
-        found.set_item("notes", [assembly.notes(), plan.notes()].concat())?;
+        let notes = [assembly.notes(), plan.notes()].concat();
+        let warnings: Vec<_> = notes.iter().filter(|note| note.code.is_some()).collect();
+        let warnings = serde_json::to_string(&warnings).map_err(errors::value)?;
+        let warnings = py.import("json")?.call_method1("loads", (warnings,))?;
+        found.set_item("warnings", warnings)?;
+        let texts: Vec<_> = notes.into_iter().map(|note| note.message).collect();
+        found.set_item("notes", texts)?;
         Ok(found)
     }
 

@@ -4,6 +4,7 @@ import os
 import signal
 import threading
 import time
+import warnings
 
 import actin
 import numpy as np
@@ -235,3 +236,28 @@ def test_pyvista_gets_lines_and_ellipsoids(scene):
     each = monomers.volume / 16
     # A faceted ellipsoid has a little less volume than a smooth one.
     assert 0.93 < each / (4 / 3 * np.pi * np.prod(axes)) < 1.0
+
+
+def test_warnings_are_on_every_surface(tmp_path):
+    """A rod turned by 0.0698 rad/nm, where the data of its law reach 0.0472; half of that is silent."""
+
+    def turned(angle):
+        return actin.Scene(
+            filament={"sections": [{"Rod": {"from_nm": 0.0, "to_nm": 75.0}}], "rod": {"law": "Fitted"}},
+            clamps=[{"end": "Start"}, {"end": "End", "slides": "AlongAxis"}],
+            path=[{"set": [{"Turn": {"end": "End", "turn_deg": [0.0, 0.0, angle]}}]}],
+            task={"Equilibrium": {}},
+        )
+
+    message = "beyond the data of its law: twist 0.0698 rad/nm"
+    with pytest.warns(actin.RunWarning, match=rf"{message}.*\[law-range\]") as caught:
+        run = actin.run(turned(300.0), tmp_path / "run")
+    assert caught[0].filename == __file__
+    (found,) = (each["message"] for each in run.warnings if each["code"] == "law-range")
+    assert found.startswith(message) and found in run.notes and found in run._repr_html_()
+    assert actin.load(tmp_path / "run").warnings == run.warnings
+    with pytest.warns(actin.RunWarning, match=message):
+        actin.equilibrium(turned(300.0))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert actin.run(turned(150.0)).warnings == []

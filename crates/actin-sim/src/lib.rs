@@ -46,6 +46,7 @@ pub use assembly::{
 };
 pub use ensemble::{Ensemble, EnsembleError, EnsembleProgress, Replica};
 pub use error::SimError;
+pub use notes::{Note, codes as warning_codes};
 pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
 pub use results::{
     AccuracySummary, CheckpointError, Checkpoints, Damage, Difference, EndReaction, EndReactions,

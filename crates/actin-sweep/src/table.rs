@@ -21,6 +21,8 @@ pub(crate) struct Row {
     status: String,
     /// Why it failed, or which results it lacks; empty if all is well.
     pub(crate) failure: String,
+    /// Codes of its warnings.
+    warnings: String,
     /// Results as the summary has them; none of a run that failed, nor where there is no value.
     results: Vec<Option<Value>>,
 }
@@ -53,9 +55,13 @@ impl Row {
         } else {
             format!("its summary has no value of {}", lacking.join(", "))
         };
+        let warnings = summary["warnings"].as_array().into_iter().flatten();
+        let mut codes: Vec<&str> = warnings.filter_map(|w| w["code"].as_str()).collect();
+        codes.dedup();
         Self {
             status,
             failure,
+            warnings: codes.join(" "),
             results,
         }
     }
@@ -85,7 +91,7 @@ impl<'a> Table<'a> {
             .chain(design.keys.iter().cloned())
             .chain(words(&["seed", "status"]))
             .chain(sweep.results.iter().cloned())
-            .chain(words(&["failure"]));
+            .chain(words(&["failure", "warnings"]));
         let rows = self.rows.iter().enumerate().map(|(index, row)| {
             let run = design.run(index);
             let seed = run.seed.map_or_else(String::new, |seed| seed.to_string());
@@ -96,7 +102,7 @@ impl<'a> Table<'a> {
                 .chain(design.points[run.point].iter().cloned())
                 .chain([seed, row.status.clone()])
                 .chain(row.results.iter().map(cell))
-                .chain([row.failure.clone()])
+                .chain([row.failure.clone(), row.warnings.clone()])
                 .collect::<Vec<_>>()
         });
         files::csv(std::iter::once(head.collect()).chain(rows))

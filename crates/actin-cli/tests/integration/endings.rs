@@ -150,7 +150,7 @@ fn rest_that_is_not_certified_is_told() {
     );
     let output = place.actin(&["run", "scene.ron", "--out", "a"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
-    let told = "note: the stop rule was met, but it is not known whether";
+    let told = "warning: the stop rule was met, but it is not known whether";
     assert!(stdout(&output).contains(told), "{}", stdout(&output));
 }
 

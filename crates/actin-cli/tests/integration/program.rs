@@ -308,6 +308,10 @@ fn a_rod_pushed_beyond_the_bound_of_its_twist_is_reported() {
         let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
         assert_eq!(summary.contains("\"unstable_twist\": []"), !unstable);
         assert_eq!(summary.contains("\"bound_pn\": 13.8"), unstable);
+        assert_eq!(summary.contains("\"code\": \"unstable-twist\""), unstable);
+        assert_eq!(code(&place.actin(&["view", "a"])), 0);
+        let page = fs::read_to_string(place.path("a/view.html")).unwrap();
+        assert_eq!(page.contains("warning: twist is UNSTABLE in "), unstable);
     }
 }
 
@@ -328,7 +332,7 @@ fn a_law_in_a_bath_is_noted_and_its_fluctuations_are_summed_up() {
             ),
         )",
     );
-    let note = "note: rods under the law Fitted in a heat bath: ";
+    let note = "warning: rods under the law Fitted in a heat bath: ";
     let checked = place.actin(&["check", "scene.ron"]);
     assert_eq!(stdout(&checked).matches(&format!("// {note}")).count(), 1);
     assert!(Scene::from_ron(stdout(&checked)).is_ok());
@@ -340,7 +344,7 @@ fn a_law_in_a_bath_is_noted_and_its_fluctuations_are_summed_up() {
         assert_eq!(stdout(&output).matches(&line).count(), 1);
     }
     let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
-    assert!(summary.contains(&note[6..]) && summary.contains("\"share_of_records\": "));
+    assert!(summary.contains(&note[9..]) && summary.contains("\"share_of_records\": "));
     assert!(summary.contains("\"unstable_twist\": []"));
 }
 

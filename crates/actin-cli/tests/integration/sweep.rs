@@ -61,7 +61,7 @@ fn a_sweep_becomes_a_table() {
     assert_eq!(
         runs[0],
         "run,point,loads[0].force_pn[2],filament.sections[1].to_nm,seed,status,tip_displacement_nm[0],\
-         energy_pn_nm.total,counts.segments,failure"
+         energy_pn_nm.total,counts.segments,failure,warnings"
     );
     let begins = |row: usize, start: &str| assert!(runs[row].starts_with(start), "{}", runs[row]);
     begins(8, "7,2,-1.5,30.0,2,completed,-");

@@ -8,7 +8,7 @@ together.
 from actin._actin import Progress, Rod, Scene, System, __version__, fit, fit_linear, run
 from actin._equilibrium import equilibrium
 from actin._sweep import Sweep, sweep
-from actin.errors import ActinError, Interrupted, RunFailed, SceneError
+from actin.errors import ActinError, Interrupted, RunFailed, RunWarning, SceneError
 from actin.results import Certificate, Equilibrium, Fit, Run, load
 
 __all__ = [
@@ -21,6 +21,7 @@ __all__ = [
     "Rod",
     "Run",
     "RunFailed",
+    "RunWarning",
     "Scene",
     "SceneError",
     "Sweep",

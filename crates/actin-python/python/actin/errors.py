@@ -8,6 +8,10 @@ if TYPE_CHECKING:
     from actin.results import Run
 
 
+class RunWarning(UserWarning):
+    """A warning on the results of a run, with its code at the end: `... [law-range]`."""
+
+
 class ActinError(Exception):
     """Any error of this package that has no closer class in Python."""
 

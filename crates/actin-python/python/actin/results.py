@@ -8,6 +8,8 @@ from __future__ import annotations
 import csv
 import json
 import os
+import sys
+import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -18,6 +20,7 @@ from numpy.typing import NDArray
 
 from actin import _html
 from actin._actin import Scene
+from actin.errors import RunWarning
 
 if TYPE_CHECKING:
     import pyvista
@@ -122,8 +125,13 @@ class Run:
 
     @property
     def notes(self) -> list[str]:
-        """What to know of the scene and the run beside their numbers."""
+        """Texts of all notes on the scene and the run, warnings included."""
         return self.summary["notes"]
+
+    @property
+    def warnings(self) -> list[dict[str, str]]:
+        """Warnings on the scene and the run: `code` and `message` of each."""
+        return self.summary.get("warnings", [])
 
     @property
     def time_ns(self) -> Array:
@@ -271,7 +279,9 @@ def _rows(run: Run) -> list[tuple[str, str]]:
         rows.append(("certificate", certificate.words))
     if summary.get("failure"):
         rows.append(("failure", summary["failure"]))
-    rows += [("note", note) for note in run.notes]
+    rows += [(f"warning: {each['code']}", each["message"]) for each in run.warnings]
+    messages = {each["message"] for each in run.warnings}
+    rows += [("note", note) for note in run.notes if note not in messages]
     return [*rows, ("time", f"{summary['wall_s']:.2f} s")]
 
 
@@ -350,6 +360,15 @@ class Equilibrium:
 
     def _repr_html_(self) -> str:
         return _html.table(repr(self), _rows(self.run))
+
+
+def emit_warnings(run: Run) -> None:
+    """Emits the warnings of a run at the line outside this package that has asked for it."""
+    level, frame = 1, sys._getframe()
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "actin":
+        level, frame = level + 1, frame.f_back
+    for each in run.warnings:
+        warnings.warn(f"{each['message']} [{each['code']}]", RunWarning, stacklevel=level)
 
 
 def load(path: str | os.PathLike[str]) -> Run:

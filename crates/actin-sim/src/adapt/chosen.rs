@@ -1,6 +1,7 @@
 //! What was chosen, and what is said of it.
 
 use super::{ErrorEstimate, RodStretch};
+use crate::notes::{Note, codes};
 use crate::scene::Quantity;
 use serde::{Deserialize, Serialize};
 
@@ -40,7 +41,7 @@ pub struct Chosen {
 
 impl Chosen {
     /// The choice in a sentence or two.
-    pub(crate) fn note(&self) -> String {
+    pub(crate) fn note(&self) -> Note {
         let limit = self
             .most_monomers
             .map_or_else(String::new, |most| format!(" with at most {most} monomers"));
@@ -67,12 +68,17 @@ impl Chosen {
                 self.tried.len()
             )
         };
-        format!(
+        let message = format!(
             "sections chosen for {} within {} %{limit}: {}{left}{missed}",
             self.quantity,
             100.0 * self.wanted_error,
             self.resolved()
-        )
+        );
+        if self.is_met {
+            message.into()
+        } else {
+            Note::warning(codes::RESOLUTION, message)
+        }
     }
 
     /// What is resolved how.

@@ -241,7 +241,7 @@ fn graded_lengths_are_chosen_and_told() {
     if !chosen.graded.is_empty() {
         let rods: Vec<RodStretch> = sections.iter().filter_map(RodStretch::of).collect();
         assert_eq!(rods, chosen.graded);
-        let note = &assembly.notes()[0];
+        let note = &assembly.notes()[0].message;
         assert!(note.contains(" nm from "), "{note}");
     }
 }

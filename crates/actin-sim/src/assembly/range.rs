@@ -5,6 +5,7 @@ use actin_cosserat::{BendLaw, BendingElement, RodMaterial, StrainRange, TwistStr
 use actin_mechanics::{State, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fmt;
 
 /// A rod goes further than the data that one of its laws was fitted to.
 ///
@@ -26,6 +27,48 @@ pub struct BeyondRange {
     pub range: f64,
     /// How often, where the state fluctuates; none without a heat bath.
     pub fluctuations: Option<Fluctuations>,
+}
+
+impl fmt::Display for BeyondRange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (quantity, value, range) = (&self.quantity, self.value, self.range);
+        let place = format!("s = {:.1} nm{}", self.s_nm, of_filament(self.filament));
+        let (unit, elements) = if self.is_strain() {
+            ("", "segments")
+        } else {
+            (" rad/nm", "bending elements")
+        };
+        match self.fluctuations {
+            None => write!(
+                f,
+                "beyond the data of its law: {quantity} {value:.4}{unit} at {place}, data reach {range:.4}"
+            ),
+            Some(often) => write!(
+                f,
+                "fluctuations beyond the data of a law: {quantity} in {} of the records and {} of all {elements}, at most \
+                 {value:.4}{unit} at {place}, data reach {range:.4}",
+                percent(often.share_of_records),
+                percent(often.share_of_elements)
+            ),
+        }
+    }
+}
+
+/// Filament of a place, unless it is the first.
+pub(super) fn of_filament(filament: usize) -> String {
+    match filament {
+        0 => String::new(),
+        filament => format!(" of filament {filament}"),
+    }
+}
+
+/// A share in per cent, to two digits.
+pub(super) fn percent(share: f64) -> String {
+    match 100.0 * share {
+        percent if percent >= 10.0 => format!("{percent:.0} %"),
+        percent if percent >= 1.0 => format!("{percent:.1} %"),
+        percent => format!("{percent:.1e} %"),
+    }
 }
 
 /// The same as it is written.

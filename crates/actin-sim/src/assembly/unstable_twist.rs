@@ -1,9 +1,11 @@
 //! Where the force along a rod makes its twist unstable.
 
+use super::range::{of_filament, percent};
 use super::{Assembly, Rod};
 use actin_cosserat::{RodMaterial, SegmentCurvature, SegmentLaw, ShearElement};
 use actin_mechanics::{State, Vector3};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// A segment bears a force along it under which its twist is unstable.
 ///
@@ -26,6 +28,31 @@ pub struct UnstableTwist {
     pub bound_pn: f64,
     /// Share of the records of the run in which the section has such a segment.
     pub share_of_records: f64,
+}
+
+impl fmt::Display for UnstableTwist {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let often = match self.share_of_records {
+            1.0 => String::new(),
+            share => format!(" in {} of the records", percent(share)),
+        };
+        let (what, sign) = if self.bound_pn < 0.0 {
+            ("tension", -1.0)
+        } else {
+            ("compression", 1.0)
+        };
+        // To the digits shown, without the sign of a zero.
+        let twist = (1e4 * self.twist_per_nm).round() / 1e4 + 0.0;
+        write!(
+            f,
+            "twist is UNSTABLE{often}: {what} {:.2} pN at s = {:.1} nm{}, where the bound is {:.2} pN (twist {twist:.4} \
+             rad/nm); a local instability: what follows depends on the number of segments",
+            sign * self.compression_pn,
+            self.s_nm,
+            of_filament(self.filament),
+            sign * self.bound_pn
+        )
+    }
 }
 
 /// What the twist of a rod's segments is watched with.

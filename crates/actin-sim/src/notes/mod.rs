@@ -1,9 +1,10 @@
-//! What a user should know about a scene besides its numbers: how far its results can be trusted.
-//! `actin check` and `actin run` print it, `summary.json` holds it under `notes`.
+//! Notes and warnings on how far the results of a scene can be trusted.
 //!
-//! What can be said of a scene before it runs is added to [`Assembly::notes`]; what only a run can
-//! tell, to the `notes` of its summary.
+//! `actin check` and `actin run` print them. `summary.json` has the texts of all under `notes` and the warnings with
+//! their codes under `warnings`. Notes known before a run are in [`Assembly::notes`] and
+//! [`Plan::notes`](crate::Plan::notes); the summary adds those of the run.
 
+pub mod codes;
 mod laws;
 
 use crate::adapt::Chosen;
@@ -12,6 +13,55 @@ use crate::scene::{Anchors, Following, Monomers, Observable, Task};
 use crate::{Assembly, Outcome, Record, shape};
 use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
 use actin_mechanics::State;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::fmt;
+
+/// Note on a scene or a run; a warning if it has a code.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Note {
+    /// Code of a warning, one of [`codes`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub code: Option<Cow<'static, str>>,
+    /// Text of a sentence or two.
+    pub message: String,
+}
+
+impl Note {
+    pub(crate) fn warning(code: &'static str, message: impl Into<String>) -> Self {
+        Self {
+            code: Some(code.into()),
+            message: message.into(),
+        }
+    }
+}
+
+impl From<String> for Note {
+    fn from(message: String) -> Self {
+        Self {
+            code: None,
+            message,
+        }
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.code {
+            None => write!(f, "note: {}", self.message),
+            Some(code) => write!(f, "warning: {} [{code}]", self.message),
+        }
+    }
+}
+
+/// Warnings of one code.
+fn warnings(
+    code: &'static str,
+    messages: impl IntoIterator<Item = String>,
+) -> impl Iterator<Item = Note> {
+    let messages = messages.into_iter();
+    messages.map(move |message| Note::warning(code, message))
+}
 
 /// Length (nm) of a rod under `Homogenised` below which the direction of a load across it matters.
 ///
@@ -45,36 +95,40 @@ impl Assembly {
         })
     }
 
-    /// Notes on this scene before it runs, a sentence or two each.
-    pub fn notes(&self) -> Vec<String> {
-        let mut notes: Vec<String> = self.chosen.iter().map(Chosen::note).collect();
+    /// Notes on this scene before it runs.
+    pub fn notes(&self) -> Vec<Note> {
+        let mut notes: Vec<Note> = self.chosen.iter().map(Chosen::note).collect();
         if let Some(following) = self.scene.filament.sections.following() {
             let note = "sections follow the motion: numbers of bodies, time step and cost are those of a rod, with which it \
                         begins";
-            notes.push(note.to_owned());
-            notes.extend(self.note_on_short_segments(following));
+            notes.push(note.to_owned().into());
+            notes.extend(self.note_on_short_segments(following).map(Note::from));
         }
         for filament in self.scene.filaments() {
             let sections = filament.sections.iter().filter(|s| !s.is_rod());
             for section in sections {
                 let monomers = section.monomers(&filament.monomers);
-                for kind in InterfaceKind::ALL {
-                    let note = few_bonds(&monomers, kind);
-                    notes.extend(note.filter(|note| !notes.contains(note)));
-                }
+                let few = InterfaceKind::ALL.map(|kind| few_bonds(&monomers, kind));
+                notes.extend(warnings(codes::FEW_BONDS, few.into_iter().flatten()));
             }
         }
-        notes.extend(self.short_rods());
-        notes.extend(self.notes_on_repulsion());
+        notes.extend(warnings(codes::SHORT_ROD, self.short_rods()));
+        notes.extend(warnings(codes::OVERLAP, self.notes_on_repulsion()));
         let bath_k = self.scene.thermal().map(|thermal| thermal.temperature_k);
         for filament in self.scene.filaments() {
-            for note in laws::notes(filament, bath_k) {
-                notes.extend(Some(note).filter(|note| !notes.contains(note)));
+            let of_laws = laws::notes(filament, bath_k);
+            notes.extend(warnings(codes::ROD_LAW, of_laws));
+        }
+        let untold = self.untold_lengths();
+        notes.extend(warnings(codes::PERSISTENCE_LENGTH, untold));
+        notes.extend(self.sampled.iter().map(Sampled::note));
+        let mut unique = Vec::new();
+        for note in notes {
+            if !unique.contains(&note) {
+                unique.push(note);
             }
         }
-        notes.extend(self.untold_lengths());
-        notes.extend(self.sampled.iter().map(Sampled::note));
-        notes
+        unique
     }
 
     /// Tangent correlations in a heat bath from which no persistence length follows.
@@ -119,50 +173,63 @@ impl Assembly {
 
 impl Sampled {
     /// What is known of the interfaces of a run of monomers.
-    fn note(&self) -> String {
+    fn note(&self) -> Note {
         let Self { monomers, error } = self;
-        let more = if *error > UNSURE {
+        let is_unsure = *error > UNSURE;
+        let more = if is_unsure {
             ": sample longer (task.interfaces.sampled_ns)"
         } else {
             ""
         };
-        format!(
+        let message = format!(
             "{monomers} monomers with quasi-harmonic interfaces: the stiffness of each is known to {:.1} %{more}. It was sampled \
              without loads: shear does not stiffen under tension",
             100.0 * error
-        )
+        );
+        if is_unsure {
+            Note::warning(codes::SAMPLED_INTERFACES, message)
+        } else {
+            message.into()
+        }
     }
 }
 
 impl Outcome {
-    /// Notes on what this run could not determine, a sentence each; `last` is its last record.
-    pub(crate) fn notes(&self, assembly: &Assembly, last: &Record) -> Vec<String> {
-        let mut notes = unknown_twist(assembly, last);
+    /// Notes on what this run could not determine; `last` is its last record.
+    pub(crate) fn notes(&self, assembly: &Assembly, last: &Record) -> Vec<Note> {
+        let twist = unknown_twist(assembly, last);
+        let mut notes: Vec<Note> = warnings(codes::UNKNOWN_TWIST, twist).collect();
+        let unknown = |message| Note::warning(codes::UNKNOWN_ERROR, message);
         let error = self.equilibrium.as_ref().and_then(|e| e.error.as_ref());
         match error {
-            Some(Err(problem)) => notes.push(format!("its error is not known: {problem}")),
+            Some(Err(problem)) => {
+                notes.push(unknown(format!("its error is not known: {problem}")));
+            }
             Some(Ok(error)) => {
-                notes.extend(error.note(self.scatter().as_ref()));
+                notes.extend(error.note(self.scatter().as_ref()).map(Note::from));
                 if let Some(Err(problem)) =
                     self.equilibrium.as_ref().and_then(|e| e.scatter.as_ref())
                 {
-                    notes.push(format!(
+                    notes.push(unknown(format!(
                         "how filaments with drawn bonds scatter is not known: {problem}"
-                    ));
+                    )));
                 }
             }
             None => {}
         }
-        notes.extend(several_states(assembly, &last.state, error.is_some()));
-        notes.extend(assembly.note_on_rates(&last.state));
-        notes.extend(self.note_on_ledger(assembly, last));
+        let states = several_states(assembly, &last.state, error.is_some());
+        notes.extend(warnings(codes::MONOMER_STATES, states));
+        let rates = assembly.note_on_rates(&last.state);
+        notes.extend(warnings(codes::LINKER_RATES, rates));
+        let ledger = self.note_on_ledger(assembly, last);
+        notes.extend(warnings(codes::ENERGY_BALANCE, ledger));
         let is_motion = !matches!(assembly.scene.task, Task::Equilibrium(_));
         if is_motion && self.has_converged() && self.at_rest.is_none() {
-            notes.push(
+            notes.push(Note::warning(
+                codes::UNKNOWN_STABILITY,
                 "the stop rule was met, but it is not known whether the state at rest is stable: no \
-                 equilibrium was found next to it (force_law: PaperBalance and loads that follow have no energy)"
-                    .to_owned(),
-            );
+                 equilibrium was found next to it (force_law: PaperBalance and loads that follow have no energy)",
+            ));
         }
         notes
     }
@@ -255,11 +322,22 @@ mod tests {
     use super::*;
     use crate::Scene;
 
+    /// The page on run directories explains every code, and no code stands for two warnings.
+    #[test]
+    fn codes_are_documented() {
+        let page = include_str!("../../../../docs/reference/run-directory.md");
+        for (i, code) in codes::ALL.iter().enumerate() {
+            assert!(page.contains(&format!("| `{code}` |")), "{code}");
+            assert!(!codes::ALL[..i].contains(code), "{code}");
+        }
+    }
+
     pub(super) fn notes(filaments: &str, task: &str) -> Vec<String> {
         let text =
             format!("Scene(filaments: [{filaments}], task: Dynamics(duration_ns: 1.0, {task}))");
         let scene = Scene::from_ron(&text).unwrap_or_else(|error| panic!("{error}"));
-        Assembly::build(&scene).unwrap().notes()
+        let notes = Assembly::build(&scene).unwrap().notes();
+        notes.into_iter().map(|note| note.message).collect()
     }
 
     /// Too few weighted bonds are noted for each kind of interface, once; drawn ones may be few.

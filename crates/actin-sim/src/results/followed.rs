@@ -163,6 +163,7 @@ impl FollowedDirectory {
         let mut all = last.clone();
         for beginning in beginnings {
             let one = RunDirectory::existing(self.stretch(beginning.index)).summary()?;
+            let notes = one.coded_notes();
             all.beyond_use.extend(one.beyond_use);
             all.unstable_twist.extend(one.unstable_twist);
             for beyond in one.beyond_range {
@@ -173,9 +174,9 @@ impl FollowedDirectory {
                     None => all.beyond_range.push(beyond),
                 }
             }
-            for note in one.notes {
-                if !all.notes.iter().any(|told| is_alike(told, &note)) {
-                    all.notes.push(note);
+            for note in notes {
+                if !all.notes.iter().any(|text| is_alike(text, &note.message)) {
+                    all.add_note(note);
                 }
             }
         }
@@ -187,7 +188,7 @@ impl FollowedDirectory {
             let note = "means over records are those of each stretch, in stretches/*/summary.json";
             all.notes.push(note.to_owned());
         }
-        Ok(all)
+        Ok(all.with_derived_warnings())
     }
 
     /// Joins a table of all stretches, of each the columns that `of` finds in its header, with what switches have booked up

@@ -163,8 +163,9 @@ fn reviewed(assembly: &Assembly, review: &Review, (last, outcome): (&Record, &Ou
         unstable_twist: outcome.unstable_twist.clone(),
         observables: review.observables.clone(),
         thermal: ThermalSummary::new(assembly, &review.kinetic),
-        ..Summary::new(assembly, last, outcome)
+        ..Summary::without_derived_warnings(assembly, last, outcome)
     }
+    .with_derived_warnings()
 }
 
 impl<'a> Results<'a> {

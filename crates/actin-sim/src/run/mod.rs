@@ -99,6 +99,7 @@ impl Plan<'_> {
                 unreachable!("the plan of a motion has an estimate")
             }
         };
+        outcome.plan_notes = self.notes();
         let is_of_use = outcome.beyond_use.is_empty() || outcome.status == Status::Interrupted;
         let failure = failure
             .or_else(|| (!is_of_use).then(|| Failure::BeyondUse(outcome.beyond_use.clone())));

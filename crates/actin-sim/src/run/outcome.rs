@@ -3,6 +3,7 @@
 use super::taken::Remarks;
 use super::{EquilibriumReport, HingeSlip, SaddlePush, Slip};
 use crate::adapt::{ErrorEstimate, Scatter};
+use crate::notes::Note;
 use crate::scene::SceneProblem;
 use crate::{BeyondRange, BeyondUse, LinkerEvent, UnstableTwist};
 use actin_equilibrium::{Certificate, PathFailure, Residual};
@@ -62,6 +63,8 @@ pub struct Outcome {
     pub beyond_range: Vec<BeyondRange>,
     /// Where the force along a rod makes its twist unstable, the worst of all records; never in a heat bath.
     pub unstable_twist: Vec<UnstableTwist>,
+    /// Notes of its plan.
+    pub plan_notes: Vec<Note>,
     /// Why it failed, in words; empty unless it did.
     pub failure: String,
     /// Time that the run took (s).
@@ -88,6 +91,7 @@ impl Outcome {
             beyond_use: Vec::new(),
             beyond_range: Vec::new(),
             unstable_twist: Vec::new(),
+            plan_notes: Vec::new(),
             failure: String::new(),
             wall_s,
         }

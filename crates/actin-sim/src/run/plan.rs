@@ -4,6 +4,7 @@ use super::dynamics::{Estimate, estimate};
 use crate::Assembly;
 use crate::advice::Advice;
 use crate::cost::Cost;
+use crate::notes::Note;
 use crate::scene::{Scene, SceneProblem};
 
 /// An assembly with everything that is decided before it runs: the time step, the number of steps and
@@ -82,7 +83,7 @@ impl<'a> Plan<'a> {
     /// What there is to know of its time step and its records, where that is not what the scene asks for or does more
     /// than it shows; a sentence or two each. What there is to know of the scene is in
     /// [`Assembly::notes`].
-    pub fn notes(&self) -> Vec<String> {
+    pub fn notes(&self) -> Vec<Note> {
         let scene = &self.assembly.scene;
         let estimate = self.estimate.iter();
         estimate

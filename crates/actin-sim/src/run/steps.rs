@@ -1,6 +1,7 @@
 //! How many time steps a motion takes and how many lie between its records.
 
 use super::Estimate;
+use crate::notes::{Note, codes};
 use crate::scene::{Dynamics, Scene, SceneProblem, Task};
 use actin_integrate::Drag;
 
@@ -140,16 +141,16 @@ impl Estimate {
     /// What a user should know of the time step and the records of a `task` as it was written: where
     /// they are not those that were asked for, and what strong drag does to what is recorded. One
     /// sentence each.
-    pub fn notes(&self, task: &Task) -> Vec<String> {
+    pub fn notes(&self, task: &Task) -> Vec<Note> {
         let Some(motion) = task.motion() else {
             return Vec::new();
         };
         let dynamics = motion.as_ref();
         let notes = [
-            self.note_on_step(dynamics),
-            self.note_on_records(dynamics),
-            self.note_on_drag(dynamics),
-            self.note_on_long_steps(),
+            self.note_on_step(dynamics).map(Note::from),
+            self.note_on_records(dynamics).map(Note::from),
+            (self.note_on_drag(dynamics)).map(|text| Note::warning(codes::STRONG_DRAG, text)),
+            (self.note_on_long_steps()).map(|text| Note::warning(codes::LONG_STEPS, text)),
         ];
         notes.into_iter().flatten().collect()
     }
@@ -236,7 +237,7 @@ impl Estimate {
     }
 
     /// The note on means of what a scene observes in a heat bath, where they are of one record or none.
-    pub(super) fn note_on_means(&self, scene: &Scene) -> Option<String> {
+    pub(super) fn note_on_means(&self, scene: &Scene) -> Option<Note> {
         let from = scene.burn_in().filter(|_| !scene.observe.is_empty())?;
         let interval = self.steps_between_records as f64 * self.time_step_ns;
         let first = (from / interval * (1.0 - ROUND_OFF)).ceil();
@@ -245,10 +246,11 @@ impl Estimate {
         let is_beyond = !self.steps.is_multiple_of(self.steps_between_records);
         let records = (last - first + 1.0).max(0.0) + f64::from(u8::from(is_beyond));
         (records < 2.0).then(|| {
-            format!(
+            let message = format!(
                 "observe: means are of {records} record(s), those from burn_in_ns = {from:?} on, and have no \
                  error: a longer duration_ns or a shorter record_every_ns gives more"
-            )
+            );
+            Note::warning(codes::FEW_RECORDS, message)
         })
     }
 
@@ -322,7 +324,7 @@ mod tests {
         let steps = Steps::of(&task, 0.003).unwrap();
         assert_eq!((steps.count, steps.between_records), (265, 34));
         assert!((steps.record_every_ns - 0.777 / 265.0 * 34.0).abs() < 1e-12);
-        let notes = estimate(&steps).notes(&Task::Dynamics(task));
+        let notes = texts(estimate(&steps).notes(&Task::Dynamics(task)));
         assert_eq!(notes.len(), 2);
         assert!(
             notes[0].contains("steps of 2.932075e-3 ns are taken"),
@@ -350,7 +352,11 @@ mod tests {
     fn notes(task: &str) -> Vec<String> {
         let task = dynamics(task);
         let steps = Steps::of(&task, task.time_step_ns.unwrap_or(0.003)).unwrap();
-        estimate(&steps).notes(&Task::Dynamics(task))
+        texts(estimate(&steps).notes(&Task::Dynamics(task)))
+    }
+
+    fn texts(notes: Vec<Note>) -> Vec<String> {
+        notes.into_iter().map(|note| note.message).collect()
     }
 
     /// A step that was written is the longest there is; a shorter one is told, and so is strong drag.

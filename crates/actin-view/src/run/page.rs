@@ -38,9 +38,7 @@ impl Run {
                 }
                 body {
                     header { h1 { (self.title()) } (self.chips()) }
-                    @if !self.remarks.is_empty() {
-                        div class="remarks" role="note" { @for remark in &self.remarks { p { (remark) } } }
-                    }
+                    (self.warnings())
                     main {
                         (stage())
                         aside id="curves" class="curves" aria-label="Curves" {}
@@ -86,6 +84,18 @@ impl Run {
             ul class="chips" {
                 (ending(self.summary.as_ref()))
                 @for words in counted.into_iter().flatten() { li { (words) } }
+            }
+        }
+    }
+
+    /// Warnings of the run, and remarks on files that could not be read.
+    fn warnings(&self) -> Markup {
+        let of_run = self.summary.iter().flat_map(|summary| &summary.warnings);
+        let of_run = of_run.map(ToString::to_string);
+        let all: Vec<String> = self.remarks.iter().cloned().chain(of_run).collect();
+        html! {
+            @if !all.is_empty() {
+                div class="remarks" role="note" { @for remark in &all { p { (remark) } } }
             }
         }
     }
@@ -246,12 +256,16 @@ fn list(entries: &[(&str, String)]) -> Markup {
     html! { dl { @for (name, value) in entries { dt { (name) } dd { (value) } } } }
 }
 
-/// What the run has to say, and what is not on the page.
+/// Notes of the run that are no warnings, and states that are not on the page.
 fn notes(summary: &Summary) -> Markup {
     let others = summary.states.iter().map(|states| {
         format!("{states}. The others are in other_states.npz; this page shows the result.")
     });
-    let all: Vec<String> = summary.notes.iter().cloned().chain(others).collect();
+    let notes = summary.coded_notes().into_iter();
+    let notes = notes
+        .filter(|note| note.code.is_none())
+        .map(|note| note.message);
+    let all: Vec<String> = notes.chain(others).collect();
     html! {
         @if !all.is_empty() {
             section { h2 { "Notes of the run" } @for note in &all { p class="soft" { (note) } } }

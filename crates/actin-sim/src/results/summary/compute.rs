@@ -35,8 +35,19 @@ impl Summary {
     }
 
     /// The summary of a run of `assembly` that ended with the record `last`.
-    #[expect(clippy::too_many_lines, reason = "a line for each key")]
     pub fn new(assembly: &Assembly, last: &Record, outcome: &Outcome) -> Self {
+        Self::without_derived_warnings(assembly, last, outcome).with_derived_warnings()
+    }
+
+    /// The same without the warnings that follow from its other keys.
+    #[expect(clippy::too_many_lines, reason = "a line for each key")]
+    pub(in crate::results) fn without_derived_warnings(
+        assembly: &Assembly,
+        last: &Record,
+        outcome: &Outcome,
+    ) -> Self {
+        let of_plan = outcome.plan_notes.clone();
+        let notes = [assembly.notes(), of_plan, outcome.notes(assembly, last)].concat();
         let filaments = FilamentSummary::all(assembly, last);
         let first = &filaments[0];
         Self {
@@ -56,7 +67,8 @@ impl Summary {
             tip_nm: first.tip_nm,
             tip_displacement_nm: first.tip_displacement_nm,
             end_reactions: first.end_reactions,
-            notes: [assembly.notes(), outcome.notes(assembly, last)].concat(),
+            notes: notes.iter().map(|note| note.message.clone()).collect(),
+            warnings: notes.into_iter().filter(|n| n.code.is_some()).collect(),
             beyond_range: assembly.beyond_range_over([&last.state]),
             unstable_twist: assembly.unstable_twist_over([&last.state]),
             beyond_use: outcome.beyond_use.clone(),

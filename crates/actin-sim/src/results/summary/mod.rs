@@ -9,6 +9,7 @@ mod reactions;
 mod shape;
 mod states;
 mod thermal;
+mod warnings;
 
 pub use energy::EnergySummary;
 pub use linkers::LinkerSummary;
@@ -21,6 +22,7 @@ pub use thermal::ThermalSummary;
 
 use super::{FollowingSummary, RunDirectoryError, finite::ensure_finite};
 use crate::adapt::{Chosen, ErrorEstimate, Scatter};
+use crate::notes::Note;
 use crate::{
     Assembly, BeyondRange, BeyondUse, Counts, ObservableSummary, Outcome, SaddlePush, Status,
     UnstableTwist,
@@ -75,9 +77,12 @@ pub struct Summary {
     /// The same of every filament, in the order of the scene.
     #[serde(default)]
     pub filaments: Vec<FilamentSummary>,
-    /// What to know of the scene and the run beside their numbers, a sentence or two each.
+    /// Texts of all notes on the scene and the run, warnings included.
     #[serde(default)]
     pub notes: Vec<String>,
+    /// Warnings with their codes.
+    #[serde(default)]
+    pub warnings: Vec<Note>,
     /// Where rods left the data behind their laws, the worst of all records in a run's summary (of
     /// the last record in one computed alone); there the numbers rest on the laws' continuation.
     /// In a heat bath one entry for each quantity, with how often it occurs.

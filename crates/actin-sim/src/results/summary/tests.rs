@@ -42,6 +42,7 @@ const KEYS: &[&str] = &[
     "/filaments/0/shape/twist_turns",
     "/filaments/0/seed",
     "/notes",
+    "/warnings",
     "/beyond_range",
     "/unstable_twist",
     "/linkers/0/filament",

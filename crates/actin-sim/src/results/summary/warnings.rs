@@ -1,0 +1,92 @@
+//! Warnings that follow from other keys of the summary.
+
+use super::{Status, Summary};
+use crate::notes::{Note, codes};
+
+/// Codes of these warnings.
+const DERIVED: [&str; 6] = [
+    codes::LAW_RANGE,
+    codes::UNSTABLE_TWIST,
+    codes::MODEL_LIMIT,
+    codes::SADDLE,
+    codes::OTHER_STATES,
+    codes::RESIDUAL_FLOOR,
+];
+
+impl Summary {
+    /// All notes, each with its code if it is a warning.
+    pub fn coded_notes(&self) -> Vec<Note> {
+        let coded = |text: &String| {
+            let warning = self
+                .warnings
+                .iter()
+                .find(|warning| warning.message == *text);
+            warning.cloned().unwrap_or_else(|| text.clone().into())
+        };
+        self.notes.iter().map(coded).collect()
+    }
+
+    /// Adds a note, and to the warnings if it is one.
+    pub(in crate::results) fn add_note(&mut self, note: Note) {
+        self.notes.push(note.message.clone());
+        self.warnings.extend(note.code.is_some().then_some(note));
+    }
+
+    /// Adds the warnings that follow from the other keys, in place of earlier ones.
+    #[must_use]
+    pub(in crate::results) fn with_derived_warnings(mut self) -> Self {
+        let is_derived = |note: &Note| note.code.as_ref().is_some_and(|c| DERIVED.contains(&&**c));
+        let (derived, kept): (Vec<_>, _) = self.warnings.drain(..).partition(is_derived);
+        self.warnings = kept;
+        let is_stale = |text: &String| derived.iter().any(|note| note.message == *text);
+        self.notes.retain(|text| !is_stale(text));
+        for note in self.derived_warnings() {
+            self.add_note(note);
+        }
+        self
+    }
+
+    fn derived_warnings(&self) -> Vec<Note> {
+        let mut all = Vec::new();
+        let mut add = |code, text: String| all.push(Note::warning(code, text));
+        if let Some(floor) = &self.residual_floor {
+            let (force, torque) = (floor.force_pn, floor.torque_pn_nm);
+            let text = format!(
+                "the tolerance is below round-off, which leaves some {force:.1e} pN, {torque:.1e} pN nm of the residual"
+            );
+            add(codes::RESIDUAL_FLOOR, text);
+        }
+        for beyond in &self.beyond_range {
+            add(codes::LAW_RANGE, beyond.to_string());
+        }
+        for unstable in &self.unstable_twist {
+            add(codes::UNSTABLE_TWIST, unstable.to_string());
+        }
+        // A run that has failed says why.
+        if self.status != Status::Failed {
+            for beyond in &self.beyond_use {
+                add(codes::MODEL_LIMIT, beyond.to_string());
+            }
+            let negative = self
+                .stability
+                .as_ref()
+                .map_or(0, |s| s.negative_eigenvalues);
+            if negative > 0 {
+                let text = format!(
+                    "the equilibrium is a saddle with {negative} negative eigenvalue(s): a disturbance leads away from it; \
+                     `leave_saddles` in the task leads to a stable state"
+                );
+                add(codes::SADDLE, text);
+            }
+        }
+        if self.states.is_none() && self.saddles_left + self.jumps > 0 {
+            let (saddles, jumps) = (self.saddles_left, self.jumps);
+            let text = format!(
+                "{saddles} saddle(s) were left and {jumps} sudden jump(s) made on the way: there are other stable states, \
+                 and this one may not be connected to the start; `states: 24` of the task looks for others"
+            );
+            add(codes::OTHER_STATES, text);
+        }
+        all
+    }
+}
