@@ -140,34 +140,24 @@ impl StraightRod {
         for node in nodes {
             state.points.push(node);
         }
-        let has_wall = Walls {
-            start: self.walls.start || self.free_walls.start,
-            end: self.walls.end || self.free_walls.end,
-        };
-        if has_wall.start {
-            self.push_wall(lengths[0], self.walls.start, state);
-        }
+        self.push_wall((RodEnd::Start, lengths[0]), state);
         let mut layouts = Vec::with_capacity(parts.len());
         let mut done = 0;
         for (i, &count) in parts.iter().enumerate() {
             let is_joined = [i > 0, i + 1 < parts.len()];
             let own = &lengths[done..done + count];
             let first_frame = state.frames.len();
-            let shares_inertia = [
-                is_joined[0] || self.shares_inertia(RodEnd::Start),
-                is_joined[1] || self.shares_inertia(RodEnd::End),
-            ];
-            self.push_segments(own, shares_inertia, state);
+            self.push_segments(own, is_joined, state);
             done += count;
             if is_joined[1] {
                 let mean = 0.5 * (lengths[done - 1] + lengths[done]);
                 state.frames.push(self.frame(0.5 * mean, mean));
-            } else if has_wall.end {
-                self.push_wall(own[count - 1], self.walls.end, state);
+            } else {
+                self.push_wall((RodEnd::End, own[count - 1]), state);
             }
             let walls = Walls {
-                start: is_joined[0] || has_wall.start,
-                end: is_joined[1] || has_wall.end,
+                start: is_joined[0] || self.wall(RodEnd::Start).is_some(),
+                end: is_joined[1] || self.wall(RodEnd::End).is_some(),
             };
             let first_point = first_point + done - count;
             layouts.push(RodLayout::new(
@@ -180,9 +170,14 @@ impl StraightRod {
         Ok(layouts)
     }
 
-    /// Pushes the frames of a part's segments; a segment beside a free frame lacks a quarter of its inertia for
-    /// each.
-    fn push_segments(&self, lengths: &[f64], shares_inertia: [bool; 2], state: &mut State) {
+    /// Pushes the frames of a part's segments; a segment beside a free frame, between parts or at an end, lacks a
+    /// quarter of its inertia for each.
+    fn push_segments(&self, lengths: &[f64], is_joined: [bool; 2], state: &mut State) {
+        let is_free = |end| self.wall(end) == Some(false);
+        let shares_inertia = [
+            is_joined[0] || is_free(RodEnd::Start),
+            is_joined[1] || is_free(RodEnd::End),
+        ];
         for (k, &length) in lengths.iter().enumerate() {
             let is_beside = [k == 0, k + 1 == lengths.len()];
             let sides = is_beside.iter().zip(shares_inertia);
@@ -239,15 +234,20 @@ impl StraightRod {
         RodError::SegmentInertia { segment, value }
     }
 
-    /// Whether the end segment shares its inertia with a free wall frame.
-    fn shares_inertia(&self, end: RodEnd) -> bool {
-        match end {
-            RodEnd::Start => self.free_walls.start && !self.walls.start,
-            RodEnd::End => self.free_walls.end && !self.walls.end,
-        }
+    /// Whether the wall frame at an end is held, if there is one.
+    fn wall(&self, end: RodEnd) -> Option<bool> {
+        let (is_held, is_free) = match end {
+            RodEnd::Start => (self.walls.start, self.free_walls.start),
+            RodEnd::End => (self.walls.end, self.free_walls.end),
+        };
+        (is_held || is_free).then_some(is_held)
     }
 
-    fn push_wall(&self, length: f64, is_held: bool, state: &mut State) {
+    /// Pushes the wall frame at an end, if there is one, beside a segment of a length.
+    fn push_wall(&self, (end, length): (RodEnd, f64), state: &mut State) {
+        let Some(is_held) = self.wall(end) else {
+            return;
+        };
         let piece = if is_held { length } else { 0.25 * length };
         let wall = state.frames.push(self.frame(piece, length));
         if is_held {
@@ -335,6 +335,30 @@ mod tests {
         for wrong in [&[4, 0][..], &[1, 2], &[]] {
             assert!(rod.push_in_parts(wrong, &mut State::default()).is_err());
         }
+    }
+
+    /// A free wall frame takes its inertia from the segment beside it, and half a segment bends there.
+    #[test]
+    fn free_walls_share_the_inertia_of_their_segments() {
+        let inertia = |free_walls| {
+            let rod = StraightRod {
+                free_walls,
+                ..StraightRod::uniform(3, 2.0)
+            };
+            let mut state = State::default();
+            let layout = rod.push(&mut state).unwrap();
+            let frames = 0..state.frames.len();
+            assert!(frames.clone().all(|i| state.frames.is_free(i)));
+            let sum = frames.map(|i| 1.0 / state.frames.inverse_moments(i).x);
+            (
+                sum.sum::<f64>(),
+                layout.voronoi_lengths().iter().sum::<f64>(),
+            )
+        };
+        let ((none, inner), (both, all)) =
+            (inertia(Walls::default()), inertia(crate::layout::BOTH));
+        assert!((none / both - 1.0).abs() < 1e-14, "{none} {both}");
+        assert_eq!((inner, all), (4.0, 6.0));
     }
 
     /// All mass is there, half a segment's at either end.

@@ -254,7 +254,7 @@ impl Run<'_> {
         }
         let result = loop {
             match self.step(&mut descent) {
-                Ok(None) => {}
+                Ok(None) => count_turns(self.interactions, &mut descent.state),
                 Ok(Some(ending)) => break Ok((ending, descent.here.energy)),
                 Err(cause) => break Err(cause),
             }
@@ -308,7 +308,6 @@ impl Run<'_> {
             };
             return self.give_up(descent, cause);
         };
-        count_turns(self.interactions, &mut descent.state);
         self.solver.work.iterations += 1;
         self.history.push(Iteration {
             energy: before,

@@ -10,7 +10,6 @@ pub(super) fn check(
     held: &HeldEnds,
     (i, stage): (usize, &Stage),
 ) -> Result<(), SceneProblem> {
-    let check_held = |prefix: &str, filament, end| check_held((scene, held), prefix, filament, end);
     for (k, setting) in stage.set.iter().enumerate() {
         let key = |name: &str| format!("path[{i}].set[{k}].{name}");
         let exists = |name: &str, index: usize, count: usize| {
@@ -37,8 +36,7 @@ pub(super) fn check(
                 shift_nm,
             } => {
                 all_finite(&key("shift_nm"), shift_nm)?;
-                check_held(&key(""), filament, end)?;
-                check_shift((scene, held), &key("shift_nm"), (filament, end), shift_nm)?;
+                check_shift((scene, held), &key(""), (filament, end), shift_nm)?;
             }
             Setting::Turn {
                 filament,
@@ -68,13 +66,14 @@ fn check_held(
     Err(SceneProblem::new(format!("{prefix}end"), show(end), rule))
 }
 
-/// An end is not shifted along directions in which it slides.
+/// What is shifted from outside is held, and does not slide along the shift.
 fn check_shift(
     (scene, held): (&Scene, &HeldEnds),
-    key: &str,
+    prefix: &str,
     (filament, end): (usize, End),
     shift_nm: [f64; 3],
 ) -> Result<(), SceneProblem> {
+    check_held((scene, held), prefix, filament, end)?;
     let clamp = held.clamp_at(filament, end);
     let axis = scene.filament_at(filament).map(|f| f.axis_at(end));
     let (Some(clamp), Some(axis)) = (clamp, axis) else {
@@ -92,6 +91,7 @@ fn check_shift(
         "moves this end along directions in which clamps[{clamp}].slides = {slides:?} leaves it free, and \
          would do nothing there: {remedy}"
     );
+    let key = format!("{prefix}shift_nm");
     Err(SceneProblem::new(key, show(shift_nm), rule))
 }
 
