@@ -27,7 +27,7 @@ pub use flow::Flow;
 pub use friction::{Dashpot, Friction, TurnDashpot};
 pub use langevin::Langevin;
 pub use relaxation::Relaxation;
-pub use stepper::{Brownian, BrownianError, DAMPED_STEPS, StepLimits};
+pub use stepper::{Brownian, BrownianError, StepLimits};
 
 pub use actin_equilibrium::{BodyOrder, Layout};
 /// The crate of the run loop.

@@ -8,7 +8,7 @@ use super::transfer::Transfer;
 use crate::Plan;
 use crate::run::order;
 use crate::scene::{Brownian, Dynamics, SceneProblem, Task};
-use actin_brownian::{DAMPED_STEPS, Layout};
+use actin_brownian::Layout;
 use actin_integrate::{Bath, Drag, POSITION_VERLET, Run};
 use actin_mechanics::{Shared, State, System, Vector3};
 use std::error::Error;
@@ -19,6 +19,9 @@ const RATE_PER_NS: f64 = 60.0;
 
 /// Time (ns) for which they settle, at least. Without inertia a bend over 36 nm relaxes in 0.25 ns in water.
 const TIME_NS: f64 = 0.15;
+
+/// Steps without heat: what is stiff is at rest after each.
+const STEPS_WITHOUT_HEAT: f64 = 4.0;
 
 /// Fewest steps with random stress: what relaxes in a step has 1 - 2^-8 of its thermal energy behind them.
 const STRESSED_STEPS: f64 = 4.0;
@@ -83,8 +86,7 @@ impl Transfer<'_> {
         Ok(())
     }
 
-    /// Lets what is free settle without inertia, by the steps of the motion; without heat by steps that are implicit
-    /// altogether.
+    /// Lets what is free settle without inertia, by the steps of the motion, without heat by shorter ones.
     fn relax(&self, system: &mut System, task: &Brownian) -> Result<(), Box<dyn Error>> {
         let own = Brownian {
             seed: self.other_seed(task.seed),
@@ -94,7 +96,7 @@ impl Transfer<'_> {
         let estimate = plan.estimate().ok_or("it has no time step")?;
         let step = estimate.time_step_ns;
         let (step, time) = match (task.thermal(), estimate.has_random_stress()) {
-            (None, _) => (TIME_NS / DAMPED_STEPS as f64, TIME_NS),
+            (None, _) => (TIME_NS / STEPS_WITHOUT_HEAT, TIME_NS),
             (Some(_), true) => (step, f64::max(TIME_NS, STRESSED_STEPS * step)),
             (Some(_), false) => (step, f64::max(TIME_NS, MIDPOINT_STEPS * step)),
         };

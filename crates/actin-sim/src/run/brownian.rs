@@ -15,6 +15,9 @@ use actin_mechanics::System;
 /// Iterations of a step, about, by midpoints and with random stress.
 const ITERATIONS: [u64; 2] = [4, 6];
 
+/// The same without noise, of its three parts together.
+const ITERATIONS_WITHOUT_NOISE: u64 = 8;
+
 /// Midpoint steps over the fastest relaxation, beyond which strains are too warm.
 const OF_FASTEST: f64 = 50.0;
 
@@ -93,8 +96,11 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
         }
     }
     let of_midpoints = OF_FASTEST * fastest_ns;
-    let default =
-        long_steps::longest(assembly, task)?.map_or(of_midpoints, |ns| ns.max(of_midpoints));
+    let default = match long_steps::longest(assembly, task)? {
+        None => of_midpoints,
+        Some(ns) if motion.thermal.is_none() => ns,
+        Some(ns) => ns.max(of_midpoints),
+    };
     let wanted = task.time_step_ns.unwrap_or(default);
     let steps = Steps::of(&motion, wanted.min(motion.duration_ns))?;
     task.flow.check_step(steps.length_ns)?;
@@ -115,7 +121,10 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
         force_evaluations: 0,
         longest_sound_step,
     };
-    let iterations = ITERATIONS[usize::from(estimate.has_random_stress())];
+    let iterations = match motion.thermal {
+        None => ITERATIONS_WITHOUT_NOISE,
+        Some(_) => ITERATIONS[usize::from(estimate.has_random_stress())],
+    };
     estimate.force_evaluations = steps.count * iterations;
     Ok(estimate)
 }
@@ -159,10 +168,6 @@ pub(super) fn run(
     // The order of unknowns is that of the state as built, wherever a run is resumed.
     let mut stepper = estimate.stepper((assembly, task), &system, layout(assembly)?)?;
     stepper = stepper.in_flow(task.flow.physical());
-    if let (Some(switch), None) = (recorder.behind_switch, motion.thermal) {
-        // New bodies and what they are joined to are out of balance. Noise would be too weak in such steps.
-        stepper = stepper.damped_from(switch.step);
-    }
     // The method is not looked at: the stepper makes the steps.
     let run = Run::new(&POSITION_VERLET, estimate.time_step_ns, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))

@@ -18,14 +18,19 @@ const FOLLOWED: f64 = 5.0;
 /// The longest of them (nm).
 const LONGEST_FOLLOWED_NM: f64 = 40.0;
 
+/// Steps between two records of a motion without heat. The first record has the largest error, 2.1e-4 of the displacement at most
+/// (`docs/measured/motion.md`).
+const PER_RECORD: f64 = 10.0;
+
 /// Records of a motion whose scene does not say how many.
 const RECORDS: f64 = 100.0;
 
 /// The longest step (ns) of rods and monomers at a temperature that shows bending to 1 % (`actin_brownian::Brownian`) and
-/// whatever changes; none of bonds, of contact, or without heat.
+/// whatever changes, or without heat that shows displacements to 0.1 %; none of contact, or of bonds in heat.
 pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, SceneProblem> {
-    let has_others = assembly.counts().bonds > 0 || assembly.scene.repulsion.is_some();
-    if has_others || task.temperature_k == 0.0 {
+    let is_athermal = task.temperature_k == 0.0;
+    let has_bonds = assembly.counts().bonds > 0;
+    if assembly.scene.repulsion.is_some() || (has_bonds && !is_athermal) {
         return Ok(None);
     }
     let motion = task.as_motion();
@@ -33,8 +38,14 @@ pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, S
         .record_every_ns
         .unwrap_or(motion.duration_ns / RECORDS);
     let mut longest = records.min(task.flow.longest_step());
-    for times in [of_changes(assembly), of_rates(assembly)] {
-        longest = times.into_iter().fold(longest, f64::min);
+    if is_athermal {
+        longest /= PER_RECORD;
+    }
+    let changes = of_changes(assembly).into_iter();
+    let changes = changes.map(|time| time / PER_CHANGE);
+    longest = changes.chain(of_rates(assembly)).fold(longest, f64::min);
+    if is_athermal {
+        return Ok(Some(longest));
     }
     for rod in &assembly.rods {
         let lengths = rod.layout.segment_lengths().iter().copied();
@@ -97,7 +108,7 @@ fn tension(assembly: &Assembly, filament: usize, length: f64) -> f64 {
         .sum()
 }
 
-/// Parts of the times in which stages and loads change (ns).
+/// Times in which stages and loads change (ns).
 fn of_changes(assembly: &Assembly) -> Vec<f64> {
     let scene = &assembly.scene;
     let stages = scene.path.iter().filter_map(|stage| stage.duration_ns);
@@ -105,7 +116,7 @@ fn of_changes(assembly: &Assembly) -> Vec<f64> {
         .loads
         .iter()
         .filter_map(|load| load.factor().shortest());
-    stages.chain(loads).map(|time| time / PER_CHANGE).collect()
+    stages.chain(loads).collect()
 }
 
 /// What rates allow (ns).
