@@ -41,8 +41,8 @@ pub use actin_integrate as integrate;
 pub use actin_mechanics as mechanics;
 pub use assembly::{
     Assembly, BeyondRange, BeyondUse, BodyKind, Booked, Clamped, Counts, Drive, FilamentSpan,
-    Fluctuations, FrameInfo, Happening, JunctionBond, LinkerEvent, Part, PointInfo, Reaction,
-    Resolution, SectionSpan, Term, UnstableTwist,
+    Fluctuations, FrameInfo, Happening, JunctionBond, LinkerEvent, MeasuredError, Part, PointInfo,
+    Reaction, Resolution, SectionSpan, Term, UnstableTwist,
 };
 pub use ensemble::{Ensemble, EnsembleError, EnsembleProgress, Replica};
 pub use error::SimError;

@@ -20,12 +20,15 @@ pub(crate) struct Options {
     /// Fewer cases, azimuths and samplings.
     #[arg(long)]
     quick: bool,
-    /// Also into `docs/tables/load-cases.md`.
+    /// Also into the committed file: `docs/tables/load-cases.md` or, with `--beyond`, the table of the program.
     #[arg(long, conflicts_with = "quick")]
     write: bool,
     /// Instead, how much length is missing at the ends of short spans.
     #[arg(long, conflicts_with = "write")]
     ends: bool,
+    /// Instead, errors of cantilevers that leave the data of `Homogenised`, which its warning gives.
+    #[arg(long, conflicts_with = "ends")]
+    beyond: bool,
 }
 
 /// Measures, writes, draws and prints.
@@ -36,6 +39,7 @@ pub(crate) fn run(options: Options) -> Result<()> {
         laws: options.laws,
         write: options.write,
         ends: options.ends,
+        beyond: options.beyond,
     };
     load_cases::run(&options, &|line| println!("{line}")).map_err(Error::msg)
 }

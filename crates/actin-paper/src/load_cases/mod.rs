@@ -4,6 +4,7 @@
 //! Cases, bounds and protocols are fixed before any law is looked at (`bound.rs`, `case.rs`). Equilibria of
 //! monomers are kept in the folder of results, so that another law costs its rods only.
 
+mod beyond;
 mod bound;
 mod case;
 mod compared;
@@ -44,6 +45,8 @@ pub struct Options {
     pub write: bool,
     /// Instead, how much length is missing at the ends of short spans.
     pub ends: bool,
+    /// Instead, errors of cantilevers that leave the data of `Homogenised`.
+    pub beyond: bool,
 }
 
 /// Samplings of drawn bonds.
@@ -66,6 +69,9 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
         .collect::<Result<_, String>>()?;
     if options.ends {
         return ends::run(&options.out, &laws, tell);
+    }
+    if options.beyond {
+        return beyond::run(&options.out, options.write, tell);
     }
     let clock = Instant::now();
     let rows = measured(&options.out, &laws, options.quick, tell)?;

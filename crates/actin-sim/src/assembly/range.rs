@@ -1,6 +1,8 @@
 //! Where a state leaves the data behind a rod's fitted laws.
 
+use super::extrapolation::MeasuredError;
 use super::{Assembly, Rod};
+use crate::scene::RodLaw;
 use actin_cosserat::{BendLaw, BendingElement, RodMaterial, StrainRange, TwistStretch};
 use actin_mechanics::{State, Vector3};
 use serde::{Deserialize, Serialize};
@@ -27,6 +29,8 @@ pub struct BeyondRange {
     pub range: f64,
     /// How often, where the state fluctuates; none without a heat bath.
     pub fluctuations: Option<Fluctuations>,
+    /// The error that was measured there; none where none was.
+    pub measured_error: Option<MeasuredError>,
 }
 
 impl fmt::Display for BeyondRange {
@@ -38,15 +42,16 @@ impl fmt::Display for BeyondRange {
         } else {
             (" rad/nm", "bending elements")
         };
+        let error = self.error_text();
         match self.fluctuations {
             None => write!(
                 f,
-                "beyond the data of its law: {quantity} {value:.4}{unit} at {place}, data reach {range:.4}"
+                "beyond the data of its law: {quantity} {value:.4}{unit} at {place}, data reach {range:.4}; {error}"
             ),
             Some(often) => write!(
                 f,
                 "fluctuations beyond the data of a law: {quantity} in {} of the records and {} of all {elements}, at most \
-                 {value:.4}{unit} at {place}, data reach {range:.4}",
+                 {value:.4}{unit} at {place}, data reach {range:.4}; {error}",
                 percent(often.share_of_records),
                 percent(often.share_of_elements)
             ),
@@ -89,6 +94,8 @@ struct Written {
     range: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     fluctuations: Option<Fluctuations>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    measured_error: Option<MeasuredError>,
 }
 
 impl From<BeyondRange> for Written {
@@ -107,6 +114,7 @@ impl From<BeyondRange> for Written {
             value: of_strain(value),
             range: of_strain(range),
             fluctuations: beyond.fluctuations,
+            measured_error: beyond.measured_error,
         }
     }
 }
@@ -121,6 +129,7 @@ impl From<Written> for BeyondRange {
             value: written.value_per_nm.or(written.value).unwrap_or(f64::NAN),
             range: written.range_per_nm.or(written.range).unwrap_or(f64::NAN),
             fluctuations: written.fluctuations,
+            measured_error: written.measured_error,
         }
     }
 }
@@ -235,14 +244,25 @@ impl Assembly {
     /// What goes beyond its range, in words and with its filament.
     fn told(&self, excess: Excess, fluctuations: Option<Fluctuations>) -> BeyondRange {
         let filament = self.filament_of_section(excess.section);
+        let section = excess.section - self.filaments[filament].sections.start;
+        let quantity = QUANTITIES[excess.quantity].name;
+        let written = self.scene.filament_at(filament);
+        let law = written.map(|f| f.sections[section].rod_model(&f.rod).law);
+        let is_measured = match law {
+            Some(RodLaw::Homogenised) => self.scene.thermal().is_none(),
+            Some(RodLaw::HomogenisedAthermal) => true,
+            _ => false,
+        };
+        let measured = is_measured.then(|| MeasuredError::at(quantity, excess.value));
         BeyondRange {
             filament,
-            section: excess.section - self.filaments[filament].sections.start,
-            quantity: QUANTITIES[excess.quantity].name.to_owned(),
+            section,
+            quantity: quantity.to_owned(),
             s_nm: excess.s_nm,
             value: excess.value,
             range: excess.range,
             fluctuations,
+            measured_error: measured.flatten(),
         }
     }
 
@@ -297,6 +317,21 @@ impl Assembly {
 }
 
 impl BeyondRange {
+    /// The error that was measured there, in words.
+    pub fn error_text(&self) -> String {
+        let Some(error) = &self.measured_error else {
+            return "the error there was not measured".to_owned();
+        };
+        format!(
+            "cantilevers with {} up to {:.4} have tips within {:.1} % of monomers' mean over azimuths, within {:.1} % \
+             of those at one azimuth",
+            self.quantity,
+            error.up_to,
+            100.0 * error.of_mean,
+            100.0 * error.of_one_azimuth
+        )
+    }
+
     /// Whether it is of a strain: a number without a unit.
     pub fn is_strain(&self) -> bool {
         matches!(self.quantity.as_str(), "shear" | "stretch")
