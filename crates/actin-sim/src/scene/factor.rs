@@ -5,7 +5,8 @@ use super::rules::{finite, positive, show};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Factor of a load in time. Where the path sets the factor of the load too, the two are multiplied.
+/// Factor of a load in time, in `Dynamics` and `Brownian`. Where the path sets the factor of the load too, the two are
+/// multiplied.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -13,8 +14,7 @@ pub enum Factor {
     /// 1 throughout.
     #[default]
     Constant,
-    /// From one value to another, smoothly: velocity and acceleration are continuous at both ends. Only in
-    /// `Dynamics`.
+    /// From one value to another, smoothly: velocity and acceleration are continuous at both ends.
     Ramp {
         /// When it begins; finite.
         #[serde(default)]
@@ -28,7 +28,7 @@ pub enum Factor {
         #[serde(default = "one")]
         to: f64,
     },
-    /// `mean + amplitude sin(360 deg time / period + phase)`. Only in `Dynamics`, without `stop`.
+    /// `mean + amplitude sin(360 deg time / period + phase)`. Not with `stop` of `Dynamics`.
     Sine {
         /// Period; positive.
         period_ns: f64,
@@ -42,7 +42,7 @@ pub enum Factor {
         #[serde(default)]
         mean: f64,
     },
-    /// Straight lines between points; constant before the first and behind the last. Only in `Dynamics`.
+    /// Straight lines between points; constant before the first and after the last.
     Table {
         /// Times; finite, at least one, ascending.
         time_ns: Vec<f64>,

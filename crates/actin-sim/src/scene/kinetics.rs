@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 /// Most places on a filament at which a linker that steps may hold.
 const MOST_PLACES: f64 = 1e5;
 
-/// A linker that breaks, forms and steps at random: a dynamic cross-link, or a motor. In `Dynamics` only.
+/// A linker that breaks, forms and steps at random: a dynamic cross-link, or a motor. In `Dynamics` and
+/// `Brownian`.
 ///
 /// At the end of each time step `h` an event of rate `k` happens with the probability `1 - exp(-k h)`, at most one for each
 /// linker. Times are those of the rates at ends of steps: their error is of order one, `k h/2` relative, so rates without
@@ -173,8 +174,8 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     };
     let key = format!("linkers[{i}].kinetics");
     if let Task::Equilibrium(_) = scene.task {
-        let rule = "Equilibrium knows no time, in which linkers break, form or step: write Dynamics, or leave \
-                    kinetics out";
+        let rule = "Equilibrium knows no time, in which linkers break, form or step: write Dynamics or Brownian, or \
+                    leave kinetics out";
         return Err(SceneProblem::new(key, "", rule));
     }
     let filament = scene.filament_at(linker.filament);

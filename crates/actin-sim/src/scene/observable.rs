@@ -112,8 +112,8 @@ pub enum Observable {
         filament: usize,
         /// Which point.
         of: Point,
-        /// Time over which; positive, a multiple of the time between records, below the duration. Only in
-        /// `Dynamics`.
+        /// Time over which; positive, a multiple of the time between records, below the duration. In
+        /// `Dynamics` and `Brownian`.
         #[serde(default)]
         lag_ns: Option<f64>,
     },

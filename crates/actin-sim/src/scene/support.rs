@@ -37,7 +37,7 @@ pub(super) fn check_swings(scene: &Scene, held: &HeldEnds) -> Result<(), ScenePr
                 return Err(SceneProblem::new(
                     format!("path[{i}].set[{k}].turn_deg"),
                     format!("{turn_deg:?}"),
-                    "in Dynamics an end that slides turns about its axis only, and one that slides \
+                    "in Dynamics and Brownian an end that slides turns about its axis only, and one that slides \
                      Freely not at all: Equilibrium follows such paths",
                 ));
             }
