@@ -104,10 +104,11 @@ fn solver(made: &Made) -> Equilibrium {
     }
 }
 
-/// A path of stages that set one load each: first those that are not read, then load `load` at each value.
-struct Course<'a> {
+/// A path of stages that set one load each: first those that are not read, then the last load at each value.
+pub(super) struct Course<'a> {
+    /// Unit forces on the end. Each is set by a stage.
+    directions: &'static [[f64; 3]],
     before: Vec<Setting>,
-    load: usize,
     forces_pn: &'a [f64],
     far_end: Option<Slides>,
     length_nm: f64,
@@ -117,7 +118,7 @@ struct Course<'a> {
     read: fn(f64, f64, f64) -> (String, f64),
 }
 
-fn course(kind: &Kind) -> Course<'_> {
+pub(super) fn course(kind: &Kind) -> Course<'_> {
     match kind {
         Kind::Cantilever {
             rises,
@@ -152,9 +153,14 @@ fn across(tension_pn: f64, forces_pn: &[f64]) -> Course<'_> {
         load: 0,
         factor: tension_pn,
     };
+    let is_pulled = tension_pn != 0.0;
     Course {
-        before: (tension_pn != 0.0).then_some(tension).into_iter().collect(),
-        load: 1,
+        directions: if is_pulled {
+            &[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
+        } else {
+            &[[1.0, 0.0, 0.0]]
+        },
+        before: is_pulled.then_some(tension).into_iter().collect(),
         forces_pn,
         far_end: Some(Slides::Freely),
         length_nm: 0.0,
@@ -167,8 +173,8 @@ fn across(tension_pn: f64, forces_pn: &[f64]) -> Course<'_> {
 fn along(length_nm: f64, turn_deg: f64, forces_pn: &[f64]) -> Course<'_> {
     let turned = turn(End::End, turn_deg * length_nm / TURNED_NM);
     Course {
+        directions: &[[0.0, 0.0, 1.0]],
         before: (turn_deg != 0.0).then_some(turned).into_iter().collect(),
-        load: 0,
         forces_pn,
         far_end: Some(Slides::AlongAxis),
         length_nm,
@@ -212,14 +218,14 @@ fn loaded(kind: &Kind, made: &Made) -> Result<Found, String> {
 }
 
 impl Course<'_> {
-    fn scene(&self, made: &Made) -> Scene {
+    pub(super) fn scene(&self, made: &Made) -> Scene {
         let stage = |setting: Setting| Stage {
             set: vec![setting],
             duration_ns: None,
             pace: actin_sim::Pace::Smooth,
         };
         let at = |&factor: &f64| Setting::LoadFactor {
-            load: self.load,
+            load: self.directions.len() - 1,
             factor,
         };
         let settings = self.before.iter().copied();
@@ -231,7 +237,7 @@ impl Course<'_> {
             filament: made.filament(self.length_nm),
             further: Vec::new(),
             clamps,
-            loads: vec![force([0.0, 0.0, 1.0]), force([1.0, 0.0, 0.0])],
+            loads: self.directions.iter().copied().map(force).collect(),
             linkers: Vec::new(),
             repulsion: None,
             path: path.collect(),
@@ -393,4 +399,38 @@ fn elastic(assembly: &Assembly) -> f64 {
     let terms = assembly.terms.iter().zip(assembly.system.energies());
     let own = terms.filter(|(term, _)| !matches!(term.part, Part::Load(_) | Part::Linker(_)));
     own.map(|(_, energy)| energy).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::load_cases::bound::Group;
+    use crate::load_cases::case::guided;
+    use crate::load_cases::filament::Rod;
+    use actin_sim::RodLaw;
+
+    /// A case of tension 0 has no load along the axis, one of 5 pN a load of which a stage sets 5 times 1 pN.
+    #[test]
+    fn tension_is_what_the_case_says() {
+        let made = Made::Rod(Rod::coarse(&RodLaw::Constant));
+        for (tension, along) in [(0.0, 0.0), (5.0, 5.0)] {
+            let scene = course(&guided(Group::Guided, 22, tension).kind).scene(&made);
+            scene.validate().unwrap();
+            let factor = |load: usize| {
+                let settings = scene.path.iter().flat_map(|stage| &stage.set);
+                settings
+                    .filter_map(|setting| match *setting {
+                        Setting::LoadFactor { load: l, factor } if l == load => Some(factor),
+                        _ => None,
+                    })
+                    .next()
+            };
+            let loads = scene.loads.iter().enumerate();
+            let tensions = loads.map(|(i, load)| match load {
+                Load::EndForce { force_pn, .. } => force_pn[2] * factor(i).unwrap(),
+                _ => f64::NAN,
+            });
+            assert_eq!(tensions.sum::<f64>(), along);
+        }
+    }
 }

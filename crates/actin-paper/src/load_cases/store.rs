@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// Raised when results of the same parameters change.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// A file.
 #[derive(Deserialize, Serialize)]

@@ -16,6 +16,10 @@ pub const RESIDUAL_FLOOR: &str = "residual-floor";
 pub const FEW_BONDS: &str = "few-bonds";
 /// A rod is so short that the direction of a load across it matters.
 pub const SHORT_ROD: &str = "short-rod";
+/// Segments are so long that bending is inaccurate.
+pub const LONG_SEGMENTS: &str = "long-segments";
+/// Loads act in full along a path that does not set them.
+pub const PATH_LOADS: &str = "path-loads";
 /// The law of a rod is not made for this scene, or meets few measured numbers.
 pub const ROD_LAW: &str = "rod-law";
 /// Filaments overlap with each other or with walls as built.
@@ -46,7 +50,7 @@ pub const STRONG_DRAG: &str = "strong-drag";
 pub const FEW_RECORDS: &str = "few-records";
 
 /// All of them.
-pub const ALL: [&str; 22] = [
+pub const ALL: [&str; 24] = [
     LAW_RANGE,
     UNSTABLE_TWIST,
     MODEL_LIMIT,
@@ -55,6 +59,8 @@ pub const ALL: [&str; 22] = [
     RESIDUAL_FLOOR,
     FEW_BONDS,
     SHORT_ROD,
+    LONG_SEGMENTS,
+    PATH_LOADS,
     ROD_LAW,
     OVERLAP,
     PERSISTENCE_LENGTH,

@@ -6,10 +6,11 @@
 
 pub mod codes;
 mod laws;
+mod mesh;
 
 use crate::adapt::Chosen;
 use crate::assembly::{Rod, Sampled};
-use crate::scene::{Anchors, Following, Monomers, Observable, Task};
+use crate::scene::{Anchors, Following, Monomers, Observable, Scene, Task, unset_loads};
 use crate::{Assembly, Outcome, Record, shape};
 use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
 use actin_mechanics::State;
@@ -112,7 +113,9 @@ impl Assembly {
                 notes.extend(warnings(codes::FEW_BONDS, few.into_iter().flatten()));
             }
         }
+        notes.extend(warnings(codes::PATH_LOADS, loads_along_path(&self.scene)));
         notes.extend(warnings(codes::SHORT_ROD, self.short_rods()));
+        notes.extend(warnings(codes::LONG_SEGMENTS, self.long_segments()));
         notes.extend(warnings(codes::OVERLAP, self.notes_on_repulsion()));
         let bath_k = self.scene.thermal().map(|thermal| thermal.temperature_k);
         for filament in self.scene.filaments() {
@@ -295,6 +298,21 @@ fn several_states(assembly: &Assembly, state: &State, is_estimated: bool) -> Opt
          110 pN nm. A rod has one of them, and an estimated error is that against the same one. Resolve monomers there to tell them \
          apart (cargo xtask homogenise states)",
         places.join(", ")
+    ))
+}
+
+/// The note on loads that act in full along a path that sets none of them.
+fn loads_along_path(scene: &Scene) -> Option<String> {
+    let unset = unset_loads(scene);
+    let first = unset.first()?;
+    let which = match unset.len() {
+        1 => format!("loads[{first}] acts"),
+        2 => format!("loads[{first}] and loads[{}] act", unset[1]),
+        more => format!("{more} loads from loads[{first}] on act"),
+    };
+    Some(format!(
+        "{which} in full from the start of the path, which sets no loads. To raise a load along the path, add \
+         LoadFactor(load: {first}, factor: 1.0) to a stage"
     ))
 }
 

@@ -78,6 +78,7 @@ pub use section::{Altered, AlteredRod, Section};
 pub use sections::{Adaptive, Quantity, Sections, Want};
 pub use seeds::Drawn;
 pub use shape::Shape;
+pub(crate) use stage::unset_loads;
 pub(crate) use support::is_across;
 pub use text::{Override, SceneText};
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};

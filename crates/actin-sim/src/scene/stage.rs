@@ -1,5 +1,6 @@
 //! The rules of a path: what its stages may set, and how long they take.
 
+use super::path::load_factors;
 use super::rules::{all_finite, finite, positive, show};
 use super::support::is_along;
 use super::{End, HeldEnds, Hold, Scene, SceneProblem, Setting, Slides, Stage};
@@ -49,6 +50,39 @@ pub(super) fn check(
         }
     }
     Ok(())
+}
+
+/// Checks that a path that sets factors of loads sets those of all loads without a factor in time.
+pub(super) fn check_loads(scene: &Scene) -> Result<(), SceneProblem> {
+    let unset = unset_loads(scene);
+    match unset.first() {
+        Some(&i) if scene.path.iter().any(sets_a_load) => {
+            let rule = format!(
+                "no stage of the path sets this load, but the path sets others: it would act in full from the start. \
+                 Add LoadFactor(load: {i}, factor: ..) to a stage: 1.0 where it acts, 0.0 where it does not"
+            );
+            Err(scene.loads[i].problem(i, rule))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Indices of loads that act in full along the whole path: no stage sets them, and they have no factor in time.
+pub(crate) fn unset_loads(scene: &Scene) -> Vec<usize> {
+    if scene.path.is_empty() {
+        return Vec::new();
+    }
+    let factors = load_factors(&scene.path, scene.loads.len());
+    let loads = scene.loads.iter().zip(factors).enumerate();
+    let unset = loads.filter(|(_, (load, set))| set.is_none() && load.factor().is_constant());
+    unset.map(|(i, _)| i).collect()
+}
+
+fn sets_a_load(stage: &Stage) -> bool {
+    stage
+        .set
+        .iter()
+        .any(|setting| matches!(setting, Setting::LoadFactor { .. }))
 }
 
 /// What a setting moves from outside is held; its keys begin with `prefix`.
@@ -115,7 +149,8 @@ pub(super) fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Sce
     for (i, stage) in scene.path.iter().enumerate() {
         let key = format!("path[{i}].duration_ns");
         let Some(duration) = stage.duration_ns else {
-            let rule = "in Dynamics every stage of the path takes a time: write duration_ns";
+            let rule =
+                "in Dynamics and Brownian every stage of the path takes a time: write duration_ns";
             return Err(SceneProblem::new(key, "none", rule));
         };
         positive(&key, duration)?;

@@ -43,16 +43,16 @@ pub struct Scene {
 
 /// One stage of a path: controls that move together from where they are to where they are set.
 ///
-/// Shifts and turns begin at zero. A load that some stage sets begins at factor 0, any other acts
-/// in full throughout.
+/// Shifts and turns begin at zero. A load that some stage sets begins at factor 0. A path that sets loads sets all
+/// that have no `factor` in time; along a path that sets none, they act in full from the start.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Stage {
     /// What is set. Of several settings of one control the last counts.
     pub set: Vec<Setting>,
-    /// Time that the stage takes in `Dynamics`: required there,
-    /// positive, all stages together at most `duration_ns` of the task. `Equilibrium` ignores it.
+    /// Time that the stage takes in `Dynamics` and `Brownian`: required there, positive, all stages together at most
+    /// the duration of the task. `Equilibrium` ignores it.
     #[serde(default)]
     pub duration_ns: Option<f64>,
     /// How controls move during that time. `Equilibrium` ignores it.
@@ -103,8 +103,8 @@ pub enum Setting {
         end: End,
         /// Rotation vector in the lab frame; finite, of any length. Lab z is the axis of a filament without a
         /// `direction`. With a `shape` each end has an axis of its own, the tangent of the curve there as built: a
-        /// turn about anything else tilts the end too. In `Dynamics` an end that slides `AlongAxis` may only turn
-        /// about its axis, and one that slides `Freely` not at all.
+        /// turn about anything else tilts the end too. In `Dynamics` and `Brownian` an end that slides `AlongAxis`
+        /// may only turn about its axis, and one that slides `Freely` not at all.
         turn_deg: [f64; 3],
     },
     /// Displacement of a linker's anchor from where the linker puts it, by the linker's index in

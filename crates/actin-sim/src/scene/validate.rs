@@ -90,6 +90,7 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
     for following in scene.filaments().filter_map(|f| f.sections.following()) {
         check_following(scene, following)?;
     }
+    stage::check_loads(scene)?;
     match &scene.task {
         Task::Dynamics(dynamics) => {
             stage::check_durations(scene, dynamics.duration_ns)?;
