@@ -33,6 +33,7 @@ impl Row {
         Self {
             status: UNFINISHED.to_owned(),
             failure: String::new(),
+            warnings: String::new(),
             results: vec![None; results],
         }
     }
