@@ -180,7 +180,7 @@ fn default_steps_without_heat_resolve_the_tip() {
     for (filament, rest, duration_ns, of_largest) in [
         (rod(160.0, "Constant"), at_once, 2e3, false),
         (rod(160.0, "Homogenised"), at_once, 2e3, false),
-        // Long against the relaxation: steps of 200 ns, of which the first are halved.
+        // Ten records, long against the relaxation: steps of 500 ns.
         (rod(160.0, "Homogenised"), at_once, 1e5, false),
         (rod(100.0, "Homogenised"), swings, 2e3, true),
         (rod(100.0, "Constant"), shaken, 2e3, true),

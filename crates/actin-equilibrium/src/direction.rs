@@ -195,6 +195,12 @@ impl Solver {
         self.layout.total(&self.reduced)
     }
 
+    /// Whether the stiffness of the last assembly is negative along no motion, within rounding.
+    pub(crate) fn is_stable(&mut self) -> bool {
+        let shift = self.least_shift();
+        self.factorize(shift).is_positive()
+    }
+
     /// Whether the stiffness of the last assembly is zero or negative along some motion, within rounding.
     pub(crate) fn has_weak_mode(&mut self) -> bool {
         let shift = self.least_shift();

@@ -347,11 +347,13 @@ impl Run<'_> {
     }
 
     /// Whether a residual within the tolerance is neither small against the loads nor, where no load is
-    /// applied, what rounding leaves.
-    fn is_worth_another_step(&self, descent: &Descent) -> bool {
+    /// applied, what rounding leaves. Steps from a saddle would lead away from it.
+    fn is_worth_another_step(&mut self, descent: &Descent) -> bool {
         let scale = LoadScale::new(self.interactions, &descent.state);
         let is_rounding = self.solver.is_at_floor(&Residual::default(), AT_FLOOR);
-        !scale.dwarfs(&self.residual, self.arms(descent)) && (scale.is_loaded || !is_rounding)
+        !scale.dwarfs(&self.residual, self.arms(descent))
+            && (scale.is_loaded || !is_rounding)
+            && self.solver.is_stable()
     }
 
     /// The ending, unless a part of the loads acts along motions without stiffness: it would move bodies

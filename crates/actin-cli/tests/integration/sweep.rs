@@ -422,7 +422,7 @@ fn a_result_that_is_lacking_is_told() {
     let reason = "its summary has no value of filaments[1].tip_nm[0]";
     for table in ["out/runs.csv", "out/table.csv"] {
         let text = read(&place, table);
-        assert!(text.lines().nth(1).unwrap().ends_with(reason), "{text}");
+        assert!(text.lines().nth(1).unwrap().contains(reason), "{text}");
     }
 }
 

@@ -8,6 +8,8 @@ use super::{
 use crate::scene::{Adaptive, Scene, SceneProblem, Task};
 use std::time::Instant;
 
+/// What rounding leaves of a zero (nm, pN, pN nm).
+const ZERO: f64 = 1e-9;
 /// Most resolutions that are tried before all monomers.
 const MOST_TRIALS: usize = 6;
 /// By what share of each of its parts an estimate may be off: parts that cancel are no accuracy.
@@ -158,7 +160,8 @@ impl Search<'_> {
         let found = located((&assembly, &state), quantity, (&cells, missed))?;
         self.cells = Some(cells);
         let relative = found.total.relative();
-        if !relative.is_finite() {
+        let is_rounding = found.total.value.abs() < ZERO;
+        if is_rounding || !relative.is_finite() {
             let rule = format!(
                 "what is wanted is {} here: there is no relative error",
                 found.total.value

@@ -62,7 +62,7 @@ mod tests {
     fn scene(sections: &str, clamps: &str) -> Assembly {
         let text = format!(
             "Scene(filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)), clamps: [{clamps}],
-                loads: [EndForce(end: End, force_pn: (0.01, 0.0, 0.0))], task: Equilibrium())"
+                loads: [EndForce(end: End, force_pn: (0.01, 0.0, 0.01))], task: Equilibrium())"
         );
         Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
     }

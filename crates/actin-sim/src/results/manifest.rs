@@ -134,11 +134,6 @@ impl Manifest {
         Ok(())
     }
 
-    /// Forgets what a text holds, which is about to be written in another way.
-    pub(super) fn forget_text(&mut self, name: &str) {
-        self.crc32.remove(name);
-    }
-
     /// The names that are listed.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(String::as_str)

@@ -39,7 +39,7 @@ pub(super) const FILES: [&str; 14] = [
 ];
 
 /// Tables, which people open and may save with changes.
-pub(super) const TABLES: [&str; 5] = [ENERGIES, EVENTS, OBSERVABLES, PROFILE, SUMMARY];
+pub(super) const TABLES: [&str; 4] = [ENERGIES, EVENTS, OBSERVABLES, PROFILE];
 
 /// What a run writes before it has results.
 pub(super) const BEFORE_RESULTS: [&str; 3] = [SCENE, CHECKPOINT, RECORDS];

@@ -66,7 +66,6 @@ impl RunDirectory {
         let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
         manifest.ensure_own(&self.path)?;
         manifest.add([SUMMARY]);
-        manifest.forget_text(SUMMARY);
         manifest.write(&self.path)?;
         let path = self.path.join(SUMMARY);
         let summary =

@@ -384,9 +384,9 @@ mod tests {
         let message = balance(pair, &[stage(0.5, 0.6), stage(1.0, 1.0)].concat());
         assert!(message.contains("loads[0].force_pn"), "{message}");
         assert!(message.contains("their sum is 2.0e-1 pN"), "{message}");
-        // Only one of the two is ramped: they do not balance before.
+        // A stage that sets one of the two leaves out the other.
         let one = "Stage(set: [LoadFactor(load: 0, factor: 1.0)])";
-        assert!(balance(pair, one).contains("no clamp or linker"));
+        assert!(balance(pair, one).contains("no stage of the path sets this load"));
         let half = pair.replace("-2.0", "-1.0");
         assert!(balance(&half, "").contains("the other forces do not balance it"));
     }

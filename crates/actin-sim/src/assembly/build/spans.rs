@@ -42,18 +42,23 @@ impl Strand<'_> {
             Body::Rod(layout) => return rod(layout, self.resolved[i].from_nm),
             Body::Monomers(monomers) => monomers,
         };
-        let reached = self.bonded_run(i, monomers).count;
+        let reached = self.bonded_run(i, monomers);
         let bonds = InterfaceKind::ALL.map(InterfaceKind::steps);
-        self.interfaces(monomers, reached, if has_bonds { &bonds } else { &[1] })
+        self.interfaces(monomers, &reached, if has_bonds { &bonds } else { &[1] })
     }
 
     /// From monomer to monomer: for each lower one those that are so many `steps` above it, of bonds the lateral, then the
-    /// longitudinal interface. Bonds reach the first `reached` monomers.
-    fn interfaces(&self, monomers: &Monomers, reached: usize, steps: &[usize]) -> Vec<[f64; 2]> {
-        let s_nm = |k: usize| self.lattice.s_nm(monomers.index(k));
+    /// longitudinal interface. Bonds reach the monomers of the run `reached`, which begins with `monomers`.
+    fn interfaces(
+        &self,
+        monomers: &Monomers,
+        reached: &Monomers,
+        steps: &[usize],
+    ) -> Vec<[f64; 2]> {
+        let s_nm = |k: usize| self.lattice.s_nm(reached.index(k));
         let of = |lower: usize| {
             let uppers = steps.iter().map(move |steps| lower + steps);
-            let inside = uppers.filter(|&upper| upper < reached);
+            let inside = uppers.filter(|&upper| upper < reached.count);
             inside.map(move |upper| [s_nm(lower), s_nm(upper)])
         };
         (0..monomers.count).flat_map(of).collect()
