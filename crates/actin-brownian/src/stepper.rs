@@ -378,6 +378,8 @@ impl Brownian {
     ) -> Result<(), StepFailure> {
         self.begin(system, h);
         let start = self.start.clone();
+        // Solves go back to the start, without losing the work booked there.
+        self.start.controls.copy_from(&system.state().controls);
         let solved = self.solve_extrapolated(system, h);
         self.start.copy_motion_from(&start);
         if solved.is_ok() {

@@ -220,6 +220,9 @@ impl<'a> Walk<'a> {
     }
 
     /// One step, made smaller until it succeeds.
+    ///
+    /// A step that is near, but that the direction of the path does not explain, is made smaller too. Where this
+    /// ends in no equilibrium, the step is taken as it was, and counts as a jump.
     fn advance(
         &mut self,
         state: &mut State,
@@ -227,6 +230,7 @@ impl<'a> Walk<'a> {
         companion: &mut dyn PathObserver,
     ) -> Result<(), (f64, PathError)> {
         let rate = self.rate(state, set);
+        let mut off_course = None;
         loop {
             let next = self.next_parameter();
             let is_smallest = self.at.step <= self.options.smallest_step;
@@ -251,12 +255,20 @@ impl<'a> Walk<'a> {
                         let jumped = far || unexplained;
                         return self.arrive(state, trial, next, equilibrium, jumped, companion);
                     }
+                    if !far && off_course.is_none() {
+                        off_course = Some((trial, next, equilibrium));
+                    }
                     PathError::Jump(moved)
                 }
                 Err(cause) => cause,
             };
             if cause == PathError::Interrupted {
                 return Err((next, cause));
+            }
+            if is_smallest && let Some((trial, next, equilibrium)) = off_course {
+                self.at.step = next - self.at.parameter;
+                self.adapt(&equilibrium);
+                return self.arrive(state, trial, next, equilibrium, true, companion);
             }
             if is_smallest {
                 return Err((next, self.lost_stability(state, next, set).unwrap_or(cause)));

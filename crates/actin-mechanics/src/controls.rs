@@ -47,7 +47,7 @@ impl Controls {
     }
 
     /// Takes over the values of `other`, which has as many.
-    pub(crate) fn copy_from(&mut self, other: &Self) {
+    pub fn copy_from(&mut self, other: &Self) {
         self.values.copy_from_slice(&other.values);
     }
 }

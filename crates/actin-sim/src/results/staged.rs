@@ -77,6 +77,8 @@ impl<'a> Staged<'a> {
             atomic::publish(&path).map_err(RunDirectoryError::io(&path))?;
             self.published += 1;
         }
+        // Forgets the tables that have been replaced.
+        self.note_tables()?;
         let pictures = (self.pictures > 0).then(|| self.folder.join(PICTURES));
         for folder in pictures.iter().map(PathBuf::as_path).chain([self.folder]) {
             sync(folder).map_err(RunDirectoryError::io(folder))?;

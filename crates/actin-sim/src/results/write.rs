@@ -399,7 +399,7 @@ mod tests {
         write().unwrap();
         directory.reopen().unwrap();
         write().unwrap();
-        for name in [ENERGIES, PROFILE, SUMMARY, SCENE] {
+        for name in [ENERGIES, PROFILE, SCENE] {
             let file = path.join(name);
             let written = fs::read(&file).unwrap();
             fs::write(&file, "mine").unwrap();
