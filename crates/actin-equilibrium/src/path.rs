@@ -212,11 +212,25 @@ impl<'a> Walk<'a> {
                 .solve(&mut first, companion)
                 .map_err(|cause| (0.0, cause))?;
             self.arrive(state, first, 0.0, equilibrium, false, companion)?;
+        } else {
+            self.settle_order(state);
         }
         while self.at.parameter < 1.0 {
             self.advance(state, set, companion)?;
         }
         Ok(())
+    }
+
+    /// Settles the order of unknowns where a path is resumed: differences of states are compared across solves. It
+    /// counts no evaluation.
+    fn settle_order(&mut self, state: &State) {
+        let before = self.newton.work();
+        self.newton.settle_order(state, self.interactions);
+        self.newton.count_on(SolverWork {
+            evaluations: before.evaluations,
+            assemblies: before.assemblies,
+            ..self.newton.work()
+        });
     }
 
     /// One step, made smaller until it succeeds.
@@ -250,7 +264,9 @@ impl<'a> Walk<'a> {
                         && (rate.as_ref())
                             .is_some_and(|rate| self.deviates((state, &trial), rate, next));
                     let accepted = is_smallest && self.options.jumps == Jumps::Accept;
-                    if accepted || !far && (!unexplained || is_smallest) {
+                    // From a saddle that is kept, iterations may lead anywhere, however short the step.
+                    let keeps_saddles = self.options.saddles == Saddles::Keep;
+                    if accepted || !far && (!unexplained || is_smallest || keeps_saddles) {
                         self.adapt(&equilibrium);
                         let jumped = far || unexplained;
                         return self.arrive(state, trial, next, equilibrium, jumped, companion);
