@@ -160,6 +160,21 @@ fn default_steps_resolve_what_happens() {
     assert!(repelled < 1.0, "{repelled}");
 }
 
+/// Time step (ns) of a motion without heat and its tip (nm) in ten records.
+fn athermal_tips(scene: &str, duration_ns: f64, step: &str) -> (f64, Vec<Vector3>) {
+    let task = format!(
+        "task: Brownian(duration_ms: {:e}, temperature_k: 0.0, record_every_ns: {:?}{step})",
+        1e-6 * duration_ns,
+        0.1 * duration_ns
+    );
+    let text = format!("Scene({scene}{task})");
+    let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+    let plan = Plan::new(&assembly).unwrap();
+    let records = plan.run().unwrap().0.records;
+    let tips = records.iter().map(|r| assembly.tip_nm(&r.state, End::End));
+    (plan.estimate().unwrap().time_step_ns, tips.collect())
+}
+
 /// Without heat the default step shows the tip to 0.1 % of how far it has gone in each record, under a load at once, or of its
 /// largest displacement, where a load or a held end swings. Steps a quarter as long are compared: of second order, they have
 /// a sixteenth of the error.
@@ -186,21 +201,10 @@ fn default_steps_without_heat_resolve_the_tip() {
         (rod(100.0, "Constant"), shaken, 2e3, true),
         (monomers.to_owned(), at_once, 200.0, false),
     ] {
-        let tips = |step: &str| -> (f64, Vec<Vector3>) {
-            let task = format!(
-                "task: Brownian(duration_ms: {:e}, temperature_k: 0.0, record_every_ns: {:?}{step})",
-                1e-6 * duration_ns,
-                0.1 * duration_ns
-            );
-            let text = format!("Scene({filament}{rest}{task})");
-            let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
-            let plan = Plan::new(&assembly).unwrap();
-            let records = plan.run().unwrap().0.records;
-            let tips = records.iter().map(|r| assembly.tip_nm(&r.state, End::End));
-            (plan.estimate().unwrap().time_step_ns, tips.collect())
-        };
-        let (step, own) = tips("");
-        let (_, fine) = tips(&format!(", time_step_ns: {:?}", 0.25 * step));
+        let scene = format!("{filament}{rest}");
+        let (step, own) = athermal_tips(&scene, duration_ns, "");
+        let finer = format!(", time_step_ns: {:?}", 0.25 * step);
+        let (_, fine) = athermal_tips(&scene, duration_ns, &finer);
         let gone = |k: usize| (fine[k] - fine[0]).norm();
         let largest = (1..fine.len()).map(gone).fold(0.0, f64::max);
         let errors = (1..fine.len()).map(|k| {

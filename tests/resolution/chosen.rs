@@ -82,21 +82,12 @@ fn monomers_that_snap_are_resolved() {
             (assembly, chosen)
         };
         let (assembly, chosen) = choice("EndCouple(error: 0.05)");
-        assert!(
-            !chosen.monomers_nm.is_empty() && chosen.is_met,
-            "{chosen:?}"
-        );
+        assert!(!chosen.monomers_nm.is_empty() && chosen.is_met);
         assert!(true_error(&assembly, Quantity::EndCouple) < 0.05);
         let (assembly, chosen) = choice("EndCouple(error: 0.05), monomers: 20");
-        assert!(
-            !chosen.is_met && !chosen.several_states_nm.is_empty(),
-            "{chosen:?}"
-        );
-        assert!(
-            assembly.notes()[0]
-                .message
-                .contains("Its error is not known")
-        );
+        assert!(!chosen.is_met && !chosen.several_states_nm.is_empty());
+        let note = &assembly.notes()[0].message;
+        assert!(note.contains("Its error is not known"), "{note}");
         let rod = scene("[Rod(from_nm: 0.0, to_nm: 301.0, segments: 30)]", &rest);
         let solved = solved(&rod);
         let told = estimate(&solved, solved.system.state(), Quantity::EndCouple).unwrap();

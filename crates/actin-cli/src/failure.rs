@@ -156,7 +156,8 @@ pub(crate) fn listed(name: &str, text: &SceneText, mistakes: &[SceneError]) -> F
     let told = told.map(|mistake| shown(name, text, mistake));
     let mut told = told.collect::<Vec<_>>().join("\nerror: ");
     if mistakes.len() >= LISTED {
-        told += &format!("\nerror: {name} may have more mistakes: these are the first {LISTED}");
+        let more = format!("\nerror: {name} may have more mistakes: these are the first {LISTED}");
+        told.push_str(&more);
     }
     Failure::Input(told)
 }

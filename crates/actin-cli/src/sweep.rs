@@ -3,7 +3,7 @@
 use crate::failure::{self, Failure};
 use crate::{seconds, signals};
 use actin_sim::{RunDirectoryError, SceneText};
-use actin_sweep::{Ended, Opened, Progress, Settings, SweepDirectory, SweepError};
+use actin_sweep::{Design, Ended, Opened, Progress, Settings, SweepDirectory, SweepError};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::num::NonZeroUsize;
@@ -175,15 +175,8 @@ fn finish(arguments: &SweepArguments, out: &Path, ended: Ended) -> Result<(), Fa
     Ok(())
 }
 
-/// How many runs there are and what they cost.
-fn check(opened: &Opened) {
-    let design = &opened.design;
-    println!(
-        "{} runs: {} point(s), {} run(s) of each",
-        design.len(),
-        design.points.len(),
-        design.runs_of_point()
-    );
+/// Prints the first values of each key.
+fn print_values(design: &Design) {
     for (k, key) in design.keys.iter().enumerate() {
         let mut values: Vec<&str> = Vec::new();
         for point in &design.points {
@@ -195,6 +188,18 @@ fn check(opened: &Opened) {
         let shown = values[..values.len().min(SHOWN)].join(", ");
         println!("  {key}: {shown}{more}");
     }
+}
+
+/// How many runs there are and what they cost.
+fn check(opened: &Opened) {
+    let design = &opened.design;
+    println!(
+        "{} runs: {} point(s), {} run(s) of each",
+        design.len(),
+        design.points.len(),
+        design.runs_of_point()
+    );
+    print_values(design);
     if let (Some(first), Some(last)) = (design.seeds.first(), design.seeds.last()) {
         println!("  seeds {first} to {last}");
     }

@@ -248,31 +248,19 @@ impl<'a> Walk<'a> {
         loop {
             let next = self.next_parameter();
             let is_smallest = self.at.step <= self.options.smallest_step;
-            let predicted = self.predict(state, next, set);
-            let found = predicted.and_then(|mut trial| {
-                let equilibrium = self.solve(&mut trial, companion)?;
-                Ok((trial, equilibrium))
-            });
-            let cause = match found {
+            let cause = match self.attempt(state, next, set, companion) {
                 Ok((trial, equilibrium)) => {
                     let moved = self.moved(state, &trial);
-                    let far = moved.rotation > self.options.largest_turn
-                        || moved.strain > self.options.largest_strain
-                        || self.is_sudden(&equilibrium, &moved, next);
-                    let unexplained = equilibrium.saddles_left == 0
-                        && motion(&moved) > NEGLIGIBLE_MOTION
-                        && (rate.as_ref())
-                            .is_some_and(|rate| self.deviates((state, &trial), rate, next));
-                    let accepted = is_smallest && self.options.jumps == Jumps::Accept;
-                    // From a saddle that is kept, iterations may lead anywhere, however short the step.
-                    let keeps_saddles = self.options.saddles == Saddles::Keep;
-                    if accepted || !far && (!unexplained || is_smallest || keeps_saddles) {
-                        self.adapt(&equilibrium);
-                        let jumped = far || unexplained;
-                        return self.arrive(state, trial, next, equilibrium, jumped, companion);
-                    }
-                    if !far && off_course.is_none() {
-                        off_course = Some((trial, next, equilibrium));
+                    let way = (&*state, &trial);
+                    match self.continuation(way, (&equilibrium, &moved), rate.as_deref(), next) {
+                        Continuation::Accepted { jumped } => {
+                            self.adapt(&equilibrium);
+                            return self.arrive(state, trial, next, equilibrium, jumped, companion);
+                        }
+                        Continuation::OffCourse if off_course.is_none() => {
+                            off_course = Some((trial, next, equilibrium));
+                        }
+                        Continuation::OffCourse | Continuation::Far => {}
                     }
                     PathError::Jump(moved)
                 }
@@ -281,17 +269,59 @@ impl<'a> Walk<'a> {
             if cause == PathError::Interrupted {
                 return Err((next, cause));
             }
-            if is_smallest && let Some((trial, next, equilibrium)) = off_course {
+            if is_smallest {
+                let Some((trial, next, equilibrium)) = off_course else {
+                    return Err((next, self.lost_stability(state, next, set).unwrap_or(cause)));
+                };
                 self.at.step = next - self.at.parameter;
                 self.adapt(&equilibrium);
                 return self.arrive(state, trial, next, equilibrium, true, companion);
             }
-            if is_smallest {
-                return Err((next, self.lost_stability(state, next, set).unwrap_or(cause)));
-            }
             let at = &mut self.at;
             at.refused += 1;
             at.step = (0.5 * (next - at.parameter)).max(self.options.smallest_step);
+        }
+    }
+
+    /// Equilibrium at the next parameter.
+    fn attempt(
+        &mut self,
+        state: &State,
+        next: f64,
+        set: Set<'_>,
+        companion: &mut dyn PathObserver,
+    ) -> Result<(State, Equilibrium), PathError> {
+        let mut trial = self.predict(state, next, set)?;
+        let equilibrium = self.solve(&mut trial, companion)?;
+        Ok((trial, equilibrium))
+    }
+
+    /// How the next equilibrium continues the path, which moved at a `rate` so far.
+    fn continuation(
+        &self,
+        way: (&State, &State),
+        (equilibrium, moved): (&Equilibrium, &StepSize),
+        rate: Option<&[f64]>,
+        next: f64,
+    ) -> Continuation {
+        let is_smallest = self.at.step <= self.options.smallest_step;
+        let far = moved.rotation > self.options.largest_turn
+            || moved.strain > self.options.largest_strain
+            || self.is_sudden(equilibrium, moved, next);
+        let unexplained = equilibrium.saddles_left == 0
+            && motion(moved) > NEGLIGIBLE_MOTION
+            && rate.is_some_and(|rate| self.deviates(way, rate, next));
+        // From a saddle that is kept, iterations may lead anywhere, however short the step.
+        let keeps_saddles = self.options.saddles == Saddles::Keep;
+        let accepts_jumps = is_smallest && self.options.jumps == Jumps::Accept;
+        if accepts_jumps || !far && (!unexplained || is_smallest || keeps_saddles) {
+            let jumped = far || unexplained;
+            return Continuation::Accepted { jumped };
+        }
+        if far {
+            Continuation::Far
+        } else {
+            Continuation::OffCourse
         }
     }
 
@@ -486,6 +516,16 @@ impl<'a> Walk<'a> {
         }
         Ok(())
     }
+}
+
+/// How an equilibrium continues a path.
+enum Continuation {
+    /// As a next point, after a jump or without one.
+    Accepted { jumped: bool },
+    /// Near, but not in the direction of the path: a shorter step may do better.
+    OffCourse,
+    /// Too far away for a next point.
+    Far,
 }
 
 /// The larger of the largest turn and the largest relative motion of neighbours.

@@ -42,6 +42,9 @@ use std::path::{Path, PathBuf};
 pub type Tell<'a> = &'a (dyn Fn(fmt::Arguments<'_>) + Sync);
 
 /// The folder of the workspace that this crate was built in.
+///
+/// # Panics
+/// If this crate does not lie two folders below the workspace.
 pub fn workspace_root() -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     folder

@@ -1,11 +1,12 @@
 //! `cargo xtask load-cases`: how far rods under a law are from filaments of monomers.
 
-use actin_paper::load_cases;
+use actin_paper::load_cases::{self, Subject};
 use anyhow::{Error, Result};
 use std::path::PathBuf;
 
 /// What is measured, and where it goes.
 #[derive(clap::Args, Clone, Debug)]
+#[allow(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(crate) struct Options {
     /// Laws by the names that scenes use.
     #[arg(
@@ -33,13 +34,17 @@ pub(crate) struct Options {
 
 /// Measures, writes, draws and prints.
 pub(crate) fn run(options: Options) -> Result<()> {
+    let subject = match (options.ends, options.beyond) {
+        (true, _) => Subject::Ends,
+        (_, true) => Subject::BeyondData,
+        _ => Subject::Cases,
+    };
     let options = load_cases::Options {
         out: options.out,
         quick: options.quick,
         laws: options.laws,
         write: options.write,
-        ends: options.ends,
-        beyond: options.beyond,
+        subject,
     };
     load_cases::run(&options, &|line| println!("{line}")).map_err(Error::msg)
 }

@@ -43,10 +43,19 @@ pub struct Options {
     pub laws: Vec<String>,
     /// Also into `docs/tables/load-cases.md`.
     pub write: bool,
-    /// Instead, how much length is missing at the ends of short spans.
-    pub ends: bool,
-    /// Instead, errors of cantilevers that leave the data of `Homogenised`.
-    pub beyond: bool,
+    /// What is measured.
+    pub subject: Subject,
+}
+
+/// Subject of a measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Subject {
+    /// All load cases.
+    Cases,
+    /// Length that is missing at the ends of short spans.
+    Ends,
+    /// Errors of cantilevers that leave the data of `Homogenised`.
+    BeyondData,
 }
 
 /// Samplings of drawn bonds.
@@ -67,10 +76,10 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
         .iter()
         .map(named)
         .collect::<Result<_, String>>()?;
-    if options.ends {
+    if options.subject == Subject::Ends {
         return ends::run(&options.out, &laws, tell);
     }
-    if options.beyond {
+    if options.subject == Subject::BeyondData {
         return beyond::run(&options.out, options.write, tell);
     }
     let clock = Instant::now();

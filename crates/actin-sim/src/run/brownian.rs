@@ -89,11 +89,10 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
     assembly.check_slip()?;
     let motion = task.as_motion();
     let fastest_ns = 1.0 / relaxation(assembly, &task.drag)?.highest_rate();
-    if !(fastest_ns.is_finite() && fastest_ns > 0.0) {
+    let is_stiff = fastest_ns.is_finite() && fastest_ns > 0.0;
+    if !is_stiff && task.time_step_ns.is_none() {
         let rule = "has no stiffness by which a time step could be set: write time_step_ns";
-        if task.time_step_ns.is_none() {
-            return Err(SceneProblem::new("filament", "", rule));
-        }
+        return Err(SceneProblem::new("filament", "", rule));
     }
     let of_midpoints = OF_FASTEST * fastest_ns;
     let default = match long_steps::longest(assembly, task)? {

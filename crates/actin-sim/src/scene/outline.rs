@@ -164,7 +164,7 @@ impl Outline {
             match step {
                 Step::Key(key) if path.is_empty() => path.clone_from(key),
                 Step::Key(key) => path.extend([".", key]),
-                Step::Index(index) => path.push_str(&format!("[{index}]")),
+                Step::Index(index) => path.extend(["[", &index.to_string(), "]"]),
             }
         }
         path
