@@ -2,7 +2,7 @@
 //! (`clippy.toml`).
 
 /// Most lines of a file.
-const MOST_LINES: usize = 500;
+const MOST_LINES: usize = 600;
 
 /// Files that are too long, and files that do not say what lives in them.
 pub(super) fn findings(name: &str, text: &str) -> Vec<String> {
@@ -25,8 +25,8 @@ mod tests {
     fn a_long_file_and_a_missing_header_are_found() {
         assert_eq!(findings("a.rs", "fn f() {}\n").len(), 1);
         assert!(findings("a.rs", "//! Header.\n").is_empty());
-        let long = format!("//! Header.\n{}", "fn f() {}\n".repeat(500));
+        let long = format!("//! Header.\n{}", "fn f() {}\n".repeat(600));
         let found = findings("a.rs", &long);
-        assert_eq!(found, ["a.rs: 501 lines, at most 500"]);
+        assert_eq!(found, ["a.rs: 601 lines, at most 600"]);
     }
 }
