@@ -118,7 +118,7 @@ pub(crate) fn unexplained(rows: &[Row]) -> Vec<String> {
 }
 
 /// In the order in which they are told: what concerns most of the paper first.
-const REASONS: [Reason; 23] = [
+const REASONS: [Reason; 22] = [
     Reason {
         artefact: "fig4",
         quantities: &["claim/printed_deflection", "tip_drop/preceding-paper/rod"],
@@ -205,15 +205,6 @@ const REASONS: [Reason; 23] = [
         text: "Its rod changes its length in proportion to its twist: it goes on lengthening when it is \
                under-twisted, where monomers lengthen a little and then shorten. Heights then change steadily \
                from rod to monomers (the notes list them).",
-    },
-    Reason {
-        artefact: "fig10",
-        quantities: &["claim/under_spread_grows"],
-        cause: Cause::Models,
-        title: "In under-twist heights agree as well at 270 deg as at 180 deg",
-        text: "The paper finds less agreement at larger twist. Here both spreads are 0.9 nm, half the radius of the \
-               helix (rows height_spread/under/180 and height_spread/under/270), so that there is next to no \
-               difference to judge.",
     },
     Reason {
         artefact: "fig8",
