@@ -140,13 +140,24 @@ impl Chain<'_> {
         Plan::new(&stretch.assembly).map_err(|problem| self.opened.refuse(&problem))
     }
 
+    /// Directories of the stretches at the beginning that have ended.
+    fn done(&self) -> impl Iterator<Item = RunDirectory> + '_ {
+        let paths = self.beginnings.iter();
+        let paths = paths.map(|one| self.directory.stretch(one.index));
+        let ended = paths.take_while(|path| ending(path).is_some());
+        ended.map(RunDirectory::existing)
+    }
+
     /// The summary of all, where every stretch has ended: each but the last is begun before the one before it ends.
     fn all_done(&self) -> Result<Option<Summary>, Failure> {
-        let has_ended = |one: &Beginning| ending(&self.directory.stretch(one.index)).is_some();
+        // One that was killed may have left its checkpoint beside its results.
+        for directory in self.done() {
+            directory.remove_checkpoint()?;
+        }
         let Some(last) = self.beginnings.last() else {
             return Ok(None);
         };
-        if !self.beginnings.iter().all(has_ended) {
+        if self.done().count() < self.beginnings.len() {
             return Ok(None);
         }
         let last = RunDirectory::existing(self.directory.stretch(last.index)).summary()?;
@@ -157,8 +168,7 @@ impl Chain<'_> {
     /// no results is made again.
     fn take_up(&mut self) -> Result<(Stretch, bool), Failure> {
         let refused = |problem| self.opened.refuse(&problem);
-        let done = |one: &&Beginning| ending(&self.directory.stretch(one.index)).is_some();
-        let first = self.beginnings.iter().take_while(done).count();
+        let first = self.done().count();
         let stretch = match self.beginnings.get(first) {
             Some(beginning) => self.follower.again(beginning.clone()).map_err(refused)?,
             None => self.follower.begin().map_err(refused)?,

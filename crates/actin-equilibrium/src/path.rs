@@ -251,10 +251,14 @@ impl<'a> Walk<'a> {
             let cause = match self.attempt(state, next, set, companion) {
                 Ok((trial, equilibrium)) => {
                     let moved = self.moved(state, &trial);
-                    let way = (&*state, &trial);
-                    match self.continuation(way, (&equilibrium, &moved), rate.as_deref(), next) {
+                    let is_told = equilibrium.saddles_left == 0 && motion(&moved) > NEGLIGIBLE_MOTION;
+                    let deviation = match &rate {
+                        Some(rate) if is_told => self.deviation((state, &trial), rate, next),
+                        _ => 0.0,
+                    };
+                    match self.continuation((&equilibrium, &moved), deviation, next) {
                         Continuation::Accepted { jumped } => {
-                            self.adapt(&equilibrium);
+                            self.adapt(&equilibrium, deviation);
                             return self.arrive(state, trial, next, equilibrium, jumped, companion);
                         }
                         Continuation::OffCourse if off_course.is_none() => {
@@ -274,7 +278,7 @@ impl<'a> Walk<'a> {
                     return Err((next, self.lost_stability(state, next, set).unwrap_or(cause)));
                 };
                 self.at.step = next - self.at.parameter;
-                self.adapt(&equilibrium);
+                self.adapt(&equilibrium, UNEXPLAINED);
                 return self.arrive(state, trial, next, equilibrium, true, companion);
             }
             let at = &mut self.at;
@@ -296,21 +300,18 @@ impl<'a> Walk<'a> {
         Ok((trial, equilibrium))
     }
 
-    /// How the next equilibrium continues the path, which moved at a `rate` so far.
+    /// How the next equilibrium continues the path, from whose direction it deviates.
     fn continuation(
         &self,
-        way: (&State, &State),
         (equilibrium, moved): (&Equilibrium, &StepSize),
-        rate: Option<&[f64]>,
+        deviation: f64,
         next: f64,
     ) -> Continuation {
         let is_smallest = self.at.step <= self.options.smallest_step;
         let far = moved.rotation > self.options.largest_turn
             || moved.strain > self.options.largest_strain
             || self.is_sudden(equilibrium, moved, next);
-        let unexplained = equilibrium.saddles_left == 0
-            && motion(moved) > NEGLIGIBLE_MOTION
-            && rate.is_some_and(|rate| self.deviates(way, rate, next));
+        let unexplained = deviation > UNEXPLAINED;
         // From a saddle that is kept, iterations may lead anywhere, however short the step.
         let keeps_saddles = self.options.saddles == Saddles::Keep;
         let accepts_jumps = is_smallest && self.options.jumps == Jumps::Accept;
@@ -361,9 +362,9 @@ impl<'a> Walk<'a> {
         Some(rate)
     }
 
-    /// Whether the way to the next equilibrium is not, for the most part, along `rate`, by up to a few times
-    /// what the parameter lets expect.
-    fn deviates(&self, (from, to): (&State, &State), rate: &[f64], next: f64) -> bool {
+    /// The share of the way to the next equilibrium that is not along `rate`, by up to a few times what the parameter
+    /// lets expect.
+    fn deviation(&self, (from, to): (&State, &State), rate: &[f64], next: f64) -> f64 {
         let way = self.newton.layout().difference(from, to);
         let metric = &self.newton.solver.metric;
         let product = |a: &[f64], b: &[f64]| -> f64 {
@@ -373,7 +374,7 @@ impl<'a> Walk<'a> {
         let along = product(&way, rate) / product(rate, rate).max(f64::MIN_POSITIVE);
         let along = along.clamp(0.0, SUDDEN * (next - self.at.parameter));
         let off: Vec<f64> = way.iter().zip(rate).map(|(w, r)| w - along * r).collect();
-        product(&off, &off) > UNEXPLAINED * UNEXPLAINED * product(&way, &way)
+        (product(&off, &off) / product(&way, &way).max(f64::MIN_POSITIVE)).sqrt()
     }
 
     /// Whether an equilibrium is much further than the last step lets expect: a snap through.
@@ -470,10 +471,11 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn adapt(&mut self, equilibrium: &Equilibrium) {
+    /// The next step; along a smooth path the deviation grows with it.
+    fn adapt(&mut self, equilibrium: &Equilibrium, deviation: f64) {
         let iterations = equilibrium.history.len();
         let step = &mut self.at.step;
-        if iterations <= self.options.easy {
+        if iterations <= self.options.easy && deviation < 0.5 * UNEXPLAINED {
             *step *= 2.0;
         } else if iterations > self.options.hard {
             *step *= 0.5;
