@@ -251,12 +251,9 @@ impl<'a> Walk<'a> {
             let cause = match self.attempt(state, next, set, companion) {
                 Ok((trial, equilibrium)) => {
                     let moved = self.moved(state, &trial);
-                    let is_told = equilibrium.saddles_left == 0 && motion(&moved) > NEGLIGIBLE_MOTION;
-                    let deviation = match &rate {
-                        Some(rate) if is_told => self.deviation((state, &trial), rate, next),
-                        _ => 0.0,
-                    };
-                    match self.continuation((&equilibrium, &moved), deviation, next) {
+                    let arrived = (&equilibrium, &moved);
+                    let deviation = self.deviation((state, &trial), arrived, rate.as_deref(), next);
+                    match self.continuation(arrived, deviation, next) {
                         Continuation::Accepted { jumped } => {
                             self.adapt(&equilibrium, deviation);
                             return self.arrive(state, trial, next, equilibrium, jumped, companion);
@@ -363,8 +360,18 @@ impl<'a> Walk<'a> {
     }
 
     /// The share of the way to the next equilibrium that is not along `rate`, by up to a few times what the parameter
-    /// lets expect.
-    fn deviation(&self, (from, to): (&State, &State), rate: &[f64], next: f64) -> f64 {
+    /// lets expect; 0 where it is not known, is too little, or leads off a saddle.
+    fn deviation(
+        &self,
+        (from, to): (&State, &State),
+        (equilibrium, moved): (&Equilibrium, &StepSize),
+        rate: Option<&[f64]>,
+        next: f64,
+    ) -> f64 {
+        let is_told = equilibrium.saddles_left == 0 && motion(moved) > NEGLIGIBLE_MOTION;
+        let Some(rate) = rate.filter(|_| is_told) else {
+            return 0.0;
+        };
         let way = self.newton.layout().difference(from, to);
         let metric = &self.newton.solver.metric;
         let product = |a: &[f64], b: &[f64]| -> f64 {
