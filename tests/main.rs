@@ -9,4 +9,5 @@ mod loads;
 mod resolution;
 mod statics;
 mod theory;
+mod trade;
 mod waves;

@@ -5,7 +5,7 @@ use actin_sim::{
     Assembly, CheckpointError, Drawn, Note, Plan, RunDirectoryError, Scene, SceneError, SceneText,
 };
 use std::fmt;
-use std::io::Read;
+use std::io::Read as _;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -61,21 +61,16 @@ impl fmt::Display for Failure {
     }
 }
 
-/// A scene, read and built, with its text to place later problems in.
-pub(crate) struct Opened {
-    pub(crate) assembly: Assembly,
-    pub(crate) text: SceneText,
+/// A scene that is read, with its text to place problems in.
+pub(crate) struct Read {
+    pub(crate) scene: Scene,
+    text: SceneText,
     name: String,
 }
 
-impl Opened {
-    /// Notes and warnings that are known before the run.
-    pub(crate) fn notes(&self, plan: &Plan<'_>) -> Vec<Note> {
-        [self.assembly.notes(), plan.notes()].concat()
-    }
-
-    /// Reads the scene, sets what the arguments set, and builds it.
-    pub(crate) fn open(source: &SceneArguments) -> Result<Self, Failure> {
+impl Read {
+    /// Reads the scene and sets what the arguments set.
+    pub(crate) fn new(source: &SceneArguments) -> Result<Self, Failure> {
         let name = source.scene.display().to_string();
         let bytes = if source.is_standard_input() {
             let mut bytes = Vec::new();
@@ -104,6 +99,31 @@ impl Opened {
                 )));
             }
         }
+        Ok(Self { scene, text, name })
+    }
+
+    /// A problem that showed later.
+    pub(crate) fn refuse(&self, problem: &actin_sim::SceneProblem) -> Failure {
+        all(&self.name, &self.text, self.text.locate(problem))
+    }
+}
+
+/// A scene, read and built, with its text to place later problems in.
+pub(crate) struct Opened {
+    pub(crate) assembly: Assembly,
+    pub(crate) text: SceneText,
+    name: String,
+}
+
+impl Opened {
+    /// Notes and warnings that are known before the run.
+    pub(crate) fn notes(&self, plan: &Plan<'_>) -> Vec<Note> {
+        [self.assembly.notes(), plan.notes()].concat()
+    }
+
+    /// Reads the scene, sets what the arguments set, and builds it.
+    pub(crate) fn open(source: &SceneArguments) -> Result<Self, Failure> {
+        let Read { scene, text, name } = Read::new(source)?;
         let assembly =
             Assembly::build(&scene).map_err(|problem| all(&name, &text, text.locate(&problem)))?;
         Ok(Self {

@@ -17,6 +17,7 @@ mod run;
 mod signals;
 mod sweep;
 mod told;
+mod trade;
 mod view;
 
 use actin_sim::Override;
@@ -74,6 +75,8 @@ enum Command {
         #[command(flatten)]
         source: SceneArguments,
     },
+    /// Runs a scene with every monomer and in cheaper ways beside it: what each costs, and how far it is off.
+    Trade(trade::TradeArguments),
     /// Writes a page that shows a run in three dimensions, plays through its records and draws its curves.
     View(view::ViewArguments),
 }
@@ -148,6 +151,7 @@ fn carry_out(command: Command) -> Result<(), Failure> {
         Command::Completions { shell } => manual::completions(shell),
         Command::Man { folder } => manual::pages(&folder)?,
         Command::Check { source } => check::check(&source)?,
+        Command::Trade(arguments) => trade::trade(&arguments)?,
         Command::View(arguments) => view::view(&arguments)?,
     }
     streams::ending().map_err(Failure::Unwritten)

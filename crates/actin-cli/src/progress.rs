@@ -56,3 +56,10 @@ pub(crate) fn pictures(count: usize) -> ProgressBar {
     bar.set_style(style);
     bar
 }
+
+/// A line that says what runs.
+pub(crate) fn spinner() -> ProgressBar {
+    let bar = ProgressBar::new_spinner();
+    bar.enable_steady_tick(std::time::Duration::from_millis(200));
+    bar
+}

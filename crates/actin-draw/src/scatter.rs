@@ -17,7 +17,7 @@ pub struct Scatter<'a> {
     pub y_label: &'a str,
     /// Points, numbered in this order.
     pub points: Vec<ScatterPoint>,
-    /// A height at which a line across is drawn, and what it is; left out beyond the points.
+    /// A height above zero at which a line across is drawn, and what it is.
     pub level: Option<(f64, &'a str)>,
     /// Text above the list of points.
     pub list_title: &'a str,
@@ -61,14 +61,21 @@ impl Scatter<'_> {
     }
 }
 
+impl Scatter<'_> {
+    /// The ranges of both axes, with the level in the vertical one.
+    fn ranges(&self) -> ((f64, f64), (f64, f64)) {
+        let places = || self.points.iter().map(|point| point.place);
+        let level = self.level.map(|(level, _)| level);
+        let heights = places().map(|(_, y)| y).chain(level);
+        (decades(places().map(|(x, _)| x)), decades(heights))
+    }
+}
+
 fn render(picture: &Scatter<'_>, root: &Area<'_>) -> Outcome {
     let points = &picture.points;
     root.fill(&WHITE)?;
     let (left, right) = root.split_horizontally(PLOT_WIDTH);
-    let ((x0, x1), (y0, y1)) = (
-        decades(points.iter().map(|p| p.place.0)),
-        decades(points.iter().map(|p| p.place.1)),
-    );
+    let ((x0, x1), (y0, y1)) = picture.ranges();
     let mut plane = ChartBuilder::on(&left)
         .caption(picture.title, ("sans-serif", 20))
         .margin(14)
@@ -85,7 +92,7 @@ fn render(picture: &Scatter<'_>, root: &Area<'_>) -> Outcome {
         .axis_desc_style(("sans-serif", 16))
         .light_line_style(BLACK.mix(0.06))
         .draw()?;
-    if let Some((level, what)) = picture.level.filter(|(y, _)| (y0..y1).contains(y)) {
+    if let Some((level, what)) = picture.level {
         let line = [(x0, level), (x1, level)];
         plane.draw_series([PathElement::new(line, BLACK.mix(0.35).stroke_width(1))])?;
         let text = Text::new(what.to_owned(), (6, -16), FONT);

@@ -29,6 +29,7 @@ mod run;
 mod scene;
 pub mod shape;
 pub mod statistics;
+pub mod trade;
 
 // The crates whose types are in the API of this one.
 pub use actin_cosserat as cosserat;

@@ -235,7 +235,7 @@ impl SectionSpan {
 }
 
 /// Number of bodies and elements of each kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Counts {
     /// Monomers, held ones included.
     pub monomers: usize,

@@ -37,13 +37,13 @@ impl<'a> View<'a> {
     }
 
     /// The centre line of a filament.
-    pub(super) fn ribbon(&self, filament: usize) -> &Ribbon {
+    pub(crate) fn ribbon(&self, filament: usize) -> &Ribbon {
         let of = || Ribbon::of(self.assembly, filament, self.state);
         self.ribbons[filament].get_or_init(of)
     }
 
     /// All loads: one evaluation more than the run itself takes.
-    pub(super) fn loads(&self) -> &Loads {
+    pub(crate) fn loads(&self) -> &Loads {
         self.loads.get_or_init(|| {
             let mut loads = Loads::zeros(self.state);
             for interaction in self.assembly.system.interactions() {

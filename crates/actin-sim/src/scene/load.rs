@@ -226,6 +226,18 @@ impl Load {
         }
     }
 
+    /// Multiplies its size.
+    pub(crate) fn scale(&mut self, share: f64) {
+        let size = match self {
+            Self::EndForce { force_pn, .. } | Self::Force(Force { force_pn, .. }) => force_pn,
+            Self::Couple(Couple { couple_pn_nm, .. }) => couple_pn_nm,
+            Self::ForcePerLength(load) => &mut load.force_pn_per_nm,
+            Self::CouplePerLength(load) => &mut load.couple_pn_nm_per_nm,
+            Self::Acceleration(load) => &mut load.acceleration_nm_per_ns2,
+        };
+        *size = size.map(|x| share * x);
+    }
+
     /// The end that it acts on, if it acts on one.
     pub(crate) fn end(&self) -> Option<End> {
         match self {

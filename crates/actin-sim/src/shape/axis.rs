@@ -24,8 +24,13 @@ pub(crate) struct Axis {
 
 impl Axis {
     pub(crate) fn of(assembly: &Assembly, state: &State) -> Self {
-        let ribbon = Ribbon::new(assembly, state);
-        let inside = ribbon.frame_s_nm.iter().copied().zip(ribbon.frames);
+        Self::along(&Ribbon::new(assembly, state))
+    }
+
+    /// That of any filament, along its ribbon.
+    pub(crate) fn along(ribbon: &Ribbon) -> Self {
+        let frames = ribbon.frames.iter().copied();
+        let inside = ribbon.frame_s_nm.iter().copied().zip(frames);
         let mut frames: Vec<_> = ribbon.ends[0]
             .into_iter()
             .chain(inside)

@@ -1,0 +1,284 @@
+//! `actin trade`: what accuracy costs in a scene, as a table, a picture and a scene that is good enough.
+
+use crate::failure::{Failure, Read};
+use crate::progress;
+use crate::{SceneArguments, signals};
+use actin_sim::trade::{
+    Candidate, Measure, Options, Reference, Trade, TradeError, Watch, trade as run,
+};
+use actin_view::draw::{Colour, Scatter, ScatterPoint, lines::OKABE_ITO};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+/// The files that are written.
+const FILES: [&str; 3] = ["trade.csv", "trade.svg", "best.ron"];
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct TradeArguments {
+    #[command(flatten)]
+    source: SceneArguments,
+    /// What candidates are compared by: tip, height, end-force, end-couple, energy, curvature, linker-force, or the
+    /// beginning of a column of observables.csv; several with commas. By default what the scene observes and its tips.
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    quantity: Vec<String>,
+    /// Largest relative error that is wanted.
+    #[arg(long, default_value_t = 0.02)]
+    error: f64,
+    /// Longest time of one run, in seconds.
+    #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = budget)]
+    budget: Duration,
+    /// Shares of the loads at which candidates that meet the error are judged, too; 1 for none.
+    #[arg(
+        long,
+        value_name = "SHARE",
+        value_delimiter = ',',
+        default_value = "0.5"
+    )]
+    loads: Vec<f64>,
+    /// Tries finer meshes and other laws, too.
+    #[arg(long)]
+    all: bool,
+    /// Where trade.csv, trade.svg and best.ron are written; by default `trades/` and the name of the scene.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Replaces these files of an earlier trade.
+    #[arg(long)]
+    overwrite: bool,
+}
+
+fn budget(text: &str) -> Result<Duration, String> {
+    crate::seconds(text.strip_suffix('s').unwrap_or(text))
+}
+
+/// Runs the trade, prints it and writes its files.
+pub(crate) fn trade(arguments: &TradeArguments) -> Result<(), Failure> {
+    let read = Read::new(&arguments.source)?;
+    let out = folder(arguments)?;
+    let options = Options {
+        measures: arguments
+            .quantity
+            .iter()
+            .map(|name| measure(name))
+            .collect(),
+        error: arguments.error,
+        budget: arguments.budget,
+        load_shares: arguments
+            .loads
+            .iter()
+            .copied()
+            .filter(|share| *share != 1.0)
+            .collect(),
+        is_all: arguments.all,
+    };
+    let interrupted = signals::interruption()
+        .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
+    let bar = progress::spinner();
+    let found = run(
+        &read.scene,
+        &options,
+        &Watch {
+            says: &|what| bar.set_message(what.to_owned()),
+            is_interrupted: &|| interrupted.load(Ordering::Relaxed),
+        },
+    );
+    bar.finish_and_clear();
+    let trade = found.map_err(|error| match error {
+        TradeError::Refused(problem) => read.refuse(&problem),
+        TradeError::ReferenceFails { .. } => Failure::Numerical(error.to_string()),
+        TradeError::Interrupted => Failure::Interrupted(error.to_string()),
+    })?;
+    print(&trade);
+    write(&trade, &out).map_err(Failure::Unwritten)?;
+    println!("written: {} in {}", FILES.join(", "), out.display());
+    if interrupted.load(Ordering::Relaxed) {
+        let message = "the table holds what had run".to_owned();
+        return Err(Failure::Interrupted(message));
+    }
+    Ok(())
+}
+
+fn measure(name: &str) -> Measure {
+    match name.parse() {
+        Ok(measure) => measure,
+        Err(never) => match never {},
+    }
+}
+
+/// The folder, which holds none of the files unless they may be replaced.
+fn folder(arguments: &TradeArguments) -> Result<PathBuf, Failure> {
+    let name = arguments
+        .source
+        .scene
+        .file_stem()
+        .filter(|_| !arguments.source.is_standard_input());
+    let by_default = || Path::new("trades").join(name.unwrap_or("stdin".as_ref()));
+    let out = arguments.out.clone().unwrap_or_else(by_default);
+    let earlier = FILES.into_iter().find(|file| out.join(file).exists());
+    if let Some(earlier) = earlier.filter(|_| !arguments.overwrite) {
+        return Err(Failure::Input(format!(
+            "{} exists: --overwrite replaces it, --out names another folder",
+            out.join(earlier).display()
+        )));
+    }
+    fs::create_dir_all(&out)
+        .map_err(|error| Failure::Unwritten(format!("{}: {error}", out.display())))?;
+    Ok(out)
+}
+
+/// Width of the column of names.
+const NAME: usize = 62;
+
+fn print(trade: &Trade) {
+    let Reference {
+        name,
+        counts,
+        wall_s,
+        is_settled,
+        ..
+    } = &trade.reference;
+    println!(
+        "reference: {name}: {} monomers, {} segments, {}",
+        counts.monomers,
+        counts.segments,
+        time(*wall_s)
+    );
+    if !is_settled {
+        println!(
+            "warning: the reference is itself off by more than a third of the wanted error: {}",
+            percents(&trade.reference.own_errors).join(", ")
+        );
+    }
+    let items: String = trade
+        .items
+        .iter()
+        .map(|item| format!("{:>12.12}", item.name))
+        .collect();
+    println!(
+        "{:NAME$}{:>9}{:>8}{items}   worst",
+        "errors in %", "time", "faster"
+    );
+    for (i, candidate) in trade.candidates.iter().enumerate() {
+        print_candidate(trade, i, candidate);
+    }
+    if let Some(scatter) = &trade.scatter {
+        let numbers: String = percents(scatter)
+            .iter()
+            .map(|p| format!("{p:>12}"))
+            .collect();
+        println!(
+            "{:NAME$}{:17}{numbers}",
+            "filaments of 64 drawn bonds scatter by", ""
+        );
+    }
+    for left in &trade.left_out {
+        println!("not compared: {left}");
+    }
+    println!(
+        "all runs took as long as {:.1} of the reference",
+        trade.runs_of_reference
+    );
+    let wanted = 100.0 * trade.options.error;
+    match trade.best {
+        Some(best) => println!(
+            "cheapest within {wanted} %: {}",
+            trade.candidates[best].name
+        ),
+        None => println!("cheapest within {wanted} %: the reference itself"),
+    }
+}
+
+fn print_candidate(trade: &Trade, i: usize, candidate: &Candidate) {
+    let name = &candidate.name;
+    if let Some(failure) = &candidate.failure {
+        println!("{name:NAME$} no result: {failure}");
+        return;
+    }
+    let mark = if trade.best == Some(i) {
+        "  <- cheapest"
+    } else {
+        ""
+    };
+    let errors: String = percents(&candidate.errors)
+        .iter()
+        .map(|p| format!("{p:>12}"))
+        .collect();
+    let at_loads: String = candidate
+        .at_loads
+        .iter()
+        .map(|(share, error)| format!(", {:.2} at {share} of the loads", 100.0 * error))
+        .collect();
+    println!(
+        "{name:NAME$}{:>9}{:>8.2}{errors}   {:.2}{at_loads}{mark}",
+        time(candidate.wall_s),
+        trade.usual_s() / candidate.wall_s,
+        100.0 * candidate.error(),
+    );
+}
+
+fn percents(errors: &[Option<f64>]) -> Vec<String> {
+    let percent =
+        |error: &Option<f64>| error.map_or_else(|| "-".to_owned(), |e| format!("{:.2}", 100.0 * e));
+    errors.iter().map(percent).collect()
+}
+
+fn time(seconds: f64) -> String {
+    if seconds < 1.0 {
+        format!("{:.1} ms", 1e3 * seconds)
+    } else {
+        format!("{seconds:.2} s")
+    }
+}
+
+fn write(trade: &Trade, out: &Path) -> Result<(), String> {
+    let path = |file: &str| out.join(file);
+    let table = path("trade.csv");
+    fs::write(&table, trade.to_csv()).map_err(|error| format!("{}: {error}", table.display()))?;
+    draw(trade, &path("trade.svg"))?;
+    let best = path("best.ron");
+    fs::write(&best, trade.best_scene().to_ron())
+        .map_err(|error| format!("{}: {error}", best.display()))
+}
+
+/// Error against time, with the front of those that none beats in both.
+fn draw(trade: &Trade, path: &Path) -> Result<(), String> {
+    let has_result = |candidate: &&Candidate| {
+        candidate.failure.is_none()
+            && candidate.worst_error() > 0.0
+            && candidate.worst_error().is_finite()
+    };
+    let mut shown: Vec<&Candidate> = trade.candidates.iter().filter(has_result).collect();
+    shown.sort_by(|a, b| a.wall_s.total_cmp(&b.wall_s));
+    let mut least = f64::INFINITY;
+    let points = shown.into_iter().map(|candidate| {
+        let error = candidate.worst_error();
+        let on_front = error < least;
+        least = least.min(error);
+        let is_rod = candidate.counts.monomers == 0;
+        let is_whole = candidate.counts.segments == 0;
+        let kind = if is_whole {
+            0
+        } else if is_rod {
+            1
+        } else {
+            2
+        };
+        ScatterPoint {
+            place: (candidate.wall_s, error),
+            colour: Colour(OKABE_ITO[kind]),
+            name: candidate.name.clone(),
+            on_front,
+        }
+    });
+    let wanted = format!("wanted: {} %", 100.0 * trade.options.error);
+    Scatter {
+        title: "What accuracy costs",
+        x_label: "time (s)",
+        y_label: "largest relative error",
+        points: points.collect(),
+        level: Some((trade.options.error, &wanted)),
+        list_title: "candidates; * none is both faster and nearer",
+    }
+    .draw(path)
+}

@@ -1,0 +1,296 @@
+//! The candidates of a scene, in the order in which they are tried: longer steps, rods, windows of monomers, single
+//! filaments as rods.
+
+use super::resolution::{Rods, Whole};
+use crate::scene::{Integrator, Monomers, RodLaw, RotaryInertia, Scene, Section, Task};
+
+/// The longest steps of position Verlet, as a share of the stability limit.
+const LONGEST: f64 = 0.9;
+
+/// Multiples of the default step of overdamped motion.
+const MULTIPLES: [u32; 2] = [4, 20];
+
+/// A scene to be tried.
+#[derive(Clone, Debug)]
+pub(super) struct Proposal {
+    pub name: String,
+    pub scene: Scene,
+}
+
+/// The scene at half of its default step.
+pub(super) fn at_half_step(scene: &Scene, default_ns: Option<f64>) -> Scene {
+    let mut half = scene.clone();
+    match &mut half.task {
+        Task::Equilibrium(_) => {}
+        Task::Dynamics(dynamics) => match &mut dynamics.time_step_ns {
+            Some(step) => *step *= 0.5,
+            None => dynamics.step_safety *= 0.5,
+        },
+        Task::Brownian(brownian) => brownian.time_step_ns = default_ns.map(|step| 0.5 * step),
+    }
+    half
+}
+
+/// The scene itself with longer steps and cheaper integrators; `default_ns` is its default step.
+pub(super) fn steps(scene: &Scene, default_ns: Option<f64>) -> Vec<Proposal> {
+    let name = |what: &str| format!("every monomer, {what}");
+    let mut all = Vec::new();
+    if !matches!(scene.task, Task::Equilibrium(_)) {
+        all.push(Proposal {
+            name: name("default step"),
+            scene: scene.clone(),
+        });
+    }
+    match (&scene.task, default_ns) {
+        (Task::Dynamics(_), _) => all.push(Proposal {
+            name: name("position Verlet at 0.9 of the stable step"),
+            scene: quick(scene, default_ns),
+        }),
+        (Task::Brownian(_), Some(step_ns)) => all.extend(MULTIPLES.map(|multiple| Proposal {
+            name: name(&format!("{multiple} times the default step")),
+            scene: with_step(scene, f64::from(multiple) * step_ns),
+        })),
+        _ => {}
+    }
+    all
+}
+
+fn with_step(scene: &Scene, step_ns: f64) -> Scene {
+    let mut scene = scene.clone();
+    if let Task::Brownian(brownian) = &mut scene.task {
+        let interval_ns = brownian.record_every_ns.unwrap_or(f64::INFINITY);
+        brownian.time_step_ns = Some(step_ns.min(interval_ns));
+    }
+    scene
+}
+
+/// The scene with the steps at which resolutions are tried.
+fn quick(scene: &Scene, default_ns: Option<f64>) -> Scene {
+    let mut scene = scene.clone();
+    match &mut scene.task {
+        Task::Equilibrium(_) => {}
+        Task::Dynamics(dynamics) => {
+            dynamics.time_step_ns = None;
+            dynamics.step_safety = LONGEST;
+            dynamics.integrator = Integrator::PositionVerlet;
+        }
+        Task::Brownian(_) => {
+            if let Some(step_ns) = default_ns {
+                return with_step(&scene, f64::from(MULTIPLES[0]) * step_ns);
+            }
+        }
+    }
+    scene
+}
+
+/// Where windows of monomers may be.
+struct Places<'a> {
+    whole: &'a Whole,
+    bends_most: &'a [Option<f64>],
+}
+
+impl Places<'_> {
+    fn walls_and_sites(&self, filament: usize) -> Vec<f64> {
+        let (walls, sites) = (self.whole.walls(filament), self.whole.sites(filament));
+        [walls, sites].concat()
+    }
+
+    fn windows(&self, of: Kind, width_nm: f64) -> Option<Vec<Vec<[f64; 2]>>> {
+        self.whole.windows(
+            |filament| match of {
+                Kind::Everywhere => self.walls_and_sites(filament),
+                Kind::Sites => self.whole.sites(filament),
+                Kind::Bend => Vec::from_iter(self.bends_most[filament]),
+            },
+            width_nm,
+        )
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Everywhere,
+    Sites,
+    Bend,
+}
+
+impl Kind {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Everywhere => "at walls, loads and linkers",
+            Self::Sites => "at loads and linkers",
+            Self::Bend => "where it bends most",
+        }
+    }
+}
+
+use RodLaw::{Constant, Fitted, Homogenised};
+
+/// Laws and lengths of segments (nm) of rods without monomers, by default and for `--all`.
+const RODS: [(RodLaw, f64); 5] = [
+    (Fitted, 40.0),
+    (Homogenised, 40.0),
+    (Fitted, 20.0),
+    (Homogenised, 20.0),
+    (Homogenised, 10.0),
+];
+const MORE_RODS: [(RodLaw, f64); 5] = [
+    (Fitted, 10.0),
+    (Fitted, 5.0),
+    (Homogenised, 5.0),
+    (Constant, 40.0),
+    (Constant, 20.0),
+];
+
+/// Windows of monomers: where, how wide (nm), and the rods between them.
+const WINDOWS: [(Kind, f64, RodLaw, f64); 4] = [
+    (Kind::Everywhere, 20.0, Fitted, 20.0),
+    (Kind::Everywhere, 40.0, Homogenised, 40.0),
+    (Kind::Sites, 40.0, Homogenised, 20.0),
+    (Kind::Bend, 80.0, Homogenised, 40.0),
+];
+const MORE_WINDOWS: [(Kind, f64, RodLaw, f64); 4] = [
+    (Kind::Everywhere, 20.0, Homogenised, 20.0),
+    (Kind::Everywhere, 40.0, Fitted, 20.0),
+    (Kind::Everywhere, 80.0, Homogenised, 20.0),
+    (Kind::Bend, 40.0, Homogenised, 20.0),
+];
+
+/// Rods, and rods with windows of monomers. `bends_most` is where each filament of the reference does.
+pub(super) fn resolutions(
+    whole: &Whole,
+    default_ns: Option<f64>,
+    bends_most: &[Option<f64>],
+    is_all: bool,
+) -> Vec<Proposal> {
+    let whole = Whole {
+        scene: quick(&whole.scene, default_ns),
+        ..whole.clone()
+    };
+    let (more_rods, more_windows) = if is_all {
+        (&MORE_RODS[..], &MORE_WINDOWS[..])
+    } else {
+        (&[][..], &[][..])
+    };
+    let all_rods = RODS.iter().chain(more_rods);
+    let of_rods = all_rods.map(|(law, segment_nm)| {
+        let rods = rods(&whole.scene, law, *segment_nm);
+        Proposal {
+            name: rods.name(),
+            scene: whole.resolved(&rods, &whole.no_windows()),
+        }
+    });
+    let places = Places {
+        whole: &whole,
+        bends_most,
+    };
+    let all_windows = WINDOWS.iter().chain(more_windows);
+    let of_windows = all_windows.filter_map(|(kind, width_nm, law, segment_nm)| {
+        let windows = places.windows(*kind, *width_nm)?;
+        let rods = rods(&whole.scene, law, *segment_nm);
+        Some(Proposal {
+            name: format!("{width_nm} nm {}, {}", kind.name(), rods.name()),
+            scene: whole.resolved(&rods, &windows),
+        })
+    });
+    let mut all: Vec<Proposal> = of_rods.chain(of_windows).collect();
+    all.extend(single_rods(&whole));
+    all.extend(is_all.then(|| with_eight_bonds(&whole.scene)));
+    let mut known: Vec<Scene> = Vec::new();
+    all.retain(|one| {
+        let is_new = !known.contains(&one.scene);
+        known.push(one.scene.clone());
+        is_new
+    });
+    all
+}
+
+/// References from coarse to fine, for scenes whose monomers are too many: rods, then windows of monomers that grow.
+pub(super) fn references(whole: &Whole) -> Vec<Proposal> {
+    let rods = rods(&whole.scene, &Homogenised, 20.0);
+    let places = Places {
+        whole,
+        bends_most: &[],
+    };
+    let coarse = self::rods(&whole.scene, &Homogenised, 40.0);
+    let first = Proposal {
+        name: coarse.name(),
+        scene: whole.resolved(&coarse, &whole.no_windows()),
+    };
+    let none = (rods.name(), Some(whole.no_windows()));
+    let widths = [20.0, 40.0, 80.0].map(|width_nm| {
+        let windows = places.windows(Kind::Everywhere, width_nm);
+        let name = format!("{width_nm} nm {}, {}", Kind::Everywhere.name(), rods.name());
+        (name, windows)
+    });
+    let finer = [none].into_iter().chain(widths);
+    let finer = finer.filter_map(|(name, windows)| {
+        let scene = whole.resolved(&rods, &windows?);
+        Some(Proposal { name, scene })
+    });
+    [first].into_iter().chain(finer).collect()
+}
+
+fn rods(scene: &Scene, law: &RodLaw, segment_nm: f64) -> Rods {
+    let inertia = match scene.task {
+        Task::Dynamics(_) => RotaryInertia::RigidSegment,
+        Task::Brownian(_) | Task::Equilibrium(_) => RotaryInertia::CrossSection,
+    };
+    Rods {
+        law: law.clone(),
+        segment_nm,
+        inertia,
+    }
+}
+
+impl Rods {
+    fn name(&self) -> String {
+        let law = match self.law {
+            Fitted => "Fitted",
+            Constant => "Constant",
+            _ => "Homogenised",
+        };
+        format!("rod {law} {} nm", self.segment_nm)
+    }
+}
+
+/// Of several filaments each in turn as a rod, the others as monomers.
+fn single_rods(whole: &Whole) -> Vec<Proposal> {
+    let free: Vec<usize> = whole.free().collect();
+    if free.len() < 2 || free.len() > 4 {
+        return Vec::new();
+    }
+    let of = |one: usize| {
+        let rods = rods(&whole.scene, &Homogenised, 20.0);
+        let windows = (0..whole.kept.len()).map(|f| {
+            let whole_nm = [0.0, whole.lengths_nm[f]];
+            if f == one { Vec::new() } else { vec![whole_nm] }
+        });
+        Proposal {
+            name: format!("filament {one} as {}", rods.name()),
+            scene: whole.resolved(&rods, &windows.collect::<Vec<_>>()),
+        }
+    };
+    free.into_iter().map(of).collect()
+}
+
+fn with_eight_bonds(scene: &Scene) -> Proposal {
+    let mut scene = scene.clone();
+    for filament in scene.filaments_mut() {
+        if filament
+            .sections
+            .iter()
+            .any(|section| !Section::is_rod(section))
+        {
+            filament.monomers = Monomers {
+                lateral_bonds: 8,
+                longitudinal_bonds: 8,
+                ..filament.monomers.clone()
+            };
+        }
+    }
+    Proposal {
+        name: "every monomer, 8 bonds".to_owned(),
+        scene,
+    }
+}

@@ -1,0 +1,442 @@
+//! What resolutions are compared by: numbers and vectors of records, whatever resolves the filaments.
+
+use crate::observe::View;
+use crate::scene::{End, Linker, Quantity, Resultant, Scene, SceneProblem, Setting};
+use crate::shape::Ribbon;
+use crate::shape::axis::Axis;
+use crate::{Assembly, Record};
+use actin_mechanics::Vector3;
+use std::fmt;
+use std::ops::Range;
+use std::str::FromStr;
+
+/// Length of the chords between which a profile of curvature turns (nm): one period of 13 monomers.
+const CHORD_NM: f64 = 35.6;
+
+/// How far a vector may lie off an axis along which it counts as lying, as a share of its size.
+const OFF_AXIS: f64 = 1e-9;
+
+/// Size of a load (pN, pN nm), shift (nm) or turn (deg) up to which it does not fix a direction that nothing else does.
+const WEAK: f64 = 0.01;
+
+/// A quantity by which resolutions are compared.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Measure {
+    /// Displacement of every end that is not clamped (nm), from where it was built.
+    Tip,
+    /// Largest distance of each filament from its axis as built (nm).
+    Height,
+    /// Force of every clamp (pN).
+    EndForce,
+    /// Couple of every clamp about the clamped point (pN nm).
+    EndCouple,
+    /// Elastic energy of the filaments (pN nm), without linkers and loads.
+    Energy,
+    /// Profile of the curvature between chords of 35.6 nm (rad/nm); of one place (nm) if it is given.
+    Curvature(Option<f64>),
+    /// Force of every linker (pN), or of one.
+    LinkerForce(Option<usize>),
+    /// Columns of `observables.csv` whose names begin so.
+    Observable(String),
+}
+
+impl From<Quantity> for Measure {
+    fn from(quantity: Quantity) -> Self {
+        match quantity {
+            Quantity::Tip => Self::Tip,
+            Quantity::Height => Self::Height,
+            Quantity::EndForce => Self::EndForce,
+            Quantity::EndCouple => Self::EndCouple,
+            Quantity::Energy => Self::Energy,
+            Quantity::LinkerForce { linker } => Self::LinkerForce(Some(linker)),
+            Quantity::Curvature { at_nm } => Self::Curvature(Some(at_nm)),
+        }
+    }
+}
+
+/// Names as on the command line; whatever is none of them names an observable.
+impl FromStr for Measure {
+    type Err = std::convert::Infallible;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        Ok(match name {
+            "tip" => Self::Tip,
+            "height" => Self::Height,
+            "end-force" => Self::EndForce,
+            "end-couple" => Self::EndCouple,
+            "energy" => Self::Energy,
+            "curvature" => Self::Curvature(None),
+            "linker-force" => Self::LinkerForce(None),
+            other => Self::Observable(other.to_owned()),
+        })
+    }
+}
+
+impl fmt::Display for Measure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Tip => write!(f, "tip"),
+            Self::Height => write!(f, "height"),
+            Self::EndForce => write!(f, "end-force"),
+            Self::EndCouple => write!(f, "end-couple"),
+            Self::Energy => write!(f, "energy"),
+            Self::Curvature(None) => write!(f, "curvature"),
+            Self::Curvature(Some(at_nm)) => write!(f, "curvature at {at_nm} nm"),
+            Self::LinkerForce(None) => write!(f, "linker-force"),
+            Self::LinkerForce(Some(linker)) => write!(f, "linker-force {linker}"),
+            Self::Observable(name) => write!(f, "{name}"),
+        }
+    }
+}
+
+/// One number or vector of every record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Item {
+    /// Its name in tables.
+    pub name: String,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Size below which differences are compared with this size instead of the reference's.
+    pub scale: f64,
+    kind: Kind,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Kind {
+    Tip(usize, End),
+    Height(usize),
+    Force(usize),
+    Couple(usize),
+    Energy,
+    Curvature(usize, Vec<f64>),
+    Linker(usize),
+    Columns(Range<usize>),
+}
+
+impl Item {
+    fn new(name: String, unit: &'static str, kind: Kind) -> Self {
+        let scale = match unit {
+            "nm" | "pN" => 0.01,
+            "pN nm" => 0.1,
+            "rad/nm" => 1e-5,
+            _ => 1e-6,
+        };
+        Self {
+            name,
+            unit,
+            scale,
+            kind,
+        }
+    }
+
+    /// Whether the largest difference counts, not the norm: of a profile.
+    fn is_profile(&self) -> bool {
+        matches!(self.kind, Kind::Curvature(..))
+    }
+
+    /// The size of a value: its norm, of a profile its largest number.
+    fn size(&self, value: &[f64]) -> f64 {
+        let sizes = value.iter().map(|x| x.abs());
+        if self.is_profile() {
+            sizes.fold(0.0, f64::max)
+        } else {
+            sizes.map(|x| x * x).sum::<f64>().sqrt()
+        }
+    }
+
+    /// How far a candidate is from the reference: the root mean square over records of the size of the difference, over
+    /// that of the reference or the scale. None where they have different records.
+    pub fn error(&self, reference: &[Vec<f64>], candidate: &[Vec<f64>]) -> Option<f64> {
+        if reference.len() != candidate.len() || reference.is_empty() {
+            return None;
+        }
+        let count = reference.len() as f64;
+        let mean = |sum: f64| (sum / count).sqrt();
+        let square = |value: &[f64]| self.size(value).powi(2);
+        let differences = reference.iter().zip(candidate).map(|(one, other)| {
+            let difference: Vec<f64> = one.iter().zip(other).map(|(a, b)| b - a).collect();
+            if one.len() == other.len() {
+                square(&difference)
+            } else {
+                f64::NAN
+            }
+        });
+        let difference = mean(differences.sum());
+        let size = mean(reference.iter().map(|value| square(value)).sum());
+        let error = difference / size.max(self.scale);
+        error.is_finite().then_some(error)
+    }
+}
+
+/// Values of each item in each record.
+pub(super) type Values = Vec<Vec<Vec<f64>>>;
+
+/// What is read off records, the same of every resolution of one scene.
+#[derive(Clone, Debug)]
+pub(super) struct Measurer {
+    pub items: Vec<Item>,
+    /// The axis about which nothing tells directions apart.
+    free_about: Option<Vector3>,
+}
+
+impl Measurer {
+    /// What `measures`, or by default the usual ones, are in a scene whose reference is assembled.
+    ///
+    /// # Errors
+    /// A quantity that the scene does not have.
+    pub(super) fn new(assembly: &Assembly, measures: &[Measure]) -> Result<Self, SceneProblem> {
+        let by_default = by_default(assembly);
+        let measures = if measures.is_empty() {
+            &by_default
+        } else {
+            measures
+        };
+        let mut items: Vec<Item> = Vec::new();
+        for measure in measures {
+            let found = items_of(assembly, measure);
+            if found.is_empty() {
+                let rule = format!("the scene has no {measure} to compare resolutions by");
+                return Err(SceneProblem::new("quantity", measure.to_string(), rule));
+            }
+            for item in found {
+                if !items.iter().any(|known| known.name == item.name) {
+                    items.push(item);
+                }
+            }
+        }
+        Ok(Self {
+            items,
+            free_about: free_axis(&assembly.scene),
+        })
+    }
+
+    /// Whether directions across the axis are left out.
+    pub(super) fn leaves_out_azimuth(&self) -> bool {
+        self.free_about.is_some()
+    }
+
+    /// Values of each item in each record.
+    pub(super) fn values(&self, assembly: &Assembly, records: &[Record]) -> Values {
+        let views: Vec<View<'_>> = records
+            .iter()
+            .map(|record| {
+                let energies = (record.energies_pn_nm.as_slice(), record.kinetic_pn_nm);
+                View::new(assembly, (record.at, &record.state), energies)
+            })
+            .collect();
+        let of_item = |item: &Item| {
+            let all = views.iter().zip(records);
+            let values = all.map(|(view, record)| self.value(item, view, record));
+            values.collect()
+        };
+        self.items.iter().map(of_item).collect()
+    }
+
+    fn value(&self, item: &Item, view: &View<'_>, record: &Record) -> Vec<f64> {
+        let assembly = view.assembly;
+        match &item.kind {
+            Kind::Tip(filament, end) => {
+                let place = |state| assembly.tip_of(*filament, state, *end);
+                self.vector(place(view.state) - place(&assembly.rest))
+            }
+            Kind::Height(filament) => vec![view.ribbon(*filament).largest_distance_nm()],
+            Kind::Force(clamp) | Kind::Couple(clamp) => {
+                let reaction = assembly.clamps[*clamp].reaction(view.state, view.loads());
+                self.vector(match item.kind {
+                    Kind::Force(_) => reaction.force_pn,
+                    _ => reaction.torque_pn_nm,
+                })
+            }
+            Kind::Energy => {
+                let terms = assembly.filaments.iter().flat_map(|f| f.terms.clone());
+                vec![terms.map(|term| record.energies_pn_nm[term]).sum()]
+            }
+            Kind::Curvature(filament, places) => turns(view.ribbon(*filament), places),
+            Kind::Linker(linker) => {
+                let (linker, is_bound) = assembly.linker_in(*linker, view.state);
+                let force = linker.force(view.state);
+                self.vector(if is_bound { force } else { Vector3::zeros() })
+            }
+            Kind::Columns(columns) => match &record.observed[columns.clone()] {
+                [x, y, z] => self.vector(Vector3::new(*x, *y, *z)),
+                numbers => numbers.to_vec(),
+            },
+        }
+    }
+
+    /// A vector without the direction that nothing tells: its parts along and across the axis.
+    fn vector(&self, vector: Vector3) -> Vec<f64> {
+        match self.free_about {
+            None => vector.as_slice().to_vec(),
+            Some(axis) => {
+                let along = vector.dot(&axis);
+                vec![along, (vector - along * axis).norm()]
+            }
+        }
+    }
+}
+
+/// What a scene is compared by if nothing is named: what it observes, and its tips; where no tip is free, its height.
+fn by_default(assembly: &Assembly) -> Vec<Measure> {
+    let mut measures: Vec<Measure> = assembly
+        .observed()
+        .iter()
+        .map(|column| Measure::Observable(column_stem(column).to_owned()))
+        .collect();
+    measures.dedup();
+    let has_tip = !items_of(assembly, &Measure::Tip).is_empty();
+    measures.push(if has_tip {
+        Measure::Tip
+    } else {
+        Measure::Height
+    });
+    measures
+}
+
+fn items_of(assembly: &Assembly, measure: &Measure) -> Vec<Item> {
+    let filaments = || 0..assembly.filaments.len();
+    let of = |what: &str, filament: usize| match assembly.filaments.len() {
+        1 => what.to_owned(),
+        _ => format!("{what}[{filament}]"),
+    };
+    match measure {
+        Measure::Tip => {
+            let starts = filaments().map(|f| (f, End::Start, "start"));
+            let ends = filaments().map(|f| (f, End::End, "tip"));
+            let free = starts.chain(ends);
+            let free = free.filter(|(f, end, _)| assembly.clamp_at(*f, *end).is_none());
+            free.map(|(f, end, name)| Item::new(of(name, f), "nm", Kind::Tip(f, end)))
+                .collect()
+        }
+        Measure::Height => filaments()
+            .map(|f| Item::new(of("height", f), "nm", Kind::Height(f)))
+            .collect(),
+        Measure::EndForce => of_clamps(assembly, "force", "pN", (Kind::Force, &of)),
+        Measure::EndCouple => of_clamps(assembly, "couple", "pN nm", (Kind::Couple, &of)),
+        Measure::Energy => vec![Item::new("energy".to_owned(), "pN nm", Kind::Energy)],
+        Measure::Curvature(at_nm) => filaments()
+            .filter(|f| at_nm.is_none() || *f == 0)
+            .map(|f| (f, chords(assembly.length_of(f), *at_nm)))
+            .filter(|(_, places)| places.len() >= 3)
+            .map(|(f, places)| Item::new(of("curvature", f), "rad/nm", Kind::Curvature(f, places)))
+            .collect(),
+        Measure::LinkerForce(one) => (0..assembly.linkers.len())
+            .filter(|linker| one.is_none_or(|one| one == *linker))
+            .map(|linker| Item::new(format!("linker {linker}"), "pN", Kind::Linker(linker)))
+            .collect(),
+        Measure::Observable(name) => columns(assembly.observed(), name),
+    }
+}
+
+fn of_clamps(
+    assembly: &Assembly,
+    what: &str,
+    unit: &'static str,
+    (kind, of): (fn(usize) -> Kind, &dyn Fn(&str, usize) -> String),
+) -> Vec<Item> {
+    let clamps = assembly.clamps.iter().enumerate();
+    let named = clamps.map(|(i, clamp)| {
+        let end = match clamp.end {
+            End::Start => "start",
+            End::End => "end",
+        };
+        let name = of(&format!("{end} {what}"), clamp.filament);
+        Item::new(name, unit, kind(i))
+    });
+    named.collect()
+}
+
+/// Columns of observables whose names begin so, those of one vector together.
+fn columns(all: &[String], name: &str) -> Vec<Item> {
+    let mut items: Vec<Item> = Vec::new();
+    for (i, column) in all.iter().enumerate() {
+        if !column.starts_with(name) {
+            continue;
+        }
+        let stem = column_stem(column);
+        match items.last_mut() {
+            Some(Item {
+                name,
+                kind: Kind::Columns(range),
+                ..
+            }) if name == stem && range.end == i && stem != column => range.end += 1,
+            _ => {
+                let unit = ["rad_per_nm", "pn_nm", "pn", "nm"]
+                    .into_iter()
+                    .zip(["rad/nm", "pN nm", "pN", "nm"])
+                    .find(|(suffix, _)| column.ends_with(&format!("_{suffix}")));
+                let kind = Kind::Columns(i..i + 1);
+                items.push(Item::new(
+                    stem.to_owned(),
+                    unit.map_or("", |(_, unit)| unit),
+                    kind,
+                ));
+            }
+        }
+    }
+    items
+}
+
+/// The name of a column without what tells the components of a vector apart and its unit.
+fn column_stem(column: &str) -> &str {
+    let axes = ["_x", "_y", "_z"];
+    let place = axes.iter().find_map(|axis| {
+        let at = column.find(axis)?;
+        let rest = &column[at + 2..];
+        (rest.is_empty() || rest.starts_with('_')).then_some(at)
+    });
+    place.map_or(column, |at| &column[..at])
+}
+
+/// Ends of chords along a filament (nm), or of the two about a place.
+fn chords(length_nm: f64, at_nm: Option<f64>) -> Vec<f64> {
+    if let Some(at_nm) = at_nm {
+        let last = (length_nm - 2.0 * CHORD_NM).max(0.0);
+        let from = (at_nm - CHORD_NM).clamp(0.0, last);
+        return (0..3).map(|k| from + f64::from(k) * CHORD_NM).collect();
+    }
+    let ends = (0..).map(|k| f64::from(k) * CHORD_NM);
+    ends.take_while(|s| *s <= length_nm + 1e-9).collect()
+}
+
+/// Angle between neighbouring chords over their length, at each inner place.
+fn turns(ribbon: &Ribbon, places: &[f64]) -> Vec<f64> {
+    let axis = Axis::along(ribbon);
+    let points: Vec<Vector3> = places.iter().map(|s| axis.at(*s).0).collect();
+    let chords: Vec<Vector3> = points.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let pairs = chords.windows(2);
+    pairs
+        .map(|pair| pair[0].angle(&pair[1]) / CHORD_NM)
+        .collect()
+}
+
+/// The axis about which a scene looks the same but for the helix of its monomers, if there is one: a single straight
+/// filament, loaded along and about it, beside which nothing but weak forces acts.
+fn free_axis(scene: &Scene) -> Option<Vector3> {
+    let filament = &scene.filament;
+    let is_alone = scene.further.is_empty() && filament.shape.is_none();
+    if !is_alone || scene.repulsion.is_some() {
+        return None;
+    }
+    let axis = filament.axis();
+    let lies_along = |v: &Vector3| v.cross(&axis).norm() <= OFF_AXIS * v.norm();
+    let loads = scene.loads.iter().map(|load| match load.resultant(scene) {
+        Resultant::Force(v) | Resultant::Couple(v) => v,
+    });
+    let settings = scene.path.iter().flat_map(|stage| &stage.set);
+    let moves = settings.filter_map(|setting| match *setting {
+        Setting::LoadFactor { .. } => None,
+        Setting::Shift { shift_nm: v, .. }
+        | Setting::Turn { turn_deg: v, .. }
+        | Setting::Anchor { shift_nm: v, .. } => Some(v.into()),
+    });
+    let strong: Vec<Vector3> = loads.chain(moves).filter(|v| v.norm() > WEAK).collect();
+    let reach = 0.5 * filament.length_nm();
+    let is_weak = |linker: &Linker| {
+        let pulled = Vector3::from(linker.displaced_nm.unwrap_or_default()).norm();
+        linker.to.is_none() && linker.stiffness_pn_per_nm * (pulled + reach) <= WEAK
+    };
+    let is_free =
+        !strong.is_empty() && strong.iter().all(lies_along) && scene.linkers.iter().all(is_weak);
+    is_free.then_some(axis)
+}

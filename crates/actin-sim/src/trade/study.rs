@@ -1,0 +1,421 @@
+//! The runs of a trade: the reference, the candidates, other loads, drawn bonds.
+
+use super::ladder::{self, Proposal};
+use super::measure::{Measurer, Values};
+use super::reference::Setup;
+use super::run::{Limits, Ran, Unusable, run};
+use super::{Candidate, Options, Reference, Trade, TradeError, Watch, worst};
+use crate::Counts;
+use crate::scene::{Anchors, Scene, SceneProblem, Setting, Task};
+use crate::shape::Ribbon;
+use std::cell::Cell;
+
+/// How the name of every monomer at its usual step begins.
+pub(super) const USUAL: &str = "every monomer, default step";
+
+/// Part of the wanted error that the reference may be off by itself.
+pub(super) const SETTLED: f64 = 1.0 / 3.0;
+
+/// Bonds of an interface where they are drawn, and how many filaments of them.
+const DRAWN: (usize, u64) = (64, 3);
+
+/// Runs the reference of a scene and its candidates.
+///
+/// ```
+/// use actin_sim::Scene;
+/// use actin_sim::trade::{Options, Watch, trade};
+/// let scene = Scene::from_ron("Scene(
+///     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 108.0)]),
+///     clamps: [Clamp(end: Start)],
+///     loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+///     task: Equilibrium(),
+/// )")?;
+/// let trade = trade(&scene, &Options::default(), &Watch::NOBODY)?;
+/// assert!(trade.candidates.len() >= 8);
+/// let best = trade.best.map(|best| trade.candidates[best].worst_error());
+/// assert!(best.is_none_or(|error| error <= 0.02));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// Options or quantities that make no sense for the scene, a scene that cannot be compared, a reference without a
+/// result, an interruption before there is a reference. Interrupted later, what has run is returned.
+pub fn trade(scene: &Scene, options: &Options, watch: &Watch<'_>) -> Result<Trade, TradeError> {
+    check(scene, options)?;
+    let mut study = Study::begin(scene, options, watch)?;
+    study.run_candidates(scene);
+    study.ladder_s = study.spent_s.get();
+    study.run_at_other_loads();
+    study.run_drawn();
+    Ok(study.end())
+}
+
+fn check(scene: &Scene, options: &Options) -> Result<(), SceneProblem> {
+    let refuse =
+        |key: &str, value: f64, rule: &str| Err(SceneProblem::new(key, format!("{value:?}"), rule));
+    if !(options.error > 0.0 && options.error < 1.0) {
+        return refuse("error", options.error, "must be greater than 0 and below 1");
+    }
+    if let Some(share) = options
+        .load_shares
+        .iter()
+        .find(|share| !(**share > 0.0 && share.is_finite()))
+    {
+        return refuse("loads", *share, "must be positive");
+    }
+    if scene
+        .filaments()
+        .any(|filament| filament.sections.following().is_some())
+    {
+        let rule = "follow a motion: write sections to compare others with";
+        return Err(SceneProblem::new(
+            "filament.sections",
+            "Following(..)",
+            rule,
+        ));
+    }
+    if scene.thermal().is_some() {
+        let rule = "runs in heat are compared by means over many seeds, which a trade does not run: compare ensembles, or \
+                    set the temperature to 0";
+        return Err(SceneProblem::new("task", "", rule));
+    }
+    Ok(())
+}
+
+/// What all runs of a trade have in common.
+struct Study<'a> {
+    setup: Setup<'a>,
+    reference: Reference,
+    values: Values,
+    /// Records that are compared, where the reference did not come to its end.
+    records: Option<usize>,
+    bends_most: Vec<Option<f64>>,
+    candidates: Vec<Candidate>,
+    left_out: Vec<String>,
+    scatter: Option<Vec<Option<f64>>>,
+    /// Time of the reference and the candidates (s).
+    ladder_s: f64,
+    /// Time of all runs (s).
+    spent_s: Cell<f64>,
+}
+
+impl<'a> Study<'a> {
+    fn begin(
+        scene: &Scene,
+        options: &'a Options,
+        watch: &'a Watch<'a>,
+    ) -> Result<Self, TradeError> {
+        let setup = Setup::new(scene, options, watch)?;
+        let found = setup.reference()?;
+        let is_whole = found.reference.share >= 1.0;
+        let mut study = Self {
+            records: (!is_whole).then_some(found.ran.records.len()),
+            bends_most: bends_most(&found.ran),
+            reference: found.reference,
+            values: found.values,
+            candidates: Vec::new(),
+            left_out: Vec::new(),
+            scatter: None,
+            ladder_s: 0.0,
+            spent_s: Cell::new(found.spent_s),
+            setup,
+        };
+        study.note_what_is_left_out();
+        Ok(study)
+    }
+
+    fn note_what_is_left_out(&mut self) {
+        if self.setup.measurer.leaves_out_azimuth() {
+            let note = "directions across the axis, which no load of more than 0.01 pN fixes: of vectors the parts along and across count";
+            self.left_out.push(note.to_owned());
+        }
+        let of = |filament: usize| match self.setup.whole.kept.len() {
+            1 => String::new(),
+            _ => format!("filament {filament}: "),
+        };
+        let kept = self.setup.whole.kept.iter().enumerate();
+        let kept = kept.filter_map(|(f, reason)| Some(format!("{}{}", of(f), (*reason)?)));
+        self.left_out.extend(kept);
+        if self.reference.share < 1.0 {
+            self.left_out.push(format!(
+                "all but the first {:.0} % of the motion, to which the reference comes within {} s",
+                100.0 * self.reference.share,
+                self.setup.options.budget.as_secs_f64()
+            ));
+        }
+    }
+
+    fn limits(&self) -> Limits<'_> {
+        Limits {
+            budget: Some(self.setup.options.budget),
+            records: self.records,
+            is_interrupted: self.setup.watch.is_interrupted,
+        }
+    }
+
+    fn run(&self, what: &str, scene: &Scene) -> Result<Ran, Unusable> {
+        (self.setup.watch.says)(what);
+        let ran = run(scene, self.limits());
+        if let Ok(ran) = &ran {
+            self.spent_s.set(self.spent_s.get() + ran.wall_s);
+        }
+        ran
+    }
+
+    fn errors(&self, values: &Values) -> Vec<Option<f64>> {
+        errors(&self.setup.measurer, &self.values, values)
+    }
+
+    /// Longer steps first, then coarser resolutions, and the scene as it is written.
+    fn run_candidates(&mut self, written: &Scene) {
+        let mut proposals = ladder::steps(&self.setup.whole.scene, self.setup.default_ns);
+        proposals.extend(ladder::resolutions(
+            &self.setup.whole,
+            self.setup.default_ns,
+            &self.bends_most,
+            self.setup.options.is_all,
+        ));
+        if written
+            .filaments()
+            .all(|filament| filament.sections.adaptive().is_none())
+        {
+            let scene = with_records_of(written.clone(), &self.setup.whole.scene);
+            if scene != self.setup.whole.scene {
+                let name = "as written".to_owned();
+                proposals.push(Proposal { name, scene });
+            }
+        }
+        for proposal in proposals {
+            if (self.setup.watch.is_interrupted)() {
+                self.left_out
+                    .push("candidates that did not run: interrupted".to_owned());
+                return;
+            }
+            let candidate = self.candidate(proposal);
+            if candidate.name.starts_with(USUAL) && candidate.failure.is_none() {
+                self.drop_unsettled(&candidate.errors);
+            }
+            self.candidates.push(candidate);
+        }
+    }
+
+    fn candidate(&self, Proposal { name, scene }: Proposal) -> Candidate {
+        let found = self.run(&name, &scene);
+        let (counts, wall_s, errors, failure) = match found {
+            Ok(ran) if ran.is_cut => (
+                ran.counts,
+                ran.wall_s,
+                Vec::new(),
+                Some("takes longer than the budget".to_owned()),
+            ),
+            Ok(ran) => {
+                let values = self.setup.measurer.values(&ran.assembly, &ran.records);
+                (ran.counts, ran.wall_s, self.errors(&values), None)
+            }
+            Err(unusable) => (
+                Counts::default(),
+                f64::NAN,
+                Vec::new(),
+                Some(unusable.to_string()),
+            ),
+        };
+        Candidate {
+            name,
+            scene,
+            counts,
+            wall_s,
+            errors,
+            at_loads: Vec::new(),
+            failure,
+        }
+    }
+
+    /// Leaves out what does not converge with the reference's own step.
+    fn drop_unsettled(&mut self, own: &[Option<f64>]) {
+        let limit = SETTLED * self.setup.options.error;
+        self.reference.own_errors = own.to_vec();
+        let is_kept: Vec<bool> = own.iter().map(|e| e.is_some_and(|e| e <= limit)).collect();
+        for (item, own) in self.setup.measurer.items.iter().zip(own) {
+            if let Some(error) = own.filter(|error| *error > limit) {
+                self.left_out.push(format!(
+                    "{}: the reference differs by {:.2} % from the same at the usual step",
+                    item.name,
+                    100.0 * error
+                ));
+            }
+        }
+        if is_kept.iter().any(|kept| *kept) {
+            retain(&mut self.setup.measurer.items, &is_kept);
+            retain(&mut self.values, &is_kept);
+            retain(&mut self.reference.own_errors, &is_kept);
+        } else {
+            self.reference.is_settled = false;
+        }
+    }
+
+    /// Candidates that meet the wanted error at the loads of the scene, at other loads, too.
+    fn run_at_other_loads(&mut self) {
+        for share in self.setup.options.load_shares.clone() {
+            let Some(usual) = at_load(&self.reference_for_loads(), share) else {
+                return;
+            };
+            let what = format!("every monomer at {share} of the loads");
+            let Ok(reference) = self.run(&what, &usual) else {
+                self.left_out
+                    .push(format!("{share} of the loads: the reference fails there"));
+                continue;
+            };
+            let reference = self
+                .setup
+                .measurer
+                .values(&reference.assembly, &reference.records);
+            for i in 0..self.candidates.len() {
+                let candidate = &self.candidates[i];
+                let is_dear = candidate.wall_s > self.reference.wall_s;
+                if candidate.error() > self.setup.options.error
+                    || candidate.failure.is_some()
+                    || is_dear
+                {
+                    continue;
+                }
+                let Some(scene) = at_load(&candidate.scene, share) else {
+                    continue;
+                };
+                let what = format!("{} at {share} of the loads", candidate.name);
+                let error = self.run(&what, &scene).map_or(f64::INFINITY, |ran| {
+                    let values = self.setup.measurer.values(&ran.assembly, &ran.records);
+                    worst(&errors(&self.setup.measurer, &reference, &values))
+                });
+                self.candidates[i].at_loads.push((share, error));
+            }
+        }
+    }
+
+    /// The reference, or where a candidate with every monomer is as good, that one.
+    fn reference_for_loads(&self) -> Scene {
+        let is_as_good = |candidate: &&Candidate| {
+            candidate.name.starts_with("every monomer, ")
+                && candidate.failure.is_none()
+                && candidate.error() <= 0.1 * self.setup.options.error
+        };
+        let good = self.candidates.iter().filter(is_as_good);
+        let quickest = good.min_by(|a, b| a.wall_s.total_cmp(&b.wall_s));
+        quickest.map_or(&self.reference.scene, |c| &c.scene).clone()
+    }
+
+    /// Filaments with drawn bonds, about which the mean filament says nothing.
+    fn run_drawn(&mut self) {
+        let (bonds, seeds) = DRAWN;
+        let usual = self.reference_for_loads();
+        if usual
+            .filaments()
+            .any(|filament| filament.sections.iter().any(crate::Section::is_rod))
+        {
+            return;
+        }
+        let mut all: Vec<Vec<Option<f64>>> = Vec::new();
+        for seed in 1..=seeds {
+            let mut drawn = usual.clone();
+            for filament in drawn.filaments_mut() {
+                let monomers = &mut filament.monomers;
+                (monomers.anchors, monomers.seed) = (Anchors::Independent, seed);
+                (monomers.lateral_bonds, monomers.longitudinal_bonds) = (bonds, bonds);
+            }
+            let Ok(ran) = self.run(&format!("drawn bonds, {seed} of {seeds}"), &drawn) else {
+                return;
+            };
+            all.push(self.errors(&self.setup.measurer.values(&ran.assembly, &ran.records)));
+        }
+        let of_item = |item: usize| {
+            let errors: Option<Vec<f64>> = all.iter().map(|errors| errors[item]).collect();
+            let errors = errors?;
+            let squares = errors.iter().map(|e| e * e).sum::<f64>();
+            Some((squares / errors.len() as f64).sqrt())
+        };
+        self.scatter = Some((0..self.setup.measurer.items.len()).map(of_item).collect());
+    }
+
+    fn end(self) -> Trade {
+        let is_good = |i: &usize| {
+            let candidate = &self.candidates[*i];
+            candidate.failure.is_none() && candidate.worst_error() <= self.setup.options.error
+        };
+        let time = |i: usize| self.candidates[i].wall_s;
+        let good = (0..self.candidates.len()).filter(is_good);
+        let best = good.min_by(|a, b| time(*a).total_cmp(&time(*b)));
+        let is_reference = |best: &usize| time(*best) < self.reference.wall_s;
+        Trade {
+            runs_of_reference: [self.ladder_s, self.spent_s.get()]
+                .map(|s| s / self.reference.wall_s),
+            options: self.setup.options.clone(),
+            items: self.setup.measurer.items.clone(),
+            left_out: self.left_out,
+            scatter: self.scatter,
+            best: best.filter(is_reference),
+            reference: self.reference,
+            candidates: self.candidates,
+        }
+    }
+}
+
+pub(super) fn errors(measurer: &Measurer, reference: &Values, values: &Values) -> Vec<Option<f64>> {
+    let pairs = reference.iter().zip(values);
+    let items = measurer.items.iter().zip(pairs);
+    items.map(|(item, (a, b))| item.error(a, b)).collect()
+}
+
+fn retain<T>(all: &mut Vec<T>, kept: &[bool]) {
+    let mut kept = kept.iter();
+    all.retain(|_| kept.next().is_none_or(|kept| *kept));
+}
+
+/// The scene with times of records written out, as a plan has them.
+pub(super) fn with_records_of(mut scene: Scene, planned: &Scene) -> Scene {
+    match (&mut scene.task, &planned.task) {
+        (Task::Dynamics(one), Task::Dynamics(other)) => one.record_every_ns = other.record_every_ns,
+        (Task::Brownian(one), Task::Brownian(other)) => one.record_every_ns = other.record_every_ns,
+        _ => {}
+    }
+    if let Task::Equilibrium(settings) = &mut scene.task {
+        (
+            settings.states,
+            settings.error_of,
+            settings.lowest_eigenvalue,
+        ) = (0, None, false);
+    }
+    scene
+}
+
+/// Where each filament bends most (nm).
+fn bends_most(ran: &Ran) -> Vec<Option<f64>> {
+    let Some(last) = ran.records.last() else {
+        return Vec::new();
+    };
+    let of = |filament: usize| {
+        let ribbon = Ribbon::of(&ran.assembly, filament, &last.state);
+        let sizes = ribbon.curvatures().into_iter().map(|c| c.x.hypot(c.y));
+        let places = ribbon.s_nm.iter().copied().zip(sizes);
+        let most = places.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(most.0)
+    };
+    (0..ran.assembly.filaments.len()).map(of).collect()
+}
+
+/// The scene at a share of its loads, shifts and turns; none where it has none.
+fn at_load(scene: &Scene, share: f64) -> Option<Scene> {
+    let mut scene = scene.clone();
+    let mut is_loaded = !scene.loads.is_empty();
+    scene.loads.iter_mut().for_each(|load| load.scale(share));
+    let settings = scene.path.iter_mut().flat_map(|stage| &mut stage.set);
+    for setting in settings {
+        let vector = match setting {
+            Setting::LoadFactor { .. } => continue,
+            Setting::Shift { shift_nm: v, .. }
+            | Setting::Turn { turn_deg: v, .. }
+            | Setting::Anchor { shift_nm: v, .. } => v,
+        };
+        is_loaded = true;
+        *vector = vector.map(|x| share * x);
+    }
+    is_loaded.then_some(scene)
+}

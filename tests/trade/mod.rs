@@ -1,0 +1,202 @@
+//! `actin_sim::trade`: errors that hold when a candidate is run alone, comparisons that mean something, and what a
+//! budget leaves.
+
+use actin_sim::trade::{Measure, Options, Trade, TradeError, Watch, trade};
+use actin_sim::{Assembly, End, Plan, Scene, Section};
+use std::time::Duration;
+
+const CANTILEVER: &str = "Scene(
+    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 98.585)]),
+    clamps: [Clamp(end: Start)],
+    loads: [
+        EndForce(end: End, force_pn: (0.4, 0.0, 8.0)),
+        Couple(end: End, couple_pn_nm: (0.0, 0.0, -90.0)),
+    ],
+    task: Equilibrium(),
+)";
+
+const SWINGING: &str = "Scene(
+    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 108.0)]),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+    task: Dynamics(duration_ns: 2.0),
+)";
+
+const PUSHED: &str = "Scene(
+    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 151.3)]),
+    clamps: [Clamp(end: Start), Clamp(end: End)],
+    path: [Stage(set: [Shift(end: End, shift_nm: (0.0, 0.0, -5.0))])],
+    task: Equilibrium(leave_saddles: 10, accept_jumps: true),
+)";
+
+fn traded(text: &str, change: impl FnOnce(&mut Options)) -> Trade {
+    let mut options = Options::default();
+    change(&mut options);
+    trade(&Scene::from_ron(text).unwrap(), &options, &Watch::NOBODY).unwrap()
+}
+
+/// Displacement of the tip (nm) at the end of a scene that is run by itself.
+fn tip(scene: &Scene) -> [f64; 3] {
+    let assembly = Assembly::build(scene).unwrap();
+    let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
+    let state = &trajectory.records.last().unwrap().state;
+    let moved = assembly.tip_nm(state, End::End) - assembly.tip_nm(&assembly.rest, End::End);
+    moved.into()
+}
+
+fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let squares = a.iter().zip(b).map(|(a, b)| (a - b).powi(2));
+    squares.sum::<f64>().sqrt()
+}
+
+/// Errors are those of vectors: rods have the size of this tip within 1 % and miss it by a quarter.
+#[test]
+fn errors_of_a_table_are_those_of_its_scenes() {
+    let found = traded(CANTILEVER, |options| {
+        options.measures = vec![Measure::Tip];
+        options.error = 0.05;
+    });
+    let reference = tip(&found.reference.scene);
+    let size = apart(reference, [0.0; 3]);
+    assert!(found.candidates.len() >= 8);
+    for candidate in &found.candidates {
+        let alone = apart(tip(&candidate.scene), reference) / size;
+        let told = candidate.errors[0].unwrap();
+        assert!(
+            (alone - told).abs() < 1e-6,
+            "{}: {alone} {told}",
+            candidate.name
+        );
+    }
+    let rod = found
+        .candidates
+        .iter()
+        .find(|c| c.name == "rod Homogenised 20 nm");
+    assert!(rod.unwrap().errors[0].unwrap() > 0.2);
+    let best = apart(tip(found.best_scene()), reference) / size;
+    assert!(best <= 0.05, "{best}");
+}
+
+/// The written length, 98.585 nm, is no whole number of monomers: rods have that of the reference.
+#[test]
+fn rods_are_as_long_as_the_monomers() {
+    let found = traded(CANTILEVER, |options| options.load_shares.clear());
+    let whole = Assembly::build(&found.reference.scene).unwrap().length_nm();
+    assert!((whole - 99.954).abs() < 1e-3);
+    let of_trade = found.candidates.iter().filter(|c| c.name != "as written");
+    for candidate in of_trade {
+        let sections = &candidate.scene.filament.sections;
+        let length = Assembly::build(&candidate.scene).unwrap().length_nm();
+        assert!(
+            (length - whole).abs() < 1e-9,
+            "{}: {sections:?}",
+            candidate.name
+        );
+    }
+}
+
+/// A step that is nearly that of the stability limit is as good as half the default one, and the cheapest.
+#[test]
+fn motions_are_traded_by_their_steps_too() {
+    let found = traded(SWINGING, |_| {});
+    let best = &found.candidates[found.best.unwrap()];
+    assert!(
+        best.scene
+            .filament
+            .sections
+            .iter()
+            .all(|s| matches!(s, Section::Ellipsoids { .. }))
+            || best.error() > 1e-3
+    );
+    let quick = found
+        .candidates
+        .iter()
+        .find(|c| c.name.contains("Verlet"))
+        .unwrap();
+    assert!(quick.error() < 1e-3, "{}", quick.error());
+    assert!(
+        found
+            .reference
+            .own_errors
+            .iter()
+            .all(|error| error.unwrap() < 1e-4)
+    );
+    let records = |scene: &Scene| {
+        let assembly = Assembly::build(scene).unwrap();
+        Plan::new(&assembly)
+            .unwrap()
+            .estimate()
+            .unwrap()
+            .record_every_ns
+    };
+    assert_eq!(records(&found.reference.scene), records(found.best_scene()));
+}
+
+/// A straight filament that is pushed together buckles towards any side: parts along and across the axis are compared.
+#[test]
+fn directions_that_nothing_fixes_are_left_out() {
+    let found = traded(PUSHED, |options| {
+        options.measures = ["height", "end-force"]
+            .map(|name| name.parse().unwrap())
+            .into();
+        options.load_shares.clear();
+    });
+    assert!(
+        found.left_out[0].contains("directions across the axis"),
+        "{:?}",
+        found.left_out
+    );
+    let fine = found
+        .candidates
+        .iter()
+        .find(|c| c.name == "rod Homogenised 10 nm")
+        .unwrap();
+    assert!(fine.error() < 0.15, "{:?}", fine.errors);
+}
+
+/// Every monomer of 10 um takes longer than this: the reference is a coarser one, or none is found, and both are said.
+#[test]
+fn a_budget_is_kept() {
+    let scene = CANTILEVER
+        .replace("98.585", "9858.5")
+        .replace("(0.4, 0.0, 8.0)", "(4e-5, 0.0, 8e-4)")
+        .replace("-90.0", "-0.9");
+    let options = Options {
+        budget: Duration::from_millis(10),
+        ..Options::default()
+    };
+    match trade(&Scene::from_ron(&scene).unwrap(), &options, &Watch::NOBODY) {
+        Ok(found) => assert!(found.reference.name.contains("rod")),
+        Err(error) => assert!(
+            error.to_string().contains("the budget of 0.01 s"),
+            "{error}"
+        ),
+    }
+}
+
+#[test]
+fn what_cannot_be_compared_is_refused() {
+    let refused = |text: &str, options: &Options| {
+        let scene = Scene::from_ron(text).unwrap();
+        match trade(&scene, options, &Watch::NOBODY) {
+            Err(TradeError::Refused(problem)) => problem.to_string(),
+            other => panic!("{other:?}"),
+        }
+    };
+    let by = |name: &str| Options {
+        measures: vec![name.parse().unwrap()],
+        ..Options::default()
+    };
+    assert!(refused(CANTILEVER, &by("linker-force")).contains("the scene has no linker-force"));
+    assert!(refused(PUSHED, &by("tip")).contains("the scene has no tip"));
+    let error = Options {
+        error: 1.5,
+        ..Options::default()
+    };
+    assert!(refused(CANTILEVER, &error).contains("below 1"));
+    let hot = SWINGING.replace(
+        "duration_ns: 2.0",
+        "duration_ns: 2.0, drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0), thermal: Thermal(temperature_k: 300.0, seed: 1)",
+    );
+    assert!(refused(&hot, &Options::default()).contains("means over many seeds"));
+}
