@@ -295,10 +295,7 @@ fn by_default(assembly: &Assembly) -> Vec<Measure> {
 
 fn items_of(assembly: &Assembly, measure: &Measure) -> Vec<Item> {
     let filaments = || 0..assembly.filaments.len();
-    let of = |what: &str, filament: usize| match assembly.filaments.len() {
-        1 => what.to_owned(),
-        _ => format!("{what}[{filament}]"),
-    };
+    let of = |what: &str, filament| name_of(assembly, what, filament);
     match measure {
         Measure::Tip => {
             let starts = filaments().map(|f| (f, End::Start, "start"));
@@ -311,8 +308,8 @@ fn items_of(assembly: &Assembly, measure: &Measure) -> Vec<Item> {
         Measure::Height => filaments()
             .map(|f| Item::new(of("height", f), "nm", Kind::Height(f)))
             .collect(),
-        Measure::EndForce => of_clamps(assembly, "force", "pN", (Kind::Force, &of)),
-        Measure::EndCouple => of_clamps(assembly, "couple", "pN nm", (Kind::Couple, &of)),
+        Measure::EndForce => of_clamps(assembly, "force", "pN", Kind::Force),
+        Measure::EndCouple => of_clamps(assembly, "couple", "pN nm", Kind::Couple),
         Measure::Energy => vec![Item::new("energy".to_owned(), "pN nm", Kind::Energy)],
         Measure::Curvature(at_nm) => filaments()
             .filter(|f| at_nm.is_none() || *f == 0)
@@ -328,11 +325,19 @@ fn items_of(assembly: &Assembly, measure: &Measure) -> Vec<Item> {
     }
 }
 
+/// A name with the index of the filament, where there are several.
+fn name_of(assembly: &Assembly, what: &str, filament: usize) -> String {
+    match assembly.filaments.len() {
+        1 => what.to_owned(),
+        _ => format!("{what}[{filament}]"),
+    }
+}
+
 fn of_clamps(
     assembly: &Assembly,
     what: &str,
     unit: &'static str,
-    (kind, of): (fn(usize) -> Kind, &dyn Fn(&str, usize) -> String),
+    kind: fn(usize) -> Kind,
 ) -> Vec<Item> {
     let clamps = assembly.clamps.iter().enumerate();
     let named = clamps.map(|(i, clamp)| {
@@ -340,7 +345,7 @@ fn of_clamps(
             End::Start => "start",
             End::End => "end",
         };
-        let name = of(&format!("{end} {what}"), clamp.filament);
+        let name = name_of(assembly, &format!("{end} {what}"), clamp.filament);
         Item::new(name, unit, kind(i))
     });
     named.collect()
