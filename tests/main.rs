@@ -6,7 +6,6 @@ mod equilibria;
 mod follow;
 mod front_door;
 mod loads;
-mod resolution;
 mod statics;
 mod theory;
 mod trade;

@@ -154,6 +154,84 @@ fn directions_that_nothing_fixes_are_left_out() {
     assert!(fine.error() < 0.15, "{:?}", fine.errors);
 }
 
+/// What `Adaptive` makes of a scene.
+fn chosen(sections: &str, scene: &str) -> Assembly {
+    let written = "sections: [Rod(from_nm: 0.0, to_nm: 108.0)]";
+    let scene = scene.replace(written, &format!("sections: {sections}"));
+    Assembly::build(&Scene::from_ron(&scene).unwrap()).unwrap()
+}
+
+/// One equilibrium of every monomer is the reference; with a limit the nearest within it is taken, which is said.
+#[test]
+fn sections_of_an_equilibrium_are_every_monomer_or_the_nearest() {
+    let still = SWINGING.replace("Dynamics(duration_ns: 2.0)", "Equilibrium()");
+    let whole = chosen("Adaptive(length_nm: 108.0, want: Tip(error: 0.02))", &still);
+    assert_eq!((whole.counts().segments, whole.counts().monomers), (0, 42));
+    let few = "Adaptive(length_nm: 108.0, want: Tip(error: 1e-6), also: [Energy(error: 0.02)], monomers: 13)";
+    let few = chosen(few, &still);
+    let found = few.chosen.as_ref().unwrap();
+    assert!(few.counts().monomers <= 13 && !found.is_met && found.errors.len() == 2);
+    let note = few
+        .notes()
+        .into_iter()
+        .find(|n| n.message.contains("sections chosen"))
+        .unwrap();
+    assert!(
+        note.message.contains("not met within so many monomers"),
+        "{}",
+        note.message
+    );
+}
+
+/// The sections of a motion meet what is wanted when it is run, and are the same each time.
+#[test]
+fn sections_of_a_motion_meet_what_is_wanted() {
+    let adaptive = "Adaptive(length_nm: 108.0, want: Tip(error: 0.05))";
+    let [one, other] = [(); 2].map(|()| chosen(adaptive, SWINGING));
+    assert_eq!(one.scene.to_ron(), other.scene.to_ron());
+    let found = one.chosen.as_ref().unwrap();
+    assert!(found.is_met && found.tried >= 3 && found.errors[0] <= 0.05);
+    assert!(one.counts().segments > 0, "{found:?}");
+    let every = chosen("[Ellipsoids(from_nm: 0.0, to_nm: 108.0)]", SWINGING);
+    let tips = |assembly: &Assembly| {
+        let (trajectory, _) = Plan::new(assembly).unwrap().run().unwrap();
+        let rest = assembly.tip_nm(&assembly.rest, End::End);
+        let records = trajectory.records.into_iter();
+        records
+            .map(|r| assembly.tip_nm(&r.state, End::End) - rest)
+            .collect::<Vec<_>>()
+    };
+    let (tips, reference) = (tips(&one), tips(&every));
+    let apart: f64 = tips
+        .iter()
+        .zip(&reference)
+        .map(|(a, b)| (a - b).norm_squared())
+        .sum();
+    let size: f64 = reference.iter().map(|tip| tip.norm_squared()).sum();
+    assert!(((apart / size).sqrt() - found.errors[0]).abs() < 1e-9);
+}
+
+/// `error_of` is the difference from every monomer, which is run.
+#[test]
+fn the_error_of_an_equilibrium_is_that_against_every_monomer() {
+    let still = SWINGING.replace("Dynamics(duration_ns: 2.0)", "Equilibrium(error_of: Tip)");
+    let of = |sections: &str| {
+        let assembly = chosen(sections, &still);
+        let (_, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
+        (
+            tip(&assembly.scene),
+            outcome.model_error().unwrap(),
+            outcome.scatter().unwrap(),
+        )
+    };
+    let (here, error, scatter) = of("[Rod(from_nm: 0.0, to_nm: 108.0)]");
+    let (there, none, _) = of("[Ellipsoids(from_nm: 0.0, to_nm: 108.0)]");
+    let size = apart(there, [0.0; 3]);
+    assert!((error.corrected() - size).abs() < 1e-6);
+    assert!((error.relative - apart(here, there) / size).abs() < 1e-6);
+    assert!(none.relative < 1e-9 && scatter.deviation > 0.0);
+}
+
 /// Every monomer of 10 um takes longer than this: the reference is a coarser one, or none is found, and both are said.
 #[test]
 fn a_budget_is_kept() {

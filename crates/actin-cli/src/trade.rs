@@ -3,9 +3,7 @@
 use crate::failure::{Failure, Read};
 use crate::progress;
 use crate::{SceneArguments, signals};
-use actin_sim::trade::{
-    Candidate, Measure, Options, Reference, Trade, TradeError, Watch, trade as run,
-};
+use actin_sim::trade::{Candidate, Measure, Options, Trade, TradeError, Watch, trade as run};
 use actin_view::draw::{Colour, Scatter, ScatterPoint, lines::OKABE_ITO};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -56,40 +54,21 @@ fn budget(text: &str) -> Result<Duration, String> {
 pub(crate) fn trade(arguments: &TradeArguments) -> Result<(), Failure> {
     let read = Read::new(&arguments.source)?;
     let out = folder(arguments)?;
-    let options = Options {
-        measures: arguments
-            .quantity
-            .iter()
-            .map(|name| measure(name))
-            .collect(),
-        error: arguments.error,
-        budget: arguments.budget,
-        load_shares: arguments
-            .loads
-            .iter()
-            .copied()
-            .filter(|share| *share != 1.0)
-            .collect(),
-        is_all: arguments.all,
-    };
     let interrupted = signals::interruption()
         .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
     let bar = progress::spinner();
-    let found = run(
-        &read.scene,
-        &options,
-        &Watch {
-            says: &|what| bar.set_message(what.to_owned()),
-            is_interrupted: &|| interrupted.load(Ordering::Relaxed),
-        },
-    );
+    let watch = Watch {
+        says: &|what| bar.set_message(what.to_owned()),
+        is_interrupted: &|| interrupted.load(Ordering::Relaxed),
+    };
+    let found = run(&read.scene, &arguments.options(), &watch);
     bar.finish_and_clear();
     let trade = found.map_err(|error| match error {
         TradeError::Refused(problem) => read.refuse(&problem),
         TradeError::ReferenceFails { .. } => Failure::Numerical(error.to_string()),
         TradeError::Interrupted => Failure::Interrupted(error.to_string()),
     })?;
-    print(&trade);
+    println!("{trade}");
     write(&trade, &out).map_err(Failure::Unwritten)?;
     println!("written: {} in {}", FILES.join(", "), out.display());
     if interrupted.load(Ordering::Relaxed) {
@@ -97,6 +76,19 @@ pub(crate) fn trade(arguments: &TradeArguments) -> Result<(), Failure> {
         return Err(Failure::Interrupted(message));
     }
     Ok(())
+}
+
+impl TradeArguments {
+    fn options(&self) -> Options {
+        let is_other = |share: &f64| (share - 1.0).abs() > f64::EPSILON;
+        Options {
+            measures: self.quantity.iter().map(|name| measure(name)).collect(),
+            error: self.error,
+            budget: self.budget,
+            load_shares: self.loads.iter().copied().filter(is_other).collect(),
+            is_all: self.all,
+        }
+    }
 }
 
 fn measure(name: &str) -> Measure {
@@ -125,111 +117,6 @@ fn folder(arguments: &TradeArguments) -> Result<PathBuf, Failure> {
     fs::create_dir_all(&out)
         .map_err(|error| Failure::Unwritten(format!("{}: {error}", out.display())))?;
     Ok(out)
-}
-
-/// Width of the column of names.
-const NAME: usize = 62;
-
-fn print(trade: &Trade) {
-    let Reference {
-        name,
-        counts,
-        wall_s,
-        is_settled,
-        ..
-    } = &trade.reference;
-    println!(
-        "reference: {name}: {} monomers, {} segments, {}",
-        counts.monomers,
-        counts.segments,
-        time(*wall_s)
-    );
-    if !is_settled {
-        println!(
-            "warning: the reference is itself off by more than a third of the wanted error: {}",
-            percents(&trade.reference.own_errors).join(", ")
-        );
-    }
-    let items: String = trade
-        .items
-        .iter()
-        .map(|item| format!("{:>12.12}", item.name))
-        .collect();
-    println!(
-        "{:NAME$}{:>9}{:>8}{items}   worst",
-        "errors in %", "time", "faster"
-    );
-    for (i, candidate) in trade.candidates.iter().enumerate() {
-        print_candidate(trade, i, candidate);
-    }
-    if let Some(scatter) = &trade.scatter {
-        let numbers: String = percents(scatter)
-            .iter()
-            .map(|p| format!("{p:>12}"))
-            .collect();
-        println!(
-            "{:NAME$}{:17}{numbers}",
-            "filaments of 64 drawn bonds scatter by", ""
-        );
-    }
-    for left in &trade.left_out {
-        println!("not compared: {left}");
-    }
-    let [ladder, all] = trade.runs_of_reference;
-    println!(
-        "time of the candidates and the reference: {ladder:.1} times that of the reference; with other loads and drawn \
-         bonds: {all:.1}"
-    );
-    let wanted = 100.0 * trade.options.error;
-    match trade.best {
-        Some(best) => println!(
-            "cheapest within {wanted} %: {}",
-            trade.candidates[best].name
-        ),
-        None => println!("cheapest within {wanted} %: the reference itself"),
-    }
-}
-
-fn print_candidate(trade: &Trade, i: usize, candidate: &Candidate) {
-    let name = &candidate.name;
-    if let Some(failure) = &candidate.failure {
-        println!("{name:NAME$} no result: {failure}");
-        return;
-    }
-    let mark = if trade.best == Some(i) {
-        "  <- cheapest"
-    } else {
-        ""
-    };
-    let errors: String = percents(&candidate.errors)
-        .iter()
-        .map(|p| format!("{p:>12}"))
-        .collect();
-    let at_loads: String = candidate
-        .at_loads
-        .iter()
-        .map(|(share, error)| format!(", {:.2} at {share} of the loads", 100.0 * error))
-        .collect();
-    println!(
-        "{name:NAME$}{:>9}{:>8.2}{errors}   {:.2}{at_loads}{mark}",
-        time(candidate.wall_s),
-        trade.usual_s() / candidate.wall_s,
-        100.0 * candidate.error(),
-    );
-}
-
-fn percents(errors: &[Option<f64>]) -> Vec<String> {
-    let percent =
-        |error: &Option<f64>| error.map_or_else(|| "-".to_owned(), |e| format!("{:.2}", 100.0 * e));
-    errors.iter().map(percent).collect()
-}
-
-fn time(seconds: f64) -> String {
-    if seconds < 1.0 {
-        format!("{:.1} ms", 1e3 * seconds)
-    } else {
-        format!("{seconds:.2} s")
-    }
 }
 
 fn write(trade: &Trade, out: &Path) -> Result<(), String> {

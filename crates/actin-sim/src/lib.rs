@@ -14,7 +14,6 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-pub mod adapt;
 pub mod advice;
 mod assembly;
 pub mod cost;

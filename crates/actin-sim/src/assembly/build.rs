@@ -18,10 +18,10 @@ use super::{
     Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Kinetics, Part, PointInfo, Repelled, Rod,
     SectionSpan, Term, imperfection, ledger,
 };
-use crate::adapt;
 use crate::follow;
 use crate::observe::{EnergyNames, Observers};
 use crate::scene::{End, Filament, HeldEnds, Load, Scene, SceneProblem, Section};
+use crate::trade;
 use actin_coupling::Linker;
 use actin_mechanics::{ControlId, Interaction, State, System};
 pub(crate) use sampled::Sampled;
@@ -38,15 +38,18 @@ impl Assembly {
     /// length, `d_k` random directions across the axis, `A` such that the largest displacement is the
     /// amplitude: the same whatever resolves them, and zero with its slope at both ends.
     ///
-    /// Sections that are left to the program are [chosen](crate::adapt::choose) first; those that follow a motion
+    /// Sections that are left to the program are [chosen](crate::trade::choose) first; those that follow a motion
     /// are rods, as before the motion has begun.
     ///
     /// # Errors
     /// What only shows when a filament is built: a section without room for its bodies, an
     /// interface that finds no bonds, more bodies than the memory of this machine holds.
     pub fn build(scene: &Scene) -> Result<Self, SceneProblem> {
-        if let Some(adaptive) = scene.filament.sections.adaptive() {
-            let (scene, chosen) = adapt::choose(scene, adaptive)?;
+        if scene
+            .filaments()
+            .any(|filament| filament.sections.adaptive().is_some())
+        {
+            let (scene, chosen) = trade::choose(scene)?;
             let built = Self::build(&scene)?;
             return Ok(Self {
                 chosen: Some(chosen),

@@ -86,7 +86,7 @@ pub(super) fn resolve(
 }
 
 /// The length (nm) nearest to `length_nm` that filament 0 has with every monomer resolved.
-pub(crate) fn whole_length_nm(scene: &Scene, length_nm: f64) -> Result<f64, SceneProblem> {
+fn whole_length_nm(scene: &Scene, length_nm: f64) -> Result<f64, SceneProblem> {
     let held = HeldEnds::of(scene);
     let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
     let mut filament = scene.filament.clone();
@@ -121,16 +121,6 @@ pub(crate) fn cells_nm(
     boundaries.extend(places);
     boundaries.push(length_nm);
     Ok(boundaries)
-}
-
-/// Monomers of filament 0 as its sections resolve it, held ones included.
-pub(crate) fn count_monomers(scene: &Scene) -> Result<usize, SceneProblem> {
-    let held = HeldEnds::of(scene);
-    let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
-    let sections = resolve(&scene.filament, is_held)?;
-    let counts = sections.iter().filter_map(|section| section.monomers);
-    let counts = counts.map(|(first, last)| usize::try_from(last - first + 1).unwrap_or_default());
-    Ok(counts.sum())
 }
 
 /// Refuses a boundary that more monomers reach than are told apart.

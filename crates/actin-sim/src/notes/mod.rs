@@ -8,9 +8,9 @@ pub mod codes;
 mod laws;
 mod mesh;
 
-use crate::adapt::Chosen;
 use crate::assembly::{Rod, Sampled};
 use crate::scene::{Anchors, Following, Monomers, Observable, Scene, Task, unset_loads};
+use crate::trade::Chosen;
 use crate::{Assembly, Outcome, Record, shape};
 use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
 use actin_mechanics::State;
@@ -202,25 +202,16 @@ impl Outcome {
     pub(crate) fn notes(&self, assembly: &Assembly, last: &Record) -> Vec<Note> {
         let twist = unknown_twist(assembly, last);
         let mut notes: Vec<Note> = warnings(codes::UNKNOWN_TWIST, twist).collect();
-        let unknown = |message| Note::warning(codes::UNKNOWN_ERROR, message);
         let error = self.equilibrium.as_ref().and_then(|e| e.error.as_ref());
         match error {
             Some(Err(problem)) => {
-                notes.push(unknown(format!("its error is not known: {problem}")));
+                let message = format!("its error is not known: {problem}");
+                notes.push(Note::warning(codes::UNKNOWN_ERROR, message));
             }
-            Some(Ok(error)) => {
-                notes.extend(error.note(self.scatter().as_ref()).map(Note::from));
-                if let Some(Err(problem)) =
-                    self.equilibrium.as_ref().and_then(|e| e.scatter.as_ref())
-                {
-                    notes.push(unknown(format!(
-                        "how filaments with drawn bonds scatter is not known: {problem}"
-                    )));
-                }
-            }
+            Some(Ok((error, scatter))) => notes.push(error.note(scatter).into()),
             None => {}
         }
-        let states = several_states(assembly, &last.state, error.is_some());
+        let states = several_states(assembly, &last.state);
         notes.extend(warnings(codes::MONOMER_STATES, states));
         let rates = assembly.note_on_rates(&last.state);
         notes.extend(warnings(codes::LINKER_RATES, rates));
@@ -280,10 +271,10 @@ fn unknown_twist(assembly: &Assembly, last: &Record) -> Vec<String> {
         .collect()
 }
 
-/// The note on rods whose monomers would have several states: of those under a potential or, where errors are estimated, of all. Not
-/// in a heat bath, which takes monomers from one to another.
-fn several_states(assembly: &Assembly, state: &State, is_estimated: bool) -> Option<String> {
-    let is_asked = |rod: &Rod| is_estimated || rod.law.0.potential().is_some();
+/// The note on rods under a potential whose monomers would have several states. Not in a heat bath, which takes monomers
+/// from one to another.
+fn several_states(assembly: &Assembly, state: &State) -> Option<String> {
+    let is_asked = |rod: &Rod| rod.law.0.potential().is_some();
     let found = assembly.several_states(state, is_asked);
     if found.is_empty() || assembly.scene.thermal().is_some() {
         return None;
@@ -295,7 +286,7 @@ fn several_states(assembly: &Assembly, state: &State, is_estimated: bool) -> Opt
     let places: Vec<String> = found.iter().map(place).collect();
     Some(format!(
         "the rod {} is under-twisted and bent so that monomers would have several states, whose couples about the axis differ by 5 to \
-         110 pN nm. A rod has one of them, and an estimated error is that against the same one. Resolve monomers there to tell them \
+         110 pN nm. A rod has one of them. Resolve monomers there to tell them \
          apart (cargo xtask homogenise states)",
         places.join(", ")
     ))

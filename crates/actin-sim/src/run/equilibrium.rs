@@ -8,8 +8,8 @@ use super::states::{StableStates, search};
 use super::taken::Taken;
 use super::unknowns::newton;
 use super::{At, Failure, Outcome, Progress, Record, Recorded, RunPosition, Status};
-use crate::adapt::{ErrorEstimate, Scatter, estimate, scatter};
-use crate::scene::{Equilibrium as Settings, Load, Quantity, SceneProblem};
+use crate::scene::{Equilibrium as Settings, Load, SceneProblem};
+use crate::trade::{ModelError, Scatter, model_error};
 use crate::{Assembly, Booked};
 use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path,
@@ -37,10 +37,8 @@ pub struct EquilibriumReport {
     pub history: Vec<Residual>,
     /// Stable states about it, if the scene asks for them.
     pub states: Option<StableStates>,
-    /// The error of the number that the scene asks for it, or why it is not known.
-    pub error: Option<Result<ErrorEstimate, SceneProblem>>,
-    /// How filaments with drawn bonds scatter in that number, or why it is not known.
-    pub scatter: Option<Result<Scatter, SceneProblem>>,
+    /// The error of the number that the scene asks for it, and how it scatters with drawn bonds, or why they are not known.
+    pub error: Option<Result<(ModelError, Scatter), SceneProblem>>,
 }
 
 /// Solves for the equilibrium, or follows the path.
@@ -71,7 +69,10 @@ pub(super) fn run(
     let lowest = wanted.then(|| lowest_eigenvalue(&mut newton, &assembly.system, &state));
     let is_done = failure.is_none() && !is_interrupted;
     let judged = settings.error_of.filter(|_| is_done);
-    let accuracy = judged.map(|quantity| accuracy(assembly, &state, quantity));
+    let error = judged.map(|quantity| {
+        let last = record(&assembly.system, 0.0, &state);
+        model_error(assembly, &last, quantity)
+    });
     let work = newton.work();
     let status = match (&failure, is_interrupted) {
         (Some(_), _) => Status::Failed,
@@ -82,7 +83,7 @@ pub(super) fn run(
         force_evaluations: work.evaluations,
         saddles_left: position.saddles_left,
         jumps: position.jumps,
-        equilibrium: report(position, lowest.flatten(), of_path, (states, accuracy)),
+        equilibrium: report(position, lowest.flatten(), of_path, (states, error)),
         ..Outcome::new(status, clock.wall_s())
     }
     .with(taken.into_remarks());
@@ -473,27 +474,16 @@ fn lowest_eigenvalue(newton: &mut Newton, system: &System, state: &State) -> Opt
     lowest.ok().flatten()
 }
 
-/// The error of a number, or why it is not known, and where it is how filaments with drawn bonds scatter.
-type Accuracy = (
-    Result<ErrorEstimate, SceneProblem>,
-    Option<Result<Scatter, SceneProblem>>,
-);
-
-fn accuracy(assembly: &Assembly, state: &State, quantity: Quantity) -> Accuracy {
-    let error = estimate(assembly, state, quantity);
-    let of_drawn = |_| scatter(assembly, state, quantity);
-    let scatter = error.as_ref().ok().map(of_drawn);
-    (error, scatter)
-}
-
 fn report(
     position: PathPosition,
     lowest_eigenvalue: Option<f64>,
     work: SolverWork,
-    (states, accuracy): (Option<StableStates>, Option<Accuracy>),
+    (states, error): (
+        Option<StableStates>,
+        Option<Result<(ModelError, Scatter), SceneProblem>>,
+    ),
 ) -> Option<EquilibriumReport> {
     let last = position.last?;
-    let (error, scatter) = accuracy.unzip();
     last.certificate.map(|certificate| EquilibriumReport {
         certificate,
         lowest_eigenvalue,
@@ -503,6 +493,5 @@ fn report(
         history: last.history,
         states,
         error,
-        scatter: scatter.flatten(),
     })
 }

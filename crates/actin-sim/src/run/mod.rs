@@ -3,6 +3,7 @@
 mod bound;
 mod brownian;
 mod dynamics;
+mod endless;
 mod equilibrium;
 mod hinge;
 mod long_steps;
@@ -41,7 +42,7 @@ pub use steps::LongestStep;
 pub(crate) use taken::Carried;
 pub use taken::Recorded;
 pub use unknowns::newton as solver;
-pub(crate) use unknowns::{layout, order};
+pub(crate) use unknowns::order;
 
 use crate::scene::{SceneProblem, Task};
 

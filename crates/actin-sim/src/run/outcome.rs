@@ -2,9 +2,9 @@
 
 use super::taken::Remarks;
 use super::{EquilibriumReport, HingeSlip, SaddlePush, Slip};
-use crate::adapt::{ErrorEstimate, Scatter};
 use crate::notes::Note;
 use crate::scene::SceneProblem;
+use crate::trade::{ModelError, Scatter};
 use crate::{BeyondRange, BeyondUse, LinkerEvent, UnstableTwist};
 use actin_equilibrium::{Certificate, PathFailure, Residual};
 use actin_integrate::RunFailure;
@@ -128,13 +128,13 @@ impl Outcome {
     }
 
     /// The error of the number that the scene asked for it, where it is known.
-    pub fn model_error(&self) -> Option<ErrorEstimate> {
-        self.equilibrium.as_ref()?.error.clone()?.ok()
+    pub fn model_error(&self) -> Option<ModelError> {
+        Some(self.equilibrium.as_ref()?.error.as_ref()?.as_ref().ok()?.0)
     }
 
     /// How filaments with drawn bonds scatter in that number, where it is known.
     pub fn scatter(&self) -> Option<Scatter> {
-        self.equilibrium.as_ref()?.scatter.clone()?.ok()
+        Some(self.equilibrium.as_ref()?.error.as_ref()?.as_ref().ok()?.1)
     }
 
     /// What the stiffness says of the state in which the run ended, if that is an equilibrium.

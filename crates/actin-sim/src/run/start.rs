@@ -4,14 +4,14 @@
 //! the root of the couple, to one side or the other, and the energies of the sides differ by less than one in a
 //! hundred. From the straight filament Newton's method lets rounding decide the side at each place. Where two sides
 //! meet there is a border, which it moves by a few monomers a step. So the side is decided here, once: that of a
-//! period of monomers (`adapt/ideal.rs`) with the lower potential. Monomers are placed along the filament as in
+//! period of monomers (`endless.rs`) with the lower potential. Monomers are placed along the filament as in
 //! periods that are twisted to this side, under the couple and force of their cross-section.
 //!
 //! Couples and forces are those on the straight filament. Where these would bend it far only a part of them counts,
 //! since they are others once it is bent. Where the sides are not clearly in the same order under all couples
 //! (above some 20 pN nm it is the other that has the lower potential), nothing is placed.
 
-use crate::adapt::{EndlessFilament, PERIOD};
+use super::endless::{EndlessFilament, PERIOD};
 use crate::assembly::Part;
 use crate::scene::{Anchors, End, Filament, Slides, Task};
 use crate::shape::axis::CrossSection;

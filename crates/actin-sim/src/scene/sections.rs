@@ -36,19 +36,32 @@ enum Left {
     Following(Following),
 }
 
-/// Sections that the program chooses: a rod, and monomers where the wanted number needs them.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// Sections that the program chooses before a run, for what is wanted of the scene. Of an equilibrium without a limit of
+/// monomers that is every monomer, since to know the error of anything else takes that run. Otherwise rods and windows of
+/// monomers at walls, loads and linkers are run beside every monomer, of a long motion its beginning, and of those
+/// near enough the one with the least work is taken. Not in heat.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Adaptive {
     /// Length of the filament; positive. It is rounded to whole monomers.
     pub length_nm: f64,
-    /// What is wanted, and how far it may be from the same filament with every monomer resolved.
+    /// What is wanted, and how far it may be from the same scene with every monomer resolved.
     pub want: Want,
-    /// Most monomers that may be resolved; at least 13, a period. Where what is wanted needs more, the least estimated
+    /// What is wanted besides.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub also: Vec<Want>,
+    /// Most monomers that may be resolved; at least 13, a period. Where what is wanted needs more, the least
     /// error of the resolutions tried counts, and the run says so.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub monomers: Option<usize>,
+}
+
+impl Adaptive {
+    /// All that is wanted.
+    pub fn wants(&self) -> impl Iterator<Item = &Want> + Clone {
+        std::iter::once(&self.want).chain(&self.also)
+    }
 }
 
 /// A number that is wanted of the equilibrium, with its largest relative error.
@@ -196,10 +209,10 @@ pub(super) fn check_adaptive(adaptive: &Adaptive) -> Result<(), SceneProblem> {
         let rule = format!("must be at least {FEWEST_MONOMERS}, a period of the helix");
         return Err(SceneProblem::new("filament.sections.monomers", few, rule));
     }
-    let error = adaptive.want.error();
-    if error > 0.0 && error < 1.0 {
+    let mut errors = adaptive.wants().map(Want::error);
+    let Some(error) = errors.find(|error| !(*error > 0.0 && *error < 1.0)) else {
         return Ok(());
-    }
+    };
     let (key, rule) = (
         "filament.sections.want.error",
         "must be greater than 0 and below 1",
@@ -285,11 +298,15 @@ impl Serialize for Sections {
         match &self.left {
             None => self.list.serialize(serializer),
             Some(Left::Adaptive(adaptive)) => {
-                let count = 2 + usize::from(adaptive.monomers.is_some());
+                let is_also = !adaptive.also.is_empty();
+                let count = 2 + usize::from(is_also) + usize::from(adaptive.monomers.is_some());
                 let mut keys =
                     serializer.serialize_struct_variant("Sections", 0, "Adaptive", count)?;
                 keys.serialize_field("length_nm", &adaptive.length_nm)?;
                 keys.serialize_field("want", &adaptive.want)?;
+                if is_also {
+                    keys.serialize_field("also", &adaptive.also)?;
+                }
                 if let Some(most) = adaptive.monomers {
                     keys.serialize_field("monomers", &most)?;
                 }
@@ -319,6 +336,7 @@ impl<'de> Deserialize<'de> for Sections {
 const KEYS: &[&str] = &[
     "length_nm",
     "want",
+    "also",
     "monomers",
     "monomers_where",
     "cell_nm",
@@ -331,6 +349,7 @@ const KEYS: &[&str] = &[
 struct Keys {
     length_nm: Option<f64>,
     want: Option<Want>,
+    also: Option<Vec<Want>>,
     monomers: Option<usize>,
     monomers_where: Option<Vec<Where>>,
     cell_nm: Option<f64>,
@@ -343,6 +362,7 @@ impl Keys {
         match key {
             "length_nm" => self.length_nm = Some(access.next_value()?),
             "want" => self.want = Some(access.next_value()?),
+            "also" => self.also = Some(access.next_value()?),
             "monomers" => self.monomers = Some(access.next_value()?),
             "monomers_where" => self.monomers_where = Some(access.next_value()?),
             "cell_nm" => self.cell_nm = Some(access.next_value()?),
@@ -367,11 +387,11 @@ impl Keys {
                 return Err(E::missing_field("monomers_where"));
             }
             let want = self.want.ok_or_else(missing("want"))?;
-            let monomers = self.monomers;
             return Ok(Adaptive {
                 length_nm,
                 want,
-                monomers,
+                also: self.also.unwrap_or_default(),
+                monomers: self.monomers,
             }
             .into());
         };

@@ -6,10 +6,10 @@ use super::rules::{
 };
 use super::support::{check_support, check_swings};
 use super::{
-    Anchors, Clamp, Dynamics, Equilibrium, Filament, HeldEnds, Hold, Monomers, Quantity, Resultant,
-    Scene, SceneProblem, Slides, StopTolerances, Task, brownian, drag, imperfection, kinetics,
-    linker, load_rules, magnitude, observable, repulsion, saddles, section_rules, shape, stage,
-    thermal,
+    Adaptive, Anchors, Clamp, Dynamics, End, Equilibrium, Filament, HeldEnds, Hold, Monomers,
+    Quantity, Resultant, Scene, SceneProblem, Slides, StopTolerances, Task, brownian, drag,
+    imperfection, kinetics, linker, load_rules, magnitude, observable, repulsion, saddles,
+    section_rules, shape, stage, thermal,
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 
@@ -84,8 +84,17 @@ fn filaments(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
 
 /// The rules between parts of a scene that are sound each.
 fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
-    for adaptive in scene.filaments().filter_map(|f| f.sections.adaptive()) {
-        check_wanted(scene, "filament.sections.want", adaptive.want.quantity())?;
+    for (i, filament) in scene.filaments().enumerate() {
+        let wants = filament
+            .sections
+            .adaptive()
+            .into_iter()
+            .flat_map(Adaptive::wants);
+        let mut checked =
+            wants.map(|want| check_wanted(scene, "filament.sections.want", want.quantity()));
+        checked
+            .try_for_each(|one| one)
+            .map_err(|problem| problem.with_filament(&scene.filament_key(i)))?;
     }
     for following in scene.filaments().filter_map(|f| f.sections.following()) {
         check_following(scene, following)?;
@@ -126,12 +135,41 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
     }
 }
 
-/// Whether the scene has a quantity that `key` names, and its error is known.
+/// Whether the scene has a quantity that `key` names.
 fn check_wanted(scene: &Scene, key: &str, quantity: Quantity) -> Result<(), SceneProblem> {
     if let Quantity::LinkerForce { linker } = quantity {
         observable::check_linker(scene, &format!("{key}.linker"), linker)?;
     }
-    crate::adapt::check(scene, quantity)
+    match missing(scene, quantity) {
+        Some((key, rule)) => Err(SceneProblem::new(key, "", rule)),
+        None => Ok(()),
+    }
+}
+
+/// Why a scene does not have a quantity, with the key that is to blame.
+fn missing(scene: &Scene, quantity: Quantity) -> Option<(&'static str, String)> {
+    if let Quantity::Curvature { at_nm } = quantity {
+        let length_nm = scene.filament.length_nm();
+        let is_inside = (0.0..=length_nm).contains(&at_nm);
+        let rule = || {
+            format!("the curvature at {at_nm:?} nm is wanted, of a filament of {length_nm:?} nm")
+        };
+        return (!is_inside).then(|| ("filament.sections", rule()));
+    }
+    let held = |end: End| {
+        scene
+            .clamps
+            .iter()
+            .find(|clamp| clamp.filament == 0 && clamp.end == end)
+    };
+    let rule = match (quantity, held(End::Start), held(End::End)) {
+        (Quantity::Tip, Some(_), Some(_)) => "the tip is wanted, but both ends are clamped",
+        (Quantity::EndForce | Quantity::EndCouple, None, None) => {
+            "what the end bears is wanted, but it is free"
+        }
+        _ => return None,
+    };
+    Some(("clamps", rule.to_owned()))
 }
 
 fn check_place(filament: &Filament) -> Result<(), SceneProblem> {

@@ -205,6 +205,41 @@ pub(super) fn resolutions(
     all
 }
 
+/// Lengths of segments (nm), and windows of monomers, that sections are chosen from.
+const SEGMENTS_NM: [f64; 3] = [40.0, 20.0, 10.0];
+const CHOSEN: [(Kind, f64, f64); 5] = [
+    (Kind::Everywhere, 20.0, 20.0),
+    (Kind::Everywhere, 40.0, 20.0),
+    (Kind::Everywhere, 80.0, 20.0),
+    (Kind::Sites, 40.0, 20.0),
+    (Kind::Sites, 40.0, 40.0),
+];
+
+/// Sections to choose from, with the rods and the steps of the scene.
+pub(super) fn sections(whole: &Whole) -> Vec<Proposal> {
+    let places = Places {
+        whole,
+        bends_most: &[],
+    };
+    let of_rods = SEGMENTS_NM.map(|segment_nm| {
+        let name = format!("a rod of segments of {segment_nm} nm");
+        (name, segment_nm, Some(whole.no_windows()))
+    });
+    let of_windows = CHOSEN.map(|(kind, width_nm, segment_nm)| {
+        let name = format!(
+            "{width_nm} nm of monomers {}, and a rod of segments of {segment_nm} nm",
+            kind.name()
+        );
+        (name, segment_nm, places.windows(kind, width_nm))
+    });
+    let all = of_rods.into_iter().chain(of_windows);
+    all.filter_map(|(name, segment_nm, windows)| {
+        let scene = whole.with_sections(segment_nm, &windows?);
+        Some(Proposal { name, scene })
+    })
+    .collect()
+}
+
 /// References from coarse to fine, for scenes whose monomers are too many: rods, then windows of monomers that grow.
 pub(super) fn references(whole: &Whole) -> Vec<Proposal> {
     let rods = rods(&whole.scene, &Homogenised, 20.0);

@@ -98,6 +98,8 @@ pub struct Item {
     pub unit: &'static str,
     /// Size below which differences are compared with this size instead of the reference's.
     pub scale: f64,
+    /// The quantity that it is of.
+    pub measure: Measure,
     kind: Kind,
 }
 
@@ -115,6 +117,7 @@ enum Kind {
 
 impl Item {
     fn new(name: String, unit: &'static str, kind: Kind) -> Self {
+        let measure = Measure::Tip;
         let scale = match unit {
             "nm" | "pN" => 0.01,
             "pN nm" => 0.1,
@@ -125,6 +128,7 @@ impl Item {
             name,
             unit,
             scale,
+            measure,
             kind,
         }
     }
@@ -135,7 +139,7 @@ impl Item {
     }
 
     /// The size of a value: its norm, of a profile its largest number.
-    fn size(&self, value: &[f64]) -> f64 {
+    pub(super) fn size(&self, value: &[f64]) -> f64 {
         let sizes = value.iter().map(|x| x.abs());
         if self.is_profile() {
             sizes.fold(0.0, f64::max)
@@ -198,7 +202,8 @@ impl Measurer {
                 let rule = format!("the scene has no {measure} to compare resolutions by");
                 return Err(SceneProblem::new("quantity", measure.to_string(), rule));
             }
-            for item in found {
+            for mut item in found {
+                item.measure = measure.clone();
                 if !items.iter().any(|known| known.name == item.name) {
                     items.push(item);
                 }

@@ -4,15 +4,21 @@
 //! then the candidates of `ladder.rs`. What is compared, and how, is in `measure.rs`. Errors are those of this scene;
 //! nothing is estimated.
 
+mod chosen;
 mod ladder;
 mod measure;
+mod model_error;
 mod reference;
 mod resolution;
 mod run;
 mod study;
 mod table;
 
+pub use chosen::{Chosen, choose};
 pub use measure::{Item, Measure};
+pub(crate) use model_error::model_error;
+pub use model_error::{ModelError, Scatter};
+pub(crate) use resolution::weighted;
 pub use study::trade;
 
 use crate::Counts;

@@ -22,17 +22,33 @@ pub(super) struct Whole {
     /// Length of each filament (nm), as its lattice has it.
     pub lengths_nm: Vec<f64>,
     /// Why filaments keep the sections that they have.
-    pub kept: Vec<Option<&'static str>>,
+    pub kept: Kept,
 }
 
+/// Why each filament keeps the sections that it has, if it does.
+pub(super) type Kept = Vec<Option<&'static str>>;
+
 /// The scene with every monomer resolved and weighted bonds.
-pub(super) fn every_monomer(scene: &Scene) -> (Scene, Vec<Option<&'static str>>) {
-    let mut whole = scene.clone();
-    let kept: Vec<_> = (0..scene.number_of_filaments())
-        .map(|filament| why_kept(scene, filament))
-        .collect();
-    for (filament, kept) in whole.filaments_mut().zip(&kept) {
+pub(super) fn every_monomer(scene: &Scene) -> (Scene, Kept) {
+    let (mut whole, kept) = every_monomer_of(scene, |_| true);
+    for filament in whole.filaments_mut() {
         filament.monomers = weighted(&filament.monomers);
+    }
+    (whole, kept)
+}
+
+/// The scene with every monomer of some filaments resolved.
+pub(super) fn every_monomer_of(scene: &Scene, is_free: impl Fn(usize) -> bool) -> (Scene, Kept) {
+    let mut whole = scene.clone();
+    let why = |filament: usize| {
+        if is_free(filament) {
+            why_kept(scene, filament)
+        } else {
+            Some("sections that are written stay")
+        }
+    };
+    let kept: Kept = (0..scene.number_of_filaments()).map(why).collect();
+    for (filament, kept) in whole.filaments_mut().zip(&kept) {
         if kept.is_none() {
             let to_nm = filament.length_nm();
             filament.sections = vec![monomers(0.0, to_nm)].into();
@@ -41,7 +57,7 @@ pub(super) fn every_monomer(scene: &Scene) -> (Scene, Vec<Option<&'static str>>)
     (whole, kept)
 }
 
-fn weighted(written: &Monomers) -> Monomers {
+pub(crate) fn weighted(written: &Monomers) -> Monomers {
     if written.anchors == Anchors::Cubature {
         return written.clone();
     }
@@ -54,6 +70,7 @@ fn weighted(written: &Monomers) -> Monomers {
     }
 }
 
+/// Monomers from one arc length to another.
 fn monomers(from_nm: f64, to_nm: f64) -> Section {
     Section::Ellipsoids {
         from_nm,
@@ -84,7 +101,7 @@ pub(super) struct Rods {
 
 impl Whole {
     /// That of an assembled scene with every monomer.
-    pub(super) fn new(assembly: &Assembly, kept: Vec<Option<&'static str>>) -> Self {
+    pub(super) fn new(assembly: &Assembly, kept: Kept) -> Self {
         let filaments = 0..assembly.filaments.len();
         Self {
             scene: assembly.scene.clone(),
@@ -100,17 +117,24 @@ impl Whole {
 
     /// The scene with rods, and monomers where `windows` has them (nm), filament by filament.
     pub(super) fn resolved(&self, rods: &Rods, windows: &[Vec<[f64; 2]>]) -> Scene {
+        let mut scene = self.with_sections(rods.segment_nm, windows);
+        for (filament, kept) in scene.filaments_mut().zip(&self.kept) {
+            if kept.is_none() && filament.sections.iter().any(Section::is_rod) {
+                filament.rod = RodModel {
+                    rotary_inertia: rods.inertia,
+                    ..RodModel::of_law(rods.law.clone())
+                };
+            }
+        }
+        scene
+    }
+
+    /// The scene with sections so, its rods as they are.
+    pub(super) fn with_sections(&self, segment_nm: f64, windows: &[Vec<[f64; 2]>]) -> Scene {
         let mut scene = self.scene.clone();
         for (f, filament) in scene.filaments_mut().enumerate() {
             if self.kept[f].is_none() {
-                let list = sections(self.lengths_nm[f], &windows[f], rods.segment_nm);
-                if list.iter().any(Section::is_rod) {
-                    filament.rod = RodModel {
-                        rotary_inertia: rods.inertia,
-                        ..RodModel::of_law(rods.law.clone())
-                    };
-                }
-                filament.sections = list.into();
+                filament.sections = sections(self.lengths_nm[f], &windows[f], segment_nm).into();
             }
         }
         scene

@@ -29,6 +29,8 @@ pub(super) struct Ran {
     pub counts: Counts,
     /// Time from the scene to its last record (s).
     pub wall_s: f64,
+    /// Evaluations of all loads.
+    pub evaluations: u64,
     /// Whether it was broken off at its budget.
     pub is_cut: bool,
 }
@@ -43,16 +45,17 @@ pub(super) enum Unusable {
 
 /// Builds and runs a scene.
 pub(super) fn run(scene: &Scene, limits: Limits<'_>) -> Result<Ran, Unusable> {
-    let mut first = once(scene, limits)?;
+    let mut first = run_once(scene, limits)?;
     if first.wall_s < SHORT_S {
         for _ in 0..REPEATS {
-            first.wall_s = first.wall_s.min(once(scene, limits)?.wall_s);
+            first.wall_s = first.wall_s.min(run_once(scene, limits)?.wall_s);
         }
     }
     Ok(first)
 }
 
-fn once(scene: &Scene, limits: Limits<'_>) -> Result<Ran, Unusable> {
+/// The same without repeats.
+pub(super) fn run_once(scene: &Scene, limits: Limits<'_>) -> Result<Ran, Unusable> {
     let began = Instant::now();
     let assembly = Assembly::build(scene).map_err(Unusable::Refused)?;
     let plan = Plan::new(&assembly).map_err(Unusable::Refused)?;
@@ -70,11 +73,10 @@ fn once(scene: &Scene, limits: Limits<'_>) -> Result<Ran, Unusable> {
     if (limits.is_interrupted)() {
         return Err(Unusable::Interrupted);
     }
-    match outcome {
-        Ok(_) => {}
-        Err(RunError::Refused(problem)) => return Err(Unusable::Refused(problem)),
-        Err(error) => return Err(Unusable::Failed(error.to_string())),
-    }
+    let outcome = outcome.map_err(|error| match error {
+        RunError::Refused(problem) => Unusable::Refused(problem),
+        error @ RunError::Failed(_) => Unusable::Failed(error.to_string()),
+    })?;
     let records = compared(scene, records);
     let counts = assembly.counts();
     Ok(Ran {
@@ -82,6 +84,7 @@ fn once(scene: &Scene, limits: Limits<'_>) -> Result<Ran, Unusable> {
         records,
         counts,
         wall_s,
+        evaluations: outcome.force_evaluations,
         is_cut,
     })
 }

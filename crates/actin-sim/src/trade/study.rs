@@ -305,7 +305,7 @@ impl<'a> Study<'a> {
 
     /// Filaments with drawn bonds, about which the mean filament says nothing.
     fn run_drawn(&mut self) {
-        let (bonds, seeds) = DRAWN;
+        let seeds = DRAWN.1;
         let usual = self.reference_for_loads();
         if usual
             .filaments()
@@ -315,12 +315,7 @@ impl<'a> Study<'a> {
         }
         let mut all: Vec<Vec<Option<f64>>> = Vec::new();
         for seed in 1..=seeds {
-            let mut drawn = usual.clone();
-            for filament in drawn.filaments_mut() {
-                let monomers = &mut filament.monomers;
-                (monomers.anchors, monomers.seed) = (Anchors::Independent, seed);
-                (monomers.lateral_bonds, monomers.longitudinal_bonds) = (bonds, bonds);
-            }
+            let drawn = drawn(&usual, seed);
             let Ok(ran) = self.run(&format!("drawn bonds, {seed} of {seeds}"), &drawn) else {
                 return;
             };
@@ -356,6 +351,17 @@ impl<'a> Study<'a> {
             candidates: self.candidates,
         }
     }
+}
+
+/// The scene with bonds drawn for each interface.
+pub(super) fn drawn(scene: &Scene, seed: u64) -> Scene {
+    let mut drawn = scene.clone();
+    for filament in drawn.filaments_mut() {
+        let monomers = &mut filament.monomers;
+        (monomers.anchors, monomers.seed) = (Anchors::Independent, seed);
+        (monomers.lateral_bonds, monomers.longitudinal_bonds) = (DRAWN.0, DRAWN.0);
+    }
+    drawn
 }
 
 pub(super) fn errors(measurer: &Measurer, reference: &Values, values: &Values) -> Vec<Option<f64>> {

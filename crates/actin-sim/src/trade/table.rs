@@ -1,6 +1,10 @@
 //! A trade as a table.
 
-use super::Trade;
+use super::{Candidate, Trade};
+use std::fmt;
+
+/// Width of the column of names.
+const NAME: usize = 60;
 
 impl Trade {
     /// The candidates as CSV: name, bodies, time, the error of each item, the largest at the loads of the scene and at
@@ -42,5 +46,103 @@ impl Trade {
             candidate.failure.clone().unwrap_or_default(),
         ]);
         row
+    }
+}
+
+/// As on a terminal: a row for each candidate with its errors in per cent, and what is not compared.
+impl fmt::Display for Trade {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write_reference(f)?;
+        write!(f, "{:NAME$}{:>9}{:>8}", "errors in %", "time", "faster")?;
+        for item in &self.items {
+            write!(f, "{:>13.12}", item.name)?;
+        }
+        writeln!(f, "   worst")?;
+        for (i, candidate) in self.candidates.iter().enumerate() {
+            self.write_candidate(f, candidate, self.best == Some(i))?;
+        }
+        if let Some(scatter) = &self.scatter {
+            write!(
+                f,
+                "{:NAME$}{:17}",
+                "filaments of 64 drawn bonds scatter by", ""
+            )?;
+            write_errors(f, scatter)?;
+            writeln!(f)?;
+        }
+        for left in &self.left_out {
+            writeln!(f, "not compared: {left}")?;
+        }
+        let [ladder, all] = self.runs_of_reference;
+        writeln!(
+            f,
+            "time of the candidates and the reference: {ladder:.1} times that of the reference; with other loads and \
+             drawn bonds: {all:.1}"
+        )?;
+        let best = self.best.map(|best| self.candidates[best].name.as_str());
+        let wanted = 100.0 * self.options.error;
+        write!(
+            f,
+            "cheapest within {wanted} %: {}",
+            best.unwrap_or("the reference itself")
+        )
+    }
+}
+
+impl Trade {
+    fn write_reference(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let reference = &self.reference;
+        writeln!(
+            f,
+            "reference: {}: {} monomers, {} segments, {}",
+            reference.name,
+            reference.counts.monomers,
+            reference.counts.segments,
+            time(reference.wall_s)
+        )?;
+        if !reference.is_settled {
+            write!(
+                f,
+                "warning: the reference is itself off by more than a third of the wanted error:"
+            )?;
+            write_errors(f, &reference.own_errors)?;
+            writeln!(f)?;
+        }
+        Ok(())
+    }
+
+    fn write_candidate(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        one: &Candidate,
+        is_best: bool,
+    ) -> fmt::Result {
+        let name = &one.name;
+        if let Some(failure) = &one.failure {
+            return writeln!(f, "{name:NAME$} no result: {failure}");
+        }
+        let faster = self.usual_s() / one.wall_s;
+        write!(f, "{name:NAME$}{:>9}{faster:>8.2}", time(one.wall_s))?;
+        write_errors(f, &one.errors)?;
+        write!(f, "   {:.2}", 100.0 * one.error())?;
+        for (share, error) in &one.at_loads {
+            write!(f, ", {:.2} at {share} of the loads", 100.0 * error)?;
+        }
+        writeln!(f, "{}", if is_best { "  <- cheapest" } else { "" })
+    }
+}
+
+fn write_errors(f: &mut fmt::Formatter<'_>, errors: &[Option<f64>]) -> fmt::Result {
+    errors.iter().try_for_each(|error| match error {
+        Some(error) => write!(f, "{:>13.2}", 100.0 * error),
+        None => write!(f, "{:>13}", "-"),
+    })
+}
+
+fn time(seconds: f64) -> String {
+    if seconds < 1.0 {
+        format!("{:.1} ms", 1e3 * seconds)
+    } else {
+        format!("{seconds:.2} s")
     }
 }

@@ -21,8 +21,8 @@ pub(super) use thermal::LateKinetic;
 pub use thermal::ThermalSummary;
 
 use super::{FollowingSummary, RunDirectoryError, finite::ensure_finite};
-use crate::adapt::{Chosen, ErrorEstimate, Scatter};
 use crate::notes::Note;
+use crate::trade::{Chosen, ModelError, Scatter};
 use crate::{
     Assembly, BeyondRange, BeyondUse, Counts, ObservableSummary, Outcome, SaddlePush, Status,
     UnstableTwist,
@@ -207,7 +207,7 @@ struct CountKeys {
 pub struct AccuracySummary {
     /// The error of the number that an equilibrium was asked for it; no key where it was not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub model_error: Option<ErrorEstimate>,
+    pub model_error: Option<ModelError>,
     /// How filaments with drawn bonds scatter in that number; no key where it is not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drawn_bonds: Option<Scatter>,
