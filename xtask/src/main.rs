@@ -14,8 +14,8 @@ use std::process::ExitCode;
 #[derive(Debug, Parser)]
 #[command(
     name = "cargo xtask",
-    after_help = "Studies (`cargo xtask STUDY --help`): bench, bonds, costs, docs, extremes, fit-parameters, \
-        homogenise, load-cases, reproduce-figures, tradeoff"
+    after_help = "Studies (`cargo xtask STUDY --help`): bench, bonds, docs, extremes, fit-parameters, homogenise, \
+        load-cases, reproduce-figures"
 )]
 struct Arguments {
     #[command(subcommand)]

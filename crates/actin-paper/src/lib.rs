@@ -8,9 +8,7 @@
 //! - [`bonds`]: which bonds monomers have, and what depends on it.
 //! - [`homogenise`]: what monomers store per length under all six strains.
 //! - [`load_cases`]: how far rods under a law are from monomers, load case by load case.
-//! - [`tradeoff`]: what each saving of time costs in accuracy.
 //! - [`extremes`]: every number of a scene, taken to where it breaks.
-//! - [`costs`]: what scenes cost, beside what was estimated.
 //! - [`mod@bench`]: rates of fixed cases.
 //!
 //! Scenes and committed numbers are those of the workspace that the crate was built in: `scenarios` and
@@ -23,7 +21,6 @@ struct Readme;
 pub mod bench;
 pub mod bonds;
 pub mod committed;
-pub mod costs;
 pub mod extremes;
 pub mod figures;
 pub mod fit;
@@ -33,7 +30,6 @@ pub mod measure;
 mod palette;
 mod published;
 mod run;
-pub mod tradeoff;
 
 use std::fmt;
 use std::path::{Path, PathBuf};

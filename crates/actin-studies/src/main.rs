@@ -7,7 +7,6 @@ mod streams;
 
 mod bench;
 mod bonds;
-mod costs;
 mod docs;
 mod extremes;
 mod figures;
@@ -15,7 +14,6 @@ mod fit;
 mod homogenise;
 mod load_cases;
 mod tidy;
-mod tradeoff;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -32,8 +30,6 @@ struct Arguments {
 enum Task {
     /// Measures rates of fixed cases beside their targets.
     Bench(bench::Options),
-    /// Measures what scenes cost beside their estimates, and how that grows with their size.
-    Costs(costs::Options),
     /// Compares drawn and weighted bonds, and the shortest bond, on the paper's tables and figures.
     Bonds(bonds::Options),
     /// Takes every number of a scene to its limits and lists the outcomes.
@@ -48,22 +44,18 @@ enum Task {
     ReproduceFigures(figures::Options),
     /// Checks or writes the generated pages of the book: keys of scenes, tables of results.
     Docs(docs::Options),
-    /// Measures what each saving of time costs in accuracy, scene by scene.
-    Tradeoff(tradeoff::Options),
 }
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Bench(options) => bench::run(options),
         Task::Bonds(options) => bonds::run(options),
-        Task::Costs(options) => costs::run(options),
         Task::Extremes(options) => extremes::run(options),
         Task::FitParameters(options) => fit::run(options),
         Task::Homogenise(options) => homogenise::run(options),
         Task::LoadCases(options) => load_cases::run(options),
         Task::ReproduceFigures(options) => figures::run(options),
         Task::Docs(options) => docs::run(&options).map_err(anyhow::Error::msg),
-        Task::Tradeoff(options) => tradeoff::run(options),
     };
     match outcome.and_then(|()| streams::ending().map_err(anyhow::Error::msg)) {
         Ok(()) => ExitCode::SUCCESS,

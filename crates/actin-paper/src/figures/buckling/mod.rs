@@ -6,7 +6,6 @@
 
 mod balance;
 mod case;
-mod chosen;
 mod dynamics;
 mod expected;
 mod followed;
@@ -26,7 +25,6 @@ use super::progress::Progress;
 use actin_draw::report::Artefact;
 use actin_sim::Assembly;
 use case::Case;
-use chosen::Turned;
 use dynamics::Motion;
 use group::Figure;
 use lists::Plan;
@@ -49,23 +47,20 @@ pub(super) fn figure10(run: Run<'_>) -> Result<Artefact, String> {
 enum Job {
     Statics(Case),
     Dynamics(Case),
-    Chosen(i32),
 }
 
 enum Done {
     Statics(Box<Outcome>),
     Dynamics(Box<Motion>),
-    Chosen(Turned),
 }
 
 /// Runs all cases, draws them and compares them.
 fn reproduce(plan: &Plan, Run { out, progress, .. }: Run<'_>) -> Result<Artefact, String> {
     let started = Instant::now();
-    let (results, motions, chosen) = compute(plan, progress);
+    let (results, motions) = compute(plan, progress);
     let mut rows = rows::rows(plan, &results);
     rows.extend(starts::rows(plan, &results));
     rows.extend(dynamics::rows(plan, &results, &motions));
-    rows.extend(chosen::rows(plan, &chosen));
     tables::write(plan, &results, out)?;
     let mut views = vec![pictures::view_in_space(plan, &results, out)?];
     if plan.moving && plan.figure == Figure::Ten {
@@ -86,11 +81,9 @@ fn reproduce(plan: &Plan, Run { out, progress, .. }: Run<'_>) -> Result<Artefact
 }
 
 /// Runs the dynamics, which takes longest, and all equilibria.
-fn compute(plan: &Plan, progress: &Progress) -> (Results, Vec<Motion>, Vec<Turned>) {
+fn compute(plan: &Plan, progress: &Progress) -> (Results, Vec<Motion>) {
     let moved = dynamics::cases(plan).into_iter().map(Job::Dynamics);
-    let chosen = chosen::turns(plan).into_iter().map(Job::Chosen);
     let jobs: Vec<Job> = moved
-        .chain(chosen)
         .chain(plan.cases().into_iter().map(Job::Statics))
         .collect();
     progress.expect(jobs.len());
@@ -101,7 +94,6 @@ fn compute(plan: &Plan, progress: &Progress) -> (Results, Vec<Motion>, Vec<Turne
             let done = match job {
                 Job::Statics(case) => solve(case).map(|o| Done::Statics(Box::new(o))),
                 Job::Dynamics(case) => dynamics::run(case).map(|m| Done::Dynamics(Box::new(m))),
-                Job::Chosen(turn) => chosen::solve(plan, *turn).map(Done::Chosen),
             };
             progress.done();
             done
@@ -123,21 +115,20 @@ fn solve(case: &Case) -> Result<Outcome, String> {
     outcome::outcome(case, &mut assembly)
 }
 
-fn sort(done: Vec<Result<Done, String>>) -> (Results, Vec<Motion>, Vec<Turned>) {
+fn sort(done: Vec<Result<Done, String>>) -> (Results, Vec<Motion>) {
     let mut results = Results {
         outcomes: Vec::with_capacity(done.len()),
         failures: Vec::new(),
     };
-    let (mut motions, mut chosen) = (Vec::new(), Vec::new());
+    let mut motions = Vec::new();
     for item in done {
         match item {
             Ok(Done::Statics(outcome)) => results.outcomes.push(*outcome),
             Ok(Done::Dynamics(motion)) => motions.push(*motion),
-            Ok(Done::Chosen(turned)) => chosen.push(turned),
             Err(failure) => results.failures.push(failure),
         }
     }
-    (results, motions, chosen)
+    (results, motions)
 }
 
 /// How the cases were run, in words.

@@ -118,7 +118,7 @@ pub(crate) fn unexplained(rows: &[Row]) -> Vec<String> {
 }
 
 /// In the order in which they are told: what concerns most of the paper first.
-const REASONS: [Reason; 22] = [
+const REASONS: [Reason; 20] = [
     Reason {
         artefact: "fig4",
         quantities: &["claim/printed_deflection", "tip_drop/preceding-paper/rod"],
@@ -205,24 +205,6 @@ const REASONS: [Reason; 22] = [
         text: "Its rod changes its length in proportion to its twist: it goes on lengthening when it is \
                under-twisted, where monomers lengthen a little and then shorten. Heights then change steadily \
                from rod to monomers (the notes list them).",
-    },
-    Reason {
-        artefact: "fig8",
-        quantities: &["chosen/"],
-        cause: Cause::Elsewhere,
-        title: "The thrust in under-twist takes every monomer",
-        text: "Errors are estimated from monomers under uniform strain. Under-twisted ones differ from these where they \
-               bend most, and the estimate says that 2 % need them all. A rod alone is within 2 %, and the couple \
-               and the heights are given by one.",
-    },
-    Reason {
-        artefact: "fig10",
-        quantities: &["chosen/"],
-        cause: Cause::Elsewhere,
-        title: "Some numbers need half of the monomers for 2 %, or all, and some miss it",
-        text: "Asked for 2 % of a number, the program resolves what it needs; this page asks for less than half of the \
-               monomers. Under-twisted monomers have several states; what is off by a rod's states cannot be told from \
-               what is off by its law.",
     },
     Reason {
         artefact: "table5",

@@ -2,7 +2,7 @@
 
 /// Which of the points `(cost, error)` no other one dominates: none has less or equal of both and
 /// less of one.
-pub(super) fn front(points: &[(f64, f64)]) -> Vec<bool> {
+pub(crate) fn front(points: &[(f64, f64)]) -> Vec<bool> {
     let dominates =
         |a: &(f64, f64), b: &(f64, f64)| a.0 <= b.0 && a.1 <= b.1 && (a.0 < b.0 || a.1 < b.1);
     let is_free = |point| !points.iter().any(|other| dominates(other, point));
