@@ -30,7 +30,6 @@ pub(crate) fn check(source: &SceneArguments) -> Result<(), Failure> {
         println!("// {note}");
     }
     println!("// cost: {}", plan.cost());
-    println!("// cheaper: {}", plan.advice());
     Ok(())
 }
 

@@ -129,7 +129,7 @@ impl Scene {
     }
 
     /// What the scene resolves to and costs: `scene` (with time step), `counts`, `time_step_ns` and `steps` of a
-    /// motion, `seconds`, `cost`, `advice`, `notes`. Nothing runs.
+    /// motion, `seconds`, `cost`, `notes`. Nothing runs.
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let assembly = self.build(py)?;
         let plan = py.detach(|| Plan::new(&assembly));
@@ -158,7 +158,6 @@ impl Scene {
         }
         found.set_item("seconds", plan.cost().seconds.total())?;
         found.set_item("cost", plan.cost().to_string())?;
-        found.set_item("advice", plan.advice().to_string())?;
         let notes = [assembly.notes(), plan.notes()].concat();
         let warnings: Vec<_> = notes.iter().filter(|note| note.code.is_some()).collect();
         let warnings = serde_json::to_string(&warnings).map_err(errors::value)?;

@@ -14,7 +14,6 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-pub mod advice;
 mod assembly;
 pub mod cost;
 mod ensemble;

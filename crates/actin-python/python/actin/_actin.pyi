@@ -48,7 +48,7 @@ class Scene:
         """The scene with another seed of everything that it draws."""
     def check(self) -> dict[str, Any]:
         """What the scene resolves to and costs: `scene` (with time step), `counts`, `time_step_ns` and `steps` of a
-        motion, `seconds`, `cost`, `advice`, `notes`. Nothing runs."""
+        motion, `seconds`, `cost`, `notes`. Nothing runs."""
     @property
     def title(self) -> str:
         """What the scene shows, in words."""

@@ -112,7 +112,7 @@ fn no_step(error: &dyn std::error::Error) -> SceneProblem {
 
 /// The same at a largest frequency (rad/ns) that is known: it is that of the filaments, whatever is
 /// asked of them.
-pub(crate) fn estimate_at(
+fn estimate_at(
     assembly: &Assembly,
     dynamics: &Dynamics,
     frequency: f64,

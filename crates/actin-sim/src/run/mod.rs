@@ -24,7 +24,6 @@ mod unknowns;
 
 pub use brownian::RelaxationTimes;
 pub use dynamics::Estimate;
-pub(crate) use dynamics::estimate_at;
 pub use equilibrium::EquilibriumReport;
 pub use hinge::HingeSlip;
 pub use outcome::{FailedRun, Failure, Outcome, RunError, Status};

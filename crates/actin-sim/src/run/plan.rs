@@ -2,7 +2,6 @@
 
 use super::dynamics::{Estimate, estimate};
 use crate::Assembly;
-use crate::advice::Advice;
 use crate::cost::Cost;
 use crate::notes::Note;
 use crate::scene::{Scene, SceneProblem};
@@ -73,11 +72,6 @@ impl<'a> Plan<'a> {
     /// What it costs.
     pub fn cost(&self) -> Cost {
         Cost::of(self.assembly, self.estimate())
-    }
-
-    /// How accurate it is, and a cheaper way to the same.
-    pub fn advice(&self) -> Advice {
-        Advice::of_estimated(&self.assembly.scene, self.assembly, self.estimate())
     }
 
     /// What there is to know of its time step and its records, where that is not what the scene asks for or does more

@@ -58,14 +58,6 @@ impl RodLaw {
         }
     }
 
-    /// What it is outside of heat baths.
-    pub(crate) fn without_bath(&self) -> Self {
-        match self {
-            Self::HomogenisedAthermal => Self::Homogenised,
-            law => law.clone(),
-        }
-    }
-
     /// The name of a law that leaves nothing to the material.
     pub(crate) fn whole(&self) -> Option<&'static str> {
         match self {

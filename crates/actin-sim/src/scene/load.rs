@@ -7,11 +7,6 @@ use super::{End, Factor, Scene};
 use actin_mechanics::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// By which factor the force of a like load may differ.
-const FORCE: f64 = 2.0;
-/// How far its direction may be from that of the other, as a cosine.
-const ALONG: f64 = 0.98;
-
 /// A load on a filament. Every load has a factor: that of time, `factor`, times what the path sets, 1
 /// where it sets none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -301,29 +296,5 @@ impl Load {
             -along
         };
         inward > 0.5 * force.norm()
-    }
-
-    /// Whether it is like another one. Across a filament that stands on a wall all directions are one.
-    pub(crate) fn is_like(&self, other: &Self) -> bool {
-        let (
-            Self::EndForce {
-                end, force_pn: f, ..
-            },
-            Self::EndForce {
-                end: at,
-                force_pn: g,
-                ..
-            },
-        ) = (self, other)
-        else {
-            return false;
-        };
-        let norm = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let across = |v: &[f64; 3]| v[0].hypot(v[1]);
-        let (sizes, cosine) = (
-            norm(f) / norm(g),
-            (across(f) * across(g) + f[2] * g[2]) / (norm(f) * norm(g)),
-        );
-        end == at && (1.0 / FORCE..=FORCE).contains(&sizes) && cosine >= ALONG
     }
 }
