@@ -3,8 +3,7 @@
 use crate::failure::{Failure, Read};
 use crate::progress;
 use crate::{SceneArguments, signals};
-use actin_sim::trade::{Candidate, Measure, Options, Trade, TradeError, Watch, trade as run};
-use actin_view::draw::{Colour, Scatter, ScatterPoint, lines::OKABE_ITO};
+use actin_sim::trade::{Measure, Options, Trade, TradeError, Watch, trade as run};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -123,50 +122,8 @@ fn write(trade: &Trade, out: &Path) -> Result<(), String> {
     let path = |file: &str| out.join(file);
     let table = path("trade.csv");
     fs::write(&table, trade.to_csv()).map_err(|error| format!("{}: {error}", table.display()))?;
-    draw(trade, &path("trade.svg"))?;
+    actin_view::draw_trade(trade, &path("trade.svg"))?;
     let best = path("best.ron");
     fs::write(&best, trade.best_scene().to_ron())
         .map_err(|error| format!("{}: {error}", best.display()))
-}
-
-/// Error against time, with the front of those that none beats in both.
-fn draw(trade: &Trade, path: &Path) -> Result<(), String> {
-    let has_result = |candidate: &&Candidate| {
-        candidate.failure.is_none()
-            && candidate.worst_error() > 0.0
-            && candidate.worst_error().is_finite()
-    };
-    let mut shown: Vec<&Candidate> = trade.candidates.iter().filter(has_result).collect();
-    shown.sort_by(|a, b| a.wall_s.total_cmp(&b.wall_s));
-    let mut least = f64::INFINITY;
-    let points = shown.into_iter().map(|candidate| {
-        let error = candidate.worst_error();
-        let on_front = error < least;
-        least = least.min(error);
-        let is_rod = candidate.counts.monomers == 0;
-        let is_whole = candidate.counts.segments == 0;
-        let kind = if is_whole {
-            0
-        } else if is_rod {
-            1
-        } else {
-            2
-        };
-        ScatterPoint {
-            place: (candidate.wall_s, error),
-            colour: Colour(OKABE_ITO[kind]),
-            name: candidate.name.clone(),
-            on_front,
-        }
-    });
-    let wanted = format!("wanted: {} %", 100.0 * trade.options.error);
-    Scatter {
-        title: "What accuracy costs",
-        x_label: "time (s)",
-        y_label: "largest relative error",
-        points: points.collect(),
-        level: Some((trade.options.error, &wanted)),
-        list_title: "candidates; * none is both faster and nearer",
-    }
-    .draw(path)
 }

@@ -14,6 +14,7 @@ mod fit;
 mod homogenise;
 mod load_cases;
 mod tidy;
+mod tradeoff;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -42,6 +43,8 @@ enum Task {
     LoadCases(load_cases::Options),
     /// Computes figures and tables of the paper and compares them with it.
     ReproduceFigures(figures::Options),
+    /// Runs the scenes of `scenarios/trade` with every monomer and in cheaper ways beside it.
+    Tradeoff(tradeoff::Options),
     /// Checks or writes the generated pages of the book: keys of scenes, tables of results.
     Docs(docs::Options),
 }
@@ -55,6 +58,7 @@ fn main() -> ExitCode {
         Task::Homogenise(options) => homogenise::run(options),
         Task::LoadCases(options) => load_cases::run(options),
         Task::ReproduceFigures(options) => figures::run(options),
+        Task::Tradeoff(options) => tradeoff::run(options),
         Task::Docs(options) => docs::run(&options).map_err(anyhow::Error::msg),
     };
     match outcome.and_then(|()| streams::ending().map_err(anyhow::Error::msg)) {

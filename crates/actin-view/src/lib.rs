@@ -15,6 +15,7 @@ mod palette;
 mod pose;
 mod run;
 pub mod states;
+mod trade;
 
 pub use actin_draw as draw;
 pub use actin_sim as sim;
@@ -23,6 +24,7 @@ pub use palette::{Palette, Things};
 pub use pose::{Bonds, Pose, Rod, Strand, bodies};
 pub use run::{Limits, Run, ViewError, is_page};
 pub use states::{Attitude, Shown};
+pub use trade::draw_trade;
 
 /// The script that makes solids of bodies; it needs those of [`space`](actin_draw::space).
 pub const BODIES: &str = include_str!("js/bodies.js");

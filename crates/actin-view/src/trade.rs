@@ -1,0 +1,51 @@
+//! What accuracy costs in a scene, as a picture.
+
+use crate::draw::{Colour, Scatter, ScatterPoint, lines::OKABE_ITO};
+use actin_sim::trade::{Candidate, Trade};
+use std::path::Path;
+
+/// Draws the largest error of each candidate against its time into an SVG file, both logarithmic, with a line through
+/// those that none beats in both and one at the wanted error. Nothing where no candidate has an error.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn draw_trade(trade: &Trade, path: &Path) -> Result<(), String> {
+    let has_result = |candidate: &&Candidate| {
+        candidate.failure.is_none()
+            && candidate.worst_error() > 0.0
+            && candidate.worst_error().is_finite()
+    };
+    let mut shown: Vec<&Candidate> = trade.candidates.iter().filter(has_result).collect();
+    shown.sort_by(|a, b| a.wall_s.total_cmp(&b.wall_s));
+    let mut least = f64::INFINITY;
+    let points = shown.into_iter().map(|candidate| {
+        let error = candidate.worst_error();
+        let on_front = error < least;
+        least = least.min(error);
+        let is_rod = candidate.counts.monomers == 0;
+        let is_whole = candidate.counts.segments == 0;
+        let kind = if is_whole {
+            0
+        } else if is_rod {
+            1
+        } else {
+            2
+        };
+        ScatterPoint {
+            place: (candidate.wall_s, error),
+            colour: Colour(OKABE_ITO[kind]),
+            name: candidate.name.clone(),
+            on_front,
+        }
+    });
+    let wanted = format!("wanted: {} %", 100.0 * trade.options.error);
+    Scatter {
+        title: "What accuracy costs",
+        x_label: "time (s)",
+        y_label: "largest relative error",
+        points: points.collect(),
+        level: Some((trade.options.error, &wanted)),
+        list_title: "candidates; * none is both faster and nearer",
+    }
+    .draw(path)
+}
