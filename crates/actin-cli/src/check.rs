@@ -1,4 +1,4 @@
-//! `actin check`: what a scene resolves to and what it would cost.
+//! `actin check`: a scene as resolved, its cost, and its time measured on its first steps.
 
 use crate::SceneArguments;
 use crate::failure::{Failure, Opened};
@@ -30,6 +30,9 @@ pub(crate) fn check(source: &SceneArguments) -> Result<(), Failure> {
         println!("// {note}");
     }
     println!("// cost: {}", plan.cost());
+    if let Some(timing) = plan.timing() {
+        println!("// time: {timing}");
+    }
     Ok(())
 }
 

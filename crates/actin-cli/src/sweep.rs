@@ -3,7 +3,7 @@
 use crate::failure::{self, Failure};
 use crate::{seconds, signals};
 use actin_sim::{RunDirectoryError, SceneText};
-use actin_sweep::{Design, Ended, Opened, Progress, Settings, SweepDirectory, SweepError};
+use actin_sweep::{Design, Ended, Opened, Priced, Progress, Settings, SweepDirectory, SweepError};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::num::NonZeroUsize;
@@ -205,17 +205,8 @@ fn check(opened: &Opened) {
     }
     let priced = opened.price(BUILT);
     let refused = priced.refused.len();
-    println!(
-        "an estimated {:.2} s on one core of the reference machine, the longest run {:.2} s; {:.0} MB for each",
-        priced.seconds,
-        priced.longest_s,
-        (priced.bytes / 1e6).ceil()
-    );
+    print_cost(design, &priced);
     let of_points = if priced.points < design.points.len() {
-        println!(
-            "  extrapolated from {} points, drawn at random",
-            priced.points
-        );
         format!(" of these {}", priced.points)
     } else {
         String::new()
@@ -225,6 +216,23 @@ fn check(opened: &Opened) {
     }
     for (point, why) in priced.refused.iter().take(SHOWN) {
         println!("  point {point}: {why}");
+    }
+}
+
+/// Prints memory, and the time of one point times the number of runs.
+fn print_cost(design: &Design, priced: &Priced) {
+    println!("at most {:.0} MB for each run", (priced.bytes / 1e6).ceil());
+    let (Some(point), Some(timing)) = (priced.timed, priced.timing) else {
+        return;
+    };
+    let built = priced.points - priced.refused.len();
+    println!("a run of point {point}, the largest of {built} built: {timing}");
+    if let Some(run_s) = priced.run_s() {
+        let runs = design.len();
+        println!(
+            "all {runs} runs, each as long as this one: {:.2} s on one core",
+            run_s * runs as f64
+        );
     }
 }
 

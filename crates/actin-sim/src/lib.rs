@@ -15,7 +15,7 @@
 struct Readme;
 
 mod assembly;
-pub mod cost;
+mod cost;
 mod ensemble;
 mod error;
 pub mod follow;
@@ -43,6 +43,7 @@ pub use assembly::{
     Fluctuations, FrameInfo, Happening, JunctionBond, LinkerEvent, MeasuredError, Part, PointInfo,
     Reaction, Resolution, SectionSpan, Term, UnstableTwist,
 };
+pub use cost::{Cost, Timing};
 pub use ensemble::{Ensemble, EnsembleError, EnsembleProgress, Replica};
 pub use error::SimError;
 pub use notes::{Note, codes as warning_codes};

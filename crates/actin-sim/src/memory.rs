@@ -12,7 +12,7 @@ const ASSUMED: f64 = 8e9;
 
 /// What one of a kind takes (bytes) while it moves and while an equilibrium is sought: the most that
 /// `actin run` had, over the number of its bodies, for 1e4 to 1e5 segments, 5000 to 20,000 filaments and
-/// 3000 to 6000 monomers; rounded up. `cargo xtask costs` prints the estimate beside the peak.
+/// 3000 to 6000 monomers; rounded up.
 #[derive(Clone, Copy, Debug)]
 struct Each {
     motion: f64,

@@ -1,11 +1,11 @@
-//! A sweep with its scene: read, checked together, and priced.
+//! A sweep with its scene: read, checked together, and its cost.
 
 use crate::design::Run;
 use crate::sweep::Axis;
 use crate::{Design, Sweep, SweepError, chosen, rules};
 use actin_sim::{
     Assembly, Override, Plan, Readings, Scene, SceneError, SceneProblem, SceneText, Summary,
-    read_all,
+    Timing, read_all,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -23,19 +23,26 @@ pub struct Opened {
     base: SceneText,
 }
 
-/// What a sweep costs.
+/// Cost of a sweep.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Priced {
-    /// Time of all runs that can be made, one after the other on the reference machine (s).
-    pub seconds: f64,
-    /// The longest run (s).
-    pub longest_s: f64,
+    /// The point whose first run was timed: the one with the most evaluations of bonds and elements.
+    pub timed: Option<usize>,
+    /// Time of that run on one core of this machine, measured on its first steps; `None` if it is not known.
+    pub timing: Option<Timing>,
     /// Most memory of one run (bytes).
     pub bytes: f64,
     /// Points that the rules of a scene refuse, and why.
     pub refused: Vec<(usize, String)>,
-    /// Number of points that were built; where the sweep has more, its time is extrapolated from them.
+    /// Number of points that were built.
     pub points: usize,
+}
+
+impl Priced {
+    /// Time of the timed run (s), where it is known.
+    pub fn run_s(&self) -> Option<f64> {
+        self.timing?.total_s
+    }
 }
 
 impl Opened {
@@ -211,33 +218,38 @@ impl Opened {
             .collect()
     }
 
-    /// Cost of all runs: the first run of at most `most` points is built, none is run. Of more points one is drawn
-    /// from each of `most` equal parts of the design, the first and the last point among them.
+    /// Cost of the sweep: the first run of at most `most` points is built, and one of them is timed. Of more points
+    /// one is drawn from each of `most` equal parts of the design, the first and the last point among them.
     pub fn price(&self, most: usize) -> Priced {
         let mut all = Priced::default();
         let points = self.design.drawn(most);
         all.points = points.len();
+        let mut most_work = 0.0;
         for point in points {
-            match self.price_point(point) {
+            match self.with_plan(point, |plan| plan.cost()) {
                 Err(why) => all.refused.push((point, why)),
-                Ok((seconds, bytes)) => {
-                    all.seconds += seconds * self.design.runs_of_point() as f64;
-                    all.longest_s = all.longest_s.max(seconds);
-                    all.bytes = all.bytes.max(bytes);
+                Ok(cost) => {
+                    all.bytes = all.bytes.max(cost.bytes);
+                    let each = (cost.bonds + cost.elements) as f64;
+                    let work = each * cost.evaluations.unwrap_or(1) as f64;
+                    if all.timed.is_none() || work > most_work {
+                        (all.timed, most_work) = (Some(point), work);
+                    }
                 }
             }
         }
-        all.seconds *= self.design.points.len() as f64 / all.points as f64;
+        let timing = |point| self.with_plan(point, |plan| plan.timing()).ok().flatten();
+        all.timing = all.timed.and_then(timing);
         all
     }
 
-    fn price_point(&self, point: usize) -> Result<(f64, f64), String> {
+    /// A property of the plan of the first run of a point.
+    fn with_plan<T>(&self, point: usize, of: impl Fn(&Plan<'_>) -> T) -> Result<T, String> {
         let run = self.design.run(point * self.design.runs_of_point());
         let (scene, text) = self.scene_of(run).map_err(|error| error.to_string())?;
         let in_words = |problem: SceneProblem| text.locate(&problem).to_string();
         let assembly = Assembly::build(&scene).map_err(in_words)?;
-        let cost = Plan::new(&assembly).map_err(in_words)?.cost();
-        Ok((cost.seconds.total(), cost.bytes))
+        Ok(of(&Plan::new(&assembly).map_err(in_words)?))
     }
 }
 

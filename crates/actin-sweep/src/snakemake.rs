@@ -77,10 +77,11 @@ impl SweepDirectory {
     /// A refusal of the file system.
     pub fn write_snakemake(&self, opened: &Opened, priced: &Priced) -> Result<(), SweepError> {
         let runs = opened.design.len() as f64;
-        let mean_s = (priced.seconds / runs).max(1e-3);
+        // A run of unknown time is a job of its own.
+        let run_s = priced.run_s().unwrap_or(JOB_S).max(1e-3);
         // Of a machine a third as fast, and a minute for what else there is.
-        let group = (JOB_S / mean_s).clamp(1.0, runs).ceil();
-        let minutes = (3.0 * priced.longest_s.max(1e-3) / 60.0 + 1.0).ceil();
+        let group = (JOB_S / run_s).clamp(1.0, runs).ceil();
+        let minutes = (3.0 * run_s / 60.0 + 1.0).ceil();
         let memory = (2.0 * priced.bytes / 1e6 + PROGRAM_MB).ceil();
         let numbers = [
             ("@MEMORY@", memory),

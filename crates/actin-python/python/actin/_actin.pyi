@@ -48,7 +48,8 @@ class Scene:
         """The scene with another seed of everything that it draws."""
     def check(self) -> dict[str, Any]:
         """What the scene resolves to and costs: `scene` (with time step), `counts`, `time_step_ns` and `steps` of a
-        motion, `seconds`, `cost`, `notes`. Nothing runs."""
+        motion, `cost`, `notes`, and the time on one core as measured on the first 0.2 s: `seconds_per_step` and
+        `seconds` of the whole run, `None` for an equilibrium that takes longer. Nothing is written."""
     @property
     def title(self) -> str:
         """What the scene shows, in words."""

@@ -28,6 +28,7 @@ pub(crate) use sampled::Sampled;
 use sampled::Sampling;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::time::Instant;
 use strand::{Body, Strand};
 
 impl Assembly {
@@ -45,6 +46,13 @@ impl Assembly {
     /// What only shows when a filament is built: a section without room for its bodies, an
     /// interface that finds no bonds, more bodies than the memory of this machine holds.
     pub fn build(scene: &Scene) -> Result<Self, SceneProblem> {
+        let began = Instant::now();
+        let mut built = Self::resolve_and_build(scene)?;
+        built.build_s = began.elapsed().as_secs_f64();
+        Ok(built)
+    }
+
+    fn resolve_and_build(scene: &Scene) -> Result<Self, SceneProblem> {
         if scene
             .filaments()
             .any(|filament| filament.sections.adaptive().is_some())
@@ -215,6 +223,7 @@ impl<'a> Builder<'a> {
             spans,
             observers: Observers::default(),
             chosen: None,
+            build_s: 0.0,
         };
         assembly.observers = Observers::new(&assembly.scene, &EnergyNames::of(&assembly));
         assembly

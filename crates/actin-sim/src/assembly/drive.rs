@@ -110,12 +110,6 @@ impl Drive {
         self.motion(self.ends[clamp].turn.as_ref(), (u, 0.0)).0
     }
 
-    /// Shift of a clamp's end (nm, lab frame) after so many stages.
-    pub(crate) fn shift_after(&self, clamp: usize, stages: usize) -> Vector3 {
-        let shift = self.ends[clamp].shift.as_ref();
-        shift.map_or_else(Vector3::zeros, |shift| shift.after(stages))
-    }
-
     /// The ends of stages, counted from 1, at which a clamp's end is turned.
     pub(super) fn turned_after(&self, clamp: usize) -> impl Iterator<Item = usize> + '_ {
         self.ends[clamp].turn.iter().flat_map(Values::ends)

@@ -106,6 +106,8 @@ pub struct Assembly {
     pub(crate) sampled: Vec<Sampled>,
     /// How its sections were chosen, if the program chose them.
     pub chosen: Option<Chosen>,
+    /// Time that it took to build (s).
+    pub(crate) build_s: f64,
     /// Memory that the task takes but for its records, estimated (bytes).
     pub(crate) bytes: f64,
 }

@@ -2,7 +2,7 @@
 
 use super::dynamics::{check_records, conclude};
 use super::recorder::Recorder;
-use super::sink::{Saved, Sink};
+use super::sink::{Clock, Saved, Sink};
 use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
 use super::{Estimate, Failure, Outcome, Plan, Status, long_steps};
@@ -158,12 +158,13 @@ pub(super) fn run(
     task: &Task,
     estimate: &Estimate,
     saved: Option<Saved>,
+    clock: Clock,
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {
     let refused = |error: &dyn std::error::Error| SceneProblem::new("task", "", error.to_string());
     let motion = task.as_motion();
     let mut system = assembly.system.in_state(assembly.system.state().clone());
-    let mut recorder = Recorder::new(assembly, &motion, saved, sink);
+    let mut recorder = Recorder::new(assembly, &motion, saved, clock, sink);
     // The order of unknowns is that of the state as built, wherever a run is resumed.
     let mut stepper = estimate.stepper((assembly, task), &system, layout(assembly)?)?;
     stepper = stepper.in_flow(task.flow.physical());

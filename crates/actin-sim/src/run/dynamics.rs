@@ -4,7 +4,7 @@ use super::bound::kinetic_limit;
 use super::points::check_points;
 use super::recorder::{Ending, Recorder};
 use super::rest::{is_saddle, saddle};
-use super::sink::{Saved, Sink};
+use super::sink::{Clock, Saved, Sink};
 use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
 use super::{Failure, Outcome, Status};
@@ -16,7 +16,7 @@ use actin_brownian::Langevin;
 use actin_integrate::{Bath, Composition, Drag, Reason, Run};
 use actin_mechanics::{Split, System};
 
-/// What a scene will cost, known before it runs.
+/// Time step and counts of a motion, known before it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// Largest frequency of the built filament (rad/ns); where shear stiffens its rods, at least
@@ -213,13 +213,6 @@ fn number_of_records(steps: u64, between_records: u64) -> f64 {
     (steps / between_records + 1) as f64
 }
 
-impl Estimate {
-    /// Records that the motion makes, if the stop rule does not end it before.
-    pub(crate) fn records(&self) -> f64 {
-        number_of_records(self.steps, self.steps_between_records)
-    }
-}
-
 /// The same filaments with rods of constant rigidities, where rods resist shear only once they
 /// are sheared: what they show at rest is not what a motion meets.
 fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, SceneProblem> {
@@ -247,10 +240,11 @@ pub(super) fn run(
     dynamics: &Dynamics,
     estimate: &Estimate,
     saved: Option<Saved>,
+    clock: Clock,
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {
     let mut system = assembly.system.in_state(assembly.system.state().clone());
-    let mut recorder = Recorder::new(assembly, dynamics, saved, sink);
+    let mut recorder = Recorder::new(assembly, dynamics, saved, clock, sink);
     let run = prepare((assembly, dynamics), &recorder, &mut system, estimate)?;
     // Loads have the factors with which the motion begins.
     let begun = recorder.is_whole().then(|| system.total_energy());

@@ -46,11 +46,12 @@ pub(super) fn run(
     assembly: &Assembly,
     settings: &Settings,
     saved: Option<Saved>,
+    clock: Clock,
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {
     let mut newton = newton(assembly, settings)?;
     let mut state = assembly.system.state().clone();
-    let mut follower = Follower::new(assembly, settings, saved, sink);
+    let mut follower = Follower::new(assembly, settings, saved, clock, sink);
     let failure = follower.follow_to_the_end(&mut newton, &mut state)?;
     let of_path = newton.work();
     let states = match failure {
@@ -152,9 +153,9 @@ impl<'a> Follower<'a> {
         assembly: &'a Assembly,
         settings: &'a Settings,
         saved: Option<Saved>,
+        clock: Clock,
         sink: &'a mut dyn Sink,
     ) -> Self {
-        let clock = Clock::new(saved.as_ref());
         let start = PathPosition {
             stage: 0,
             waypoint: None,

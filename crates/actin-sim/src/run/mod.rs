@@ -44,6 +44,7 @@ pub use unknowns::newton as solver;
 pub(crate) use unknowns::order;
 
 use crate::scene::{SceneProblem, Task};
+use sink::Clock;
 
 impl Plan<'_> {
     /// Runs it into memory.
@@ -87,14 +88,17 @@ impl Plan<'_> {
             let rule = "sections that follow a motion are run by `actin run` alone, and by follow::Follower in Rust";
             return Err(SceneProblem::new("filament.sections", "Following(..)", rule).into());
         }
+        let clock = Clock::new(saved.as_ref(), self.set_up_s());
         let (mut outcome, failure) = match (&assembly.scene.task, self.estimate()) {
             (Task::Dynamics(dynamics), Some(estimate)) => {
-                dynamics::run(assembly, dynamics, estimate, saved, sink)?
+                dynamics::run(assembly, dynamics, estimate, saved, clock, sink)?
             }
             (Task::Brownian(task), Some(estimate)) => {
-                brownian::run(assembly, task, estimate, saved, sink)?
+                brownian::run(assembly, task, estimate, saved, clock, sink)?
             }
-            (Task::Equilibrium(settings), _) => equilibrium::run(assembly, settings, saved, sink)?,
+            (Task::Equilibrium(settings), _) => {
+                equilibrium::run(assembly, settings, saved, clock, sink)?
+            }
             (Task::Dynamics(_) | Task::Brownian(_), None) => {
                 unreachable!("the plan of a motion has an estimate")
             }

@@ -67,7 +67,7 @@ pub struct Outcome {
     pub plan_notes: Vec<Note>,
     /// Why it failed, in words; empty unless it did.
     pub failure: String,
-    /// Time that the run took (s).
+    /// Time that the run took, with building and planning (s).
     pub wall_s: f64,
 }
 

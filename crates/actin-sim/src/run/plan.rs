@@ -2,9 +2,9 @@
 
 use super::dynamics::{Estimate, estimate};
 use crate::Assembly;
-use crate::cost::Cost;
 use crate::notes::Note;
 use crate::scene::{Scene, SceneProblem};
+use std::time::Instant;
 
 /// An assembly with everything that is decided before it runs: the time step, the number of steps and
 /// records, and the scene with all of these written out.
@@ -28,6 +28,7 @@ pub struct Plan<'a> {
     assembly: &'a Assembly,
     estimate: Option<Estimate>,
     scene: Scene,
+    set_up_s: f64,
 }
 
 impl<'a> Plan<'a> {
@@ -38,6 +39,7 @@ impl<'a> Plan<'a> {
     /// segments cannot follow, more steps than can be counted, and more records, of either task, than
     /// memory holds.
     pub fn new(assembly: &'a Assembly) -> Result<Self, SceneProblem> {
+        let began = Instant::now();
         let estimate = estimate(assembly)?;
         assembly.observers.check(assembly, estimate.as_ref())?;
         let mut scene = assembly.scene.clone();
@@ -51,6 +53,7 @@ impl<'a> Plan<'a> {
             assembly,
             estimate,
             scene,
+            set_up_s: assembly.build_s + began.elapsed().as_secs_f64(),
         })
     }
 
@@ -69,9 +72,9 @@ impl<'a> Plan<'a> {
         self.estimate.as_ref()
     }
 
-    /// What it costs.
-    pub fn cost(&self) -> Cost {
-        Cost::of(self.assembly, self.estimate())
+    /// Time that it took to build the assembly and to plan its run (s).
+    pub(crate) fn set_up_s(&self) -> f64 {
+        self.set_up_s
     }
 
     /// What there is to know of its time step and its records, where that is not what the scene asks for or does more

@@ -69,9 +69,9 @@ impl<'a> Recorder<'a> {
         assembly: &'a Assembly,
         dynamics: &Dynamics,
         saved: Option<Saved>,
+        clock: Clock,
         sink: &'a mut dyn Sink,
     ) -> Self {
-        let clock = Clock::new(saved.as_ref());
         let (position, recorded) = saved.map(|s| (s.position, s.recorded)).unzip();
         let motion = match position {
             None => None,

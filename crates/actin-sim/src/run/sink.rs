@@ -158,7 +158,7 @@ pub struct Saved {
     pub wall_s: f64,
 }
 
-/// Time that a run has taken, in all its parts.
+/// Time that a run has taken in all its parts, with building and planning of each.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clock {
     started: Instant,
@@ -166,10 +166,11 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    pub(super) fn new(saved: Option<&Saved>) -> Self {
+    /// A clock of a run that took `set_up_s` (s) to build and plan.
+    pub(super) fn new(saved: Option<&Saved>, set_up_s: f64) -> Self {
         Self {
             started: Instant::now(),
-            earlier_s: saved.map_or(0.0, |saved| saved.wall_s),
+            earlier_s: set_up_s + saved.map_or(0.0, |saved| saved.wall_s),
         }
     }
 

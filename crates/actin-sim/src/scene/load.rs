@@ -282,19 +282,4 @@ impl Load {
             _ => Resultant::Force(whole),
         }
     }
-
-    /// Whether it presses its end towards the other, mostly along the `axis` of the filament, at a factor.
-    pub(crate) fn presses(&self, factor: f64, axis: Vector3) -> bool {
-        let (Self::EndForce { force_pn, .. } | Self::Force(Force { force_pn, .. })) = self else {
-            return false;
-        };
-        let force = Vector3::from(*force_pn) * factor;
-        let along = force.dot(&axis);
-        let inward = if self.end() == Some(End::Start) {
-            along
-        } else {
-            -along
-        };
-        inward > 0.5 * force.norm()
-    }
 }

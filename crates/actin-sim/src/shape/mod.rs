@@ -17,6 +17,6 @@ pub(crate) use link::{WHOLE, link_at, link_is_unknown, path_parameter, turn_of_e
 pub use link::{link, link_of};
 pub use profile::{ProfilePoint, profile, profile_of};
 pub use ribbon::Ribbon;
-pub(crate) use ribbon::{from_rest, solid_angles, writhe_of};
+pub(crate) use ribbon::{from_rest, writhe_of};
 pub use twist::twist;
 pub use writhe::{closed_writhe, extended_writhe};

@@ -15,21 +15,9 @@ const MOST_FOR_SUMMARY: usize = MOST_FOR_WRITHE * MOST_FOR_WRITHE;
 
 /// The writhe of a filament for a summary of all filaments; none if it would take too long.
 pub(crate) fn writhe_of(assembly: &Assembly, filament: usize, ribbon: &Ribbon) -> Option<f64> {
-    is_summarised(assembly, filament)
-        .then(|| ribbon.writhe())
-        .flatten()
-}
-
-/// Solid angles that the writhes of a summary take: half the squares of the numbers of points.
-pub(crate) fn solid_angles(assembly: &Assembly) -> f64 {
-    let asked = (0..assembly.filaments.len()).filter(|&f| is_summarised(assembly, f));
-    let points = asked.map(|filament| assembly.filaments[filament].points.len() as f64);
-    points.map(|points| 0.5 * points * points).sum()
-}
-
-fn is_summarised(assembly: &Assembly, filament: usize) -> bool {
     let own = assembly.filaments[filament].points.len();
-    own * assembly.points.len() <= MOST_FOR_SUMMARY
+    let is_summarised = own * assembly.points.len() <= MOST_FOR_SUMMARY;
+    is_summarised.then(|| ribbon.writhe()).flatten()
 }
 
 const ENDS: [End; 2] = [End::Start, End::End];
