@@ -157,6 +157,14 @@ impl Assembly {
             .expect("the stiffness has been assembled")
     }
 
+    /// The largest diagonal entry, without its sign.
+    pub(crate) fn largest_diagonal(&self) -> f64 {
+        // The diagonal entry is the last of its column.
+        let ends = &self.pattern().symbolic.col_ptr()[1..];
+        let diagonal = ends.iter().map(|&end| self.values[end - 1].abs());
+        diagonal.fold(0.0, f64::max)
+    }
+
     /// The largest entry, without its sign.
     pub(crate) fn largest_entry(&self) -> f64 {
         self.values

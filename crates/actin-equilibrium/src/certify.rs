@@ -37,7 +37,7 @@ pub(crate) fn certify(
 
 impl Newton {
     /// The lowest eigenvalue of the stiffness at `state` that is not neutral (pN/nm), to 1e-9 of it; `None` if all
-    /// are neutral. Neutral ones are counted by [`certify`](Newton::certify).
+    /// are neutral. Neutral ones are counted by the `certificate` of the state.
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.
@@ -45,8 +45,9 @@ impl Newton {
         &mut self,
         state: &State,
         interactions: &[Box<dyn Interaction>],
+        certificate: &Certificate,
     ) -> Result<Option<f64>, SolveError> {
-        let neutral = match self.certify(state, interactions)?.stability() {
+        let neutral = match certificate.stability() {
             Stability::Neutral { modes } => modes,
             Stability::Stable | Stability::Saddle { .. } => {
                 let mode = self.lowest_mode(state, interactions)?;
@@ -54,28 +55,26 @@ impl Newton {
             }
         };
         self.solver.prepare(state, interactions)?;
-        Ok(first_above(&mut self.solver, neutral))
+        Ok(first_above(
+            &mut self.solver,
+            neutral,
+            certificate.resolution,
+        ))
     }
 }
 
-/// The lowest eigenvalue of the stiffness of the last assembly with more than `count` below it, by bisection;
-/// `None` if there are no more.
-fn first_above(solver: &mut Solver, count: usize) -> Option<f64> {
+/// The lowest eigenvalue of the stiffness of the last assembly above the `count` lowest, which are below `least`, by
+/// bisection; `None` if there are no more.
+fn first_above(solver: &mut Solver, count: usize, least: f64) -> Option<f64> {
     if count >= solver.layout.unknowns() {
         return None;
     }
     let mut has_more = |value: f64| solver.factorize(-value).negative > count;
-    let mut bounds = [0.0, 1.0];
+    let mut bounds = [least, FASTER * least];
     while !has_more(bounds[1]) {
-        bounds = [bounds[1], FASTER * bounds[1]];
+        bounds = bounds.map(|bound| FASTER * bound);
         if !bounds[1].is_finite() {
             return None;
-        }
-    }
-    if bounds[0] == 0.0 {
-        bounds[0] = bounds[1];
-        while has_more(bounds[0]) {
-            bounds = [bounds[0] / FASTER, bounds[0]];
         }
     }
     while bounds[1] > (1.0 + PRECISION) * bounds[0] {
@@ -88,7 +87,7 @@ fn first_above(solver: &mut Solver, count: usize) -> Option<f64> {
 /// Counts with a stiffness that is known up to `uncertainty` (largest sum of a row); three
 /// factorisations, rarely more.
 fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
-    let lightest = solver.metric.iter().copied().fold(f64::INFINITY, f64::min);
+    let lightest = solver.lightest();
     let negative_pivots = solver.factorize(0.0).negative;
     let rounding = ROUNDINGS * f64::EPSILON;
     let largest = solver.assembly.largest_entry();

@@ -51,7 +51,7 @@ pub(crate) struct Solver {
     pub(crate) metric: Vec<f64>,
     turn_length: f64,
     /// Generalised loads at the state of the last assembly.
-    reduced: Vec<f64>,
+    pub(crate) reduced: Vec<f64>,
     /// What rounding leaves of these.
     rounding: Vec<f64>,
     pub(crate) work: SolverWork,
@@ -208,10 +208,9 @@ impl Solver {
     }
 
     /// The least multiple of the metric that rounding of the stiffness does not hide.
-    fn least_shift(&mut self) -> f64 {
-        self.factorize(0.0);
-        let largest = LEAST_ROUNDINGS * f64::EPSILON * self.largest_in_metric();
-        largest.max(f64::MIN_POSITIVE)
+    fn least_shift(&self) -> f64 {
+        let least = LEAST_ROUNDINGS * f64::EPSILON * self.largest_in_metric();
+        least.max(f64::MIN_POSITIVE)
     }
 
     /// The step of the last factor for the loads of the last assembly.
@@ -265,7 +264,7 @@ impl Solver {
         guess: f64,
     ) -> Result<f64, SolveError> {
         let largest = self.largest_diagonal();
-        let lightest = self.metric.iter().copied().fold(f64::INFINITY, f64::min);
+        let lightest = self.lightest();
         let least = LEAST_ROUNDINGS * f64::EPSILON * largest / lightest;
         let mut shift = 0.0;
         while !inertia.is_positive() {
@@ -294,9 +293,14 @@ impl Solver {
         -BEYOND * factor.negative_curvature(&self.metric).unwrap_or(0.0)
     }
 
-    /// An upper estimate of the largest eigenvalue in the metric.
+    /// An estimate of the largest eigenvalue of the last assembly in the metric.
     pub(crate) fn largest_in_metric(&self) -> f64 {
-        self.largest_diagonal() / self.metric.iter().copied().fold(f64::INFINITY, f64::min)
+        self.assembly.largest_diagonal() / self.lightest()
+    }
+
+    /// The smallest entry of the metric.
+    pub(crate) fn lightest(&self) -> f64 {
+        self.metric.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
     /// Number of directions in which the matrix last factorised has next to no stiffness.

@@ -61,7 +61,7 @@ pub(crate) fn lowest(solver: &mut Solver) -> Result<Option<Mode>, SolveError> {
         }
     };
     let shifted = 1.0 / ritz.value;
-    let rounding = f64::EPSILON * solver.largest_in_metric();
+    let rounding = f64::EPSILON * solver.largest_diagonal() / solver.lightest();
     Ok(Some(Mode {
         eigenvalue: shifted - shift,
         error: shifted * ritz.residual / ritz.value + rounding,

@@ -115,7 +115,6 @@ impl Newton {
 
     /// The step to where the loads of the last assembly vanish, to first order.
     fn undamped_step(&mut self) -> Vec<f64> {
-        self.solver.factorize(0.0);
         let shift = SHIFT * f64::EPSILON * self.solver.largest_in_metric();
         self.solver.factorize(shift);
         self.solver.plain_step()

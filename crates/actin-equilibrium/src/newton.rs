@@ -26,7 +26,7 @@ use crate::descent::Descent;
 use crate::direction::Solver;
 use crate::history::{Iteration, SolverWork};
 use crate::layout::Layout;
-use crate::load_scale::LoadScale;
+use crate::load_scale::{LoadScale, is_loaded};
 use crate::options::{NewtonOptions, OptionsError};
 use crate::outcome::{Convergence, Equilibrium, NewtonFailure, SolveError};
 use actin_mechanics::Residual;
@@ -333,51 +333,52 @@ impl Run<'_> {
     fn ending(&mut self, descent: &mut Descent) -> Result<Option<Convergence>, SolveError> {
         let tolerance = &self.options.tolerance;
         let falling = self.residual.relative_to(tolerance) < STILL_FALLING * self.previous;
-        if self.residual.is_within(tolerance) {
-            if falling && self.is_worth_another_step(descent) || descent.gives_up_excursion() {
-                return Ok(None);
-            }
-            return self.accept(descent, Convergence::Converged);
+        let is_final = !falling && !descent.is_on_excursion();
+        let ending = if self.residual.is_within(tolerance) {
+            Convergence::Converged
+        } else if is_final && self.solver.is_at_floor(tolerance, AT_FLOOR) {
+            Convergence::FloorReached
+        } else {
+            return Ok(None);
+        };
+        let scale = self.load_scale(descent);
+        let is_small = scale.dwarfs(&self.residual);
+        let goes_on = falling && !is_small && self.is_worth_another_step(descent);
+        if goes_on || descent.gives_up_excursion() {
+            return Ok(None);
         }
-        let at_floor = !falling && self.solver.is_at_floor(tolerance, AT_FLOOR);
-        if at_floor && !descent.is_on_excursion() {
-            return self.accept(descent, Convergence::FloorReached);
-        }
-        Ok(None)
+        self.accept(&scale, ending)
     }
 
-    /// Whether a residual within the tolerance is neither small against the loads nor, where no load is
-    /// applied, what rounding leaves. Steps from a saddle would lead away from it.
+    /// Whether a residual within the tolerance may fall further: it is more than what rounding leaves, or a dead
+    /// load acts. Steps from a saddle would lead away from it.
     fn is_worth_another_step(&mut self, descent: &Descent) -> bool {
-        let scale = LoadScale::new(self.interactions, &descent.state);
         let is_rounding = self.solver.is_at_floor(&Residual::default(), AT_FLOOR);
-        !scale.dwarfs(&self.residual, self.arms(descent))
-            && (scale.is_loaded || !is_rounding)
-            && self.solver.is_stable()
+        (!is_rounding || is_loaded(self.interactions, &descent.state)) && self.solver.is_stable()
     }
 
     /// The ending, unless a part of the loads acts along motions without stiffness: it would move bodies
     /// without end.
     fn accept(
         &mut self,
-        descent: &Descent,
+        scale: &LoadScale,
         ending: Convergence,
     ) -> Result<Option<Convergence>, SolveError> {
-        let scale = LoadScale::new(self.interactions, &descent.state);
-        let arms = self.arms(descent);
-        if scale.dwarfs(&self.residual, arms) {
+        if scale.dwarfs(&self.residual) {
             return Ok(Some(ending));
         }
         match self.solver.unresisted() {
-            Some(unresisted) if !scale.outweighs(&unresisted, arms) => Err(SolveError::Unbounded),
+            Some(unresisted) if !scale.outweighs(&unresisted) => Err(SolveError::Unbounded),
             _ => Ok(Some(ending)),
         }
     }
 
-    /// Shortest and longest arm of a force (nm).
-    fn arms(&self, descent: &Descent) -> [f64; 2] {
+    /// Size of the loads of the present state, which act at arms between the turn length and the size of the whole.
+    fn load_scale(&mut self, descent: &Descent) -> LoadScale {
+        self.solver.work.evaluations += 1;
         let shortest = self.options.turn_length;
-        [shortest, descent.size.max(shortest)]
+        let arms = [shortest, descent.size.max(shortest)];
+        LoadScale::new(self.interactions, &descent.state, arms)
     }
 
     /// No step helps or none is allowed any more: either the tolerance or the floor is reached, about which
@@ -388,13 +389,15 @@ impl Run<'_> {
         cause: SolveError,
     ) -> Result<Option<Convergence>, SolveError> {
         let tolerance = &self.options.tolerance;
-        if !descent.is_on_excursion() {
-            if self.residual.is_within(tolerance) {
-                return self.accept(descent, Convergence::Converged);
-            }
-            if self.solver.is_at_floor(tolerance, NEAR_FLOOR) {
-                return self.accept(descent, Convergence::FloorReached);
-            }
+        let ending = if self.residual.is_within(tolerance) {
+            Some(Convergence::Converged)
+        } else {
+            let is_at_floor = self.solver.is_at_floor(tolerance, NEAR_FLOOR);
+            is_at_floor.then_some(Convergence::FloorReached)
+        };
+        if let Some(ending) = ending.filter(|_| !descent.is_on_excursion()) {
+            let scale = self.load_scale(descent);
+            return self.accept(&scale, ending);
         }
         let all = self.solver.total();
         match self.solver.unresisted() {

@@ -181,6 +181,17 @@ struct Walk<'a> {
     interactions: &'a [Box<dyn Interaction>],
     at: PathCheckpoint,
     last: Option<Equilibrium>,
+    /// Motion of the unknowns per parameter at the last equilibrium, once computed.
+    rate: Option<Vec<f64>>,
+}
+
+/// An equilibrium that may be the next point of a path.
+struct Trial {
+    parameter: f64,
+    state: State,
+    equilibrium: Equilibrium,
+    /// Distance from the last point.
+    moved: StepSize,
 }
 
 impl<'a> Walk<'a> {
@@ -196,6 +207,7 @@ impl<'a> Walk<'a> {
             interactions,
             at: waypoint.map_or_else(|| PathCheckpoint::start(options), PathCheckpoint::clone),
             last: None,
+            rate: None,
         }
     }
 
@@ -211,7 +223,8 @@ impl<'a> Walk<'a> {
             let equilibrium = self
                 .solve(&mut first, companion)
                 .map_err(|cause| (0.0, cause))?;
-            self.arrive(state, first, 0.0, equilibrium, false, companion)?;
+            let first = self.trial(state, 0.0, first, equilibrium);
+            self.arrive(state, first, false, companion)?;
         } else {
             self.settle_order(state);
         }
@@ -243,27 +256,25 @@ impl<'a> Walk<'a> {
         set: Set<'_>,
         companion: &mut dyn PathObserver,
     ) -> Result<(), (f64, PathError)> {
-        let rate = self.rate(state, set);
         let mut off_course = None;
         loop {
             let next = self.next_parameter();
             let is_smallest = self.at.step <= self.options.smallest_step;
             let cause = match self.attempt(state, next, set, companion) {
-                Ok((trial, equilibrium)) => {
-                    let moved = self.moved(state, &trial);
-                    let arrived = (&equilibrium, &moved);
-                    let deviation = self.deviation((state, &trial), arrived, rate.as_deref(), next);
-                    match self.continuation(arrived, deviation, next) {
+                Ok(trial) => {
+                    let deviation = self.deviation(state, &trial, set);
+                    let cause = PathError::Jump(trial.moved);
+                    match self.continuation(&trial, deviation) {
                         Continuation::Accepted { jumped } => {
-                            self.adapt(&equilibrium, deviation);
-                            return self.arrive(state, trial, next, equilibrium, jumped, companion);
+                            self.adapt(&trial.equilibrium, deviation);
+                            return self.arrive(state, trial, jumped, companion);
                         }
                         Continuation::OffCourse if off_course.is_none() => {
-                            off_course = Some((trial, next, equilibrium));
+                            off_course = Some(trial);
                         }
                         Continuation::OffCourse | Continuation::Far => {}
                     }
-                    PathError::Jump(moved)
+                    cause
                 }
                 Err(cause) => cause,
             };
@@ -271,12 +282,12 @@ impl<'a> Walk<'a> {
                 return Err((next, cause));
             }
             if is_smallest {
-                let Some((trial, next, equilibrium)) = off_course else {
+                let Some(trial) = off_course else {
                     return Err((next, self.lost_stability(state, next, set).unwrap_or(cause)));
                 };
-                self.at.step = next - self.at.parameter;
-                self.adapt(&equilibrium, UNEXPLAINED);
-                return self.arrive(state, trial, next, equilibrium, true, companion);
+                self.at.step = trial.parameter - self.at.parameter;
+                self.adapt(&trial.equilibrium, UNEXPLAINED);
+                return self.arrive(state, trial, true, companion);
             }
             let at = &mut self.at;
             at.refused += 1;
@@ -291,23 +302,35 @@ impl<'a> Walk<'a> {
         next: f64,
         set: Set<'_>,
         companion: &mut dyn PathObserver,
-    ) -> Result<(State, Equilibrium), PathError> {
+    ) -> Result<Trial, PathError> {
         let mut trial = self.predict(state, next, set)?;
         let equilibrium = self.solve(&mut trial, companion)?;
-        Ok((trial, equilibrium))
+        Ok(self.trial(state, next, trial, equilibrium))
+    }
+
+    fn trial(&self, last: &State, parameter: f64, state: State, equilibrium: Equilibrium) -> Trial {
+        let solver = &self.newton.solver;
+        let extent = solver
+            .layout
+            .step_extent(&solver.layout.difference(last, &state));
+        let moved = StepSize {
+            strain: solver.assembly.ties().strain_between(last, &state),
+            ..extent
+        };
+        Trial {
+            parameter,
+            state,
+            equilibrium,
+            moved,
+        }
     }
 
     /// How the next equilibrium continues the path, from whose direction it deviates.
-    fn continuation(
-        &self,
-        (equilibrium, moved): (&Equilibrium, &StepSize),
-        deviation: f64,
-        next: f64,
-    ) -> Continuation {
+    fn continuation(&self, trial: &Trial, deviation: f64) -> Continuation {
         let is_smallest = self.at.step <= self.options.smallest_step;
-        let far = moved.rotation > self.options.largest_turn
-            || moved.strain > self.options.largest_strain
-            || self.is_sudden(equilibrium, moved, next);
+        let far = trial.moved.rotation > self.options.largest_turn
+            || trial.moved.strain > self.options.largest_strain
+            || self.is_sudden(trial);
         let unexplained = deviation > UNEXPLAINED;
         // From a saddle that is kept, iterations may lead anywhere, however short the step.
         let keeps_saddles = self.options.saddles == Saddles::Keep;
@@ -331,16 +354,21 @@ impl<'a> Walk<'a> {
         (negative > 0).then_some(PathError::Unstable { negative })
     }
 
-    /// Motion of the unknowns per parameter at the present equilibrium: that of the last step, or after
-    /// the first equilibrium and after a jump that of the linear response. `None` if the stiffness is not
-    /// positive beyond rounding.
+    /// Motion of the unknowns per parameter at the present equilibrium: the secant of the last step, or after the
+    /// first equilibrium and after a jump the linear response.
     fn rate(&mut self, state: &State, set: Set<'_>) -> Option<Vec<f64>> {
-        if let Some((previous, before)) = &self.at.previous {
-            let from = state.in_motion(previous.clone());
-            let way = self.newton.layout().difference(&from, state);
-            let stretch = self.at.parameter - before;
-            return Some(way.into_iter().map(|way| way / stretch).collect());
-        }
+        let Some((previous, before)) = &self.at.previous else {
+            return self.linear_response(state, set);
+        };
+        let from = state.in_motion(previous.clone());
+        let way = self.newton.layout().difference(&from, state);
+        let stretch = self.at.parameter - before;
+        Some(way.into_iter().map(|way| way / stretch).collect())
+    }
+
+    /// Motion of the unknowns per parameter for the smallest step, to first order. `None` if the stiffness is not
+    /// positive beyond rounding.
+    fn linear_response(&mut self, state: &State, set: Set<'_>) -> Option<Vec<f64>> {
         let solver = &mut self.newton.solver;
         solver.prepare(state, self.interactions).ok()?;
         if solver.has_weak_mode() {
@@ -350,36 +378,37 @@ impl<'a> Walk<'a> {
         let step = self.options.smallest_step;
         set(&mut moved, self.at.parameter + step);
         let after = self.newton.generalised_loads(&moved, self.interactions);
-        let before = self.newton.generalised_loads(state, self.interactions);
-        let loads = after.iter().zip(&before).map(|(a, b)| (a - b) / step);
-        let mut rate: Vec<f64> = loads.collect();
         let solver = &mut self.newton.solver;
+        solver.work.evaluations += 1;
+        let loads = after.iter().zip(&solver.reduced);
+        let mut rate: Vec<f64> = loads.map(|(a, b)| (a - b) / step).collect();
         solver.factorize(0.0);
         solver.solve(&mut rate);
         Some(rate)
     }
 
-    /// The share of the way to the next equilibrium that is not along `rate`, by up to a few times what the parameter
-    /// lets expect; 0 where it is not known, is too little, or leads off a saddle.
-    fn deviation(
-        &self,
-        (from, to): (&State, &State),
-        (equilibrium, moved): (&Equilibrium, &StepSize),
-        rate: Option<&[f64]>,
-        next: f64,
-    ) -> f64 {
-        let is_told = equilibrium.saddles_left == 0 && motion(moved) > NEGLIGIBLE_MOTION;
-        let Some(rate) = rate.filter(|_| is_told) else {
+    /// The share of the way to a trial that is not along the rate, by up to a few times what the parameter lets
+    /// expect; 0 where the rate is unknown, or the way is short or leads off a saddle.
+    fn deviation(&mut self, state: &State, trial: &Trial, set: Set<'_>) -> f64 {
+        if trial.equilibrium.saddles_left > 0 || motion(&trial.moved) <= NEGLIGIBLE_MOTION {
             return 0.0;
-        };
-        let way = self.newton.layout().difference(from, to);
+        }
+        if self.rate.is_none() {
+            self.rate = self.rate(state, set);
+        }
+        let rate = self.rate.as_deref();
+        rate.map_or(0.0, |rate| self.deviation_from(rate, state, trial))
+    }
+
+    fn deviation_from(&self, rate: &[f64], state: &State, trial: &Trial) -> f64 {
+        let way = self.newton.layout().difference(state, &trial.state);
         let metric = &self.newton.solver.metric;
         let product = |a: &[f64], b: &[f64]| -> f64 {
             let terms = a.iter().zip(b).zip(metric);
             terms.map(|((a, b), m)| m * a * b).sum()
         };
         let along = product(&way, rate) / product(rate, rate).max(f64::MIN_POSITIVE);
-        let along = along.clamp(0.0, SUDDEN * (next - self.at.parameter));
+        let along = along.clamp(0.0, SUDDEN * (trial.parameter - self.at.parameter));
         let off: Vec<f64> = way.iter().zip(rate).map(|(w, r)| w - along * r).collect();
         (product(&off, &off) / product(&way, &way).max(f64::MIN_POSITIVE)).sqrt()
     }
@@ -387,10 +416,11 @@ impl<'a> Walk<'a> {
     /// Whether an equilibrium is much further than the last step lets expect: a snap through.
     ///
     /// Off a saddle the way is always long at first, so that says nothing.
-    fn is_sudden(&self, equilibrium: &Equilibrium, moved: &StepSize, next: f64) -> bool {
-        let motion = motion(moved);
-        let expected = self.at.rate.map(|rate| rate * (next - self.at.parameter));
-        equilibrium.saddles_left == 0
+    fn is_sudden(&self, trial: &Trial) -> bool {
+        let motion = motion(&trial.moved);
+        let stretch = trial.parameter - self.at.parameter;
+        let expected = self.at.rate.map(|rate| rate * stretch);
+        trial.equilibrium.saddles_left == 0
             && motion > SMALL_MOTION
             && expected.is_some_and(|expected| motion > SUDDEN * expected)
     }
@@ -470,14 +500,6 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn moved(&self, from: &State, to: &State) -> StepSize {
-        let layout = self.newton.layout();
-        StepSize {
-            strain: self.newton.solver.assembly.ties().strain_between(from, to),
-            ..layout.step_extent(&layout.difference(from, to))
-        }
-    }
-
     /// The next step; along a smooth path the deviation grows with it.
     fn adapt(&mut self, equilibrium: &Equilibrium, deviation: f64) {
         let iterations = equilibrium.history.len();
@@ -494,23 +516,27 @@ impl<'a> Walk<'a> {
     fn arrive(
         &mut self,
         state: &mut State,
-        next_state: State,
-        next: f64,
-        equilibrium: Equilibrium,
+        trial: Trial,
         jumped: bool,
         companion: &mut dyn PathObserver,
     ) -> Result<(), (f64, PathError)> {
-        let moved = self.moved(state, &next_state);
-        let left = std::mem::replace(state, next_state);
+        let Trial {
+            parameter,
+            state: next,
+            equilibrium,
+            moved,
+        } = trial;
+        let left = std::mem::replace(state, next);
+        self.rate = None;
         let at = &mut self.at;
         let goes_on = at.points > 0 && !jumped;
-        at.rate = goes_on.then(|| motion(&moved) / (next - at.parameter));
+        at.rate = goes_on.then(|| motion(&moved) / (parameter - at.parameter));
         // Across a jump there is nothing to extrapolate.
         at.previous = goes_on.then(|| (left.into_motion(), at.parameter));
-        at.parameter = next;
+        at.parameter = parameter;
         at.points += 1;
         let flow = companion.arrive(&PathPoint {
-            parameter: next,
+            parameter,
             state,
             equilibrium: &equilibrium,
             moved,
@@ -520,8 +546,8 @@ impl<'a> Walk<'a> {
         });
         self.last = Some(equilibrium);
         // At the end there is nothing left to break off.
-        if flow.is_break() && next < 1.0 {
-            return Err((next, PathError::Interrupted));
+        if flow.is_break() && parameter < 1.0 {
+            return Err((parameter, PathError::Interrupted));
         }
         Ok(())
     }

@@ -194,7 +194,10 @@ fn neutral_modes_of_rods_and_springs_are_counted() {
 fn neutral_modes_are_left_out_of_the_lowest_eigenvalue() {
     let lowest = |state: &State, terms: &Terms| {
         let mut newton = Newton::new(Layout::free(state), NewtonOptions::default()).unwrap();
-        newton.lowest_eigenvalue(state, terms).unwrap()
+        let certificate = newton.certify(state, terms).unwrap();
+        newton
+            .lowest_eigenvalue(state, terms, &certificate)
+            .unwrap()
     };
     let mut chain = State::default();
     for z in 0..5 {

@@ -66,8 +66,15 @@ pub(super) fn run(
         clock,
         ..
     } = follower;
-    let wanted = settings.lowest_eigenvalue && position.last.is_some() && !is_interrupted;
-    let lowest = wanted.then(|| lowest_eigenvalue(&mut newton, &assembly.system, &state));
+    let wanted = settings.lowest_eigenvalue && !is_interrupted;
+    let last = position.last.as_ref().filter(|_| wanted);
+    let certificate = last.and_then(|last| last.certificate);
+    let interactions = assembly.system.interactions();
+    let lowest = certificate.and_then(|certificate| {
+        newton
+            .lowest_eigenvalue(&state, interactions, &certificate)
+            .ok()?
+    });
     let is_done = failure.is_none() && !is_interrupted;
     let judged = settings.error_of.filter(|_| is_done);
     let error = judged.map(|quantity| {
@@ -84,7 +91,7 @@ pub(super) fn run(
         force_evaluations: work.evaluations,
         saddles_left: position.saddles_left,
         jumps: position.jumps,
-        equilibrium: report(position, lowest.flatten(), of_path, (states, error)),
+        equilibrium: report(position, lowest, of_path, (states, error)),
         ..Outcome::new(status, clock.wall_s())
     }
     .with(taken.into_remarks());
@@ -468,11 +475,6 @@ pub(super) fn record(system: &System, u: f64, state: &State) -> Record {
         observed: Vec::new(),
         state: state.clone(),
     }
-}
-
-fn lowest_eigenvalue(newton: &mut Newton, system: &System, state: &State) -> Option<f64> {
-    let lowest = newton.lowest_eigenvalue(state, system.interactions());
-    lowest.ok().flatten()
 }
 
 fn report(
