@@ -181,8 +181,8 @@ struct Walk<'a> {
     interactions: &'a [Box<dyn Interaction>],
     at: PathCheckpoint,
     last: Option<Equilibrium>,
-    /// Motion of the unknowns per parameter at the last equilibrium, once computed.
-    rate: Option<Vec<f64>>,
+    /// Linear response at the last equilibrium, once computed.
+    response: Option<Vec<f64>>,
 }
 
 /// An equilibrium that may be the next point of a path.
@@ -207,7 +207,7 @@ impl<'a> Walk<'a> {
             interactions,
             at: waypoint.map_or_else(|| PathCheckpoint::start(options), PathCheckpoint::clone),
             last: None,
-            rate: None,
+            response: None,
         }
     }
 
@@ -354,12 +354,9 @@ impl<'a> Walk<'a> {
         (negative > 0).then_some(PathError::Unstable { negative })
     }
 
-    /// Motion of the unknowns per parameter at the present equilibrium: the secant of the last step, or after the
-    /// first equilibrium and after a jump the linear response.
-    fn rate(&mut self, state: &State, set: Set<'_>) -> Option<Vec<f64>> {
-        let Some((previous, before)) = &self.at.previous else {
-            return self.linear_response(state, set);
-        };
+    /// Motion of the unknowns per parameter in the last step, if that was no jump.
+    fn secant(&self, state: &State) -> Option<Vec<f64>> {
+        let (previous, before) = self.at.previous.as_ref()?;
         let from = state.in_motion(previous.clone());
         let way = self.newton.layout().difference(&from, state);
         let stretch = self.at.parameter - before;
@@ -387,19 +384,26 @@ impl<'a> Walk<'a> {
         Some(rate)
     }
 
-    /// The share of the way to a trial that is not along the rate, by up to a few times what the parameter lets
-    /// expect; 0 where the rate is unknown, or the way is short or leads off a saddle.
+    /// Share of the way to a trial that the path does not predict: by the secant or, after the first equilibrium and
+    /// after a jump, by the linear response. 0 where neither is known, or the way is short or leads off a saddle.
+    ///
+    /// Next to a limit point the linear response is so large that it would explain a small snap where the secant
+    /// does not.
     fn deviation(&mut self, state: &State, trial: &Trial, set: Set<'_>) -> f64 {
         if trial.equilibrium.saddles_left > 0 || motion(&trial.moved) <= NEGLIGIBLE_MOTION {
             return 0.0;
         }
-        if self.rate.is_none() {
-            self.rate = self.rate(state, set);
+        if let Some(secant) = self.secant(state) {
+            return self.deviation_from(&secant, state, trial);
         }
-        let rate = self.rate.as_deref();
-        rate.map_or(0.0, |rate| self.deviation_from(rate, state, trial))
+        if self.response.is_none() {
+            self.response = self.linear_response(state, set);
+        }
+        let response = self.response.as_deref();
+        response.map_or(0.0, |rate| self.deviation_from(rate, state, trial))
     }
 
+    /// Share of the way to a trial that is not along a rate, by up to a few times the motion that it predicts.
     fn deviation_from(&self, rate: &[f64], state: &State, trial: &Trial) -> f64 {
         let way = self.newton.layout().difference(state, &trial.state);
         let metric = &self.newton.solver.metric;
@@ -527,7 +531,7 @@ impl<'a> Walk<'a> {
             moved,
         } = trial;
         let left = std::mem::replace(state, next);
-        self.rate = None;
+        self.response = None;
         let at = &mut self.at;
         let goes_on = at.points > 0 && !jumped;
         at.rate = goes_on.then(|| motion(&moved) / (parameter - at.parameter));

@@ -281,7 +281,37 @@ fn a_small_snap_is_reported() {
         .unwrap();
     println!("jumps at {jumps:?}, {} steps refused", end.refused);
     assert_eq!(jumps.len(), 1);
+    // Steps are halved eleven times at most, on the way to the limit and at it.
+    assert!(end.refused <= 22, "{}", end.refused);
     // Within the smallest step of the limit.
     assert!((jumps[0] - 0.5).abs() < 2e-4, "{jumps:?}");
     assert!(state.points.position.get(2).y < -rise);
+}
+
+/// A smooth path whose direction changes at once, when the end of a rod ceases to bend one way and bends another.
+#[test]
+fn a_change_of_direction_is_no_jump() {
+    let mut state = ACTIN.state();
+    state.frames.hold(16);
+    let terms = ACTIN.interactions();
+    let mut newton = ACTIN.newton(&state);
+    let mut turn_end = |state: &mut State, t: f64| {
+        let [first, second] = [t.min(0.5), (t - 0.5).max(0.0)];
+        let turn = rotation::exp(Vector3::y() * second) * rotation::exp(Vector3::x() * first);
+        state.frames.orientation.set(16, turn);
+    };
+    let mut jumps = 0;
+    let end = Path::new(PathOptions::default())
+        .unwrap()
+        .follow(&mut newton, &mut state, &terms, &mut turn_end, &mut |p| {
+            jumps += usize::from(p.jumped);
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    println!(
+        "a kink: {} points, {} steps refused, {:?}",
+        end.points, end.refused, end.work
+    );
+    assert_eq!(jumps, 0);
+    assert!(end.refused <= 11, "{}", end.refused);
 }
