@@ -7,7 +7,7 @@ use actin_equilibrium::{
     SecondOrder, SolveError, State, Stiffness, Vector3, relax,
 };
 use actin_mechanics::UnitQuaternion;
-use common::{ACTIN, Rod, frame, point};
+use common::{ACTIN, Rod, Springs, frame, point};
 
 /// The compressed column is straight: a solver by itself stays there, on a saddle.
 #[test]
@@ -82,6 +82,52 @@ fn a_net_load_on_a_rigid_motion_has_no_equilibrium() {
         }
         assert_eq!(failure(unclamped, &UNCLAMPED, force), SolveError::Unbounded);
     }
+}
+
+/// The same for one free point, which has no stiffness at all, and for two with a spring that is pulled.
+#[test]
+fn a_net_load_on_free_points_has_no_equilibrium() {
+    for (points, cause) in [
+        (1, SolveError::NotFactorizable(0.0)),
+        (2, SolveError::Unbounded),
+    ] {
+        let mut state = State::default();
+        for i in 0..points {
+            point(&mut state, Vector3::x() * i as f64);
+        }
+        let springs = (1..points).map(|i| (0, i, 10.0, 1.0)).collect();
+        let load = PointLoad::at(&mut state, 0, Vector3::x() * -5e-9).unwrap();
+        let terms: [Box<dyn Interaction>; 2] = [Box::new(Springs(springs)), Box::new(load)];
+        match relax(&mut state, &terms) {
+            Err(EquilibriumError::Newton(failure)) => {
+                assert_eq!(failure.cause, cause, "{points}");
+            }
+            other => panic!("{points}: {other:?}"),
+        }
+    }
+}
+
+/// A clamped filament under a weight, with too few steps: its lowest stiffness is close to rounding, but is not zero.
+#[test]
+fn a_long_filament_is_not_unbounded() {
+    let rod = Rod {
+        segments: 400,
+        length: 16e3,
+        ..ACTIN
+    };
+    let mut state = rod.state();
+    let mut terms = rod.interactions();
+    for i in 1..=rod.segments {
+        let load = PointLoad::at(&mut state, i, Vector3::x() * 1e-3).unwrap();
+        terms.push(Box::new(load));
+    }
+    let options = NewtonOptions {
+        iterations: 2,
+        ..NewtonOptions::default()
+    };
+    let mut newton = Newton::new(rod.layout(&state), options).unwrap();
+    let failure = newton.solve(&mut state, &terms).unwrap_err();
+    assert_eq!(failure.cause, SolveError::IterationLimit(2));
 }
 
 /// `E = -x^n` of a point next to another.
