@@ -8,7 +8,10 @@ use thiserror::Error;
 /// Why a solve that ended well ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convergence {
-    /// The residual is within the tolerance, and at most 1e-8 of the largest load or no longer halved by a step.
+    /// The residual is within the tolerance and at most 1e-8 of the largest load, or it is within the tolerance and
+    /// further steps are of no use: the last one did not halve it, the state is a saddle, or it is at most 8 times the
+    /// rounding error and no interaction without stiffness exerts a load. Couples and forces at an arm have a
+    /// stiffness, so that those below the rounding error cause no motion.
     Converged,
     /// The residual is above the tolerance and does not fall any more, but the loads of each body
     /// are within the tolerance or within 8 times what rounding leaves of them at that body (100
