@@ -35,7 +35,7 @@ pub struct Brownian {
     /// 40 nm: what is faster is drawn anew in each step, means are right to 1 %. It is shorter where stages, loads, rates,
     /// shear or records need it; monomers with interfaces `QuasiHarmonic` take steps as segments of a fifth of their filament's
     /// length, at most 40 nm. Of other monomers at a temperature, and with `repulsion`, it is 50 times the fastest relaxation, at which
-    /// all strains have their thermal energy to 1 % on segments of 20 nm or more. Without heat it is a tenth of the time between
+    /// all strains have their thermal energy to 1 % on segments of 20 nm or more. Without heat it is a twentieth of the time between
     /// records, and at most a hundredth of that in which a stage or a load changes: displacements are right to 0.1 %. Steps are
     /// shortened so that whole ones make up the duration and the interval of records; without heat those that cannot be
     /// solved are halved.
