@@ -18,10 +18,8 @@ pub(crate) fn check(source: &SceneArguments) -> Result<(), Failure> {
     print_thermal(assembly, plan.estimate());
     if let Some(estimate) = plan.estimate() {
         match plan.relaxation_times() {
-            Some(times) => print_relaxation(&times),
-            None if matches!(assembly.scene.task, Task::Brownian(_)) => {
-                println!("// relaxation times are computed of at most 5000 degrees of freedom");
-            }
+            Some(Ok(times)) => print_relaxation(&times),
+            Some(Err(problem)) => println!("// {problem}"),
             None => {}
         }
         print_step(estimate);

@@ -60,19 +60,26 @@ impl RelaxationTimes {
 }
 
 impl Plan<'_> {
-    /// How filaments relax in the fluid of the task, in the time of some hundred steps. `None` of other tasks, and of
-    /// more than 5000 degrees of freedom.
-    pub fn relaxation_times(&self) -> Option<RelaxationTimes> {
+    /// Relaxation of filaments in the fluid of the task, computed in the time of some hundred steps. `None` for tasks
+    /// without a fluid.
+    ///
+    /// # Errors
+    /// More than 5000 degrees of freedom, or drag or couplings for which relaxation times are not defined.
+    pub fn relaxation_times(&self) -> Option<Result<RelaxationTimes, SceneProblem>> {
         let fluid = match &self.scene().task {
             AnyTask::Brownian(task) => &task.drag,
             AnyTask::Dynamics(dynamics) => dynamics.drag.fluid()?,
             AnyTask::Equilibrium(_) => return None,
         };
-        if self.assembly().counts().dofs > MOST_DOFS {
-            return None;
+        let dofs = self.assembly().counts().dofs;
+        if dofs > MOST_DOFS {
+            let rule = format!(
+                "relaxation times are computed of at most {MOST_DOFS} degrees of freedom, not {dofs}"
+            );
+            return Some(Err(SceneProblem::new("filament", "", rule)));
         }
-        let mut relaxation = relaxation(self.assembly(), fluid).ok()?;
-        Some(RelaxationTimes::of(&mut relaxation))
+        let relaxation = relaxation(self.assembly(), fluid);
+        Some(relaxation.map(|mut relaxation| RelaxationTimes::of(&mut relaxation)))
     }
 }
 
