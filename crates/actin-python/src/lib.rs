@@ -22,6 +22,16 @@ mod watch;
 /// The native half of the package `actin`.
 #[pyo3::pymodule]
 mod _actin {
+    /// Refuses an invalid instruction set in the environment.
+    #[pymodule_init]
+    fn init(_: &Bound<'_, PyModule>) -> PyResult<()> {
+        let arch = actin_mechanics::wide::chosen_arch();
+        arch.map(|_| ()).map_err(PyImportError::new_err)
+    }
+
+    use pyo3::exceptions::PyImportError;
+    use pyo3::prelude::*;
+
     #[pymodule_export]
     use crate::fit::{fit, fit_linear};
     #[pymodule_export]

@@ -50,7 +50,18 @@ enum Task {
 }
 
 fn main() -> ExitCode {
-    let outcome = match Arguments::parse().task {
+    match carry_out(Arguments::parse().task) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn carry_out(task: Task) -> anyhow::Result<()> {
+    actin_sim::mechanics::wide::chosen_arch().map_err(anyhow::Error::msg)?;
+    match task {
         Task::Bench(options) => bench::run(options),
         Task::Bonds(options) => bonds::run(options),
         Task::Extremes(options) => extremes::run(options),
@@ -60,12 +71,6 @@ fn main() -> ExitCode {
         Task::ReproduceFigures(options) => figures::run(options),
         Task::Tradeoff(options) => tradeoff::run(options),
         Task::Docs(options) => docs::run(&options).map_err(anyhow::Error::msg),
-    };
-    match outcome.and_then(|()| streams::ending().map_err(anyhow::Error::msg)) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    }?;
+    streams::ending().map_err(anyhow::Error::msg)
 }
