@@ -22,11 +22,11 @@ const AGREES: f64 = 1e-6;
 const AGREES_IN_STANDARD_ERRORS: f64 = 1e-3;
 
 /// Rows that rounding moves further: artefact, part of the quantity, the share within which they agree (`None`: they
-/// are not compared), and the reason. Filaments of monomers have a zero-stiffness mode per monomer at rest, so that
+/// are not compared), and the reason; the first entry that matches holds. Filaments of monomers have a zero-stiffness mode per monomer at rest, so that
 /// several states lie close together and rounding selects one of them.
 ///
 /// The shares are 5 to 10 times the differences between AVX-512 and scalar code, which differ in every sum.
-const SENSITIVE: [(&str, &str, Option<f64>, &str); 16] = [
+const SENSITIVE: [(&str, &str, Option<f64>, &str); 24] = [
     ("fig10", "over/270", None, SEVERAL),
     ("fig10", "over/360", None, SEVERAL),
     (
@@ -37,10 +37,18 @@ const SENSITIVE: [(&str, &str, Option<f64>, &str); 16] = [
     ),
     ("fig10", "under/180", None, UNDER_TWISTED),
     ("fig8", "under/180", None, UNDER_TWISTED),
-    ("fig8", "over/180", Some(0.03), BUCKLED),
-    ("fig4", "full", Some(5e-3), ZERO_STIFFNESS),
-    ("fig5", "", Some(1e-3), ZERO_STIFFNESS),
-    ("fig6", "", Some(1e-3), ZERO_STIFFNESS),
+    ("fig8", "_spread/over/180", Some(0.03), SPREAD),
+    ("fig8", "_difference", Some(0.03), SPREAD),
+    ("fig8", "over/180", Some(3e-3), BUCKLED),
+    ("fig4", "_spread/full", Some(5e-3), SPREAD),
+    ("fig4", "_close/full", Some(5e-3), SPREAD),
+    ("fig4", "_overlap/full", Some(5e-3), SPREAD),
+    ("fig4", "full", Some(5e-4), ZERO_STIFFNESS),
+    ("fig5", "node_spread", Some(1e-3), SPREAD),
+    ("fig5", "", Some(3e-4), ZERO_STIFFNESS),
+    ("fig6", "node_spread", Some(1e-3), SPREAD),
+    ("fig6", "mean-filament", Some(1e-3), ZERO_STIFFNESS),
+    ("fig6", "", Some(3e-4), ZERO_STIFFNESS),
     ("law", "Figure-", Some(1e-3), ZERO_STIFFNESS),
     ("law", "S3-at--", None, COMPRESSED),
     ("table4", "s3/by-force/-", None, COMPRESSED),
@@ -52,7 +60,8 @@ const SENSITIVE: [(&str, &str, Option<f64>, &str); 16] = [
 const SEVERAL: &str = "several equilibria beyond half a turn of over-twist";
 const UNDER_TWISTED: &str =
     "monomers that are under-twisted and bent have several states at one strain";
-const BUCKLED: &str = "spread of buckled states that differ by 3e-4";
+const BUCKLED: &str = "buckled states that differ by 3e-4";
+const SPREAD: &str = "difference of states that rounding moves";
 const ZERO_STIFFNESS: &str = "monomers under small loads";
 const COMPRESSED: &str = "compressed monomers buckle at once, into one of several states";
 
@@ -64,15 +73,19 @@ fn floor(unit: &str) -> f64 {
     }
 }
 
-/// The share within which a row agrees on every machine; `None` if rounding selects the state.
-fn agreement(row: &Row) -> Option<f64> {
+/// Index of the first entry of [`SENSITIVE`] that matches a row.
+fn entry(row: &Row) -> Option<usize> {
     // Without monomers a state is unique, except beyond half a turn.
     let is_rod = row.quantity.ends_with("/rod");
-    let listed = SENSITIVE.iter().find(|(artefact, part, _, reason)| {
+    SENSITIVE.iter().position(|(artefact, part, _, reason)| {
         let is_exempt = is_rod && *reason != SEVERAL;
         *artefact == row.artefact && row.quantity.contains(part) && !is_exempt
-    });
-    listed.map_or(Some(AGREES), |(_, _, share, _)| *share)
+    })
+}
+
+/// The share within which a row agrees on every machine; `None` if rounding selects the state.
+fn agreement(row: &Row) -> Option<f64> {
+    entry(row).map_or(Some(AGREES), |entry| SENSITIVE[entry].2)
 }
 
 /// Whether a full run computes the number from the same scene and settings: parameters, fits of the paper's
@@ -253,6 +266,23 @@ mod tests {
         assert_eq!(told("fig8", "height/under/180/rod-40", 28.8, 29.2), 0);
         assert_eq!(told("fig8", "height/under/180/rod", 28.8, 29.2), 1);
         assert_eq!(told("fig10", "height/under/270/rod-40", 28.8, 29.2), 1);
+    }
+
+    /// An entry without a row is outdated; one that matches more than before loosens rows without a reason.
+    #[test]
+    fn each_exception_is_needed() {
+        let committed = report::read(&workspace_root().join(COMMITTED)).unwrap();
+        let entries = SENSITIVE.iter().enumerate();
+        let counts =
+            entries.map(|(i, _)| committed.iter().filter(|row| entry(row) == Some(i)).count());
+        let counts: Vec<usize> = counts.collect();
+        assert_eq!(
+            counts,
+            [
+                139, 142, 16, 114, 104, 16, 4, 84, 2, 1, 1, 15, 16, 58, 23, 8, 63, 3, 3, 4, 2, 17,
+                8, 2
+            ]
+        );
     }
 
     /// A quick run has rows that the full report has, too, and they are compared.
