@@ -89,9 +89,10 @@ impl Extreme {
             (Some(failure), _) => failure.to_string(),
             (None, found) => format!("{:?}", found.as_ref().unwrap().certificate.stability()),
         };
-        // A path that ended at a large jump goes across it, and counts it.
+        // A path that ended at a large jump goes across it, and counts it. Other paths are smooth.
         let crosses = self.task.contains("accept_jumps");
-        assert!(report.jumps > 0 || !crosses, "{}", self.name);
+        let jumps = crosses || SNAPS.contains(&self.name.as_str());
+        assert_eq!(report.jumps > 0, jumps, "{}", self.name);
         let steps = failure.as_ref().map(|f| f.work.iterations);
         let found = report.equilibrium.as_ref();
         let steps = steps.max(found.map(|f| f.newton_iterations)).unwrap();
@@ -232,6 +233,9 @@ const TURNED: [(&str, &str, f64); 6] = [
     ("one segment by 350 deg", ONE_SEGMENT, 350.0),
     ("two monomers between rods by 360 deg", TWO_MONOMERS, 360.0),
 ];
+
+/// Paths with a snap too small to end them.
+const SNAPS: [&str; 1] = ["75 nm of monomers by +720 deg"];
 
 /// Shifts of the far end along the axis (nm).
 const SHIFTED: [(&str, &str, f64); 4] = [
