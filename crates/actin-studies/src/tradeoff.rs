@@ -40,15 +40,26 @@ pub(crate) fn run(options: Options) -> Result<()> {
         println!("== {name}\n{first}\n");
         summary += &row(&name, &first, &second);
         writeln!(tables, "\n## {name}\n\n{}\n", comment(&text))?;
-        writeln!(tables, "![error against time](trade/{name}.svg)\n\n```text\n{first}\n```")?;
+        writeln!(
+            tables,
+            "![error against time](trade/{name}.svg)\n\n```text\n{first}\n```"
+        )?;
         fs::write(options.out.join(format!("{name}.csv")), first.to_csv())?;
-        let folder = if options.write { Path::new(PICTURES) } else { &options.out };
+        let folder = if options.write {
+            Path::new(PICTURES)
+        } else {
+            &options.out
+        };
         fs::create_dir_all(folder)?;
         let picture = folder.join(format!("{name}.svg"));
         actin_view::draw_trade(&first, &picture).map_err(Error::msg)?;
     }
     let page = format!("{HEAD}{summary}{tables}");
-    let out = if options.write { PathBuf::from(PAGE) } else { options.out.join("trade.md") };
+    let out = if options.write {
+        PathBuf::from(PAGE)
+    } else {
+        options.out.join("trade.md")
+    };
     fs::write(&out, page).with_context(|| out.display().to_string())
 }
 
