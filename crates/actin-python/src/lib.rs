@@ -24,7 +24,7 @@ mod watch;
 mod _actin {
     /// Refuses an invalid instruction set in the environment.
     #[pymodule_init]
-    fn init(_: &Bound<'_, PyModule>) -> PyResult<()> {
+    fn init(_module: &Bound<'_, PyModule>) -> PyResult<()> {
         let arch = actin_mechanics::wide::chosen_arch();
         arch.map(|_| ()).map_err(PyImportError::new_err)
     }

@@ -68,13 +68,7 @@ pub(super) fn run(
     } = follower;
     let wanted = settings.lowest_eigenvalue && !is_interrupted;
     let last = position.last.as_ref().filter(|_| wanted);
-    let certificate = last.and_then(|last| last.certificate);
-    let interactions = assembly.system.interactions();
-    let lowest = certificate.and_then(|certificate| {
-        newton
-            .lowest_eigenvalue(&state, interactions, &certificate)
-            .ok()?
-    });
+    let lowest = lowest_eigenvalue(&mut newton, &assembly.system, &state, last);
     let is_done = failure.is_none() && !is_interrupted;
     let judged = settings.error_of.filter(|_| is_done);
     let error = judged.map(|quantity| {
@@ -475,6 +469,17 @@ pub(super) fn record(system: &System, u: f64, state: &State) -> Record {
         observed: Vec::new(),
         state: state.clone(),
     }
+}
+
+fn lowest_eigenvalue(
+    newton: &mut Newton,
+    system: &System,
+    state: &State,
+    last: Option<&Arrival>,
+) -> Option<f64> {
+    let certificate = last?.certificate?;
+    let lowest = newton.lowest_eigenvalue(state, system.interactions(), &certificate);
+    lowest.ok().flatten()
 }
 
 fn report(
