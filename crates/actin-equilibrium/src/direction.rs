@@ -29,9 +29,6 @@ const ROUNDS: usize = 2;
 const STIFFNESS_CHANGE: f64 = 0.3;
 /// The least regularisation, in roundings of the largest diagonal entry.
 const LEAST_ROUNDINGS: f64 = 4.0;
-/// The shift that tells zero stiffness from any other, in roundings of the largest diagonal entry. Pivots of a zero mode
-/// are then at least twice as large as those that count as rounding.
-const SHIFT_ROUNDINGS: f64 = 16.0;
 /// Ties that do not give way are stiffened by this share of the stiffest one, so that one factor makes any
 /// stiffness definite.
 const LEAST_SHARE: f64 = 0.01;
@@ -212,9 +209,8 @@ impl Solver {
 
     /// The least multiple of the metric that rounding of the stiffness does not hide.
     fn least_shift(&self) -> f64 {
-        let least = SHIFT_ROUNDINGS * f64::EPSILON * self.assembly.largest_diagonal();
-        // A pivot of the smallest number counts as zero.
-        least.max(2.0 * f64::MIN_POSITIVE) / self.lightest()
+        let least = LEAST_ROUNDINGS * f64::EPSILON * self.largest_in_metric();
+        least.max(f64::MIN_POSITIVE)
     }
 
     /// The step of the last factor for the loads of the last assembly.

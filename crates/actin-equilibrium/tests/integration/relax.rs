@@ -7,7 +7,7 @@ use actin_equilibrium::{
     SecondOrder, SolveError, State, Stiffness, Vector3, relax,
 };
 use actin_mechanics::UnitQuaternion;
-use common::{ACTIN, Rod, Springs, frame, point};
+use common::{ACTIN, Rod, frame, point};
 
 /// The compressed column is straight: a solver by itself stays there, on a saddle.
 #[test]
@@ -81,29 +81,6 @@ fn a_net_load_on_a_rigid_motion_has_no_equilibrium() {
             frame(&mut unclamped, UnitQuaternion::identity());
         }
         assert_eq!(failure(unclamped, &UNCLAMPED, force), SolveError::Unbounded);
-    }
-}
-
-/// The same for one free point, which has no stiffness at all, and for two with a spring that is pulled.
-#[test]
-fn a_net_load_on_free_points_has_no_equilibrium() {
-    for (points, cause) in [
-        (1, SolveError::NotFactorizable(0.0)),
-        (2, SolveError::Unbounded),
-    ] {
-        let mut state = State::default();
-        for i in 0..points {
-            point(&mut state, Vector3::x() * i as f64);
-        }
-        let springs = (1..points).map(|i| (0, i, 10.0, 1.0)).collect();
-        let load = PointLoad::at(&mut state, 0, Vector3::x() * -5e-9).unwrap();
-        let terms: [Box<dyn Interaction>; 2] = [Box::new(Springs(springs)), Box::new(load)];
-        match relax(&mut state, &terms) {
-            Err(EquilibriumError::Newton(failure)) => {
-                assert_eq!(failure.cause, cause, "{points}");
-            }
-            other => panic!("{points}: {other:?}"),
-        }
     }
 }
 
