@@ -1,6 +1,7 @@
 //! `actin_sim::trade`: errors that hold when a candidate is run alone, comparisons that mean something, and what a
 //! budget leaves.
 
+use actin_sim::mechanics::Vector3;
 use actin_sim::trade::{Measure, Options, Trade, TradeError, Watch, trade};
 use actin_sim::{Assembly, End, Plan, Scene, Section};
 use std::time::Duration;
@@ -19,7 +20,7 @@ const SWINGING: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 108.0)]),
     clamps: [Clamp(end: Start)],
     loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
-    task: Dynamics(duration_ns: 2.0),
+    task: Dynamics(duration_ns: 2.0, record_every_ns: 0.1),
 )";
 
 const PUSHED: &str = "Scene(
@@ -129,7 +130,8 @@ fn motions_are_traded_by_their_steps_too() {
             .unwrap()
             .record_every_ns
     };
-    assert_eq!(records(&found.reference.scene), records(found.best_scene()));
+    let [one, other] = [&found.reference.scene, found.best_scene()].map(records);
+    assert_eq!(one.to_bits(), other.to_bits());
 }
 
 /// A straight filament that is pushed together buckles towards any side: parts along and across the axis are compared.
@@ -164,7 +166,7 @@ fn chosen(sections: &str, scene: &str) -> Assembly {
 /// One equilibrium of every monomer is the reference; with a limit the nearest within it is taken, which is said.
 #[test]
 fn sections_of_an_equilibrium_are_every_monomer_or_the_nearest() {
-    let still = SWINGING.replace("Dynamics(duration_ns: 2.0)", "Equilibrium()");
+    let still = SWINGING.replace("Dynamics(duration_ns: 2.0, record_every_ns: 0.1)", "Equilibrium()");
     let whole = chosen("Adaptive(length_nm: 108.0, want: Tip(error: 0.02))", &still);
     assert_eq!((whole.counts().segments, whole.counts().monomers), (0, 42));
     let few = "Adaptive(length_nm: 108.0, want: Tip(error: 1e-6), also: [Energy(error: 0.02)], monomers: 13)";
@@ -207,14 +209,14 @@ fn sections_of_a_motion_meet_what_is_wanted() {
         .zip(&reference)
         .map(|(a, b)| (a - b).norm_squared())
         .sum();
-    let size: f64 = reference.iter().map(|tip| tip.norm_squared()).sum();
+    let size: f64 = reference.iter().map(Vector3::norm_squared).sum();
     assert!(((apart / size).sqrt() - found.errors[0]).abs() < 1e-9);
 }
 
 /// `error_of` is the difference from every monomer, which is run.
 #[test]
 fn the_error_of_an_equilibrium_is_that_against_every_monomer() {
-    let still = SWINGING.replace("Dynamics(duration_ns: 2.0)", "Equilibrium(error_of: Tip)");
+    let still = SWINGING.replace("Dynamics(duration_ns: 2.0, record_every_ns: 0.1)", "Equilibrium(error_of: Tip)");
     let of = |sections: &str| {
         let assembly = chosen(sections, &still);
         let (_, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
@@ -252,6 +254,39 @@ fn a_budget_is_kept() {
     }
 }
 
+/// In heat means over seeds are compared, with their standard errors: fluctuations of a rod are those of its monomers,
+/// which half of them are not.
+#[test]
+fn means_over_seeds_are_compared_in_heat() {
+    let hot = "Scene(
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 108.0)]),
+        clamps: [Clamp(end: Start)],
+        task: Brownian(duration_ms: 0.01, temperature_k: 298.0, interfaces: QuasiHarmonic(sampled_ns: 2.0)),
+    )";
+    let found = traded(hot, |options| options.error = 0.1);
+    let names: Vec<&str> = found.items.iter().map(|item| item.name.as_str()).collect();
+    assert_eq!(names, ["tip mean", "tip rms"]);
+    assert!(
+        found
+            .left_out
+            .iter()
+            .any(|left| left.contains("of 4 seeds")),
+        "{:?}",
+        found.left_out
+    );
+    let rod = found
+        .candidates
+        .iter()
+        .find(|c| c.name == "rod Homogenised 20 nm")
+        .unwrap();
+    let (error, standard) = (rod.errors[1].unwrap(), rod.standard_errors[1]);
+    assert!(
+        standard > 0.0 && error < 0.05 + 3.0 * standard,
+        "{error} {standard}"
+    );
+    assert!(rod.error() >= error + standard);
+}
+
 #[test]
 fn what_cannot_be_compared_is_refused() {
     let refused = |text: &str, options: &Options| {
@@ -272,9 +307,4 @@ fn what_cannot_be_compared_is_refused() {
         ..Options::default()
     };
     assert!(refused(CANTILEVER, &error).contains("below 1"));
-    let hot = SWINGING.replace(
-        "duration_ns: 2.0",
-        "duration_ns: 2.0, drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0), thermal: Thermal(temperature_k: 300.0, seed: 1)",
-    );
-    assert!(refused(&hot, &Options::default()).contains("means over many seeds"));
 }

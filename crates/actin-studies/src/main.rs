@@ -69,7 +69,7 @@ fn carry_out(task: Task) -> anyhow::Result<()> {
         Task::Homogenise(options) => homogenise::run(options),
         Task::LoadCases(options) => load_cases::run(options),
         Task::ReproduceFigures(options) => figures::run(options),
-        Task::Tradeoff(options) => tradeoff::run(options),
+        Task::Tradeoff(options) => tradeoff::run(&options),
         Task::Docs(options) => docs::run(&options).map_err(anyhow::Error::msg),
     }?;
     streams::ending().map_err(anyhow::Error::msg)

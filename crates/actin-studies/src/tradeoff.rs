@@ -29,7 +29,7 @@ pub(crate) struct Options {
 }
 
 /// Trades, prints and writes.
-pub(crate) fn run(options: Options) -> Result<()> {
+pub(crate) fn run(options: &Options) -> Result<()> {
     fs::create_dir_all(&options.out)?;
     let mut summary = String::new();
     let mut tables = String::new();

@@ -226,7 +226,7 @@ impl Opened {
         all.points = points.len();
         let mut most_work = 0.0;
         for point in points {
-            match self.with_plan(point, |plan| plan.cost()) {
+            match self.with_plan(point, |plan: &Plan<'_>| plan.cost()) {
                 Err(why) => all.refused.push((point, why)),
                 Ok(cost) => {
                     all.bytes = all.bytes.max(cost.bytes);
@@ -238,7 +238,11 @@ impl Opened {
                 }
             }
         }
-        let timing = |point| self.with_plan(point, |plan| plan.timing()).ok().flatten();
+        let timing = |point| {
+            self.with_plan(point, |plan: &Plan<'_>| plan.timing())
+                .ok()
+                .flatten()
+        };
         all.timing = all.timed.and_then(timing);
         all
     }

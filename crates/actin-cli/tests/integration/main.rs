@@ -14,5 +14,6 @@ mod snakemake;
 mod studies;
 mod sweep;
 mod traced;
+mod trade;
 mod view;
 mod workplace;

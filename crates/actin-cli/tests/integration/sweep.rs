@@ -454,7 +454,7 @@ fn a_sweep_can_be_checked() {
     for part in [
         "18 runs: 6 point(s), 3 run(s) of each\n  loads[0].force_pn[2]: 0.0, -1.5, inf\n",
         "  seeds 1 to 3\n",
-        "a run of point 0, the largest of 4 built: ",
+        "a run of point 1, the largest of 4 built: ",
         "all 18 runs, each as long as this one: ",
         "2 point(s) will fail:\n  point 4: loads[0].force_pn[2]=inf: loads[0].force_pn = [-2.0, 0.0, inf]",
     ] {

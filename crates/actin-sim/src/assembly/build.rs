@@ -95,6 +95,14 @@ struct Stock {
 }
 
 impl Stock {
+    /// Displaces filaments that have an imperfection.
+    fn displace(&mut self, scene: &Scene, filaments: &[FilamentSpan]) {
+        let bodies = (self.points.as_slice(), self.frames.as_slice());
+        imperfection::displace(scene, filaments, bodies, &mut self.state);
+    }
+}
+
+impl Stock {
     fn push_term(&mut self, interaction: Box<dyn Interaction>, part: Part) {
         let name = interaction.term();
         self.terms.push(Term { name, part });
@@ -198,8 +206,7 @@ impl<'a> Builder<'a> {
         let ledger = ledger::of_motion(&scene.task, &mut self.stock.state);
         let mut stock = self.stock;
         let rest = stock.state.clone();
-        let bodies = (stock.points.as_slice(), stock.frames.as_slice());
-        imperfection::displace(&scene, &self.filaments, bodies, &mut stock.state);
+        stock.displace(&scene, &self.filaments);
         let mut assembly = Assembly {
             drive,
             scene,

@@ -9,7 +9,7 @@ use super::taken::Taken;
 use super::unknowns::newton;
 use super::{At, Failure, Outcome, Progress, Record, Recorded, RunPosition, Status};
 use crate::scene::{Equilibrium as Settings, Load, SceneProblem};
-use crate::trade::{ModelError, Scatter, model_error};
+use crate::trade::{Judged, model_error};
 use crate::{Assembly, Booked};
 use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path,
@@ -38,7 +38,7 @@ pub struct EquilibriumReport {
     /// Stable states about it, if the scene asks for them.
     pub states: Option<StableStates>,
     /// The error of the number that the scene asks for it, and how it scatters with drawn bonds, or why they are not known.
-    pub error: Option<Result<(ModelError, Scatter), SceneProblem>>,
+    pub error: Option<Judged>,
 }
 
 /// Solves for the equilibrium, or follows the path.
@@ -486,10 +486,7 @@ fn report(
     position: PathPosition,
     lowest_eigenvalue: Option<f64>,
     work: SolverWork,
-    (states, error): (
-        Option<StableStates>,
-        Option<Result<(ModelError, Scatter), SceneProblem>>,
-    ),
+    (states, error): (Option<StableStates>, Option<Judged>),
 ) -> Option<EquilibriumReport> {
     let last = position.last?;
     last.certificate.map(|certificate| EquilibriumReport {

@@ -87,6 +87,17 @@ pub enum Interfaces {
     },
 }
 
+impl Interfaces {
+    /// Quasi-harmonic ones instead of bonds, where there is a temperature (K).
+    pub(crate) fn allow_long_steps(&mut self, temperature_k: f64) {
+        if *self == Self::Bonds && temperature_k > 0.0 {
+            *self = Self::QuasiHarmonic {
+                sampled_ns: sampled_ns(),
+            };
+        }
+    }
+}
+
 /// Longest motion (ns) that interfaces are sampled from: an hour for each micrometre of monomers with drawn bonds.
 const MOST_SAMPLED_NS: f64 = 2e4;
 

@@ -84,18 +84,7 @@ fn filaments(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
 
 /// The rules between parts of a scene that are sound each.
 fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
-    for (i, filament) in scene.filaments().enumerate() {
-        let wants = filament
-            .sections
-            .adaptive()
-            .into_iter()
-            .flat_map(Adaptive::wants);
-        let mut checked =
-            wants.map(|want| check_wanted(scene, "filament.sections.want", want.quantity()));
-        checked
-            .try_for_each(|one| one)
-            .map_err(|problem| problem.with_filament(&scene.filament_key(i)))?;
-    }
+    check_adaptive(scene)?;
     for following in scene.filaments().filter_map(|f| f.sections.following()) {
         check_following(scene, following)?;
     }
@@ -133,6 +122,23 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
             check_tolerance(scene, "task", tolerances)
         }
     }
+}
+
+/// Whether the scene has what sections are to be chosen for.
+fn check_adaptive(scene: &Scene) -> Result<(), SceneProblem> {
+    for (i, filament) in scene.filaments().enumerate() {
+        let wants = filament
+            .sections
+            .adaptive()
+            .into_iter()
+            .flat_map(Adaptive::wants);
+        let mut checked =
+            wants.map(|want| check_wanted(scene, "filament.sections.want", want.quantity()));
+        checked
+            .try_for_each(|one| one)
+            .map_err(|problem| problem.with_filament(&scene.filament_key(i)))?;
+    }
+    Ok(())
 }
 
 /// Whether the scene has a quantity that `key` names.

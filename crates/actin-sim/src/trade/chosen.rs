@@ -162,11 +162,8 @@ impl<'a> Choice<'a> {
     /// The scene with every monomer of the filaments that are chosen, and why others keep what they have.
     fn whole(&self) -> Result<(Whole, Assembly), SceneProblem> {
         let (every, kept) = every_monomer_of(self.scene, |filament| self.adaptive[filament]);
-        let adaptive = self.adaptive.iter().zip(&kept);
-        if let Some(reason) = adaptive
-            .filter_map(|(chosen, kept)| (*kept).filter(|_| *chosen))
-            .next()
-        {
+        let mut adaptive = self.adaptive.iter().zip(&kept);
+        if let Some(reason) = adaptive.find_map(|(chosen, kept)| (*kept).filter(|_| *chosen)) {
             return Err(SceneProblem::new(
                 "filament.sections",
                 "Adaptive(..)",
@@ -220,7 +217,7 @@ impl<'a> Choice<'a> {
             .map(|(measure, _)| measure.clone())
             .collect();
         let measurer = Measurer::new(&assembly, &measures)?;
-        let records = self.records(&assembly)?;
+        let records = records_of(&assembly)?;
         let reference = trial(&whole.scene, records.map(|(first, _)| first))?;
         let values = measurer.values(&reference.assembly, &reference.records);
         let mut tried = vec![self.judged(
@@ -296,25 +293,25 @@ impl<'a> Choice<'a> {
             SceneProblem::new("filament.sections.monomers", most, rule)
         })
     }
+}
 
-    /// How many records of a motion are compared, and how many there are; none of an equilibrium.
-    fn records(&self, assembly: &Assembly) -> Result<Option<(usize, usize)>, SceneProblem> {
-        let plan = Plan::new(assembly)?;
-        let Some(estimate) = plan.estimate() else {
-            return Ok(None);
-        };
-        let all = usize::try_from(estimate.steps / estimate.steps_between_records + 1)
-            .unwrap_or(usize::MAX);
-        let work = estimate.force_evaluations as f64 * assembly.counts().bonds as f64;
-        let share = MOST_WORK / work.max(MOST_WORK);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a share of a number of records"
-        )]
-        let first = (share * all as f64).ceil() as usize;
-        Ok(Some((first.max(FEWEST_RECORDS).min(all), all)))
-    }
+/// How many records of a motion are compared, and how many there are; none of an equilibrium.
+fn records_of(assembly: &Assembly) -> Result<Option<(usize, usize)>, SceneProblem> {
+    let plan = Plan::new(assembly)?;
+    let Some(estimate) = plan.estimate() else {
+        return Ok(None);
+    };
+    let all =
+        usize::try_from(estimate.steps / estimate.steps_between_records + 1).unwrap_or(usize::MAX);
+    let work = estimate.force_evaluations as f64 * assembly.counts().bonds as f64;
+    let share = MOST_WORK / work.max(MOST_WORK);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a share of a number of records"
+    )]
+    let first = (share * all as f64).ceil() as usize;
+    Ok(Some((first.max(FEWEST_RECORDS).min(all), all)))
 }
 
 struct Judged {

@@ -35,6 +35,9 @@ pub(super) fn at_half_step(scene: &Scene, default_ns: Option<f64>) -> Scene {
 pub(super) fn steps(scene: &Scene, default_ns: Option<f64>) -> Vec<Proposal> {
     let name = |what: &str| format!("every monomer, {what}");
     let mut all = Vec::new();
+    if scene.thermal().is_some() {
+        return all;
+    }
     if !matches!(scene.task, Task::Equilibrium(_)) {
         all.push(Proposal {
             name: name("default step"),
@@ -67,8 +70,11 @@ fn with_step(scene: &Scene, step_ns: f64) -> Scene {
 /// The scene with the steps at which resolutions are tried.
 fn quick(scene: &Scene, default_ns: Option<f64>) -> Scene {
     let mut scene = scene.clone();
+    let is_hot = scene.thermal().is_some();
     match &mut scene.task {
         Task::Equilibrium(_) => {}
+        Task::Brownian(brownian) if is_hot => brownian.time_step_ns = None,
+        Task::Dynamics(_) if is_hot => {}
         Task::Dynamics(dynamics) => {
             dynamics.time_step_ns = None;
             dynamics.step_safety = LONGEST;

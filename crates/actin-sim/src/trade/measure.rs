@@ -101,6 +101,37 @@ pub struct Item {
     /// The quantity that it is of.
     pub measure: Measure,
     kind: Kind,
+    /// In heat: what is compared of its values in time.
+    moment: Option<Moment>,
+}
+
+/// What is compared of a quantity in heat, over the records behind the first fifth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Moment {
+    Mean,
+    /// Root mean square of the distance from the mean.
+    Fluctuation,
+}
+
+/// Share of the records of a motion in heat that are left out at its beginning.
+const BURN_IN: f64 = 0.2;
+
+impl Moment {
+    fn of(self, values: &[Vec<f64>]) -> Vec<f64> {
+        let count = values.len() as f64;
+        let size = values.first().map_or(0, Vec::len);
+        let mean: Vec<f64> = (0..size)
+            .map(|j| values.iter().map(|value| value[j]).sum::<f64>() / count)
+            .collect();
+        match self {
+            Self::Mean => mean,
+            Self::Fluctuation => {
+                let pairs = values.iter().flat_map(|value| value.iter().zip(&mean));
+                let squares: f64 = pairs.map(|(x, mean)| (x - mean).powi(2)).sum();
+                vec![(squares / count).sqrt()]
+            }
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -130,6 +161,7 @@ impl Item {
             scale,
             measure,
             kind,
+            moment: None,
         }
     }
 
@@ -148,14 +180,18 @@ impl Item {
         }
     }
 
+    /// The root mean square of sizes over records, at least the scale.
+    pub(super) fn mean_size(&self, values: &[Vec<f64>]) -> f64 {
+        let squares: f64 = values.iter().map(|value| self.size(value).powi(2)).sum();
+        (squares / values.len() as f64).sqrt().max(self.scale)
+    }
+
     /// How far a candidate is from the reference: the root mean square over records of the size of the difference, over
     /// that of the reference or the scale. None where they have different records.
     pub fn error(&self, reference: &[Vec<f64>], candidate: &[Vec<f64>]) -> Option<f64> {
         if reference.len() != candidate.len() || reference.is_empty() {
             return None;
         }
-        let count = reference.len() as f64;
-        let mean = |sum: f64| (sum / count).sqrt();
         let square = |value: &[f64]| self.size(value).powi(2);
         let differences = reference.iter().zip(candidate).map(|(one, other)| {
             let difference: Vec<f64> = one.iter().zip(other).map(|(a, b)| b - a).collect();
@@ -165,9 +201,8 @@ impl Item {
                 f64::NAN
             }
         });
-        let difference = mean(differences.sum());
-        let size = mean(reference.iter().map(|value| square(value)).sum());
-        let error = difference / size.max(self.scale);
+        let difference = (differences.sum::<f64>() / reference.len() as f64).sqrt();
+        let error = difference / self.mean_size(reference);
         error.is_finite().then_some(error)
     }
 }
@@ -209,6 +244,9 @@ impl Measurer {
                 }
             }
         }
+        if assembly.scene.thermal().is_some() {
+            items = items.iter().flat_map(moments).collect();
+        }
         Ok(Self {
             items,
             free_about: free_axis(&assembly.scene),
@@ -231,8 +269,21 @@ impl Measurer {
             .collect();
         let of_item = |item: &Item| {
             let all = views.iter().zip(records);
-            let values = all.map(|(view, record)| self.value(item, view, record));
-            values.collect()
+            let values: Vec<Vec<f64>> = all
+                .map(|(view, record)| self.value(item, view, record))
+                .collect();
+            let begin = (BURN_IN * values.len() as f64).ceil();
+            let settled = values
+                .iter()
+                .enumerate()
+                .filter(|(i, _)| *i as f64 >= begin);
+            match item.moment {
+                None => values,
+                Some(moment) => {
+                    let settled: Vec<Vec<f64>> = settled.map(|(_, value)| value.clone()).collect();
+                    vec![moment.of(&settled)]
+                }
+            }
         };
         self.items.iter().map(of_item).collect()
     }
@@ -279,6 +330,16 @@ impl Measurer {
             }
         }
     }
+}
+
+/// What is compared of an item in heat.
+fn moments(item: &Item) -> [Item; 2] {
+    let of = |name: &str, moment| Item {
+        name: format!("{} {name}", item.name),
+        moment: Some(moment),
+        ..item.clone()
+    };
+    [of("mean", Moment::Mean), of("rms", Moment::Fluctuation)]
 }
 
 /// What a scene is compared by if nothing is named: what it observes, and its tips; where no tip is free, its height.

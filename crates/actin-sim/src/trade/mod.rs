@@ -11,6 +11,7 @@ mod model_error;
 mod reference;
 mod resolution;
 mod run;
+mod sample;
 mod study;
 mod table;
 
@@ -18,6 +19,8 @@ pub use chosen::{Chosen, choose};
 pub use measure::{Item, Measure};
 pub(crate) use model_error::model_error;
 pub use model_error::{ModelError, Scatter};
+/// The error of a number, with how it scatters, or why they are not known.
+pub(crate) type Judged = Result<(ModelError, Scatter), SceneProblem>;
 pub(crate) use resolution::weighted;
 pub use study::trade;
 
@@ -148,6 +151,8 @@ pub struct Candidate {
     pub wall_s: f64,
     /// Relative error of each item; none where it has other records.
     pub errors: Vec<Option<f64>>,
+    /// Standard error of each of these: zero without heat.
+    pub standard_errors: Vec<f64>,
     /// The largest error at each share of the loads that was tried.
     pub at_loads: Vec<(f64, f64)>,
     /// Why it has no result, if it has none.
@@ -155,9 +160,11 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// The largest of its errors at the loads of the scene; infinite where one is not known.
+    /// The largest of its errors at the loads of the scene, each with its standard error; infinite where one is not known.
     pub fn error(&self) -> f64 {
-        worst(&self.errors)
+        let all = self.errors.iter().zip(&self.standard_errors);
+        let sums = all.map(|(error, standard)| error.map(|error| error + standard));
+        worst(&sums.collect::<Vec<_>>())
     }
 
     /// The largest of its errors at all loads at which it was tried.

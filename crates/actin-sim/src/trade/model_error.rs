@@ -76,48 +76,59 @@ pub(crate) fn model_error(
     let every = with_records_of(every, &assembly.scene);
     let whole = equilibrium(&every)?;
     let measurer = Measurer::new(&whole.assembly, &[Measure::from(quantity)])?;
-    let of = |assembly: &Assembly, record: &Record| {
-        let values = measurer.values(assembly, std::slice::from_ref(record));
-        values.last().cloned().unwrap_or_default()
-    };
-    let of_ran = |ran: &Ran| {
-        ran.records
-            .last()
-            .map_or_else(Vec::new, |last| of(&ran.assembly, last))
-    };
-    let item = measurer.items.last();
-    let size = |values: &[Vec<f64>]| match (item, values.last()) {
-        (Some(item), Some(value)) => item.size(value),
-        _ => f64::NAN,
-    };
-    let apart = |values: &[Vec<f64>], reference: &[Vec<f64>]| {
-        item.and_then(|item| item.error(reference, values))
-            .unwrap_or(f64::NAN)
-    };
-    let (here, reference) = (of(assembly, last), of_ran(&whole));
-    let value = size(&here);
-    let mut sum = [0.0, 0.0];
-    let (mut bonds, count) = (0, FILAMENTS as f64);
-    for seed in 1..=FILAMENTS {
-        let scene = drawn(&every, seed);
-        bonds = scene.filament.monomers.lateral_bonds;
-        let values = of_ran(&equilibrium(&scene)?);
-        sum[0] += (size(&values) - size(&reference)) / count;
-        sum[1] += (apart(&values, &reference) * size(&reference)).powi(2) / count;
-    }
+    let judge = Judge { measurer };
+    let reference = judge.value(&whole.assembly, &whole.records);
+    let size = judge.size(&reference);
+    let here = judge.value(assembly, std::slice::from_ref(last));
     let error = ModelError {
         quantity,
-        value,
-        error: size(&reference) - value,
-        relative: apart(&here, &reference),
+        value: judge.size(&here),
+        error: size - judge.size(&here),
+        relative: judge.apart(&here, &reference),
     };
-    let scatter = Scatter {
-        bonds,
+    let mut scatter = Scatter {
+        bonds: 0,
         filaments: FILAMENTS,
-        shift: sum[0],
-        deviation: sum[1].sqrt(),
+        shift: 0.0,
+        deviation: 0.0,
     };
+    for seed in 1..=FILAMENTS {
+        let scene = drawn(&every, seed);
+        let ran = equilibrium(&scene)?;
+        let value = judge.value(&ran.assembly, &ran.records);
+        scatter.bonds = scene.filament.monomers.lateral_bonds;
+        scatter.shift += (judge.size(&value) - size) / FILAMENTS as f64;
+        let apart = judge.apart(&value, &reference) * size;
+        scatter.deviation = scatter.deviation.hypot(apart / (FILAMENTS as f64).sqrt());
+    }
     Ok((error, scatter))
+}
+
+/// The last of what a quantity is: of tips that at the end.
+struct Judge {
+    measurer: Measurer,
+}
+
+impl Judge {
+    fn value(&self, assembly: &Assembly, records: &[Record]) -> Vec<Vec<f64>> {
+        let last = records.last().map(std::slice::from_ref);
+        let values = last.map(|last| self.measurer.values(assembly, last));
+        values
+            .and_then(|all| all.last().cloned())
+            .unwrap_or_default()
+    }
+
+    fn size(&self, value: &[Vec<f64>]) -> f64 {
+        let item = self.measurer.items.last();
+        let size = item.and_then(|item| Some(item.size(value.last()?)));
+        size.unwrap_or(f64::NAN)
+    }
+
+    fn apart(&self, value: &[Vec<f64>], reference: &[Vec<f64>]) -> f64 {
+        let item = self.measurer.items.last();
+        let error = item.and_then(|item| item.error(reference, value));
+        error.unwrap_or(f64::NAN)
+    }
 }
 
 fn equilibrium(scene: &Scene) -> Result<Ran, SceneProblem> {

@@ -1,9 +1,10 @@
 //! The reference of a trade: every monomer, or what the budget allows.
 
 use super::ladder::{self, Proposal};
-use super::measure::{Measurer, Values};
+use super::measure::Measurer;
 use super::resolution::{Whole, every_monomer};
-use super::run::{Limits, Ran, Unusable, run};
+use super::run::{Limits, Unusable};
+use super::sample::Sample;
 use super::study::{SETTLED, errors, with_records_of};
 use super::{Options, Reference, TradeError, Watch, worst};
 use crate::scene::{Scene, SceneProblem};
@@ -28,8 +29,7 @@ pub(super) struct Setup<'a> {
 /// A reference with its run.
 pub(super) struct Found {
     pub reference: Reference,
-    pub ran: Ran,
-    pub values: Values,
+    pub sample: Sample,
     /// Time of all runs up to it (s).
     pub spent_s: f64,
 }
@@ -65,26 +65,28 @@ impl<'a> Setup<'a> {
     /// # Errors
     /// A reference without a result, and interruptions.
     pub(super) fn reference(&self) -> Result<Found, TradeError> {
-        let name = if self.default_ns.is_some() {
-            "every monomer at half of the default step"
+        let is_hot = self.whole.scene.thermal().is_some();
+        let (name, scene) = if self.default_ns.is_some() && !is_hot {
+            let half = ladder::at_half_step(&self.whole.scene, self.default_ns);
+            ("every monomer at half of the default step", half)
         } else {
-            "every monomer"
+            ("every monomer", self.whole.scene.clone())
         };
-        let scene = ladder::at_half_step(&self.whole.scene, self.default_ns);
-        let ran = self.run(name, &scene)?;
-        let share = match (ran.is_cut, self.total) {
+        let sample = self.run(name, &scene)?;
+        let share = match (sample.is_cut, self.total) {
             (false, _) => 1.0,
-            (true, Some(total)) => ran.records.len() as f64 / total as f64,
+            (true, Some(total)) => sample.ran.records.len() as f64 / total as f64,
             (true, None) => 0.0,
         };
         if share < LEAST_SHARE {
-            return self.refine(ran.wall_s);
+            return self.refine(sample.wall_s);
         }
-        let spent_s = ran.wall_s;
-        let found = self.found((name, scene), ran, None, spent_s);
+        let spent_s = sample.wall_s;
+        let found = self.found((name, scene), sample, None, spent_s);
+        let is_settled = found.reference.is_settled || !is_hot;
         let reference = Reference {
             share,
-            is_settled: true,
+            is_settled,
             ..found.reference
         };
         Ok(Found { reference, ..found })
@@ -93,12 +95,12 @@ impl<'a> Setup<'a> {
     fn refine(&self, mut spent_s: f64) -> Result<Found, TradeError> {
         let mut best: Option<Found> = None;
         for Proposal { name, scene } in ladder::references(&self.whole) {
-            let ran = self.run(&name, &scene)?;
-            spent_s += ran.wall_s;
-            if ran.is_cut {
+            let sample = self.run(&name, &scene)?;
+            spent_s += sample.wall_s;
+            if sample.is_cut {
                 break;
             }
-            let found = self.found((&name, scene), ran, best.as_ref(), spent_s);
+            let found = self.found((&name, scene), sample, best.as_ref(), spent_s);
             let is_settled = found.reference.is_settled;
             best = Some(found);
             if is_settled {
@@ -118,40 +120,44 @@ impl<'a> Setup<'a> {
     fn found(
         &self,
         (name, scene): (&str, Scene),
-        ran: Ran,
+        sample: Sample,
         coarser: Option<&Found>,
         spent_s: f64,
     ) -> Found {
-        let values = self.measurer.values(&ran.assembly, &ran.records);
         let own_errors = match coarser {
-            Some(coarser) => errors(&self.measurer, &values, &coarser.values),
+            Some(coarser) => errors(&self.measurer, &sample.values, &coarser.sample.values),
+            None if scene.thermal().is_some() => {
+                let items = self.measurer.items.iter().zip(&sample.values);
+                let sizes = items.map(|(item, values)| item.mean_size(values));
+                let errors = sample.standard_errors.iter().zip(sizes);
+                errors.map(|(error, size)| Some(error / size)).collect()
+            }
             None => vec![None; self.measurer.items.len()],
         };
         let reference = Reference {
             name: name.to_owned(),
             scene,
-            counts: ran.counts,
-            wall_s: ran.wall_s,
+            counts: sample.counts,
+            wall_s: sample.wall_s,
             is_settled: worst(&own_errors) <= SETTLED * self.options.error,
             own_errors,
             share: 1.0,
         };
         Found {
             reference,
-            ran,
-            values,
+            sample,
             spent_s,
         }
     }
 
-    fn run(&self, name: &str, scene: &Scene) -> Result<Ran, TradeError> {
+    fn run(&self, name: &str, scene: &Scene) -> Result<Sample, TradeError> {
         (self.watch.says)(name);
         let limits = Limits {
             budget: Some(self.options.budget),
             records: None,
             is_interrupted: self.watch.is_interrupted,
         };
-        run(scene, limits).map_err(|unusable| match unusable {
+        Sample::of(scene, &self.measurer, limits).map_err(|unusable| match unusable {
             Unusable::Interrupted => TradeError::Interrupted,
             Unusable::Refused(problem) => TradeError::Refused(problem),
             Unusable::Failed(cause) => TradeError::ReferenceFails {

@@ -3,7 +3,7 @@
 use crate::Assembly;
 use crate::scene::{
     Anchors, Couple, End, Force, Hold, Load, Monomers, RodLaw, RodModel, RotaryInertia, Scene,
-    Section,
+    Section, Task,
 };
 
 /// Rods shorter than this (nm), a period of monomers, are resolved with their neighbours.
@@ -28,11 +28,15 @@ pub(super) struct Whole {
 /// Why each filament keeps the sections that it has, if it does.
 pub(super) type Kept = Vec<Option<&'static str>>;
 
-/// The scene with every monomer resolved and weighted bonds.
+/// The scene with every monomer resolved and weighted bonds; in overdamped motion in heat with quasi-harmonic
+/// interfaces, since bonds take ten thousand times longer.
 pub(super) fn every_monomer(scene: &Scene) -> (Scene, Kept) {
     let (mut whole, kept) = every_monomer_of(scene, |_| true);
     for filament in whole.filaments_mut() {
         filament.monomers = weighted(&filament.monomers);
+    }
+    if let Task::Brownian(task) = &mut whole.task {
+        task.interfaces.allow_long_steps(task.temperature_k);
     }
     (whole, kept)
 }

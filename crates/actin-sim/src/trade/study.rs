@@ -3,7 +3,8 @@
 use super::ladder::{self, Proposal};
 use super::measure::{Measurer, Values};
 use super::reference::Setup;
-use super::run::{Limits, Ran, Unusable, run};
+use super::run::{Limits, Ran, Unusable};
+use super::sample::{SEEDS, Sample};
 use super::{Candidate, Options, Reference, Trade, TradeError, Watch, worst};
 use crate::Counts;
 use crate::scene::{Anchors, Scene, SceneProblem, Setting, Task};
@@ -45,8 +46,10 @@ pub fn trade(scene: &Scene, options: &Options, watch: &Watch<'_>) -> Result<Trad
     let mut study = Study::begin(scene, options, watch)?;
     study.run_candidates(scene);
     study.ladder_s = study.spent_s.get();
-    study.run_at_other_loads();
-    study.run_drawn();
+    if scene.thermal().is_none() {
+        study.run_at_other_loads();
+        study.run_drawn();
+    }
     Ok(study.end())
 }
 
@@ -74,11 +77,6 @@ fn check(scene: &Scene, options: &Options) -> Result<(), SceneProblem> {
             rule,
         ));
     }
-    if scene.thermal().is_some() {
-        let rule = "runs in heat are compared by means over many seeds, which a trade does not run: compare ensembles, or \
-                    set the temperature to 0";
-        return Err(SceneProblem::new("task", "", rule));
-    }
     Ok(())
 }
 
@@ -87,6 +85,7 @@ struct Study<'a> {
     setup: Setup<'a>,
     reference: Reference,
     values: Values,
+    standard_errors: Vec<f64>,
     /// Records that are compared, where the reference did not come to its end.
     records: Option<usize>,
     bends_most: Vec<Option<f64>>,
@@ -109,10 +108,11 @@ impl<'a> Study<'a> {
         let found = setup.reference()?;
         let is_whole = found.reference.share >= 1.0;
         let mut study = Self {
-            records: (!is_whole).then_some(found.ran.records.len()),
-            bends_most: bends_most(&found.ran),
+            records: (!is_whole).then_some(found.sample.ran.records.len()),
+            bends_most: bends_most(&found.sample.ran),
             reference: found.reference,
-            values: found.values,
+            values: found.sample.values,
+            standard_errors: found.sample.standard_errors,
             candidates: Vec::new(),
             left_out: Vec::new(),
             scatter: None,
@@ -136,6 +136,12 @@ impl<'a> Study<'a> {
         let kept = self.setup.whole.kept.iter().enumerate();
         let kept = kept.filter_map(|(f, reason)| Some(format!("{}{}", of(f), (*reason)?)));
         self.left_out.extend(kept);
+        if let Some(seeds) = self.seeds_needed() {
+            self.left_out.push(format!(
+                "single runs: means and root mean squares of {SEEDS} seeds are; errors hold to their standard errors. About {seeds} \
+                 seeds make those of the reference a third of the wanted error"
+            ));
+        }
         if self.reference.share < 1.0 {
             self.left_out.push(format!(
                 "all but the first {:.0} % of the motion, to which the reference comes within {} s",
@@ -143,6 +149,14 @@ impl<'a> Study<'a> {
                 self.setup.options.budget.as_secs_f64()
             ));
         }
+    }
+
+    /// How many seeds in heat make the standard errors of the reference small enough.
+    fn seeds_needed(&self) -> Option<f64> {
+        self.setup.whole.scene.thermal()?;
+        let largest = worst(&self.reference.own_errors);
+        let ratio = largest / (SETTLED * self.setup.options.error);
+        Some((SEEDS as f64 * ratio * ratio).ceil().max(SEEDS as f64))
     }
 
     fn limits(&self) -> Limits<'_> {
@@ -153,13 +167,13 @@ impl<'a> Study<'a> {
         }
     }
 
-    fn run(&self, what: &str, scene: &Scene) -> Result<Ran, Unusable> {
+    fn run(&self, what: &str, scene: &Scene) -> Result<Sample, Unusable> {
         (self.setup.watch.says)(what);
-        let ran = run(scene, self.limits());
-        if let Ok(ran) = &ran {
-            self.spent_s.set(self.spent_s.get() + ran.wall_s);
+        let sample = Sample::of(scene, &self.setup.measurer, self.limits());
+        if let Ok(sample) = &sample {
+            self.spent_s.set(self.spent_s.get() + sample.wall_s);
         }
-        ran
+        sample
     }
 
     fn errors(&self, values: &Values) -> Vec<Option<f64>> {
@@ -191,47 +205,51 @@ impl<'a> Study<'a> {
                     .push("candidates that did not run: interrupted".to_owned());
                 return;
             }
-            let candidate = self.candidate(proposal);
+            let mut candidate = self.candidate(proposal);
             if candidate.name.starts_with(USUAL) && candidate.failure.is_none() {
-                self.drop_unsettled(&candidate.errors);
+                candidate.errors = self.drop_unsettled(&candidate.errors);
             }
             self.candidates.push(candidate);
         }
     }
 
     fn candidate(&self, Proposal { name, scene }: Proposal) -> Candidate {
-        let found = self.run(&name, &scene);
-        let (counts, wall_s, errors, failure) = match found {
-            Ok(ran) if ran.is_cut => (
-                ran.counts,
-                ran.wall_s,
-                Vec::new(),
-                Some("takes longer than the budget".to_owned()),
-            ),
-            Ok(ran) => {
-                let values = self.setup.measurer.values(&ran.assembly, &ran.records);
-                (ran.counts, ran.wall_s, self.errors(&values), None)
-            }
-            Err(unusable) => (
-                Counts::default(),
-                f64::NAN,
-                Vec::new(),
-                Some(unusable.to_string()),
-            ),
-        };
-        Candidate {
+        let mut candidate = Candidate {
             name,
             scene,
-            counts,
-            wall_s,
-            errors,
+            counts: Counts::default(),
+            wall_s: f64::NAN,
+            errors: Vec::new(),
+            standard_errors: Vec::new(),
             at_loads: Vec::new(),
-            failure,
+            failure: None,
+        };
+        match self.run(&candidate.name, &candidate.scene) {
+            Ok(sample) => {
+                (candidate.counts, candidate.wall_s) = (sample.counts, sample.wall_s);
+                if sample.is_cut {
+                    candidate.failure = Some("takes longer than the budget".to_owned());
+                } else {
+                    candidate.errors = self.errors(&sample.values);
+                    candidate.standard_errors = self.relative(&sample.standard_errors);
+                }
+            }
+            Err(unusable) => candidate.failure = Some(unusable.to_string()),
         }
+        candidate
     }
 
-    /// Leaves out what does not converge with the reference's own step.
-    fn drop_unsettled(&mut self, own: &[Option<f64>]) {
+    /// Standard errors of differences from the reference, over the size of the reference.
+    fn relative(&self, standard_errors: &[f64]) -> Vec<f64> {
+        let items = self.setup.measurer.items.iter().zip(&self.values);
+        let both = standard_errors.iter().zip(&self.standard_errors);
+        let all = items.zip(both);
+        all.map(|((item, values), (one, other))| one.hypot(*other) / item.mean_size(values))
+            .collect()
+    }
+
+    /// Leaves out what does not converge with the reference's own step; the errors of the rest.
+    fn drop_unsettled(&mut self, own: &[Option<f64>]) -> Vec<Option<f64>> {
         let limit = SETTLED * self.setup.options.error;
         self.reference.own_errors = own.to_vec();
         let is_kept: Vec<bool> = own.iter().map(|e| e.is_some_and(|e| e <= limit)).collect();
@@ -247,10 +265,12 @@ impl<'a> Study<'a> {
         if is_kept.iter().any(|kept| *kept) {
             retain(&mut self.setup.measurer.items, &is_kept);
             retain(&mut self.values, &is_kept);
+            retain(&mut self.standard_errors, &is_kept);
             retain(&mut self.reference.own_errors, &is_kept);
         } else {
             self.reference.is_settled = false;
         }
+        self.reference.own_errors.clone()
     }
 
     /// Candidates that meet the wanted error at the loads of the scene, at other loads, too.
@@ -265,10 +285,7 @@ impl<'a> Study<'a> {
                     .push(format!("{share} of the loads: the reference fails there"));
                 continue;
             };
-            let reference = self
-                .setup
-                .measurer
-                .values(&reference.assembly, &reference.records);
+            let reference = reference.values;
             for i in 0..self.candidates.len() {
                 let candidate = &self.candidates[i];
                 let is_dear = candidate.wall_s > self.reference.wall_s;
@@ -282,9 +299,8 @@ impl<'a> Study<'a> {
                     continue;
                 };
                 let what = format!("{} at {share} of the loads", candidate.name);
-                let error = self.run(&what, &scene).map_or(f64::INFINITY, |ran| {
-                    let values = self.setup.measurer.values(&ran.assembly, &ran.records);
-                    worst(&errors(&self.setup.measurer, &reference, &values))
+                let error = self.run(&what, &scene).map_or(f64::INFINITY, |sample| {
+                    worst(&errors(&self.setup.measurer, &reference, &sample.values))
                 });
                 self.candidates[i].at_loads.push((share, error));
             }
@@ -316,10 +332,10 @@ impl<'a> Study<'a> {
         let mut all: Vec<Vec<Option<f64>>> = Vec::new();
         for seed in 1..=seeds {
             let drawn = drawn(&usual, seed);
-            let Ok(ran) = self.run(&format!("drawn bonds, {seed} of {seeds}"), &drawn) else {
+            let Ok(sample) = self.run(&format!("drawn bonds, {seed} of {seeds}"), &drawn) else {
                 return;
             };
-            all.push(self.errors(&self.setup.measurer.values(&ran.assembly, &ran.records)));
+            all.push(self.errors(&sample.values));
         }
         let of_item = |item: usize| {
             let errors: Option<Vec<f64>> = all.iter().map(|errors| errors[item]).collect();

@@ -67,7 +67,7 @@ impl fmt::Display for Trade {
                 "{:NAME$}{:17}",
                 "filaments of 64 drawn bonds scatter by", ""
             )?;
-            write_errors(f, scatter)?;
+            write_errors(f, scatter, &[])?;
             writeln!(f)?;
         }
         for left in &self.left_out {
@@ -105,7 +105,7 @@ impl Trade {
                 f,
                 "warning: the reference is itself off by more than a third of the wanted error:"
             )?;
-            write_errors(f, &reference.own_errors)?;
+            write_errors(f, &reference.own_errors, &[])?;
             writeln!(f)?;
         }
         Ok(())
@@ -123,7 +123,7 @@ impl Trade {
         }
         let faster = self.usual_s() / one.wall_s;
         write!(f, "{name:NAME$}{:>9}{faster:>8.2}", time(one.wall_s))?;
-        write_errors(f, &one.errors)?;
+        write_errors(f, &one.errors, &one.standard_errors)?;
         write!(f, "   {:.2}", 100.0 * one.error())?;
         for (share, error) in &one.at_loads {
             write!(f, ", {:.2} at {share} of the loads", 100.0 * error)?;
@@ -132,11 +132,26 @@ impl Trade {
     }
 }
 
-fn write_errors(f: &mut fmt::Formatter<'_>, errors: &[Option<f64>]) -> fmt::Result {
-    errors.iter().try_for_each(|error| match error {
-        Some(error) => write!(f, "{:>13.2}", 100.0 * error),
-        None => write!(f, "{:>13}", "-"),
-    })
+fn write_errors(
+    f: &mut fmt::Formatter<'_>,
+    errors: &[Option<f64>],
+    standard_errors: &[f64],
+) -> fmt::Result {
+    let standard = standard_errors
+        .iter()
+        .copied()
+        .chain(std::iter::repeat(0.0));
+    errors
+        .iter()
+        .zip(standard)
+        .try_for_each(|(error, standard)| match error {
+            Some(error) if standard > 0.0 => {
+                let both = format!("{:.1} +- {:.1}", 100.0 * error, 100.0 * standard);
+                write!(f, "{both:>13}")
+            }
+            Some(error) => write!(f, "{:>13.2}", 100.0 * error),
+            None => write!(f, "{:>13}", "-"),
+        })
 }
 
 fn time(seconds: f64) -> String {
