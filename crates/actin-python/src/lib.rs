@@ -1,4 +1,4 @@
-//! The native half of the Python package `actin`: scenes, runs, sweeps, systems by hand, fits.
+//! The native half of the Python package `actin`: scenes, runs, sweeps, trades, systems by hand, fits.
 //!
 //! What Python calls is in the modules below, one for each thing; exceptions, results and pictures are Python, in
 //! `python/actin`. Models and files are the business of the crates that this one joins.
@@ -16,6 +16,7 @@ mod scene;
 mod sweep;
 mod system;
 mod terms;
+mod trade;
 mod value;
 mod watch;
 
@@ -44,6 +45,8 @@ mod _actin {
     use crate::sweep::carry_out;
     #[pymodule_export]
     use crate::system::System;
+    #[pymodule_export]
+    use crate::trade::trade;
     #[pymodule_export]
     use crate::watch::Progress;
 

@@ -120,7 +120,7 @@ impl Job<'_> {
             None
         };
         if outcome.status == Status::Interrupted {
-            return Err(interrupted(py, error, run));
+            return Err(interrupted(py, error, ("run", run)));
         }
         match failure {
             None => {
@@ -161,16 +161,21 @@ impl Job<'_> {
     }
 }
 
-/// The exception of an interrupted run, which has what was recorded.
-fn interrupted(py: Python<'_>, error: Option<PyErr>, run: Option<Py<PyAny>>) -> PyErr {
+/// The exception of an interrupted run or trade, with its result so far as the attribute `name`.
+pub(crate) fn interrupted(
+    py: Python<'_>,
+    error: Option<PyErr>,
+    (name, so_far): (&str, Option<Py<PyAny>>),
+) -> PyErr {
     let by_callback =
         error.filter(|error| !error.is_instance_of::<pyo3::exceptions::PyKeyboardInterrupt>(py));
     if let Some(error) = by_callback {
         return error;
     }
     let attributes = PyDict::new(py);
-    match attributes.set_item("run", run) {
-        Ok(()) => errors::raise(py, "Interrupted", "the run was interrupted", &attributes),
+    let message = format!("the {name} was interrupted");
+    match attributes.set_item(name, so_far) {
+        Ok(()) => errors::raise(py, "Interrupted", &message, &attributes),
         Err(error) => error,
     }
 }

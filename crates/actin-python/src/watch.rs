@@ -94,6 +94,14 @@ impl Watch {
         self.tell((ended as f64, of as f64, "runs"), ended as u64, 0.0);
     }
 
+    /// Calls the callback with the name of the next run, unless an exception has ended the runs.
+    pub(crate) fn begins(&mut self, name: &str) {
+        if let (Some(callback), None) = (&self.progress, &self.error) {
+            let called = Python::attach(|py| callback.call1(py, (name,)).map(drop));
+            self.error = called.err();
+        }
+    }
+
     fn tell(&mut self, (at, end, unit): (f64, f64, &'static str), steps: u64, residual: f64) {
         let is_new = self.shown.is_none_or(|last| last.elapsed() >= SHOWN);
         let Some(callback) = self.progress.as_ref().filter(|_| is_new || at >= end) else {

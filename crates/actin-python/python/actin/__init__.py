@@ -1,13 +1,14 @@
 """Actin filaments at two resolutions: rigid ellipsoid monomers and Cosserat rods.
 
-Scenes: `Scene`, `equilibrium`, `run`, `sweep`, `load`. By hand, with a scene or without: `System`. Least squares:
+Scenes: `Scene`, `equilibrium`, `run`, `sweep`, `trade`, `load`. By hand, with a scene or without: `System`. Least squares:
 `fit`, `fit_linear`. Lengths are in nm, forces in pN, times in ns; what has no unit in its name takes any that fit
 together.
 """
 
-from actin._actin import Progress, Rod, Scene, System, __version__, fit, fit_linear, run
+from actin._actin import Progress, Rod, Scene, System, __version__, fit, fit_linear, run, trade
 from actin._equilibrium import equilibrium
 from actin._sweep import Sweep, sweep
+from actin._trade import Trade
 from actin.errors import ActinError, Interrupted, RunFailed, RunWarning, SceneError
 from actin.results import Certificate, Equilibrium, Fit, Run, load
 
@@ -26,6 +27,7 @@ __all__ = [
     "SceneError",
     "Sweep",
     "System",
+    "Trade",
     "__version__",
     "equilibrium",
     "fit",
@@ -33,4 +35,5 @@ __all__ = [
     "load",
     "run",
     "sweep",
+    "trade",
 ]

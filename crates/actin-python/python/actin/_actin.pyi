@@ -7,9 +7,10 @@ from typing import Any, Literal, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from actin._trade import Trade
 from actin.results import Certificate, Fit, Run
 
-__all__ = ["Progress", "Rod", "Scene", "System", "__version__", "carry_out", "fit", "fit_linear", "run"]
+__all__ = ["Progress", "Rod", "Scene", "System", "__version__", "carry_out", "fit", "fit_linear", "run", "trade"]
 
 __version__: str
 
@@ -269,6 +270,27 @@ def run(
     shows a bar (`True`, and by default on a terminal), nothing (`False`), or calls a function with a `Progress`.
 
     Raises `SceneError`; `RunFailed`, and on Ctrl-C `Interrupted`, with what was recorded; `OSError` for the directory.
+    """
+
+def trade(
+    scene: Scene,
+    *,
+    quantities: Sequence[str] = ...,
+    error: float = 0.02,
+    loads: Sequence[float] = ...,
+    budget_s: float = 60.0,
+    all: bool = False,
+    progress: Callable[[str], object] | bool | None = None,
+) -> Trade:
+    """Runs a scene with every monomer and in cheaper ways: errors and times of each, and the cheapest scene within an error.
+
+    `quantities` are `tip`, `height`, `end-force`, `end-couple`, `energy`, `curvature`, `linker-force`, or beginnings of
+    names of observables; by default the observables of the scene and its tips. `error` is the largest relative error
+    that is accepted. Candidates within it also run at the shares `loads` of the loads. No run takes longer than
+    `budget_s`. `all` adds finer meshes and other laws. `progress` prints the name of each run (`True`, and by default
+    on a terminal), nothing (`False`), or calls a function with the name.
+
+    Raises `SceneError`, `RunFailed` if the reference has no result, and on Ctrl-C `Interrupted` with the `trade` so far.
     """
 
 def carry_out(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from actin._actin import Progress
@@ -18,17 +18,22 @@ class Bar:
     def __init__(self) -> None:
         self.shown = 0
 
-    def __call__(self, progress: Progress) -> None:
+    def __call__(self, progress: Progress | str) -> None:
+        line = progress if isinstance(progress, str) else self.line(progress)
+        sys.stderr.write("\r" + line.ljust(self.shown))
+        sys.stderr.flush()
+        self.shown = len(line)
+
+    @staticmethod
+    def line(progress: Progress) -> str:
+        """Bar, numbers and remaining time."""
         full = int(WIDTH * progress.share)
         left = progress.seconds * (1.0 - progress.share) / progress.share if progress.share > 0.0 else 0.0
         numbers = f"{progress.at:.2f} of {progress.end:.0f} {progress.unit}"
         if progress.unit != "runs" and progress.seconds > 0.0:
             rate = progress.steps / progress.seconds
             numbers += f", {rate:.0f} steps/s, residual {progress.residual_force_pn:.1e} pN"
-        line = f"{'█' * full}{'░' * (WIDTH - full)} {100.0 * progress.share:3.0f} %  {numbers}  remaining {left:.0f} s"
-        sys.stderr.write("\r" + line.ljust(self.shown))
-        sys.stderr.flush()
-        self.shown = len(line)
+        return f"{'█' * full}{'░' * (WIDTH - full)} {100.0 * progress.share:3.0f} %  {numbers}  remaining {left:.0f} s"
 
     def finish(self) -> None:
         """Takes the line away."""
@@ -38,7 +43,7 @@ class Bar:
             self.shown = 0
 
 
-def callback(progress: Callable[[Progress], object] | bool | None) -> Callable[[Progress], object] | None:
+def callback(progress: Callable[[Any], object] | bool | None) -> Callable[[Any], object] | None:
     """What is told: the bar for `True`, and for `None` where standard error is a terminal."""
     if progress is None:
         progress = sys.stderr is not None and sys.stderr.isatty()

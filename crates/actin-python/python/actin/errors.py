@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from actin._trade import Trade
     from actin.results import Run
 
 
@@ -51,7 +52,9 @@ class RunFailed(ActinError, ArithmeticError):
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C in a run. `run` has what was recorded; a run directory has a checkpoint."""
+    """Ctrl-C in a run or a trade. `run` has what was recorded; a run directory has a checkpoint."""
 
     run: Run | None = None
     """All records so far; none where there are none."""
+    trade: Trade | None = None
+    """Candidates of a trade so far; `None` if the reference had not ended."""

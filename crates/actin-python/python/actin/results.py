@@ -25,6 +25,8 @@ from actin.errors import RunWarning
 if TYPE_CHECKING:
     import pyvista
 
+    from actin._trade import Trade
+
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
@@ -362,12 +364,12 @@ class Equilibrium:
         return _html.table(repr(self), _rows(self.run))
 
 
-def emit_warnings(run: Run) -> None:
-    """Emits the warnings of a run at the line outside this package that has asked for it."""
+def emit_warnings(found: Run | Trade) -> None:
+    """Emits the warnings of a run or a trade at the line outside this package that has asked for it."""
     level, frame = 1, sys._getframe()
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "actin":
         level, frame = level + 1, frame.f_back
-    for each in run.warnings:
+    for each in found.warnings:
         warnings.warn(f"{each['message']} [{each['code']}]", RunWarning, stacklevel=level)
 
 

@@ -1,0 +1,141 @@
+"""`Trade`: errors and times of a scene at many resolutions and steps."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from actin import _html
+from actin._actin import Scene
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_KINDS: dict[str, Callable[[str], Any]] = {
+    "candidate": str,
+    "monomers": int,
+    "segments": int,
+    "is_best": "true".__eq__,
+    "failure": str,
+}
+
+
+class Trade:
+    """Candidates, each run and timed, and their errors against the reference. `n` candidates.
+
+    `print(trade)` shows the table of `actin trade`.
+    """
+
+    table: dict[str, NDArray[Any]]
+    """Columns by their names, `[n]` each, in the order of the runs: `candidate` (name), `monomers`, `segments`, `wall_s`
+    (time, s), `faster` (time of every monomer at the default step over `wall_s`), `NAME error` of each compared item,
+    `error` (the largest), `error_at_all_loads`, `is_best`, `failure` (empty if there is a result). Errors are relative: 0.01
+    is 1 %; NaN if unknown."""
+    units: dict[str, str]
+    """Unit of each compared item."""
+    scenes: list[Scene]
+    """Scene of each candidate, `[n]`."""
+    best: Scene
+    """Fastest scene within the wanted error; the scene of the reference if no candidate meets it in less time."""
+    best_name: str
+    """Name of that candidate, or of the reference."""
+    reference: dict[str, Any]
+    """`name`, `scene`, `monomers`, `segments`, `wall_s` (s), `own_errors` (relative, of each item; `None` if unknown),
+    `share` (fraction of the records within the budget), `is_settled` (whether `own_errors` are at most a third of
+    `wanted_error`)."""
+    left_out: list[str]
+    """Quantities and parts of the scene that are not compared, with reasons."""
+    scatter: dict[str, float | None] | None
+    """Root mean square error of filaments with 64 sampled bonds, of each item; `None` if they did not run."""
+    wanted_error: float
+    """Largest relative error that is accepted."""
+
+    def __init__(
+        self,
+        *,
+        text: str,
+        csv: str,
+        units: dict[str, str],
+        scenes: list[Scene],
+        best: int | None,
+        reference: dict[str, Any],
+        left_out: list[str],
+        scatter: dict[str, float | None] | None,
+        wanted_error: float,
+    ) -> None:
+        self._text = text
+        self._csv = csv
+        self.table = _table(csv)
+        self.units = units
+        self.scenes = scenes
+        self.best = reference["scene"] if best is None else scenes[best]
+        self.best_name = reference["name"] if best is None else str(self.table["candidate"][best])
+        self.reference = reference
+        self.left_out = left_out
+        self.scatter = scatter
+        self.wanted_error = wanted_error
+
+    @property
+    def warnings(self) -> list[dict[str, str]]:
+        """Warnings on the reference: `code` and `message` of each."""
+        if self.reference["is_settled"]:
+            return []
+        own = self.reference["own_errors"].items()
+        errors = ", ".join(f"{name} " + ("unknown" if error is None else f"{100.0 * error:.2f} %") for name, error in own)
+        message = f"the reference is itself off by more than a third of the wanted error: {errors}"
+        return [{"code": "unknown-error", "message": message}]
+
+    def to_csv(self) -> str:
+        """The table as CSV, as in `trade.csv`."""
+        return self._csv
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws error against time, both logarithmic, with the wanted error as a line; returns the axes.
+
+        Errors are those at all loads. Numbers at the points refer to the legend. Candidates with an error of 0 or without
+        a result are left out. Raises `ImportError` without matplotlib.
+        """
+        if ax is None:
+            try:
+                from matplotlib import pyplot
+            except ImportError as missing:
+                raise ImportError("Trade.plot needs matplotlib: pip install matplotlib") from missing
+            _, ax = pyplot.subplots(figsize=(10.0, 5.0), layout="constrained")
+        columns = (self.table[name].tolist() for name in ("wall_s", "error_at_all_loads", "candidate", "failure"))
+        shown = [row for row in zip(*columns) if not row[3] and 0.0 < row[1] < np.inf]
+        for number, (seconds, error, name, _) in enumerate(sorted(shown), 1):
+            ax.plot(seconds, error, "o", label=f"{number} {name}")
+            ax.annotate(str(number), (seconds, error), xytext=(3, 3), textcoords="offset points")
+        ax.axhline(self.wanted_error, color="black", linestyle="--", label=f"wanted: {100.0 * self.wanted_error:g} %")
+        ax.set(xscale="log", yscale="log", xlabel="time (s)", ylabel="largest relative error")
+        ax.legend(fontsize="x-small", loc="upper left", bbox_to_anchor=(1.0, 1.0))
+        return ax
+
+    def __len__(self) -> int:
+        return len(self.scenes)
+
+    def __str__(self) -> str:
+        return self._text
+
+    def __repr__(self) -> str:
+        return f"Trade({len(self)} candidates; cheapest within {100.0 * self.wanted_error:g} %: {self.best_name})"
+
+    def _repr_html_(self) -> str:
+        columns = (self.table[name].tolist() for name in ("candidate", "wall_s", "error_at_all_loads", "failure"))
+        rows = ((name, failure or f"{s:.3g} s, error {100.0 * error:.2f} %") for name, s, error, failure in zip(*columns))
+        return _html.table(repr(self), rows)
+
+
+def _table(text: str) -> dict[str, NDArray[Any]]:
+    names, *rows = csv.reader(io.StringIO(text, newline=""))
+    kinds = [_KINDS.get(name, _number) for name in names]
+    return {name: np.array([kind(row[k]) for row in rows]) for k, (name, kind) in enumerate(zip(names, kinds))}
+
+
+def _number(text: str) -> float:
+    return float(text) if text else np.nan
