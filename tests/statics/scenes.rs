@@ -54,21 +54,6 @@ fn good_scenes_read_build_and_have_a_stable_step() {
     }
 }
 
-/// Held filaments of the scenes of `actin trade` have the length of their lattice, so that all resolutions are
-/// equally long: a tip would differ by three times the relative difference of length.
-#[test]
-fn held_filaments_to_trade_have_the_length_of_the_lattice() {
-    for path in scenes(&scenarios().join("trade")) {
-        let scene = Scene::from_ron(&fs::read_to_string(&path).unwrap()).unwrap();
-        if scene.clamps.is_empty() {
-            continue;
-        }
-        let (_, written) = scene.filament.sections[0].span_nm();
-        let resolved = Assembly::build(&scene).unwrap().length_nm();
-        assert!((resolved - written).abs() < 1e-9, "{}", path.display());
-    }
-}
-
 /// Each bad scene begins with a line that holds its message: place, key, value and rule. The
 /// place is that of the culprit; the comment line counts. What follows dots differs from machine to
 /// machine.

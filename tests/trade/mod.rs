@@ -166,7 +166,10 @@ fn chosen(sections: &str, scene: &str) -> Assembly {
 /// One equilibrium of every monomer is the reference; with a limit the nearest within it is taken, which is said.
 #[test]
 fn sections_of_an_equilibrium_are_every_monomer_or_the_nearest() {
-    let still = SWINGING.replace("Dynamics(duration_ns: 2.0, record_every_ns: 0.1)", "Equilibrium()");
+    let still = SWINGING.replace(
+        "Dynamics(duration_ns: 2.0, record_every_ns: 0.1)",
+        "Equilibrium()",
+    );
     let whole = chosen("Adaptive(length_nm: 108.0, want: Tip(error: 0.02))", &still);
     assert_eq!((whole.counts().segments, whole.counts().monomers), (0, 42));
     let few = "Adaptive(length_nm: 108.0, want: Tip(error: 1e-6), also: [Energy(error: 0.02)], monomers: 13)";
@@ -216,7 +219,10 @@ fn sections_of_a_motion_meet_what_is_wanted() {
 /// `error_of` is the difference from every monomer, which is run.
 #[test]
 fn the_error_of_an_equilibrium_is_that_against_every_monomer() {
-    let still = SWINGING.replace("Dynamics(duration_ns: 2.0, record_every_ns: 0.1)", "Equilibrium(error_of: Tip)");
+    let still = SWINGING.replace(
+        "Dynamics(duration_ns: 2.0, record_every_ns: 0.1)",
+        "Equilibrium(error_of: Tip)",
+    );
     let of = |sections: &str| {
         let assembly = chosen(sections, &still);
         let (_, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
@@ -261,7 +267,7 @@ fn means_over_seeds_are_compared_in_heat() {
     let hot = "Scene(
         filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 108.0)]),
         clamps: [Clamp(end: Start)],
-        task: Brownian(duration_ms: 0.01, temperature_k: 298.0, interfaces: QuasiHarmonic(sampled_ns: 2.0)),
+        task: Brownian(duration_ms: 0.002, temperature_k: 298.0, interfaces: QuasiHarmonic(sampled_ns: 2.0)),
     )";
     let found = traded(hot, |options| options.error = 0.1);
     let names: Vec<&str> = found.items.iter().map(|item| item.name.as_str()).collect();

@@ -216,10 +216,11 @@ impl<'a> Choice<'a> {
             .iter()
             .map(|(measure, _)| measure.clone())
             .collect();
-        let measurer = Measurer::new(&assembly, &measures)?;
+        let mut measurer = Measurer::new(&assembly, &measures)?;
         let records = records_of(&assembly)?;
         let reference = trial(&whole.scene, records.map(|(first, _)| first))?;
         let values = measurer.values(&reference.assembly, &reference.records);
+        measurer.set_scales(&values);
         let mut tried = vec![self.judged(
             "every monomer",
             &whole.scene,

@@ -19,6 +19,9 @@ const OFF_AXIS: f64 = 1e-9;
 /// Size of a load (pN, pN nm), shift (nm) or turn (deg) up to which it does not fix a direction that nothing else does.
 const WEAK: f64 = 0.01;
 
+/// Size of an item over that of the largest of the same quantity, below which it is compared with the latter.
+const LEAST_SHARE: f64 = 0.1;
+
 /// A quantity by which resolutions are compared.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Measure {
@@ -251,6 +254,27 @@ impl Measurer {
             items,
             free_about: free_axis(&assembly.scene),
         })
+    }
+
+    /// Raises the scale of items to a tenth of the largest of the same quantity: of many tips those that hardly move do
+    /// not count more than the others.
+    pub(super) fn set_scales(&mut self, reference: &Values) {
+        let sizes: Vec<f64> = self
+            .items
+            .iter()
+            .zip(reference)
+            .map(|(item, values)| item.mean_size(values))
+            .collect();
+        let kinds: Vec<(Measure, Option<Moment>)> = self
+            .items
+            .iter()
+            .map(|item| (item.measure.clone(), item.moment))
+            .collect();
+        for (item, kind) in self.items.iter_mut().zip(&kinds) {
+            let alike = kinds.iter().zip(&sizes).filter(|(other, _)| *other == kind);
+            let largest = alike.map(|(_, size)| *size).fold(0.0, f64::max);
+            item.scale = item.scale.max(LEAST_SHARE * largest);
+        }
     }
 
     /// Whether directions across the axis are left out.

@@ -17,6 +17,9 @@ pub(super) const USUAL: &str = "every monomer, default step";
 /// Part of the wanted error that the reference may be off by itself.
 pub(super) const SETTLED: f64 = 1.0 / 3.0;
 
+/// Scatter of single filaments beyond which a number of the mean one says nothing.
+const MOST_SCATTER: f64 = 0.4;
+
 /// Bonds of an interface where they are drawn, and how many filaments of them.
 const DRAWN: (usize, u64) = (64, 3);
 
@@ -44,11 +47,15 @@ const DRAWN: (usize, u64) = (64, 3);
 pub fn trade(scene: &Scene, options: &Options, watch: &Watch<'_>) -> Result<Trade, TradeError> {
     check(scene, options)?;
     let mut study = Study::begin(scene, options, watch)?;
-    study.run_candidates(scene);
-    study.ladder_s = study.spent_s.get();
+    let steps = ladder::steps(&study.setup.whole.scene, study.setup.default_ns);
+    study.run_candidates(steps);
+    if scene.thermal().is_none() {
+        study.run_drawn();
+    }
+    let resolutions = study.resolutions(scene);
+    study.run_candidates(resolutions);
     if scene.thermal().is_none() {
         study.run_at_other_loads();
-        study.run_drawn();
     }
     Ok(study.end())
 }
@@ -94,6 +101,7 @@ struct Study<'a> {
     scatter: Option<Vec<Option<f64>>>,
     /// Time of the reference and the candidates (s).
     ladder_s: f64,
+    is_interrupted: bool,
     /// Time of all runs (s).
     spent_s: Cell<f64>,
 }
@@ -104,8 +112,9 @@ impl<'a> Study<'a> {
         options: &'a Options,
         watch: &'a Watch<'a>,
     ) -> Result<Self, TradeError> {
-        let setup = Setup::new(scene, options, watch)?;
+        let mut setup = Setup::new(scene, options, watch)?;
         let found = setup.reference()?;
+        setup.measurer.set_scales(&found.sample.values);
         let is_whole = found.reference.share >= 1.0;
         let mut study = Self {
             records: (!is_whole).then_some(found.sample.ran.records.len()),
@@ -116,7 +125,8 @@ impl<'a> Study<'a> {
             candidates: Vec::new(),
             left_out: Vec::new(),
             scatter: None,
-            ladder_s: 0.0,
+            ladder_s: found.spent_s,
+            is_interrupted: false,
             spent_s: Cell::new(found.spent_s),
             setup,
         };
@@ -180,35 +190,37 @@ impl<'a> Study<'a> {
         errors(&self.setup.measurer, &self.values, values)
     }
 
-    /// Longer steps first, then coarser resolutions, and the scene as it is written.
-    fn run_candidates(&mut self, written: &Scene) {
-        let mut proposals = ladder::steps(&self.setup.whole.scene, self.setup.default_ns);
-        proposals.extend(ladder::resolutions(
+    /// Coarser resolutions, and the scene as it is written.
+    fn resolutions(&self, written: &Scene) -> Vec<Proposal> {
+        let mut proposals = ladder::resolutions(
             &self.setup.whole,
             self.setup.default_ns,
             &self.bends_most,
             self.setup.options.is_all,
-        ));
-        if written
-            .filaments()
-            .all(|filament| filament.sections.adaptive().is_none())
-        {
+        );
+        let mut filaments = written.filaments();
+        if filaments.all(|filament| filament.sections.adaptive().is_none()) {
             let scene = with_records_of(written.clone(), &self.setup.whole.scene);
             if scene != self.setup.whole.scene {
                 let name = "as written".to_owned();
                 proposals.push(Proposal { name, scene });
             }
         }
+        proposals
+    }
+
+    fn run_candidates(&mut self, proposals: Vec<Proposal>) {
         for proposal in proposals {
             if (self.setup.watch.is_interrupted)() {
-                self.left_out
-                    .push("candidates that did not run: interrupted".to_owned());
+                self.is_interrupted = true;
                 return;
             }
             let mut candidate = self.candidate(proposal);
             if candidate.name.starts_with(USUAL) && candidate.failure.is_none() {
                 candidate.errors = self.drop_unsettled(&candidate.errors);
+                candidate.standard_errors = vec![0.0; candidate.errors.len()];
             }
+            self.ladder_s += candidate.wall_s.max(0.0);
             self.candidates.push(candidate);
         }
     }
@@ -250,32 +262,55 @@ impl<'a> Study<'a> {
 
     /// Leaves out what does not converge with the reference's own step; the errors of the rest.
     fn drop_unsettled(&mut self, own: &[Option<f64>]) -> Vec<Option<f64>> {
-        let limit = SETTLED * self.setup.options.error;
         self.reference.own_errors = own.to_vec();
-        let is_kept: Vec<bool> = own.iter().map(|e| e.is_some_and(|e| e <= limit)).collect();
-        for (item, own) in self.setup.measurer.items.iter().zip(own) {
-            if let Some(error) = own.filter(|error| *error > limit) {
-                self.left_out.push(format!(
-                    "{}: the reference differs by {:.2} % from the same at the usual step",
-                    item.name,
-                    100.0 * error
-                ));
+        let limit = SETTLED * self.setup.options.error;
+        let is_done = self.leave_out(own, limit, |error| {
+            format!("the reference differs by {error:.2} % from the same at the usual step")
+        });
+        self.reference.is_settled &= is_done;
+        self.reference.own_errors.clone()
+    }
+
+    /// Leaves out what has too large an error; whether anything else is left.
+    fn leave_out(
+        &mut self,
+        errors: &[Option<f64>],
+        limit: f64,
+        why: impl Fn(f64) -> String,
+    ) -> bool {
+        let is_kept: Vec<bool> = errors
+            .iter()
+            .map(|e| e.is_some_and(|e| e <= limit))
+            .collect();
+        if !is_kept.iter().any(|kept| *kept) {
+            return false;
+        }
+        for (item, error) in self.setup.measurer.items.iter().zip(errors) {
+            if let Some(error) = error.filter(|error| *error > limit) {
+                self.left_out
+                    .push(format!("{}: {}", item.name, why(100.0 * error)));
             }
         }
-        if is_kept.iter().any(|kept| *kept) {
-            retain(&mut self.setup.measurer.items, &is_kept);
-            retain(&mut self.values, &is_kept);
-            retain(&mut self.standard_errors, &is_kept);
-            retain(&mut self.reference.own_errors, &is_kept);
-        } else {
-            self.reference.is_settled = false;
+        retain(&mut self.setup.measurer.items, &is_kept);
+        retain(&mut self.values, &is_kept);
+        retain(&mut self.standard_errors, &is_kept);
+        retain(&mut self.reference.own_errors, &is_kept);
+        for candidate in self.candidates.iter_mut().filter(|c| !c.errors.is_empty()) {
+            retain(&mut candidate.errors, &is_kept);
+            retain(&mut candidate.standard_errors, &is_kept);
         }
-        self.reference.own_errors.clone()
+        if let Some(scatter) = &mut self.scatter {
+            retain(scatter, &is_kept);
+        }
+        true
     }
 
     /// Candidates that meet the wanted error at the loads of the scene, at other loads, too.
     fn run_at_other_loads(&mut self) {
         for share in self.setup.options.load_shares.clone() {
+            if (self.setup.watch.is_interrupted)() {
+                return;
+            }
             let Some(usual) = at_load(&self.reference_for_loads(), share) else {
                 return;
             };
@@ -343,10 +378,18 @@ impl<'a> Study<'a> {
             let squares = errors.iter().map(|e| e * e).sum::<f64>();
             Some((squares / errors.len() as f64).sqrt())
         };
-        self.scatter = Some((0..self.setup.measurer.items.len()).map(of_item).collect());
+        let scatter: Vec<Option<f64>> = (0..self.setup.measurer.items.len()).map(of_item).collect();
+        self.scatter = Some(scatter.clone());
+        self.leave_out(&scatter, MOST_SCATTER, |error| {
+            format!("filaments of drawn bonds scatter in it by {error:.0} %, so that the mean one does not tell it")
+        });
     }
 
-    fn end(self) -> Trade {
+    fn end(mut self) -> Trade {
+        if self.is_interrupted {
+            let note = "candidates that did not run: interrupted";
+            self.left_out.push(note.to_owned());
+        }
         let is_good = |i: &usize| {
             let candidate = &self.candidates[*i];
             candidate.failure.is_none() && candidate.worst_error() <= self.setup.options.error

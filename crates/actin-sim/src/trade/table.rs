@@ -3,6 +3,9 @@
 use super::{Candidate, Trade};
 use std::fmt;
 
+/// Most items that have a column each.
+const MOST_COLUMNS: usize = 8;
+
 /// Width of the column of names.
 const NAME: usize = 60;
 
@@ -54,12 +57,13 @@ impl fmt::Display for Trade {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.write_reference(f)?;
         write!(f, "{:NAME$}{:>9}{:>8}", "errors in %", "time", "faster")?;
-        for item in &self.items {
-            write!(f, "{:>13.12}", item.name)?;
+        let columns = self.columns();
+        for (name, _) in &columns {
+            write!(f, "{name:>13.12}")?;
         }
         writeln!(f, "   worst")?;
         for (i, candidate) in self.candidates.iter().enumerate() {
-            self.write_candidate(f, candidate, self.best == Some(i))?;
+            self.write_candidate(f, candidate, (&columns, self.best == Some(i)))?;
         }
         if let Some(scatter) = &self.scatter {
             write!(
@@ -67,7 +71,7 @@ impl fmt::Display for Trade {
                 "{:NAME$}{:17}",
                 "filaments of 64 drawn bonds scatter by", ""
             )?;
-            write_errors(f, scatter, &[])?;
+            write_errors(f, &shown(&columns, scatter, &[]))?;
             writeln!(f)?;
         }
         for left in &self.left_out {
@@ -105,17 +109,36 @@ impl Trade {
                 f,
                 "warning: the reference is itself off by more than a third of the wanted error:"
             )?;
-            write_errors(f, &reference.own_errors, &[])?;
+            write_errors(f, &shown(&self.columns(), &reference.own_errors, &[]))?;
             writeln!(f)?;
         }
         Ok(())
+    }
+
+    /// Columns of the table: items, or where they are many the worst of each quantity.
+    fn columns(&self) -> Vec<Column> {
+        let items = self.items.iter().enumerate();
+        if self.items.len() <= MOST_COLUMNS {
+            return items
+                .map(|(i, item)| (item.name.clone(), vec![i]))
+                .collect();
+        }
+        let mut columns: Vec<Column> = Vec::new();
+        for (i, item) in items {
+            let name = item.measure.to_string();
+            match columns.iter_mut().find(|column| column.0 == name) {
+                Some(column) => column.1.push(i),
+                None => columns.push((name, vec![i])),
+            }
+        }
+        columns
     }
 
     fn write_candidate(
         &self,
         f: &mut fmt::Formatter<'_>,
         one: &Candidate,
-        is_best: bool,
+        (columns, is_best): (&[Column], bool),
     ) -> fmt::Result {
         let name = &one.name;
         if let Some(failure) = &one.failure {
@@ -123,7 +146,7 @@ impl Trade {
         }
         let faster = self.usual_s() / one.wall_s;
         write!(f, "{name:NAME$}{:>9}{faster:>8.2}", time(one.wall_s))?;
-        write_errors(f, &one.errors, &one.standard_errors)?;
+        write_errors(f, &shown(columns, &one.errors, &one.standard_errors))?;
         write!(f, "   {:.2}", 100.0 * one.error())?;
         for (share, error) in &one.at_loads {
             write!(f, ", {:.2} at {share} of the loads", 100.0 * error)?;
@@ -132,26 +155,39 @@ impl Trade {
     }
 }
 
-fn write_errors(
-    f: &mut fmt::Formatter<'_>,
+/// A column: its name and the items whose worst error it shows.
+type Column = (String, Vec<usize>);
+
+/// The error with its standard error in each column.
+fn shown(
+    columns: &[Column],
     errors: &[Option<f64>],
     standard_errors: &[f64],
-) -> fmt::Result {
-    let standard = standard_errors
-        .iter()
-        .copied()
-        .chain(std::iter::repeat(0.0));
-    errors
-        .iter()
-        .zip(standard)
-        .try_for_each(|(error, standard)| match error {
-            Some(error) if standard > 0.0 => {
-                let both = format!("{:.1} +- {:.1}", 100.0 * error, 100.0 * standard);
-                write!(f, "{both:>13}")
-            }
-            Some(error) => write!(f, "{:>13.2}", 100.0 * error),
-            None => write!(f, "{:>13}", "-"),
-        })
+) -> Vec<Option<(f64, f64)>> {
+    let standard = |i: usize| standard_errors.get(i).copied().unwrap_or_default();
+    let of = |i: &usize| {
+        errors
+            .get(*i)
+            .copied()
+            .flatten()
+            .map(|error| (error, standard(*i)))
+    };
+    let worst = |items: &Vec<usize>| {
+        let all: Option<Vec<(f64, f64)>> = items.iter().map(of).collect();
+        all?.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    columns.iter().map(|(_, items)| worst(items)).collect()
+}
+
+fn write_errors(f: &mut fmt::Formatter<'_>, errors: &[Option<(f64, f64)>]) -> fmt::Result {
+    errors.iter().try_for_each(|error| match error {
+        Some((error, standard)) if *standard > 0.0 => {
+            let both = format!("{:.1} +- {:.1}", 100.0 * error, 100.0 * standard);
+            write!(f, "{both:>13}")
+        }
+        Some((error, _)) => write!(f, "{:>13.2}", 100.0 * error),
+        None => write!(f, "{:>13}", "-"),
+    })
 }
 
 fn time(seconds: f64) -> String {
