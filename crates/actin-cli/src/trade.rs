@@ -1,4 +1,4 @@
-//! `actin trade`: what accuracy costs in a scene, as a table, a picture and a scene that is good enough.
+//! `actin trade`: error against time for a scene, as a table, a picture and the cheapest scene within an error.
 
 use crate::failure::{Failure, Read};
 use crate::progress;
@@ -9,24 +9,24 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-/// The files that are written.
+/// Output files.
 const FILES: [&str; 3] = ["trade.csv", "trade.svg", "best.ron"];
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct TradeArguments {
     #[command(flatten)]
     source: SceneArguments,
-    /// What candidates are compared by: tip, height, end-force, end-couple, energy, curvature, linker-force, or the
-    /// beginning of a column of observables.csv; several with commas. By default what the scene observes and its tips.
+    /// Compared quantities, separated by commas: tip, height, end-force, end-couple, energy, curvature, linker-force, or
+    /// the prefix of a column of observables.csv. By default the observables of the scene and its tips.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
-    /// Largest relative error that is wanted.
+    /// Largest accepted relative error.
     #[arg(long, default_value_t = 0.02)]
     error: f64,
     /// Longest time of one run, in seconds.
     #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = budget)]
     budget: Duration,
-    /// Shares of the loads at which candidates that meet the error are judged, too; 1 for none.
+    /// Fractions of the loads at which candidates within the error run again; 1 for no further runs.
     #[arg(
         long,
         value_name = "SHARE",
@@ -34,13 +34,13 @@ pub(crate) struct TradeArguments {
         default_value = "0.5"
     )]
     loads: Vec<f64>,
-    /// Tries finer meshes and other laws, too.
+    /// Adds finer meshes and other laws to the candidates.
     #[arg(long)]
     all: bool,
-    /// Where trade.csv, trade.svg and best.ron are written; by default `trades/` and the name of the scene.
+    /// Folder of trade.csv, trade.svg and best.ron; by default `trades/` and the name of the scene.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Replaces these files of an earlier trade.
+    /// Replaces trade.csv, trade.svg and best.ron of an earlier trade.
     #[arg(long)]
     overwrite: bool,
 }
@@ -49,7 +49,7 @@ fn budget(text: &str) -> Result<Duration, String> {
     crate::seconds(text.strip_suffix('s').unwrap_or(text))
 }
 
-/// Runs the trade, prints it and writes its files.
+/// Runs the trade, prints the table and writes the files.
 pub(crate) fn trade(arguments: &TradeArguments) -> Result<(), Failure> {
     let read = Read::new(&arguments.source)?;
     let out = folder(arguments)?;
@@ -71,7 +71,7 @@ pub(crate) fn trade(arguments: &TradeArguments) -> Result<(), Failure> {
     write(&trade, &out).map_err(Failure::Unwritten)?;
     println!("written: {} in {}", FILES.join(", "), out.display());
     if interrupted.load(Ordering::Relaxed) {
-        let message = "the table holds what had run".to_owned();
+        let message = "the table contains the candidates before the interruption".to_owned();
         return Err(Failure::Interrupted(message));
     }
     Ok(())
@@ -97,7 +97,7 @@ fn measure(name: &str) -> Measure {
     }
 }
 
-/// The folder, which holds none of the files unless they may be replaced.
+/// Creates the output folder; existing files are an error without `--overwrite`.
 fn folder(arguments: &TradeArguments) -> Result<PathBuf, Failure> {
     let name = arguments
         .source

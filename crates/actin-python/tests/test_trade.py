@@ -117,13 +117,13 @@ def test_progress_names_each_run_and_may_end_the_trade(cantilever, capsys):
 
     def stop(name):
         names.append(name)
-        if len(names) == 4:
+        if len(names) == 6:
             raise KeyboardInterrupt
 
     with pytest.raises(actin.Interrupted, match="trade was interrupted") as caught:
         actin.trade(cantilever, progress=stop)
-    assert names[0] == "every monomer" and len(names) == 4
-    assert list(caught.value.trade.table["candidate"][:2]) == names[1:3] and caught.value.run is None
+    assert names[0] == "every monomer" and len(names) == 6
+    assert list(caught.value.trade.table["candidate"][:2]) == names[4:6] and caught.value.run is None
 
     def refuse(name):
         raise RuntimeError("enough")

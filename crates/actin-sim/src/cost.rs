@@ -1,11 +1,11 @@
-//! Cost of a run: counts that are known before it starts, and its time, measured on its first steps.
+//! Cost of a run: counts known before the start, and time measured on the first steps.
 
 use crate::scene::Task;
 use crate::{Assembly, Plan, Record, RunError, Sink, Status, memory};
 use std::fmt;
 use std::time::Instant;
 
-/// Time after which a measurement ends (s). Motions with inertia take at least 100 steps.
+/// Duration of a measurement (s). Motions with inertia run for at least 100 steps.
 const MEASURED_S: f64 = 0.2;
 
 /// Counts of a run.
@@ -13,30 +13,29 @@ const MEASURED_S: f64 = 0.2;
 pub struct Cost {
     /// Bonds between monomers.
     pub bonds: usize,
-    /// Segments of rods and bonds of junctions.
+    /// Rod segments and bonds of junctions.
     pub elements: usize,
-    /// Evaluations of the loads in a motion, at most; `None` for an equilibrium.
+    /// Upper bound of the force evaluations of a motion; `None` for an equilibrium.
     pub evaluations: Option<u64>,
-    /// Memory (bytes) of a run into a directory, where records go to the disk.
+    /// Memory (bytes) of a run into a directory, with records on the disk.
     pub bytes: f64,
-    /// Pairs of near segments and monomers as built, between which repulsion is evaluated; `None` without
-    /// repulsion.
+    /// Pairs of neighbouring segments and monomers, as built, in the repulsion; `None` without repulsion.
     pub contacts: Option<usize>,
 }
 
-/// Time of a run on one core of this machine, measured on its first steps. Writing of results is not included.
+/// Time of a run on one core of this machine, measured on its first steps, without output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
-    /// Steps that were measured: time steps, or Newton steps.
+    /// Number of measured steps: time steps or Newton steps.
     pub steps: u64,
-    /// Time of each (s).
+    /// Time of one step (s).
     pub step_s: f64,
-    /// Time of the whole run with building (s); `None` for an equilibrium that was not reached in the measurement.
+    /// Time of assembly and run (s); `None` for an equilibrium beyond the duration of the measurement.
     pub total_s: Option<f64>,
 }
 
 impl Plan<'_> {
-    /// Counts of its run.
+    /// Returns the counts of the run.
     pub fn cost(&self) -> Cost {
         let assembly = self.assembly();
         let elements = (0..assembly.filaments.len()).map(|filament| elements(assembly, filament));
@@ -49,7 +48,7 @@ impl Plan<'_> {
         }
     }
 
-    /// Time of its run, extrapolated from its first 0.2 s. `None` for sections that follow a motion.
+    /// Returns the time of the run, extrapolated from its first 0.2 s; `None` if the run is refused.
     pub fn timing(&self) -> Option<Timing> {
         let mut watch = Stopwatch::default();
         let began = Instant::now();
@@ -82,7 +81,7 @@ impl Plan<'_> {
     }
 }
 
-/// Segments and bonds of junctions of a filament.
+/// Returns the number of segments and bonds of junctions of a filament.
 fn elements(assembly: &Assembly, filament: usize) -> usize {
     let counts = assembly.counts_of(filament);
     let scene = assembly.scene.filament_at(filament);
@@ -90,7 +89,7 @@ fn elements(assembly: &Assembly, filament: usize) -> usize {
     counts.segments + counts.junctions * attached
 }
 
-/// A sink that interrupts a run after [`MEASURED_S`].
+/// Sink that interrupts a run after [`MEASURED_S`].
 #[derive(Default)]
 struct Stopwatch {
     /// Times of the first and the last check.
@@ -144,7 +143,7 @@ impl fmt::Display for Timing {
     }
 }
 
-/// A time in words, with the digits that an estimate has.
+/// Formats a time with two significant digits or fewer.
 fn time(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => format!("{s:.1e} s"),
@@ -176,7 +175,7 @@ mod tests {
 
     const ROD: &str = "Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)";
 
-    /// 1 ns in steps of 0.001 ns of four evaluations; 6 segments and two bonds of a junction.
+    /// 4000 evaluations: 1000 steps of 0.001 ns with four evaluations each. 8 elements: 6 segments and 2 bonds of a junction.
     #[test]
     fn counts_are_those_of_the_scene() {
         let motion = "task: Dynamics(duration_ns: 1.0, time_step_ns: 0.001),";
@@ -193,7 +192,7 @@ mod tests {
         assert!(words.contains("contacts of the repulsion"), "{words}");
     }
 
-    /// A long motion is interrupted and extrapolated, a short equilibrium is reached.
+    /// A long motion is interrupted and extrapolated; a short equilibrium converges within the measurement.
     #[test]
     fn times_are_measured_and_extrapolated() {
         let motion = "task: Dynamics(duration_ns: 1e4, time_step_ns: 0.001),";

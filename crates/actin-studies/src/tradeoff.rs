@@ -1,34 +1,34 @@
-//! `cargo xtask tradeoff`: what accuracy costs in the scenes of `scenarios/trade`, as `actin trade` tells it.
+//! `cargo xtask tradeoff`: errors and times of `actin trade` on the scenes of `scenarios/trade`.
 
-use actin_sim::trade::{Candidate, Measure, Options as Asked, Trade, Watch, trade};
+use actin_sim::trade::{Candidate, Measure, Options as TradeOptions, Trade, Watch, trade};
 use actin_sim::{Assembly, Scene};
 use anyhow::{Context, Error, Result};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Where the scenes are.
+/// Folder of the scenes.
 const SCENES: &str = "scenarios/trade";
-/// The page of the book, and the folder of its pictures.
+/// Page of the book and folder of its pictures.
 const PAGE: &str = "docs/measured/trade.md";
 const PICTURES: &str = "docs/measured/trade";
-/// Wanted errors, the largest first.
+/// Wanted errors in descending order.
 const WANTED: [f64; 3] = [0.05, 0.02, 0.01];
 
-/// What is traded, and where it goes.
+/// Options of the study.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
     /// Names of scenes in `scenarios/trade`; all by default.
     names: Vec<String>,
-    /// Where tables and pictures are written.
+    /// Output folder of tables and pictures.
     #[arg(long, default_value = "target/tradeoff")]
     out: PathBuf,
-    /// Also `docs/measured/trade.md`.
+    /// Writes `docs/measured/trade.md` and its pictures, too.
     #[arg(long)]
     write: bool,
 }
 
-/// Trades, prints and writes.
+/// Runs the trade of each scene twice, prints the tables and writes the page.
 pub(crate) fn run(options: &Options) -> Result<()> {
     fs::create_dir_all(&options.out)?;
     let mut summary = String::new();
@@ -66,15 +66,15 @@ pub(crate) fn run(options: &Options) -> Result<()> {
 const HEAD: &str = "# What accuracy costs, scene by scene
 
 Written by `cargo xtask tradeoff --write`, which runs `actin trade --error 0.05` twice on each scene of `scenarios/trade`, on one
-core. Errors are against every monomer, of the worst quantity, at the loads of the scene and at half of them. \"Again\" is
-the time of the choice over that of the cheapest that meets the same error when all are timed again; \"runs\" is the time of
-the reference with all candidates over that of the reference.
+core. Each error is the largest of all quantities, at the loads of the scene and at half of them, against every monomer.
+\"Again\" is the time of the chosen candidate over the time of the fastest one within the same error, both from the second
+trade; the largest ratio counts. \"Runs\" is the time of the reference and all candidates over the time of the reference.
 
 | scene | reference | within 5 % | faster | within 2 % | faster | within 1 % | faster | again | runs |
 |---|---|---|---|---|---|---|---|---|---|
 ";
 
-/// Names and files of the scenes that are asked for, in order.
+/// Returns names and files of the selected scenes, in order.
 fn scenes(names: &[String]) -> Result<Vec<(String, PathBuf)>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(SCENES).context(SCENES)? {
@@ -91,7 +91,7 @@ fn scenes(names: &[String]) -> Result<Vec<(String, PathBuf)>> {
     Ok(found)
 }
 
-/// What a scene has: tips, or heights and what the ends bear where none is free; forces of linkers; the energy.
+/// Runs the trade of a scene. It compares tips (or heights and reactions without a free end), linker forces and energy.
 fn traded(scene: &Scene) -> Result<Trade> {
     let assembly = Assembly::build(scene).map_err(|problem| Error::msg(problem.to_string()))?;
     let has_tip = assembly.clamps.len() < 2 * assembly.filaments.len();
@@ -104,15 +104,15 @@ fn traded(scene: &Scene) -> Result<Trade> {
         measures.push(Measure::LinkerForce(None));
     }
     measures.push(Measure::Energy);
-    let asked = Asked {
+    let options = TradeOptions {
         measures,
         error: WANTED[0],
-        ..Asked::default()
+        ..TradeOptions::default()
     };
-    Ok(trade(scene, &asked, &Watch::NOBODY)?)
+    Ok(trade(scene, &options, &Watch::NOBODY)?)
 }
 
-/// The cheapest candidate within an error.
+/// Returns the fastest candidate within an error, if it is faster than the reference.
 fn best(trade: &Trade, error: f64) -> Option<(usize, &Candidate)> {
     let all = trade.candidates.iter().enumerate();
     let good = all.filter(|(_, c)| c.failure.is_none() && c.worst_error() <= error);
@@ -120,6 +120,7 @@ fn best(trade: &Trade, error: f64) -> Option<(usize, &Candidate)> {
     least.filter(|(_, candidate)| candidate.wall_s < trade.reference.wall_s)
 }
 
+/// Returns the row of the summary for one scene.
 fn row(name: &str, first: &Trade, second: &Trade) -> String {
     let mut again: f64 = 1.0;
     let cells = WANTED.map(|wanted| match best(first, wanted) {
@@ -141,7 +142,7 @@ fn row(name: &str, first: &Trade, second: &Trade) -> String {
     )
 }
 
-/// What a scene says of itself at its top.
+/// Returns the leading comment of a scene.
 fn comment(text: &str) -> String {
     let lines = text.lines().map_while(|line| line.strip_prefix("//"));
     lines.map(str::trim).collect::<Vec<_>>().join(" ")

@@ -1,14 +1,16 @@
-//! What accuracy costs in a scene, as a picture.
+//! Picture of a trade: error against time.
 
 use crate::draw::{Colour, Scatter, ScatterPoint, lines::OKABE_ITO};
 use actin_sim::trade::{Candidate, Trade};
 use std::path::Path;
 
-/// Draws the largest error of each candidate against its time into an SVG file, both logarithmic, with a line through
-/// those that none beats in both and one at the wanted error. Nothing where no candidate has an error.
+/// Draws error against time into an SVG file, with logarithmic axes.
+///
+/// Each point is the largest error of a candidate. One line connects the Pareto front, another marks the wanted error. A
+/// candidate with zero or unknown error has no point.
 ///
 /// # Errors
-/// A file that cannot be written.
+/// Failure to write the file.
 pub fn draw_trade(trade: &Trade, path: &Path) -> Result<(), String> {
     let has_result = |candidate: &&Candidate| {
         candidate.failure.is_none()
@@ -40,12 +42,12 @@ pub fn draw_trade(trade: &Trade, path: &Path) -> Result<(), String> {
     });
     let wanted = format!("wanted: {} %", 100.0 * trade.options.error);
     Scatter {
-        title: "What accuracy costs",
+        title: "Error against time",
         x_label: "time (s)",
         y_label: "largest relative error",
         points: points.collect(),
         level: Some((trade.options.error, &wanted)),
-        list_title: "candidates; * none is both faster and nearer",
+        list_title: "candidates; * Pareto front",
     }
     .draw(path)
 }

@@ -1,4 +1,4 @@
-//! `actin trade`: its table, its files and what it refuses.
+//! `actin trade`: table, files and error messages.
 
 use crate::workplace;
 use std::fs;
@@ -11,7 +11,7 @@ const BENT: &str = "Scene(
     task: Equilibrium(),
 )";
 
-/// The best scene runs, and the table and the picture have every candidate.
+/// The best scene runs. The table and the picture contain every candidate.
 #[test]
 fn a_trade_writes_a_table_a_picture_and_a_scene() {
     let place = Workplace::with(BENT);
@@ -66,7 +66,7 @@ fn an_earlier_trade_is_not_overwritten() {
 }
 
 #[test]
-fn what_a_trade_cannot_compare_is_refused() {
+fn invalid_options_are_refused() {
     let place = Workplace::with(BENT);
     for (arguments, message) in [
         (

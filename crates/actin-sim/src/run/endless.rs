@@ -1,34 +1,36 @@
-//! An endless filament of monomers under the loads that a filament carries: what a stretch of it would do.
+//! Infinite filament of monomers under constant loads, for the local strains of a finite filament.
 
 use crate::assembly::ellipsoids;
 use crate::scene::{Monomers, SceneProblem};
 use crate::trade::weighted;
 use actin_ellipsoid::{Cell, CellResponse, Control, Hold, SixVector};
 
-/// Monomers of a cell: one period of the helix.
+/// Number of monomers in a periodic cell: one period of the helix.
 pub(super) const PERIOD: usize = 13;
 
-/// An endless filament of the mean of some monomers, with weighted bonds, in uniformly strained cells.
+/// Infinite filament with quadrature bonds, as a periodic cell under uniform strain.
 #[derive(Debug)]
 pub(super) struct EndlessFilament {
     cell: Cell,
 }
 
 impl EndlessFilament {
+    /// Creates the filament from the parameters of its monomers.
+    ///
     /// # Errors
-    /// Monomers whose helix does not close after 13.
+    /// A helix without a period of 13 monomers.
     pub(super) fn of(monomers: &Monomers) -> Result<Self, SceneProblem> {
         let model = ellipsoids(&weighted(monomers), 0)?;
         let cell = Cell::new(&model, PERIOD, Hold::Means);
         let cell = cell.map_err(|error| {
-            let rule =
-                format!("errors are known for helices of 13 monomers a period only: {error}");
+            let rule = format!("the helix must have a period of 13 monomers: {error}");
             SceneProblem::new("filament.monomers", "", rule)
         })?;
         Ok(Self { cell })
     }
 
-    /// Curvature and shear strain under couple and force (body axes), found from a cell under similar ones.
+    /// Returns curvature and shear strain under couple and force (body axes). `near` is the initial guess: the response to a
+    /// similar load.
     pub(super) fn under(
         &self,
         load: &SixVector,
@@ -38,7 +40,7 @@ impl EndlessFilament {
         self.cell.relax_under(&controls, near).ok()
     }
 
-    /// The same, found from a cell that is held at a twist (rad/nm) at first.
+    /// Returns the response under `load`, with the equilibrium at a fixed twist (rad/nm) as the initial guess.
     pub(super) fn under_from_twist(
         &self,
         load: &SixVector,

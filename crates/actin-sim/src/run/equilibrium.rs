@@ -9,7 +9,7 @@ use super::taken::Taken;
 use super::unknowns::newton;
 use super::{At, Failure, Outcome, Progress, Record, Recorded, RunPosition, Status};
 use crate::scene::{Equilibrium as Settings, Load, SceneProblem};
-use crate::trade::{Judged, model_error};
+use crate::trade::{ModelErrorResult, model_error};
 use crate::{Assembly, Booked};
 use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path,
@@ -37,8 +37,8 @@ pub struct EquilibriumReport {
     pub history: Vec<Residual>,
     /// Stable states about it, if the scene asks for them.
     pub states: Option<StableStates>,
-    /// The error of the number that the scene asks for it, and how it scatters with drawn bonds, or why they are not known.
-    pub error: Option<Judged>,
+    /// Model error and scatter of the requested quantity, or the reason for their absence.
+    pub error: Option<ModelErrorResult>,
 }
 
 /// Solves for the equilibrium, or follows the path.
@@ -486,7 +486,7 @@ fn report(
     position: PathPosition,
     lowest_eigenvalue: Option<f64>,
     work: SolverWork,
-    (states, error): (Option<StableStates>, Option<Judged>),
+    (states, error): (Option<StableStates>, Option<ModelErrorResult>),
 ) -> Option<EquilibriumReport> {
     let last = position.last?;
     last.certificate.map(|certificate| EquilibriumReport {

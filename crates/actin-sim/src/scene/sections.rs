@@ -36,29 +36,29 @@ enum Left {
     Following(Following),
 }
 
-/// Sections that the program chooses before a run, for what is wanted of the scene. Of an equilibrium without a limit of
-/// monomers that is every monomer, since to know the error of anything else takes that run. Otherwise rods and windows of
-/// monomers at walls, loads and linkers are run beside every monomer, of a long motion its beginning, and of those
-/// near enough the one with the least work is taken. Not in heat.
+/// Automatic choice of sections before a run, for a wanted accuracy. The program runs every monomer, rods, and windows of
+/// monomers at walls, loads and linkers; for a long motion only the beginning. It chooses the resolution with the least
+/// work within the wanted errors. For an equilibrium without a limit of monomers the choice is every monomer, since any
+/// measured error requires that run. Not available in heat.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Adaptive {
     /// Length of the filament; positive. It is rounded to whole monomers.
     pub length_nm: f64,
-    /// What is wanted, and how far it may be from the same scene with every monomer resolved.
+    /// Wanted quantity with its largest error against every monomer.
     pub want: Want,
-    /// What is wanted besides.
+    /// Further wanted quantities.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub also: Vec<Want>,
-    /// Most monomers that may be resolved; at least 13, a period. Where what is wanted needs more, the least
-    /// error of the resolutions tried counts, and the run says so.
+    /// Largest number of resolved monomers; at least 13, a period. If the wanted errors require more, the program chooses
+    /// the resolution with the smallest error and warns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub monomers: Option<usize>,
 }
 
 impl Adaptive {
-    /// All that is wanted.
+    /// Returns all wanted quantities.
     pub fn wants(&self) -> impl Iterator<Item = &Want> + Clone {
         std::iter::once(&self.want).chain(&self.also)
     }

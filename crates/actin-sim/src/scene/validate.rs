@@ -162,16 +162,15 @@ fn missing(scene: &Scene, quantity: Quantity) -> Option<(&'static str, String)> 
         };
         return (!is_inside).then(|| ("filament.sections", rule()));
     }
-    let held = |end: End| {
-        scene
-            .clamps
-            .iter()
-            .find(|clamp| clamp.filament == 0 && clamp.end == end)
-    };
-    let rule = match (quantity, held(End::Start), held(End::End)) {
-        (Quantity::Tip, Some(_), Some(_)) => "the tip is wanted, but both ends are clamped",
-        (Quantity::EndForce | Quantity::EndCouple, None, None) => {
+    let mut clamps = scene.clamps.iter();
+    let clamp = clamps.find(|clamp| clamp.filament == 0 && clamp.end == End::End);
+    let rule = match (quantity, clamp.map(|clamp| clamp.slides)) {
+        (Quantity::Tip, Some(Slides::Nowhere)) => "the tip at the end is wanted, but it is clamped",
+        (Quantity::EndForce | Quantity::EndCouple, None) => {
             "what the end bears is wanted, but it is free"
+        }
+        (Quantity::EndForce, Some(Slides::AlongAxis | Slides::Freely)) => {
+            "the force on the end is wanted, along which it slides"
         }
         _ => return None,
     };

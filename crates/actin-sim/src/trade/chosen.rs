@@ -1,9 +1,9 @@
-//! Sections that a wanted accuracy needs, chosen before a run.
+//! Choice of sections before a run, for a wanted accuracy.
 
 use super::ladder::{self, Proposal};
 use super::measure::{Measure, Measurer, Values};
-use super::resolution::{Whole, every_monomer_of};
-use super::run::{Limits, Ran, Unusable, run_once};
+use super::resolution::{FullResolution, every_monomer_of};
+use super::run::{Limits, RunResult, TrialFailure, run_once};
 use super::study::{errors, with_records_of};
 use super::worst;
 use crate::notes::{Note, codes};
@@ -12,41 +12,41 @@ use crate::{Assembly, Plan};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
-/// Most evaluations of bonds that the reference of a motion takes, some seconds; of a longer one the beginning is
-/// compared.
+/// Limit of the bond evaluations of a reference motion, a few seconds of time. The comparison of a longer motion covers
+/// its beginning only.
 const MOST_WORK: f64 = 1e9;
 
-/// Fewest records of a motion that are compared.
+/// Smallest number of compared records of a motion.
 const FEWEST_RECORDS: usize = 10;
 
-/// Evaluations of bonds that one of a segment takes as long as: about that of a rod under `Homogenised`.
+/// Evaluation time of a rod segment under `Homogenised`, in evaluations of a bond.
 const BONDS_PER_SEGMENT: f64 = 15.0;
 
-/// What was chosen, and why.
+/// Chosen sections, with the reasons of the choice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Chosen {
-    /// What was wanted, as `actin trade` names it, with its largest relative error.
+    /// Wanted quantities, with the names of `actin trade`, and their largest relative errors.
     pub wanted: Vec<(String, f64)>,
-    /// The most monomers that were allowed; none without a limit.
+    /// Limit of the number of monomers; `None` without a limit.
     pub most_monomers: Option<usize>,
-    /// Whether the wanted errors are met.
+    /// True if all wanted errors are met.
     pub is_met: bool,
-    /// What was chosen.
+    /// Name of the chosen resolution.
     pub name: String,
-    /// Monomers that are resolved.
+    /// Number of resolved monomers.
     pub monomers: usize,
-    /// The largest error of each of what was wanted, against every monomer; empty where every monomer is resolved.
+    /// Largest relative error of each wanted quantity against every monomer; empty if no reference was run.
     pub errors: Vec<f64>,
-    /// Share of the records of a motion that were compared.
+    /// Fraction of the records of a motion that were compared.
     pub share: f64,
-    /// Resolutions that were run beside the reference.
+    /// Number of resolutions compared with the reference.
     pub tried: usize,
-    /// Time that the choice took (s).
+    /// Time of the choice (s).
     pub wall_s: f64,
 }
 
 impl Chosen {
-    /// The choice in a sentence or two.
+    /// Returns the choice and its errors as a note, or as a warning if the wanted errors are not met.
     pub(crate) fn note(&self) -> Note {
         let wanted = self.wanted.iter();
         let wanted: Vec<String> = wanted
@@ -56,7 +56,7 @@ impl Chosen {
             .most_monomers
             .map_or_else(String::new, |most| format!(" with at most {most} monomers"));
         let found = if self.errors.is_empty() {
-            "; no reference was run, since one equilibrium of every monomer is the reference"
+            "; one equilibrium of every monomer is itself the reference, so no comparison was run"
                 .to_owned()
         } else {
             let errors = self.errors.iter().map(|e| format!("{:.2} %", 100.0 * e));
@@ -74,7 +74,8 @@ impl Chosen {
         let missed = if self.is_met {
             ""
         } else {
-            ". What is wanted is not met within so many monomers: of those tried this one is nearest"
+            ". The wanted errors are not met within so many monomers: this resolution has the smallest \
+             error of all tried. Raise `monomers`, or accept a larger `error`"
         };
         let message = format!(
             "sections chosen for {}{limit}: {}{found}{missed}",
@@ -89,14 +90,13 @@ impl Chosen {
     }
 }
 
-/// The scene with sections written for those that are left to the program: what meets the wanted errors with the least
-/// work, counted in evaluations, so that it is the same each time.
+/// Returns the scene with explicit sections in place of `Adaptive`.
 ///
-/// Of an equilibrium without a limit of monomers that is every monomer: to know the error of anything else takes that
-/// run.
+/// The choice meets the wanted errors with the least work. Work is counted in evaluations, so the choice is reproducible.
+/// For an equilibrium without a limit of monomers the choice is every monomer, since any measured error requires that run.
 ///
 /// # Errors
-/// Scenes that cannot be compared, a wanted quantity that a scene does not have, a reference without a result.
+/// Scenes without a reference, wanted quantities without a counterpart in the scene, a reference without a result.
 pub fn choose(scene: &Scene) -> Result<(Scene, Chosen), SceneProblem> {
     let began = Instant::now();
     let choice = Choice::of(scene)?;
@@ -112,18 +112,18 @@ pub fn choose(scene: &Scene) -> Result<(Scene, Chosen), SceneProblem> {
 
 struct Choice<'a> {
     scene: &'a Scene,
-    /// What is wanted of all, each with its error.
+    /// Wanted quantities of all filaments, with their largest errors.
     wanted: Vec<(Measure, f64)>,
     most_monomers: Option<usize>,
-    /// Filaments whose sections are to be chosen.
+    /// True for each filament with `Adaptive` sections.
     adaptive: Vec<bool>,
 }
 
 impl<'a> Choice<'a> {
     fn of(scene: &'a Scene) -> Result<Self, SceneProblem> {
         if scene.thermal().is_some() {
-            let rule = "sections are chosen for motion without heat only: what a resolution changes in heat shows in means \
-                        over many seeds";
+            let rule = "sections are chosen for motion without heat only: in heat, write sections and compare means over \
+                        seeds with `actin trade`";
             return Err(SceneProblem::new("task", "", rule));
         }
         let all: Vec<Option<&Adaptive>> = scene
@@ -159,11 +159,11 @@ impl<'a> Choice<'a> {
         }
     }
 
-    /// The scene with every monomer of the filaments that are chosen, and why others keep what they have.
-    fn whole(&self) -> Result<(Whole, Assembly), SceneProblem> {
-        let (every, kept) = every_monomer_of(self.scene, |filament| self.adaptive[filament]);
-        let mut adaptive = self.adaptive.iter().zip(&kept);
-        if let Some(reason) = adaptive.find_map(|(chosen, kept)| (*kept).filter(|_| *chosen)) {
+    /// Builds the scene with every monomer in the `Adaptive` filaments.
+    fn full_resolution(&self) -> Result<(FullResolution, Assembly), SceneProblem> {
+        let (every, fixed) = every_monomer_of(self.scene, |filament| self.adaptive[filament]);
+        let mut adaptive = self.adaptive.iter().zip(&fixed);
+        if let Some(reason) = adaptive.find_map(|(chosen, fixed)| (*fixed).filter(|_| *chosen)) {
             return Err(SceneProblem::new(
                 "filament.sections",
                 "Adaptive(..)",
@@ -172,13 +172,13 @@ impl<'a> Choice<'a> {
         }
         let assembly = Assembly::build(&every)?;
         let plan = Plan::new(&assembly)?;
-        let mut whole = Whole::new(&assembly, kept);
-        whole.scene = with_records_of(every, plan.scene());
-        Ok((whole, assembly))
+        let mut full = FullResolution::new(&assembly, fixed);
+        full.scene = with_records_of(every, plan.scene());
+        Ok((full, assembly))
     }
 
     fn every_monomer(&self) -> Result<(Scene, Chosen), SceneProblem> {
-        let (whole, assembly) = self.whole()?;
+        let (full, assembly) = self.full_resolution()?;
         let measures: Vec<Measure> = self
             .wanted
             .iter()
@@ -187,12 +187,12 @@ impl<'a> Choice<'a> {
         Measurer::new(&assembly, &measures)?;
         let monomers = assembly.counts().monomers;
         Ok((
-            self.with_sections_of(&whole.scene),
+            self.with_sections_of(&full.scene),
             self.chosen("every monomer", monomers),
         ))
     }
 
-    /// The scene itself with the sections of another.
+    /// Returns the scene with the `Adaptive` sections replaced by the sections of `other`.
     fn with_sections_of(&self, other: &Scene) -> Scene {
         let mut scene = self.scene.clone();
         let filaments = scene.filaments_mut().zip(other.filaments());
@@ -210,7 +210,7 @@ impl<'a> Choice<'a> {
     }
 
     fn by_trial(&self) -> Result<(Scene, Chosen), SceneProblem> {
-        let (whole, assembly) = self.whole()?;
+        let (full, assembly) = self.full_resolution()?;
         let measures: Vec<Measure> = self
             .wanted
             .iter()
@@ -218,25 +218,25 @@ impl<'a> Choice<'a> {
             .collect();
         let mut measurer = Measurer::new(&assembly, &measures)?;
         let records = records_of(&assembly)?;
-        let reference = trial(&whole.scene, records.map(|(first, _)| first))?;
+        let reference = trial(&full.scene, records.map(|(first, _)| first))?;
         let values = measurer.values(&reference.assembly, &reference.records);
         measurer.set_scales(&values);
-        let mut tried = vec![self.judged(
+        let mut tried = vec![self.assess(
             "every monomer",
-            &whole.scene,
+            &full.scene,
             &reference,
             vec![0.0; measurer.items.len()],
         )];
-        for Proposal { name, scene } in ladder::sections(&whole) {
-            // What finds no result is no choice.
-            let Ok(ran) = trial(&scene, records.map(|(first, _)| first)) else {
+        for Proposal { name, scene } in ladder::sections(&full) {
+            // Resolutions without a result are not candidates.
+            let Ok(result) = trial(&scene, records.map(|(first, _)| first)) else {
                 continue;
             };
-            let found = measurer.values(&ran.assembly, &ran.records);
-            tried.push(self.judged(
+            let found = measurer.values(&result.assembly, &result.records);
+            tried.push(self.assess(
                 &name,
                 &scene,
-                &ran,
+                &result,
                 self.errors(&measurer, (&values, &found)),
             ));
         }
@@ -249,7 +249,7 @@ impl<'a> Choice<'a> {
         Ok((self.with_sections_of(&best.scene), chosen))
     }
 
-    /// The errors of what is wanted, of each the largest.
+    /// Returns the largest error of each wanted quantity.
     fn errors(&self, measurer: &Measurer, (values, found): (&Values, &Values)) -> Vec<f64> {
         let all = errors(measurer, values, found);
         let of_wanted = |measure: &Measure| {
@@ -263,40 +263,40 @@ impl<'a> Choice<'a> {
             .collect()
     }
 
-    fn judged(&self, name: &str, scene: &Scene, ran: &Ran, errors: Vec<f64>) -> Judged {
+    fn assess(&self, name: &str, scene: &Scene, result: &RunResult, errors: Vec<f64>) -> Trial {
         let limits = self.wanted.iter().zip(&errors);
         let excess = limits
             .map(|((_, limit), error)| error / limit)
             .fold(0.0, f64::max);
-        let counts = ran.counts;
+        let counts = result.counts;
         let each = counts.bonds as f64 + BONDS_PER_SEGMENT * counts.segments as f64;
-        Judged {
+        Trial {
             name: name.to_owned(),
             scene: scene.clone(),
             monomers: counts.monomers,
             errors,
             excess,
             is_good: excess <= 1.0,
-            work: ran.evaluations as f64 * each,
+            work: result.evaluations as f64 * each,
         }
     }
 
-    /// Of those with no more monomers than are allowed the one that meets what is wanted with the least work, or the
-    /// nearest.
-    fn best<'t>(&self, tried: &'t [Judged]) -> Result<&'t Judged, SceneProblem> {
+    /// Returns the trial with the least work within the wanted errors, or the one with the smallest errors. Trials with too
+    /// many monomers are excluded.
+    fn best<'t>(&self, tried: &'t [Trial]) -> Result<&'t Trial, SceneProblem> {
         let most = self.most_monomers.unwrap_or(usize::MAX);
         let allowed = || tried.iter().filter(|one| one.monomers <= most);
         let good = allowed().filter(|one| one.is_good);
         let least = good.min_by(|a, b| a.work.total_cmp(&b.work));
         let nearest = || allowed().min_by(|a, b| a.excess.total_cmp(&b.excess));
         least.or_else(nearest).ok_or_else(|| {
-            let rule = "no resolution with so few monomers has a result";
+            let rule = "too few: no resolution within this limit has a result; raise the limit";
             SceneProblem::new("filament.sections.monomers", most, rule)
         })
     }
 }
 
-/// How many records of a motion are compared, and how many there are; none of an equilibrium.
+/// Returns the number of compared records of a motion and the number of all its records; `None` for an equilibrium.
 fn records_of(assembly: &Assembly) -> Result<Option<(usize, usize)>, SceneProblem> {
     let plan = Plan::new(assembly)?;
     let Some(estimate) = plan.estimate() else {
@@ -315,27 +315,28 @@ fn records_of(assembly: &Assembly) -> Result<Option<(usize, usize)>, SceneProble
     Ok(Some((first.max(FEWEST_RECORDS).min(all), all)))
 }
 
-struct Judged {
+/// A resolution with its errors and its work.
+struct Trial {
     name: String,
     scene: Scene,
     monomers: usize,
     errors: Vec<f64>,
-    /// The largest error over what is wanted.
+    /// Largest ratio of an error to its limit.
     excess: f64,
     is_good: bool,
     work: f64,
 }
 
-fn trial(scene: &Scene, records: Option<usize>) -> Result<Ran, SceneProblem> {
+fn trial(scene: &Scene, records: Option<usize>) -> Result<RunResult, SceneProblem> {
     let limits = Limits {
         budget: None,
         records,
         is_interrupted: &|| false,
     };
-    run_once(scene, limits).map_err(|unusable| match unusable {
-        Unusable::Refused(problem) => problem,
-        Unusable::Interrupted | Unusable::Failed(_) => {
-            let rule = format!("finds no result to judge them by: {unusable}");
+    run_once(scene, limits).map_err(|failure| match failure {
+        TrialFailure::Refused(problem) => problem,
+        TrialFailure::Interrupted | TrialFailure::Failed(_) => {
+            let rule = format!("cannot be chosen: the run fails: {failure}");
             SceneProblem::new("filament.sections", "", rule)
         }
     })

@@ -1,23 +1,22 @@
-//! The candidates of a scene, in the order in which they are tried: longer steps, rods, windows of monomers, single
-//! filaments as rods.
+//! Candidates of a scene in the order of their runs: longer steps, rods, windows of monomers, single filaments as rods.
 
-use super::resolution::{Rods, Whole};
+use super::resolution::{FullResolution, Rods};
 use crate::scene::{Integrator, Monomers, RodLaw, RotaryInertia, Scene, Section, Task};
 
-/// The longest steps of position Verlet, as a share of the stability limit.
+/// Time step of position Verlet candidates as a fraction of the stability limit.
 const LONGEST: f64 = 0.9;
 
-/// Multiples of the default step of overdamped motion.
+/// Time steps of overdamped candidates in units of the default step.
 const MULTIPLES: [u32; 2] = [4, 20];
 
-/// A scene to be tried.
+/// A named scene to run.
 #[derive(Clone, Debug)]
 pub(super) struct Proposal {
     pub name: String,
     pub scene: Scene,
 }
 
-/// The scene at half of its default step.
+/// Returns the scene at half of its default step.
 pub(super) fn at_half_step(scene: &Scene, default_ns: Option<f64>) -> Scene {
     let mut half = scene.clone();
     match &mut half.task {
@@ -31,7 +30,7 @@ pub(super) fn at_half_step(scene: &Scene, default_ns: Option<f64>) -> Scene {
     half
 }
 
-/// The scene itself with longer steps and cheaper integrators; `default_ns` is its default step.
+/// Returns the scene with longer steps and cheaper integrators; `default_ns` is its default step.
 pub(super) fn steps(scene: &Scene, default_ns: Option<f64>) -> Vec<Proposal> {
     let name = |what: &str| format!("every monomer, {what}");
     let mut all = Vec::new();
@@ -67,7 +66,7 @@ fn with_step(scene: &Scene, step_ns: f64) -> Scene {
     scene
 }
 
-/// The scene with the steps at which resolutions are tried.
+/// Returns the scene with the step and the integrator of coarse candidates.
 fn quick(scene: &Scene, default_ns: Option<f64>) -> Scene {
     let mut scene = scene.clone();
     let is_hot = scene.thermal().is_some();
@@ -89,23 +88,23 @@ fn quick(scene: &Scene, default_ns: Option<f64>) -> Scene {
     scene
 }
 
-/// Where windows of monomers may be.
+/// Possible centres of windows of monomers.
 struct Places<'a> {
-    whole: &'a Whole,
+    full: &'a FullResolution,
     bends_most: &'a [Option<f64>],
 }
 
 impl Places<'_> {
     fn walls_and_sites(&self, filament: usize) -> Vec<f64> {
-        let (walls, sites) = (self.whole.walls(filament), self.whole.sites(filament));
+        let (walls, sites) = (self.full.walls(filament), self.full.sites(filament));
         [walls, sites].concat()
     }
 
     fn windows(&self, of: Kind, width_nm: f64) -> Option<Vec<Vec<[f64; 2]>>> {
-        self.whole.windows(
+        self.full.windows(
             |filament| match of {
                 Kind::Everywhere => self.walls_and_sites(filament),
-                Kind::Sites => self.whole.sites(filament),
+                Kind::Sites => self.full.sites(filament),
                 Kind::Bend => Vec::from_iter(self.bends_most[filament]),
             },
             width_nm,
@@ -132,7 +131,7 @@ impl Kind {
 
 use RodLaw::{Constant, Fitted, Homogenised};
 
-/// Laws and lengths of segments (nm) of rods without monomers, by default and for `--all`.
+/// Laws and segment lengths (nm) of all-rod candidates, by default and for `--all`.
 const RODS: [(RodLaw, f64); 5] = [
     (Fitted, 40.0),
     (Homogenised, 40.0),
@@ -148,7 +147,7 @@ const MORE_RODS: [(RodLaw, f64); 5] = [
     (Constant, 20.0),
 ];
 
-/// Windows of monomers: where, how wide (nm), and the rods between them.
+/// Windows of monomers: centres, width (nm), and law and segment length (nm) of the rods between them.
 const WINDOWS: [(Kind, f64, RodLaw, f64); 4] = [
     (Kind::Everywhere, 20.0, Fitted, 20.0),
     (Kind::Everywhere, 40.0, Homogenised, 40.0),
@@ -162,16 +161,18 @@ const MORE_WINDOWS: [(Kind, f64, RodLaw, f64); 4] = [
     (Kind::Bend, 40.0, Homogenised, 20.0),
 ];
 
-/// Rods, and rods with windows of monomers. `bends_most` is where each filament of the reference does.
+/// Returns candidates of rods, and of rods with windows of monomers.
+///
+/// `bends_most` is the arc length (nm) of the largest curvature of each filament in the reference.
 pub(super) fn resolutions(
-    whole: &Whole,
+    full: &FullResolution,
     default_ns: Option<f64>,
     bends_most: &[Option<f64>],
     is_all: bool,
 ) -> Vec<Proposal> {
-    let whole = Whole {
-        scene: quick(&whole.scene, default_ns),
-        ..whole.clone()
+    let full = FullResolution {
+        scene: quick(&full.scene, default_ns),
+        ..full.clone()
     };
     let (more_rods, more_windows) = if is_all {
         (&MORE_RODS[..], &MORE_WINDOWS[..])
@@ -180,28 +181,28 @@ pub(super) fn resolutions(
     };
     let all_rods = RODS.iter().chain(more_rods);
     let of_rods = all_rods.map(|(law, segment_nm)| {
-        let rods = rods(&whole.scene, law, *segment_nm);
+        let rods = rods(&full.scene, law, *segment_nm);
         Proposal {
             name: rods.name(),
-            scene: whole.resolved(&rods, &whole.no_windows()),
+            scene: full.resolved(&rods, &full.no_windows()),
         }
     });
     let places = Places {
-        whole: &whole,
+        full: &full,
         bends_most,
     };
     let all_windows = WINDOWS.iter().chain(more_windows);
     let of_windows = all_windows.filter_map(|(kind, width_nm, law, segment_nm)| {
         let windows = places.windows(*kind, *width_nm)?;
-        let rods = rods(&whole.scene, law, *segment_nm);
+        let rods = rods(&full.scene, law, *segment_nm);
         Some(Proposal {
             name: format!("{width_nm} nm {}, {}", kind.name(), rods.name()),
-            scene: whole.resolved(&rods, &windows),
+            scene: full.resolved(&rods, &windows),
         })
     });
     let mut all: Vec<Proposal> = of_rods.chain(of_windows).collect();
-    all.extend(single_rods(&whole));
-    all.extend(is_all.then(|| with_eight_bonds(&whole.scene)));
+    all.extend(single_rods(&full));
+    all.extend(is_all.then(|| with_eight_bonds(&full.scene)));
     let mut known: Vec<Scene> = Vec::new();
     all.retain(|one| {
         let is_new = !known.contains(&one.scene);
@@ -211,7 +212,8 @@ pub(super) fn resolutions(
     all
 }
 
-/// Lengths of segments (nm), and windows of monomers, that sections are chosen from.
+/// Resolutions of `Adaptive`: segment lengths (nm) of all-rod filaments, and windows of monomers with their width (nm) and
+/// the segment length of the rods between them (nm).
 const SEGMENTS_NM: [f64; 3] = [40.0, 20.0, 10.0];
 const CHOSEN: [(Kind, f64, f64); 5] = [
     (Kind::Everywhere, 20.0, 20.0),
@@ -221,15 +223,15 @@ const CHOSEN: [(Kind, f64, f64); 5] = [
     (Kind::Sites, 40.0, 40.0),
 ];
 
-/// Sections to choose from, with the rods and the steps of the scene.
-pub(super) fn sections(whole: &Whole) -> Vec<Proposal> {
+/// Returns the candidates of `Adaptive`, with the rods and the time step of the scene.
+pub(super) fn sections(full: &FullResolution) -> Vec<Proposal> {
     let places = Places {
-        whole,
+        full,
         bends_most: &[],
     };
     let of_rods = SEGMENTS_NM.map(|segment_nm| {
         let name = format!("a rod of segments of {segment_nm} nm");
-        (name, segment_nm, Some(whole.no_windows()))
+        (name, segment_nm, Some(full.no_windows()))
     });
     let of_windows = CHOSEN.map(|(kind, width_nm, segment_nm)| {
         let name = format!(
@@ -240,25 +242,25 @@ pub(super) fn sections(whole: &Whole) -> Vec<Proposal> {
     });
     let all = of_rods.into_iter().chain(of_windows);
     all.filter_map(|(name, segment_nm, windows)| {
-        let scene = whole.with_sections(segment_nm, &windows?);
+        let scene = full.with_sections(segment_nm, &windows?);
         Some(Proposal { name, scene })
     })
     .collect()
 }
 
-/// References from coarse to fine, for scenes whose monomers are too many: rods, then windows of monomers that grow.
-pub(super) fn references(whole: &Whole) -> Vec<Proposal> {
-    let rods = rods(&whole.scene, &Homogenised, 20.0);
+/// Returns references from coarse to fine for scenes with too many monomers: rods, then windows of increasing width.
+pub(super) fn references(full: &FullResolution) -> Vec<Proposal> {
+    let rods = rods(&full.scene, &Homogenised, 20.0);
     let places = Places {
-        whole,
+        full,
         bends_most: &[],
     };
-    let coarse = self::rods(&whole.scene, &Homogenised, 40.0);
+    let coarse = self::rods(&full.scene, &Homogenised, 40.0);
     let first = Proposal {
         name: coarse.name(),
-        scene: whole.resolved(&coarse, &whole.no_windows()),
+        scene: full.resolved(&coarse, &full.no_windows()),
     };
-    let none = (rods.name(), Some(whole.no_windows()));
+    let none = (rods.name(), Some(full.no_windows()));
     let widths = [20.0, 40.0, 80.0].map(|width_nm| {
         let windows = places.windows(Kind::Everywhere, width_nm);
         let name = format!("{width_nm} nm {}, {}", Kind::Everywhere.name(), rods.name());
@@ -266,7 +268,7 @@ pub(super) fn references(whole: &Whole) -> Vec<Proposal> {
     });
     let finer = [none].into_iter().chain(widths);
     let finer = finer.filter_map(|(name, windows)| {
-        let scene = whole.resolved(&rods, &windows?);
+        let scene = full.resolved(&rods, &windows?);
         Some(Proposal { name, scene })
     });
     [first].into_iter().chain(finer).collect()
@@ -295,21 +297,21 @@ impl Rods {
     }
 }
 
-/// Of several filaments each in turn as a rod, the others as monomers.
-fn single_rods(whole: &Whole) -> Vec<Proposal> {
-    let free: Vec<usize> = whole.free().collect();
+/// Returns one candidate for each filament: this filament as a rod, all others as monomers.
+fn single_rods(full: &FullResolution) -> Vec<Proposal> {
+    let free: Vec<usize> = full.free().collect();
     if free.len() < 2 || free.len() > 4 {
         return Vec::new();
     }
     let of = |one: usize| {
-        let rods = rods(&whole.scene, &Homogenised, 20.0);
-        let windows = (0..whole.kept.len()).map(|f| {
-            let whole_nm = [0.0, whole.lengths_nm[f]];
+        let rods = rods(&full.scene, &Homogenised, 20.0);
+        let windows = (0..full.fixed.len()).map(|f| {
+            let whole_nm = [0.0, full.lengths_nm[f]];
             if f == one { Vec::new() } else { vec![whole_nm] }
         });
         Proposal {
             name: format!("filament {one} as {}", rods.name()),
-            scene: whole.resolved(&rods, &windows.collect::<Vec<_>>()),
+            scene: full.resolved(&rods, &windows.collect::<Vec<_>>()),
         }
     };
     free.into_iter().map(of).collect()

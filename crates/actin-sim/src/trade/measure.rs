@@ -1,7 +1,7 @@
-//! What resolutions are compared by: numbers and vectors of records, whatever resolves the filaments.
+//! Compared quantities: numbers and vectors of records, defined for every resolution.
 
 use crate::observe::View;
-use crate::scene::{End, Linker, Quantity, Resultant, Scene, SceneProblem, Setting};
+use crate::scene::{End, Linker, Quantity, Resultant, Scene, SceneProblem, Setting, Slides};
 use crate::shape::Ribbon;
 use crate::shape::axis::Axis;
 use crate::{Assembly, Record};
@@ -10,22 +10,22 @@ use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-/// Length of the chords between which a profile of curvature turns (nm): one period of 13 monomers.
+/// Chord length of curvature profiles (nm): one period of 13 monomers.
 const CHORD_NM: f64 = 35.6;
 
-/// How far a vector may lie off an axis along which it counts as lying, as a share of its size.
+/// Largest transverse part of an axial vector, as a fraction of its size.
 const OFF_AXIS: f64 = 1e-9;
 
-/// Size of a load (pN, pN nm), shift (nm) or turn (deg) up to which it does not fix a direction that nothing else does.
+/// Size of a load (pN, pN nm), shift (nm) or turn (deg) up to which a direction counts as undetermined.
 const WEAK: f64 = 0.01;
 
-/// Size of an item over that of the largest of the same quantity, below which it is compared with the latter.
+/// Smallest scale of an item as a fraction of the largest item of the same quantity.
 const LEAST_SHARE: f64 = 0.1;
 
 /// A quantity by which resolutions are compared.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Measure {
-    /// Displacement of every end that is not clamped (nm), from where it was built.
+    /// Displacement of every free end from its position as built (nm).
     Tip,
     /// Largest distance of each filament from its axis as built (nm).
     Height,
@@ -35,11 +35,11 @@ pub enum Measure {
     EndCouple,
     /// Elastic energy of the filaments (pN nm), without linkers and loads.
     Energy,
-    /// Profile of the curvature between chords of 35.6 nm (rad/nm); of one place (nm) if it is given.
+    /// Curvature between chords of 35.6 nm (rad/nm): the profile, or the value at one arc length (nm).
     Curvature(Option<f64>),
-    /// Force of every linker (pN), or of one.
+    /// Force of every linker, or of one linker (pN).
     LinkerForce(Option<usize>),
-    /// Columns of `observables.csv` whose names begin so.
+    /// Columns of `observables.csv` with this prefix.
     Observable(String),
 }
 
@@ -57,7 +57,7 @@ impl From<Quantity> for Measure {
     }
 }
 
-/// Names as on the command line; whatever is none of them names an observable.
+/// Parses a name of the command line. Any other name is the prefix of an observable.
 impl FromStr for Measure {
     type Err = std::convert::Infallible;
 
@@ -95,28 +95,28 @@ impl fmt::Display for Measure {
 /// One number or vector of every record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Item {
-    /// Its name in tables.
+    /// Name in tables.
     pub name: String,
-    /// Its unit.
+    /// Unit.
     pub unit: &'static str,
-    /// Size below which differences are compared with this size instead of the reference's.
+    /// Lower bound of the reference size in relative errors, in `unit`.
     pub scale: f64,
-    /// The quantity that it is of.
+    /// Quantity that includes this item.
     pub measure: Measure,
     kind: Kind,
-    /// In heat: what is compared of its values in time.
+    /// Statistic over time; `None` without heat.
     moment: Option<Moment>,
 }
 
-/// What is compared of a quantity in heat, over the records behind the first fifth.
+/// Statistic of a quantity in heat, over the records after the first fifth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Moment {
     Mean,
-    /// Root mean square of the distance from the mean.
+    /// Root mean square distance from the mean.
     Fluctuation,
 }
 
-/// Share of the records of a motion in heat that are left out at its beginning.
+/// Fraction of the records of a motion in heat that is discarded at its beginning.
 const BURN_IN: f64 = 0.2;
 
 impl Moment {
@@ -168,12 +168,12 @@ impl Item {
         }
     }
 
-    /// Whether the largest difference counts, not the norm: of a profile.
+    /// Returns true for profiles, whose size is the maximum norm instead of the Euclidean norm.
     fn is_profile(&self) -> bool {
         matches!(self.kind, Kind::Curvature(..))
     }
 
-    /// The size of a value: its norm, of a profile its largest number.
+    /// Returns the Euclidean norm of a value, or the maximum norm of a profile.
     pub(super) fn size(&self, value: &[f64]) -> f64 {
         let sizes = value.iter().map(|x| x.abs());
         if self.is_profile() {
@@ -183,14 +183,14 @@ impl Item {
         }
     }
 
-    /// The root mean square of sizes over records, at least the scale.
+    /// Returns the root mean square size over records, at least the scale.
     pub(super) fn mean_size(&self, values: &[Vec<f64>]) -> f64 {
         let squares: f64 = values.iter().map(|value| self.size(value).powi(2)).sum();
         (squares / values.len() as f64).sqrt().max(self.scale)
     }
 
-    /// How far a candidate is from the reference: the root mean square over records of the size of the difference, over
-    /// that of the reference or the scale. None where they have different records.
+    /// Returns the relative error of a candidate: the root mean square size of the difference over records, divided by the
+    /// root mean square size of the reference or, if larger, by the scale. `None` if the numbers of records differ.
     pub fn error(&self, reference: &[Vec<f64>], candidate: &[Vec<f64>]) -> Option<f64> {
         if reference.len() != candidate.len() || reference.is_empty() {
             return None;
@@ -210,22 +210,22 @@ impl Item {
     }
 }
 
-/// Values of each item in each record.
+/// Values of all items, indexed by item, record and component.
 pub(super) type Values = Vec<Vec<Vec<f64>>>;
 
-/// What is read off records, the same of every resolution of one scene.
+/// Evaluates the compared items of one scene in any resolution.
 #[derive(Clone, Debug)]
 pub(super) struct Measurer {
     pub items: Vec<Item>,
-    /// The axis about which nothing tells directions apart.
+    /// Symmetry axis of the scene; the azimuth about this axis is undetermined.
     free_about: Option<Vector3>,
 }
 
 impl Measurer {
-    /// What `measures`, or by default the usual ones, are in a scene whose reference is assembled.
+    /// Finds the items of `measures`, or of the default quantities if empty, in the assembled reference.
     ///
     /// # Errors
-    /// A quantity that the scene does not have.
+    /// A quantity without an item in the scene.
     pub(super) fn new(assembly: &Assembly, measures: &[Measure]) -> Result<Self, SceneProblem> {
         let by_default = by_default(assembly);
         let measures = if measures.is_empty() {
@@ -256,8 +256,8 @@ impl Measurer {
         })
     }
 
-    /// Raises the scale of items to a tenth of the largest of the same quantity: of many tips those that hardly move do
-    /// not count more than the others.
+    /// Raises the scale of each item to a tenth of the largest item of the same quantity. Tips with small displacements then
+    /// do not dominate the error.
     pub(super) fn set_scales(&mut self, reference: &Values) {
         let sizes: Vec<f64> = self
             .items
@@ -277,12 +277,12 @@ impl Measurer {
         }
     }
 
-    /// Whether directions across the axis are left out.
+    /// Returns true if the azimuth about the symmetry axis is excluded.
     pub(super) fn leaves_out_azimuth(&self) -> bool {
         self.free_about.is_some()
     }
 
-    /// Values of each item in each record.
+    /// Returns the value of each item in each record.
     pub(super) fn values(&self, assembly: &Assembly, records: &[Record]) -> Values {
         let views: Vec<View<'_>> = records
             .iter()
@@ -344,7 +344,7 @@ impl Measurer {
         }
     }
 
-    /// A vector without the direction that nothing tells: its parts along and across the axis.
+    /// Returns the components of a vector or, with a symmetry axis, its axial part and the size of its transverse part.
     fn vector(&self, vector: Vector3) -> Vec<f64> {
         match self.free_about {
             None => vector.as_slice().to_vec(),
@@ -356,7 +356,7 @@ impl Measurer {
     }
 }
 
-/// What is compared of an item in heat.
+/// Returns the mean and the fluctuation of an item in heat.
 fn moments(item: &Item) -> [Item; 2] {
     let of = |name: &str, moment| Item {
         name: format!("{} {name}", item.name),
@@ -366,7 +366,7 @@ fn moments(item: &Item) -> [Item; 2] {
     [of("mean", Moment::Mean), of("rms", Moment::Fluctuation)]
 }
 
-/// What a scene is compared by if nothing is named: what it observes, and its tips; where no tip is free, its height.
+/// Returns the default quantities: the observables of the scene and its tips, or its heights if no tip is free.
 fn by_default(assembly: &Assembly) -> Vec<Measure> {
     let mut measures: Vec<Measure> = assembly
         .observed()
@@ -391,7 +391,10 @@ fn items_of(assembly: &Assembly, measure: &Measure) -> Vec<Item> {
             let starts = filaments().map(|f| (f, End::Start, "start"));
             let ends = filaments().map(|f| (f, End::End, "tip"));
             let free = starts.chain(ends);
-            let free = free.filter(|(f, end, _)| assembly.clamp_at(*f, *end).is_none());
+            let free = free.filter(|(f, end, _)| {
+                let clamp = assembly.clamp_at(*f, *end);
+                clamp.is_none_or(|clamp| clamp.slides != Slides::Nowhere)
+            });
             free.map(|(f, end, name)| Item::new(of(name, f), "nm", Kind::Tip(f, end)))
                 .collect()
         }
@@ -415,7 +418,7 @@ fn items_of(assembly: &Assembly, measure: &Measure) -> Vec<Item> {
     }
 }
 
-/// A name with the index of the filament, where there are several.
+/// Appends the index of the filament if the scene has several.
 fn name_of(assembly: &Assembly, what: &str, filament: usize) -> String {
     match assembly.filaments.len() {
         1 => what.to_owned(),
@@ -441,7 +444,7 @@ fn of_clamps(
     named.collect()
 }
 
-/// Columns of observables whose names begin so, those of one vector together.
+/// Returns the columns of observables with a prefix; the three components of a vector form one item.
 fn columns(all: &[String], name: &str) -> Vec<Item> {
     let mut items: Vec<Item> = Vec::new();
     for (i, column) in all.iter().enumerate() {
@@ -472,7 +475,7 @@ fn columns(all: &[String], name: &str) -> Vec<Item> {
     items
 }
 
-/// The name of a column without what tells the components of a vector apart and its unit.
+/// Returns the name of a column without the component of a vector and its unit.
 fn column_stem(column: &str) -> &str {
     let axes = ["_x", "_y", "_z"];
     let place = axes.iter().find_map(|axis| {
@@ -483,7 +486,7 @@ fn column_stem(column: &str) -> &str {
     place.map_or(column, |at| &column[..at])
 }
 
-/// Ends of chords along a filament (nm), or of the two about a place.
+/// Returns the arc lengths of chord ends (nm) along a filament, or of the two chords next to `at_nm`.
 fn chords(length_nm: f64, at_nm: Option<f64>) -> Vec<f64> {
     if let Some(at_nm) = at_nm {
         let last = (length_nm - 2.0 * CHORD_NM).max(0.0);
@@ -494,7 +497,7 @@ fn chords(length_nm: f64, at_nm: Option<f64>) -> Vec<f64> {
     ends.take_while(|s| *s <= length_nm + 1e-9).collect()
 }
 
-/// Angle between neighbouring chords over their length, at each inner place.
+/// Returns the angle between neighbouring chords divided by the chord length (rad/nm), at each inner point.
 fn turns(ribbon: &Ribbon, places: &[f64]) -> Vec<f64> {
     let axis = Axis::along(ribbon);
     let points: Vec<Vector3> = places.iter().map(|s| axis.at(*s).0).collect();
@@ -505,8 +508,10 @@ fn turns(ribbon: &Ribbon, places: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// The axis about which a scene looks the same but for the helix of its monomers, if there is one: a single straight
-/// filament, loaded along and about it, beside which nothing but weak forces acts.
+/// Returns the symmetry axis of the scene, up to the helix of the monomers.
+///
+/// A scene has such an axis if it is a single straight filament with loads along and about its axis. All other forces
+/// must be weak.
 fn free_axis(scene: &Scene) -> Option<Vector3> {
     let filament = &scene.filament;
     let is_alone = scene.further.is_empty() && filament.shape.is_none();

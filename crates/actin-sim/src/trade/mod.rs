@@ -1,8 +1,8 @@
-//! What accuracy costs in a scene: every monomer as the reference, cheaper candidates beside it, each run and timed.
+//! Cost of accuracy in a scene: error and time of cheaper candidates, measured against every monomer.
 //!
-//! [`trade`] runs the scene with every monomer and weighted bonds, a motion at half of its step (`resolution.rs`), and
-//! then the candidates of `ladder.rs`. What is compared, and how, is in `measure.rs`. Errors are those of this scene;
-//! nothing is estimated.
+//! [`trade`] runs the reference: the scene with every monomer and quadrature bonds (`resolution.rs`), a motion at half of
+//! its default step. The candidates of `ladder.rs` follow. `measure.rs` defines the compared quantities. Errors are
+//! measured, not estimated, and hold for this scene only.
 
 mod chosen;
 mod ladder;
@@ -19,8 +19,8 @@ pub use chosen::{Chosen, choose};
 pub use measure::{Item, Measure};
 pub(crate) use model_error::model_error;
 pub use model_error::{ModelError, Scatter};
-/// The error of a number, with how it scatters, or why they are not known.
-pub(crate) type Judged = Result<(ModelError, Scatter), SceneProblem>;
+/// Model error and scatter of a quantity, or the reason for their absence.
+pub(crate) type ModelErrorResult = Result<(ModelError, Scatter), SceneProblem>;
 pub(crate) use resolution::weighted;
 pub use study::trade;
 
@@ -29,19 +29,19 @@ use crate::scene::{Scene, SceneProblem};
 use std::time::Duration;
 use thiserror::Error;
 
-/// What a trade is asked for.
+/// Options of a trade.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// What candidates are compared by; by default what the scene observes, and its tips, or where no tip is free its
-    /// heights.
+    /// Compared quantities. An empty list selects the observables of the scene and its tips, or its heights if no tip
+    /// is free.
     pub measures: Vec<Measure>,
-    /// Largest relative error that is wanted; greater than 0, below 1.
+    /// Largest accepted relative error; greater than 0, below 1.
     pub error: f64,
     /// Longest time of one run.
     pub budget: Duration,
-    /// Shares of the loads, shifts and turns at which candidates that meet the error are judged, too; each positive.
+    /// Fractions of the loads, shifts and turns at which candidates within the error also run; each positive.
     pub load_shares: Vec<f64>,
-    /// Whether finer meshes and other laws are tried.
+    /// Includes finer meshes and other laws.
     pub is_all: bool,
 }
 
@@ -57,117 +57,118 @@ impl Default for Options {
     }
 }
 
-/// Who follows a trade.
+/// Callbacks of a trade.
 #[expect(
     missing_debug_implementations,
     reason = "functions have nothing to show"
 )]
 pub struct Watch<'a> {
-    /// Told what runs next.
+    /// Receives the name of each run before it starts.
     pub says: &'a dyn Fn(&str),
-    /// Asked whether to end with what there is.
+    /// Returns true if the trade should end early with its results so far.
     pub is_interrupted: &'a dyn Fn() -> bool,
 }
 
 impl Watch<'_> {
-    /// Nobody.
+    /// Callbacks without effect.
     pub const NOBODY: Watch<'static> = Watch {
         says: &|_| {},
         is_interrupted: &|| false,
     };
 }
 
-/// Why there is no trade.
+/// Failure of a trade.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum TradeError {
-    /// The scene, or what is asked of it, is refused.
+    /// Invalid scene or options.
     #[error(transparent)]
     Refused(#[from] SceneProblem),
-    /// The reference finds no result.
+    /// The reference has no result.
     #[error("the reference, {name}, fails: {cause}")]
     ReferenceFails {
-        /// Which.
+        /// Name of the reference.
         name: String,
-        /// Why.
+        /// Cause of the failure.
         cause: String,
     },
-    /// It was interrupted before the reference was known.
+    /// Interruption before the end of the reference.
     #[error("interrupted before the reference was known")]
     Interrupted,
 }
 
-/// What accuracy costs in a scene.
+/// Errors and times of the candidates of a scene.
 #[derive(Clone, Debug)]
 pub struct Trade {
-    /// What was asked for.
+    /// Options of the trade.
     pub options: Options,
-    /// What candidates are compared with.
+    /// Reference of all errors.
     pub reference: Reference,
-    /// What they are compared by, in the order of their errors.
+    /// Compared numbers and vectors, in the order of the errors.
     pub items: Vec<Item>,
-    /// What is not compared, and why, a sentence each.
+    /// Exclusions from the comparison: one sentence each, with the reason.
     pub left_out: Vec<String>,
-    /// The candidates in the order in which they ran.
+    /// Candidates in the order of their runs.
     pub candidates: Vec<Candidate>,
-    /// By how much filaments with 64 bonds drawn for each interface differ from the mean one: the root mean square of
-    /// the errors of three; none where none ran.
+    /// Root mean square error of three filaments with 64 sampled bonds per interface, for each item. `None` without these
+    /// runs.
     pub scatter: Option<Vec<Option<f64>>>,
-    /// The candidate that meets the wanted error in the least time; none where only the reference does.
+    /// Index of the fastest candidate within the wanted error; `None` if the reference is faster or no candidate meets it.
     pub best: Option<usize>,
-    /// Time over that of the reference: of the reference with the candidates, and with other loads and drawn bonds, too.
+    /// Total run time divided by the time of the reference: for the reference and the candidates, and for all runs with
+    /// other loads and sampled bonds.
     pub runs_of_reference: [f64; 2],
 }
 
-/// What candidates are compared with.
+/// Reference of a trade.
 #[derive(Clone, Debug)]
 pub struct Reference {
-    /// How it is resolved and stepped.
+    /// Name, from resolution, step and integrator.
     pub name: String,
     /// The scene.
     pub scene: Scene,
-    /// Its bodies.
+    /// Number of bodies.
     pub counts: Counts,
-    /// Its time (s).
+    /// Run time (s).
     pub wall_s: f64,
-    /// What it is itself off by, of each item: against the same at the usual step, or the next coarser reference; none
-    /// where that is not known.
+    /// Relative discretisation error of the reference for each item, measured against every monomer at the default step
+    /// or against the next coarser reference. `None` if unknown.
     pub own_errors: Vec<Option<f64>>,
-    /// Share of its records that it came to within the budget.
+    /// Fraction of its records within the budget.
     pub share: f64,
-    /// Whether its own errors are at most a third of the wanted error.
+    /// True if all of `own_errors` are at most a third of the wanted error.
     pub is_settled: bool,
 }
 
 /// A cheaper way to run the scene.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// How it is resolved and stepped.
+    /// Name, from resolution, step and integrator.
     pub name: String,
     /// The scene.
     pub scene: Scene,
-    /// Its bodies.
+    /// Number of bodies.
     pub counts: Counts,
-    /// Its time (s).
+    /// Run time (s).
     pub wall_s: f64,
-    /// Relative error of each item; none where it has other records.
+    /// Relative error of each item; `None` if the records differ from the reference in number.
     pub errors: Vec<Option<f64>>,
-    /// Standard error of each of these: zero without heat.
+    /// Standard error of each relative error; zero without heat.
     pub standard_errors: Vec<f64>,
-    /// The largest error at each share of the loads that was tried.
+    /// Pairs of load fraction and largest error at these loads.
     pub at_loads: Vec<(f64, f64)>,
-    /// Why it has no result, if it has none.
+    /// Reason for a missing result.
     pub failure: Option<String>,
 }
 
 impl Candidate {
-    /// The largest of its errors at the loads of the scene, each with its standard error; infinite where one is not known.
+    /// Returns the largest sum of error and standard error at the loads of the scene; infinite if an error is unknown.
     pub fn error(&self) -> f64 {
         let all = self.errors.iter().zip(&self.standard_errors);
         let sums = all.map(|(error, standard)| error.map(|error| error + standard));
         worst(&sums.collect::<Vec<_>>())
     }
 
-    /// The largest of its errors at all loads at which it was tried.
+    /// Returns the largest error at all tested loads.
     pub fn worst_error(&self) -> f64 {
         let at_loads = self.at_loads.iter().map(|(_, error)| *error);
         at_loads.fold(self.error(), f64::max)
@@ -175,13 +176,13 @@ impl Candidate {
 }
 
 impl Trade {
-    /// The scene that meets the wanted error in the least time.
+    /// Returns the fastest scene within the wanted error.
     pub fn best_scene(&self) -> &Scene {
         self.best
             .map_or(&self.reference.scene, |best| &self.candidates[best].scene)
     }
 
-    /// Time of every monomer at the usual step (s), beside which others are faster.
+    /// Returns the time of every monomer at the default step (s), the baseline of speed-ups.
     pub fn usual_s(&self) -> f64 {
         let usual = self.candidates.first();
         usual

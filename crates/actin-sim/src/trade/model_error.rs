@@ -1,36 +1,36 @@
-//! The error of one number of an equilibrium against the same scene with every monomer, which is run.
+//! Error of one quantity of an equilibrium, measured against a run of the same scene with every monomer.
 
 use super::measure::{Measure, Measurer};
 use super::resolution::every_monomer;
-use super::run::{Limits, Ran, Unusable, run_once};
+use super::run::{Limits, RunResult, TrialFailure, run_once};
 use super::study::{drawn, with_records_of};
 use crate::scene::{Quantity, Scene, SceneProblem};
 use crate::{Assembly, Record};
 use serde::{Deserialize, Serialize};
 
-/// Filaments with drawn bonds that are run.
+/// Number of filaments with sampled bonds.
 const FILAMENTS: u64 = 3;
 
-/// How far a number of an equilibrium is from that of every monomer.
+/// Error of a quantity of an equilibrium against every monomer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelError {
-    /// Of what.
+    /// Quantity with this error.
     pub quantity: Quantity,
-    /// Its value, in its [unit](Quantity::unit); of a vector its size.
+    /// Value in the [unit](Quantity::unit) of the quantity; the size of a vector.
     pub value: f64,
-    /// What is to be added to it for that of every monomer.
+    /// Correction in the same unit: the value with every monomer minus `value`.
     pub error: f64,
-    /// Size of the difference over the size with every monomer, of a vector with its direction.
+    /// Size of the difference divided by the size with every monomer. The difference of vectors includes their direction.
     pub relative: f64,
 }
 
 impl ModelError {
-    /// The error in a sentence.
+    /// Returns the error and the scatter as a sentence.
     pub(crate) fn note(&self, scatter: &Scatter) -> String {
         let size = self.corrected().abs().max(f64::MIN_POSITIVE);
         format!(
-            "{} is {}, {} with every monomer (off by {:.2} %); filaments with {} drawn bonds an interface are {:+.2} % from \
-             that, and scatter by {:.2} %",
+            "{} is {}, and {} with every monomer (error {:.2} %); filaments with {} sampled bonds per interface differ \
+             from every monomer by {:+.2} % on average, with a root mean square difference of {:.2} %",
             self.quantity,
             self.quantity.show(self.value),
             self.quantity.show(self.corrected()),
@@ -41,50 +41,51 @@ impl ModelError {
         )
     }
 
-    /// The value of every monomer.
+    /// Returns the value with every monomer.
     pub fn corrected(&self) -> f64 {
         self.value + self.error
     }
 }
 
-/// How a number differs between filaments whose bonds are drawn.
+/// Scatter of a quantity between filaments with sampled bonds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scatter {
-    /// Bonds of an interface.
+    /// Sampled bonds per interface.
     pub bonds: usize,
-    /// Filaments that were run.
+    /// Number of filaments.
     pub filaments: u64,
-    /// Mean over them less the value of every monomer with weighted bonds, in the number's unit.
+    /// Mean over the filaments minus the value with quadrature bonds, in the unit of the quantity.
     pub shift: f64,
-    /// Root mean square of their differences from it, in the same unit; of a vector with its direction.
+    /// Root mean square difference from the value with quadrature bonds, in the same unit. The difference of vectors
+    /// includes their direction.
     pub deviation: f64,
 }
 
-/// Runs the scene of an equilibrium with every monomer, and with drawn bonds.
+/// Runs the scene of an equilibrium with every monomer, with quadrature bonds and with sampled bonds.
 ///
 /// # Errors
-/// A scene with sections that cannot be monomers, and a reference without a result.
+/// A scene with sections that cannot be monomers; a run without a result.
 pub(crate) fn model_error(
     assembly: &Assembly,
     last: &Record,
     quantity: Quantity,
 ) -> Result<(ModelError, Scatter), SceneProblem> {
-    let (every, kept) = every_monomer(&assembly.scene);
-    if let Some(reason) = kept.iter().find_map(|kept| *kept) {
+    let (every, fixed) = every_monomer(&assembly.scene);
+    if let Some(reason) = fixed.iter().find_map(|fixed| *fixed) {
         return Err(SceneProblem::new("filament.sections", "", reason));
     }
     let every = with_records_of(every, &assembly.scene);
-    let whole = equilibrium(&every)?;
-    let measurer = Measurer::new(&whole.assembly, &[Measure::from(quantity)])?;
-    let judge = Judge { measurer };
-    let reference = judge.value(&whole.assembly, &whole.records);
-    let size = judge.size(&reference);
-    let here = judge.value(assembly, std::slice::from_ref(last));
+    let full = equilibrium(&every)?;
+    let measurer = Measurer::new(&full.assembly, &[Measure::from(quantity)])?;
+    let reader = QuantityReader { measurer };
+    let reference = reader.value(&full.assembly, &full.records);
+    let size = reader.size(&reference);
+    let here = reader.value(assembly, std::slice::from_ref(last));
     let error = ModelError {
         quantity,
-        value: judge.size(&here),
-        error: size - judge.size(&here),
-        relative: judge.apart(&here, &reference),
+        value: reader.size(&here),
+        error: size - reader.size(&here),
+        relative: reader.apart(&here, &reference),
     };
     let mut scatter = Scatter {
         bonds: 0,
@@ -94,22 +95,22 @@ pub(crate) fn model_error(
     };
     for seed in 1..=FILAMENTS {
         let scene = drawn(&every, seed);
-        let ran = equilibrium(&scene)?;
-        let value = judge.value(&ran.assembly, &ran.records);
+        let result = equilibrium(&scene)?;
+        let value = reader.value(&result.assembly, &result.records);
         scatter.bonds = scene.filament.monomers.lateral_bonds;
-        scatter.shift += (judge.size(&value) - size) / FILAMENTS as f64;
-        let apart = judge.apart(&value, &reference) * size;
+        scatter.shift += (reader.size(&value) - size) / FILAMENTS as f64;
+        let apart = reader.apart(&value, &reference) * size;
         scatter.deviation = scatter.deviation.hypot(apart / (FILAMENTS as f64).sqrt());
     }
     Ok((error, scatter))
 }
 
-/// The last of what a quantity is: of tips that at the end.
-struct Judge {
+/// Reads one quantity, its last item in the last record. The last item of the tips is the end of the last filament.
+struct QuantityReader {
     measurer: Measurer,
 }
 
-impl Judge {
+impl QuantityReader {
     fn value(&self, assembly: &Assembly, records: &[Record]) -> Vec<Vec<f64>> {
         let last = records.last().map(std::slice::from_ref);
         let values = last.map(|last| self.measurer.values(assembly, last));
@@ -131,16 +132,17 @@ impl Judge {
     }
 }
 
-fn equilibrium(scene: &Scene) -> Result<Ran, SceneProblem> {
+fn equilibrium(scene: &Scene) -> Result<RunResult, SceneProblem> {
     let limits = Limits {
         budget: None,
         records: None,
         is_interrupted: &|| false,
     };
-    run_once(scene, limits).map_err(|unusable| match unusable {
-        Unusable::Refused(problem) => problem,
-        Unusable::Interrupted | Unusable::Failed(_) => {
-            let rule = format!("every monomer finds no equilibrium to judge it by: {unusable}");
+    run_once(scene, limits).map_err(|failure| match failure {
+        TrialFailure::Refused(problem) => problem,
+        TrialFailure::Interrupted | TrialFailure::Failed(_) => {
+            let rule =
+                format!("have no known error: the equilibrium of every monomer fails: {failure}");
             SceneProblem::new("filament.sections", "", rule)
         }
     })

@@ -1,4 +1,4 @@
-//! How filaments of a candidate are resolved: rods under a law, with windows of monomers.
+//! Resolutions of filaments: rods under a law, with windows of monomers.
 
 use crate::Assembly;
 use crate::scene::{
@@ -6,61 +6,66 @@ use crate::scene::{
     Section, Task,
 };
 
-/// Rods shorter than this (nm), a period of monomers, are resolved with their neighbours.
+/// Shortest rod (nm): a period of monomers. Monomers replace rods below this length.
 const SHORTEST_ROD_NM: f64 = 36.0;
 
-/// Share of a filament from which on windows of monomers save nothing.
+/// Largest fraction of monomers in candidates with windows; above it windows save little time.
 const MOST_MONOMERS: f64 = 0.75;
 
-/// Points of a weighted interface.
+/// Quadrature points per interface.
 const POINTS: usize = 12;
 
-/// A scene with every monomer resolved, as far as that can be.
+/// A scene with every monomer resolved, except for filaments with fixed sections.
 #[derive(Clone, Debug)]
-pub(super) struct Whole {
+pub(super) struct FullResolution {
     pub scene: Scene,
-    /// Length of each filament (nm), as its lattice has it.
+    /// Length of each filament (nm) on its lattice.
     pub lengths_nm: Vec<f64>,
-    /// Why filaments keep the sections that they have.
-    pub kept: Kept,
+    /// Filaments with fixed sections.
+    pub fixed: FixedSections,
 }
 
-/// Why each filament keeps the sections that it has, if it does.
-pub(super) type Kept = Vec<Option<&'static str>>;
+/// Reason for the fixed sections of each filament; `None` if its sections may be replaced.
+pub(super) type FixedSections = Vec<Option<&'static str>>;
 
-/// The scene with every monomer resolved and weighted bonds; in overdamped motion in heat with quasi-harmonic
-/// interfaces, since bonds take ten thousand times longer.
-pub(super) fn every_monomer(scene: &Scene) -> (Scene, Kept) {
-    let (mut whole, kept) = every_monomer_of(scene, |_| true);
-    for filament in whole.filaments_mut() {
+/// Returns the scene with every monomer resolved and quadrature bonds.
+///
+/// Overdamped motion in heat uses quasi-harmonic interfaces, since bonds take ten thousand times longer.
+pub(super) fn every_monomer(scene: &Scene) -> (Scene, FixedSections) {
+    let (mut full, fixed) = every_monomer_of(scene, |_| true);
+    for filament in full.filaments_mut() {
         filament.monomers = weighted(&filament.monomers);
     }
-    if let Task::Brownian(task) = &mut whole.task {
+    if let Task::Brownian(task) = &mut full.task {
         task.interfaces.allow_long_steps(task.temperature_k);
     }
-    (whole, kept)
+    (full, fixed)
 }
 
-/// The scene with every monomer of some filaments resolved.
-pub(super) fn every_monomer_of(scene: &Scene, is_free: impl Fn(usize) -> bool) -> (Scene, Kept) {
-    let mut whole = scene.clone();
+/// Returns the scene with every monomer resolved in the filaments for which `is_free` returns true.
+pub(super) fn every_monomer_of(
+    scene: &Scene,
+    is_free: impl Fn(usize) -> bool,
+) -> (Scene, FixedSections) {
+    let mut full = scene.clone();
     let why = |filament: usize| {
         if is_free(filament) {
-            why_kept(scene, filament)
+            reason_fixed(scene, filament)
         } else {
-            Some("sections that are written stay")
+            Some("the sections are given explicitly")
         }
     };
-    let kept: Kept = (0..scene.number_of_filaments()).map(why).collect();
-    for (filament, kept) in whole.filaments_mut().zip(&kept) {
-        if kept.is_none() {
+    let fixed: FixedSections = (0..scene.number_of_filaments()).map(why).collect();
+    for (filament, fixed) in full.filaments_mut().zip(&fixed) {
+        if fixed.is_none() {
             let to_nm = filament.length_nm();
             filament.sections = vec![monomers(0.0, to_nm)].into();
         }
     }
-    (whole, kept)
+    (full, fixed)
 }
 
+/// Returns the monomers with quadrature bonds.
 pub(crate) fn weighted(written: &Monomers) -> Monomers {
     if written.anchors == Anchors::Cubature {
         return written.clone();
@@ -74,7 +79,7 @@ pub(crate) fn weighted(written: &Monomers) -> Monomers {
     }
 }
 
-/// Monomers from one arc length to another.
+/// Returns a section of monomers between two arc lengths.
 fn monomers(from_nm: f64, to_nm: f64) -> Section {
     Section::Ellipsoids {
         from_nm,
@@ -83,19 +88,19 @@ fn monomers(from_nm: f64, to_nm: f64) -> Section {
     }
 }
 
-fn why_kept(scene: &Scene, filament: usize) -> Option<&'static str> {
+fn reason_fixed(scene: &Scene, filament: usize) -> Option<&'static str> {
     let sections = &scene.filament_at(filament)?.sections;
     let mut clamps = scene.clamps.iter();
     if sections.iter().any(Section::is_altered) {
-        Some("sections that are altered stay as they are")
+        Some("sections with altered monomers are not replaced")
     } else if clamps.any(|clamp| clamp.filament == filament && clamp.hold != Hold::Wall) {
-        Some("an end that is held by other than Wall is one of a rod")
+        Some("a clamp other than `hold: Wall` requires a rod at this end")
     } else {
         None
     }
 }
 
-/// Rods of one law.
+/// Law, segment length (nm) and rotary inertia of rods.
 #[derive(Clone, Debug)]
 pub(super) struct Rods {
     pub law: RodLaw,
@@ -103,27 +108,27 @@ pub(super) struct Rods {
     pub inertia: RotaryInertia,
 }
 
-impl Whole {
-    /// That of an assembled scene with every monomer.
-    pub(super) fn new(assembly: &Assembly, kept: Kept) -> Self {
+impl FullResolution {
+    /// Creates the full resolution from the assembled scene with every monomer.
+    pub(super) fn new(assembly: &Assembly, fixed: FixedSections) -> Self {
         let filaments = 0..assembly.filaments.len();
         Self {
             scene: assembly.scene.clone(),
             lengths_nm: filaments.map(|f| assembly.length_of(f)).collect(),
-            kept,
+            fixed,
         }
     }
 
-    /// Filaments that can be resolved in several ways.
+    /// Returns the filaments without fixed sections.
     pub(super) fn free(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.kept.len()).filter(|f| self.kept[*f].is_none())
+        (0..self.fixed.len()).filter(|f| self.fixed[*f].is_none())
     }
 
-    /// The scene with rods, and monomers where `windows` has them (nm), filament by filament.
+    /// Returns the scene with `rods`, and with monomers in the `windows` (nm) of each filament.
     pub(super) fn resolved(&self, rods: &Rods, windows: &[Vec<[f64; 2]>]) -> Scene {
         let mut scene = self.with_sections(rods.segment_nm, windows);
-        for (filament, kept) in scene.filaments_mut().zip(&self.kept) {
-            if kept.is_none() && filament.sections.iter().any(Section::is_rod) {
+        for (filament, fixed) in scene.filaments_mut().zip(&self.fixed) {
+            if fixed.is_none() && filament.sections.iter().any(Section::is_rod) {
                 filament.rod = RodModel {
                     rotary_inertia: rods.inertia,
                     ..RodModel::of_law(rods.law.clone())
@@ -133,29 +138,29 @@ impl Whole {
         scene
     }
 
-    /// The scene with sections so, its rods as they are.
+    /// Returns the scene with monomers in the `windows` (nm) of each filament; the rod model stays unchanged.
     pub(super) fn with_sections(&self, segment_nm: f64, windows: &[Vec<[f64; 2]>]) -> Scene {
         let mut scene = self.scene.clone();
         for (f, filament) in scene.filaments_mut().enumerate() {
-            if self.kept[f].is_none() {
+            if self.fixed[f].is_none() {
                 filament.sections = sections(self.lengths_nm[f], &windows[f], segment_nm).into();
             }
         }
         scene
     }
 
-    /// No window in any filament.
+    /// Returns an empty list of windows for each filament.
     pub(super) fn no_windows(&self) -> Vec<Vec<[f64; 2]>> {
-        vec![Vec::new(); self.kept.len()]
+        vec![Vec::new(); self.fixed.len()]
     }
 
-    /// Windows so wide (nm) about places, filament by filament; none where that is most of what is resolved.
+    /// Returns windows of `width_nm` about the `places` of each filament; `None` if they cover most of the length or nothing.
     pub(super) fn windows(
         &self,
         places: impl Fn(usize) -> Vec<f64>,
         width_nm: f64,
     ) -> Option<Vec<Vec<[f64; 2]>>> {
-        let windows: Vec<Vec<[f64; 2]>> = (0..self.kept.len())
+        let windows: Vec<Vec<[f64; 2]>> = (0..self.fixed.len())
             .map(|f| merged(places(f), width_nm, self.lengths_nm[f]))
             .collect();
         let of = |f: usize| windows[f].iter().map(|w| w[1] - w[0]).sum::<f64>();
@@ -164,14 +169,14 @@ impl Whole {
         (resolved > 0.0 && resolved < MOST_MONOMERS * length).then_some(windows)
     }
 
-    /// Arc lengths of a filament (nm) at which it is held.
+    /// Returns the arc lengths of the clamped ends of a filament (nm).
     pub(super) fn walls(&self, filament: usize) -> Vec<f64> {
         let clamps = self.scene.clamps.iter();
         let of = clamps.filter(|clamp| clamp.filament == filament);
         of.map(|clamp| self.end_nm(filament, clamp.end)).collect()
     }
 
-    /// Arc lengths at which a load acts or begins or ends, or a linker holds.
+    /// Returns the arc lengths (nm) of point loads, of the ends of distributed loads, and of linkers.
     pub(super) fn sites(&self, filament: usize) -> Vec<f64> {
         let scene = &self.scene;
         let loads = scene
@@ -206,7 +211,7 @@ impl Whole {
     }
 }
 
-/// Monomers in windows, rods of segments as nearly as long as wanted elsewhere.
+/// Returns sections of monomers in the windows and of rods elsewhere, with segments of about `segment_nm`.
 fn sections(length_nm: f64, windows: &[[f64; 2]], segment_nm: f64) -> Vec<Section> {
     let rod = |from_nm: f64, to_nm: f64| {
         let segments = segments(to_nm - from_nm, segment_nm);
@@ -223,7 +228,7 @@ fn sections(length_nm: f64, windows: &[[f64; 2]], segment_nm: f64) -> Vec<Sectio
     all
 }
 
-/// Number of segments that makes them most nearly as long (nm), at least 1.
+/// Returns the number of segments with a length closest to `segment_nm`, at least 1.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -233,8 +238,8 @@ fn segments(length_nm: f64, segment_nm: f64) -> usize {
     (length_nm / segment_nm).round().max(1.0) as usize
 }
 
-/// Windows about places, those together that leave too little between them or before an end. A window at an end of the
-/// filament has its whole width inside.
+/// Returns windows about `places`. Windows merge if the rod between them would be too short, and extend to an end of the
+/// filament if the rod before the end would be too short. A window at an end lies inside the filament with its full width.
 fn merged(mut places: Vec<f64>, width_nm: f64, length_nm: f64) -> Vec<[f64; 2]> {
     places.sort_by(f64::total_cmp);
     let mut windows: Vec<[f64; 2]> = Vec::new();

@@ -1,50 +1,50 @@
-//! One run of a candidate: its records and the time that a user waits for them.
+//! One run of a candidate: its records and its time, including the assembly.
 
 use crate::scene::{Scene, SceneProblem, Task};
 use crate::{Assembly, Counts, Plan, Record, RunError, Sink};
 use std::time::{Duration, Instant};
 
-/// Runs shorter than this (s) are repeated, and the shortest time counts.
+/// Time (s) below which runs are repeated; the shortest time counts.
 const SHORT_S: f64 = 0.05;
 
-/// How often they are repeated.
+/// Number of repetitions of a short run.
 const REPEATS: usize = 2;
 
-/// What ends a run before its end.
+/// Limits of a run.
 #[derive(Clone, Copy)]
 pub(super) struct Limits<'a> {
-    /// Time after which it is broken off.
+    /// Longest time.
     pub budget: Option<Duration>,
-    /// Records after which it has done enough.
+    /// Largest number of records.
     pub records: Option<usize>,
-    /// Whether the user wants all to end.
+    /// Returns true after an interruption by the user.
     pub is_interrupted: &'a dyn Fn() -> bool,
 }
 
-/// A run that came to its end, or to as many records as were wanted, or to its budget.
-pub(super) struct Ran {
+/// Result of a completed run, or of a run up to its limit of records or time.
+pub(super) struct RunResult {
     pub assembly: Assembly,
-    /// Those that are compared.
+    /// Compared records.
     pub records: Vec<Record>,
     pub counts: Counts,
-    /// Time from the scene to its last record (s).
+    /// Time of assembly and run (s).
     pub wall_s: f64,
-    /// Evaluations of all loads.
+    /// Number of force evaluations.
     pub evaluations: u64,
-    /// Whether it was broken off at its budget.
+    /// True if the time limit ended the run.
     pub is_cut: bool,
 }
 
-/// Why there is nothing to compare.
+/// Reason for a run without a result.
 #[derive(Clone, Debug)]
-pub(super) enum Unusable {
+pub(super) enum TrialFailure {
     Interrupted,
     Refused(SceneProblem),
     Failed(String),
 }
 
-/// Builds and runs a scene.
-pub(super) fn run(scene: &Scene, limits: Limits<'_>) -> Result<Ran, Unusable> {
+/// Assembles and runs a scene; repeats short runs for their time.
+pub(super) fn run(scene: &Scene, limits: Limits<'_>) -> Result<RunResult, TrialFailure> {
     let mut first = run_once(scene, limits)?;
     if first.wall_s < SHORT_S {
         for _ in 0..REPEATS {
@@ -54,32 +54,32 @@ pub(super) fn run(scene: &Scene, limits: Limits<'_>) -> Result<Ran, Unusable> {
     Ok(first)
 }
 
-/// The same without repeats.
-pub(super) fn run_once(scene: &Scene, limits: Limits<'_>) -> Result<Ran, Unusable> {
+/// Assembles and runs a scene once.
+pub(super) fn run_once(scene: &Scene, limits: Limits<'_>) -> Result<RunResult, TrialFailure> {
     let began = Instant::now();
-    let assembly = Assembly::build(scene).map_err(Unusable::Refused)?;
-    let plan = Plan::new(&assembly).map_err(Unusable::Refused)?;
-    let mut kept = Kept {
+    let assembly = Assembly::build(scene).map_err(TrialFailure::Refused)?;
+    let plan = Plan::new(&assembly).map_err(TrialFailure::Refused)?;
+    let mut recorder = Recorder {
         limits,
         began,
         records: Vec::new(),
         is_cut: false,
     };
-    let outcome = plan.run_into(&mut kept);
-    let Kept {
+    let outcome = plan.run_into(&mut recorder);
+    let Recorder {
         records, is_cut, ..
-    } = kept;
+    } = recorder;
     let wall_s = began.elapsed().as_secs_f64();
     if (limits.is_interrupted)() {
-        return Err(Unusable::Interrupted);
+        return Err(TrialFailure::Interrupted);
     }
     let outcome = outcome.map_err(|error| match error {
-        RunError::Refused(problem) => Unusable::Refused(problem),
-        error @ RunError::Failed(_) => Unusable::Failed(error.to_string()),
+        RunError::Refused(problem) => TrialFailure::Refused(problem),
+        error @ RunError::Failed(_) => TrialFailure::Failed(error.to_string()),
     })?;
     let records = compared(scene, records);
     let counts = assembly.counts();
-    Ok(Ran {
+    Ok(RunResult {
         assembly,
         records,
         counts,
@@ -89,8 +89,8 @@ pub(super) fn run_once(scene: &Scene, limits: Limits<'_>) -> Result<Ran, Unusabl
     })
 }
 
-/// The records that every resolution has: those of a motion, the last of one that stops at rest, and of a path the ends
-/// of its stages.
+/// Returns the records that all resolutions have in common: all records of a motion, the last record of a motion with a
+/// stop rule, and the ends of the stages of a path.
 fn compared(scene: &Scene, mut records: Vec<Record>) -> Vec<Record> {
     let is_last_only = match &scene.task {
         Task::Equilibrium(_) => scene.path.is_empty(),
@@ -110,14 +110,15 @@ fn compared(scene: &Scene, mut records: Vec<Record>) -> Vec<Record> {
     records
 }
 
-struct Kept<'a> {
+/// Keeps the records of a run until a limit.
+struct Recorder<'a> {
     limits: Limits<'a>,
     began: Instant,
     records: Vec<Record>,
     is_cut: bool,
 }
 
-impl Sink for Kept<'_> {
+impl Sink for Recorder<'_> {
     fn record(&mut self, record: &Record) {
         self.records.push(record.clone());
     }
@@ -133,7 +134,7 @@ impl Sink for Kept<'_> {
     }
 }
 
-impl std::fmt::Display for Unusable {
+impl std::fmt::Display for TrialFailure {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Interrupted => write!(f, "interrupted"),

@@ -1,49 +1,53 @@
-//! What is read off a scene that has run: the values of one run or, in heat, means over seeds with their errors.
+//! Values of a scene from one run or, in heat, means over seeds with standard errors.
 
 use super::measure::{Measurer, Values};
-use super::run::{Limits, Ran, Unusable, run, run_once};
+use super::run::{Limits, RunResult, TrialFailure, run, run_once};
 use crate::Counts;
 use crate::scene::{Drawn, Scene};
 
-/// Runs of a scene in heat, each with other seeds.
+/// Number of seeds of a scene in heat.
 pub(super) const SEEDS: u64 = 4;
 
-/// Values of a scene.
+/// Compared values of a scene.
 pub(super) struct Sample {
     pub counts: Counts,
-    /// Time of one run (s).
+    /// Time of one run (s); in heat the mean over seeds.
     pub wall_s: f64,
-    /// Whether it was broken off at its budget.
+    /// True if the time limit ended a run.
     pub is_cut: bool,
     pub values: Values,
     /// Standard error of each item, in its unit; zero without heat.
     pub standard_errors: Vec<f64>,
-    /// The run, of several the last.
-    pub ran: Ran,
+    /// Result of the last run.
+    pub last_run: RunResult,
 }
 
 impl Sample {
-    /// Runs a scene once or, in heat, with several seeds.
+    /// Runs a scene once or, in heat, with [`SEEDS`] seeds.
     pub(super) fn of(
         scene: &Scene,
         measurer: &Measurer,
         limits: Limits<'_>,
-    ) -> Result<Self, Unusable> {
+    ) -> Result<Self, TrialFailure> {
         if scene.thermal().is_some() {
             return Self::in_heat(scene, measurer, limits);
         }
-        let ran = run(scene, limits)?;
+        let last_run = run(scene, limits)?;
         Ok(Self {
-            counts: ran.counts,
-            wall_s: ran.wall_s,
-            is_cut: ran.is_cut,
-            values: measurer.values(&ran.assembly, &ran.records),
+            counts: last_run.counts,
+            wall_s: last_run.wall_s,
+            is_cut: last_run.is_cut,
+            values: measurer.values(&last_run.assembly, &last_run.records),
             standard_errors: vec![0.0; measurer.items.len()],
-            ran,
+            last_run,
         })
     }
 
-    fn in_heat(scene: &Scene, measurer: &Measurer, limits: Limits<'_>) -> Result<Self, Unusable> {
+    fn in_heat(
+        scene: &Scene,
+        measurer: &Measurer,
+        limits: Limits<'_>,
+    ) -> Result<Self, TrialFailure> {
         let mut all = Vec::new();
         let mut wall_s = 0.0;
         let mut last = None;
@@ -52,30 +56,31 @@ impl Sample {
             for drawn in Drawn::ALL {
                 seeded.reseed(drawn, seed);
             }
-            let ran = run_once(&seeded, limits)?;
-            wall_s += ran.wall_s / SEEDS as f64;
-            all.push(measurer.values(&ran.assembly, &ran.records));
-            let is_cut = ran.is_cut;
-            last = Some(ran);
+            let last_run = run_once(&seeded, limits)?;
+            wall_s += last_run.wall_s / SEEDS as f64;
+            all.push(measurer.values(&last_run.assembly, &last_run.records));
+            let is_cut = last_run.is_cut;
+            last = Some(last_run);
             if is_cut {
                 break;
             }
         }
-        let ran = last.expect("there is a seed");
+        let last_run = last.expect("there is a seed");
         let (values, standard_errors) = mean(&all);
         Ok(Self {
-            counts: ran.counts,
+            counts: last_run.counts,
             wall_s,
-            is_cut: ran.is_cut,
+            is_cut: last_run.is_cut,
             values,
             standard_errors,
-            ran,
+            last_run,
         })
     }
 }
 
-/// Means over runs, and the standard error of each item: the root of the sum over its components of variance over
-/// number.
+/// Returns the means over runs and the standard error of each item.
+///
+/// The standard error of a vector is the root of the sum of `variance / number of runs` over its components.
 fn mean(runs: &[Values]) -> (Values, Vec<f64>) {
     let count = runs.len() as f64;
     let items = 0..runs[0].len();

@@ -1,9 +1,9 @@
-//! The runs of a trade: the reference, the candidates, other loads, drawn bonds.
+//! Runs of a trade: reference, candidates, other loads, sampled bonds.
 
 use super::ladder::{self, Proposal};
 use super::measure::{Measurer, Values};
 use super::reference::Setup;
-use super::run::{Limits, Ran, Unusable};
+use super::run::{Limits, RunResult, TrialFailure};
 use super::sample::{SEEDS, Sample};
 use super::{Candidate, Options, Reference, Trade, TradeError, Watch, worst};
 use crate::Counts;
@@ -11,19 +11,19 @@ use crate::scene::{Anchors, Scene, SceneProblem, Setting, Task};
 use crate::shape::Ribbon;
 use std::cell::Cell;
 
-/// How the name of every monomer at its usual step begins.
+/// Prefix of the name of the candidate with every monomer at the default step.
 pub(super) const USUAL: &str = "every monomer, default step";
 
-/// Part of the wanted error that the reference may be off by itself.
+/// Largest error of the reference itself, as a fraction of the wanted error.
 pub(super) const SETTLED: f64 = 1.0 / 3.0;
 
-/// Scatter of single filaments beyond which a number of the mean one says nothing.
+/// Largest relative scatter of a compared item between filaments with sampled bonds.
 const MOST_SCATTER: f64 = 0.4;
 
-/// Bonds of an interface where they are drawn, and how many filaments of them.
+/// Sampled bonds per interface, and number of filaments with sampled bonds.
 const DRAWN: (usize, u64) = (64, 3);
 
-/// Runs the reference of a scene and its candidates.
+/// Runs the reference and the candidates of a scene.
 ///
 /// ```
 /// use actin_sim::Scene;
@@ -42,12 +42,12 @@ const DRAWN: (usize, u64) = (64, 3);
 /// ```
 ///
 /// # Errors
-/// Options or quantities that make no sense for the scene, a scene that cannot be compared, a reference without a
-/// result, an interruption before there is a reference. Interrupted later, what has run is returned.
+/// Invalid options, quantities without a counterpart in the scene, sections that follow a motion, a reference without a
+/// result, an interruption before the end of the reference. A later interruption returns the runs so far.
 pub fn trade(scene: &Scene, options: &Options, watch: &Watch<'_>) -> Result<Trade, TradeError> {
     check(scene, options)?;
     let mut study = Study::begin(scene, options, watch)?;
-    let steps = ladder::steps(&study.setup.whole.scene, study.setup.default_ns);
+    let steps = ladder::steps(&study.setup.full.scene, study.setup.default_ns);
     study.run_candidates(steps);
     if scene.thermal().is_none() {
         study.run_drawn();
@@ -77,7 +77,7 @@ fn check(scene: &Scene, options: &Options) -> Result<(), SceneProblem> {
         .filaments()
         .any(|filament| filament.sections.following().is_some())
     {
-        let rule = "follow a motion: write sections to compare others with";
+        let rule = "cannot be compared: replace sections that follow a motion by explicit sections";
         return Err(SceneProblem::new(
             "filament.sections",
             "Following(..)",
@@ -87,13 +87,13 @@ fn check(scene: &Scene, options: &Options) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// What all runs of a trade have in common.
+/// State of a trade between its runs.
 struct Study<'a> {
     setup: Setup<'a>,
     reference: Reference,
     values: Values,
     standard_errors: Vec<f64>,
-    /// Records that are compared, where the reference did not come to its end.
+    /// Number of compared records; `None` if the reference ran to its end.
     records: Option<usize>,
     bends_most: Vec<Option<f64>>,
     candidates: Vec<Candidate>,
@@ -117,8 +117,8 @@ impl<'a> Study<'a> {
         setup.measurer.set_scales(&found.sample.values);
         let is_whole = found.reference.share >= 1.0;
         let mut study = Self {
-            records: (!is_whole).then_some(found.sample.ran.records.len()),
-            bends_most: bends_most(&found.sample.ran),
+            records: (!is_whole).then_some(found.sample.last_run.records.len()),
+            bends_most: bends_most(&found.sample.last_run),
             reference: found.reference,
             values: found.sample.values,
             standard_errors: found.sample.standard_errors,
@@ -136,34 +136,35 @@ impl<'a> Study<'a> {
 
     fn note_what_is_left_out(&mut self) {
         if self.setup.measurer.leaves_out_azimuth() {
-            let note = "directions across the axis, which no load of more than 0.01 pN fixes: of vectors the parts along and across count";
+            let note = "directions across the axis: no load above 0.01 pN fixes them. Vectors are compared by \
+                        their axial and transverse parts";
             self.left_out.push(note.to_owned());
         }
-        let of = |filament: usize| match self.setup.whole.kept.len() {
+        let of = |filament: usize| match self.setup.full.fixed.len() {
             1 => String::new(),
             _ => format!("filament {filament}: "),
         };
-        let kept = self.setup.whole.kept.iter().enumerate();
-        let kept = kept.filter_map(|(f, reason)| Some(format!("{}{}", of(f), (*reason)?)));
-        self.left_out.extend(kept);
+        let fixed = self.setup.full.fixed.iter().enumerate();
+        let fixed = fixed.filter_map(|(f, reason)| Some(format!("{}{}", of(f), (*reason)?)));
+        self.left_out.extend(fixed);
         if let Some(seeds) = self.seeds_needed() {
             self.left_out.push(format!(
-                "single runs: means and root mean squares of {SEEDS} seeds are; errors hold to their standard errors. About {seeds} \
-                 seeds make those of the reference a third of the wanted error"
+                "single runs: the table compares means and root mean squares of {SEEDS} seeds, with standard errors. \
+                 Standard errors of a third of the wanted error require about {seeds} seeds"
             ));
         }
         if self.reference.share < 1.0 {
             self.left_out.push(format!(
-                "all but the first {:.0} % of the motion, to which the reference comes within {} s",
+                "records after the first {:.0} % of the motion: the reference reaches no further within the budget of {} s",
                 100.0 * self.reference.share,
                 self.setup.options.budget.as_secs_f64()
             ));
         }
     }
 
-    /// How many seeds in heat make the standard errors of the reference small enough.
+    /// Returns the number of seeds that reduces the standard errors of the reference in heat to a third of the wanted error.
     fn seeds_needed(&self) -> Option<f64> {
-        self.setup.whole.scene.thermal()?;
+        self.setup.full.scene.thermal()?;
         let largest = worst(&self.reference.own_errors);
         let ratio = largest / (SETTLED * self.setup.options.error);
         Some((SEEDS as f64 * ratio * ratio).ceil().max(SEEDS as f64))
@@ -177,7 +178,7 @@ impl<'a> Study<'a> {
         }
     }
 
-    fn run(&self, what: &str, scene: &Scene) -> Result<Sample, Unusable> {
+    fn run(&self, what: &str, scene: &Scene) -> Result<Sample, TrialFailure> {
         (self.setup.watch.says)(what);
         let sample = Sample::of(scene, &self.setup.measurer, self.limits());
         if let Ok(sample) = &sample {
@@ -190,18 +191,18 @@ impl<'a> Study<'a> {
         errors(&self.setup.measurer, &self.values, values)
     }
 
-    /// Coarser resolutions, and the scene as it is written.
+    /// Returns coarser resolutions and the scene as written.
     fn resolutions(&self, written: &Scene) -> Vec<Proposal> {
         let mut proposals = ladder::resolutions(
-            &self.setup.whole,
+            &self.setup.full,
             self.setup.default_ns,
             &self.bends_most,
             self.setup.options.is_all,
         );
         let mut filaments = written.filaments();
         if filaments.all(|filament| filament.sections.adaptive().is_none()) {
-            let scene = with_records_of(written.clone(), &self.setup.whole.scene);
-            if scene != self.setup.whole.scene {
+            let scene = with_records_of(written.clone(), &self.setup.full.scene);
+            if scene != self.setup.full.scene {
                 let name = "as written".to_owned();
                 proposals.push(Proposal { name, scene });
             }
@@ -240,18 +241,18 @@ impl<'a> Study<'a> {
             Ok(sample) => {
                 (candidate.counts, candidate.wall_s) = (sample.counts, sample.wall_s);
                 if sample.is_cut {
-                    candidate.failure = Some("takes longer than the budget".to_owned());
+                    candidate.failure = Some("exceeds the budget".to_owned());
                 } else {
                     candidate.errors = self.errors(&sample.values);
                     candidate.standard_errors = self.relative(&sample.standard_errors);
                 }
             }
-            Err(unusable) => candidate.failure = Some(unusable.to_string()),
+            Err(failure) => candidate.failure = Some(failure.to_string()),
         }
         candidate
     }
 
-    /// Standard errors of differences from the reference, over the size of the reference.
+    /// Returns relative standard errors of the differences from the reference.
     fn relative(&self, standard_errors: &[f64]) -> Vec<f64> {
         let items = self.setup.measurer.items.iter().zip(&self.values);
         let both = standard_errors.iter().zip(&self.standard_errors);
@@ -260,18 +261,18 @@ impl<'a> Study<'a> {
             .collect()
     }
 
-    /// Leaves out what does not converge with the reference's own step; the errors of the rest.
+    /// Excludes items that do not converge with the time step of the reference; returns the errors of the rest.
     fn drop_unsettled(&mut self, own: &[Option<f64>]) -> Vec<Option<f64>> {
         self.reference.own_errors = own.to_vec();
         let limit = SETTLED * self.setup.options.error;
         let is_done = self.leave_out(own, limit, |error| {
-            format!("the reference differs by {error:.2} % from the same at the usual step")
+            format!("the reference changes by {error:.2} % between the default step and half of it")
         });
         self.reference.is_settled &= is_done;
         self.reference.own_errors.clone()
     }
 
-    /// Leaves out what has too large an error; whether anything else is left.
+    /// Excludes items with errors above `limit`; returns false, without a change, if no item would remain.
     fn leave_out(
         &mut self,
         errors: &[Option<f64>],
@@ -305,7 +306,7 @@ impl<'a> Study<'a> {
         true
     }
 
-    /// Candidates that meet the wanted error at the loads of the scene, at other loads, too.
+    /// Runs candidates within the wanted error again at other loads.
     fn run_at_other_loads(&mut self) {
         for share in self.setup.options.load_shares.clone() {
             if (self.setup.watch.is_interrupted)() {
@@ -316,8 +317,9 @@ impl<'a> Study<'a> {
             };
             let what = format!("every monomer at {share} of the loads");
             let Ok(reference) = self.run(&what, &usual) else {
-                self.left_out
-                    .push(format!("{share} of the loads: the reference fails there"));
+                self.left_out.push(format!(
+                    "{share} of the loads: the reference has no result at these loads"
+                ));
                 continue;
             };
             let reference = reference.values;
@@ -342,7 +344,7 @@ impl<'a> Study<'a> {
         }
     }
 
-    /// The reference, or where a candidate with every monomer is as good, that one.
+    /// Returns the fastest scene with every monomer and an error of at most a tenth of the wanted error, or the reference.
     fn reference_for_loads(&self) -> Scene {
         let is_as_good = |candidate: &&Candidate| {
             candidate.name.starts_with("every monomer, ")
@@ -354,7 +356,7 @@ impl<'a> Study<'a> {
         quickest.map_or(&self.reference.scene, |c| &c.scene).clone()
     }
 
-    /// Filaments with drawn bonds, about which the mean filament says nothing.
+    /// Runs filaments with sampled bonds and excludes items with large scatter.
     fn run_drawn(&mut self) {
         let seeds = DRAWN.1;
         let usual = self.reference_for_loads();
@@ -367,7 +369,7 @@ impl<'a> Study<'a> {
         let mut all: Vec<Vec<Option<f64>>> = Vec::new();
         for seed in 1..=seeds {
             let drawn = drawn(&usual, seed);
-            let Ok(sample) = self.run(&format!("drawn bonds, {seed} of {seeds}"), &drawn) else {
+            let Ok(sample) = self.run(&format!("sampled bonds, {seed} of {seeds}"), &drawn) else {
                 return;
             };
             all.push(self.errors(&sample.values));
@@ -381,13 +383,13 @@ impl<'a> Study<'a> {
         let scatter: Vec<Option<f64>> = (0..self.setup.measurer.items.len()).map(of_item).collect();
         self.scatter = Some(scatter.clone());
         self.leave_out(&scatter, MOST_SCATTER, |error| {
-            format!("filaments of drawn bonds scatter in it by {error:.0} %, so that the mean one does not tell it")
+            format!("its scatter between filaments with sampled bonds is {error:.0} %, so quadrature bonds do not predict it")
         });
     }
 
     fn end(mut self) -> Trade {
         if self.is_interrupted {
-            let note = "candidates that did not run: interrupted";
+            let note = "candidates after the interruption";
             self.left_out.push(note.to_owned());
         }
         let is_good = |i: &usize| {
@@ -412,7 +414,7 @@ impl<'a> Study<'a> {
     }
 }
 
-/// The scene with bonds drawn for each interface.
+/// Returns the scene with sampled bonds in each interface.
 pub(super) fn drawn(scene: &Scene, seed: u64) -> Scene {
     let mut drawn = scene.clone();
     for filament in drawn.filaments_mut() {
@@ -434,7 +436,7 @@ fn retain<T>(all: &mut Vec<T>, kept: &[bool]) {
     all.retain(|_| kept.next().is_none_or(|kept| *kept));
 }
 
-/// The scene with times of records written out, as a plan has them.
+/// Returns the scene with the record interval of the plan and without extra results of equilibria.
 pub(super) fn with_records_of(mut scene: Scene, planned: &Scene) -> Scene {
     match (&mut scene.task, &planned.task) {
         (Task::Dynamics(one), Task::Dynamics(other)) => one.record_every_ns = other.record_every_ns,
@@ -451,22 +453,22 @@ pub(super) fn with_records_of(mut scene: Scene, planned: &Scene) -> Scene {
     scene
 }
 
-/// Where each filament bends most (nm).
-fn bends_most(ran: &Ran) -> Vec<Option<f64>> {
-    let Some(last) = ran.records.last() else {
+/// Returns the arc length of the largest curvature of each filament in the last record (nm).
+fn bends_most(result: &RunResult) -> Vec<Option<f64>> {
+    let Some(last) = result.records.last() else {
         return Vec::new();
     };
     let of = |filament: usize| {
-        let ribbon = Ribbon::of(&ran.assembly, filament, &last.state);
+        let ribbon = Ribbon::of(&result.assembly, filament, &last.state);
         let sizes = ribbon.curvatures().into_iter().map(|c| c.x.hypot(c.y));
         let places = ribbon.s_nm.iter().copied().zip(sizes);
         let most = places.max_by(|a, b| a.1.total_cmp(&b.1))?;
         Some(most.0)
     };
-    (0..ran.assembly.filaments.len()).map(of).collect()
+    (0..result.assembly.filaments.len()).map(of).collect()
 }
 
-/// The scene at a share of its loads, shifts and turns; none where it has none.
+/// Returns the scene with scaled loads, shifts and turns; `None` for an unloaded scene.
 fn at_load(scene: &Scene, share: f64) -> Option<Scene> {
     let mut scene = scene.clone();
     let mut is_loaded = !scene.loads.is_empty();

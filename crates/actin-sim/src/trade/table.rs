@@ -1,20 +1,22 @@
-//! A trade as a table.
+//! Trades as tables.
 
 use super::{Candidate, Trade};
 use std::fmt;
 
-/// Most items that have a column each.
+/// Largest number of items with a column each.
 const MOST_COLUMNS: usize = 8;
 
 /// Width of the column of names.
 const NAME: usize = 60;
 
 impl Trade {
-    /// The candidates as CSV: name, bodies, time, the error of each item, the largest at the loads of the scene and at
-    /// all that were tried, whether it is the best, and why it has no result.
+    /// Returns the candidates as CSV with one row each.
+    ///
+    /// Columns are name, bodies, time, speed-up, and the error of each item. The largest error at the loads of the scene and
+    /// the largest at all loads follow, then a mark of the best candidate and the reason for a missing result.
     ///
     /// # Panics
-    /// Never: it is written into memory.
+    /// Never: the CSV is written into memory.
     pub fn to_csv(&self) -> String {
         let mut table = csv::Writer::from_writer(Vec::new());
         let mut header: Vec<String> = ["candidate", "monomers", "segments", "wall_s", "faster"]
@@ -52,7 +54,7 @@ impl Trade {
     }
 }
 
-/// As on a terminal: a row for each candidate with its errors in per cent, and what is not compared.
+/// Formats the table for a terminal: one row for each candidate with its errors in per cent, and the exclusions.
 impl fmt::Display for Trade {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.write_reference(f)?;
@@ -69,7 +71,7 @@ impl fmt::Display for Trade {
             write!(
                 f,
                 "{:NAME$}{:17}",
-                "filaments of 64 drawn bonds scatter by", ""
+                "scatter of filaments with 64 sampled bonds", ""
             )?;
             write_errors(f, &shown(&columns, scatter, &[]))?;
             writeln!(f)?;
@@ -80,8 +82,8 @@ impl fmt::Display for Trade {
         let [ladder, all] = self.runs_of_reference;
         writeln!(
             f,
-            "time of the candidates and the reference: {ladder:.1} times that of the reference; with other loads and \
-             drawn bonds: {all:.1}"
+            "run time in units of the reference: {ladder:.1} for the reference and the candidates, {all:.1} with other \
+             loads and sampled bonds"
         )?;
         let best = self.best.map(|best| self.candidates[best].name.as_str());
         let wanted = 100.0 * self.options.error;
@@ -107,7 +109,7 @@ impl Trade {
         if !reference.is_settled {
             write!(
                 f,
-                "warning: the reference is itself off by more than a third of the wanted error:"
+                "warning: the error of the reference itself is unknown or exceeds a third of the wanted error:"
             )?;
             write_errors(f, &shown(&self.columns(), &reference.own_errors, &[]))?;
             writeln!(f)?;
@@ -115,7 +117,7 @@ impl Trade {
         Ok(())
     }
 
-    /// Columns of the table: items, or where they are many the worst of each quantity.
+    /// Returns the columns of the table: one for each item, or one for each quantity if there are many items.
     fn columns(&self) -> Vec<Column> {
         let items = self.items.iter().enumerate();
         if self.items.len() <= MOST_COLUMNS {
@@ -155,10 +157,10 @@ impl Trade {
     }
 }
 
-/// A column: its name and the items whose worst error it shows.
+/// Column name and indices of the items; the column shows the largest error of these items.
 type Column = (String, Vec<usize>);
 
-/// The error with its standard error in each column.
+/// Returns the largest error of each column, with its standard error.
 fn shown(
     columns: &[Column],
     errors: &[Option<f64>],

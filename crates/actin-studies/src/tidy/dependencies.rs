@@ -66,7 +66,13 @@ const ALLOWED: [(&str, &[&str]); 18] = [
     // Scenes for the reference of their keys.
     (
         "actin-studies",
-        &["actin-draw", "actin-paper", "actin-sim", "actin-sweep"],
+        &[
+            "actin-draw",
+            "actin-paper",
+            "actin-sim",
+            "actin-sweep",
+            "actin-view",
+        ],
     ),
 ];
 
