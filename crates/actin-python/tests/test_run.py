@@ -112,7 +112,7 @@ def test_ctrl_c_ends_a_run_that_keeps_its_records(long_motion, tmp_path):
 
 
 def test_an_interrupted_run_is_resumed_to_the_same_bits(scene, tmp_path):
-    task = {"Dynamics": {"duration_ns": 60.0, "record_every_ns": 5.0}}
+    task = {"Dynamics": {"duration_ns": 300.0, "record_every_ns": 25.0}}
     motion, out = scene.set("task", task), tmp_path / "run"
     whole = actin.run(motion)
 

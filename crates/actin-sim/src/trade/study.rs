@@ -287,10 +287,12 @@ impl<'a> Study<'a> {
             return false;
         }
         for (item, error) in self.setup.measurer.items.iter().zip(errors) {
-            if let Some(error) = error.filter(|error| *error > limit) {
-                self.left_out
-                    .push(format!("{}: {}", item.name, why(100.0 * error)));
-            }
+            let reason = match error {
+                Some(error) if *error <= limit => continue,
+                Some(error) => why(100.0 * error),
+                None => "a run to compare it with has other records".to_owned(),
+            };
+            self.left_out.push(format!("{}: {reason}", item.name));
         }
         retain(&mut self.setup.measurer.items, &is_kept);
         retain(&mut self.values, &is_kept);
@@ -312,7 +314,8 @@ impl<'a> Study<'a> {
             if (self.setup.watch.is_interrupted)() {
                 return;
             }
-            let Some(usual) = at_load(&self.reference_for_loads(), share) else {
+            let substitute = self.reference_for_loads();
+            let Some(usual) = at_load(&substitute, share) else {
                 return;
             };
             let what = format!("every monomer at {share} of the loads");
@@ -325,11 +328,10 @@ impl<'a> Study<'a> {
             let reference = reference.values;
             for i in 0..self.candidates.len() {
                 let candidate = &self.candidates[i];
-                let is_dear = candidate.wall_s > self.reference.wall_s;
-                if candidate.error() > self.setup.options.error
-                    || candidate.failure.is_some()
-                    || is_dear
-                {
+                let is_slow = candidate.wall_s > self.reference.wall_s;
+                let is_good =
+                    candidate.failure.is_none() && candidate.error() <= self.setup.options.error;
+                if !is_good || is_slow || candidate.scene == substitute {
                     continue;
                 }
                 let Some(scene) = at_load(&candidate.scene, share) else {
