@@ -315,4 +315,10 @@ fn missing_quantities_and_invalid_errors_are_refused() {
         ..Options::default()
     };
     assert!(refused(CANTILEVER, &error).contains("below 1"));
+    let pinned = CANTILEVER.replace("Clamp(end: Start)", "Clamp(end: Start, hold: NodeAndFrame)");
+    let message = refused(&pinned, &Options::default());
+    assert!(
+        message.contains("no other resolution to compare with"),
+        "{message}"
+    );
 }

@@ -45,6 +45,12 @@ impl<'a> Setup<'a> {
         watch: &'a Watch<'a>,
     ) -> Result<Self, SceneProblem> {
         let (every, fixed) = every_monomer(scene);
+        if let [Some(reason), ..] = fixed.as_slice()
+            && fixed.iter().all(Option::is_some)
+        {
+            let rule = format!("no other resolution to compare with: {reason}");
+            return Err(SceneProblem::new("filament.sections", "", rule));
+        }
         let assembly = Assembly::build(&every)?;
         let plan = Plan::new(&assembly)?;
         let estimate = plan.estimate();
