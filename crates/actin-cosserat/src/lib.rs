@@ -48,7 +48,7 @@ pub use elements::{RodElements, RodJoint, RodSegment};
 pub use energy_gradient::EnergyGradient;
 pub use error::{RodError, RodParameterError};
 pub use extended::{
-    END_SHEAR_NM, END_TWIST_NM, EndShear, FarFromEnds, JoinedElement, SegmentCurvature, SegmentLaw,
+    END_SHEAR_NM, END_TWIST_NM, EndShear, JoinedElement, SegmentCurvature, SegmentLaw,
     TwistStability,
 };
 pub use homogenised::{Homogenised, HomogenisedForm, PotentialJet, StrainRange, Term};

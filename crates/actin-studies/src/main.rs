@@ -43,7 +43,7 @@ enum Task {
     LoadCases(load_cases::Options),
     /// Computes figures and tables of the paper and compares them with it.
     ReproduceFigures(figures::Options),
-    /// Runs the scenes of `scenarios/trade` with every monomer and in cheaper ways beside it.
+    /// Compares every monomer with cheaper candidates in the scenes of `scenarios/trade`.
     Tradeoff(tradeoff::Options),
     /// Checks or writes the generated pages of the book: keys of scenes, tables of results.
     Docs(docs::Options),

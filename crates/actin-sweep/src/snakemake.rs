@@ -77,7 +77,7 @@ impl SweepDirectory {
     /// A refusal of the file system.
     pub fn write_snakemake(&self, opened: &Opened, priced: &Priced) -> Result<(), SweepError> {
         let runs = opened.design.len() as f64;
-        // A run of unknown time is a job of its own.
+        // A run of unknown duration gets a separate job.
         let run_s = priced.run_s().unwrap_or(JOB_S).max(1e-3);
         // Of a machine a third as fast, and a minute for what else there is.
         let group = (JOB_S / run_s).clamp(1.0, runs).ceil();

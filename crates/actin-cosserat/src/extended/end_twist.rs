@@ -116,16 +116,6 @@ impl EndTwist {
         turn.z / self.rest_distance - material.rest_curvature().z
     }
 
-    /// Its rest distance (nm).
-    pub(super) fn rest_distance(&self) -> f64 {
-        self.rest_distance
-    }
-
-    /// Its twist in a state beyond that at rest (rad/nm).
-    pub(super) fn twist_beyond(&self, material: &RodMaterial, state: &State) -> f64 {
-        self.beyond(material, self.turn(state))
-    }
-
     /// By how much more energy it has than as an element like others (pN nm).
     pub(crate) fn energy(&self, material: &RodMaterial, state: &State) -> f64 {
         let beyond = self.beyond(material, self.turn(state));

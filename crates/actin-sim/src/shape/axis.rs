@@ -27,7 +27,7 @@ impl Axis {
         Self::along(&Ribbon::new(assembly, state))
     }
 
-    /// That of any filament, along its ribbon.
+    /// Returns the cross-sections of the filament of a ribbon.
     pub(crate) fn along(ribbon: &Ribbon) -> Self {
         let frames = ribbon.frames.iter().copied();
         let inside = ribbon.frame_s_nm.iter().copied().zip(frames);

@@ -177,14 +177,16 @@ impl<'a> Choice<'a> {
         Ok((full, assembly))
     }
 
+    /// Returns the measurer of the wanted quantities.
+    fn measurer(&self, assembly: &Assembly) -> Result<Measurer, SceneProblem> {
+        let wanted = self.wanted.iter();
+        let measures: Vec<Measure> = wanted.map(|(measure, _)| measure.clone()).collect();
+        Measurer::new(assembly, &measures)
+    }
+
     fn every_monomer(&self) -> Result<(Scene, Chosen), SceneProblem> {
         let (full, assembly) = self.full_resolution()?;
-        let measures: Vec<Measure> = self
-            .wanted
-            .iter()
-            .map(|(measure, _)| measure.clone())
-            .collect();
-        Measurer::new(&assembly, &measures)?;
+        self.measurer(&assembly)?;
         let monomers = assembly.counts().monomers;
         Ok((
             self.with_sections_of(&full.scene),
@@ -211,12 +213,7 @@ impl<'a> Choice<'a> {
 
     fn by_trial(&self) -> Result<(Scene, Chosen), SceneProblem> {
         let (full, assembly) = self.full_resolution()?;
-        let measures: Vec<Measure> = self
-            .wanted
-            .iter()
-            .map(|(measure, _)| measure.clone())
-            .collect();
-        let mut measurer = Measurer::new(&assembly, &measures)?;
+        let mut measurer = self.measurer(&assembly)?;
         let records = records_of(&assembly)?;
         let reference = trial(&full.scene, records.map(|(first, _)| first))?;
         let values = measurer.values(&reference.assembly, &reference.records);
