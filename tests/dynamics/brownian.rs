@@ -234,7 +234,7 @@ fn long_steps_are_told() {
             .iter()
             .any(|note| note.contains("drawn anew") || note.contains("more than their thermal"))
     };
-    for (sections, long) in SECTIONS.iter().zip([50.0, 1.0, 1.0]) {
+    for (sections, long) in SECTIONS.iter().zip([50.0, 0.022, 0.015]) {
         let long = format!(", time_step_ns: {long:?}");
         assert!(!told(&notes(sections, 298.0, "")));
         assert!(told(&notes(sections, 298.0, &long)), "{sections}");

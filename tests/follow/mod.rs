@@ -1,5 +1,6 @@
 //! Resolution that follows a motion: what a switch keeps, what it books, and what does not depend on it.
 
+mod accuracy;
 mod brownian;
 mod heat;
 mod interrupted;
@@ -17,7 +18,7 @@ struct ToAndFro {
 
 impl Criterion for ToAndFro {
     fn wish(&self, cell: &Cell<'_>) -> Wish {
-        let turn = (cell.state.time / self.every_ns).floor();
+        let turn = (cell.filament.state.time / self.every_ns).floor();
         let place = (cell.span_nm[0] / 30.0).round();
         if place > 0.5 && (turn + place).rem_euclid(2.0) < 0.5 {
             Wish::Monomers

@@ -1,8 +1,8 @@
 //! Where and how long cells are monomers.
 
 use super::scene;
-use actin_sim::follow::{Cell, Criterion, Follower, Wish};
-use actin_sim::{Scene, Where};
+use actin_sim::follow::{Cell, Criterion, FilamentState, Follower, Wish};
+use actin_sim::{Assembly, Plan, Scene, Where};
 
 /// Wants monomers and a rod in turn, at every look.
 #[derive(Debug)]
@@ -35,27 +35,62 @@ fn cells_stay_for_the_least_time() {
     assert!(gaps.iter().all(|gap| (gap - 0.75).abs() < 1e-9), "{gaps:?}");
 }
 
-/// Between two thresholds a cell stays what it is; a criterion with one would flicker.
+/// Loads and energies of the four cells of a cantilever are those of a slender rod, and criteria answer to them: between
+/// their thresholds a cell stays as it is.
 #[test]
-fn between_its_thresholds_a_cell_stays() {
-    let assembly =
-        actin_sim::Assembly::build(&scene(72.0, 1.0, "task: Dynamics(duration_ns: 1.0)"));
-    let assembly = assembly.unwrap();
-    let cell = |curvature_per_nm| Cell {
-        assembly: &assembly,
-        state: &assembly.rest,
-        span_nm: [0.0, 36.0],
-        is_monomers: false,
-        curvature_per_nm,
-        twist_per_nm: 0.0,
-        extension: 0.0,
+fn criteria_read_loads_and_energies_of_cells() {
+    let text = "Scene(
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 144.0, segments: 48)], rod: RodModel(law: Constant)),
+        clamps: [Clamp(end: Start)],
+        loads: [EndForce(end: End, force_pn: (0.5, 0.0, 0.0))],
+        task: Equilibrium(),
+    )";
+    let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
+    let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
+    let state = &trajectory.records.last().unwrap().state;
+    let boundaries_nm = [0.0, 36.0, 72.0, 108.0, 144.0];
+    let filament = FilamentState::new((&assembly, state), &boundaries_nm);
+    let cells: Vec<Cell<'_>> = filament.cells(&[false; 4]).collect();
+    let bend = assembly.scene.filament.rod.material.rigidities().bend.y;
+    for cell in &cells {
+        let [from, to] = cell.span_nm.map(|s_nm| 0.5 * (144.0 - s_nm));
+        let load = cell.mean_load();
+        // Cross-sections turn by up to 0.06 within a cell, and deflections shorten the arms by less than 1 %.
+        assert!((load.force_pn.norm() - 0.5).abs() < 1e-3, "{load:?}");
+        let couple = load.couple_pn_nm.norm() / (0.5 * (from + to));
+        assert!((couple - 1.0).abs() < 0.01, "{couple}");
+        // Energy of shear is below 2 % of that of bending in the last cell.
+        let of_bending = (from * from + from * to + to * to) / (6.0 * bend);
+        let energy = cell.energy_per_length_pn() / of_bending;
+        assert!((energy - 1.0).abs() < 0.05, "{energy}");
+    }
+    let wishes = |criterion: Where| [0, 1, 2, 3].map(|i| criterion.wish(&cells[i]));
+    let (monomers, stay, rod) = (Wish::Monomers, Wish::Stay, Wish::Rod);
+    let force = Where::Force {
+        above_pn: 0.6,
+        below_pn: 0.4,
     };
-    let criterion = Where::Curvature {
-        above_per_nm: 0.02,
-        below_per_nm: 0.01,
+    assert_eq!(wishes(force), [stay; 4]);
+    let couple = Where::Couple {
+        above_pn_nm: 50.0,
+        below_pn_nm: 20.0,
     };
-    let wishes = [0.005, 0.015, 0.025].map(|kappa| criterion.wish(&cell(kappa)));
-    assert_eq!(wishes, [Wish::Rod, Wish::Stay, Wish::Monomers]);
+    assert_eq!(wishes(couple), [monomers, stay, stay, rod]);
+    let energy = Where::Energy {
+        above_pn: 0.5 * 55.0 * 55.0 / bend,
+        below_pn: 0.5 * 20.0 * 20.0 / bend,
+    };
+    assert_eq!(wishes(energy), [monomers, stay, stay, rod]);
+    let largest = Where::LargestEnergy {
+        above: 0.9,
+        below: 0.3,
+    };
+    assert_eq!(wishes(largest), [monomers, stay, rod, rod]);
+    let curvature = Where::Curvature {
+        above_per_nm: 50.0 / bend,
+        below_per_nm: 20.0 / bend,
+    };
+    assert_eq!(wishes(curvature), [monomers, stay, stay, rod]);
 }
 
 /// A motion that never asks for monomers has none.

@@ -27,6 +27,11 @@ impl Cells {
         self.boundaries_nm.len() - 1
     }
 
+    /// Ends of the cells (nm), in order.
+    pub(super) fn boundaries_nm(&self) -> &[f64] {
+        &self.boundaries_nm
+    }
+
     /// Where each begins and ends (nm).
     pub(super) fn spans_nm(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         self.boundaries_nm.windows(2).map(|ends| [ends[0], ends[1]])

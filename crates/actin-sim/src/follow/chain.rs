@@ -1,7 +1,7 @@
 //! A motion as a chain of stretches, each with the resolution that its beginning asked for.
 
 use super::cells::Cells;
-use super::criterion::{Criterion, Wish, cells, wish_of};
+use super::criterion::{Criterion, FilamentState, Wish, wish_of};
 use super::transfer::{Switch, Transfer};
 use crate::run::record;
 use crate::scene::{Scene, SceneProblem};
@@ -199,13 +199,11 @@ impl Follower {
 
     /// Which cells are to be monomers, if others than now.
     fn wanted(&self, stretch: &Stretch, state: &State, step: u64) -> Option<Vec<bool>> {
-        let seen = cells(
-            (&stretch.assembly, state),
-            self.cells.spans_nm(),
-            &stretch.beginning.is_monomers,
-        );
+        let filament = FilamentState::new((&stretch.assembly, state), self.cells.boundaries_nm());
+        let cells = filament.cells(&stretch.beginning.is_monomers);
         let wishes =
-            seen.zip(&stretch.beginning.free_from)
+            cells
+                .zip(&stretch.beginning.free_from)
                 .map(|(cell, &free_from)| match wish_of(&self.criteria, &cell) {
                     _ if step < free_from => cell.is_monomers,
                     Wish::Monomers => true,

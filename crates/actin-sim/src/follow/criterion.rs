@@ -3,17 +3,88 @@
 use crate::Assembly;
 use crate::scene::Where;
 use crate::shape::axis::Axis;
+use crate::shape::{SectionLoad, SectionLoads, energy_per_length};
 use actin_mechanics::{State, rotation};
+use std::cell::OnceCell;
 use std::fmt::Debug;
 
-/// A cell of a filament at one moment of a motion.
-#[derive(Clone, Copy, Debug)]
-pub struct Cell<'a> {
-    /// The filament as it is resolved now.
+/// Largest energy of a cell (pN nm) below which no cell has the largest energy: rounding of an unstrained filament.
+const NO_ENERGY: f64 = 1e-6;
+
+/// Cross-sections of a cell at which its internal loads are averaged.
+const CROSS_SECTIONS: u32 = 8;
+
+/// Filament at one moment of a motion, with the quantities that its cells share; loads and energies are computed if a
+/// criterion reads them.
+#[derive(Debug)]
+pub struct FilamentState<'a> {
+    /// The filament at its present resolution.
     pub assembly: &'a Assembly,
     /// Its state.
     pub state: &'a State,
-    /// Where the cell begins and ends at rest (nm of arc length).
+    boundaries_nm: &'a [f64],
+    loads: OnceCell<SectionLoads>,
+    energies_per_length_pn: OnceCell<Vec<f64>>,
+}
+
+impl<'a> FilamentState<'a> {
+    /// Returns filament 0 of an assembly in a state; cells begin and end at `boundaries_nm`.
+    pub fn new((assembly, state): (&'a Assembly, &'a State), boundaries_nm: &'a [f64]) -> Self {
+        Self {
+            assembly,
+            state,
+            boundaries_nm,
+            loads: OnceCell::new(),
+            energies_per_length_pn: OnceCell::new(),
+        }
+    }
+
+    /// Returns the internal loads of the filament.
+    pub fn loads(&self) -> &SectionLoads {
+        let loads = || SectionLoads::of(self.assembly, 0, self.state);
+        self.loads.get_or_init(loads)
+    }
+
+    /// Returns the elastic energy per length of each cell (pN).
+    pub fn energies_per_length_pn(&self) -> &[f64] {
+        let energies = || energy_per_length(self.assembly, 0, self.state, self.boundaries_nm);
+        self.energies_per_length_pn.get_or_init(energies)
+    }
+
+    /// Returns the cells in order; `is_monomers` tells which are resolved.
+    pub fn cells(&self, is_monomers: &'a [bool]) -> impl Iterator<Item = Cell<'_>> {
+        let axis = Axis::of(self.assembly, self.state);
+        let spans = self.boundaries_nm.windows(2).enumerate();
+        spans
+            .zip(is_monomers)
+            .map(move |((index, ends), &is_monomers)| {
+                let length = ends[1] - ends[0];
+                let [a, b] = [ends[0], ends[1]].map(|s_nm| axis.at(s_nm));
+                let turn = rotation::log(a.1.inverse() * b.1) / length;
+                let curvature = turn.x.hypot(turn.y);
+                let half = 0.5 * curvature * length;
+                let chord = if half > 0.0 { half.sin() / half } else { 1.0 };
+                Cell {
+                    filament: self,
+                    index,
+                    span_nm: [ends[0], ends[1]],
+                    is_monomers,
+                    curvature_per_nm: curvature,
+                    twist_per_nm: turn.z,
+                    extension: (b.0 - a.0).norm() / (length * chord) - 1.0,
+                }
+            })
+    }
+}
+
+/// Cell of a filament at one moment of a motion.
+#[derive(Clone, Copy, Debug)]
+pub struct Cell<'a> {
+    /// The filament at this moment.
+    pub filament: &'a FilamentState<'a>,
+    /// Index of the cell.
+    pub index: usize,
+    /// Arc lengths of its ends at rest (nm).
     pub span_nm: [f64; 2],
     /// Whether it is resolved into monomers.
     pub is_monomers: bool,
@@ -23,6 +94,42 @@ pub struct Cell<'a> {
     pub twist_per_nm: f64,
     /// Distance of its ends over that of an arc of its length and curvature, less 1.
     pub extension: f64,
+}
+
+impl Cell<'_> {
+    /// Returns the internal force (pN) and couple (pN nm) in the axes of the cross-sections, averaged over the cell.
+    pub fn mean_load(&self) -> SectionLoad {
+        let [from_nm, to_nm] = self.span_nm;
+        let count = f64::from(CROSS_SECTIONS);
+        let mut mean = SectionLoad::default();
+        for k in 0..CROSS_SECTIONS {
+            let share = (f64::from(k) + 0.5) / count;
+            let load = self
+                .filament
+                .loads()
+                .at(from_nm + share * (to_nm - from_nm));
+            mean.force_pn += load.force_pn / count;
+            mean.couple_pn_nm += load.couple_pn_nm / count;
+        }
+        mean
+    }
+
+    /// Returns the elastic energy over the length (pN).
+    pub fn energy_per_length_pn(&self) -> f64 {
+        self.filament.energies_per_length_pn()[self.index]
+    }
+
+    /// Returns the energy per length over that of the cell with the largest; 0 without energy.
+    pub fn energy_over_largest(&self) -> f64 {
+        let energies = self.filament.energies_per_length_pn().iter().copied();
+        let largest = energies.fold(0.0, f64::max);
+        let length = self.span_nm[1] - self.span_nm[0];
+        if largest * length > NO_ENERGY {
+            self.energy_per_length_pn() / largest
+        } else {
+            0.0
+        }
+    }
 }
 
 /// What a criterion wants a cell to be.
@@ -64,6 +171,21 @@ impl Criterion for Where {
                 below_per_nm,
             } => by(cell.twist_per_nm.abs(), above_per_nm, below_per_nm),
             Self::Extension { above, below } => by(cell.extension.abs(), above, below),
+            Self::Force { above_pn, below_pn } => {
+                by(cell.mean_load().force_pn.norm(), above_pn, below_pn)
+            }
+            Self::Couple {
+                above_pn_nm,
+                below_pn_nm,
+            } => by(
+                cell.mean_load().couple_pn_nm.norm(),
+                above_pn_nm,
+                below_pn_nm,
+            ),
+            Self::Energy { above_pn, below_pn } => {
+                by(cell.energy_per_length_pn(), above_pn, below_pn)
+            }
+            Self::LargestEnergy { above, below } => by(cell.energy_over_largest(), above, below),
             Self::Linker {
                 linker,
                 within_nm,
@@ -78,10 +200,13 @@ impl Criterion for Where {
 
 /// How far the site of a linker is from a cell (nm of arc length); infinite where it does not hold.
 fn distance_nm(cell: &Cell<'_>, linker: usize) -> f64 {
-    let s_nm = match cell.assembly.switched(linker, cell.state) {
+    let FilamentState {
+        assembly, state, ..
+    } = cell.filament;
+    let s_nm = match assembly.switched(linker, state) {
         Some((true, s_nm)) => s_nm,
         Some((false, _)) => return f64::INFINITY,
-        None => cell.assembly.scene.linkers[linker].at_nm,
+        None => assembly.scene.linkers[linker].at_nm,
     };
     let [from, to] = cell.span_nm;
     (from - s_nm).max(s_nm - to).max(0.0)
@@ -95,32 +220,4 @@ pub(super) fn wish_of(criteria: &[Box<dyn Criterion>], cell: &Cell<'_>) -> Wish 
         (Wish::Rod, wish) => wish,
         (Wish::Stay, _) => Wish::Stay,
     })
-}
-
-/// The cells of filament 0 in a state.
-pub(super) fn cells<'a>(
-    (assembly, state): (&'a Assembly, &'a State),
-    spans_nm: impl Iterator<Item = [f64; 2]> + 'a,
-    is_monomers: &'a [bool],
-) -> impl Iterator<Item = Cell<'a>> + 'a {
-    let axis = Axis::of(assembly, state);
-    spans_nm
-        .zip(is_monomers)
-        .map(move |(span_nm, &is_monomers)| {
-            let length = span_nm[1] - span_nm[0];
-            let [a, b] = span_nm.map(|s_nm| axis.at(s_nm));
-            let turn = rotation::log(a.1.inverse() * b.1) / length;
-            let curvature = turn.x.hypot(turn.y);
-            let half = 0.5 * curvature * length;
-            let chord = if half > 0.0 { half.sin() / half } else { 1.0 };
-            Cell {
-                assembly,
-                state,
-                span_nm,
-                is_monomers,
-                curvature_per_nm: curvature,
-                twist_per_nm: turn.z,
-                extension: (b.0 - a.0).norm() / (length * chord) - 1.0,
-            }
-        })
 }

@@ -24,5 +24,5 @@ mod transfer;
 
 pub(crate) use cells::Cells;
 pub use chain::{Beginning, Followed, Follower, Left, Next, Ran, Stretch};
-pub use criterion::{Cell, Criterion, Wish};
+pub use criterion::{Cell, Criterion, FilamentState, Wish};
 pub use transfer::Switch;

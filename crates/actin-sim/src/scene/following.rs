@@ -84,6 +84,34 @@ pub enum Where {
         /// Below this it becomes a rod; at least 0, less than `above`.
         below: f64,
     },
+    /// By the size of the internal force, averaged over the cell.
+    Force {
+        /// Above this it is resolved.
+        above_pn: f64,
+        /// Below this it becomes a rod; at least 0, less than `above_pn`.
+        below_pn: f64,
+    },
+    /// By the size of the internal couple, averaged over the cell: bending moment and torque.
+    Couple {
+        /// Above this it is resolved.
+        above_pn_nm: f64,
+        /// Below this it becomes a rod; at least 0, less than `above_pn_nm`.
+        below_pn_nm: f64,
+    },
+    /// By the elastic energy per length of the cell (pN nm per nm).
+    Energy {
+        /// Above this it is resolved.
+        above_pn: f64,
+        /// Below this it becomes a rod; at least 0, less than `above_pn`.
+        below_pn: f64,
+    },
+    /// By the elastic energy per length in units of the largest of all cells.
+    LargestEnergy {
+        /// Above this it is resolved; at most 1.
+        above: f64,
+        /// Below this it becomes a rod; at least 0, less than `above`.
+        below: f64,
+    },
     /// By the distance of a linker's site along the filament, which may step; of one that does not hold by none.
     Linker {
         /// Index of the linker.
@@ -129,37 +157,59 @@ pub(super) fn check_following(scene: &Scene, following: &Following) -> Result<()
 }
 
 fn check_where(scene: &Scene, key: &str, criterion: &Where) -> Result<(), SceneProblem> {
-    let ([lower, upper], [low, high]) = match *criterion {
-        Where::Curvature {
-            above_per_nm,
-            below_per_nm,
-        }
-        | Where::Twist {
-            above_per_nm,
-            below_per_nm,
-        } => (
-            ["below_per_nm", "above_per_nm"],
-            [below_per_nm, above_per_nm],
-        ),
-        Where::Extension { above, below } => (["below", "above"], [below, above]),
-        Where::Linker {
-            linker,
-            within_nm,
-            beyond_nm,
-        } => {
-            if linker >= scene.linkers.len() {
-                let rule = format!("the scene has {} linker(s)", scene.linkers.len());
-                return Err(SceneProblem::new(format!("{key}.linker"), linker, rule));
-            }
-            (["within_nm", "beyond_nm"], [within_nm, beyond_nm])
-        }
-    };
+    if let Where::Linker { linker, .. } = *criterion
+        && linker >= scene.linkers.len()
+    {
+        let rule = format!("the scene has {} linker(s)", scene.linkers.len());
+        return Err(SceneProblem::new(format!("{key}.linker"), linker, rule));
+    }
+    if let Where::LargestEnergy { above, .. } = *criterion
+        && above > 1.0
+    {
+        let rule = "must be at most 1: the largest energy is the unit";
+        return Err(SceneProblem::new(format!("{key}.above"), show(above), rule));
+    }
+    let ([lower, upper], [low, high]) = criterion.thresholds();
     finite(&format!("{key}.{upper}"), high)?;
     if low >= 0.0 && low < high {
         return Ok(());
     }
     let rule = format!("must be at least 0 and less than {upper} = {}", show(high));
     Err(SceneProblem::new(format!("{key}.{lower}"), show(low), rule))
+}
+
+impl Where {
+    /// Returns the keys of the lower and the upper threshold, and their values.
+    fn thresholds(&self) -> ([&'static str; 2], [f64; 2]) {
+        match *self {
+            Self::Curvature {
+                above_per_nm,
+                below_per_nm,
+            }
+            | Self::Twist {
+                above_per_nm,
+                below_per_nm,
+            } => (
+                ["below_per_nm", "above_per_nm"],
+                [below_per_nm, above_per_nm],
+            ),
+            Self::Extension { above, below } | Self::LargestEnergy { above, below } => {
+                (["below", "above"], [below, above])
+            }
+            Self::Force { above_pn, below_pn } | Self::Energy { above_pn, below_pn } => {
+                (["below_pn", "above_pn"], [below_pn, above_pn])
+            }
+            Self::Couple {
+                above_pn_nm,
+                below_pn_nm,
+            } => (["below_pn_nm", "above_pn_nm"], [below_pn_nm, above_pn_nm]),
+            Self::Linker {
+                within_nm,
+                beyond_nm,
+                ..
+            } => (["within_nm", "beyond_nm"], [within_nm, beyond_nm]),
+        }
+    }
 }
 
 /// Refuses scenes whose sections cannot follow.

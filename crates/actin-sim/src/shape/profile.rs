@@ -115,7 +115,7 @@ fn smoothed(values: &[Vector3], between_monomers: &[bool]) -> Vec<Vector3> {
 
 /// Energy per length (pN) of each cell of a filament between two of the ascending places `cells`
 /// (nm).
-fn energy_per_length(
+pub(crate) fn energy_per_length(
     assembly: &Assembly,
     filament: usize,
     state: &State,

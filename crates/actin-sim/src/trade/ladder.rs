@@ -100,6 +100,31 @@ impl Places<'_> {
         [walls, sites].concat()
     }
 
+    /// Returns filaments of rods without monomers.
+    fn rods(&self, rods: &[(RodLaw, f64)]) -> impl Iterator<Item = Proposal> {
+        rods.iter().map(|(law, segment_nm)| {
+            let rods = self::rods(&self.full.scene, law, *segment_nm);
+            Proposal {
+                name: rods.name(),
+                scene: self.full.resolved(&rods, &self.full.no_windows()),
+            }
+        })
+    }
+
+    /// Returns filaments of rods with windows of monomers, where these leave room for rods.
+    fn all_windows(&self, windows: &[(Kind, f64, RodLaw, f64)]) -> impl Iterator<Item = Proposal> {
+        windows
+            .iter()
+            .filter_map(|(kind, width_nm, law, segment_nm)| {
+                let windows = self.windows(*kind, *width_nm)?;
+                let rods = rods(&self.full.scene, law, *segment_nm);
+                Some(Proposal {
+                    name: format!("{width_nm} nm {}, {}", kind.name(), rods.name()),
+                    scene: self.full.resolved(&rods, &windows),
+                })
+            })
+    }
+
     fn windows(&self, of: Kind, width_nm: f64) -> Option<Vec<Vec<[f64; 2]>>> {
         self.full.windows(
             |filament| match of {
@@ -131,7 +156,10 @@ impl Kind {
 
 use RodLaw::{Constant, Fitted, Homogenised};
 
-/// Laws and segment lengths (nm) of all-rod candidates, by default and for `--all`.
+/// Smallest number of resolutions without `--all`, where windows leave room for as many.
+const FEWEST: usize = 8;
+
+/// Laws and segment lengths (nm) of all-rod candidates: by default, and for `--all` or short filaments.
 const RODS: [(RodLaw, f64); 5] = [
     (Fitted, 40.0),
     (Homogenised, 40.0),
@@ -174,42 +202,31 @@ pub(super) fn resolutions(
         scene: quick(&full.scene, default_ns),
         ..full.clone()
     };
-    let (more_rods, more_windows) = if is_all {
-        (&MORE_RODS[..], &MORE_WINDOWS[..])
-    } else {
-        (&[][..], &[][..])
-    };
-    let all_rods = RODS.iter().chain(more_rods);
-    let of_rods = all_rods.map(|(law, segment_nm)| {
-        let rods = rods(&full.scene, law, *segment_nm);
-        Proposal {
-            name: rods.name(),
-            scene: full.resolved(&rods, &full.no_windows()),
-        }
-    });
     let places = Places {
         full: &full,
         bends_most,
     };
-    let all_windows = WINDOWS.iter().chain(more_windows);
-    let of_windows = all_windows.filter_map(|(kind, width_nm, law, segment_nm)| {
-        let windows = places.windows(*kind, *width_nm)?;
-        let rods = rods(&full.scene, law, *segment_nm);
-        Some(Proposal {
-            name: format!("{width_nm} nm {}, {}", kind.name(), rods.name()),
-            scene: full.resolved(&rods, &windows),
-        })
-    });
-    let mut all: Vec<Proposal> = of_rods.chain(of_windows).collect();
-    all.extend(single_rods(&full));
-    all.extend(is_all.then(|| with_eight_bonds(&full.scene)));
-    let mut known: Vec<Scene> = Vec::new();
-    all.retain(|one| {
-        let is_new = !known.contains(&one.scene);
-        known.push(one.scene.clone());
-        is_new
-    });
+    let default = places.rods(&RODS).chain(places.all_windows(&WINDOWS));
+    let mut all = Vec::new();
+    for proposal in default.chain(single_rods(&full)) {
+        push_new(&mut all, proposal);
+    }
+    let more_windows = places.all_windows(&MORE_WINDOWS);
+    for proposal in places.rods(&MORE_RODS).chain(more_windows) {
+        if is_all || all.len() < FEWEST {
+            push_new(&mut all, proposal);
+        }
+    }
+    if is_all {
+        push_new(&mut all, with_eight_bonds(&full.scene));
+    }
     all
+}
+
+fn push_new(all: &mut Vec<Proposal>, proposal: Proposal) {
+    if all.iter().all(|known| known.scene != proposal.scene) {
+        all.push(proposal);
+    }
 }
 
 /// Resolutions of `Adaptive`: segment lengths (nm) of all-rod filaments, and windows of monomers with their width (nm) and
