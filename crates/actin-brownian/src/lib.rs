@@ -18,6 +18,7 @@ mod cylinder;
 mod flow;
 mod friction;
 mod langevin;
+mod progress;
 mod relaxation;
 mod stepper;
 mod stress;

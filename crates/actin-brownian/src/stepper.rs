@@ -71,7 +71,8 @@
 //! 1527. Drift: Hutter and Ottinger, J. Chem. Soc. Faraday Trans. 94 (1998) 1403.
 
 use crate::friction::Velocities;
-use crate::stress::{Added, Kind, Stresses};
+use crate::progress::Progress;
+use crate::stress::{Added, Stresses};
 use crate::{Flow, Friction};
 use actin_equilibrium::{ImplicitSolver, Layout, SolveError, StepSize};
 use actin_integrate::{Body, FailureKind, Noise, StepFailure, Stepper};
@@ -87,20 +88,11 @@ const DAMPED_STEPS: u64 = 4;
 /// Longest turn (rad) that one iteration may ask for.
 const LARGEST_TURN: f64 = 0.5;
 
-/// An iteration that goes farther than this share of the one before is followed by one with more friction.
-const SHRINKING: f64 = 0.5;
-
-/// Iterations that need not shrink.
-const FREE_ITERATIONS: usize = 3;
-
 /// How often a step that is not solved is halved.
 const HALVINGS: u32 = 8;
 
 /// Streams of noise of one step: one for each part of it.
 const PARTS: u64 = 1 << (HALVINGS + 1);
-
-/// Factor by which added friction grows and falls.
-const DAMPING: f64 = 4.0;
 
 /// When a step counts as solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -160,6 +152,11 @@ pub struct Brownian {
     stresses: Stresses,
     /// Whether steps are those with random stress.
     has_stress: bool,
+    /// Frames whose turns about their own axes couple to twist and friction alone.
+    axial: Vec<usize>,
+    /// Turn of each of these frames about its axis since the start of a step (rad); zero of others.
+    spins: Vec<f64>,
+    progress: Progress,
     start: State,
     /// Loads at the start, where heat is booked.
     before: Loads,
@@ -190,13 +187,18 @@ impl Brownian {
         ImplicitSolver::check(system.interactions())?;
         let state = system.state();
         let loads = Loads::zeros(state);
-        let mut solver = ImplicitSolver::new(layout);
+        let stresses = Stresses::new(system.interactions(), seed);
+        let has_stress = thermal_energy > 0.0;
+        let mut solver = ImplicitSolver::new(layout.with_conjugate_gradients());
         solver.factorize((state, &loads), system.interactions(), &friction.times(1.0));
         let elements = (friction.dashpots.len(), friction.turns.len());
         Ok(Self {
             noise: Noise::of_purpose(PURPOSE, seed, elements),
-            stresses: Stresses::new(system.interactions(), seed),
-            has_stress: thermal_energy > 0.0,
+            stresses,
+            has_stress,
+            spins: vec![0.0; state.frames.len()],
+            progress: Progress::default(),
+            axial: Vec::new(),
             velocities: Velocities {
                 points: Vectors::zeros(state.points.len()),
                 frames: Vectors::zeros(state.frames.len()),
@@ -223,6 +225,16 @@ impl Brownian {
             has_stress: false,
             ..self
         }
+    }
+
+    /// The same where these frames carry nothing off their axes, such as linkers: frames of slender bodies that are isotropic
+    /// about their axes, if interactions say so, may then turn about them as far as noise leads them.
+    #[must_use]
+    pub fn with_bare_frames(mut self, system: &System, bare: impl Fn(usize) -> bool) -> Self {
+        let axial = self.stresses.axial_frames(system.interactions());
+        self.axial = axial.into_iter().filter(|&frame| bare(frame)).collect();
+        self.solver.let_spin(&self.axial);
+        self
     }
 
     /// The same in a fluid that flows. Steps have to be short against the inverse of the velocity gradient.
@@ -301,40 +313,29 @@ impl Brownian {
         self.random.clear();
         self.friction
             .add_noise(&self.start, strength, noise, &mut self.random);
-        let (mut extent, mut before, mut damping) = (StepSize::default(), f64::INFINITY, 0.0);
-        for k in 0..self.limits.iterations {
+        let mut extent = StepSize::default();
+        self.progress = Progress::default();
+        for _ in 0..self.limits.iterations {
             self.iterations += 1;
             self.loads.clone_from(system.loads());
             let (state, interactions) = (system.state(), system.interactions());
             self.find_middle(state);
             self.find_velocities(state, h, 0.5);
             self.residual.clone_from(&self.loads);
+            for &i in &self.axial {
+                self.spins[i] = spin(&self.start, state, i);
+            }
+            self.stresses.turn_back(interactions, &self.spins);
             self.stresses
                 .add_loads(interactions, state, &mut self.residual);
             self.residual.add(&self.random);
             self.friction
                 .add_loads(&self.middle, &self.velocities, &mut self.residual);
-            self.factorize(system, (1.0 + damping) / h, k == 0);
-            let state = system.state_mut();
-            extent = self
-                .solver
-                .advance_together(state, &self.residual, LARGEST_TURN);
-            // As far as the iteration would have gone without what holds it back.
-            let whole = StepSize {
-                displacement: extent.displacement * (1.0 + damping),
-                rotation: extent.rotation * (1.0 + damping),
-                ..extent
-            };
-            if self.limits.hold(&whole) {
+            self.find_step(system, self.progress.friction() / h);
+            extent = self.solver.advance_along(system.state_mut(), LARGEST_TURN);
+            if self.progress.is_solved(extent, &self.limits) {
                 return Ok(());
             }
-            let is_slow = k >= FREE_ITERATIONS && extent.displacement > SHRINKING * before;
-            damping = match (is_slow, damping > 1.0) {
-                (true, _) => f64::max(1.0, DAMPING * damping),
-                (false, true) => damping / DAMPING,
-                (false, false) => 0.0,
-            };
-            before = extent.displacement;
         }
         Err(self.failure(system, &extent))
     }
@@ -430,24 +431,31 @@ impl Brownian {
         Ok(())
     }
 
-    /// Factorises the stiffness with what stresses add and friction times `factor`; where that is not positive definite,
-    /// or is `rough`, without what forces add to it.
-    fn factorize(&mut self, system: &System, factor: f64, rough: bool) {
-        let interactions = system.interactions();
-        let at = (system.state(), &self.loads);
+    /// Finds the step of an iteration with the stiffness, what stresses add and friction times `factor`. Filaments whose
+    /// stiffness is not positive definite, and all in the first iteration, are without what forces add to it.
+    fn find_step(&mut self, system: &System, factor: f64) {
+        let (state, interactions) = (system.state(), system.interactions());
         let friction = self.friction.times(factor).in_axes_of(&self.middle);
-        let kinds = [Kind::Drawn, Kind::Balancing];
-        for kind in kinds.into_iter().skip(usize::from(rough)) {
-            if kind == Kind::Balancing {
-                self.stresses.balance(interactions, system.state());
-            }
+        self.stresses.balance_all(self.progress.is_first());
+        loop {
+            self.stresses.find_balance(interactions, state);
             let added = Added {
                 friction,
                 interactions,
                 stresses: &self.stresses,
-                kind,
             };
-            if self.solver.factorize(at, interactions, &added) {
+            let at = (state, &self.loads);
+            let is_positive = self.solver.factorize(at, interactions, &added);
+            let worst = if is_positive {
+                if self.solver.find_step(state, &self.residual) {
+                    return;
+                }
+                Vec::new()
+            } else {
+                self.solver.indefinite_frames()
+            };
+            if !self.stresses.balance_more(interactions, &worst) {
+                self.solver.find_step(state, &self.residual);
                 return;
             }
         }
@@ -509,8 +517,14 @@ fn turn(from: &State, to: &State, i: usize) -> Vector3 {
     rotation::log(q.inverse() * to.frames.orientation.get(i))
 }
 
+/// The turn of frame `i` about its third axis from one state to another (rad).
+fn spin(from: &State, to: &State, i: usize) -> f64 {
+    let q = from.frames.orientation.get(i).inverse() * to.frames.orientation.get(i);
+    2.0 * q.k.atan2(q.w)
+}
+
 impl StepLimits {
-    fn hold(&self, extent: &StepSize) -> bool {
+    pub(crate) fn hold(&self, extent: &StepSize) -> bool {
         extent.displacement <= self.displacement && extent.rotation <= self.rotation
     }
 }

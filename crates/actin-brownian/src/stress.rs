@@ -19,17 +19,13 @@ pub(crate) struct Stresses {
     parts: Vec<(usize, Range<usize>)>,
     /// As drawn.
     drawn: Vec<f64>,
+    /// In the axes of frames that have turned since.
+    turned: Vec<f64>,
     /// Those that balance the elements' own.
     balancing: Vec<f64>,
-}
-
-/// Which stresses second derivatives belong to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// Those that act.
-    Drawn,
-    /// Those that leave of the elements nothing but their stiffness, which is positive.
-    Balancing,
+    /// Of each interaction whether second derivatives are those of the stresses that balance its elements, which leave nothing but
+    /// their stiffness: it is positive.
+    is_balanced: Vec<bool>,
 }
 
 type Interactions = [Box<dyn Interaction>];
@@ -47,8 +43,10 @@ impl Stresses {
         }
         Self {
             noise: Noise::of_purpose(PURPOSE, seed, (end.div_ceil(VECTOR), 0)),
+            is_balanced: vec![false; parts.len()],
             parts,
             drawn: vec![0.0; end],
+            turned: vec![0.0; end],
             balancing: vec![0.0; end],
         }
     }
@@ -71,17 +69,62 @@ impl Stresses {
         }
     }
 
-    pub(crate) fn balance(&mut self, interactions: &Interactions, state: &State) {
+    /// Returns the frames whose turns about their own axes change no stress.
+    pub(crate) fn axial_frames(&self, interactions: &Interactions) -> Vec<usize> {
+        let parts = self.parts.iter();
+        parts
+            .flat_map(|(k, _)| of(interactions, *k).axial_frames())
+            .collect()
+    }
+
+    /// Takes the stresses in the axes of frames that have turned about their own axes by `spins` (rad) since they were drawn.
+    pub(crate) fn turn_back(&mut self, interactions: &Interactions, spins: &[f64]) {
         for (k, range) in &self.parts {
-            let stresses = &mut self.balancing[range.clone()];
-            of(interactions, *k).balance(state, stresses);
+            let (drawn, turned) = (&self.drawn[range.clone()], &mut self.turned[range.clone()]);
+            of(interactions, *k).turn_back(spins, drawn, turned);
+        }
+    }
+
+    /// Takes second derivatives of all interactions as they are, or balanced.
+    pub(crate) fn balance_all(&mut self, is_balanced: bool) {
+        self.is_balanced.fill(is_balanced);
+    }
+
+    /// Balances interactions without axial frames, such as springs, which give way across if compressed; then those that have
+    /// one of these frames as axial, then all. Returns false if all were balanced before.
+    pub(crate) fn balance_more(&mut self, interactions: &Interactions, frames: &[usize]) -> bool {
+        let axial = |k: usize| of(interactions, k).axial_frames();
+        let has_one = |k: usize| frames.iter().any(|frame| axial(k).contains(frame));
+        self.balance_if(|k| axial(k).is_empty())
+            || self.balance_if(has_one)
+            || self.balance_if(|_| true)
+    }
+
+    /// Returns true if the choice changes anything.
+    fn balance_if(&mut self, choice: impl Fn(usize) -> bool) -> bool {
+        let mut has_changed = false;
+        for ((k, _), is_balanced) in self.parts.iter().zip(&mut self.is_balanced) {
+            if !*is_balanced && choice(*k) {
+                (*is_balanced, has_changed) = (true, true);
+            }
+        }
+        has_changed
+    }
+
+    /// Finds the stresses of the interactions that are balanced.
+    pub(crate) fn find_balance(&mut self, interactions: &Interactions, state: &State) {
+        for ((k, range), is_balanced) in self.parts.iter().zip(&self.is_balanced) {
+            if *is_balanced {
+                let stresses = &mut self.balancing[range.clone()];
+                of(interactions, *k).balance(state, stresses);
+            }
         }
     }
 
     /// Adds the loads of those drawn.
     pub(crate) fn add_loads(&self, interactions: &Interactions, state: &State, loads: &mut Loads) {
         for (k, range) in &self.parts {
-            let stresses = &self.drawn[range.clone()];
+            let stresses = &self.turned[range.clone()];
             of(interactions, *k).add_stress_loads(state, stresses, loads);
         }
     }
@@ -97,20 +140,21 @@ pub(crate) struct Added<'a> {
     pub(crate) friction: Scaled<'a>,
     pub(crate) interactions: &'a Interactions,
     pub(crate) stresses: &'a Stresses,
-    pub(crate) kind: Kind,
 }
 
 impl SecondOrder for Added<'_> {
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         self.friction.add_stiffness(state, stiffness);
         let stresses = self.stresses;
-        let values = match self.kind {
-            Kind::Drawn => &stresses.drawn,
-            Kind::Balancing => &stresses.balancing,
-        };
-        for (k, range) in &stresses.parts {
+        for ((k, range), is_balanced) in stresses.parts.iter().zip(&stresses.is_balanced) {
+            let values = match is_balanced {
+                true => &stresses.balancing,
+                false => &stresses.turned,
+            };
             let values = &values[range.clone()];
-            of(self.interactions, *k).add_stress_stiffness(state, values, stiffness);
+            let stress = of(self.interactions, *k);
+            stress.add_stress_stiffness(state, values, stiffness);
+            stress.add_convexity(state, *is_balanced, stiffness);
         }
     }
 }

@@ -187,6 +187,13 @@ impl RodMaterial {
         }
     }
 
+    /// Whether laws of single strains are isotropic about the axis.
+    pub(crate) fn is_axisymmetric(&self) -> bool {
+        let rest = self.rest_curvature;
+        let is_straight = rest.x == 0.0 && rest.y == 0.0;
+        is_straight && self.laws().is_some_and(StrainLaws::are_axisymmetric)
+    }
+
     /// The potential of all strains, if there is one.
     pub fn potential(&self) -> Option<&'static Homogenised> {
         match self.kind {

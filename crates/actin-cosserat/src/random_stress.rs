@@ -26,6 +26,7 @@ use actin_mechanics::{
     Vector3, correlate,
 };
 use nalgebra::SMatrix;
+use std::ops::Range;
 
 /// Numbers of a vector.
 const VECTOR: usize = 3;
@@ -250,6 +251,34 @@ impl RandomStress for EnergyGradient {
         );
     }
 
+    fn axial_frames(&self) -> Range<usize> {
+        if self.extended().is_none() && self.material().is_axisymmetric() {
+            self.layout().frames()
+        } else {
+            0..0
+        }
+    }
+
+    fn turn_back(&self, spins: &[f64], drawn: &[f64], turned: &mut [f64]) {
+        let axial = self.axial_frames();
+        if axial.is_empty() {
+            return turned.copy_from_slice(drawn);
+        }
+        let layout = self.layout();
+        let of_segments = layout.frames().map(|frame| spins[frame]);
+        let joints = layout.voronoi_lengths().iter().zip(layout.bending_chain());
+        let of_joints = joints.map(|(_, frame)| 0.5 * (spins[frame] + spins[frame + 1]));
+        let vectors = drawn
+            .chunks_exact(VECTOR)
+            .zip(turned.chunks_exact_mut(VECTOR));
+        for (spin, (drawn, turned)) in of_segments.chain(of_joints).zip(vectors) {
+            let (sin, cos) = spin.sin_cos();
+            turned[0] = cos * drawn[0] + sin * drawn[1];
+            turned[1] = cos * drawn[1] - sin * drawn[0];
+            turned[2] = drawn[2];
+        }
+    }
+
     fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads) {
         let parts = Parts {
             rod: self,
@@ -268,12 +297,21 @@ impl RandomStress for EnergyGradient {
             rod: self,
             stresses,
         };
-        parts
-            .forces()
-            .for_each(|force| force.add_stiffness(state, stiffness));
-        parts
-            .couples()
-            .for_each(|couple| couple.add_stiffness(state, stiffness));
+        if self.axial_frames().is_empty() {
+            parts
+                .forces()
+                .for_each(|force| force.add_stiffness(state, stiffness));
+            parts
+                .couples()
+                .for_each(|couple| couple.add_stiffness(state, stiffness));
+        } else {
+            parts
+                .forces()
+                .for_each(|force| force.add_stiffness_without_spin(state, stiffness));
+            parts
+                .couples()
+                .for_each(|couple| couple.add_stiffness_without_spin(state, stiffness));
+        }
     }
 }
 

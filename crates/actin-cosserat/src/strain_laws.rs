@@ -13,6 +13,16 @@ pub struct StrainLaws {
 }
 
 impl StrainLaws {
+    /// Whether shear and bending are isotropic about the axis.
+    pub(crate) fn are_axisymmetric(&self) -> bool {
+        let [shear_x, shear_y] = self.shear.linear;
+        let has_one_bend = match self.bend {
+            BendLaw::Constant([bend_x, bend_y]) => bend_x == bend_y,
+            _ => false,
+        };
+        shear_x == shear_y && has_one_bend
+    }
+
     /// Constant rigidities, which were validated.
     pub(crate) fn constant(Rigidities { shear, bend }: Rigidities) -> Self {
         Self {

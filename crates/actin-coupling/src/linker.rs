@@ -275,6 +275,23 @@ impl RandomStress for Linker {
         let force = -Vector3::from_column_slice(stresses);
         self.push_stiffness((force, Matrix3::zeros()), state, stiffness);
     }
+
+    fn add_convexity(&self, state: &State, is_wanted: bool, stiffness: &mut Stiffness) {
+        let lacking = if is_wanted {
+            negative_part(self.spring.tangent(self.reach(state)))
+        } else {
+            Matrix3::zeros()
+        };
+        self.push_stiffness((Vector3::zeros(), lacking), state, stiffness);
+    }
+}
+
+/// Returns the matrix with the sizes of the negative eigenvalues of `m` (symmetric) and zeros for the others.
+fn negative_part(m: Matrix3) -> Matrix3 {
+    let eigen = m.symmetric_eigen();
+    let sizes = eigen.eigenvalues.map(|value| (-value).max(0.0));
+    let vectors = eigen.eigenvectors;
+    vectors * Matrix3::from_diagonal(&sizes) * vectors.transpose()
 }
 
 /// The symmetric part, which differs from `m` by round-off.

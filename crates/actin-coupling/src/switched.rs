@@ -129,6 +129,13 @@ impl RandomStress for SwitchedLinker {
             linker.add_stress_stiffness(state, stresses, stiffness);
         }
     }
+
+    fn add_convexity(&self, state: &State, is_wanted: bool, stiffness: &mut Stiffness) {
+        if self.is_bound(state) {
+            let linker = self.linker(state);
+            linker.add_convexity(state, is_wanted, stiffness);
+        }
+    }
 }
 
 impl SecondOrder for SwitchedLinker {

@@ -247,9 +247,9 @@ mod tests {
             let upper = pattern.symbolic.as_ref();
             let values = matrix(&pattern, 3, diagonal);
             let metric = vec![1.0; layout.unknowns()];
-            let mut band = Factor::new(&pattern);
+            let mut band = Factor::new(&pattern.symbolic);
             assert!(band.is_band());
-            let mut general = Factor::new(&pattern).with_gaps();
+            let mut general = Factor::new(&pattern.symbolic).with_gaps();
             let inertia = band.factorize(upper, &values, &metric, 0.5);
             assert_eq!(inertia, general.factorize(upper, &values, &metric, 0.5));
             assert_eq!(inertia.is_positive(), diagonal > 5.0);
@@ -272,7 +272,10 @@ mod tests {
         let metric = vec![1.0; layout.unknowns()];
         let zeros = vec![0.0; upper.row_idx().len()];
         for shift in [0.0, f64::INFINITY, f64::NAN] {
-            for mut factor in [Factor::new(&pattern), Factor::new(&pattern).with_gaps()] {
+            for mut factor in [
+                Factor::new(&pattern.symbolic),
+                Factor::new(&pattern.symbolic).with_gaps(),
+            ] {
                 let inertia = factor.factorize(upper, &zeros, &metric, shift);
                 assert_eq!(inertia.doubtful, layout.unknowns(), "{shift}");
                 assert!(!inertia.is_positive());

@@ -19,9 +19,11 @@ use crate::ties::Ties;
 use actin_mechanics::{State, Vectors, rotation};
 use std::collections::BTreeMap;
 
+mod clusters;
 mod open;
 mod turning;
 
+pub(crate) use clusters::Clusters;
 pub(crate) use open::is_open;
 
 /// A body that follows another.
@@ -87,28 +89,41 @@ impl Chain {
         scale: f64,
         to: &mut State,
     ) {
-        for &link in &self.0 {
-            match link {
-                Link::Frame { from: a, to: b } => {
-                    let q = from.frames.orientation.get(a);
-                    let relative = q.inverse() * from.frames.orientation.get(b);
-                    let turn = q.inverse() * (turned.get(b) - turned.get(a)) * scale;
-                    let new = to.frames.orientation.get(a) * rotation::exp(turn) * relative;
-                    let new = actin_mechanics::UnitQuaternion::new_normalize(new.into_inner());
-                    to.frames.orientation.set(b, new);
-                }
-                Link::Point {
-                    from: i,
-                    seen,
-                    to: j,
-                } => {
-                    let q = from.frames.orientation.get(seen);
-                    let d = from.points.position.get(j) - from.points.position.get(i);
-                    let slip = moved.get(j) - moved.get(i) - turned.get(seen).cross(&d);
-                    let new = to.frames.orientation.get(seen) * (q.inverse() * (d + slip * scale));
-                    let start = to.points.position.get(i);
-                    to.points.position.set(j, start + new);
-                }
+        for link in &self.0 {
+            link.carry(from, (moved, turned), scale, to);
+        }
+    }
+}
+
+impl Link {
+    /// Puts the following body of `to` where a step leads it relative to the body that it follows.
+    fn carry(
+        self,
+        from: &State,
+        (moved, turned): (&Vectors, &Vectors),
+        scale: f64,
+        to: &mut State,
+    ) {
+        match self {
+            Self::Frame { from: a, to: b } => {
+                let q = from.frames.orientation.get(a);
+                let relative = q.inverse() * from.frames.orientation.get(b);
+                let turn = q.inverse() * (turned.get(b) - turned.get(a)) * scale;
+                let new = to.frames.orientation.get(a) * rotation::exp(turn) * relative;
+                let new = actin_mechanics::UnitQuaternion::new_normalize(new.into_inner());
+                to.frames.orientation.set(b, new);
+            }
+            Self::Point {
+                from: i,
+                seen,
+                to: j,
+            } => {
+                let q = from.frames.orientation.get(seen);
+                let d = from.points.position.get(j) - from.points.position.get(i);
+                let slip = moved.get(j) - moved.get(i) - turned.get(seen).cross(&d);
+                let new = to.frames.orientation.get(seen) * (q.inverse() * (d + slip * scale));
+                let start = to.points.position.get(i);
+                to.points.position.set(j, start + new);
             }
         }
     }

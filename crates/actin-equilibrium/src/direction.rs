@@ -129,7 +129,7 @@ impl Solver {
             .update(interactions, state, loads, &mut self.layout);
         self.work.assemblies += 1;
         if is_new {
-            let factor = Factor::new(self.assembly.pattern());
+            let factor = Factor::new(&self.assembly.pattern().symbolic);
             self.work.symbolic_factorizations += 1;
             self.work.factor_entries = factor.entries() as u64;
             self.factor = Some(factor);

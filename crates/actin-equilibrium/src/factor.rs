@@ -12,12 +12,11 @@
 //! and 11.4; faer, `sparse::linalg::cholesky::simplicial`.
 
 use crate::band::{Band, Eliminate};
-use crate::pattern::Pattern;
 use actin_mechanics::wide;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::sparse::linalg::cholesky::simplicial;
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par};
 
 /// A pivot below this many roundings of its diagonal entry does not count as positive.
@@ -70,8 +69,8 @@ impl std::fmt::Debug for Factor {
 
 impl Factor {
     /// Finds the places of the factor's entries.
-    pub(crate) fn new(pattern: &Pattern) -> Self {
-        let upper = pattern.symbolic.as_ref();
+    pub(crate) fn new(upper: &SymbolicSparseColMat<usize>) -> Self {
+        let upper = upper.as_ref();
         let n = upper.ncols();
         let (mut tree, mut counts) = (vec![0isize; n], vec![0usize; n]);
         let mut memory = MemBuffer::new(
@@ -212,6 +211,15 @@ impl Factor {
         let diagonal = self.diagonal.iter().enumerate();
         let is_floppy = |&(column, own): &(usize, &f64)| self.pivot(column).abs() <= FLOPPY * own;
         diagonal.filter(is_floppy).count()
+    }
+
+    /// Returns the columns with pivots that are not positive beyond doubt.
+    pub(crate) fn indefinite_columns(&self) -> impl Iterator<Item = usize> {
+        (0..self.diagonal.len()).filter(|&column| {
+            let rounding = PIVOT_ROUNDINGS * f64::EPSILON * self.diagonal[column];
+            // Written so that a pivot that is not a number counts.
+            !(self.pivot(column) > rounding)
+        })
     }
 
     fn pivot(&self, column: usize) -> f64 {

@@ -4,9 +4,10 @@
 //! What the step is for, and whether it is good, is the caller's business.
 
 use crate::assemble::Assembly;
-use crate::chain::is_open;
+use crate::chain::Clusters;
 use crate::direction::Solver;
 use crate::factor::Factor;
+use crate::gradients::Gradients;
 use crate::layout::{Layout, Node};
 use crate::motion::StepSize;
 use crate::outcome::SolveError;
@@ -21,14 +22,30 @@ use actin_mechanics::{Interaction, Loads, SecondOrder, State, UnitQuaternion, Ve
 pub struct ImplicitSolver {
     layout: Layout,
     assembly: Assembly,
-    factor: Option<Factor>,
+    linear: Linear,
     metric: Vec<f64>,
     step: Vec<f64>,
-    /// Whether bodies carry one another along, once that is known.
-    carries: Option<bool>,
-    /// Where a step starts from.
+    clusters: Clusters,
+    /// Whether each frame turns about its third axis by itself.
+    spins: Vec<bool>,
+    /// Values that couple such turns to other unknowns.
+    uncoupled: Vec<usize>,
+    /// Start of a step.
     from: Option<State>,
 }
+
+/// Solver of the linear equations of a step.
+#[derive(Debug)]
+enum Linear {
+    /// Nothing has been factorised.
+    Unknown,
+    Direct(Box<Factor>),
+    Gradients(Box<Gradients>),
+}
+
+/// Residual of conjugate gradients relative to that at the start: steps are iterated, and the next iteration corrects the
+/// rest.
+const TOLERANCE: f64 = 1e-2;
 
 impl ImplicitSolver {
     /// A solver for what may move.
@@ -36,11 +53,41 @@ impl ImplicitSolver {
         Self {
             layout,
             assembly: Assembly::new(1.0),
-            factor: None,
+            linear: Linear::Unknown,
             metric: Vec::new(),
             step: Vec::new(),
-            carries: None,
+            clusters: Clusters::default(),
+            spins: Vec::new(),
+            uncoupled: Vec::new(),
             from: None,
+        }
+    }
+
+    /// Lets these frames turn about their third axes without effect on other unknowns than such turns of other frames: the matrix
+    /// has no other couplings, and steps along filaments turn them after all else.
+    pub fn let_spin(&mut self, frames: &[usize]) {
+        let count = frames.iter().max().map_or(0, |most| most + 1);
+        self.spins = vec![false; count];
+        frames.iter().for_each(|&frame| self.spins[frame] = true);
+        self.find_uncoupled();
+    }
+
+    /// Finds the entries of the pattern that couple turns about third axes to other unknowns.
+    fn find_uncoupled(&mut self) {
+        let mut is_spin = vec![false; self.layout.unknowns()];
+        for (node, range) in self.layout.nodes() {
+            if let Node::Frame(i) = node {
+                is_spin[range.start + 2] = self.spins.get(i).copied().unwrap_or(false);
+            }
+        }
+        let symbolic = &self.assembly.pattern().symbolic;
+        self.uncoupled.clear();
+        for column in 0..is_spin.len() {
+            for at in symbolic.col_ptr()[column]..symbolic.col_ptr()[column + 1] {
+                if is_spin[column] != is_spin[symbolic.row_idx()[at]] {
+                    self.uncoupled.push(at);
+                }
+            }
         }
     }
 
@@ -70,14 +117,40 @@ impl ImplicitSolver {
         let at = (state, loads);
         let assembly = &mut self.assembly;
         if assembly.update_with(interactions, Some(added), at, &mut self.layout) {
-            self.factor = None;
-            self.metric = vec![0.0; self.layout.unknowns()];
+            self.find_uncoupled();
+            let (layout, assembly) = (&self.layout, &self.assembly);
+            self.metric = vec![0.0; layout.unknowns()];
+            self.clusters = Clusters::new(layout, assembly.ties(), assembly.chain());
+            self.linear = if layout.has_gradients() {
+                Linear::Gradients(Box::new(Gradients::new(assembly, layout)))
+            } else {
+                Linear::Direct(Box::new(Factor::new(&assembly.pattern().symbolic)))
+            };
         }
-        let pattern = assembly.pattern();
-        let factor = self.factor.get_or_insert_with(|| Factor::new(pattern));
-        let upper = assembly.pattern().symbolic.as_ref();
-        let pivots = factor.factorize(upper, &assembly.values, &self.metric, 0.0);
-        pivots.is_positive()
+        for &at in &self.uncoupled {
+            self.assembly.values[at] = 0.0;
+        }
+        let assembly = &self.assembly;
+        match &mut self.linear {
+            Linear::Unknown => unreachable!("the pattern is new at the first factorisation"),
+            Linear::Gradients(gradients) => gradients.factorize(assembly, &self.metric),
+            Linear::Direct(factor) => {
+                let upper = assembly.pattern().symbolic.as_ref();
+                let pivots = factor.factorize(upper, &assembly.values, &self.metric, 0.0);
+                pivots.is_positive()
+            }
+        }
+    }
+
+    /// Returns the frames of filaments with negative or doubtful pivots in the last factorisation.
+    pub fn indefinite_frames(&self) -> Vec<usize> {
+        match &self.linear {
+            Linear::Gradients(gradients) => {
+                let columns = gradients.indefinite_columns();
+                self.clusters.frames_with(&self.layout, &columns)
+            }
+            Linear::Direct(_) | Linear::Unknown => Vec::new(),
+        }
     }
 
     /// Number of unknowns.
@@ -102,8 +175,7 @@ impl ImplicitSolver {
     /// As [`times`](Self::times).
     pub fn solve(&mut self, b: &mut [f64]) {
         assert_eq!(b.len(), self.unknowns(), "one number per unknown");
-        let factor = self.factor.as_mut().expect("factorised before");
-        factor.solve(b);
+        self.linear.solve(&self.assembly, b);
     }
 
     /// The solution for `loads`, as velocities of points (lab frame) and angular velocities of frames (their own axes), zero of
@@ -114,8 +186,7 @@ impl ImplicitSolver {
     pub fn velocities(&mut self, state: &State, loads: &Loads) -> (Vectors, Vectors) {
         self.step.resize(self.layout.unknowns(), 0.0);
         self.layout.reduce(state, loads, &mut self.step);
-        let factor = self.factor.as_mut().expect("factorised before");
-        factor.solve(&mut self.step);
+        self.linear.solve(&self.assembly, &mut self.step);
         let (moved, mut turned) = self.layout.velocities(state, &self.step);
         for i in 0..turned.len() {
             let q = state.frames.orientation.get(i);
@@ -133,39 +204,37 @@ impl ImplicitSolver {
     pub fn advance(&mut self, state: &mut State, loads: &Loads, largest_turn: f64) -> StepSize {
         self.step.resize(self.layout.unknowns(), 0.0);
         self.layout.reduce(state, loads, &mut self.step);
-        let factor = self.factor.as_mut().expect("factorised before");
-        factor.solve(&mut self.step);
+        self.linear.solve(&self.assembly, &mut self.step);
         let extent = self.layout.step_extent(&self.step);
         let scale = (largest_turn / extent.rotation).min(1.0);
         self.layout.apply(state, &self.step, scale);
         extent
     }
 
-    /// The same, but where all hangs together at one place or at none, bodies carry one another along: the step changes strains
-    /// by as much as its velocities say, however far it turns what is carried.
+    /// Solves for `loads`, the generalised loads of which are taken at `state`; [`advance_along`](Self::advance_along) makes the
+    /// step. Returns false if the matrix has shown to be indefinite.
     ///
     /// # Panics
     /// If nothing has been factorised.
-    pub fn advance_together(
-        &mut self,
-        state: &mut State,
-        loads: &Loads,
-        largest_turn: f64,
-    ) -> StepSize {
-        let (layout, assembly) = (&self.layout, &self.assembly);
-        let carries = *self
-            .carries
-            .get_or_insert_with(|| layout.groups().is_empty() && is_open(layout, assembly.ties()));
-        if !carries {
-            return self.advance(state, loads, largest_turn);
-        }
+    pub fn find_step(&mut self, state: &State, loads: &Loads) -> bool {
+        self.step.resize(self.layout.unknowns(), 0.0);
+        self.layout.reduce(state, loads, &mut self.step);
+        self.linear.solve(&self.assembly, &mut self.step)
+    }
+
+    /// Moves the bodies of `state` by the step found last. Bodies of filaments that are free or held at one place carry one
+    /// another along: the step changes strains by as much as its velocities, however far it turns what is carried. The step
+    /// of each filament that turns a body by more than `largest_turn` (rad) is shortened to that. Returns the extent of the whole step before it is shortened.
+    pub fn advance_along(&mut self, state: &mut State, largest_turn: f64) -> StepSize {
         let mut from = self.from.take().unwrap_or_else(|| state.clone());
         from.copy_motion_from(state);
-        let extent = self.advance(state, loads, largest_turn);
-        let scale = (largest_turn / extent.rotation).min(1.0);
-        let velocities = self.layout.velocities(&from, &self.step);
-        let chain = self.assembly.chain();
-        chain.carry(&from, &velocities, scale, state);
+        let states = (&from, state);
+        let extent = self.clusters.advance(
+            &self.layout,
+            states,
+            &self.step,
+            (&self.spins, largest_turn),
+        );
         self.from = Some(from);
         extent
     }
@@ -186,6 +255,20 @@ impl ImplicitSolver {
                     let group = &self.layout.groups()[g];
                     group.points.iter().for_each(|&i| go_on(start, middle, i));
                 }
+            }
+        }
+    }
+}
+
+impl Linear {
+    /// Solves in place; returns false if the matrix has shown to be indefinite.
+    fn solve(&mut self, assembly: &Assembly, b: &mut [f64]) -> bool {
+        match self {
+            Self::Unknown => panic!("a matrix is factorised before"),
+            Self::Gradients(gradients) => gradients.solve(assembly, b, TOLERANCE),
+            Self::Direct(factor) => {
+                factor.solve(b);
+                true
             }
         }
     }

@@ -114,6 +114,8 @@ pub struct Layout {
     loose: BTreeSet<(Coordinates, Coordinates)>,
     /// Places of all bodies, and how far neighbours are apart at most.
     loose_beyond: Option<(BodyOrder, f64)>,
+    allows_gradients: bool,
+    has_gradients: bool,
 }
 
 /// Where the order of unknowns comes from.
@@ -169,6 +171,8 @@ impl Layout {
             sequence: Vec::new(),
             loose: BTreeSet::new(),
             loose_beyond: None,
+            allows_gradients: false,
+            has_gradients: false,
         };
         layout.sequence = (0..layout.nodes.len()).collect();
         layout.number();
@@ -204,6 +208,30 @@ impl Layout {
     pub fn with_loose_beyond(mut self, order: BodyOrder, reach: f64) -> Self {
         self.loose_beyond = Some((order, reach));
         self
+    }
+
+    /// Allows conjugate gradients for steps, preconditioned by chains of neighbours without loose couplings, if they cost
+    /// less than the factorisation of the whole. The choice depends on the couplings at the first solve.
+    #[must_use]
+    pub fn with_conjugate_gradients(mut self) -> Self {
+        self.allows_gradients = true;
+        self
+    }
+
+    /// Whether steps are solved by conjugate gradients; known after the first solve.
+    pub(crate) fn has_gradients(&self) -> bool {
+        self.has_gradients
+    }
+
+    /// Chooses conjugate gradients in the order given.
+    pub(crate) fn choose_gradients(&mut self) {
+        self.has_gradients = true;
+        self.settle();
+    }
+
+    /// Whether conjugate gradients may be chosen.
+    pub(crate) fn allows_gradients(&self) -> bool {
+        self.allows_gradients && self.order == Order::Compared && self.has_loose()
     }
 
     /// Whether coupled bodies may be no neighbours.

@@ -25,6 +25,7 @@ mod descent;
 mod direction;
 mod evaluation;
 mod factor;
+mod gradients;
 mod group;
 mod history;
 mod implicit;

@@ -36,15 +36,25 @@ impl Layout {
     pub fn apply(&self, state: &mut State, step: &[f64], scale: f64) {
         assert_eq!(step.len(), self.unknowns(), "one number per unknown");
         for (node, range) in self.nodes() {
-            let step = &step[range];
-            match node {
-                Node::Point(i) => state.points.position.add(i, three(step) * scale),
-                Node::Frame(i) => {
-                    let q = state.frames.orientation.get(i) * rotation::exp(three(step) * scale);
-                    state.frames.orientation.set(i, with_unit_length(q));
-                }
-                Node::Group(g) => move_group(&self.groups()[g], state, step, scale),
+            self.apply_node(node, state, &step[range], scale);
+        }
+    }
+
+    /// Moves the bodies of some nodes by `scale` times `step`.
+    pub(crate) fn apply_to(&self, nodes: &[usize], state: &mut State, step: &[f64], scale: f64) {
+        for &k in nodes {
+            self.apply_node(self.node(k), state, &step[self.range(k)], scale);
+        }
+    }
+
+    fn apply_node(&self, node: Node, state: &mut State, step: &[f64], scale: f64) {
+        match node {
+            Node::Point(i) => state.points.position.add(i, three(step) * scale),
+            Node::Frame(i) => {
+                let q = state.frames.orientation.get(i) * rotation::exp(three(step) * scale);
+                state.frames.orientation.set(i, with_unit_length(q));
             }
+            Node::Group(g) => move_group(&self.groups()[g], state, step, scale),
         }
     }
 
@@ -125,6 +135,19 @@ impl Layout {
     /// The largest displacement and turn of a step; its strain is not looked at.
     pub(crate) fn step_extent(&self, step: &[f64]) -> StepSize {
         let largest = self.largest(step);
+        StepSize {
+            displacement: largest.force,
+            rotation: largest.torque,
+            strain: 0.0,
+        }
+    }
+
+    /// Returns the largest displacement and turn of some nodes in a step.
+    pub(crate) fn extent_of(&self, nodes: &[usize], step: &[f64]) -> StepSize {
+        let norms = nodes
+            .iter()
+            .map(|&k| self.norms(self.node(k), &step[self.range(k)]));
+        let largest = norms.fold(Residual::default(), |largest, one| largest.max(&one));
         StepSize {
             displacement: largest.force,
             rotation: largest.torque,

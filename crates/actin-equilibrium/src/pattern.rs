@@ -3,7 +3,7 @@
 //! The matrix is kept as its upper triangle by columns, rows sorted, which is what the
 //! factorisation reads. All places are found once; values are the business of `assemble`.
 
-use crate::layout::{Layout, Order};
+use crate::layout::{Layout, Node, Order};
 use actin_mechanics::{Coordinates, Matrix3, Stiffness};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
@@ -77,6 +77,22 @@ impl Pattern {
         places(stiffness.blocks(), layout, &self.neighbours, &self.starts)
     }
 
+    /// Returns the upper triangle without loose couplings, and for each of its entries the place in the whole.
+    pub(crate) fn chains(&self, layout: &Layout) -> (SymbolicSparseColMat<usize>, Vec<usize>) {
+        let chains = upper_triangle(&without_loose(&self.neighbours, layout), layout);
+        let (whole, mut places) = (&self.symbolic, Vec::new());
+        for column in 0..chains.ncols() {
+            let rows = &whole.row_idx()[whole.col_ptr()[column]..whole.col_ptr()[column + 1]];
+            let own = &chains.row_idx()[chains.col_ptr()[column]..chains.col_ptr()[column + 1]];
+            let found = own.iter().map(|row| {
+                let at = rows.binary_search(row).expect("rows of the whole");
+                whole.col_ptr()[column] + at
+            });
+            places.extend(found);
+        }
+        (chains, places)
+    }
+
     /// Whether the blocks couple the same bodies in the same order as those of the pattern.
     pub(crate) fn fits(&self, stiffness: &Stiffness) -> bool {
         let blocks = stiffness.blocks();
@@ -107,6 +123,38 @@ fn neighbours(blocks: &[Block], layout: &Layout) -> Vec<Vec<usize>> {
     neighbours
 }
 
+/// Iterations of conjugate gradients in a step, about.
+const ITERATIONS: usize = 20;
+
+/// Couplings between neighbours alone: within each column of nodes those that are not loose.
+fn without_loose(neighbours: &[Vec<usize>], layout: &Layout) -> Vec<Vec<usize>> {
+    let body = |node| match layout.node(node) {
+        Node::Point(i) => Some(Coordinates::Point(i)),
+        Node::Frame(i) => Some(Coordinates::Frame(i)),
+        Node::Group(_) => None,
+    };
+    let is_kept = |a: usize, b: usize| match (body(a), body(b)) {
+        (Some(a), Some(b)) => !layout.is_loose(a, b),
+        _ => true,
+    };
+    let columns = neighbours.iter().enumerate();
+    columns
+        .map(|(column, rows)| {
+            let rows = rows.iter().copied();
+            rows.filter(|&row| is_kept(row, column)).collect()
+        })
+        .collect()
+}
+
+/// Returns true if conjugate gradients cost less than a factorisation with `direct` multiplications.
+fn prefers_gradients(neighbours: &[Vec<usize>], layout: &Layout, direct: usize) -> bool {
+    let whole = upper_triangle(neighbours, layout);
+    let chains = upper_triangle(&without_loose(neighbours, layout), layout);
+    let entries = whole.row_idx().len() + chains.row_idx().len();
+    let iterative = factor_operations(chains.as_ref()) + 2 * ITERATIONS * entries;
+    iterative < 3 * direct
+}
+
 /// Settles the order of a layout whose nodes are coupled as `present` says; returns how they are
 /// coupled then.
 fn settle(present: Vec<Vec<usize>>, blocks: &[Block], layout: &mut Layout) -> Vec<Vec<usize>> {
@@ -116,11 +164,17 @@ fn settle(present: Vec<Vec<usize>>, blocks: &[Block], layout: &mut Layout) -> Ve
     let cost = |neighbours: &[Vec<usize>], layout: &Layout| {
         factor_operations(upper_triangle(neighbours, layout).as_ref())
     };
-    let is_as_good =
-        layout.order() == Order::Compared && cost(&present, layout) <= cost(&reordered, &sought);
-    if is_as_good {
-        layout.settle();
-        return present;
+    if layout.order() == Order::Compared {
+        let costs = [cost(&present, layout), cost(&reordered, &sought)];
+        let least = costs[0].min(costs[1]);
+        if layout.allows_gradients() && prefers_gradients(&present, layout, least) {
+            layout.choose_gradients();
+            return present;
+        }
+        if costs[0] <= costs[1] {
+            layout.settle();
+            return present;
+        }
     }
     *layout = sought;
     reordered

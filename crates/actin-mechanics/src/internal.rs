@@ -53,13 +53,30 @@ impl InternalForce {
 
     /// Adds the second derivatives of its energy.
     pub fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        let [mixed, turn] = self.blocks(state);
+        self.push(mixed, turn, stiffness);
+    }
+
+    /// Adds the derivatives of loads without spin, where turns of the frame about its third axis do not change the force seen
+    /// from outside.
+    pub fn add_stiffness_without_spin(&self, state: &State, stiffness: &mut Stiffness) {
+        let [mut mixed, turn] = self.blocks(state);
+        mixed.set_column(2, &Vector3::zeros());
+        self.push(mixed, without_spin(turn), stiffness);
+    }
+
+    /// Blocks of the second point and the frame, and of the frame.
+    fn blocks(&self, state: &State) -> [Matrix3; 2] {
         let (axes, y) = self.seen(state);
         let n = self.force;
-        let [a, b] = self.points.map(Coordinates::Point);
-        let frame = Coordinates::Frame(self.frame);
-        let mixed = axes * n.cross_matrix();
         let half = 0.5 * n * y.transpose();
         let turn = Matrix3::from_diagonal_element(n.dot(&y)) - half - half.transpose();
+        [axes * n.cross_matrix(), turn]
+    }
+
+    fn push(&self, mixed: Matrix3, turn: Matrix3, stiffness: &mut Stiffness) {
+        let [a, b] = self.points.map(Coordinates::Point);
+        let frame = Coordinates::Frame(self.frame);
         stiffness.push(a, frame, -mixed);
         stiffness.push(b, frame, mixed);
         stiffness.push(frame, frame, turn);
@@ -101,6 +118,17 @@ impl InternalCouple {
     /// `K = -sym(D J_r^-1)`, and as the energy depends on `R = O^T Qa^T Qb` alone, the others are
     /// `R K R^T` and `R (-[J_r^-T m]x / 2 - K)`, turned into the axes of `a`.
     pub fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        self.push(self.blocks(state), stiffness);
+    }
+
+    /// Adds the derivatives of loads without spin, where turns of the frames about their third axes do not change the couple
+    /// seen from outside.
+    pub fn add_stiffness_without_spin(&self, state: &State, stiffness: &mut Stiffness) {
+        self.push(self.blocks(state).map(without_spin), stiffness);
+    }
+
+    /// Blocks of the first frame, of both, and of the second.
+    fn blocks(&self, state: &State) -> [Matrix3; 3] {
         let theta = self.strain(state);
         let inverse = rotation::right_jacobian_inverse(theta);
         let slope = rotation::right_jacobian_inverse_transpose_slope(theta, self.couple) * inverse;
@@ -109,11 +137,23 @@ impl InternalCouple {
         let r = r.into_inner();
         let first = r * second * r.transpose();
         let turned = inverse.tr_mul(&self.couple).cross_matrix();
+        let both = r * (-0.5 * turned - second);
+        [0.5 * (first + first.transpose()), both, second]
+    }
+
+    fn push(&self, [first, both, second]: [Matrix3; 3], stiffness: &mut Stiffness) {
         let [a, b] = self.frames.map(Coordinates::Frame);
-        stiffness.push(a, a, 0.5 * (first + first.transpose()));
-        stiffness.push(a, b, r * (-0.5 * turned - second));
+        stiffness.push(a, a, first);
+        stiffness.push(a, b, both);
         stiffness.push(b, b, second);
     }
+}
+
+/// Returns a block of frames without the row and the column of the third axis.
+fn without_spin(mut block: Matrix3) -> Matrix3 {
+    block.set_row(2, &Vector3::zeros().transpose());
+    block.set_column(2, &Vector3::zeros());
+    block
 }
 
 fn axes(state: &State, frame: usize) -> Matrix3 {

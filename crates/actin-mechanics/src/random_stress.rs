@@ -3,6 +3,7 @@
 
 use crate::{Loads, State, Stiffness};
 use nalgebra::SMatrix;
+use std::ops::Range;
 
 /// Elements whose energy depends on strains `e(x)`, under a random stress that adds the energy `-s . e(x)`.
 ///
@@ -26,6 +27,23 @@ pub trait RandomStress {
     /// Adds the loads of these stresses, `s . de/dx`. Torques of these about the axes of slender bodies may be left out where
     /// the elements themselves exert none: hardly anything resists such a turn, and bodies would turn to meet the stress.
     fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads);
+
+    /// Adds, if `is_wanted`, what the stiffness of strains lacks to be positive: compressed springs give way across. Otherwise
+    /// zeros, in the same blocks. Nothing by default.
+    fn add_convexity(&self, _state: &State, _is_wanted: bool, _stiffness: &mut Stiffness) {}
+
+    /// Returns the frames whose turns about their third axes change neither energies nor, after
+    /// [`turn_back`](Self::turn_back), stresses: those of slender bodies that are isotropic about their axes. None by
+    /// default.
+    fn axial_frames(&self) -> Range<usize> {
+        0..0
+    }
+
+    /// Writes stresses in the axes of frames that have turned about their third axes by `spins` (rad, one for each frame)
+    /// since the stresses were drawn: seen from outside they stay as they are. They are copied by default.
+    fn turn_back(&self, _spins: &[f64], drawn: &[f64], turned: &mut [f64]) {
+        turned.copy_from_slice(drawn);
+    }
 
     /// Adds the second derivatives of the energy `-s . e(x)`.
     fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness);

@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Sets of bodies that hang together.
 #[derive(Default)]
-struct Clusters(BTreeMap<Coordinates, Coordinates>);
+struct Sets(BTreeMap<Coordinates, Coordinates>);
 
-impl Clusters {
+impl Sets {
     /// The root of a set; links on the way are halved, so that `n` joins take `n log n` steps.
     fn root(&mut self, mut body: Coordinates) -> Coordinates {
         while let Some(&above) = self.0.get(&body) {
@@ -30,32 +30,66 @@ impl Clusters {
     }
 }
 
+/// Bodies that hang together by ties, and the places at which they are held.
+#[derive(Default)]
+pub(super) struct Hangs {
+    all: Sets,
+    held: Sets,
+    places: BTreeSet<Coordinates>,
+}
+
+impl Hangs {
+    pub(super) fn of(layout: &Layout, ties: &Ties) -> Self {
+        let mut hangs = Self::default();
+        for (i, j, f) in ties.seen() {
+            hangs.join(layout, Point(i), Point(j));
+            hangs.join(layout, Point(i), Frame(f));
+            hangs.join(layout, Point(j), Frame(f));
+        }
+        for (a, b) in ties.frames() {
+            hangs.join(layout, Frame(a), Frame(b));
+        }
+        for (i, j) in ties.points() {
+            hangs.join(layout, Point(i), Point(j));
+        }
+        hangs
+    }
+
+    fn join(&mut self, layout: &Layout, a: Coordinates, b: Coordinates) {
+        let is_held = |body| layout.node_of(body).is_none();
+        self.all.join(a, b);
+        if is_held(a) && is_held(b) {
+            self.held.join(a, b);
+        }
+        self.places
+            .extend([a, b].into_iter().filter(|&body| is_held(body)));
+    }
+
+    /// Returns a body that names the set to which a body belongs.
+    pub(super) fn root(&mut self, body: Coordinates) -> Coordinates {
+        self.all.root(body)
+    }
+
+    /// Returns for each set that is held the number of places: held bodies that are tied to each other count once.
+    pub(super) fn holds(&mut self) -> BTreeMap<Coordinates, usize> {
+        let clusters: BTreeSet<_> = self
+            .places
+            .iter()
+            .map(|&body| self.held.root(body))
+            .collect();
+        let mut holds = BTreeMap::new();
+        for body in clusters {
+            *holds.entry(self.all.root(body)).or_default() += 1;
+        }
+        holds
+    }
+}
+
 /// Whether no two held bodies that are not tied to each other hold the same bodies, and no bodies are coupled
 /// but no neighbours: a filament held at one end is open, one held at both or linked to another is not.
 pub(crate) fn is_open(layout: &Layout, ties: &Ties) -> bool {
-    if layout.has_loose() {
-        return false;
-    }
-    let is_held = |body| layout.node_of(body).is_none();
-    let (mut all, mut held) = (Clusters::default(), Clusters::default());
-    let mut places = BTreeSet::new();
-    let mut join = |a: Coordinates, b: Coordinates| {
-        all.join(a, b);
-        if is_held(a) && is_held(b) {
-            held.join(a, b);
-        }
-        places.extend([a, b].into_iter().filter(|&body| is_held(body)));
-    };
-    for (i, j, f) in ties.seen() {
-        join(Point(i), Point(j));
-        join(Point(i), Frame(f));
-        join(Point(j), Frame(f));
-    }
-    ties.frames().for_each(|(a, b)| join(Frame(a), Frame(b)));
-    ties.points().for_each(|(i, j)| join(Point(i), Point(j)));
-    let clusters: BTreeSet<_> = places.iter().map(|&body| held.root(body)).collect();
-    let held_up: BTreeSet<_> = clusters.iter().map(|&body| all.root(body)).collect();
-    clusters.len() == held_up.len()
+    let is_held_once = |hangs: &mut Hangs| hangs.holds().values().all(|&places| places == 1);
+    !layout.has_loose() && is_held_once(&mut Hangs::of(layout, ties))
 }
 
 #[cfg(test)]
@@ -65,7 +99,7 @@ mod tests {
     /// A long chain: with links that are not shortened a million lookups of a million links each.
     #[test]
     fn long_chains_are_joined_quickly() {
-        let mut clusters = Clusters::default();
+        let mut clusters = Sets::default();
         let count = 300_000;
         for i in 1..count {
             clusters.join(Point(i - 1), Point(i));

@@ -9,8 +9,9 @@ use super::{Estimate, Failure, Outcome, Plan, Status, long_steps};
 use crate::Assembly;
 use crate::scene::{Brownian as Task, Fluid, SceneProblem, Task as AnyTask};
 use actin_brownian::{Brownian, Layout, Relaxation};
+use actin_coupling::LinkerEnd;
 use actin_integrate::{POSITION_VERLET, Run, Split};
-use actin_mechanics::System;
+use actin_mechanics::{System, Vector3};
 
 /// Iterations of a step, about, by midpoints and with random stress.
 const ITERATIONS: [u64; 2] = [4, 6];
@@ -172,11 +173,28 @@ impl Estimate {
         let stepper = Brownian::new(system, layout, friction, noise)
             .map_err(|error| SceneProblem::new("task", "", error.to_string()))?;
         Ok(if self.has_random_stress() {
-            stepper
+            let linked = linked_off_axis(assembly);
+            stepper.with_bare_frames(system, |frame| !linked[assembly.filament_of_frame(frame)])
         } else {
             stepper.by_midpoints()
         })
     }
+}
+
+/// Whether each filament has linkers that hold off its axis, where a turn about the axis moves them.
+fn linked_off_axis(assembly: &Assembly) -> Vec<bool> {
+    let mut linked = vec![false; assembly.filaments.len()];
+    let ends = assembly.linkers.iter().flat_map(|linker| {
+        let other = match linker.end() {
+            LinkerEnd::Site(site) => Some(site),
+            LinkerEnd::Anchor(_) => None,
+        };
+        [Some(linker.site()), other].into_iter().flatten()
+    });
+    for site in ends.filter(|site| site.arm() != Vector3::zeros()) {
+        linked[assembly.filament_of_frame(site.frame())] = true;
+    }
+    linked
 }
 
 /// Runs the motion.

@@ -1,0 +1,169 @@
+//! Steps of filaments, each by itself: how far it turns, and how its bodies carry one another along.
+
+use super::open::Hangs;
+use super::{Chain, Link};
+use crate::layout::{Layout, Node};
+use crate::motion::StepSize;
+use crate::ties::Ties;
+use actin_mechanics::{Coordinates, State, UnitQuaternion, Vector3, Vectors, rotation};
+use std::collections::BTreeMap;
+
+/// Bodies that hang together by ties.
+#[derive(Debug, Default)]
+struct Cluster {
+    /// Nodes of the layout.
+    nodes: Vec<usize>,
+    /// Free points.
+    points: Vec<usize>,
+    /// Free frames.
+    frames: Vec<usize>,
+    /// Links along which bodies follow one another; none if the cluster is held at two places.
+    links: Vec<Link>,
+    /// Number of places at which it is held.
+    holds: usize,
+}
+
+/// All clusters of a layout, in the order of their first nodes.
+#[derive(Debug, Default)]
+pub(crate) struct Clusters(Vec<Cluster>);
+
+impl Clusters {
+    /// Returns the clusters of bodies that are tied; groups of bodies are clusters of their own.
+    pub(crate) fn new(layout: &Layout, ties: &Ties, chain: &Chain) -> Self {
+        let mut hangs = Hangs::of(layout, ties);
+        let holds = hangs.holds();
+        let mut places = BTreeMap::new();
+        let mut clusters: Vec<Cluster> = Vec::new();
+        for k in 0..layout.len() {
+            let body = match layout.node(k) {
+                Node::Point(i) => Coordinates::Point(i),
+                Node::Frame(i) => Coordinates::Frame(i),
+                Node::Group(_) => {
+                    clusters.push(Cluster {
+                        nodes: vec![k],
+                        holds: 2,
+                        ..Cluster::default()
+                    });
+                    continue;
+                }
+            };
+            let root = hangs.root(body);
+            let place = *places.entry(root).or_insert_with(|| {
+                clusters.push(Cluster {
+                    holds: holds.get(&root).copied().unwrap_or(0),
+                    ..Cluster::default()
+                });
+                clusters.len() - 1
+            });
+            clusters[place].nodes.push(k);
+            match body {
+                Coordinates::Point(i) => clusters[place].points.push(i),
+                Coordinates::Frame(i) => clusters[place].frames.push(i),
+            }
+        }
+        for &link in &chain.0 {
+            let follower = match link {
+                Link::Frame { to, .. } => Coordinates::Frame(to),
+                Link::Point { to, .. } => Coordinates::Point(to),
+            };
+            let cluster = &mut clusters[places[&hangs.root(follower)]];
+            // Where ends meet again at a second held place, a chain closes badly.
+            if cluster.holds < 2 {
+                cluster.links.push(link);
+            }
+        }
+        Self(clusters)
+    }
+
+    /// Returns the free frames of all clusters with one of these unknowns, which ascend.
+    pub(crate) fn frames_with(&self, layout: &Layout, unknowns: &[usize]) -> Vec<usize> {
+        let has_one = |cluster: &&Cluster| {
+            let mut nodes = cluster.nodes.iter();
+            nodes.any(|&k| {
+                let range = layout.range(k);
+                let at = unknowns.partition_point(|&unknown| unknown < range.start);
+                unknowns
+                    .get(at)
+                    .is_some_and(|unknown| range.contains(unknown))
+            })
+        };
+        let clusters = self.0.iter().filter(has_one);
+        clusters
+            .flat_map(|cluster| cluster.frames.iter().copied())
+            .collect()
+    }
+
+    /// Moves the bodies of `to`, a copy of `from`, by a step. The step of each cluster is shortened where it turns a body by more
+    /// than `largest_turn` (rad). Bodies keep their places relative to those that they follow, up to the step of the tie between
+    /// them, and free clusters the displacement of their mean. Frames that may spin turn about their third axes after all
+    /// else, by any angle. Returns the extent of the whole step without these turns.
+    pub(crate) fn advance(
+        &self,
+        layout: &Layout,
+        (from, to): (&State, &mut State),
+        step: &[f64],
+        (spins, largest_turn): (&[bool], f64),
+    ) -> StepSize {
+        let spinning = layout.spinning(spins);
+        let mut tilts = step.to_vec();
+        spinning.iter().for_each(|&(_, at)| tilts[at] = 0.0);
+        let velocities = layout.velocities(from, &tilts);
+        let mut scales = vec![1.0; from.frames.len()];
+        let mut extent = StepSize::default();
+        for cluster in &self.0 {
+            let own = layout.extent_of(&cluster.nodes, &tilts);
+            let scale = (largest_turn / own.rotation).min(1.0);
+            layout.apply_to(&cluster.nodes, to, &tilts, scale);
+            cluster.carry(from, &velocities, scale, to);
+            cluster.frames.iter().for_each(|&i| scales[i] = scale);
+            extent.displacement = extent.displacement.max(own.displacement);
+            extent.rotation = extent.rotation.max(own.rotation);
+        }
+        for (i, at) in spinning {
+            let turn = rotation::exp(Vector3::z() * (step[at] * scales[i]));
+            let q = to.frames.orientation.get(i) * turn;
+            let q = UnitQuaternion::new_normalize(q.into_inner());
+            to.frames.orientation.set(i, q);
+        }
+        extent
+    }
+}
+
+impl Layout {
+    /// Returns the free frames that may spin, each with the place of its turn about the third axis among the unknowns.
+    fn spinning(&self, spins: &[bool]) -> Vec<(usize, usize)> {
+        let frames = self.nodes().filter_map(|(node, range)| match node {
+            Node::Frame(i) => Some((i, range.start + 2)),
+            Node::Point(_) | Node::Group(_) => None,
+        });
+        frames
+            .filter(|(i, _)| spins.get(*i).copied().unwrap_or(false))
+            .collect()
+    }
+}
+
+impl Cluster {
+    fn carry(
+        &self,
+        from: &State,
+        (moved, turned): &(Vectors, Vectors),
+        scale: f64,
+        to: &mut State,
+    ) {
+        let sum = |state: &State| -> Vector3 {
+            let points = self.points.iter();
+            points.map(|&i| state.points.position.get(i)).sum()
+        };
+        let straight = sum(to);
+        for link in &self.links {
+            link.carry(from, (moved, turned), scale, to);
+        }
+        if self.holds > 0 || self.points.is_empty() {
+            return;
+        }
+        let shift = (straight - sum(to)) / self.points.len() as f64;
+        for &i in &self.points {
+            to.points.position.add(i, shift);
+        }
+    }
+}
