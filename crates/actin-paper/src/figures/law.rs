@@ -1,7 +1,6 @@
 //! The rod's law against filaments of monomers: what `cargo xtask load-cases` measures, as rows with verdicts.
 
-use super::Run;
-use crate::homogenise::surface;
+use super::{Run, surface};
 use crate::load_cases::{self, Compared};
 use actin_draw::report::{Artefact, Origin, Picture, Row, write_csv};
 use std::time::Instant;

@@ -1,11 +1,10 @@
 //! One law beside monomers, for a report: numbers with what is expected of them. Nothing is kept on disk but the
 //! picture.
 
-use super::bound::{Bound, Group};
-use super::filament::{self, Made, Rod};
-use super::row::{self, Rods, Row};
-use super::{case, mixed, monomers, picture, solve, thermal};
-use rayon::prelude::*;
+use super::case::{self, Bound, Group};
+use super::filament;
+use super::row::Row;
+use super::{Effort, monomers, of_law, picture};
 use std::path::Path;
 
 /// A number of a rod, and what monomers have.
@@ -41,20 +40,11 @@ pub(crate) fn compared(
     let law = filament::law(name)?;
     let cases = case::all(quick);
     let monomers = monomers(None, &cases, quick, &|_| done())?;
-    let missing = || Err("not computed".to_owned());
-    let rods = cases.par_iter().map(|case| -> Rods {
-        let coarse = solve::solve(case, &Made::Rod(Rod::coarse(&law)));
-        [coarse, missing(), missing()]
-    });
-    let rods: Vec<Rods> = rods.collect();
-    let mut rows = Vec::new();
-    for ((case, monomers), rods) in cases.iter().zip(&monomers).zip(&rods) {
-        rows.extend(row::rows(case.group, &case.name, name, monomers, rods));
-    }
-    rows.extend(mixed::rows(name, &law, quick));
-    if !quick {
-        rows.extend(thermal::rows(name, &law, quick));
-    }
+    let effort = Effort {
+        quick,
+        only_coarse: true,
+    };
+    let rows = of_law(&(name.to_owned(), law), &cases, &monomers, effort);
     picture::draw(out, &rows)?;
     let mut all: Vec<Compared> = rows.iter().filter_map(of_row).collect();
     all.push(unsolved(rows.len() - all.len()));
@@ -102,16 +92,11 @@ fn unit(row: &Row) -> &'static str {
         (Bound::Distance(_), _) => "nm",
         (_, "persistence length") => "um",
         (_, "C") => "pN nm^2",
+        (_, name) if name.starts_with("nm/pN") => "nm/pN",
         (_, name) => {
             let units = ["pN nm^2", "pN nm", "pN", "nm"];
-            let known = units
-                .into_iter()
-                .find(|u| name.ends_with(&format!("({u})")));
-            known.unwrap_or(if name.starts_with("nm/pN") {
-                "nm/pN"
-            } else {
-                ""
-            })
+            let is_own = |unit: &&str| name.ends_with(&format!("({unit})"));
+            units.into_iter().find(is_own).unwrap_or("")
         }
     }
 }

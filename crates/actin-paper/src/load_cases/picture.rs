@@ -1,6 +1,6 @@
 //! Errors of all laws over their bounds, case by case.
 
-use super::bound::Bound;
+use super::case::Bound;
 use super::row::Row;
 use crate::palette;
 use actin_draw::{Chart, Series};

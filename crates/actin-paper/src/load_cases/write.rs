@@ -1,6 +1,6 @@
 //! The table as CSV and as Markdown.
 
-use super::bound::{Bound, Group};
+use super::case::{Bound, Group};
 use super::row::Row;
 use crate::Tell;
 use crate::measure::Sampled;
