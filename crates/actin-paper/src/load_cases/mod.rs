@@ -15,7 +15,7 @@ mod solve;
 mod thermal;
 mod write;
 
-pub(crate) use compared::{Compared, compared};
+pub(crate) use compared::compared;
 
 use crate::Tell;
 use actin_draw::report::write_atomically;
@@ -89,7 +89,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
     if options.write {
         write::page_into(&crate::workspace_root().join("docs/tables"), &page)?;
     }
-    write::tell_summary(&rows, tell);
+    tell(format_args!("{}", write::summary(&rows)));
     let seconds = clock.elapsed().as_secs_f64();
     tell(format_args!(
         "{} rows in {seconds:.0} s: {}",

@@ -84,11 +84,6 @@ impl Row {
         ]
     }
 
-    /// Whether any verdict is bad.
-    pub(super) fn is_missed(&self) -> bool {
-        self.is_met().contains(&Some(false))
-    }
-
     /// Errors against the mean filament and drawn ones over the bound.
     pub(super) fn shares_of_bound(&self) -> [Option<f64>; 2] {
         let bound = self.bound.size(self.scatter);
@@ -248,7 +243,6 @@ mod tests {
         assert_eq!(near.is_met(), [Some(true); 2]);
         let far = row([10.5, 10.7]);
         assert_eq!(far.is_met(), [Some(true), Some(false)]);
-        assert!(far.is_missed() && !near.is_missed());
         assert!((far.shares_of_bound()[1].unwrap() - (0.5 / 10.6) / 0.02).abs() < 1e-9);
         let lost: Rods = [(); 3].map(|()| Err("no".into()));
         let rows = rows(Group::Cantilever, "c", "Law", &monomers([9.9, 10.1]), &lost);

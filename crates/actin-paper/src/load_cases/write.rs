@@ -1,8 +1,8 @@
 //! The table as CSV and as Markdown.
 
 use super::case::{Bound, Group};
+use super::picture::distinct;
 use super::row::Row;
-use crate::Tell;
 use crate::measure::Sampled;
 use actin_draw::report::{save, write_csv};
 use std::fmt::Write as _;
@@ -109,17 +109,7 @@ pub(super) fn page(rows: &[Row]) -> String {
         filament; of drawn: under the law of drawn bonds) are relative, those of a shape largest distances, those \
         of mixed filaments spreads over resolutions. Worst: the largest error over its bound.\n"
         .to_owned();
-    text += "\n| case | law | met, mean | worst | met, drawn | worst |\n\
-             | --- | --- | ---: | ---: | ---: | ---: |\n";
-    for (group, law) in pairs(rows) {
-        let own: Vec<&Row> = of_pair(rows, group, law);
-        let ([met, worst], [met_drawn, worst_drawn]) = (score(&own, 0), score(&own, 1));
-        let name = group.name();
-        _ = writeln!(
-            text,
-            "| {name} | {law} | {met} | {worst} | {met_drawn} | {worst_drawn} |"
-        );
-    }
+    text += &summary(rows);
     for group in Group::ALL {
         let own: Vec<&Row> = rows.iter().filter(|row| row.group == group).collect();
         if !own.is_empty() {
@@ -129,22 +119,26 @@ pub(super) fn page(rows: &[Row]) -> String {
     text
 }
 
-fn of_pair<'a>(rows: &'a [Row], group: Group, law: &str) -> Vec<&'a Row> {
-    let own = rows.iter();
-    own.filter(|row| row.group == group && row.law == law)
-        .collect()
-}
-
-/// Groups that have a bound, with each law.
-fn pairs(rows: &[Row]) -> Vec<(Group, &str)> {
-    let mut all: Vec<(Group, &str)> = Vec::new();
-    for row in rows.iter().filter(|row| row.bound != Bound::Open) {
-        let pair = (row.group, row.law.as_str());
-        if !all.contains(&pair) {
-            all.push(pair);
-        }
+/// By case and law, how many bounds are met.
+pub(super) fn summary(rows: &[Row]) -> String {
+    let mut text = "\n| case | law | met, mean | worst | met, drawn | worst |\n\
+                    | --- | --- | ---: | ---: | ---: | ---: |\n"
+        .to_owned();
+    let judged = rows.iter().filter(|row| row.bound != Bound::Open);
+    let pairs = distinct(judged.map(|row| (row.group, &*row.law)));
+    for (group, law) in pairs {
+        let own = rows
+            .iter()
+            .filter(|row| row.group == group && row.law == law);
+        let own: Vec<&Row> = own.collect();
+        let ([met, worst], [met_drawn, worst_drawn]) = (score(&own, 0), score(&own, 1));
+        let name = group.name();
+        _ = writeln!(
+            text,
+            "| {name} | {law} | {met} | {worst} | {met_drawn} | {worst_drawn} |"
+        );
     }
-    all
+    text
 }
 
 fn section(group: Group, rows: &[&Row]) -> String {
@@ -236,30 +230,6 @@ fn digits_of(value: f64, significant: u8) -> String {
 /// Writes `load-cases.md` into a folder.
 pub(super) fn page_into(folder: &Path, page: &str) -> Result<(), String> {
     save(folder, "load-cases.md", page)
-}
-
-/// Prints, by law, how many bounds are met, and each that is missed.
-pub(super) fn tell_summary(rows: &[Row], tell: Tell<'_>) {
-    for (group, law) in pairs(rows) {
-        let own = of_pair(rows, group, law);
-        let [mean, drawn] = [0, 1].map(|against| score(&own, against)[0].clone());
-        let name = group.name();
-        tell(format_args!(
-            "{law:>14} {name:28} mean {mean:>9}, drawn {drawn:>9}"
-        ));
-    }
-    for row in rows.iter().filter(|row| row.is_missed()) {
-        let error = |value: Option<f64>| value.map_or("none".to_owned(), |v| shown(row, v));
-        tell(format_args!(
-            "missed: {:>12} {}: {}, {} (mean), {} (drawn), bound {}",
-            row.law,
-            row.case,
-            row.quantity,
-            error(row.error_mean),
-            error(row.error_drawn),
-            row.bound.text()
-        ));
-    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 //! refuses: a message, and every file as it was.
 
 use super::row::{Expected, Outcome, Row};
-use actin_sim::{Assembly, Plan, RunDirectory, Scene, Trajectory};
+use super::scenes::{Ran, run};
+use actin_sim::{Plan, RunDirectory, RunDirectoryError};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -67,27 +68,17 @@ fn not_tried(error: &str) -> Outcome {
     Outcome::Wrong(format!("not tried: {error}"))
 }
 
-/// A short run that has been made.
+/// A short run that has been made, in the folder `run` of a new one.
 struct Made {
     folder: tempfile::TempDir,
-    assembly: Assembly,
-    trajectory: Trajectory,
-    report: actin_sim::Outcome,
+    ran: Ran,
 }
 
 impl Made {
-    /// Runs the scene and writes its results into `run` of a new folder.
     fn new() -> Result<Self, String> {
-        let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
-        let scene = Scene::from_ron(SCENE).map_err(|e| e.to_string())?;
-        let assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
-        let plan = Plan::new(&assembly).map_err(|e| e.to_string())?;
-        let (trajectory, report) = plan.run().map_err(|e| e.to_string())?;
         let made = Self {
-            folder,
-            assembly,
-            trajectory,
-            report,
+            folder: tempfile::tempdir().map_err(|e| e.to_string())?,
+            ran: run(SCENE).map_err(|outcome| outcome.words())?,
         };
         let directory = RunDirectory::create(made.run(), false).map_err(|e| e.to_string())?;
         made.write(&directory).map_err(|e| e.to_string())?;
@@ -99,19 +90,16 @@ impl Made {
         self.folder.path().join("run")
     }
 
-    fn write(&self, directory: &RunDirectory) -> Result<(), actin_sim::RunDirectoryError> {
-        let Self {
-            assembly,
-            trajectory,
-            report,
-            ..
-        } = self;
-        let plan = Plan::new(assembly).expect("it has run");
+    fn write(&self, directory: &RunDirectory) -> Result<(), RunDirectoryError> {
+        let plan = Plan::new(&self.ran.assembly).expect("it has run");
+        let Ran {
+            trajectory, report, ..
+        } = &self.ran;
         directory.write(&plan, trajectory, report).map(drop)
     }
 
     /// A message without the name of the folder, which is another one every time.
-    fn message(&self, error: &actin_sim::RunDirectoryError) -> String {
+    fn message(&self, error: &RunDirectoryError) -> String {
         let folder = format!("{}/", self.folder.path().display());
         error.to_string().replace(&folder, "")
     }

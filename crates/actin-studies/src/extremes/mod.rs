@@ -4,7 +4,7 @@
 mod directories;
 mod fields;
 #[cfg(test)]
-mod fuzz;
+mod fuzz_tests;
 mod loads;
 mod motion;
 mod row;

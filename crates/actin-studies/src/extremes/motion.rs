@@ -131,7 +131,9 @@ fn pulled(sections: &str, rate: f64, kelvin: Option<u32>) -> Tried {
     let keys = format!("record_every_ns: 1.0, {}", thermal.unwrap_or_default());
     let way = |force: f64| {
         let load = format!("loads: [EndForce(end: End, force_pn: (0.0, 0.0, {force:?}))],");
-        let records = damped(sections, &load, 2.0, rate, &keys)?.records;
+        let records = damped(sections, &load, 2.0, rate, &keys)?
+            .trajectory
+            .records;
         let [_, before, after] = &records[..] else {
             return Err(Outcome::Wrong(format!("{} records", records.len())));
         };

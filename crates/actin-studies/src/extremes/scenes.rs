@@ -3,7 +3,8 @@
 use super::row::Outcome;
 use actin_mechanics::{System, Vector3};
 use actin_sim::{
-    Assembly, End, Failure, Load, Plan, Record, RunError, Scene, SceneError, SceneProblem, Status,
+    Assembly, End, Failure, Load, Plan, RunError, Scene, SceneError, SceneProblem, Status,
+    Trajectory,
 };
 
 /// Parts of a scene; what is empty is left out.
@@ -97,7 +98,7 @@ pub(super) fn free(sections: &str) -> Result<System, Outcome> {
 pub(super) struct Ran {
     pub(super) assembly: Assembly,
     pub(super) report: actin_sim::Outcome,
-    pub(super) records: Vec<Record>,
+    pub(super) trajectory: Trajectory,
 }
 
 /// The assembly of a scene.
@@ -118,7 +119,7 @@ pub(super) fn run(text: &str) -> Result<Ran, Outcome> {
 /// The same, where it may end on a saddle.
 pub(super) fn run_to_saddle(text: &str) -> Result<Ran, Outcome> {
     let mut assembly = build(text)?;
-    let mut trajectory = actin_sim::Trajectory::default();
+    let mut trajectory = Trajectory::default();
     let plan = Plan::new(&assembly).map_err(|problem| refused(&problem, text))?;
     let report = match plan.run_into(&mut trajectory) {
         Ok(report) => report,
@@ -128,13 +129,12 @@ pub(super) fn run_to_saddle(text: &str) -> Result<Ran, Outcome> {
         Err(RunError::Refused(problem)) => return Err(refused(&problem, text)),
         Err(error) => return Err(Outcome::Fails(error.to_string())),
     };
-    let records = trajectory.records;
-    let last = records.last().expect("a run has records");
+    let last = trajectory.records.last().expect("a run has records");
     *assembly.system.state_mut() = last.state.clone();
     Ok(Ran {
         assembly,
         report,
-        records,
+        trajectory,
     })
 }
 

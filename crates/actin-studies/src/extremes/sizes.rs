@@ -157,38 +157,8 @@ fn moved(text: &str, steps: u64) -> Tried {
     correct("momentum", error, 1e-13 * points.sqrt().max(10.0))
 }
 
-const ROD: &str = "Rod(from_nm: 0.0, to_nm: 30.0)";
-
-/// Scenes that need more than any machine has: case, sections and task.
-const BEYOND: [(&str, &str, &str); 10] = [
-    ("1e12 monomers", "Ellipsoids(from_nm: 0.0, to_nm: 2.7385e12)", "Equilibrium()"),
-    (
-        "1e12 segments",
-        "Rod(from_nm: 0.0, to_nm: 30.0, segments: 1000000000000)",
-        "Equilibrium()",
-    ),
-    ("1e12 segments by default", "Rod(from_nm: 0.0, to_nm: 1e13)", "Equilibrium()"),
-    (
-        "a rod behind 1e12 monomers",
-        "Ellipsoids(from_nm: 0.0, to_nm: 2.7385e12), Rod(from_nm: 2.7385e12, to_nm: 2.8e12)",
-        "Equilibrium()",
-    ),
-    (
-        "1e11 segments, twice",
-        "Rod(from_nm: 0.0, to_nm: 30.0, segments: 100000000000), Ellipsoids(from_nm: 30.0, to_nm: 60.0),
-         Rod(from_nm: 60.0, to_nm: 90.0, segments: 100000000000)",
-        "Equilibrium()",
-    ),
-    ("1e300 nm of rod", "Rod(from_nm: 0.0, to_nm: 1e300)", "Equilibrium()"),
-    ("1e12 records", ROD, "Dynamics(duration_ns: 1e10, record_every_ns: 0.01)"),
-    (
-        "1e12 records by a step of 1e-12 ns",
-        ROD,
-        "Dynamics(duration_ns: 1.0, time_step_ns: 1e-12, record_every_ns: 1e-12)",
-    ),
-    ("1e16 steps", ROD, "Dynamics(duration_ns: 1e4, time_step_ns: 1e-12)"),
-    ("1e300 ns", ROD, "Dynamics(duration_ns: 1e300)"),
-];
+/// Scenes that need more than any machine has.
+const BEYOND: &str = include_str!("guards.csv");
 
 /// Seconds that no refusal may take, on a busy machine: it takes a thousandth of one, and the scenes
 /// would take hours or more than there is memory.
@@ -196,7 +166,8 @@ const PATIENCE_S: f64 = 30.0;
 
 /// Refused before anything is allocated.
 pub(super) fn guards() -> Vec<Row> {
-    let row = |(case, sections, task): (&str, &str, &str)| {
+    let row = |line: Result<[String; 3], csv::Error>| {
+        let [case, sections, task] = line.expect("three columns");
         let text = format!(
             "Scene(filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)), clamps: [Clamp(end: Start)],
                     task: {task})"
@@ -210,7 +181,8 @@ pub(super) fn guards() -> Vec<Row> {
         };
         Row::new("guard", case, Ok(outcome)).expecting(Expected::Refused)
     };
-    BEYOND.map(row).to_vec()
+    let mut table = csv::Reader::from_reader(BEYOND.as_bytes());
+    table.deserialize().map(row).collect()
 }
 
 /// Distances by which everything is moved (nm).
@@ -220,20 +192,7 @@ const SHIFTS: [f64; 4] = [1e2, 1e4, 1e5, 1e6];
 const STIFFNESS: f64 = 3.4e4 / 5.0;
 
 /// A linked filament of both models.
-const LINKED: &str = "Scene(
-    filament: Filament(
-        sections: [
-            Ellipsoids(from_nm: 0.0, to_nm: 14.0),
-            Rod(from_nm: 14.0, to_nm: 34.0, segments: 4),
-        ],
-        monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
-        rod: RodModel(law: Constant),
-    ),
-    loads: [EndForce(end: End, force_pn: (1.0, 2.0, 3.0))],
-    linkers: [Linker(at_nm: 10.0, radius_nm: 1.8, displaced_nm: (3.0, 0.0, 0.0),
-        stiffness_pn_per_nm: 100.0, rest_length_nm: 1.0)],
-    task: Dynamics(duration_ns: 1.0),
-)";
+const LINKED: &str = include_str!("linked.ron");
 
 /// Loads of the shifted filament against the loads at the origin: they depend on differences of places alone.
 pub(super) fn origin() -> Vec<Row> {

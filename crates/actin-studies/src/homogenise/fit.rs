@@ -111,26 +111,9 @@ impl<'a> Normal<'a> {
         }
     }
 
-    /// The equations of some of the terms alone.
-    fn of(&self, terms: &[Term]) -> Self {
-        let all = columns(&self.terms);
-        let kept = all
-            .iter()
-            .enumerate()
-            .filter(|(_, (t, _))| terms.contains(t));
-        let kept: Vec<usize> = kept.map(|(k, _)| k).collect();
-        Self {
-            form: self.form,
-            terms: terms.to_vec(),
-            matrix: self.matrix.select_columns(&kept).select_rows(&kept),
-            right: self.right.select_rows(&kept),
-        }
-    }
-
-    /// The law of some of the terms that fits best, whatever its tangent; they stand in the order of all.
-    pub(super) fn best(&self, terms: &[Term]) -> Result<Homogenised, String> {
-        let normal = self.of(terms);
-        normal.law(&Conditions::default().solve(&normal, None)?)
+    /// The law that fits best, whatever its tangent.
+    pub(super) fn best(&self) -> Result<Homogenised, String> {
+        self.law(&Conditions::default().solve(self, None)?)
     }
 
     /// The law of all terms that fits best, with a penalty where its tangent is not positive at these strains.

@@ -11,16 +11,10 @@ use rayon::prelude::*;
 use std::path::Path;
 
 /// Raised when results of the same parameters change.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// Relative difference of the energy from which two minima of the same strains count as different.
 const SAME: f64 = 1e-7;
-
-/// A slice: its rows, and at how many points starts from two neighbours led to different minima.
-struct Slice {
-    rows: Vec<Row>,
-    branches: usize,
-}
 
 /// Computes what is missing; returns all rows.
 pub(super) fn compute(out: &Path, axes: &Axes) -> Result<Vec<Row>, String> {
@@ -34,34 +28,32 @@ pub(super) fn compute(out: &Path, axes: &Axes) -> Result<Vec<Row>, String> {
         let (twist, extension) = (axes.twist[i], axes.extension[j]);
         let key = format!("version {VERSION}, {parameters:?}, {axes:?}, {twist}, {extension}");
         let path = folder.join(format!("slice-{i:02}-{j:02}.csv"));
-        if let Some(rows) = rows::read(&path, &key).filter(|rows| rows.len() == axes.points()) {
-            return Ok(Slice { rows, branches: 0 });
-        }
-        let slice = slice(&cell, axes, twist, extension)?;
-        rows::write(&path, &key, &slice.rows)?;
-        println!(
-            "twist {twist} /nm, extension {extension}: {} points, {} with two minima",
-            slice.rows.len(),
-            slice.branches
-        );
-        Ok(slice)
+        rows::kept(&path, &key, Some(axes.points()), || {
+            let (rows, branches) = slice(&cell, axes, twist, extension)?;
+            println!(
+                "twist {twist} /nm, extension {extension}: {} points, {branches} with two minima",
+                rows.len(),
+            );
+            Ok(rows)
+        })
     });
-    let slices = slices.collect::<Result<Vec<Slice>, String>>()?;
-    let all: Vec<Row> = slices.into_iter().flat_map(|slice| slice.rows).collect();
+    let all = slices.collect::<Result<Vec<_>, String>>()?.concat();
     rows::write(&out.join("grid.csv"), "all slices", &all)?;
     let stable = all.iter().filter(|row| row.least_stiffness() > 0.0).count();
     println!("grid: {} points, tangent positive at {stable}", all.len());
     Ok(all)
 }
 
-/// All points of one twist and one extension.
-fn slice(cell: &Cell, axes: &Axes, twist: f64, extension: f64) -> Result<Slice, String> {
+/// All points of one twist and one extension, and at how many starts from two neighbours led to different minima.
+fn slice(
+    cell: &Cell,
+    axes: &Axes,
+    twist: f64,
+    extension: f64,
+) -> Result<(Vec<Row>, usize), String> {
     let natural = twisted(cell, twist)?;
     let longest = natural.strain[5] + extension;
-    let mut slice = Slice {
-        rows: Vec::new(),
-        branches: 0,
-    };
+    let (mut rows, mut branches) = (Vec::new(), 0);
     for &angle in &axes.angle_deg {
         let mut lower: Vec<CellResponse> = Vec::new();
         for &shear in &axes.shear {
@@ -79,15 +71,15 @@ fn slice(cell: &Cell, axes: &Axes, twist: f64, extension: f64) -> Result<Slice, 
                 let (response, differ) = least(cell, point, &starts)?;
                 let is_first = angle.total_cmp(&axes.angle_deg[0]).is_eq();
                 if is_first || (shear > 0.0 && curvature > 0.0) {
-                    slice.rows.push(Row::new(point, extension, &response));
-                    slice.branches += usize::from(differ);
+                    rows.push(Row::new(point, extension, &response));
+                    branches += usize::from(differ);
                 }
                 line.push(response);
             }
             lower = line;
         }
     }
-    Ok(slice)
+    Ok((rows, branches))
 }
 
 /// The lower one of the minima that are reached from the starts, and whether they differ.

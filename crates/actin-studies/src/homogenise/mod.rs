@@ -27,12 +27,9 @@ pub(crate) struct Options {
     /// Where to write tables; slices of the grid that are there are kept.
     #[arg(long, default_value = "target/homogenise")]
     out: PathBuf,
-    /// A coarser grid and fewer samplings.
+    /// A coarser grid and fewer samples.
     #[arg(long)]
     quick: bool,
-    /// Samplings of drawn bonds, at least two.
-    #[arg(long)]
-    samplings: Option<u64>,
     /// Temperature of the part `heat` (K).
     #[arg(long, default_value_t = 298.0)]
     temperature: f64,
@@ -64,7 +61,6 @@ pub(crate) fn run(options: &Options) -> Result<()> {
 fn compute(options: &Options) -> Result<(), String> {
     let (out, quick) = (&options.out, options.quick);
     fs::create_dir_all(out).map_err(|e| format!("{}: {e}", out.display()))?;
-    let samplings = options.samplings.unwrap_or(if quick { 4 } else { 8 });
     let axes = axes::Axes::new(quick);
     let grid = || grid::compute(out, &axes);
     let is_wanted = |part: &Part| options.parts.is_empty() || options.parts.contains(part);
@@ -73,7 +69,7 @@ fn compute(options: &Options) -> Result<(), String> {
         match part {
             Part::States => states::run(out)?,
             Part::Grid => drop(grid()?),
-            Part::Law => law::run(out, &axes, &grid()?, samplings.max(2))?,
+            Part::Law => law::run(out, &axes, &grid()?)?,
             Part::Drawn => law::run_drawn(out, &axes, &grid()?)?,
             Part::Heat => heat::run(out, options.temperature, quick)?,
         }

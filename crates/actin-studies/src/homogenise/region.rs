@@ -30,10 +30,28 @@ pub(super) struct Region {
     /// Beyond the natural length of the twist, or of that and the bending and shear.
     pub(super) extension: [f64; 2],
     /// Whether bending and shear [shorten](shortening) what the extension is measured from.
-    pub(super) is_shortened: bool,
+    is_shortened: bool,
 }
 
 impl Region {
+    /// Up to this curvature, twist and shear, between two extensions.
+    pub(super) const fn new([curvature, twist, shear]: [f64; 3], extension: [f64; 2]) -> Self {
+        Self {
+            curvature,
+            twist,
+            shear,
+            extension,
+            is_shortened: true,
+        }
+    }
+
+    pub(super) const fn without_shortening(self) -> Self {
+        Self {
+            is_shortened: false,
+            ..self
+        }
+    }
+
     /// The first `count` of an even sequence, after the `skip` first.
     pub(super) fn strains(self, form: &HomogenisedForm, skip: u64, count: u64) -> Vec<SixVector> {
         let draw = |k| {

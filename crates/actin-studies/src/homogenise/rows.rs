@@ -1,6 +1,7 @@
 //! Cells at given strains as rows of a table.
 
 use actin_cosserat::PotentialJet;
+use actin_draw::report::write_atomically;
 use actin_paper::cells::strain;
 use actin_sim::ellipsoid::{CellResponse, SixMatrix, SixVector};
 use std::path::Path;
@@ -18,10 +19,12 @@ pub(super) struct Row {
     pub(super) loads: SixVector,
     /// Their derivatives by the strains.
     pub(super) tangent: SixMatrix,
+    /// Standard errors of the loads: zero at rest.
+    pub(super) errors: SixVector,
 }
 
 /// Names of the columns.
-pub(super) fn header() -> Vec<String> {
+fn header() -> Vec<String> {
     let mut names: Vec<String> = [
         "kappa_perp_per_nm",
         "kappa_3_per_nm",
@@ -39,7 +42,9 @@ pub(super) fn header() -> Vec<String> {
     ]
     .map(str::to_owned)
     .to_vec();
+    let errors: Vec<String> = names[7..].iter().map(|n| format!("{n}_error")).collect();
     names.extend(upper().map(|(i, j)| format!("t{}{}", i + 1, j + 1)));
+    names.extend(errors);
     names
 }
 
@@ -57,6 +62,7 @@ impl Row {
             energy: response.energy,
             loads: response.loads,
             tangent: response.tangent,
+            errors: SixVector::zeros(),
         }
     }
 
@@ -81,14 +87,15 @@ impl Row {
         self.tangent.symmetric_eigenvalues().min()
     }
 
-    pub(super) fn numbers(&self) -> Vec<f64> {
+    fn numbers(&self) -> Vec<f64> {
         let first = self.strain.iter().chain([&self.extension, &self.energy]);
         let mut all: Vec<f64> = first.chain(self.loads.iter()).copied().collect();
         all.extend(upper().map(|place| self.tangent[place]));
+        all.extend(self.errors.iter());
         all
     }
 
-    pub(super) fn read(numbers: &[f64]) -> Option<Self> {
+    fn read(numbers: &[f64]) -> Option<Self> {
         let mut tangent = SixMatrix::zeros();
         for ((i, j), value) in upper().zip(numbers.get(13..34)?) {
             tangent[(i, j)] = *value;
@@ -100,48 +107,50 @@ impl Row {
             energy: *numbers.get(6)?,
             loads: SixVector::from_column_slice(numbers.get(7..13)?),
             tangent,
+            errors: SixVector::from_column_slice(numbers.get(34..40)?),
         })
     }
 }
 
-/// Writes rows below a line that says what they were computed with. The file gets its name when it is complete.
-pub(super) fn write(path: &Path, key: &str, rows: &[Row]) -> Result<(), String> {
-    write_numbers(path, key, &header(), rows.iter().map(Row::numbers))
-}
-
-/// The rows of a file that was written with the same key; `None` if there is none, or another.
-pub(super) fn read(path: &Path, key: &str) -> Option<Vec<Row>> {
-    let rows = read_numbers(path, key)?;
-    rows.iter().map(|numbers| Row::read(numbers)).collect()
-}
-
-/// [`write`] of any columns.
-pub(super) fn write_numbers(
+/// The rows of a file that was written with the same key and as many rows, if `count` is given; else they are computed and
+/// written.
+pub(super) fn kept(
     path: &Path,
     key: &str,
-    header: &[String],
-    rows: impl Iterator<Item = Vec<f64>>,
-) -> Result<(), String> {
-    let mut text = format!("# {key}\n{}\n", header.join(","));
+    count: Option<usize>,
+    compute: impl FnOnce() -> Result<Vec<Row>, String>,
+) -> Result<Vec<Row>, String> {
+    let is_whole = |rows: &Vec<Row>| count.is_none_or(|count| rows.len() == count);
+    if let Some(rows) = read(path, key).filter(is_whole) {
+        return Ok(rows);
+    }
+    let rows = compute()?;
+    write(path, key, &rows)?;
+    Ok(rows)
+}
+
+/// Writes rows below a line with the key. The file gets its name when it is complete.
+pub(super) fn write(path: &Path, key: &str, rows: &[Row]) -> Result<(), String> {
+    let mut text = format!("# {key}\n{}\n", header().join(","));
     for row in rows {
-        let numbers: Vec<String> = row.iter().map(|x| format!("{x:e}")).collect();
+        let numbers: Vec<String> = row.numbers().iter().map(|x| format!("{x:e}")).collect();
         text.push_str(&numbers.join(","));
         text.push('\n');
     }
-    let unfinished = path.with_extension("part");
-    std::fs::write(&unfinished, text)
-        .and_then(|()| std::fs::rename(&unfinished, path))
-        .map_err(|e| format!("{}: {e}", path.display()))
+    write_atomically(path, &text)
 }
 
-/// [`read`] of any columns.
-pub(super) fn read_numbers(path: &Path, key: &str) -> Option<Vec<Vec<f64>>> {
+/// The rows of a file that was written with the same key.
+fn read(path: &Path, key: &str) -> Option<Vec<Row>> {
     let text = std::fs::read_to_string(path).ok()?;
     let (first, table) = text.split_once('\n')?;
     if first != format!("# {key}") {
         return None;
     }
-    let parse = |line: &str| line.split(',').map(|x| x.parse().ok()).collect();
+    let parse = |line: &str| {
+        let numbers: Option<Vec<f64>> = line.split(',').map(|x| x.parse().ok()).collect();
+        Row::read(&numbers?)
+    };
     table.lines().skip(1).map(parse).collect()
 }
 
@@ -160,6 +169,7 @@ mod tests {
             energy: 0.7,
             loads: SixVector::from_fn(|i, _| (i as f64).sin()),
             tangent: SixMatrix::from_fn(|i, j| ((i + j) as f64).cos()),
+            errors: SixVector::from_fn(|i, _| 0.1 * i as f64),
         };
         write(&path, "key", std::slice::from_ref(&row)).unwrap();
         assert_eq!(read(&path, "key"), Some(vec![row]));

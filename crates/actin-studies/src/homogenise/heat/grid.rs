@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
 /// Raised when results of the same parameters change.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// Streams of a slice, and slices of a set of axes at most.
 const STREAMS: u64 = 1 << 20;
 const SLICES: u64 = 1 << 10;
@@ -27,12 +27,6 @@ struct HeatAxes {
     /// Curvature (rad/nm), shear, angle between them (deg).
     bent: Vec<[f64; 3]>,
     samples: usize,
-}
-
-/// A point with the standard errors of its loads.
-pub(super) struct HeatRow {
-    pub(super) row: Row,
-    pub(super) errors: [f64; 6],
 }
 
 impl HeatAxes {
@@ -101,7 +95,7 @@ impl HeatAxes {
 }
 
 /// Computes what is missing, and writes and returns all rows.
-pub(super) fn compute(out: &Path, kt: f64, quick: bool) -> Result<Vec<HeatRow>, String> {
+pub(super) fn compute(out: &Path, kt: f64, quick: bool) -> Result<Vec<Row>, String> {
     let folder = out.join("heat");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let cell = cells::mean()?;
@@ -114,9 +108,9 @@ pub(super) fn compute(out: &Path, kt: f64, quick: bool) -> Result<Vec<HeatRow>, 
         let path = |slice: usize| folder.join(format!("{name}-{slice:02}.csv"));
         all.extend(slices(&cell, kt, axes, set, path)?);
     }
-    write(&out.join("heat.csv"), &format!("kT {kt} pN nm"), &all)?;
+    rows::write(&out.join("heat.csv"), &format!("kT {kt} pN nm"), &all)?;
     let largest = |k: usize| all.iter().map(|row| row.errors[k]).fold(0.0, f64::max);
-    let positive = all.iter().filter(|row| row.row.least_stiffness() > 0.0);
+    let positive = all.iter().filter(|row| row.least_stiffness() > 0.0);
     println!(
         "heat: {} points, tangent positive at {}; largest standard errors {:.1?} (pN nm, pN)",
         all.len(),
@@ -133,21 +127,16 @@ fn slices(
     axes: &HeatAxes,
     set: u64,
     path: impl Fn(usize) -> PathBuf,
-) -> Result<Vec<HeatRow>, String> {
+) -> Result<Vec<Row>, String> {
     let parameters = EllipsoidParameters::default();
     let mut all = Vec::new();
     // One after another: the points of each are computed side by side.
     for (i, twist) in axes.twist.iter().enumerate() {
         let key = format!("version {VERSION}, {parameters:?}, kT {kt}, {axes:?}, {twist}");
-        let kept = read(&path(i), &key).filter(|rows| rows.len() == axes.points());
-        let rows = if let Some(rows) = kept {
-            rows
-        } else {
-            let first = STREAMS * (SLICES * set + i as u64 + 1);
-            let rows = slice(cell, kt, axes, i, first)?;
-            write(&path(i), &key, &rows)?;
-            rows
-        };
+        let first = STREAMS * (SLICES * set + i as u64 + 1);
+        let rows = rows::kept(&path(i), &key, Some(axes.points()), || {
+            slice(cell, kt, axes, i, first)
+        })?;
         all.extend(rows);
     }
     Ok(all)
@@ -160,7 +149,7 @@ fn slice(
     axes: &HeatAxes,
     number: usize,
     first: u64,
-) -> Result<Vec<HeatRow>, String> {
+) -> Result<Vec<Row>, String> {
     let twist = axes.twist[number];
     let natural = natural(cell, kt, Some(twist), first)?;
     let places = axes.extension.iter().flat_map(|&extension| {
@@ -173,9 +162,9 @@ fn slice(
         let point = [curvature, twist, shear, natural.stretch + extension, angle];
         let heat = heat(kt, axes.samples, stream);
         let response = sample(cell, point, &natural.displacements, &heat)?;
-        Ok(HeatRow::new(point, extension, &response))
+        Ok(row(point, extension, &response))
     });
-    let rows = rows.collect::<Result<Vec<HeatRow>, String>>()?;
+    let rows = rows.collect::<Result<Vec<Row>, String>>()?;
     println!(
         "twist {twist} /nm: free filament stretched by {:.5}, {} points",
         natural.stretch,
@@ -201,81 +190,21 @@ fn sample(
         .map_err(|e| e.to_string())
 }
 
-impl HeatRow {
-    fn new(point: [f64; 5], extension: f64, response: &HeatResponse) -> Self {
-        Self {
-            row: Row {
-                strain: point,
-                extension,
-                // Free energies need a path; loads say as much.
-                energy: f64::NAN,
-                loads: response.loads,
-                tangent: response.tangent,
-            },
-            errors: response.loads_error.into(),
-        }
+fn row(strain: [f64; 5], extension: f64, response: &HeatResponse) -> Row {
+    Row {
+        strain,
+        extension,
+        // Free energies need a path; loads say as much.
+        energy: f64::NAN,
+        loads: response.loads,
+        tangent: response.tangent,
+        errors: response.loads_error,
     }
-}
-
-/// Names of the columns: those of the grid of relaxed cells, then the standard errors of the loads.
-fn header() -> Vec<String> {
-    let mut names = rows::header();
-    let errors: Vec<String> = names[7..13]
-        .iter()
-        .map(|name| format!("{name}_error"))
-        .collect();
-    names.extend(errors);
-    names
-}
-
-fn write(path: &Path, key: &str, rows: &[HeatRow]) -> Result<(), String> {
-    let numbers = rows.iter().map(|one| {
-        let mut numbers = one.row.numbers();
-        numbers.extend(one.errors);
-        numbers
-    });
-    rows::write_numbers(path, key, &header(), numbers)
-}
-
-fn read(path: &Path, key: &str) -> Option<Vec<HeatRow>> {
-    let parse = |numbers: Vec<f64>| {
-        Some(HeatRow {
-            row: Row::read(&numbers)?,
-            errors: numbers.get(34..40)?.try_into().ok()?,
-        })
-    };
-    rows::read_numbers(path, key)?
-        .into_iter()
-        .map(parse)
-        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use actin_sim::ellipsoid::{SixMatrix, SixVector};
-
-    /// Rows come back with their errors; of other axes there are none.
-    #[test]
-    fn rows_with_errors_come_back() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("slice.csv");
-        let one = HeatRow {
-            row: Row {
-                strain: [0.1, -0.2, 1.0 / 3.0, 1e-17, 45.0],
-                extension: -2e-3,
-                energy: 0.0,
-                loads: SixVector::from_fn(|i, _| (i as f64).sin()),
-                tangent: SixMatrix::from_fn(|i, j| ((i + j) as f64).cos()),
-            },
-            errors: [0.1, 0.2, 0.3, 0.4, 0.5, 0.6],
-        };
-        write(&path, "key", std::slice::from_ref(&one)).unwrap();
-        let back = read(&path, "key").unwrap();
-        assert_eq!((back[0].row.clone(), back[0].errors), (one.row, one.errors));
-        assert!(read(&path, "other").is_none());
-    }
-
     /// A slice is the same on one thread and on many, from the first or alone: its motion is keyed by its points.
     #[test]
     fn slices_do_not_depend_on_threads() {
@@ -294,7 +223,7 @@ mod tests {
                 .install(|| slice(&cell, 4.114, &axes, 1, 0));
             rows.unwrap()
                 .into_iter()
-                .map(|row| row.row.loads)
+                .map(|row| row.loads)
                 .collect::<Vec<_>>()
         };
         assert_eq!(with(1), with(3));

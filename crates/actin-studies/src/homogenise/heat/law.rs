@@ -3,7 +3,6 @@
 use super::super::fit::{Normal, Positivity, Weighted, coefficients};
 use super::super::region::{Region, strains};
 use super::super::rows::{Row, upper};
-use super::grid::HeatRow;
 use actin_cosserat::{Homogenised, HomogenisedForm, Term};
 use actin_fit::{Mat, Observations, fit_linear};
 use actin_sim::ellipsoid::SixVector;
@@ -22,47 +21,25 @@ const TANGENT: f64 = 0.33;
 const REST: [f64; 4] = [5e-3, 0.013, 7.5e-3, 3e-3];
 const AT_REST: f64 = 3.0;
 
-/// Heat smooths what happens at rest and where compression sets in: these terms need no more than low powers of the twist.
-const TERMS: [Term; 17] = [
-    Term::AnyStretch,
-    Term::AnyBend,
-    Term::AnyShear,
-    Term::Twist,
-    Term::Turn,
-    Term::Stretch,
-    Term::StretchThrice,
-    Term::Bend,
-    Term::StretchBend,
-    Term::Shear,
-    Term::StretchShear,
-    Term::Coupling,
-    Term::StretchCoupling,
-    Term::RootShear,
-    Term::RootCoupling,
-    Term::ShearCoupling,
-    Term::ShearTwice,
+/// Terms that are left out: heat smooths the filament at rest and where compression sets in, so that low powers of the
+/// twist suffice.
+const LEFT_OUT: [Term; 6] = [
+    Term::Compression,
+    Term::BendRoot,
+    Term::StretchRoot,
+    Term::ShearThrice,
+    Term::RootTwiceShear,
+    Term::StretchTwiceRoot,
 ];
 
 /// Where the tangent is held positive, at how many strains: in the range of the samples, and to twice that.
 const POSITIVE: [(Region, u64); 2] = [
     (
-        Region {
-            curvature: 0.01,
-            twist: 0.048,
-            shear: 0.05,
-            extension: [-8e-3, 8e-3],
-            is_shortened: false,
-        },
+        Region::new([0.01, 0.048, 0.05], [-8e-3, 8e-3]).without_shortening(),
         4000,
     ),
     (
-        Region {
-            curvature: 0.02,
-            twist: 0.096,
-            shear: 0.1,
-            extension: [-0.016, 0.016],
-            is_shortened: false,
-        },
+        Region::new([0.02, 0.096, 0.1], [-0.016, 0.016]).without_shortening(),
         4000,
     ),
 ];
@@ -77,11 +54,14 @@ const POSITIVITY: Positivity = Positivity {
 const LOOKS: u64 = 20_000;
 
 /// Fits, prints and writes.
-pub(super) fn run(out: &Path, temperature_k: f64, rows: &[HeatRow]) -> Result<(), String> {
+pub(super) fn run(out: &Path, temperature_k: f64, rows: &[Row]) -> Result<(), String> {
     let form = form(rows)?;
-    let weighted: Vec<Weighted<'_>> = rows.iter().map(HeatRow::weighted).collect();
-    let law =
-        Normal::new(&form, &TERMS, &weighted).positive(&strains(&form, &POSITIVE), &POSITIVITY)?;
+    let weighted: Vec<Weighted<'_>> = rows.iter().map(weighted).collect();
+    let terms = Term::ALL
+        .into_iter()
+        .filter(|term| !LEFT_OUT.contains(term));
+    let normal = Normal::new(&form, &terms.collect::<Vec<_>>(), &weighted);
+    let law = normal.positive(&strains(&form, &POSITIVE), &POSITIVITY)?;
     let mut table = residuals(&law, rows);
     for ((region, _), name) in POSITIVE.into_iter().zip(["the range", "twice the range"]) {
         let strains = region.strains(law.form(), LOOKS, LOOKS);
@@ -104,49 +84,47 @@ pub(super) fn run(out: &Path, temperature_k: f64, rows: &[HeatRow]) -> Result<()
     )
 }
 
-impl HeatRow {
-    /// What counts as a difference of 1 in couple and force.
-    fn deviations(&self) -> [f64; 6] {
-        let loads = &self.row.loads;
-        let [couple, twisting, force, tension] = FLOORS;
-        let m = couple + SHARE * loads.fixed_rows::<2>(0).norm();
-        let n = force + SHARE * loads.fixed_rows::<2>(3).norm();
-        let m3 = twisting + SHARE * loads[2].abs();
-        let n3 = tension + SHARE * loads[5].abs();
-        let mut sizes = [m, m, m3, n, n, n3];
-        for (size, error) in sizes.iter_mut().zip(self.errors) {
-            *size = size.hypot(error);
-        }
-        sizes
+/// What counts as a difference of 1 in couple and force.
+fn deviations(row: &Row) -> [f64; 6] {
+    let loads = &row.loads;
+    let [couple, twisting, force, tension] = FLOORS;
+    let m = couple + SHARE * loads.fixed_rows::<2>(0).norm();
+    let n = force + SHARE * loads.fixed_rows::<2>(3).norm();
+    let m3 = twisting + SHARE * loads[2].abs();
+    let n3 = tension + SHARE * loads[5].abs();
+    let mut sizes = [m, m, m3, n, n, n3];
+    for (size, error) in sizes.iter_mut().zip(row.errors.iter()) {
+        *size = size.hypot(*error);
     }
+    sizes
+}
 
-    fn is_at_rest(&self) -> bool {
-        let [curvature, twist, shear, ..] = self.row.strain;
-        let strains = [curvature, twist.abs(), shear, self.row.extension.abs()];
-        strains.iter().zip(REST).all(|(x, size)| *x < 1.01 * size)
-    }
+fn is_at_rest(row: &Row) -> bool {
+    let [curvature, twist, shear, ..] = row.strain;
+    let strains = [curvature, twist.abs(), shear, row.extension.abs()];
+    strains.iter().zip(REST).all(|(x, size)| *x < 1.01 * size)
+}
 
-    fn weighted(&self) -> Weighted<'_> {
-        let weight = if self.is_at_rest() { AT_REST } else { 1.0 };
-        let [a, b, c, d, e, f] = self.deviations().map(|size| weight / size);
-        let diagonal = self.row.tangent.diagonal();
-        let size = |(i, j): (usize, usize)| (diagonal[i] * diagonal[j]).abs().sqrt();
-        Weighted {
-            row: &self.row,
-            // The free energy itself is not known.
-            numbers: [0.0, a, b, c, d, e, f],
-            tangent: upper()
-                .map(|at| (at, weight / (TANGENT * size(at))))
-                .collect(),
-            sums: Vec::new(),
-        }
+fn weighted(row: &Row) -> Weighted<'_> {
+    let weight = if is_at_rest(row) { AT_REST } else { 1.0 };
+    let [a, b, c, d, e, f] = deviations(row).map(|size| weight / size);
+    let diagonal = row.tangent.diagonal();
+    let size = |(i, j): (usize, usize)| (diagonal[i] * diagonal[j]).abs().sqrt();
+    Weighted {
+        row,
+        // The free energy itself is not known.
+        numbers: [0.0, a, b, c, d, e, f],
+        tangent: upper()
+            .map(|at| (at, weight / (TANGENT * size(at))))
+            .collect(),
+        sums: Vec::new(),
     }
 }
 
 /// The form with the natural lengths at the temperature: that of no twist, and beyond it those of the others.
-fn form(rows: &[HeatRow]) -> Result<HomogenisedForm, String> {
+fn form(rows: &[Row]) -> Result<HomogenisedForm, String> {
     let mut lengths: Vec<(f64, f64)> = Vec::new();
-    for HeatRow { row, .. } in rows {
+    for row in rows {
         let (twist, natural) = (row.strain[1], row.strain[3] - row.extension);
         if !lengths.contains(&(twist, natural)) {
             lengths.push((twist, natural));
@@ -176,39 +154,33 @@ fn form(rows: &[HeatRow]) -> Result<HomogenisedForm, String> {
 const NATURAL: usize = 5;
 
 /// Root mean squares and largest of the differences from the samples, by curvature and shear.
-fn residuals(law: &Homogenised, rows: &[HeatRow]) -> String {
+fn residuals(law: &Homogenised, rows: &[Row]) -> String {
     let mut table = String::from(
         "| curvature (rad/nm) | shear | points | couple | twisting couple | shear force | tension | tangent |\n",
     );
     let _ = writeln!(table, "| ---: | ---: |{}", " ---: |".repeat(6));
-    let mut groups: Vec<[f64; 2]> = rows.iter().map(HeatRow::group).collect();
+    let group = |row: &Row| [row.strain[0], row.strain[2]];
+    let mut groups: Vec<[f64; 2]> = rows.iter().map(group).collect();
     groups.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     groups.dedup();
-    for [curvature, shear] in groups {
-        let is_here =
-            |row: &&HeatRow| row.group().map(f64::to_bits) == [curvature, shear].map(f64::to_bits);
-        let here = rows.iter().filter(is_here);
-        let here: Vec<&HeatRow> = here.collect();
+    for own in groups {
+        let [curvature, shear] = own;
+        let is_here = |row: &&Row| group(row).map(f64::to_bits) == own.map(f64::to_bits);
+        let here: Vec<&Row> = rows.iter().filter(is_here).collect();
         let _ = writeln!(table, "| {curvature} | {shear} | {}", printed(law, &here));
     }
-    let all: Vec<&HeatRow> = rows.iter().collect();
+    let all: Vec<&Row> = rows.iter().collect();
     let _ = writeln!(table, "| all | | {}", printed(law, &all));
     table
 }
 
-impl HeatRow {
-    fn group(&self) -> [f64; 2] {
-        [self.row.strain[0], self.row.strain[2]]
-    }
-}
-
 /// Of some rows.
-fn printed(law: &Homogenised, rows: &[&HeatRow]) -> String {
+fn printed(law: &Homogenised, rows: &[&Row]) -> String {
     let (mut sums, mut tangents) = ([0.0; 6], 0.0);
-    for one in rows {
-        let Row { loads, tangent, .. } = &one.row;
-        let ours = law.jet(&one.row.six());
-        for (k, size) in one.deviations().into_iter().enumerate() {
+    for row in rows {
+        let Row { loads, tangent, .. } = row;
+        let ours = law.jet(&row.six());
+        for (k, size) in deviations(row).into_iter().enumerate() {
             sums[k] += ((ours.loads[k] - loads[k]) / size).powi(2);
         }
         let difference = ours.tangent - tangent;

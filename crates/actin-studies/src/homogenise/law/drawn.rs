@@ -7,7 +7,7 @@
 use super::super::axes::Axes;
 use super::super::fit::coefficients;
 use super::super::rows::{self, Row};
-use super::tables::{in_the_mean, stability};
+use super::tables::{stability, under_loads};
 use super::{
     BENT, LOADED, OTHER_LOADED, POSITIVITY, STRAINED, fitted_form, loaded, normal, samples,
 };
@@ -32,19 +32,16 @@ pub(super) fn run(out: &Path, axes: &Axes, pure: &[&Row]) -> Result<(), String> 
     let cells = cells(FITTED)?;
     let form = form(&cells, axes)?;
     println!("natural lengths of {CELLS} drawn cells");
+    let key = format!(
+        "version {VERSION}, {CELLS} cells, {EACH} a load, {:?}",
+        form.natural()
+    );
     let kept = |name: &str, compute: &dyn Fn() -> Result<Vec<Row>, String>| {
-        let path = out.join(format!("drawn-{name}.csv"));
-        let key = format!(
-            "version {VERSION}, {CELLS} cells, {EACH} a load, {:?}",
-            form.natural()
-        );
-        if let Some(rows) = rows::read(&path, &key) {
-            return Ok(rows);
-        }
-        let rows = compute()?;
-        rows::write(&path, &key, &rows)?;
-        println!("{name}: {} drawn cells", rows.len());
-        Ok::<Vec<Row>, String>(rows)
+        rows::kept(&out.join(format!("drawn-{name}.csv")), &key, None, || {
+            let rows = compute()?;
+            println!("{name}: {} drawn cells", rows.len());
+            Ok(rows)
+        })
     };
     let loaded = kept("loaded", &|| {
         Ok(loaded::rows((&cells, EACH), &form, 0, LOADED))
@@ -62,7 +59,7 @@ pub(super) fn run(out: &Path, axes: &Axes, pure: &[&Row]) -> Result<(), String> 
     })?;
     let fitted: Vec<&Row> = strained.iter().chain(&bent).chain(&pure).collect();
     let law = normal(&form, &fitted, &loaded)?.positive(&super::firm(&strained), &POSITIVITY)?;
-    let table = stability(&law, &strained) + &in_the_mean(&law, &others);
+    let table = stability(&law, &strained) + &under_loads(&law, &others);
     println!("{table}");
     super::write(out, "law-drawn.md", table)?;
     super::write(out, "drawn_filament.csv", coefficients(&law))

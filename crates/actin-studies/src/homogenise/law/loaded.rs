@@ -126,6 +126,7 @@ fn row(response: &CellResponse, form: &HomogenisedForm) -> Option<Row> {
         energy: response.energy,
         loads: turn * response.loads,
         tangent: turn * response.tangent * turn.transpose(),
+        errors: SixVector::zeros(),
     })
 }
 

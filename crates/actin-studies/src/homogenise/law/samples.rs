@@ -1,52 +1,11 @@
-//! Cells at strains all over a region, and others to test the law on.
+//! Cells at strains all over a region.
 
-use super::super::axes::Axes;
-use super::super::region::{self, Region, evenly};
+use super::super::region::{self, Region};
 use super::super::rows::Row;
-use super::RANGE;
 use actin_cosserat::HomogenisedForm;
-use actin_paper::cells::{mean, shortening, strain, twisted};
+use actin_paper::cells::{shortening, strain, twisted};
 use actin_sim::ellipsoid::{Cell, SixVector};
 use rayon::prelude::*;
-
-/// Strains within the range, stretched by up to 3e-3, that are no points of the grid, others for each `seed`.
-pub(super) fn other_rows(
-    cell: &Cell,
-    axes: &Axes,
-    seed: u64,
-    count: u64,
-) -> Result<Vec<Row>, String> {
-    let last = |values: &[f64]| values[values.len() - 1];
-    let (twist, stretch) = (last(&axes.twist), last(&axes.extension).min(3e-3));
-    let draw = |k: u64| {
-        let [a, b, c, d, e] = evenly(k);
-        // Small twists and extensions are more common than large ones.
-        let side: f64 = 2.0 * b - 1.0;
-        let point = [
-            RANGE.curvature * a,
-            twist * side * side * side,
-            RANGE.shear * c,
-            0.0,
-            360.0 * d,
-        ];
-        (point, stretch * e * e)
-    };
-    let first = seed * count + 1;
-    let points: Vec<([f64; 5], f64)> = (first..first + count).map(draw).collect();
-    let mean = mean()?;
-    let row = |&(mut point, extension): &([f64; 5], f64)| {
-        let natural = twisted(&mean, point[1])?;
-        point[3] = natural.strain[5] + extension - shortening(point[0], point[2]);
-        let own = twisted(cell, point[1])?;
-        let [k, twist, shear, stretch, angle] = point;
-        let strain = strain([k, twist, shear, stretch, angle.to_radians()]);
-        let response = cell
-            .relax(&strain, Some(&own.displacements))
-            .map_err(|e| e.to_string())?;
-        Ok(Row::new(point, extension, &response))
-    };
-    points.par_iter().map(row).collect()
-}
 
 /// Cells at `count` strains of each region, but for those without an equilibrium.
 pub(super) fn strained(

@@ -1,6 +1,5 @@
 //! Tables of how far a law follows cells.
 
-use super::super::axes::Axes;
 use super::super::fit::numbers;
 use super::super::region::Region;
 use super::super::rows::Row;
@@ -54,11 +53,14 @@ impl Residuals {
         }
     }
 
+    /// Table of one line.
     pub(super) fn printed(&self) -> String {
         let [w, m1, m2, m3, n1, n2, n3] = self.numbers;
         let both = |a: f64, b: f64| (0.5 * (a * a + b * b)).sqrt();
         format!(
-            "{w:.2} | {:.2} | {m3:.2} | {:.2} | {n3:.2} | {:.3} | {:.1} % |",
+            "| energy | couple | twisting couple | shear force | tension | tangent | positive |\n|{}\n\
+             | {w:.2} | {:.2} | {m3:.2} | {:.2} | {n3:.2} | {:.3} | {:.1} % |\n",
+            " ---: |".repeat(7),
             both(m1, m2),
             both(n1, n2),
             self.tangent,
@@ -70,32 +72,6 @@ impl Residuals {
 /// Diagonal entries of the tangent (pN nm^2, pN) below which a state counts as one of no stiffness, where
 /// relative differences say nothing.
 const COMPARED: [f64; 6] = [1e3, 1e3, 500.0, 30.0, 30.0, 1e3];
-
-/// Residuals at each twist, and where the tangents of cell and law are not positive.
-pub(super) fn by_twist(law: &Homogenised, axes: &Axes, rows: &[&Row]) -> String {
-    let mut table = String::from(
-        "\n| twist (rad/nm) | energy | couple | twisting couple | shear force | tension | tangent | positive \
-         | cell positive |\n",
-    );
-    let _ = writeln!(table, "| ---: |{}", " ---: |".repeat(8));
-    for twist in &axes.twist {
-        let here = rows
-            .iter()
-            .filter(|row| row.strain[1].total_cmp(twist).is_eq());
-        let here: Vec<&Row> = here.copied().collect();
-        let stable = here
-            .iter()
-            .filter(|row| row.least_stiffness() > 0.0)
-            .count();
-        let _ = writeln!(
-            table,
-            "| {twist} | {} {:.1} % |",
-            Residuals::of(law, here.iter().copied()).printed(),
-            100.0 * stable as f64 / here.len() as f64
-        );
-    }
-    table
-}
 
 /// Cells bent beyond the range.
 const STRONGLY_BENT: &str = "strongly bent";
@@ -110,42 +86,9 @@ fn kind(row: &Row) -> &'static str {
     }
 }
 
-/// Differences of strain under given loads of cells that were not fitted: medians, and what nine of ten are within.
+/// By how much the law strains more under given loads than cells that were not fitted: medians, so that differences between
+/// drawn bonds cancel.
 pub(super) fn under_loads(law: &Homogenised, rows: &[Row]) -> String {
-    let mut table = String::from(
-        "\n| cells, twist free or held | bending | twist or its couple | shear | stretch |\n",
-    );
-    let _ = writeln!(table, "| --- |{}", " ---: |".repeat(4));
-    for name in ["pulled", "neither", "pushed", STRONGLY_BENT] {
-        let here: Vec<[f64; 12]> = rows
-            .iter()
-            .filter(|row| kind(row) == name)
-            .map(|row| {
-                let off = law.loads(&row.six()) - row.loads;
-                strain_sums(row).map(|sum| sum.dot(&off))
-            })
-            .collect();
-        for (turn, first) in [("free", 0), ("held", 6)] {
-            let column = |places: &[usize]| {
-                let sizes = here.iter().map(|off| {
-                    let squares = places.iter().map(|k| off[first + k].powi(2));
-                    squares.sum::<f64>().sqrt()
-                });
-                let mut sizes: Vec<f64> = sizes.collect();
-                sizes.sort_by(f64::total_cmp);
-                let at = |share: usize| 100.0 * sizes[(sizes.len() - 1) * share / 100];
-                format!("{:.1}, {:.1} %", at(50), at(90))
-            };
-            let columns = [&[0, 1][..], &[2], &[3, 4], &[5]].map(column);
-            let _ = writeln!(table, "| {name}, {turn} | {} |", columns.join(" | "));
-        }
-    }
-    table
-}
-
-/// By how much the law strains more under given loads than cells that were not fitted, each of which has bonds of its own:
-/// medians, so that what cells differ by cancels.
-pub(super) fn in_the_mean(law: &Homogenised, rows: &[Row]) -> String {
     let mut table = String::from("\n| cells | number | bending | twist | shear | stretch |\n");
     let _ = writeln!(table, "| --- |{}", " ---: |".repeat(5));
     for name in ["pulled", "neither", "pushed", STRONGLY_BENT] {
@@ -186,13 +129,8 @@ fn more(law: &Homogenised, row: &Row) -> [f64; 4] {
 pub(super) fn stability(law: &Homogenised, cells: &[Row]) -> String {
     let mut text = String::new();
     let twice = |x: f64| 2.0 * x;
-    let beyond = Region {
-        curvature: twice(RANGE.curvature),
-        twist: twice(RANGE.twist),
-        shear: twice(RANGE.shear),
-        extension: RANGE.extension.map(twice),
-        ..RANGE
-    };
+    let sizes = [RANGE.curvature, RANGE.twist, RANGE.shear];
+    let beyond = Region::new(sizes.map(twice), RANGE.extension.map(twice));
     for (name, region) in [("the range", RANGE), ("twice the range", beyond)] {
         let strains = region.strains(law.form(), LOOKS, LOOKS);
         let least = |strain: &SixVector| law.tangent(strain).symmetric_eigenvalues().min();
