@@ -8,81 +8,54 @@ use actin_draw::report::{save, write_csv};
 use std::fmt::Write as _;
 use std::path::Path;
 
-const HEADER: [&str; 23] = [
-    "group",
-    "case",
-    "quantity",
-    "law",
-    "mean_filament",
-    "mean_filament_sd",
-    "azimuths",
-    "drawn",
-    "drawn_sd",
-    "filaments",
-    "rod",
-    "rod_fine",
-    "rod_of_drawn",
-    "error_mean",
-    "error_drawn",
-    "error_fine",
-    "scatter",
-    "bound",
-    "share_of_bound_mean",
-    "share_of_bound_drawn",
-    "met_mean",
-    "met_drawn",
-    "note",
+/// A column of `load-cases.csv`.
+type Column = (&'static str, fn(&Row) -> String);
+
+const COLUMNS: [Column; 23] = [
+    ("group", |r| r.group.name().to_owned()),
+    ("case", |r| r.case.clone()),
+    ("quantity", |r| r.quantity.clone()),
+    ("law", |r| r.law.clone()),
+    ("mean_filament", |r| number(r.mean.map(|s| s.mean))),
+    ("mean_filament_sd", |r| number(r.mean.map(|s| s.deviation))),
+    ("azimuths", |r| count(r.mean)),
+    ("drawn", |r| number(r.drawn.map(|s| s.mean))),
+    ("drawn_sd", |r| number(r.drawn.map(|s| s.deviation))),
+    ("filaments", |r| count(r.drawn)),
+    ("rod", |r| number(r.rod)),
+    ("rod_fine", |r| number(r.fine)),
+    ("rod_of_drawn", |r| number(r.rod_of_drawn)),
+    ("error_mean", |r| number(r.error_mean)),
+    ("error_drawn", |r| number(r.error_drawn)),
+    ("error_fine", |r| number(r.error_fine)),
+    ("scatter", |r| number(r.scatter)),
+    ("bound", |r| r.bound.text()),
+    ("share_of_bound_mean", |r| number(r.shares_of_bound()[0])),
+    ("share_of_bound_drawn", |r| number(r.shares_of_bound()[1])),
+    ("met_mean", |r| yes_or_no(r.is_met()[0])),
+    ("met_drawn", |r| yes_or_no(r.is_met()[1])),
+    ("note", |r| r.note.clone()),
 ];
 
 /// Writes `load-cases.csv`.
 pub(super) fn csv(out: &Path, rows: &[Row]) -> Result<(), String> {
-    write_csv(out, "load-cases.csv", &HEADER, rows.iter().map(cells))
+    let cells = |row: &Row| COLUMNS.map(|(_, cell)| cell(row)).to_vec();
+    let header = COLUMNS.map(|(name, _)| name);
+    write_csv(out, "load-cases.csv", &header, rows.iter().map(cells))
 }
 
-fn cells(row: &Row) -> Vec<String> {
-    let number = |value: Option<f64>| {
-        let finite = value.filter(|v| v.is_finite());
-        finite.map_or(String::new(), |v| format!("{v:.6e}"))
-    };
-    let sampled = |sampled: Option<Sampled>| {
-        let count = sampled.map_or(0, |s| s.count).to_string();
-        [
-            number(sampled.map(|s| s.mean)),
-            number(sampled.map(|s| s.deviation)),
-            count,
-        ]
-    };
-    let mut all = vec![
-        row.group.name().to_owned(),
-        row.case.clone(),
-        row.quantity.clone(),
-        row.law.clone(),
-    ];
-    all.extend(sampled(row.mean));
-    all.extend(sampled(row.drawn));
-    let others = [
-        row.rod,
-        row.fine,
-        row.rod_of_drawn,
-        row.error_mean,
-        row.error_drawn,
-        row.error_fine,
-        row.scatter,
-    ];
-    all.extend(others.map(number));
-    all.push(row.bound.text());
-    all.extend(row.shares_of_bound().map(number));
-    all.extend(row.is_met().map(|met| yes_or_no(met).to_owned()));
-    all.push(row.note.clone());
-    all
+fn number(value: Option<f64>) -> String {
+    let finite = value.filter(|v| v.is_finite());
+    finite.map_or(String::new(), |v| format!("{v:.6e}"))
 }
 
-fn yes_or_no(met: Option<bool>) -> &'static str {
-    match met {
-        Some(true) => "yes",
-        Some(false) => "no",
-        None => "",
-    }
+fn count(sampled: Option<Sampled>) -> String {
+    sampled.map_or(0, |s| s.count).to_string()
+}
+
+fn yes_or_no(met: Option<bool>) -> String {
+    met.map_or("", |met| if met { "yes" } else { "no" })
+        .to_owned()
 }
 
 /// How many bounds are met, and the largest error over its bound, in words.
@@ -110,7 +83,7 @@ pub(super) fn page(rows: &[Row]) -> String {
         of mixed filaments spreads over resolutions. Worst: the largest error over its bound.\n"
         .to_owned();
     text += &summary(rows);
-    for group in Group::ALL {
+    for group in Group::all() {
         let own: Vec<&Row> = rows.iter().filter(|row| row.group == group).collect();
         if !own.is_empty() {
             text += &section(group, &own);

@@ -32,7 +32,7 @@ fn columns(terms: &[Term]) -> Vec<(Term, usize)> {
 }
 
 /// Energy, couple and force in one list.
-pub(super) fn numbers(jet: &PotentialJet) -> [f64; 7] {
+fn numbers(jet: &PotentialJet) -> [f64; 7] {
     let [a, b, c, d, e, f] = jet.loads.into();
     [jet.energy, a, b, c, d, e, f]
 }

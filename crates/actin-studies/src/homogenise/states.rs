@@ -3,6 +3,7 @@
 //! A cell under uniform strains is bent along a helix where it is twisted. In a plane it is one whose lattice turns by another angle
 //! and closes after another number of monomers.
 
+use actin_draw::report::save;
 use actin_paper::cells::{self, FREE, NONE, PERIOD, relax};
 use actin_sim::ellipsoid::{
     Cell, CellResponse, Control, EllipsoidModel, EllipsoidParameters, Hold,
@@ -12,23 +13,9 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Turns per monomer at which the lattice closes, by the twist: turns, and monomers.
-const CLOSED: [(u8, u8); 14] = [
-    (10, 21),
-    (9, 19),
-    (17, 36),
-    (8, 17),
-    (15, 32),
-    (7, 15),
-    (20, 43),
-    (13, 28),
-    (19, 41),
-    (11, 24),
-    (5, 11),
-    (9, 20),
-    (13, 29),
-    (4, 9),
-];
+/// Turns and monomers after which the lattice closes, by the twist.
+const TURNS: [u8; 14] = [10, 9, 17, 8, 15, 7, 20, 13, 19, 11, 5, 9, 13, 4];
+const MONOMERS: [u8; 14] = [21, 19, 36, 17, 32, 15, 43, 28, 41, 24, 11, 20, 29, 9];
 /// Tensions (pN).
 const TENSIONS: [f64; 4] = [-20.0, 0.0, 10.0, 40.0];
 /// Steps of curvature (rad/nm), how many are looked at, and how many more it is bent before it goes back.
@@ -46,10 +33,10 @@ const SAME: f64 = 0.5;
 pub(super) fn run(out: &Path) -> Result<(), String> {
     let helix = cells::mean()?;
     let model = EllipsoidModel::new(EllipsoidParameters::default()).map_err(|e| e.to_string())?;
-    let all = CLOSED
-        .iter()
-        .flat_map(|closed| TENSIONS.map(|t| (*closed, t)));
-    let all: Vec<_> = all.collect();
+    let closed = TURNS.into_iter().zip(MONOMERS);
+    let all: Vec<_> = closed
+        .flat_map(|closed| TENSIONS.map(|t| (closed, t)))
+        .collect();
     let rows = all.par_iter().map(|((turns, monomers), tension)| {
         let turn = -TAU * f64::from(*turns) / f64::from(*monomers);
         let twist = (turn - model.parameters().turn) / model.parameters().rise;
@@ -80,8 +67,7 @@ pub(super) fn run(out: &Path) -> Result<(), String> {
         "\nA helix of {PERIOD} monomers; without twist both are one."
     );
     println!("{table}");
-    let path = out.join("states.md");
-    std::fs::write(&path, table).map_err(|e| format!("{}: {e}", path.display()))
+    save(out, "states.md", &table)
 }
 
 /// A cell that is bent step by step, and back.

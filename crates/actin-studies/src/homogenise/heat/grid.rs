@@ -17,6 +17,28 @@ const VERSION: u32 = 2;
 const STREAMS: u64 = 1 << 20;
 const SLICES: u64 = 1 << 10;
 
+/// Curvature (rad/nm), shear, and angle between them (deg), point by point, of strains that are bent and sheared.
+type Bent<const N: usize> = [[f64; N]; 3];
+
+const BENT: Bent<12> = [
+    [
+        0.0, 5e-3, 0.01, 0.0, 0.0, 5e-3, 5e-3, 5e-3, 0.01, 5e-3, 0.01, 0.01,
+    ],
+    [
+        0.0, 0.0, 0.0, 7.5e-3, 0.015, 7.5e-3, 7.5e-3, 7.5e-3, 7.5e-3, 0.015, 0.015, 0.015,
+    ],
+    [
+        0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 90.0, 180.0, 45.0, 135.0, 0.0, 180.0,
+    ],
+];
+/// Strains that short segments of a rod reach by their thermal motion: shear varies by 0.02 in 10 nm, stretch by 5e-3.
+const WIDE: Bent<8> = [
+    [0.0, 0.01, 0.0, 0.0, 0.0, 0.01, 0.01, 0.01],
+    [0.0, 0.0, 0.015, 0.03, 0.05, 0.03, 0.03, 0.03],
+    [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 90.0, 180.0],
+];
+const QUICK: Bent<4> = [[0.0, 0.01, 0.0, 5e-3], [0.0, 0.0, 0.015, 7.5e-3], [0.0; 4]];
+
 /// Strains, and how many samples each has.
 #[derive(Clone, Debug, PartialEq)]
 struct HeatAxes {
@@ -24,69 +46,36 @@ struct HeatAxes {
     twist: Vec<f64>,
     /// `sigma_3` beyond that of the free filament of the same twist at the temperature.
     extension: Vec<f64>,
-    /// Curvature (rad/nm), shear, angle between them (deg).
     bent: Vec<[f64; 3]>,
     samples: usize,
 }
 
 impl HeatAxes {
-    /// Those of the study, or fewer.
-    fn new(quick: bool) -> Self {
-        if quick {
-            return Self {
-                twist: vec![-0.02, 0.0, 0.02],
-                extension: vec![0.0, 1.5e-3],
-                bent: vec![
-                    [0.0, 0.0, 0.0],
-                    [0.01, 0.0, 0.0],
-                    [0.0, 0.015, 0.0],
-                    [5e-3, 7.5e-3, 0.0],
-                ],
-                samples: 1000,
-            };
-        }
-        let half = [3e-3, 7e-3, 0.013, 0.021, 0.033, 0.048];
+    /// These twists in both directions and none, extensions, and bent strains.
+    fn new<const N: usize>(half: &[f64], extension: &[f64], bent: &Bent<N>, quick: bool) -> Self {
         let both = half.iter().flat_map(|x| [*x, -x]);
         Self {
             twist: [0.0].into_iter().chain(both).collect(),
-            extension: vec![-2e-3, 5e-4, 3e-3],
-            bent: vec![
-                [0.0, 0.0, 0.0],
-                [5e-3, 0.0, 0.0],
-                [0.01, 0.0, 0.0],
-                [0.0, 7.5e-3, 0.0],
-                [0.0, 0.015, 0.0],
-                [5e-3, 7.5e-3, 0.0],
-                [5e-3, 7.5e-3, 90.0],
-                [5e-3, 7.5e-3, 180.0],
-                [0.01, 7.5e-3, 45.0],
-                [5e-3, 0.015, 135.0],
-                [0.01, 0.015, 0.0],
-                [0.01, 0.015, 180.0],
-            ],
-            samples: 2400,
+            extension: extension.to_vec(),
+            bent: (0..N).map(|k| bent.map(|values| values[k])).collect(),
+            samples: if quick { 1000 } else { 2400 },
         }
     }
 
-    /// Strains that short segments of a rod reach by their thermal motion: shear varies by 0.02 in 10 nm, stretch by 5e-3.
-    fn wide(quick: bool) -> Self {
-        let half: &[f64] = if quick { &[] } else { &[7e-3, 0.021] };
-        let both = half.iter().flat_map(|x| [*x, -x]);
-        Self {
-            twist: [0.0].into_iter().chain(both).collect(),
-            extension: vec![-8e-3, 5e-4, 8e-3],
-            bent: vec![
-                [0.0, 0.0, 0.0],
-                [0.01, 0.0, 0.0],
-                [0.0, 0.015, 0.0],
-                [0.0, 0.03, 0.0],
-                [0.0, 0.05, 0.0],
-                [0.01, 0.03, 0.0],
-                [0.01, 0.03, 90.0],
-                [0.01, 0.03, 180.0],
-            ],
-            samples: if quick { 1000 } else { 2400 },
+    /// The two sets of the study, or fewer strains.
+    fn sets(quick: bool) -> [(&'static str, Self); 2] {
+        let wide = [-8e-3, 5e-4, 8e-3];
+        if quick {
+            let slice = Self::new(&[0.02], &[0.0, 1.5e-3], &QUICK, quick);
+            return [
+                ("slice", slice),
+                ("wide", Self::new(&[], &wide, &WIDE, quick)),
+            ];
         }
+        let half = [3e-3, 7e-3, 0.013, 0.021, 0.033, 0.048];
+        let slice = Self::new(&half, &[-2e-3, 5e-4, 3e-3], &BENT, quick);
+        let wide = Self::new(&[7e-3, 0.021], &wide, &WIDE, quick);
+        [("slice", slice), ("wide", wide)]
     }
 
     fn points(&self) -> usize {
@@ -99,12 +88,8 @@ pub(super) fn compute(out: &Path, kt: f64, quick: bool) -> Result<Vec<Row>, Stri
     let folder = out.join("heat");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let cell = cells::mean()?;
-    let sets = [
-        ("slice", HeatAxes::new(quick)),
-        ("wide", HeatAxes::wide(quick)),
-    ];
     let mut all = Vec::new();
-    for ((name, axes), set) in sets.iter().zip(0..) {
+    for ((name, axes), set) in HeatAxes::sets(quick).iter().zip(0..) {
         let path = |slice: usize| folder.join(format!("{name}-{slice:02}.csv"));
         all.extend(slices(&cell, kt, axes, set, path)?);
     }

@@ -4,6 +4,7 @@ use super::super::fit::{Normal, Positivity, Weighted, coefficients};
 use super::super::region::{Region, strains};
 use super::super::rows::{Row, upper};
 use actin_cosserat::{Homogenised, HomogenisedForm, Term};
+use actin_draw::report::save;
 use actin_fit::{Mat, Observations, fit_linear};
 use actin_sim::ellipsoid::SixVector;
 use std::fmt::Write as _;
@@ -73,15 +74,9 @@ pub(super) fn run(out: &Path, temperature_k: f64, rows: &[Row]) -> Result<(), St
         );
     }
     println!("{table}");
-    let write = |file: &str, text: String| {
-        let path = out.join(file);
-        std::fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))
-    };
-    write("heat-law.md", table)?;
-    write(
-        &format!("mean_filament_{temperature_k}_k.csv"),
-        coefficients(&law),
-    )
+    save(out, "heat-law.md", &table)?;
+    let file = format!("mean_filament_{temperature_k}_k.csv");
+    save(out, &file, &coefficients(&law))
 }
 
 /// What counts as a difference of 1 in couple and force.

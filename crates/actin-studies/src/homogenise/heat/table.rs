@@ -2,6 +2,7 @@
 
 use super::heat;
 use super::natural::{Natural, natural, straight};
+use actin_draw::report::save;
 use actin_paper::cells::{self, FREE, NONE, PERIOD, relax};
 use actin_sim::ellipsoid::{Cell, Control, EllipsoidParameters, HeatResponse, Hold, SixMatrix};
 use rayon::prelude::*;
@@ -46,46 +47,27 @@ pub(super) fn run(out: &Path, kt: f64, quick: bool) -> Result<(), String> {
         numbers(&cell, kt, samples, STREAMS * periods as u64)
     });
     let cells: Vec<Vec<Number>> = cells.collect::<Result<_, String>>()?;
-    let (markdown, csv) = printed(&sizes, &relaxed()?, &cells);
-    println!("{markdown}");
-    for (file, text) in [("heat-table.md", markdown), ("heat-table.csv", csv)] {
-        let path = out.join(file);
-        std::fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
-    }
-    Ok(())
+    let table = printed(&sizes, &relaxed()?, &cells);
+    println!("{table}");
+    save(out, "heat-table.md", &table)
 }
 
-/// The table as Markdown and as CSV.
-fn printed(sizes: &[usize], relaxed: &[Option<f64>], cells: &[Vec<Number>]) -> (String, String) {
-    let mut markdown = String::from("| quantity | relaxed |");
-    let mut csv = String::from("quantity,relaxed");
-    for monomers in sizes.iter().map(|periods| periods * PERIOD) {
-        let _ = write!(markdown, " cell of {monomers} |");
-        let _ = write!(csv, ",cell_of_{monomers},error");
+/// The table as Markdown.
+fn printed(sizes: &[usize], relaxed: &[Option<f64>], cells: &[Vec<Number>]) -> String {
+    let mut table = String::from("| quantity | relaxed |");
+    for periods in sizes {
+        let _ = write!(table, " cell of {} |", periods * PERIOD);
     }
-    let _ = writeln!(
-        markdown,
-        "\n| --- | ---: |{}",
-        " ---: |".repeat(sizes.len())
-    );
-    csv.push('\n');
+    let _ = writeln!(table, "\n| --- | ---: |{}", " ---: |".repeat(sizes.len()));
     for (k, name) in NAMES.iter().enumerate() {
-        let _ = write!(markdown, "| {name} |");
-        let _ = write!(csv, "{}", name.replace(',', ";"));
-        let _ = match relaxed[k] {
-            None => write!(markdown, " |").and_then(|()| write!(csv, ",")),
-            Some(value) => {
-                write!(markdown, " {value:.4e} |").and_then(|()| write!(csv, ",{value:e}"))
-            }
-        };
+        let relaxed = relaxed[k].map_or(String::new(), |value| format!("{value:.4e} "));
+        let _ = write!(table, "| {name} | {relaxed}|");
         for (value, error) in cells.iter().map(|cell| cell[k]) {
-            let _ = write!(markdown, " {value:.4e} +- {error:.0e} |");
-            let _ = write!(csv, ",{value:e},{error:e}");
+            let _ = write!(table, " {value:.4e} +- {error:.0e} |");
         }
-        markdown.push('\n');
-        csv.push('\n');
+        table.push('\n');
     }
-    (markdown, csv)
+    table
 }
 
 /// All numbers of one cell.

@@ -12,6 +12,7 @@ use super::{
     BENT, LOADED, OTHER_LOADED, POSITIVITY, STRAINED, fitted_form, loaded, normal, samples,
 };
 use actin_cosserat::HomogenisedForm;
+use actin_draw::report::save;
 use actin_paper::cells::{self, PERIOD, twisted};
 use actin_sim::ellipsoid::Cell;
 use rayon::prelude::*;
@@ -61,8 +62,8 @@ pub(super) fn run(out: &Path, axes: &Axes, pure: &[&Row]) -> Result<(), String> 
     let law = normal(&form, &fitted, &loaded)?.positive(&super::firm(&strained), &POSITIVITY)?;
     let table = stability(&law, &strained) + &under_loads(&law, &others);
     println!("{table}");
-    super::write(out, "law-drawn.md", table)?;
-    super::write(out, "drawn_filament.csv", coefficients(&law))
+    save(out, "law-drawn.md", &table)?;
+    save(out, "drawn_filament.csv", &coefficients(&law))
 }
 
 /// Cells of bonds of their own, from a seed on.

@@ -12,11 +12,12 @@ use super::fit::{Normal, Positivity, coefficients};
 use super::region::Region;
 use super::rows::Row;
 use actin_cosserat::{HomogenisedForm, Term};
+use actin_draw::report::save;
 use actin_fit::{Mat, Observations, fit_linear};
 use actin_paper::cells::mean;
 use actin_sim::ellipsoid::SixVector;
 use std::path::Path;
-use tables::{Residuals, stability, under_loads};
+use tables::{stability, under_loads};
 use weights::weighted;
 
 /// The range of the law: cells are strained a little beyond it.
@@ -58,12 +59,10 @@ pub(super) fn run(out: &Path, axes: &Axes, grid: &[Row]) -> Result<(), String> {
     );
     let law = normal(&form, &fitted, &loaded)?.positive(&firm(&strained), &POSITIVITY)?;
     let not_fitted = loaded::rows((&cell, 1), &form, LOADED, OTHER_LOADED);
-    let table = Residuals::of(&law, fitted).printed()
-        + &stability(&law, &strained)
-        + &under_loads(&law, &not_fitted);
+    let table = stability(&law, &strained) + &under_loads(&law, &not_fitted);
     println!("{table}");
-    write(out, "law.md", table)?;
-    write(out, "mean_filament.csv", coefficients(&law))
+    save(out, "law.md", &table)?;
+    save(out, "mean_filament.csv", &coefficients(&law))
 }
 
 /// The same for filaments of drawn bonds.
@@ -76,11 +75,6 @@ pub(super) fn run_drawn(out: &Path, axes: &Axes, grid: &[Row]) -> Result<(), Str
 fn pure<'a>(within: &[&'a Row]) -> impl Iterator<Item = &'a Row> {
     let is_pure = |row: &&Row| row.strain[0] == 0.0 || row.strain[2] == 0.0;
     within.iter().copied().filter(is_pure)
-}
-
-fn write(out: &Path, file: &str, text: String) -> Result<(), String> {
-    let path = out.join(file);
-    std::fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))
 }
 
 /// The equations of all terms; loaded cells count as far as a first fit follows them.

@@ -1,77 +1,15 @@
 //! Tables of how far a law follows cells.
 
-use super::super::fit::numbers;
 use super::super::region::Region;
 use super::super::rows::Row;
 use super::RANGE;
-use super::weights::{deviations, strain_sums};
+use super::weights::strain_sums;
 use actin_cosserat::Homogenised;
 use actin_sim::ellipsoid::SixVector;
 use std::fmt::Write as _;
 
 /// Strains at which the tangent is looked at that were not used to hold it positive.
 const LOOKS: u64 = 20_000;
-
-/// Root mean squares of the differences between a law and rows, in units of what counts as 1.
-pub(super) struct Residuals {
-    numbers: [f64; 7],
-    /// Of entries of the tangent over the roots of the rows' diagonal ones.
-    tangent: f64,
-    /// Share of the points where the tangent of the law is positive.
-    positive: f64,
-}
-
-impl Residuals {
-    pub(super) fn of<'a>(law: &Homogenised, rows: impl IntoIterator<Item = &'a Row>) -> Self {
-        let mut sums = [0.0; 7];
-        let (mut tangents, mut entries, mut positive, mut count) = (0.0, 0.0, 0.0, 0.0);
-        for row in rows {
-            let strain = row.six();
-            let jet = law.jet(&strain);
-            let law_numbers = numbers(&jet);
-            let ours = numbers(&row.jet());
-            for (q, size) in deviations(row).into_iter().enumerate() {
-                sums[q] += ((law_numbers[q] - ours[q]) / size).powi(2);
-            }
-            let tangent = jet.tangent;
-            let is_firm = (0..6).all(|k| row.tangent[(k, k)] > COMPARED[k]);
-            for (i, j) in (0..6)
-                .flat_map(|i| (0..6).map(move |j| (i, j)))
-                .filter(|_| is_firm)
-            {
-                let size = (row.tangent[(i, i)] * row.tangent[(j, j)]).sqrt();
-                tangents += ((tangent[(i, j)] - row.tangent[(i, j)]) / size).powi(2);
-                entries += 1.0;
-            }
-            positive += f64::from(u8::from(tangent.symmetric_eigenvalues().min() > 0.0));
-            count += 1.0;
-        }
-        Self {
-            numbers: sums.map(|sum: f64| (sum / count).sqrt()),
-            tangent: (tangents / f64::max(entries, 1.0)).sqrt(),
-            positive: positive / count,
-        }
-    }
-
-    /// Table of one line.
-    pub(super) fn printed(&self) -> String {
-        let [w, m1, m2, m3, n1, n2, n3] = self.numbers;
-        let both = |a: f64, b: f64| (0.5 * (a * a + b * b)).sqrt();
-        format!(
-            "| energy | couple | twisting couple | shear force | tension | tangent | positive |\n|{}\n\
-             | {w:.2} | {:.2} | {m3:.2} | {:.2} | {n3:.2} | {:.3} | {:.1} % |\n",
-            " ---: |".repeat(7),
-            both(m1, m2),
-            both(n1, n2),
-            self.tangent,
-            100.0 * self.positive
-        )
-    }
-}
-
-/// Diagonal entries of the tangent (pN nm^2, pN) below which a state counts as one of no stiffness, where
-/// relative differences say nothing.
-const COMPARED: [f64; 6] = [1e3, 1e3, 500.0, 30.0, 30.0, 1e3];
 
 /// Cells bent beyond the range.
 const STRONGLY_BENT: &str = "strongly bent";

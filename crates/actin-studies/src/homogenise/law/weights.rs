@@ -52,7 +52,7 @@ const SOFT: f64 = 2.0;
 const HELD: f64 = 1e9;
 
 /// What counts as a difference of 1 in each of the numbers of a row.
-pub(super) fn deviations(row: &Row) -> [f64; 7] {
+fn deviations(row: &Row) -> [f64; 7] {
     let [energy, couple, twisting, force, tension] = FLOORS;
     let is_straight = row.strain[0] == 0.0 && row.strain[2] == 0.0 && row.extension >= 0.0;
     let twisting = if is_straight { STRAIGHT } else { twisting };
